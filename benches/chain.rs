@@ -7,7 +7,7 @@ use ligne::drawing::Unit;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::{HiddenLines, LineKind};
 use ligne::mesh::{MaterialId, PartId};
-use ligne::surface::Origin;
+use ligne::surface::MeshSource;
 use ligne::visibility::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
 fn main() {
@@ -33,7 +33,7 @@ fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
             silhouette: false,
             both_seen: kind == LineKind::Crease,
             smooth: kind == LineKind::Contour,
-            origin: if kind == LineKind::Contour { Origin::Scanned } else { Origin::Constructed },
+            origin: if kind == LineKind::Contour { MeshSource::Scanned } else { MeshSource::Constructed },
             strength: 90.0,
             part: PartId(0),
             material: MaterialId(0),

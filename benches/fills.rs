@@ -26,18 +26,18 @@ use ligne::mesh::Mesh;
 use ligne::pipeline::Prepared;
 use ligne::scene::{Geometry, Part};
 use ligne::view::View;
-use ligne::view::raster::{FaceBuffer, Screen};
+use ligne::view::raster::{FaceBuffer, PixelGrid};
 use ligne::{Camera, Scene, Style};
 use rayon::ThreadPool;
 use solids::Solid;
 
 const SHARED: [&str; 2] = ["cad/knot_50k.glb", "organic/stanford-bunny.obj"];
 
-/// Rounds per measurement: at least `LEAST_ROUNDS`, then more until `PATIENCE` has passed, at most
-/// `MOST_ROUNDS`.
-const LEAST_ROUNDS: usize = 3;
-const MOST_ROUNDS: usize = 40;
-const PATIENCE: Duration = Duration::from_secs(2);
+/// Rounds per measurement: at least `MIN_ROUNDS`, then more until `MAX_TIME_PER_MODEL` has passed, at most
+/// `MAX_ROUNDS`.
+const MIN_ROUNDS: usize = 3;
+const MAX_ROUNDS: usize = 40;
+const MAX_TIME_PER_MODEL: Duration = Duration::from_secs(2);
 
 /// Side length of the raster, pixels.
 const SIDE: f64 = 1024.0;
@@ -102,7 +102,7 @@ fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool
     let mesh = Mesh::build(scene.to_soup());
     let view = View::new(&mesh, &camera);
     for pool in pools {
-        let floor = pool.install(|| least_ms(|| FaceBuffer::new(&Screen::new(&mesh, &view))));
+        let floor = pool.install(|| least_ms(|| FaceBuffer::new(&PixelGrid::new(&mesh, &view))));
         let threads = pool.current_num_threads();
         print!("{name:<20} {:>8} {threads:>4} {floor:>8.2}", mesh.triangles.len());
         for (_, style) in styles {
@@ -119,8 +119,8 @@ fn least_ms<T>(mut run: impl FnMut() -> T) -> f64 {
     black_box(run());
     let started = Instant::now();
     let mut least = f64::INFINITY;
-    for round in 0..MOST_ROUNDS {
-        if round >= LEAST_ROUNDS && started.elapsed() > PATIENCE {
+    for round in 0..MAX_ROUNDS {
+        if round >= MIN_ROUNDS && started.elapsed() > MAX_TIME_PER_MODEL {
             break;
         }
         let start = Instant::now();

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DVec3;
-use ligne::light::openness;
+use ligne::light::ambient_visibility;
 use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
 use ligne::shadows::{Caster, Shadows};
@@ -62,7 +62,7 @@ fn rows(name: &str, mesh: &Mesh) {
         .collect();
     for reach in [f64::INFINITY, mesh.extents.diagonal / 10.0] {
         let started = Instant::now();
-        let sky = openness(mesh, &[], |_| reach);
+        let sky = ambient_visibility(mesh, &[], |_| reach);
         let took = started.elapsed();
         let mean = sky.iter().sum::<f64>() / sky.len().max(1) as f64;
         let vertices = sky.len();

@@ -6,7 +6,7 @@ use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
 use ligne::lines::zero_sets::interior;
 use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface};
-use ligne::mesh::{Edges, Extents, Mesh};
+use ligne::mesh::{Edges, Mesh, MeshMetrics};
 use ligne::pipeline;
 use ligne::scene::{Camera, Geometry, NamedView, Part, Scene, UpAxis};
 use ligne::style::Style;
@@ -153,7 +153,7 @@ fn doubles(bencher: Bencher, name: &str) {
     let frame = Frame::new(&camera, DVec3::ZERO);
     bencher
         .with_inputs(|| map.clone())
-        .bench_refs(|map| coincident_lines::remove(map, 0.02, &frame, &Extents::default()));
+        .bench_refs(|map| coincident_lines::remove_coincident(map, 0.02, &frame, &MeshMetrics::default()));
 }
 
 #[divan::bench(args = SCENES)]

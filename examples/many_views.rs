@@ -9,12 +9,12 @@ use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
 use ligne::kurbo::Vec2;
-use ligne::lines::{EdgeSearch, Known, Surface};
+use ligne::lines::{EdgeSearch, SharedSearches, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
 use ligne::strokes::{self, InkContext};
 use ligne::view::View;
-use ligne::visibility::Ahead;
+use ligne::visibility::GapOcclusion;
 use ligne::{Camera, Scene, Style, SvgOptions};
 use ligne::{chains, lines, visibility};
 
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Shared by all views.
     let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines);
     let search = EdgeSearch::new(&surface);
-    let known = Known { search: Some(&search), ..Known::default() };
+    let known = SharedSearches { search: Some(&search), ..SharedSearches::default() };
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| part.name.as_str().into()).collect();
     let materials: Vec<_> = scene.materials.iter().map(|m| (m.name.as_str().into(), m.colour)).collect();
     let hidden = style.lines.hidden;
@@ -60,8 +60,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let feature_lines = lines::extract_with(&surface, known, &view, &style.lines);
         let map = visibility::build(&surface.mesh, &view, &feature_lines, &style.lines);
         let whole = (&surface.mesh, surface.pieces.as_slice());
-        let ahead = Ahead::new(whole, &view, &feature_lines, &map.seen_contours, Vec2::ZERO);
-        let chains = chains::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
+        let ahead = GapOcclusion::new(whole, &view, &feature_lines, &map.visible_contours, Vec2::ZERO);
+        let chains = chains::link_with_occlusion(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
         let layers = strokes::ink(&chains, &context, &style.stroke);
 
         let drawing = Drawing::new(format!("pump, {}", named.name()), page, layers);

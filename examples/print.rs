@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{
-    Boxes, Cap, Composition, Drawing, Item, Join, Layer, LayerKind, Mark, Page, Paint, Provenance,
-    StrokePaint, Unit,
+    Cap, Composition, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, PlacedDrawing, PrintBoxes,
+    Provenance, StrokePaint, Unit,
 };
 use ligne::export::{Inks, PdfOptions, PngOptions, Resolution, Standard, SvgOptions, to_pdf};
 use ligne::kurbo::{Affine, Ellipse, Point, Rect, Shape};
 use ligne::page::PageFile;
-use ligne::text::{Block, Font, Setting};
+use ligne::text::{Font, Setting, TextBlock};
 use ligne::{Camera, Error, Scene, Style, render};
 
 const RED: Colour = Colour::rgb(228, 0, 43);
@@ -88,27 +88,27 @@ fn page(title: &str, words: &str) -> Result<Composition, Error> {
         let scale = frame.height() / drawing.page.height * 1.2;
         let middle = Affine::translate((-drawing.page.width / 2.0, -drawing.page.height / 2.0));
         let place = Affine::translate(frame.center().to_vec2()) * Affine::scale(scale) * middle;
-        items.push(Item {
+        items.push(PlacedDrawing {
             name: format!("panel-{}", number + 1),
             drawing,
             place,
             clip: Some(frame.to_path(0.01)),
         });
-        items.push(Item {
+        items.push(PlacedDrawing {
             name: format!("frame-{}", number + 1),
             drawing: frame_of(frame, sheet),
             place: Affine::IDENTITY,
             clip: None,
         });
     }
-    items.push(Item {
+    items.push(PlacedDrawing {
         name: "balloon".to_owned(),
         drawing: balloon(words, sheet)?,
         place: Affine::IDENTITY,
         clip: None,
     });
     let mut page = Composition::new(title, sheet, items);
-    page.boxes = Some(Boxes { trim, bleed: whole });
+    page.boxes = Some(PrintBoxes { trim, bleed: whole });
     Ok(page)
 }
 
@@ -119,7 +119,7 @@ fn frame_of(frame: Rect, sheet: Page) -> Drawing {
 
 fn balloon(words: &str, sheet: Page) -> Result<Drawing, Error> {
     let setting = Setting::new(Font::named("comic")?).with_em(4.2).upper_case().in_language("en");
-    let (block, radii) = Block::in_ellipse(words, &setting, 0.75)?;
+    let (block, radii) = TextBlock::in_ellipse(words, &setting, 0.75)?;
     let middle = Point::new(62.0, 22.0);
     let around = Ellipse::new(middle, (radii.x + 2.0, radii.y + 1.5), 0.0).to_path(0.01);
     let mut marks = vec![
@@ -127,7 +127,7 @@ fn balloon(words: &str, sheet: Page) -> Result<Drawing, Error> {
         Mark { path: around, paint: pen(0.4), provenance: Provenance::default() },
     ];
     marks.extend(block.marks(middle - block.bounds().center().to_vec2(), Colour::BLACK));
-    let shout = Block::unbroken("CRACK! Ω", &Setting::new(Font::named("comic")?).with_em(9.0))?;
+    let shout = TextBlock::unbroken("CRACK! Ω", &Setting::new(Font::named("comic")?).with_em(9.0))?;
     marks.extend(shout.marks(Point::new(70.0, 66.0), RED));
     Ok(drawing("balloon", sheet, marks))
 }

@@ -12,16 +12,16 @@ use std::ffi::c_int;
 
 /// Size of the reserve in large pages, bytes: the memory of a drawing with a million faces. Pages are only
 /// allocated when written. Larger reserves gave inconsistent gains between runs.
-const RESERVE: usize = 256 << 20;
+const RESERVE_BYTES: usize = 256 << 20;
 
 /// Minimum reserve, bytes. Smaller ones have no measurable effect.
-const LEAST_RESERVE: usize = 32 << 20;
+const MIN_RESERVE_BYTES: usize = 32 << 20;
 
 /// Alignment of the reserve, bytes: the largest page size on Linux systems with glibc.
-const PAGE: usize = 64 << 10;
+const PAGE_ALIGN_BYTES: usize = 64 << 10;
 
 /// Value of a threshold that disables trimming.
-const NEVER: c_int = -1;
+const TRIM_NEVER: c_int = -1;
 
 /// Configures the allocator: one heap that never shrinks, with large pages where the system supports them.
 ///
@@ -33,12 +33,12 @@ pub fn keep() {
         // All threads share one heap, so freed memory is reused.
         libc::mallopt(libc::M_ARENA_MAX, 1);
         // The heap does not shrink.
-        libc::mallopt(libc::M_TRIM_THRESHOLD, NEVER);
+        libc::mallopt(libc::M_TRIM_THRESHOLD, TRIM_NEVER);
         // Arrays stay on the heap. Separately mapped arrays would be returned to the system when freed.
         libc::mallopt(libc::M_MMAP_MAX, 0);
     }
-    let mut size = RESERVE;
-    while size >= LEAST_RESERVE && !reserve(size) {
+    let mut size = RESERVE_BYTES;
+    while size >= MIN_RESERVE_BYTES && !reserve(size) {
         size /= 2;
     }
 }
@@ -50,8 +50,8 @@ fn reserve(size: usize) -> bool {
         return false;
     }
     let start = room.as_mut_ptr();
-    let into_page = start.align_offset(PAGE);
-    let length = (size - into_page) / PAGE * PAGE;
+    let into_page = start.align_offset(PAGE_ALIGN_BYTES);
+    let length = (size - into_page) / PAGE_ALIGN_BYTES * PAGE_ALIGN_BYTES;
     // SAFETY: the range consists of whole pages inside `room`, which is alive. The advice changes the size of
     // future pages, but no readable contents. An error means that nothing changed.
     unsafe {

@@ -17,8 +17,8 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! The pipeline is one function, [`render()`]: a [`scene::Scene`] is flattened to one
-//! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
+//! The pipeline is one function, [`render()`]: a [`scene::SvgScene`] is flattened to one
+//! welded [`mesh::Mesh`]; a [`view::ViewRequest`] projects it; [`lines`] finds the feature lines; the
 //! [`viewmap::ViewMap`] decides what is visible; [`chains`] links the pieces to long chains;
 //! [`strokes`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
 //! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`light`] lights them, their

@@ -24,7 +24,7 @@ mod seen;
 
 use change::Change;
 use inked::Inked;
-use ligne::animate::{Animator, Moment, Timeline, Turntable, reach};
+use ligne::animate::{Animator, FrameSpec, Timeline, Turntable, film_points};
 use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Page, Unit};
 use ligne::glam::DAffine3;
@@ -118,7 +118,7 @@ fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
     };
     let moved = |frame: usize| table.map_or(DAffine3::IDENTITY, |table| table.turn(steps - frame % steps));
     let poses: Vec<_> = timeline.drawn().map(|frame| (playing(frame), moved(frame))).collect();
-    let points = reach(rigged, &poses).expect("poses");
+    let points = film_points(rigged, &poses).expect("poses");
     let camera = Camera::three_quarter_of(rigged.scene.up).fit_points(&points, 0.05);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
     let animator = Animator::new(rigged, style);
@@ -126,7 +126,7 @@ fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
         let camera = table.map_or(camera, |table| table.camera(&camera, frame));
         let playing = playing(frame);
         let scene = rigged.posed(&playing).expect("a pose");
-        let (drawing, _) = animator.draw(&Moment { playing, camera, page }).expect("a drawing");
+        let (drawing, _) = animator.draw(&FrameSpec { playing, camera, page }).expect("a drawing");
         Inked::new(&drawing, Seen::new(&scene, &camera))
     };
     let mut changes = Vec::new();

@@ -55,10 +55,10 @@ const ALONG_EDGES: [&str; 2] = ["--set", "lines.contours=mesh"];
 
 const MIB: f64 = 1024.0 * 1024.0;
 
-/// Rounds per model: at least `LEAST_ROUNDS`, then more until `PATIENCE` has passed, at most `MOST_ROUNDS`.
-const LEAST_ROUNDS: usize = 3;
-const MOST_ROUNDS: usize = 25;
-const PATIENCE: Duration = Duration::from_secs(6);
+/// Rounds per model: at least `MIN_ROUNDS`, then more until `MAX_TIME_PER_MODEL` has passed, at most `MAX_ROUNDS`.
+const MIN_ROUNDS: usize = 3;
+const MAX_ROUNDS: usize = 25;
+const MAX_TIME_PER_MODEL: Duration = Duration::from_secs(6);
 
 /// Measurements of one model.
 struct Row {
@@ -132,8 +132,8 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
     let mut least_floor = floor.run(model);
     let (mut all, mut alone, mut along) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     let start = Instant::now();
-    for round in 0..MOST_ROUNDS {
-        if round >= LEAST_ROUNDS && start.elapsed() > PATIENCE {
+    for round in 0..MAX_ROUNDS {
+        if round >= MIN_ROUNDS && start.elapsed() > MAX_TIME_PER_MODEL {
             break;
         }
         least_floor = least_floor.least(floor.run(model));
@@ -142,7 +142,7 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
         along = along.min(process::draw(model, &drawing, Threads::All, &ALONG_EDGES)?);
     }
     let cpu = |threads: Threads| {
-        (0..LEAST_ROUNDS).filter_map(|_| process::cpu(model, &drawing, threads)).reduce(f64::min)
+        (0..MIN_ROUNDS).filter_map(|_| process::cpu(model, &drawing, threads)).reduce(f64::min)
     };
     let (cpu, cpu_of_all) = (cpu(Threads::One), cpu(Threads::All));
     let memory = process::memory(model, &drawing, Threads::All);

@@ -15,7 +15,7 @@ mod plain;
 
 use std::time::Instant;
 
-use ligne::animate::{Animator, Level, Moment, Timeline, Turntable, reach};
+use ligne::animate::{Animator, DetailLevel, FrameSpec, Timeline, Turntable, film_points};
 use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Page, Unit};
 use ligne::edit::simplify::Detail;
@@ -51,7 +51,7 @@ fn main() {
     let ring = Rigged { scene: ring(), ..Rigged::default() };
     let detail = Detail::of(&ring.scene);
     for faces in FACES {
-        let level = Level::of(&detail, &ring.scene, faces).expect("a level of it");
+        let level = DetailLevel::of(&detail, &ring.scene, faces).expect("a level of it");
         let turn = Course::turn(&ring);
         let rates: Vec<f64> = styles
             .iter()
@@ -101,7 +101,7 @@ fn row(name: &str, plain: f64, rates: &[f64]) {
 
 /// Poses and cameras of the frames.
 struct Course {
-    moments: Vec<Moment>,
+    moments: Vec<FrameSpec>,
 }
 
 impl Course {
@@ -126,11 +126,11 @@ impl Course {
         poses: Vec<(Vec<Playing>, DAffine3)>,
         camera_of: impl Fn(&Camera, usize) -> Camera,
     ) -> Self {
-        let points = reach(rigged, &poses).expect("poses");
+        let points = film_points(rigged, &poses).expect("poses");
         let first =
             Camera::three_quarter_of(rigged.scene.up).with_frame(800.0, 600.0).fit_points(&points, 0.05);
         let page = Page { width: 800.0, height: 600.0, unit: Unit::Px, background: None };
-        let moment = |(frame, (playing, _)): (usize, (Vec<Playing>, DAffine3))| Moment {
+        let moment = |(frame, (playing, _)): (usize, (Vec<Playing>, DAffine3))| FrameSpec {
             playing,
             camera: camera_of(&first, frame),
             page,

@@ -1,4 +1,4 @@
-//! [`Level`]: a scene with a given number of faces, in any pose.
+//! [`DetailLevel`]: a scene with a given number of faces, in any pose.
 
 use crate::edit::simplify::{Detail, Levels};
 use crate::error::Error;
@@ -6,13 +6,13 @@ use crate::scene::Scene;
 
 /// Resting scene at a level of detail, and the data that brings its poses to that level.
 #[derive(Debug, Clone)]
-pub struct Level<'a> {
+pub struct DetailLevel<'a> {
     levels: Levels<'a>,
     pub(crate) rest: Scene,
     faces: u64,
 }
 
-impl<'a> Level<'a> {
+impl<'a> DetailLevel<'a> {
     /// The finest level with at most `faces` faces, or the coarsest level.
     ///
     /// # Errors

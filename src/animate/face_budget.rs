@@ -6,25 +6,25 @@
 //! Deviation: the number of faces falls at once and rises slowly, in steps, so that a level lasts.
 
 /// Target share of the permitted frame time. The rest absorbs variation between frames.
-const AIM: f64 = 0.6;
+const TARGET_TIME_SHARE: f64 = 0.6;
 
 /// Share of the permitted time below which a frame has room for more faces.
-const ROOM: f64 = 0.42;
+const SPARE_TIME_SHARE: f64 = 0.42;
 
 /// Number of consecutive frames with room before the number of faces rises.
-const PATIENCE: u32 = 6;
+const SPARE_FRAMES_TO_RISE: u32 = 6;
 
 /// Ratio of face counts between consecutive levels.
-const STEP: f64 = 1.25;
+const LEVEL_FACE_RATIO: f64 = 1.25;
 
 /// Greatest change of the number of faces in one frame, as a factor.
-const MOST: f64 = 4.0;
+const MAX_CHANGE_RATIO: f64 = 4.0;
 
 /// Least number of faces.
-const FEWEST: f64 = 100.0;
+const MIN_FACES: f64 = 100.0;
 
 /// Assumed speed of a machine before its first frame, faces per millisecond.
-const GUESS: f64 = 150.0;
+const INITIAL_FACES_PER_MS: f64 = 150.0;
 
 /// Face budget that follows the times of frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,30 +44,30 @@ impl Budget {
     #[must_use]
     pub fn new(ms: f64, all: u64) -> Self {
         let mut budget = Self { ms, all, level: 0, patient: 0 };
-        budget.level = budget.level_of(ms * GUESS);
+        budget.level = budget.level_of(ms * INITIAL_FACES_PER_MS);
         budget
     }
 
     /// Number of faces of the next frame.
     #[must_use]
     pub fn faces(&self) -> u64 {
-        let faces =
-            self.all as f64 / crate::geometry::numbers::portable_math::pow(STEP, f64::from(self.level));
-        (faces.max(FEWEST).ceil() as u64).min(self.all.max(1))
+        let faces = self.all as f64
+            / crate::geometry::numbers::portable_math::pow(LEVEL_FACE_RATIO, f64::from(self.level));
+        (faces.max(MIN_FACES).ceil() as u64).min(self.all.max(1))
     }
 
     /// Records the time of a frame drawn with that number of faces.
-    pub fn took(&mut self, ms: f64) {
+    pub fn record_frame(&mut self, ms: f64) {
         let faces = self.faces() as f64;
-        if ms > self.ms * (AIM + ROOM).min(0.9) {
+        if ms > self.ms * (TARGET_TIME_SHARE + SPARE_TIME_SHARE).min(0.9) {
             self.patient = 0;
-            let wanted = faces * (AIM * self.ms / ms).max(1.0 / MOST);
+            let wanted = faces * (TARGET_TIME_SHARE * self.ms / ms).max(1.0 / MAX_CHANGE_RATIO);
             self.level = self.level_of(wanted).max(self.level + 1).min(self.lowest());
-        } else if ms < self.ms * ROOM && self.level > 0 {
+        } else if ms < self.ms * SPARE_TIME_SHARE && self.level > 0 {
             self.patient += 1;
-            if self.patient >= PATIENCE {
+            if self.patient >= SPARE_FRAMES_TO_RISE {
                 self.patient = 0;
-                let wanted = faces * (AIM * self.ms / ms.max(1e-3)).min(MOST);
+                let wanted = faces * (TARGET_TIME_SHARE * self.ms / ms.max(1e-3)).min(MAX_CHANGE_RATIO);
                 self.level = self.level_of(wanted).min(self.level - 1);
             }
         } else {
@@ -87,7 +87,7 @@ impl Budget {
     /// The coarsest level.
     fn lowest(&self) -> u32 {
         let mut level = 0;
-        while level < 200 && (Self { level, ..*self }).faces() as f64 > FEWEST {
+        while level < 200 && (Self { level, ..*self }).faces() as f64 > MIN_FACES {
             level += 1;
         }
         level
@@ -97,15 +97,15 @@ impl Budget {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
 
     /// Simulates frames on a machine with the given speed in faces per millisecond, with some variation.
     /// Returns faces and times.
     fn run(budget: &mut Budget, frames: u64, speed: impl Fn(u64) -> f64) -> Vec<(u64, f64)> {
         let frame = |number: u64| {
             let faces = budget.faces();
-            let ms = faces as f64 / speed(number) * (0.85 + 0.3 * unit(hash(1, &[number])));
-            budget.took(ms);
+            let ms = faces as f64 / speed(number) * (0.85 + 0.3 * unit_interval(hash(1, &[number])));
+            budget.record_frame(ms);
             (faces, ms)
         };
         (0..frames).map(frame).collect()
@@ -138,7 +138,7 @@ mod tests {
     fn small_scenes_are_left_whole() {
         let mut budget = Budget::new(33.0, 60);
         assert_eq!(budget.faces(), 60);
-        budget.took(1e9);
+        budget.record_frame(1e9);
         assert_eq!(budget.faces(), 60);
         assert_eq!(Budget::new(33.0, 0).faces(), 1);
     }

@@ -1,4 +1,4 @@
-//! [`reach`]: the points that a camera's frame must contain to show a whole film.
+//! [`film_points`]: the points that a camera's frame must contain to show a whole film.
 
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
@@ -10,10 +10,10 @@ use crate::scene::cameras::framing::world_points;
 
 /// Number of directions for extreme points. On a ball, the part outside all of them is half a percent of its
 /// size, less than the margin of any frame.
-const DIRECTIONS: usize = 256;
+const DIRECTION_COUNT: usize = 256;
 
 /// Golden angle, radians. Directions at this spacing cover the sphere evenly.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
 /// The extreme points of a scene in all its poses, world.
 ///
@@ -21,8 +21,8 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// camera that moves round the model.
 ///
 /// # Errors
-/// As [`Rigged::posed`].
-pub fn reach(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<DVec3>, Error> {
+/// As [`Rigged::posed_model`].
+pub fn film_points(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<DVec3>, Error> {
     let directions = directions();
     let still = poses.iter().any(|(playing, _)| playing.is_empty());
     let still = if still { outermost(&world_points(&rigged.posed(&[])?), &directions) } else { Vec::new() };
@@ -41,11 +41,11 @@ pub fn reach(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<
 /// Directions spread evenly over the sphere (Fibonacci lattice).
 fn directions() -> Vec<DVec3> {
     let of = |number: usize| {
-        let z = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTIONS as f64;
-        let (radius, angle) = ((1.0 - z * z).max(0.0).sqrt(), GOLDEN_ANGLE * number as f64);
+        let z = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTION_COUNT as f64;
+        let (radius, angle) = ((1.0 - z * z).max(0.0).sqrt(), GOLDEN_ANGLE_RAD * number as f64);
         DVec3::new(radius * cos(angle), radius * sin(angle), z)
     };
-    (0..DIRECTIONS).map(of).collect()
+    (0..DIRECTION_COUNT).map(of).collect()
 }
 
 /// The points that are extreme in one of the directions.
@@ -91,7 +91,7 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let rigged = Rigged::from(Scene::from_triangles(corners, [[0, 1, 2]])?);
         let moved = DAffine3::from_translation(DVec3::Z);
-        let points = reach(&rigged, &[(Vec::new(), DAffine3::IDENTITY), (Vec::new(), moved)])?;
+        let points = film_points(&rigged, &[(Vec::new(), DAffine3::IDENTITY), (Vec::new(), moved)])?;
         assert_eq!(points.len(), 6);
         assert_eq!(points[3], DVec3::Z);
         Ok(())

@@ -37,10 +37,10 @@ mod turntable;
 
 use std::sync::OnceLock;
 
-pub use detail_level::Level;
+pub use detail_level::DetailLevel;
 pub use face_budget::Budget;
-pub use film_extent::reach;
-pub use stroke_fade::{Trace, fade};
+pub use film_extent::film_points;
+pub use stroke_fade::{StrokeTrace, fade};
 pub use timeline::Timeline;
 pub use turntable::Turntable;
 
@@ -48,17 +48,17 @@ use crate::animation::{Playing, Rigged};
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
 use crate::motion;
-use crate::pipeline::{Report, Resting, Stopwatch};
+use crate::pipeline::{PosedRenderer, Report, Stopwatch};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
 /// Number and distance in seconds of the earlier moments that can influence the creases of a pose.
-const MEMORY: u32 = 24;
-const STEP: f64 = 1.0 / 24.0;
+const MAX_CREASE_STEPS: u32 = 24;
+const CREASE_STEP_S: f64 = 1.0 / 24.0;
 
 /// Content of a frame.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moment {
+pub struct FrameSpec {
     /// Clips that play, with their times. Empty for the stored pose.
     pub playing: Vec<Playing>,
     /// Camera.
@@ -75,10 +75,10 @@ pub struct Moment {
 pub struct Animator<'a> {
     rigged: &'a Rigged,
     /// Level of detail, if it has fewer faces than the model.
-    level: Option<&'a Level<'a>>,
+    level: Option<&'a DetailLevel<'a>>,
     style: &'a Style,
     /// Preparation that all moments share.
-    resting: OnceLock<Resting<'a>>,
+    resting: OnceLock<PosedRenderer<'a>>,
     shown: Option<Drawing>,
 }
 
@@ -91,7 +91,7 @@ impl<'a> Animator<'a> {
 
     /// The same, with the faces of a level of its scene.
     #[must_use]
-    pub fn at_level(rigged: &'a Rigged, level: &'a Level<'a>, style: &'a Style) -> Self {
+    pub fn at_level(rigged: &'a Rigged, level: &'a DetailLevel<'a>, style: &'a Style) -> Self {
         Self { level: Some(level), ..Self::new(rigged, style) }
     }
 
@@ -111,23 +111,24 @@ impl<'a> Animator<'a> {
         self.level.map_or(&self.rigged.scene, |level| &level.rest)
     }
 
-    fn resting(&self) -> &Resting<'a> {
-        self.resting.get_or_init(|| Resting::new(self.rest(), self.style))
+    fn resting(&self) -> &PosedRenderer<'a> {
+        self.resting.get_or_init(|| PosedRenderer::new(self.rest(), self.style))
     }
 
     /// Poses the scene, draws it, and lends the drawing until the next step.
     ///
     /// # Errors
     /// As [`Animator::draw`].
-    pub fn step(&mut self, moment: &Moment) -> Result<&Drawing, Error> {
+    pub fn step(&mut self, moment: &FrameSpec) -> Result<&Drawing, Error> {
         let (drawing, _) = self.draw(moment)?;
         Ok(self.shown.insert(drawing))
     }
 
     /// The poses before a moment, latest first.
     fn before<'b>(&'b self, playing: &'b [Playing]) -> impl Iterator<Item = Scene> + use<'b, 'a> {
-        (1..=MEMORY).map_while(move |steps| {
-            let scene = self.rigged.posed(&motion::earlier(playing, f64::from(steps) * STEP)).ok()?;
+        (1..=MAX_CREASE_STEPS).map_while(move |steps| {
+            let scene =
+                self.rigged.posed(&motion::earlier(playing, f64::from(steps) * CREASE_STEP_S)).ok()?;
             match self.level {
                 Some(level) => level.posed(&scene).ok(),
                 None => Some(scene),
@@ -139,8 +140,8 @@ impl<'a> Animator<'a> {
     ///
     /// # Errors
     /// If a clip is not in the model, if a pose is not finite, or if the camera is invalid.
-    pub fn draw(&self, moment: &Moment) -> Result<(Drawing, Report), Error> {
-        let Moment { playing, camera, page } = moment;
+    pub fn draw(&self, moment: &FrameSpec) -> Result<(Drawing, Report), Error> {
+        let FrameSpec { playing, camera, page } = moment;
         let mut watch = Stopwatch::start();
         let resting = self.resting();
         if playing.is_empty() && !self.rigged.hides() {

@@ -14,19 +14,19 @@ use crate::drawing::{Drawing, Paint};
 use crate::motion::FadeBy;
 
 /// Share of its cells that must contain lines for a renamed stroke to count as present.
-const THERE: f64 = 0.5;
+const MIN_PRESENT_CELL_SHARE: f64 = 0.5;
 
 /// Flattening tolerance of axes when outlines are thinned, user units.
-const FLAT: f64 = 0.05;
+const AXIS_FLATNESS: f64 = 0.05;
 
 /// Strokes of a frame: their names and the model cells that they pass through.
 #[derive(Debug, Clone, Default)]
-pub struct Trace {
+pub struct StrokeTrace {
     names: FxHashSet<u64>,
     places: FxHashSet<u64>,
 }
 
-impl Trace {
+impl StrokeTrace {
     /// The trace of a drawing made by an [`Animator`](super::Animator).
     #[must_use]
     pub fn of(drawing: &Drawing) -> Self {
@@ -42,7 +42,8 @@ impl Trace {
 
     fn has(&self, name: u64, places: &[u64]) -> bool {
         let held = || places.iter().filter(|place| self.places.contains(place)).count();
-        self.names.contains(&name) || (!places.is_empty() && held() as f64 >= THERE * places.len() as f64)
+        self.names.contains(&name)
+            || (!places.is_empty() && held() as f64 >= MIN_PRESENT_CELL_SHARE * places.len() as f64)
     }
 }
 
@@ -50,10 +51,11 @@ impl Trace {
 ///
 /// `around` holds the frames before and after this one, nearest first. It holds `None` outside the film,
 /// where nothing counts as lacking. Strokes painted with a picture do not fade.
-pub fn fade(drawing: &mut Drawing, around: &[[Option<&Trace>; 2]], by: FadeBy) {
+pub fn fade(drawing: &mut Drawing, around: &[[Option<&StrokeTrace>; 2]], by: FadeBy) {
     for mark in drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
         let (name, places) = (mark.provenance.identity, &mark.provenance.places);
-        let lacks = |pair: &[Option<&Trace>; 2]| pair.iter().flatten().any(|trace| !trace.has(name, places));
+        let lacks =
+            |pair: &[Option<&StrokeTrace>; 2]| pair.iter().flatten().any(|trace| !trace.has(name, places));
         let Some(far) = around.iter().position(lacks).filter(|_| name != 0) else { continue };
         let share = (far + 1) as f64 / (around.len() + 1) as f64;
         let pale = |colour: Colour| Colour { a: (f64::from(colour.a) * share).round() as u8, ..colour };
@@ -78,10 +80,10 @@ pub fn fade(drawing: &mut Drawing, around: &[[Option<&Trace>; 2]], by: FadeBy) {
 /// An outline with its points moved towards the axis, to a share of their distance.
 fn thinned(outline: &BezPath, axis: &BezPath, share: f64) -> BezPath {
     let mut flat = BezPath::new();
-    kurbo::flatten(axis, FLAT, |element| flat.push(element));
+    kurbo::flatten(axis, AXIS_FLATNESS, |element| flat.push(element));
     let near = |point: Point| {
         let nearest = flat.segments().map(|segment| {
-            let nearest = segment.nearest(point, FLAT);
+            let nearest = segment.nearest(point, AXIS_FLATNESS);
             (nearest.distance_sq, segment.eval(nearest.t))
         });
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));

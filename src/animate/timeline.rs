@@ -3,10 +3,10 @@
 use crate::error::Error;
 
 /// Greatest number of frames, half a day of film.
-const MOST_FRAMES: f64 = 1e6;
+const MAX_FRAMES: f64 = 1e6;
 
 /// Excess of a span over whole frames that counts as rounding, in frames.
-const SLACK: f64 = 1e-6;
+const SPAN_TOLERANCE_FRAMES: f64 = 1e-6;
 
 /// Frames of equal length. Some repeat the drawing of the frame before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,8 +33,8 @@ impl Timeline {
             ))
             .remedy("make the end later than the start"));
         }
-        let frames = ((to - from) * fps - SLACK).ceil().max(1.0);
-        if frames > MOST_FRAMES {
+        let frames = ((to - from) * fps - SPAN_TOLERANCE_FRAMES).ceil().max(1.0);
+        if frames > MAX_FRAMES {
             return Err(Error::new(format!("{frames} frames are too many"))
                 .remedy("draw a shorter time, or fewer frames per second"));
         }
@@ -50,7 +50,7 @@ impl Timeline {
             return Err(Error::new(format!("{fps} is not a usable number of frames per second"))
                 .remedy("give a number above 0, at most 1000"));
         }
-        if frames == 0 || frames as f64 > MOST_FRAMES || !from.is_finite() {
+        if frames == 0 || frames as f64 > MAX_FRAMES || !from.is_finite() {
             return Err(Error::new(format!("{frames} frames cannot be drawn"))
                 .remedy("give a number from 1 to a million"));
         }

@@ -8,35 +8,35 @@ pub struct Clip {
     /// Name in the file, or `animation 0` and so on.
     pub name: String,
     /// Values that change.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<ClipChannel>,
 }
 
 /// A value of the file that changes over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Channel {
+pub struct ClipChannel {
     /// The value.
-    pub target: Target,
+    pub target: AnimationTarget,
     /// Its keys.
     pub track: Track,
 }
 
 /// A value of a file that may change. Numbers are indices in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Target {
+pub enum AnimationTarget {
     /// Property of a node.
-    Node(usize, Property),
+    Node(usize, NodeProperty),
     /// Property of a camera, shared by all nodes with that camera.
-    Camera(usize, Lens),
+    Camera(usize, CameraProperty),
     /// Property of a light, shared by all nodes with that light.
-    Light(usize, Shine),
+    Light(usize, LightProperty),
     /// Property of a material.
-    Material(usize, Finish),
+    Material(usize, MaterialProperty),
 }
 
-impl Target {
+impl AnimationTarget {
     /// Node and property, if the target is a node.
     #[must_use]
-    pub fn of_node(self) -> Option<(usize, Property)> {
+    pub fn of_node(self) -> Option<(usize, NodeProperty)> {
         match self {
             Self::Node(node, property) => Some((node, property)),
             Self::Camera(..) | Self::Light(..) | Self::Material(..) => None,
@@ -46,7 +46,7 @@ impl Target {
 
 /// Animated property of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Property {
+pub enum NodeProperty {
     /// Translation: three numbers.
     Translation,
     /// Rotation: a quaternion, four numbers.
@@ -61,7 +61,7 @@ pub enum Property {
 
 /// Animated property of a camera, one number each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Lens {
+pub enum CameraProperty {
     /// Vertical field of view of a perspective camera, in radians.
     FieldOfView,
     /// Aspect ratio, width by height.
@@ -76,7 +76,7 @@ pub enum Lens {
 
 /// Animated property of a light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Shine {
+pub enum LightProperty {
     /// Colour: three numbers, linear.
     Colour,
     /// Intensity.
@@ -91,7 +91,7 @@ pub enum Shine {
 
 /// Animated property of a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Finish {
+pub enum MaterialProperty {
     /// Base colour and opacity: four numbers, linear.
     Base,
     /// Emitted light: three numbers, linear.
@@ -118,7 +118,7 @@ impl Clip {
     /// Greatest number of keys a second of any track; `None` if no track has two keys.
     #[must_use]
     pub fn rate(&self) -> Option<f64> {
-        let rate = |channel: &Channel| {
+        let rate = |channel: &ClipChannel| {
             let times = channel.track.times();
             let long = times.last()? - times.first()?;
             (long > 0.0).then(|| (times.len() - 1) as f64 / long)

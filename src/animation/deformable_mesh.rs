@@ -1,4 +1,4 @@
-//! [`Body`]: vertices in their rest position, with their morph targets and joint weights.
+//! [`DeformableMesh`]: vertices in their rest position, with their morph targets and joint weights.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins).
 #[derive(Debug, Clone, Default)]
-pub struct Body {
+pub struct DeformableMesh {
     /// Index of the first vertex in the geometry.
     pub start: usize,
     /// Rest positions.
@@ -14,14 +14,14 @@ pub struct Body {
     /// Rest normals; empty if there are none.
     pub normals: Vec<[f32; 3]>,
     /// Morph targets.
-    pub targets: Vec<Target>,
+    pub targets: Vec<MorphTarget>,
     /// Sets of four joints and weights, each with one entry per vertex.
     pub sets: Vec<Influences>,
 }
 
 /// Offsets of a morph target at full weight; one entry per vertex, or empty.
 #[derive(Debug, Clone, Default)]
-pub struct Target {
+pub struct MorphTarget {
     /// Offsets of positions.
     pub positions: Vec<DVec3>,
     /// Offsets of normals.
@@ -37,7 +37,7 @@ pub struct Influences {
     pub weights: Vec<[f64; 4]>,
 }
 
-impl Body {
+impl DeformableMesh {
     /// Moves rest positions and normals by morph targets, and then by the joints of a skin, if there is one.
     pub fn pose(
         &self,
@@ -62,7 +62,7 @@ impl Body {
         }
     }
 
-    /// Position of one vertex, deformed as by [`Body::pose`].
+    /// Position of one vertex, deformed as by [`DeformableMesh::pose`].
     #[must_use]
     pub fn place(&self, vertex: usize, weights: &[f64], joints: Option<&[DAffine3]>) -> Option<DVec3> {
         let mut position = *self.positions.get(vertex)?;

@@ -1,4 +1,4 @@
-//! [`Factors`]: the values of a material as stored in a file, and their conversion to a drawable material.
+//! [`MaterialFactors`]: the values of a material as stored in a file, and their conversion to a drawable material.
 
 use crate::colour::srgb::Colour;
 use crate::scene::material::Gloss;
@@ -8,7 +8,7 @@ use crate::scene::{Alpha, Material};
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.9.2 and 3.9.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Factors {
+pub struct MaterialFactors {
     /// Base colour and alpha, linear.
     pub base: [f32; 4],
     /// Emitted light, linear; `None` if a texture varies it.
@@ -35,9 +35,9 @@ pub enum AlphaMode {
     Blend,
 }
 
-impl Factors {
+impl MaterialFactors {
     /// Sets the derived values of a material and leaves its other values unchanged.
-    pub fn give(&self, material: &mut Material) {
+    pub fn apply_to(&self, material: &mut Material) {
         let [r, g, b, _] = self.base;
         material.colour = Colour::from_linear([r, g, b, self.opacity()]);
         // Emission textures are not read. Their surfaces are mostly dark, so they emit nothing here.

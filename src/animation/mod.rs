@@ -26,10 +26,13 @@ pub mod posed_vertices;
 pub mod rig;
 pub mod track;
 
-pub use clip::{Channel, Clip, Finish, Lens, Playing, Property, Shine, Target};
-pub use deformable_mesh::Body;
-pub use material_factors::Factors;
-pub use posed_vertices::Moment;
+pub use clip::{
+    AnimationTarget, CameraProperty, Clip, ClipChannel, LightProperty, MaterialProperty, NodeProperty,
+    Playing,
+};
+pub use deformable_mesh::DeformableMesh;
+pub use material_factors::MaterialFactors;
+pub use posed_vertices::PosedVertices;
 pub use rig::Rig;
 pub use track::{Interpolation, Track};
 
@@ -39,14 +42,14 @@ use glam::{DAffine3, DVec3};
 
 use crate::error::Error;
 use crate::scene::{Camera, LightKind, NamedCamera, Scene};
-use animated_values::Values;
-use rig::{Held, Stance};
+use animated_values::AnimatedValues;
+use rig::{NodeAttachment, NodePoses};
 
 /// A scene in its stored pose, with the rig that animates it.
 #[derive(Debug, Clone, Default)]
 pub struct Rigged {
     /// The scene in the stored pose. It also contains parts and lights that are hidden in that pose and that
-    /// a clip shows at some time; [`Rigged::posed`] drops these while they are hidden.
+    /// a clip shows at some time; [`Rigged::posed_model`] drops these while they are hidden.
     ///
     /// The rig refers to parts, geometries, cameras and lights by index. Remove parts from the result of
     /// `posed`, not from this scene.
@@ -88,7 +91,7 @@ impl Rigged {
             let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
             part.world_from_part = world * *place;
         }
-        let values = Values::new(&rig.clips, playing);
+        let values = AnimatedValues::new(&rig.clips, playing);
         for (named, held) in scene.cameras.iter_mut().zip(&rig.cameras) {
             named.camera = now_camera(&named.camera, *held, &stance, &values);
         }
@@ -98,7 +101,7 @@ impl Rigged {
         }
         for (number, (material, rest)) in scene.materials.iter_mut().zip(&rig.materials).enumerate() {
             if let Some(now) = values.material(number, rest) {
-                now.give(material);
+                now.apply_to(material);
             }
         }
         self.keep_shown(&stance, &mut scene);
@@ -118,7 +121,7 @@ impl Rigged {
     }
 
     /// Removes the parts and lights of hidden nodes from a scene.
-    fn keep_shown(&self, stance: &Stance, scene: &mut Scene) {
+    fn keep_shown(&self, stance: &NodePoses, scene: &mut Scene) {
         let shown = |node: usize| stance.visible.get(node).copied().unwrap_or(true);
         let mut nodes = self.rig.parts.iter().map(|(node, _)| *node);
         scene.parts.retain(|_| nodes.next().is_none_or(shown));
@@ -126,18 +129,18 @@ impl Rigged {
         scene.lights.retain(|_| nodes.next().is_none_or(shown));
     }
 
-    /// The cameras of the scene while clips play; cheaper than [`Rigged::posed`].
+    /// The cameras of the scene while clips play; cheaper than [`Rigged::posed_model`].
     ///
     /// # Errors
-    /// As [`Rigged::posed`].
+    /// As [`Rigged::posed_model`].
     pub fn cameras(&self, playing: &[Playing]) -> Result<Vec<NamedCamera>, Error> {
         self.check(playing)?;
         if playing.is_empty() {
             return Ok(self.scene.cameras.clone());
         }
         let stance = self.stance(playing)?;
-        let values = Values::new(&self.rig.clips, playing);
-        let moved = |(named, held): (&NamedCamera, &Held)| {
+        let values = AnimatedValues::new(&self.rig.clips, playing);
+        let moved = |(named, held): (&NamedCamera, &NodeAttachment)| {
             let camera = now_camera(&named.camera, *held, &stance, &values);
             NamedCamera { camera, ..named.clone() }
         };
@@ -155,7 +158,7 @@ impl Rigged {
     }
 
     /// Poses of the nodes while clips play.
-    fn stance(&self, playing: &[Playing]) -> Result<Stance, Error> {
+    fn stance(&self, playing: &[Playing]) -> Result<NodePoses, Error> {
         let stance = self.rig.stance(playing);
         match stance.world.iter().position(|world| !world.is_finite()) {
             Some(node) => {
@@ -180,7 +183,7 @@ impl Rigged {
         Ok(())
     }
 
-    fn move_vertices(&self, stance: &Stance, scene: &mut Scene) -> Result<(), Error> {
+    fn move_vertices(&self, stance: &NodePoses, scene: &mut Scene) -> Result<(), Error> {
         for (geometry, form) in scene.geometries.iter_mut().zip(&self.rig.forms) {
             let joints = form
                 .skin
@@ -220,7 +223,7 @@ impl Rigged {
 }
 
 /// Camera with its animated properties, at the present pose of its node.
-fn now_camera(camera: &Camera, held: Held, stance: &Stance, values: &Values) -> Camera {
+fn now_camera(camera: &Camera, held: NodeAttachment, stance: &NodePoses, values: &AnimatedValues) -> Camera {
     moved_camera(&values.camera(held.number, *camera), stance.world[held.node])
 }
 

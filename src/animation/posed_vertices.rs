@@ -1,16 +1,16 @@
-//! [`Moment`]: positions of single vertices while clips play.
+//! [`PosedVertices`]: positions of single vertices while clips play.
 
 use glam::{DAffine3, DVec3};
 
 use super::clip::Playing;
-use super::rig::Stance;
-use super::{Body, Rigged};
+use super::rig::NodePoses;
+use super::{DeformableMesh, Rigged};
 
 /// A rigged scene at a moment, for queries of a few vertices. Much cheaper than posing the whole scene.
 #[derive(Debug)]
-pub struct Moment<'a> {
+pub struct PosedVertices<'a> {
     rigged: &'a Rigged,
-    stance: Stance,
+    stance: NodePoses,
     /// Joint transforms of each geometry with a skin.
     joints: Vec<Option<Vec<DAffine3>>>,
 }
@@ -18,14 +18,14 @@ pub struct Moment<'a> {
 impl Rigged {
     /// The rig while clips play. Clips that do not exist are ignored.
     #[must_use]
-    pub fn at(&self, playing: &[Playing]) -> Moment<'_> {
+    pub fn at(&self, playing: &[Playing]) -> PosedVertices<'_> {
         let stance = self.rig.stance(playing);
         let joints = self.rig.forms.iter().map(|form| {
             let skin = form.skin.and_then(|skin| self.rig.skins.get(skin))?;
             Some(skin.transforms(&stance.world))
         });
         let joints = joints.collect();
-        Moment { rigged: self, stance, joints }
+        PosedVertices { rigged: self, stance, joints }
     }
 
     /// Node that moves a vertex of a part: for a skinned part the joint with the greatest weight, otherwise
@@ -43,7 +43,7 @@ impl Rigged {
     }
 }
 
-impl Moment<'_> {
+impl PosedVertices<'_> {
     /// Whether a part is visible. The index is that of the stored scene.
     #[must_use]
     pub fn is_shown(&self, part: usize) -> bool {
@@ -59,7 +59,7 @@ impl Moment<'_> {
             return false;
         };
         let form = rig.forms.get(shown.geometry);
-        let weights = |stance: &Stance| form.and_then(|form| stance.weights.get(form.node).cloned());
+        let weights = |stance: &NodePoses| form.and_then(|form| stance.weights.get(form.node).cloned());
         form.is_some_and(|form| form.skin.is_some())
             || self.stance.world.get(*node) != other.stance.world.get(*node)
             || weights(&self.stance) != weights(&other.stance)
@@ -89,7 +89,7 @@ impl Moment<'_> {
 }
 
 /// Body that contains a vertex of a geometry, and the index of the vertex within it.
-fn body_of(bodies: &[Body], vertex: usize) -> Option<(&Body, usize)> {
-    let holds = |body: &&Body| vertex >= body.start && vertex - body.start < body.positions.len();
+fn body_of(bodies: &[DeformableMesh], vertex: usize) -> Option<(&DeformableMesh, usize)> {
+    let holds = |body: &&DeformableMesh| vertex >= body.start && vertex - body.start < body.positions.len();
     bodies.iter().find(holds).map(|body| (body, vertex - body.start))
 }

@@ -2,9 +2,9 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::clip::{Clip, Playing, Property};
-use super::deformable_mesh::Body;
-use super::material_factors::Factors;
+use super::clip::{Clip, NodeProperty, Playing};
+use super::deformable_mesh::DeformableMesh;
+use super::material_factors::MaterialFactors;
 
 /// Everything that animates a scene.
 #[derive(Debug, Clone, Default)]
@@ -16,22 +16,22 @@ pub struct Rig {
     /// Skins.
     pub skins: Vec<Skin>,
     /// For each geometry of the scene, its deformable vertices.
-    pub forms: Vec<Form>,
+    pub forms: Vec<GeometryRig>,
     /// For each part of the scene, its node and its transform relative to the node.
     pub parts: Vec<(usize, DAffine3)>,
     /// For each camera of the scene, its number in the file and its node.
-    pub cameras: Vec<Held>,
+    pub cameras: Vec<NodeAttachment>,
     /// The same for each light.
-    pub lights: Vec<Held>,
+    pub lights: Vec<NodeAttachment>,
     /// Values of the materials of the file.
-    pub materials: Vec<Factors>,
+    pub materials: Vec<MaterialFactors>,
     /// Animations of the file.
     pub clips: Vec<Clip>,
 }
 
 /// A camera or a light that a node holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Held {
+pub struct NodeAttachment {
     /// Number of the camera or light in the file; several nodes may hold the same one.
     pub number: usize,
     /// The node that holds it.
@@ -115,18 +115,18 @@ impl Skin {
 
 /// Deformable vertices of a geometry.
 #[derive(Debug, Clone, Default)]
-pub struct Form {
+pub struct GeometryRig {
     /// Node that holds its weights and skin.
     pub node: usize,
     /// Number of its skin.
     pub skin: Option<usize>,
     /// Its vertices; empty if they do not deform.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<DeformableMesh>,
 }
 
 /// World transforms, morph weights and visibility of all nodes at a moment.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stance {
+pub(crate) struct NodePoses {
     pub world: Vec<DAffine3>,
     pub weights: Vec<Vec<f64>>,
     pub visible: Vec<bool>,
@@ -140,39 +140,40 @@ impl Rig {
     }
 
     /// Pose of the nodes while clips play.
-    pub(crate) fn stance(&self, playing: &[Playing]) -> Stance {
+    pub(crate) fn stance(&self, playing: &[Playing]) -> NodePoses {
         let mut weights: Vec<Vec<f64>> = self.nodes.iter().map(|node| node.weights.clone()).collect();
         let mut visible: Vec<bool> = self.nodes.iter().map(|node| node.visible).collect();
         let mut local: Vec<DAffine3> = self.nodes.iter().map(|node| node.rest.transform()).collect();
         for (number, moved) in self.moved(playing) {
             let node = &self.nodes[number];
-            let of = |property: Property| moved.iter().filter(move |(own, ..)| *own == property);
+            let of = |property: NodeProperty| moved.iter().filter(move |(own, ..)| *own == property);
             let (translation, rotation, scale) = node.rest.parts();
             let vector = |property, rest: DVec3| {
                 let values = of(property).filter_map(|(_, track, time, weight)| {
                     Some((DVec3::from_array(track.at(*time).try_into().ok()?), *weight))
                 });
-                mixed(rest, values)
+                blend_values(rest, values)
             };
             let moves = |property| of(property).next().is_some();
-            if [Property::Translation, Property::Rotation, Property::Scale].into_iter().any(moves) {
-                let turns = of(Property::Rotation)
+            if [NodeProperty::Translation, NodeProperty::Rotation, NodeProperty::Scale].into_iter().any(moves)
+            {
+                let turns = of(NodeProperty::Rotation)
                     .filter_map(|(_, track, time, weight)| Some((track.rotation_at(*time)?, *weight)));
                 local[number] = DAffine3::from_scale_rotation_translation(
-                    vector(Property::Scale, scale),
-                    mixed_turn(rotation, turns),
-                    vector(Property::Translation, translation),
+                    vector(NodeProperty::Scale, scale),
+                    blend_rotations(rotation, turns),
+                    vector(NodeProperty::Translation, translation),
                 );
             }
-            if moves(Property::Weights) {
+            if moves(NodeProperty::Weights) {
                 for (target, own) in weights[number].iter_mut().enumerate() {
-                    let values = of(Property::Weights).filter_map(|(_, track, time, weight)| {
+                    let values = of(NodeProperty::Weights).filter_map(|(_, track, time, weight)| {
                         Some((*track.at(*time).get(target)?, *weight))
                     });
-                    *own = mixed(*own, values);
+                    *own = blend_values(*own, values);
                 }
             }
-            if let Some((_, track, time, _)) = of(Property::Visible).max_by(|a, b| a.3.total_cmp(&b.3)) {
+            if let Some((_, track, time, _)) = of(NodeProperty::Visible).max_by(|a, b| a.3.total_cmp(&b.3)) {
                 visible[number] = track.at(*time).first().is_none_or(|value| *value != 0.0);
             }
         }
@@ -182,7 +183,7 @@ impl Rig {
             world[number] = parent.map_or(DAffine3::IDENTITY, |parent| world[parent]) * local[number];
             visible[number] &= parent.is_none_or(|parent| visible[parent]);
         }
-        Stance { world, weights, visible }
+        NodePoses { world, weights, visible }
     }
 
     /// Nodes that clips animate, with their tracks, times and weights.
@@ -199,10 +200,10 @@ impl Rig {
 }
 
 /// Property, track, time and weight.
-type Moved<'a> = (Property, &'a super::track::Track, f64, f64);
+type Moved<'a> = (NodeProperty, &'a super::track::Track, f64, f64);
 
 /// Weighted mean of values. If the weights add up to less than 1, the rest value has the remainder.
-pub(crate) fn mixed<T>(rest: T, values: impl Iterator<Item = (T, f64)>) -> T
+pub(crate) fn blend_values<T>(rest: T, values: impl Iterator<Item = (T, f64)>) -> T
 where
     T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T> + Copy,
 {
@@ -225,7 +226,7 @@ where
 }
 
 /// Weighted mean of rotations: normalised, each on the same hemisphere as the first.
-fn mixed_turn(rest: DQuat, turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
+fn blend_rotations(rest: DQuat, turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
     let mut first = None;
     let near = turns.map(|(turn, weight)| {
         let to = *first.get_or_insert(turn);
@@ -234,6 +235,6 @@ fn mixed_turn(rest: DQuat, turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
     let all: Vec<(DQuat, f64)> = near.collect();
     let Some(first) = first else { return rest };
     let rest = if first.dot(rest) < 0.0 { -rest } else { rest };
-    let mean = mixed(rest, all.into_iter());
+    let mean = blend_values(rest, all.into_iter());
     if mean.length_squared() > 0.0 { mean.normalize() } else { first }
 }

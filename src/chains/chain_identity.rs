@@ -18,33 +18,33 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use super::{Anchor, Chain};
-use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::geometry::numbers::portable_math::ln;
 use crate::lines::LineKind;
 
 /// Cells along the diagonal of a part, from coarse to fine. The first list is for contours, which move over
 /// the surface with the camera; the second is for all other lines, which do not.
-const SLIDING: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
-const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
+const CONTOUR_CELLS_PER_DIAGONAL: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
+const FIXED_LINE_CELLS_PER_DIAGONAL: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
 
 /// Maximum number of cell walls per axis that are found between two points of a line.
-const MOST_CELLS: usize = 1024;
+const MAX_WALLS_PER_AXIS: usize = 1024;
 
 /// Shift of the cells, so that no plane of symmetry lies between two of them.
-const SHIFT: f64 = 0.372_915;
+const CELL_SHIFT: f64 = 0.372_915;
 
-/// Cells along the diagonal of a part for [`Chain::places`]: for contours, and for all other lines.
-const PLACES: [f64; 2] = [32.0, 96.0];
+/// Cells along the diagonal of a part for [`Chain::location_cells`]: for contours, and for all other lines.
+const LOCATION_CELLS_PER_DIAGONAL: [f64; 2] = [32.0, 96.0];
 
 /// Assigns an identity and a list of cells to all chains with known anchors. `parts` holds one number per
 /// part.
-pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
+pub(crate) fn assign_identities(chains: &mut [Chain], parts: &[u64]) {
     for chain in chains.iter_mut().filter(|chain| is_anchored(chain)) {
-        chain.places = places(chain, parts);
+        chain.places = location_cells(chain, parts);
     }
     let mut open: Vec<usize> =
         (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
-    for level in 0..SLIDING.len() {
+    for level in 0..CONTOUR_CELLS_PER_DIAGONAL.len() {
         let mut wishes: Vec<(f64, u64, usize)> = Vec::new();
         for number in &open {
             let lots = chains.get(*number).map(|chain| lots(chain, parts, level)).unwrap_or_default();
@@ -64,7 +64,8 @@ pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
     // Chains that even the finest cells do not separate lie on top of each other.
     for (order, number) in open.into_iter().enumerate() {
         if let Some(chain) = chains.get_mut(number) {
-            let name = lots(chain, parts, SLIDING.len() - 1).first().map_or(1, |(_, name)| *name);
+            let name =
+                lots(chain, parts, CONTOUR_CELLS_PER_DIAGONAL.len() - 1).first().map_or(1, |(_, name)| *name);
             chain.identity = hash(name, &[order as u64]).max(1);
         }
     }
@@ -75,12 +76,12 @@ fn is_anchored(chain: &Chain) -> bool {
 }
 
 /// Numbers of the cells that a chain passes, ascending.
-fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
+fn location_cells(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
     let slides = chain.kind == LineKind::Contour;
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
     let mut cells = Vec::new();
     for [from, to] in sides(chain) {
-        in_cells(from, to, PLACES[usize::from(!slides)], |cell, _| {
+        visit_cells(from, to, LOCATION_CELLS_PER_DIAGONAL[usize::from(!slides)], |cell, _| {
             if cells.last() != Some(&cell) {
                 cells.push(cell);
             }
@@ -96,11 +97,11 @@ fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
 /// Random number and name of each cell of a chain at a level.
 fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     let slides = chain.kind == LineKind::Contour;
-    let cells = if slides { SLIDING[level] } else { STAYING[level] };
+    let cells = if slides { CONTOUR_CELLS_PER_DIAGONAL[level] } else { FIXED_LINE_CELLS_PER_DIAGONAL[level] };
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
     let mut weights: Vec<([i64; 3], f64)> = Vec::new();
     for [from, to] in sides(chain) {
-        in_cells(from, to, cells, |cell, length| match weights.last_mut() {
+        visit_cells(from, to, cells, |cell, length| match weights.last_mut() {
             Some((last, weight)) if *last == cell => *weight += length,
             _ => weights.push((cell, length)),
         });
@@ -116,7 +117,7 @@ fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     let lot = |(cell, weight): &([i64; 3], f64)| {
         let words = cell.map(i64::cast_unsigned);
         let own = hash(part, &[u64::from(slides), level as u64, words[0], words[1], words[2]]);
-        (-ln(unit(hash(own, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), own)
+        (-ln(unit_interval(hash(own, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), own)
     };
     weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
 }
@@ -135,14 +136,14 @@ fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
 
 /// Visits the cells that a segment passes, in order, with its length in each. Lengths are those of the rest
 /// pose, so that a line keeps its name when it turns.
-fn in_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
-    let [from, to] = [from, to].map(|place| place.map(|x| (x + SHIFT) * cells));
+fn visit_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
+    let [from, to] = [from, to].map(|place| place.map(|x| (x + CELL_SHIFT) * cells));
     let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
     let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
     let mut walls: Vec<f64> = vec![0.0, 1.0];
     for axis in 0..3 {
         let (low, high) = (from[axis].min(to[axis]).floor() as i64, from[axis].max(to[axis]).floor() as i64);
-        let crossed = (low.saturating_add(1)..=high).take(MOST_CELLS);
+        let crossed = (low.saturating_add(1)..=high).take(MAX_WALLS_PER_AXIS);
         walls.extend(crossed.map(|wall| ((wall as f64 - from[axis]) / way[axis]).clamp(0.0, 1.0)));
     }
     walls.sort_by(f64::total_cmp);
@@ -189,7 +190,7 @@ mod tests {
     }
 
     fn names(mut chains: Vec<Chain>) -> Vec<u64> {
-        name(&mut chains, &[7]);
+        assign_identities(&mut chains, &[7]);
         chains.iter().map(|chain| chain.identity).collect()
     }
 

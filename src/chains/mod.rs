@@ -21,8 +21,8 @@ mod tests;
 pub mod tidy;
 
 pub use options::ChainOptions;
-pub use sample::{Anchor, Sample, Under};
-pub use tidy::removed_lines::{Reason, Removed};
+pub use sample::{Anchor, LineBackdrop, Sample};
+pub use tidy::removed_lines::{RemovalReason, RemovedLine};
 
 use std::sync::Arc;
 
@@ -32,13 +32,13 @@ use kurbo::{BezPath, Point};
 use crate::drawing::{Length, Unit};
 use crate::lines::{HiddenLines, LineKind};
 use crate::mesh::{MaterialId, PartId};
-use crate::visibility::{Ahead, ViewMap};
-use fit::circular_arcs::Nearness;
-use fit::line_finish::{Tolerances, finish};
-use fit::part_runs::{PartRuns, Piece};
-use sampled_line::Line;
-use tidy::raw_line::Raw;
-use tidy::removed_lines::Bin;
+use crate::visibility::{GapOcclusion, ViewMap};
+use fit::circular_arcs::CircleTolerance;
+use fit::line_finish::{FinishTolerances, finish};
+use fit::part_runs::{PartPiece, PartRuns};
+use sampled_line::SampledLine;
+use tidy::raw_line::RawLine;
+use tidy::removed_lines::RemovalLog;
 use tidy::tidy_passes::tidied;
 
 /// View edges of one class, joined end to end.
@@ -87,19 +87,19 @@ pub struct Rounding<'a>(pub Option<&'a [f64]>);
 
 impl Rounding<'_> {
     /// Tolerances of arcs for the parts of a line.
-    fn nearness(self, line: &Line, unit: Unit) -> Option<Nearness> {
+    fn nearness(self, line: &SampledLine, unit: Unit) -> Option<CircleTolerance> {
         let of_part = self.0?;
         let own = line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
-        let radius = Length { value: MAX_UNCERTAIN_MM, unit: Unit::Mm }.in_unit(unit);
-        Some(Nearness { rounding: own.fold(0.0, f64::max).min(radius), radius })
+        let radius = Length { value: MAX_RADIUS_ERROR_MM, unit: Unit::Mm }.in_unit(unit);
+        Some(CircleTolerance { rounding: own.fold(0.0, f64::max).min(radius), radius })
     }
 }
 
 /// Largest error of an arc's radius, mm on the page.
-const MAX_UNCERTAIN_MM: f64 = 0.02;
+const MAX_RADIUS_ERROR_MM: f64 = 0.02;
 
 /// Window for measuring directions at junctions, px.
-const DIRECTION_PX: f64 = 3.0;
+const DIRECTION_WINDOW_PX: f64 = 3.0;
 
 /// Joins view edges end to end into chains, with hidden ones only if `hidden` draws them.
 ///
@@ -110,47 +110,47 @@ const DIRECTION_PX: f64 = 3.0;
 /// - Chains are in the order of their feature segments.
 #[must_use]
 pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
-    link_with(map, (options, Rounding::default()), unit, hidden, None, &mut Bin::default())
+    link_with(map, (options, Rounding::default()), unit, hidden, None, &mut RemovalLog::default())
 }
 
 /// Joins chains as [`link::routes`] does, but tidying draws no line across another surface that hides it, however
 /// thin.
 #[must_use]
-pub fn link_behind(
-    ahead: &Ahead,
+pub fn link_with_occlusion(
+    ahead: &GapOcclusion,
     map: &ViewMap,
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
 ) -> Vec<Chain> {
-    link_rounded(ahead, map, (options, Rounding::default()), unit, hidden)
+    link_with_arcs(ahead, map, (options, Rounding::default()), unit, hidden)
 }
 
-/// Joins chains as [`link_behind`] does, with circular arcs where the options and the rounding of corners
+/// Joins chains as [`link_with_occlusion`] does, with circular arcs where the options and the rounding of corners
 /// allow.
 #[must_use]
-pub fn link_rounded(
-    ahead: &Ahead,
+pub fn link_with_arcs(
+    ahead: &GapOcclusion,
     map: &ViewMap,
     (options, rounding): (&ChainOptions, Rounding),
     unit: Unit,
     hidden: HiddenLines,
 ) -> Vec<Chain> {
-    link_with(map, (options, rounding), unit, hidden, Some(ahead), &mut Bin::default())
+    link_with(map, (options, rounding), unit, hidden, Some(ahead), &mut RemovalLog::default())
 }
 
-/// Joins chains as [`link_behind`] does, and returns the lines that tidying dropped, in that order.
+/// Joins chains as [`link_with_occlusion`] does, and returns the lines that tidying dropped, in that order.
 #[must_use]
-pub fn link_and_keep(
-    ahead: Option<&Ahead>,
+pub fn link_with_removed(
+    ahead: Option<&GapOcclusion>,
     map: &ViewMap,
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
-) -> (Vec<Chain>, Vec<Removed>) {
-    let mut bin = Bin::kept();
+) -> (Vec<Chain>, Vec<RemovedLine>) {
+    let mut bin = RemovalLog::kept();
     let chains = link_with(map, (options, Rounding::default()), unit, hidden, ahead, &mut bin);
-    (chains, bin.emptied())
+    (chains, bin.into_removed())
 }
 
 fn link_with(
@@ -158,11 +158,11 @@ fn link_with(
     (options, rounding): (&ChainOptions, Rounding),
     unit: Unit,
     hidden: HiddenLines,
-    ahead: Option<&Ahead>,
-    bin: &mut Bin,
+    ahead: Option<&GapOcclusion>,
+    bin: &mut RemovalLog,
 ) -> Vec<Chain> {
     let px = Length::px(1.0).in_unit(unit);
-    let t = Tolerances {
+    let t = FinishTolerances {
         px,
         smooth: options.smooth.in_unit(unit).max(0.0),
         simplify: options.simplify.in_unit(unit).max(0.0),
@@ -172,13 +172,13 @@ fn link_with(
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
         points: true,
     };
-    let raws = tidied(map, hidden, t.tidy, DIRECTION_PX * px, ahead, bin);
-    let circle = |line: &Line| if options.circles { rounding.nearness(line, unit) } else { None };
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_WINDOW_PX * px, ahead, bin);
+    let circle = |line: &SampledLine| if options.circles { rounding.nearness(line, unit) } else { None };
     raws.into_par_iter()
         .with_max_len(8)
         .flat_map_iter(|raw| {
             let circle = circle(&raw.line);
-            chains(raw, Tolerances { circle, ..t })
+            chains(raw, FinishTolerances { circle, ..t })
         })
         .collect()
 }
@@ -196,7 +196,7 @@ pub(crate) fn curve(
     unit: Unit,
 ) -> BezPath {
     let px = Length::px(1.0).in_unit(unit);
-    let t = Tolerances {
+    let t = FinishTolerances {
         px,
         smooth: options.smooth.in_unit(unit).max(0.0),
         simplify: options.simplify.in_unit(unit).max(0.0),
@@ -207,7 +207,7 @@ pub(crate) fn curve(
         points: false,
     };
     let sample = Sample::new(0.0, 1.0);
-    let mut line = Line { closed, ..Line::default() };
+    let mut line = SampledLine { closed, ..SampledLine::default() };
     for (point, soft) in points.iter().zip(soft) {
         line.push(*point, sample, *soft, false);
     }
@@ -215,27 +215,27 @@ pub(crate) fn curve(
 }
 
 /// Factor on the smoothing of interior lines, which noise displaces more than contours.
-const INSIDE_SMOOTH: f64 = 3.0;
+const INTERIOR_SMOOTHING_FACTOR: f64 = 3.0;
 
 /// Factors on the smoothing and on the fit tolerance of motion trails, which are exact.
-const MOTION_SMOOTH: f64 = 0.04;
-const MOTION_FIT: f64 = 0.25;
+const MOTION_SMOOTHING_FACTOR: f64 = 0.04;
+const MOTION_FIT_FACTOR: f64 = 0.25;
 
 /// Factor on the smoothing of lines found in the image, which are shortest curves already.
-const IMAGE_SMOOTH: f64 = 0.5;
+const IMAGE_SMOOTHING_FACTOR: f64 = 0.5;
 
 /// Finishes a line as chains, one for each part of the body along it.
-fn chains(raw: Raw, mut t: Tolerances) -> Vec<Chain> {
+fn chains(raw: RawLine, mut t: FinishTolerances) -> Vec<Chain> {
     if raw.class.kind.is_inside() {
-        t.smooth *= INSIDE_SMOOTH;
+        t.smooth *= INTERIOR_SMOOTHING_FACTOR;
     }
     if raw.class.kind == LineKind::Image {
-        t.smooth *= IMAGE_SMOOTH;
+        t.smooth *= IMAGE_SMOOTHING_FACTOR;
         t.clean = true;
     }
     if raw.class.kind == LineKind::Motion {
-        t.smooth *= MOTION_SMOOTH;
-        t.fit *= MOTION_FIT;
+        t.smooth *= MOTION_SMOOTHING_FACTOR;
+        t.fit *= MOTION_FIT_FACTOR;
         t.clean = true;
     }
     let (runs, part) = (PartRuns::of(&raw.line), raw.line.part.first().copied().unwrap_or_default());
@@ -261,7 +261,7 @@ fn chains(raw: Raw, mut t: Tolerances) -> Vec<Chain> {
     let Some(runs) = runs else {
         return vec![Chain { samples: line.samples, points: line.points, path, ..chain }];
     };
-    let of_part = |piece: Piece| Chain {
+    let of_part = |piece: PartPiece| Chain {
         samples: piece.line.samples,
         points: piece.line.points,
         path: piece.path,

@@ -27,8 +27,8 @@ pub struct ChainOptions {
 
 /// How far simplifying and fitting may move a point on a page to scale, mm. Together with the lines and arcs
 /// of DXF, the error stays below 0.02 mm.
-const SIMPLIFY_MM: f64 = 0.002;
-const FIT_MM: f64 = 0.008;
+const MAX_SIMPLIFY_MM: f64 = 0.002;
+const MAX_FIT_MM: f64 = 0.008;
 
 impl ChainOptions {
     /// Options for a page to scale or a DXF file: no point moves by more than 0.02 mm, and corners on one
@@ -41,8 +41,8 @@ impl ChainOptions {
         Self {
             // Smoothing cuts corners by more than its tolerance.
             smooth: within(self.smooth, 0.0),
-            simplify: within(self.simplify, SIMPLIFY_MM),
-            fit_tolerance: within(self.fit_tolerance, FIT_MM),
+            simplify: within(self.simplify, MAX_SIMPLIFY_MM),
+            fit_tolerance: within(self.fit_tolerance, MAX_FIT_MM),
             circles: true,
             ..self
         }

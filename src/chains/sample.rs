@@ -18,7 +18,7 @@ pub struct Sample {
     /// not computed.
     pub side: f64,
     /// Colours next to the line.
-    pub under: Under,
+    pub under: LineBackdrop,
     /// Position on the model.
     pub anchor: Anchor,
 }
@@ -53,7 +53,7 @@ impl Anchor {
 
 /// Colours next to a line at one of its points. Known only if computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Under {
+pub struct LineBackdrop {
     /// Unlit colour of the surface that the line belongs to.
     pub colour: Option<Colour>,
     /// Distance to both sides of the line that is covered by spot blacks only, user units.
@@ -70,7 +70,7 @@ impl Sample {
             light: 1.0,
             gap: 1.0,
             side: 0.0,
-            under: Under { colour: None, black: 0.0 },
+            under: LineBackdrop { colour: None, black: 0.0 },
             anchor: Anchor { place: [0.0; 3], scale: 0.0 },
         }
     }

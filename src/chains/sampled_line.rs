@@ -1,16 +1,16 @@
-//! [`Line`]: the polyline of a route, with samples and per-side properties, on its way to becoming a chain.
+//! [`SampledLine`]: the polyline of a route, with samples and per-side properties, on its way to becoming a chain.
 
 use kurbo::Point;
 
 use super::Sample;
-use crate::chains::link::directed_edge::Step;
+use crate::chains::link::directed_edge::DirectedEdge;
 use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
 use crate::visibility::{ViewMap, ViewVertex};
 
 /// Polyline in user units. A closed one does not repeat its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Line {
+pub(crate) struct SampledLine {
     pub points: Vec<Point>,
     /// One per point.
     pub samples: Vec<Sample>,
@@ -24,9 +24,9 @@ pub(crate) struct Line {
     pub closed: bool,
 }
 
-impl Line {
+impl SampledLine {
     /// Polyline of a route, without repeated points. If `noisy`, all of it counts as smooth.
-    pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool, noisy: bool) -> Self {
+    pub fn of_route(map: &ViewMap, steps: &[DirectedEdge], closed: bool, noisy: bool) -> Self {
         let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];

@@ -6,8 +6,8 @@ use kurbo::{ParamCurve, PathEl, PathSeg};
 
 use super::*;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::geometry::plane::planar_distance::distance2;
-use crate::surface::Origin;
+use crate::geometry::plane::planar_distance::segment_distance_squared;
+use crate::surface::MeshSource;
 use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
 /// Points, kind of line, and whether it lies on a smooth surface.
@@ -43,7 +43,7 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
                 silhouette: false,
                 both_seen: false,
                 smooth: *smooth,
-                origin: if *smooth { Origin::Scanned } else { Origin::Constructed },
+                origin: if *smooth { MeshSource::Scanned } else { MeshSource::Constructed },
                 strength: 90.0,
                 part: PartId(0),
                 material: MaterialId(0),
@@ -198,10 +198,11 @@ fn crumbs_and_spurs_go_and_the_outline_stays() {
     let chains = linked(&map, &ChainOptions::default(), Unit::Px);
     assert_eq!(chains.len(), 1);
     assert!(chains[0].closed);
-    let (kept, removed) = link_and_keep(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
+    let (kept, removed) =
+        link_with_removed(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::Solid);
     assert_eq!(kept, chains);
     let reasons: Vec<_> = removed.iter().map(|r| (r.kind, r.reason)).collect();
-    assert_eq!(reasons, [(LineKind::Contour, Reason::Spur), (LineKind::Crease, Reason::Crumb)]);
+    assert_eq!(reasons, [(LineKind::Contour, RemovalReason::Spur), (LineKind::Crease, RemovalReason::Crumb)]);
     assert_eq!(removed[1].points, [Point::new(300.0, 300.0), Point::new(302.0, 300.5)]);
 }
 
@@ -283,8 +284,8 @@ fn a_flake_beside_an_outline_goes_and_a_line_apart_stays() {
     assert_eq!((count(53.0, 100), count(62.0, 110)), (1, 2));
     let lines = [(outline.clone(), LineKind::Contour, true), (beside(53.0, 100), LineKind::Contour, true)];
     let map = map_of(&lines);
-    let (_, removed) = link_and_keep(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
-    assert_eq!(removed.iter().map(|r| r.reason).collect::<Vec<_>>(), [Reason::Double]);
+    let (_, removed) = link_with_removed(None, &map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+    assert_eq!(removed.iter().map(|r| r.reason).collect::<Vec<_>>(), [RemovalReason::Double]);
 }
 
 #[test]
@@ -327,7 +328,7 @@ fn a_line_ends_at_its_t_junctions_whatever_is_done_to_it() {
 /// Largest distance from the points to the polyline.
 fn farthest(points: &[Point], line: &[Point]) -> f64 {
     let to_line = |p: &Point| {
-        let sides = line.windows(2).map(|s| distance2(*p, s[0], s[1]));
+        let sides = line.windows(2).map(|s| segment_distance_squared(*p, s[0], s[1]));
         sides.fold(f64::MAX, f64::min).sqrt()
     };
     points.iter().map(to_line).fold(0.0, f64::max)

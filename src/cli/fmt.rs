@@ -6,14 +6,14 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{DIFFERENCES, print};
+use super::{EXIT_DIFFERENCES, print};
 use crate::cli::output::output_files::{Staging, check_place};
 use crate::diff::canonical_svg;
 use crate::error::Error;
 use crate::export::encoding::gzip;
 
 /// Maximum size of an unpacked drawing, bytes.
-const MOST_BYTES: usize = 1 << 30;
+const MAX_UNPACKED_BYTES: usize = 1 << 30;
 
 /// Options of `ligne fmt`.
 #[derive(Debug, Args)]
@@ -75,7 +75,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
     }
     staging.commit()?;
     print(strays.as_bytes())?;
-    Ok(if strays.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENCES) })
+    Ok(if strays.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(EXIT_DIFFERENCES) })
 }
 
 fn is_stdout(path: &Path) -> bool {
@@ -85,7 +85,7 @@ fn is_stdout(path: &Path) -> bool {
 fn read(file: &Path) -> Result<String, Error> {
     let bytes = std::fs::read(file)
         .map_err(|error| Error::io("cannot be read", error).in_file(file).remedy("check the path"))?;
-    let bytes = gzip::plain(bytes, MOST_BYTES).map_err(|error| error.in_file(file))?;
+    let bytes = gzip::plain(bytes, MAX_UNPACKED_BYTES).map_err(|error| error.in_file(file))?;
     String::from_utf8(bytes)
         .map_err(|_| Error::new("the file is not UTF-8 text").in_file(file).remedy("save it as SVG in UTF-8"))
 }

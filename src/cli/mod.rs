@@ -37,14 +37,14 @@ use clap::{Args, Command as Program, CommandFactory, FromArgMatches, Parser, Sub
 use crate::error::Error;
 
 /// Exit status if compared drawings differ.
-const DIFFERENCES: u8 = 1;
+const EXIT_DIFFERENCES: u8 = 1;
 
 /// Exit status if the call or an input file is wrong.
-const WRONG: u8 = 2;
+const EXIT_WRONG: u8 = 2;
 
 /// Exit status if the same call may succeed later, for example after a full disc. Source: EX_TEMPFAIL of
 /// sysexits.h.
-const LATER: u8 = 75;
+const EXIT_TRY_LATER: u8 = 75;
 
 const EXAMPLES: &str = "Examples:
   ligne model.obj                                writes model.svg in the style ink
@@ -59,10 +59,10 @@ const USAGE: &str = "ligne [OPTIONS] <COMMAND>
        ligne <MODEL> [OUT]... [OPTIONS]";
 
 /// Help heading of the options that commands share with `ligne draw`.
-const SHARED: &str = "Options shared with ligne draw";
+const SHARED_HEADING: &str = "Options shared with ligne draw";
 
 /// Commands that share options with `ligne draw`.
-const SHARING: [&str; 3] = ["animate", "diff", "styles"];
+const SHARING_COMMANDS: [&str; 3] = ["animate", "diff", "styles"];
 
 /// Arguments of the program.
 #[derive(Debug, Parser)]
@@ -115,9 +115,11 @@ fn program() -> Program {
     let shared: Vec<_> = of_drawing.get_arguments().map(|option| option.get_id().clone()).collect();
     let mut program = Cli::command();
     // `Command::mut_subcommand` would move the command to the end of the list.
-    for command in program.get_subcommands_mut().filter(|command| SHARING.contains(&command.get_name())) {
+    for command in
+        program.get_subcommands_mut().filter(|command| SHARING_COMMANDS.contains(&command.get_name()))
+    {
         *command = std::mem::take(command).mut_args(|option| {
-            if shared.contains(option.get_id()) { option.help_heading(SHARED) } else { option }
+            if shared.contains(option.get_id()) { option.help_heading(SHARED_HEADING) } else { option }
         });
     }
     program
@@ -126,14 +128,14 @@ fn program() -> Program {
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let surroundings = config::call_defaults::Surroundings::of_process();
+    let surroundings = config::call_defaults::CallEnvironment::of_process();
     let program = program();
     let typed = shorthand::expanded(std::env::args_os().collect(), &program);
     let words = match config::call_defaults::complete(typed, &program, &surroundings) {
         Ok(words) => words,
         Err(error) => {
             say(&format!("error: {error}"));
-            return ExitCode::from(WRONG);
+            return ExitCode::from(EXIT_WRONG);
         }
     };
     let parsed = program.clone().try_get_matches_from(&words);
@@ -143,7 +145,7 @@ pub fn main() -> ExitCode {
             let error = options::style_keys::with_tip(error, &words, &program);
             // There is no other place to report a failure of standard error.
             let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(EXIT_WRONG));
         }
     };
     let success = |()| ExitCode::SUCCESS;
@@ -151,7 +153,7 @@ pub fn main() -> ExitCode {
         Command::Draw(args) if args.contact.contact_sheet => {
             draw::contact_sheet::of_views(*args).map(success)
         }
-        Command::Draw(args) if draw::batch::is_asked(&args) => draw::batch::run(*args),
+        Command::Draw(args) if draw::batch::is_batch(&args) => draw::batch::run(*args),
         Command::Draw(args) => request::draw_request::DrawRequest::new(*args)
             .and_then(|request| draw::model_drawing::run(&request))
             .map(success),

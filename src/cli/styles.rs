@@ -60,7 +60,7 @@ pub(crate) fn run(args: &StylesArgs) -> Result<(), Error> {
         let width = names.iter().map(|name| name.len()).max().unwrap_or(0);
         let mut list = String::new();
         for name in names {
-            let idea = Style::sheet_text(name).map_or("", idea);
+            let idea = Style::sheet_text(name).map_or("", sheet_summary);
             list.push_str(format!("{name:width$}  {idea}").trim_end());
             list.push('\n');
         }
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &StylesArgs) -> Result<(), Error> {
 }
 
 /// Description of a style sheet: its first comment line.
-fn idea(sheet: &str) -> &str {
+fn sheet_summary(sheet: &str) -> &str {
     sheet.lines().find_map(|line| line.trim().strip_prefix('#')).map_or("", str::trim)
 }
 
@@ -82,7 +82,7 @@ fn idea(sheet: &str) -> &str {
 mod tests {
     #[test]
     fn the_idea_is_the_first_comment() {
-        assert_eq!(super::idea("\n# Black ink.\n# More.\nseed = 1 # no"), "Black ink.");
-        assert_eq!(super::idea("seed = 1"), "");
+        assert_eq!(super::sheet_summary("\n# Black ink.\n# More.\nseed = 1 # no"), "Black ink.");
+        assert_eq!(super::sheet_summary("seed = 1"), "");
     }
 }

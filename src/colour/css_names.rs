@@ -2,7 +2,7 @@
 
 /// Red, green and blue of a CSS colour name, in any letter case.
 #[must_use]
-pub fn named(name: &str) -> Option<[u8; 3]> {
+pub fn css_colour(name: &str) -> Option<[u8; 3]> {
     let name = name.to_ascii_lowercase();
     let at = NAMES.binary_search_by(|(known, _)| (*known).cmp(name.as_str())).ok()?;
     let [_, r, g, b] = NAMES.get(at)?.1.to_be_bytes();
@@ -171,9 +171,9 @@ mod tests {
     #[test]
     fn names_are_in_order_and_found() {
         assert!(NAMES.is_sorted_by(|a, b| a.0 < b.0));
-        assert_eq!(named("RebeccaPurple"), Some([0x66, 0x33, 0x99]));
-        assert_eq!(named("aliceblue"), Some([0xf0, 0xf8, 0xff]));
-        assert_eq!((named("white"), named("black")), (Some([255; 3]), Some([0; 3])));
-        assert_eq!(named("bluish"), None);
+        assert_eq!(css_colour("RebeccaPurple"), Some([0x66, 0x33, 0x99]));
+        assert_eq!(css_colour("aliceblue"), Some([0xf0, 0xf8, 0xff]));
+        assert_eq!((css_colour("white"), css_colour("black")), (Some([255; 3]), Some([0; 3])));
+        assert_eq!(css_colour("bluish"), None);
     }
 }

@@ -1,21 +1,21 @@
-//! [`Shades`]: darkness of a picture as a summed-area table, and outlines of its dark parts.
+//! [`DarknessMap`]: darkness of a picture as a summed-area table, and outlines of its dark parts.
 
 use glam::DVec2;
 use kurbo::Point;
 
 use super::pixel_picture::Picture;
-use crate::geometry::plane::marching_squares::level_lines;
-use crate::geometry::plane::planar_distance::distance2;
+use crate::geometry::plane::marching_squares::marching_squares;
+use crate::geometry::plane::planar_distance::segment_distance_squared;
 
 /// Maximum deviation of traced outlines, as a fraction of a segment, before they are simplified.
-const STRAIGHT: f64 = 0.05;
+const MAX_CURVE_ERROR_PX: f64 = 0.05;
 
 /// Maximum number of points on the outlines of a picture. With more, no outlines are traced.
-const MOST_CROSSINGS: usize = 1 << 20;
+const MAX_CROSSINGS: usize = 1 << 20;
 
 /// Darkness of a picture on white paper, 0 to 1, averaged over any rectangle.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shades {
+pub struct DarknessMap {
     /// Width in pixels, at least 1.
     pub width: usize,
     /// Height in pixels, at least 1.
@@ -26,7 +26,7 @@ pub struct Shades {
 
 /// Options for tracing outlines.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tracing {
+pub struct OutlineTracing {
     /// Pixels darker than this are inside, 0 to 1.
     pub level: f64,
     /// Size of a pixel in the result, along x and y.
@@ -39,7 +39,7 @@ pub struct Tracing {
     pub repeats: bool,
 }
 
-impl Shades {
+impl DarknessMap {
     /// Darkness of the pixels of a picture.
     #[must_use]
     pub fn of(picture: &Picture) -> Self {
@@ -97,7 +97,7 @@ impl Shades {
     /// Outlines are closed and do not repeat their first point. Dark is always on the same side, so holes
     /// turn the other way than islands. Returns `None` if there are too many points.
     #[must_use]
-    pub fn outlines(&self, tracing: &Tracing) -> Option<Vec<Vec<Point>>> {
+    pub fn outlines(&self, tracing: &OutlineTracing) -> Option<Vec<Vec<Point>>> {
         let (width, height) = (self.width as i64, self.height as i64);
         let inner =
             |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };
@@ -112,11 +112,12 @@ impl Shades {
             let own = if own == 0.0 { f64::MIN_POSITIVE } else { own };
             if (-1..=width).contains(&i) && (-1..=height).contains(&j) { own } else { -own.abs() }
         };
-        let lines = level_lines(&value, [self.width + 3, self.height + 3], STRAIGHT, MOST_CROSSINGS)?;
+        let lines =
+            marching_squares(&value, [self.width + 3, self.height + 3], MAX_CURVE_ERROR_PX, MAX_CROSSINGS)?;
         let frame = [self.width as f64, self.height as f64];
         let own = |line: &Vec<DVec2>| {
             let ring: Vec<Point> = line.iter().map(|p| Point::new(p.x - 1.5, p.y - 1.5)).collect();
-            let ring = simplified(&framed(&ring, frame), frame, tracing);
+            let ring = simplified(&clip_to_frame(&ring, frame), frame, tracing);
             let [x, y] = tracing.scale;
             (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
                 .then_some(ring)
@@ -133,7 +134,7 @@ fn area(ring: &[Point]) -> f64 {
 
 /// Clips a closed line, whose first point is its last, to the frame. Adds points where it crosses the frame
 /// and moves points outside onto the frame.
-fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
+fn clip_to_frame(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
     let mut ring: Vec<Point> = Vec::with_capacity(line.len());
     let mut push = |p: Point| {
         let p = Point::new(p.x.clamp(0.0, width), p.y.clamp(0.0, height));
@@ -180,7 +181,7 @@ fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
 }
 
 /// Simplifies a ring (Douglas-Peucker). Points where it reaches or leaves the frame are kept.
-fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> Vec<Point> {
+fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &OutlineTracing) -> Vec<Point> {
     let n = ring.len();
     if n < 4 {
         return ring.to_vec();
@@ -207,7 +208,7 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> V
         stays[*from] = true;
         let mut open = vec![(*from, to)];
         while let Some((a, b)) = open.pop() {
-            let off = |i: &usize| distance2(scaled[i % n], scaled[a % n], scaled[b % n]);
+            let off = |i: &usize| segment_distance_squared(scaled[i % n], scaled[a % n], scaled[b % n]);
             let Some(worst) = (a + 1..b).max_by(|i, j| off(i).total_cmp(&off(j)).then(j.cmp(i))) else {
                 continue;
             };
@@ -224,12 +225,12 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> V
 mod tests {
     use super::*;
 
-    const TRACING: Tracing =
-        Tracing { level: 0.5, scale: [1.0; 2], tolerance: 0.05, speck: 0.0, repeats: false };
+    const TRACING: OutlineTracing =
+        OutlineTracing { level: 0.5, scale: [1.0; 2], tolerance: 0.05, speck: 0.0, repeats: false };
 
     /// Ring between two radii, with an edge one pixel soft.
-    fn annulus(size: usize, [inner, outer]: [f64; 2]) -> Shades {
-        Shades::of_values(size, size, |column, row| {
+    fn annulus(size: usize, [inner, outer]: [f64; 2]) -> DarknessMap {
+        DarknessMap::of_values(size, size, |column, row| {
             let middle = size as f64 / 2.0;
             let p = DVec2::new(column as f64 + 0.5 - middle, row as f64 + 0.5 - middle).length();
             (outer + 0.5 - p).clamp(0.0, 1.0).min((p - inner + 0.5).clamp(0.0, 1.0))
@@ -251,7 +252,7 @@ mod tests {
             assert!(ring.len() < 120, "{}", ring.len());
         }
         // With a larger speck size the hole disappears.
-        let coarse = Tracing { speck: 300.0, ..TRACING };
+        let coarse = OutlineTracing { speck: 300.0, ..TRACING };
         assert_eq!(annulus(64, [9.3, 25.8]).outlines(&coarse).unwrap().len(), 1);
         // Downsampled, the ring keeps its area.
         let small = annulus(64, [9.3, 25.8]).at_most(32, 64).outlines(&TRACING).unwrap();
@@ -262,22 +263,22 @@ mod tests {
 
     #[test]
     fn what_is_dark_to_the_frame_ends_at_it() {
-        let dark = Shades::of_values(7, 4, |_, _| 1.0);
+        let dark = DarknessMap::of_values(7, 4, |_, _| 1.0);
         let [ring] = &dark.outlines(&TRACING).unwrap()[..] else { panic!("one") };
         assert_eq!(ring.len(), 4, "{ring:?}");
         assert_eq!(area(ring).abs(), 28.0);
-        let left = Shades::of_values(8, 6, |column, _| f64::from(u8::from(column < 3)));
+        let left = DarknessMap::of_values(8, 6, |column, _| f64::from(u8::from(column < 3)));
         assert!((area(&left.outlines(&TRACING).unwrap()[0]).abs() - 18.0).abs() < 1e-9);
     }
 
     #[test]
     fn what_repeats_meets_itself_over_the_frame() {
         // Slanted band that leaves on the right where it enters on the left.
-        let band = Shades::of_values(32, 32, |column, row| {
+        let band = DarknessMap::of_values(32, 32, |column, row| {
             let way = (column as f64 + row as f64).rem_euclid(32.0) - 16.0;
             (8.5 - way.abs()).clamp(0.0, 1.0)
         });
-        let rings = band.outlines(&Tracing { repeats: true, ..TRACING }).unwrap();
+        let rings = band.outlines(&OutlineTracing { repeats: true, ..TRACING }).unwrap();
         let on = |of: fn(&Point) -> (f64, f64), side: f64| {
             let mut found: Vec<i64> = rings
                 .iter()

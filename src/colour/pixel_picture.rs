@@ -10,10 +10,10 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 use super::srgb::Colour;
 
 /// Maximum width and height of a picture, px. Larger files are refused.
-pub const GREATEST_SIDE: u32 = 16_384;
+pub const MAX_SIDE_PX: u32 = 16_384;
 
 /// Maximum memory for decoding a picture, bytes.
-const GREATEST_MEMORY: usize = 1 << 30;
+const MAX_DECODE_BYTES: usize = 1 << 30;
 
 /// Pixels of a picture, row by row from the top, in sRGB.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,9 +32,9 @@ impl Picture {
     /// # Errors
     /// Describes briefly why the bytes cannot be decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
-        let decoded = if bytes.starts_with(&PNG) {
+        let decoded = if bytes.starts_with(&PNG_MAGIC) {
             decode_png(bytes)
-        } else if bytes.starts_with(&JPEG) {
+        } else if bytes.starts_with(&JPEG_MAGIC) {
             decode_jpeg(bytes)
         } else if is_webp(bytes) {
             decode_webp(bytes)
@@ -105,21 +105,21 @@ impl Picture {
 }
 
 /// First bytes of the file formats.
-const PNG: [u8; 4] = *b"\x89PNG";
-const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
+const PNG_MAGIC: [u8; 4] = *b"\x89PNG";
+const JPEG_MAGIC: [u8; 3] = [0xff, 0xd8, 0xff];
 
 fn is_webp(bytes: &[u8]) -> bool {
     bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP")
 }
 
 fn is_too_large(width: usize, height: usize) -> bool {
-    let side = GREATEST_SIDE as usize;
-    width > side || height > side || width * height * 4 > GREATEST_MEMORY
+    let side = MAX_SIDE_PX as usize;
+    width > side || height > side || width * height * 4 > MAX_DECODE_BYTES
 }
 
 fn decode_png(bytes: &[u8]) -> Result<Picture, String> {
     let mut decoder =
-        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: GREATEST_MEMORY });
+        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: MAX_DECODE_BYTES });
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
@@ -130,7 +130,7 @@ fn decode_png(bytes: &[u8]) -> Result<Picture, String> {
 }
 
 fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
-    let side = GREATEST_SIDE as usize;
+    let side = MAX_SIDE_PX as usize;
     let options = DecoderOptions::default().set_strict_mode(false).set_max_width(side).set_max_height(side);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(|error| error.to_string())?;
@@ -149,7 +149,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
 
 fn decode_webp(bytes: &[u8]) -> Result<Picture, String> {
     let mut decoder = image_webp::WebPDecoder::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    decoder.set_memory_limit(GREATEST_MEMORY);
+    decoder.set_memory_limit(MAX_DECODE_BYTES);
     let (width, height) = decoder.dimensions();
     let (width, height) = (width as usize, height as usize);
     let size = decoder.output_buffer_size().filter(|_| !is_too_large(width, height));

@@ -90,7 +90,7 @@ impl Colour {
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
         let Some(hex) = text.strip_prefix('#') else {
-            return super::css_names::named(text).map(|[r, g, b]| Self::rgb(r, g, b));
+            return super::css_names::css_colour(text).map(|[r, g, b]| Self::rgb(r, g, b));
         };
         if !hex.is_ascii() {
             return None;

@@ -18,21 +18,21 @@ use super::changes::{self, Renamed};
 use super::curves::chain;
 use super::findings::pixel_count;
 use super::matching::equal_shapes;
-use super::raster_check::{self, Decision};
+use super::raster_check::{self, RasterVerdict};
 use super::report::text_report;
-use crate::diff::causes::cause_sentences::Mover;
+use crate::diff::causes::cause_sentences::MovedPart;
 use crate::diff::causes::motion::Motion;
-use crate::diff::changes::finding_writer::Teller;
-use crate::diff::curves::segment_grid::SegmentCells;
-use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+use crate::diff::changes::finding_writer::FindingWriter;
+use crate::diff::curves::segment_grid::SegmentGrid;
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};
 use crate::diff::findings::ink_totals::Totals;
-use crate::diff::matching::chain_events::{Event, events};
-use crate::diff::matching::chain_pairs::Side;
+use crate::diff::matching::chain_events::{ChainEvent, events};
+use crate::diff::matching::chain_pairs::CoveredChains;
 use crate::diff::matching::interval_cover::cover;
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::ink::trimmed;
 use crate::diff::shapes::label::Label;
-use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::diff::shapes::tolerances::{Tolerances, default_px};
 use crate::drawing::{Length, Unit};
@@ -40,7 +40,7 @@ use crate::drawing::{Length, Unit};
 /// Stack size for the renderer's recursion over nested elements.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Compares two pictures; see [`super::compare`].
+/// Compares two pictures; see [`super::compare_cameras`].
 pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
     let mut diff = Diff {
         findings: Vec::new(),
@@ -89,14 +89,14 @@ fn left(picture: &Picture, ignore: Ignore) -> Picture {
 fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let [before, after] = pictures;
     // If one drawing lost all labels, labels cannot identify marks.
-    let lost = missing_labels::lost(pictures).filter(|_| !options.ignore.labels);
+    let lost = missing_labels::labelled_side(pictures).filter(|_| !options.ignore.labels);
     let mut ignore = options.ignore;
     ignore.labels |= lost.is_some();
     if options.brief && lost.is_none() && settled_in_brief(diff, pictures, options) {
         return;
     }
     let page = page(before, after);
-    let mut compared = one(pictures, &options.tolerances, ignore);
+    let mut compared = compare_marks(pictures, &options.tolerances, ignore);
     let renamed = (!ignore.labels).then(|| changes::renamed(pictures, &compared.findings)).flatten();
     let (pictures, names) = match &renamed {
         Some(Renamed { before, findings }) => ([before, pictures[1]], findings.clone()),
@@ -104,13 +104,13 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     };
     let [before, after] = pictures;
     if renamed.is_some() {
-        compared = one(pictures, &options.tolerances, ignore);
+        compared = compare_marks(pictures, &options.tolerances, ignore);
         diff.totals = Totals::of(before, after);
     }
-    let looked = look(pictures, &compared.findings, options, ignore);
-    diff.pictures_unknown = matches!(looked, Decision::Unknown);
+    let looked = compare_rasters(pictures, &compared.findings, options, ignore);
+    diff.pictures_unknown = matches!(looked, RasterVerdict::Unknown);
     let seen = match looked {
-        Decision::Same => {
+        RasterVerdict::Same => {
             let found = std::mem::take(&mut compared.findings);
             let before = found.len();
             compared.findings = raster_check::without_picture(found, pictures, ignore);
@@ -120,15 +120,15 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
             }
             Vec::new()
         }
-        Decision::Differs(more) => more,
-        Decision::Unknown => Vec::new(),
+        RasterVerdict::Differs(more) => more,
+        RasterVerdict::Unknown => Vec::new(),
     };
     // All marks moved alike: report one motion of the whole drawing.
     let together =
-        whole_motion::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
+        whole_motion::common_shift(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
     if let Some(motion) = together {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
-        return settle(
+        return assemble_result(
             diff,
             pictures,
             [page.into_iter().chain(names).collect(), seen],
@@ -142,24 +142,25 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         .flatten();
     let mut causes = Vec::new();
     if let Some(whole) = whole
-        && let Some((found, cause)) = of_whole(diff, &whole, pictures, &compared, &options.tolerances, ignore)
+        && let Some((found, cause)) =
+            whole_motion_findings(diff, &whole, pictures, &compared, &options.tolerances, ignore)
     {
         compared.findings = found;
         compared.movers.clear();
         causes.push(cause);
     }
-    settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
+    assemble_result(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
 /// Reports a change of camera in one finding; returns `false` for all other changes.
 fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
-    let groups = Groups::new(pictures, &options.tolerances, options.ignore);
+    let groups = MarkGroups::new(pictures, &options.tolerances, options.ignore);
     let parted = equal_shapes::part(pictures[0], pictures[1], &groups);
     let Some((finding, cause)) = camera_change::find(pictures, &parted, diff.tolerance_px) else {
         return false;
     };
     if page(pictures[0], pictures[1]).is_some()
-        || !matches!(look(pictures, &[], options, options.ignore), Decision::Differs(_))
+        || !matches!(compare_rasters(pictures, &[], options, options.ignore), RasterVerdict::Differs(_))
     {
         return false;
     }
@@ -169,20 +170,25 @@ fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOpti
 
 /// Compares the pixels of two pictures. The renderer needs a large stack for nested references, and it may
 /// panic.
-fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ignore: Ignore) -> Decision {
-    let groups = Groups::new(pictures, &options.tolerances, ignore);
+fn compare_rasters(
+    pictures: [&Picture; 2],
+    findings: &[Finding],
+    options: &DiffOptions,
+    ignore: Ignore,
+) -> RasterVerdict {
+    let groups = MarkGroups::new(pictures, &options.tolerances, ignore);
     let pool = rayon_core::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
     let decide = || raster_check::decide(pictures, findings, &groups, ignore);
     let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
-    decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)
+    decided.ok().and_then(Result::ok).unwrap_or(RasterVerdict::Unknown)
 }
 
 /// Combines findings, causes and totals into the result.
-fn settle(
+fn assemble_result(
     diff: &mut Diff,
     pictures: [&Picture; 2],
     more: [Vec<Finding>; 2],
-    mut compared: Compared,
+    mut compared: MarkComparison,
     mut causes: Vec<Cause>,
     lost: Option<usize>,
 ) {
@@ -229,11 +235,11 @@ fn sort(findings: &mut [Finding]) {
 
 /// Findings that remain after a motion of the whole drawing, and its cause; `None` if the motion explains
 /// less than three quarters.
-fn of_whole(
+fn whole_motion_findings(
     diff: &Diff,
-    whole: &whole_motion::Whole,
+    whole: &whole_motion::WholeMotion,
     pictures: [&Picture; 2],
-    compared: &Compared,
+    compared: &MarkComparison,
     tolerances: &Tolerances,
     ignore: Ignore,
 ) -> Option<(Vec<Finding>, Cause)> {
@@ -243,7 +249,10 @@ fn of_whole(
     if own < whole.reach {
         tolerances.all = Some(reach);
     }
-    let tried = whole.carried.iter().map(|carried| one([carried, pictures[1]], &tolerances, ignore).findings);
+    let tried = whole
+        .carried
+        .iter()
+        .map(|carried| compare_marks([carried, pictures[1]], &tolerances, ignore).findings);
     let left = tried.min_by_key(Vec::len)?;
     if left.len() * 4 > compared.findings.len() {
         return None;
@@ -277,53 +286,53 @@ fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize,
 }
 
 /// Result of comparing all marks.
-struct Compared {
+struct MarkComparison {
     findings: Vec<Finding>,
     /// Shapes of each picture without an equal.
     rest: [Vec<usize>; 2],
     /// Parts that moved as a whole.
-    movers: Vec<Mover>,
+    movers: Vec<MovedPart>,
     /// Whether findings were dropped because the drawings look the same.
     is_one_picture: bool,
 }
 
 /// Compares all marks of two pictures.
-fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Compared {
+fn compare_marks(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> MarkComparison {
     let [before, after] = pictures;
-    let groups = Groups::new(pictures, tolerances, ignore);
-    let equal_shapes::Parted { equal: mut stayed, rest } = equal_shapes::part(before, after, &groups);
+    let groups = MarkGroups::new(pictures, tolerances, ignore);
+    let equal_shapes::ShapeMatching { equal: mut stayed, rest } = equal_shapes::part(before, after, &groups);
     let mut findings = Vec::new();
     let mut movers = Vec::new();
     if !rest.iter().all(Vec::is_empty) {
-        (findings, movers) = unequal(pictures, &rest, &groups, ignore, &mut stayed);
+        (findings, movers) = compare_unequal(pictures, &rest, &groups, ignore, &mut stayed);
     }
     findings.extend(stacking_order::findings(before, after, stayed));
-    Compared { findings, rest, movers, is_one_picture: false }
+    MarkComparison { findings, rest, movers, is_one_picture: false }
 }
 
 /// Changes of the shapes without an equal. Shapes that did not move are added to `stayed`.
-fn unequal(
+fn compare_unequal(
     [before, after]: [&Picture; 2],
     rest: &[Vec<usize>; 2],
-    groups: &Groups,
+    groups: &MarkGroups,
     ignore: Ignore,
     stayed: &mut Vec<(usize, usize)>,
-) -> (Vec<Finding>, Vec<Mover>) {
+) -> (Vec<Finding>, Vec<MovedPart>) {
     let chains = [
         chain::of(before, &rest[0], &groups.of_shape[0], groups),
         chain::of(after, &rest[1], &groups.of_shape[1], groups),
     ];
-    let firsts = [chain::firsts(&chains[0]), chain::firsts(&chains[1])];
+    let firsts = [chain::first_copies(&chains[0]), chain::first_copies(&chains[1])];
     let grid = |side: usize| {
         let chains = chains[side].iter().enumerate();
-        SegmentCells::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
+        SegmentGrid::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
     };
     let all = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
     let covers = [cover(all(0), all(1), &grid(1), groups), cover(all(1), all(0), &grid(0), groups)];
     let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
     let sides = [
-        Side { chains: a, firsts: firsts_a, covers: cover_a },
-        Side { chains: b, firsts: firsts_b, covers: cover_b },
+        CoveredChains { chains: a, firsts: firsts_a, covers: cover_a },
+        CoveredChains { chains: b, firsts: firsts_b, covers: cover_b },
     ];
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
         let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
@@ -333,13 +342,15 @@ fn unequal(
     }
     let page = before.width.max(before.height).max(after.width.max(after.height));
     let events = events(&sides, groups, page);
-    let teller = Teller { pictures: [before, after], sides: &sides, ignore };
-    let (events_of_lines, borders): (Vec<Event>, Vec<Event>) = events.into_iter().partition(|event| {
-        let chain = event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
-        chain
-            .and_then(|chain| groups.groups.get(chain.group))
-            .is_none_or(|group| group.kind == ShapeKind::Line)
-    });
+    let teller = FindingWriter { pictures: [before, after], sides: &sides, ignore };
+    let (events_of_lines, borders): (Vec<ChainEvent>, Vec<ChainEvent>) =
+        events.into_iter().partition(|event| {
+            let chain =
+                event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
+            chain
+                .and_then(|chain| groups.groups.get(chain.group))
+                .is_none_or(|group| group.kind == ShapeKind::Line)
+        });
     let mut findings = line_findings::findings(&teller, events_of_lines);
     findings.extend(region_findings::findings(&teller, borders));
     if !ignore.widths {
@@ -357,7 +368,7 @@ fn page(before: &Picture, after: &Picture) -> Option<Finding> {
     differs.then(|| {
         let change = Change { what: "size".to_owned(), old: size(before), new: size(after) };
         let (width, height) = (before.width.max(after.width), before.height.max(after.height));
-        let place = Place::of(Rect::new(0.0, 0.0, width, height));
+        let place = FindingBox::of(Rect::new(0.0, 0.0, width, height));
         Finding {
             size: before.width * before.height,
             growth: after.width * after.height - before.width * before.height,

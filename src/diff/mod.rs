@@ -47,7 +47,7 @@ mod report;
 mod shapes;
 
 pub use canonical::canonical_document::canonical_svg;
-pub use findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+pub use findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};
 pub use findings::ink_totals::{Measure, Totals};
 pub use findings::pixel_count::PixelDiff;
 pub use report::overlay::View;

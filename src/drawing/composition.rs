@@ -19,7 +19,7 @@ use super::{Drawing, Page};
 
 /// A drawing on a page.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Item {
+pub struct PlacedDrawing {
     /// Unique name on the page: group id in SVG, layer name in PDF.
     pub name: String,
     /// The drawing, in user units of its page.
@@ -32,7 +32,7 @@ pub struct Item {
 
 /// The trim and bleed of a printed page, in user units, y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Boxes {
+pub struct PrintBoxes {
     /// The page after trimming.
     pub trim: Rect,
     /// The printed area, inside the page and around `trim`.
@@ -48,15 +48,15 @@ pub struct Composition {
     /// Size and unit of the whole page, including the area that is trimmed off.
     pub page: Page,
     /// Trim and bleed; `None` for pages that are not trimmed.
-    pub boxes: Option<Boxes>,
+    pub boxes: Option<PrintBoxes>,
     /// The drawings, painted first to last.
-    pub items: Vec<Item>,
+    pub items: Vec<PlacedDrawing>,
 }
 
 impl Composition {
     /// A page without trim and bleed.
     #[must_use]
-    pub fn new(title: impl Into<String>, page: Page, items: Vec<Item>) -> Self {
+    pub fn new(title: impl Into<String>, page: Page, items: Vec<PlacedDrawing>) -> Self {
         Self { title: title.into(), page, boxes: None, items }
     }
 }

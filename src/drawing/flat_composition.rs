@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 
 use kurbo::BezPath;
 
-use super::region_clip::Region;
-use super::{Composition, Drawing, Item, Layer, LayerKind, Mark, Paint, Unit};
+use super::region_clip::ClipRegion;
+use super::{Composition, Drawing, Layer, LayerKind, Mark, Paint, PlacedDrawing, Unit};
 
 /// Tolerance of curves that are clipped, in px and in mm.
-const TOLERANCE_PX: f64 = 0.05;
-const TOLERANCE_MM: f64 = 0.01;
+const CLIP_TOLERANCE_PX: f64 = 0.05;
+const CLIP_TOLERANCE_MM: f64 = 0.01;
 
 impl Composition {
     /// The composition as one drawing. The marks of all drawings are placed, clipped, and grouped in layers
@@ -24,18 +24,18 @@ impl Composition {
     #[must_use]
     pub fn flattened(&self) -> Drawing {
         let tolerance = match self.page.unit {
-            Unit::Px => TOLERANCE_PX,
-            Unit::Mm => TOLERANCE_MM,
+            Unit::Px => CLIP_TOLERANCE_PX,
+            Unit::Mm => CLIP_TOLERANCE_MM,
         };
         let mut layers: BTreeMap<LayerKind, Vec<Mark>> = BTreeMap::new();
         let mut warnings = Vec::new();
-        for Item { drawing, place, clip, .. } in &self.items {
-            let region = clip.as_ref().map(|clip| Region::new(clip, tolerance));
+        for PlacedDrawing { drawing, place, clip, .. } in &self.items {
+            let region = clip.as_ref().map(|clip| ClipRegion::new(clip, tolerance));
             for layer in &drawing.layers {
                 let placed = layer.marks.iter().filter_map(|mark| {
                     let mark = mark.clone().placed(*place);
                     match &region {
-                        Some(region) => cut(mark, region, tolerance),
+                        Some(region) => clip_mark(mark, region, tolerance),
                         None => Some(mark),
                     }
                 });
@@ -54,7 +54,7 @@ impl Drawing {
     /// dashes.
     #[cfg(feature = "page")]
     pub(crate) fn cut(&mut self, border: &BezPath, tolerance: f64) {
-        let region = Region::new(border, tolerance);
+        let region = ClipRegion::new(border, tolerance);
         for layer in &mut self.layers {
             layer.marks = std::mem::take(&mut layer.marks)
                 .into_iter()
@@ -70,7 +70,7 @@ impl Drawing {
                     if picture {
                         mark.path = region.area(&mark.path, tolerance);
                     }
-                    cut(mark, &region, tolerance)
+                    clip_mark(mark, &region, tolerance)
                 })
                 .collect();
         }
@@ -78,7 +78,7 @@ impl Drawing {
 }
 
 /// The part of a mark inside a region; `None` if nothing is left.
-fn cut(mut mark: Mark, region: &Region, tolerance: f64) -> Option<Mark> {
+fn clip_mark(mut mark: Mark, region: &ClipRegion, tolerance: f64) -> Option<Mark> {
     let is_there = |path: &BezPath| path.elements().len() > 1;
     match &mut mark.paint {
         Paint::Stroke(_) => mark.path = region.line(&mark.path),
@@ -116,7 +116,7 @@ mod tests {
         let mark = Mark { path, paint: Paint::Stroke(stroke), provenance: Provenance::default() };
         let layer = Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks: vec![mark] };
         let drawing = Drawing::new("a line", page(50.0), vec![layer]);
-        let item = |name: &str, x: f64, clip: Option<&str>| Item {
+        let item = |name: &str, x: f64, clip: Option<&str>| PlacedDrawing {
             name: name.to_owned(),
             drawing: drawing.clone(),
             place: Affine::translate((x, 10.0)) * Affine::scale(2.0),

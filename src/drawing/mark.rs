@@ -83,12 +83,12 @@ pub struct ImagePiece {
     /// Its outline in user units.
     pub outline: BezPath,
     /// Content of the piece.
-    pub shows: Shows,
+    pub shows: PieceContent,
 }
 
 /// Content of a piece of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shows {
+pub enum PieceContent {
     /// The picture under this transform; pixel (0, 0) covers the square from (0, 0) to (1, 1) before it.
     Pixels(Affine),
     /// One colour.

@@ -2,7 +2,7 @@
 
 use kurbo::{Affine, Vec2};
 
-use super::{Mark, Paint, Shows};
+use super::{Mark, Paint, PieceContent};
 
 impl Mark {
     /// The mark transformed by `place`. Line widths and dashes are scaled with it.
@@ -32,7 +32,7 @@ impl Mark {
             Paint::Image(image) => {
                 for piece in &mut image.pieces {
                     piece.outline.apply_affine(place);
-                    if let Shows::Pixels(at) = &mut piece.shows {
+                    if let PieceContent::Pixels(at) = &mut piece.shows {
                         *at = place * *at;
                     }
                 }

@@ -27,11 +27,12 @@ pub(crate) mod region_clip;
 pub(crate) mod stroke_font;
 pub mod text_run;
 
-pub use composition::{Boxes, Composition, Item};
+pub use composition::{Composition, PlacedDrawing, PrintBoxes};
 pub use hotspot::Hotspot;
 pub use length::Length;
 pub use mark::{
-    Cap, Gradient, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Provenance, Shows, StrokePaint,
+    Cap, Gradient, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, PieceContent, Provenance,
+    StrokePaint,
 };
 pub use page::{Page, Unit};
 pub use text_run::{FontFile, SetGlyph, TextRun};

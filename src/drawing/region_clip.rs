@@ -7,7 +7,7 @@ use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect, Shape};
 
 /// A region of the page: the inside of a path with flattened curves.
 #[derive(Debug, Clone)]
-pub(crate) struct Region {
+pub(crate) struct ClipRegion {
     path: BezPath,
     sides: Vec<Line>,
     bounds: Rect,
@@ -16,7 +16,7 @@ pub(crate) struct Region {
     convex: Option<Vec<Point>>,
 }
 
-impl Region {
+impl ClipRegion {
     /// The inside of a path, flattened with a tolerance.
     pub fn new(path: &BezPath, tolerance: f64) -> Self {
         let mut flat = BezPath::new();
@@ -29,7 +29,7 @@ impl Region {
             })
             .collect();
         let loops = flat.elements().iter().filter(|element| matches!(element, PathEl::MoveTo(_))).count();
-        let convex = (loops == 1).then(|| convex(&sides)).flatten();
+        let convex = (loops == 1).then(|| convex_corners(&sides)).flatten();
         Self { bounds: flat.bounding_box(), path: flat, sides, convex }
     }
 
@@ -50,13 +50,13 @@ impl Region {
         if self.misses(path.bounding_box()) {
             return kept;
         }
-        for run in runs(path) {
+        for run in subpaths(path) {
             self.add_run(&run, &mut kept);
         }
         kept
     }
 
-    fn add_run(&self, run: &Run, kept: &mut BezPath) {
+    fn add_run(&self, run: &Subpath, kept: &mut BezPath) {
         let pieces: Vec<(PathSeg, bool)> =
             run.segments.iter().flat_map(|segment| self.pieces(*segment)).collect();
         if pieces.iter().all(|(_, inside)| *inside) {
@@ -111,13 +111,13 @@ impl Region {
             return path.clone();
         }
         let mut cut = BezPath::new();
-        for run in runs(path) {
+        for run in subpaths(path) {
             let mut ring: Vec<Point> = Vec::new();
             kurbo::flatten(run.path.iter().copied(), tolerance, |element| match element {
                 PathEl::MoveTo(p) | PathEl::LineTo(p) => ring.push(p),
                 _ => {}
             });
-            let ring = sides_of(convex).fold(ring, |ring, side| beyond(&ring, side));
+            let ring = sides_of(convex).fold(ring, |ring, side| clip_to_half_plane(&ring, side));
             for (k, p) in ring.iter().enumerate() {
                 if k == 0 { cut.move_to(*p) } else { cut.line_to(*p) }
             }
@@ -130,13 +130,13 @@ impl Region {
 }
 
 /// One subpath of a path.
-struct Run {
+struct Subpath {
     path: Vec<PathEl>,
     segments: Vec<PathSeg>,
     closed: bool,
 }
 
-fn runs(path: &BezPath) -> Vec<Run> {
+fn subpaths(path: &BezPath) -> Vec<Subpath> {
     let begins = |element: &PathEl| matches!(element, PathEl::MoveTo(_));
     let elements = path.elements();
     let starts: Vec<usize> = (0..elements.len())
@@ -147,14 +147,14 @@ fn runs(path: &BezPath) -> Vec<Run> {
         let own = elements.get(*from..*to).unwrap_or_default().to_vec();
         let closed = own.last() == Some(&PathEl::ClosePath);
         let segments = kurbo::segments(own.iter().copied()).collect();
-        Run { path: own, segments, closed }
+        Subpath { path: own, segments, closed }
     };
     starts.array_windows().map(run).collect()
 }
 
 /// The corners of a convex polygon, in the direction with the inside at non-negative `cross`; `None` if it is
 /// not convex.
-fn convex(sides: &[Line]) -> Option<Vec<Point>> {
+fn convex_corners(sides: &[Line]) -> Option<Vec<Point>> {
     let turn = |a: &Line, b: &Line| (a.p1 - a.p0).cross(b.p1 - b.p0);
     let next = sides.iter().cycle().skip(1);
     let turns: Vec<f64> = sides.iter().zip(next).map(|(a, b)| turn(a, b)).collect();
@@ -178,7 +178,7 @@ fn convex_holds(corners: &[Point], p: Point) -> bool {
 /// The part of a polygon on the inner side of a line.
 ///
 /// Source: I. Sutherland and G. Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
-fn beyond(ring: &[Point], [a, b]: [Point; 2]) -> Vec<Point> {
+fn clip_to_half_plane(ring: &[Point], [a, b]: [Point; 2]) -> Vec<Point> {
     let side = |p: Point| (b - a).cross(p - a);
     let mut kept = Vec::with_capacity(ring.len() + 2);
     for (from, to) in ring.iter().zip(ring.iter().cycle().skip(1)) {
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn lines_end_at_the_border() {
-        let region = Region::new(&path("M0 0H10V10H0Z"), 0.01);
+        let region = ClipRegion::new(&path("M0 0H10V10H0Z"), 0.01);
         assert_eq!(region.line(&path("M-5 5H15")).to_svg(), "M0,5 L10,5");
         assert_eq!(region.line(&path("M1 1H9V9")).to_svg(), "M1,1 L9,1 L9,9");
         assert!(region.line(&path("M11 1H19")).elements().is_empty());
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn curves_stay_curves() {
-        let region = Region::new(&path("M0 0H10V10H0Z"), 0.01);
+        let region = ClipRegion::new(&path("M0 0H10V10H0Z"), 0.01);
         let kept = region.line(&path("M-2 5C4 0 8 10 12 5"));
         assert_eq!(kept.elements().len(), 2, "{}", kept.to_svg());
         assert!(matches!(kept.elements()[1], PathEl::CurveTo(..)));
@@ -226,8 +226,8 @@ mod tests {
     }
 
     #[test]
-    fn areas_are_what_both_share() {
-        let region = Region::new(&Circle::new((0.0, 0.0), 5.0).to_path(1e-4), 1e-4);
+    fn clipped_areas_are_intersections() {
+        let region = ClipRegion::new(&Circle::new((0.0, 0.0), 5.0).to_path(1e-4), 1e-4);
         let half = region.area(&path("M0 -20H20V20H0Z"), 1e-4);
         assert!((half.area().abs() - std::f64::consts::PI * 12.5).abs() < 1e-2, "{}", half.area());
         // A hole stays a hole.

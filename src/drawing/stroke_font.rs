@@ -4,17 +4,17 @@
 
 use kurbo::{Affine, BezPath, Point};
 
-/// Gap between letters, in units of [`LETTERS`].
-const GAP: f64 = 1.3;
+/// Gap between letters, in units of [`LETTER_STROKES`].
+const LETTER_GAP: f64 = 1.3;
 
-/// Height of small letters (x-height) in [`LETTERS`].
-const HEIGHT: f64 = 4.0;
+/// Height of small letters (x-height) in [`LETTER_STROKES`].
+const X_HEIGHT: f64 = 4.0;
 
 /// The bowl that many letters have.
-const BOWL: &str = "M0-2C0-3.1.67-4 1.5-4S3-3.1 3-2 2.33 0 1.5 0 0-.9 0-2Z";
+const BOWL_PATH: &str = "M0-2C0-3.1.67-4 1.5-4S3-3.1 3-2 2.33 0 1.5 0 0-.9 0-2Z";
 
 /// Letters: character, width, whether it has a bowl, and its other strokes. x right, y down, baseline at 0.
-const LETTERS: [(char, f64, bool, &str); 43] = [
+const LETTER_STROKES: [(char, f64, bool, &str); 43] = [
     (' ', 1.0, false, ""),
     ('-', 1.8, false, "M0-2H1.8"),
     ('.', 0.2, false, "M0 0H.2"),
@@ -87,24 +87,24 @@ const LETTERS: [(char, f64, bool, &str); 43] = [
 
 /// A text in small letters with x-height `height`, its baseline centred at `middle`.
 ///
-/// Capitals become small letters. Characters that [`LETTERS`] lacks are omitted.
-pub(crate) fn lettered(text: &str, height: f64, middle: Point) -> BezPath {
+/// Capitals become small letters. Characters that [`LETTER_STROKES`] lacks are omitted.
+pub(crate) fn stroke_text(text: &str, height: f64, middle: Point) -> BezPath {
     let letters = text
         .chars()
         .map(|c| c.to_ascii_lowercase())
-        .filter_map(|c| LETTERS.iter().find(|(known, ..)| *known == c));
+        .filter_map(|c| LETTER_STROKES.iter().find(|(known, ..)| *known == c));
     let mut line = BezPath::new();
     let mut at = 0.0;
     for (_, width, has_bowl, strokes) in letters {
-        for strokes in [if *has_bowl { BOWL } else { "" }, strokes] {
+        for strokes in [if *has_bowl { BOWL_PATH } else { "" }, strokes] {
             // All strokes are valid path data; a test parses them.
             let strokes = BezPath::from_svg(strokes).unwrap_or_default();
             line.extend(Affine::translate((at, 0.0)) * strokes);
         }
-        at += width + GAP;
+        at += width + LETTER_GAP;
     }
-    let scale = height / HEIGHT;
-    let left = middle.x - (at - GAP).max(0.0) * scale / 2.0;
+    let scale = height / X_HEIGHT;
+    let left = middle.x - (at - LETTER_GAP).max(0.0) * scale / 2.0;
     Affine::new([scale, 0.0, 0.0, scale, left, middle.y]) * line
 }
 
@@ -114,8 +114,8 @@ mod tests {
     use kurbo::Shape;
 
     #[test]
-    fn every_letter_can_be_read_and_is_as_wide_as_it_says() {
-        for (letter, width, has_bowl, strokes) in LETTERS {
+    fn every_letter_parses_and_has_its_width() {
+        for (letter, width, has_bowl, strokes) in LETTER_STROKES {
             let path = BezPath::from_svg(strokes).unwrap();
             let bounds = path.bounding_box();
             assert!(
@@ -127,10 +127,10 @@ mod tests {
     }
 
     #[test]
-    fn every_style_can_be_written() {
+    fn every_style_name_can_be_lettered() {
         for name in crate::Style::names() {
-            assert!(name.chars().all(|c| LETTERS.iter().any(|(known, ..)| *known == c)), "{name}");
-            let bounds = lettered(name, 8.0, Point::new(100.0, 50.0)).bounding_box();
+            assert!(name.chars().all(|c| LETTER_STROKES.iter().any(|(known, ..)| *known == c)), "{name}");
+            let bounds = stroke_text(name, 8.0, Point::new(100.0, 50.0)).bounding_box();
             assert!((bounds.center().x - 100.0).abs() < 1.0, "{name}: {bounds:?}");
         }
     }

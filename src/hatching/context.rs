@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use kurbo::Rect;
 
-use super::tone::Tone;
+use super::tone::ToneCoverage;
 use crate::colour::srgb::Colour;
 use crate::drawing::Unit;
-use crate::hatching::guides::direction_field::Flow;
+use crate::hatching::guides::direction_field::GuideDirections;
 use crate::hatching::guides::guide::Guide;
-use crate::regions::Samples;
+use crate::regions::LightLattice;
 
 /// Scene and page data that hatching needs besides the ground.
 #[derive(Clone, Copy)]
@@ -26,13 +26,13 @@ pub struct HatchContext<'a> {
     /// colour.
     pub paints: &'a [Colour],
     /// The tone of each paint, by [`crate::mesh::PaintId`].
-    pub tones: &'a [Tone],
+    pub tones: &'a [ToneCoverage],
     /// The page sampled at a lattice, for layers that need it: see [`super::HatchLayer::samples`].
-    pub samples: Option<&'a Samples>,
+    pub samples: Option<&'a LightLattice>,
     /// Colour of the paper.
     pub paper: Colour,
     /// The direction field of each layer that follows the surface or the light; `None` for the others.
-    pub flows: &'a [Option<Flow<'a>>],
+    pub flows: &'a [Option<GuideDirections<'a>>],
     /// The guides of each layer that is fixed to the model; `None` for the others.
     pub fixed: &'a [Option<Vec<Guide>>],
     /// The camera's frame on the page. Strokes that end on its border continue outside, so they do not taper

@@ -4,14 +4,14 @@ use rustc_hash::FxHashMap;
 
 use super::context::HatchContext;
 use super::lines::stroke_path;
-use super::options::{HatchLayer, HatchOptions, Kind};
+use super::options::{HatchKind, HatchLayer, HatchOptions};
 use super::tone;
 use crate::drawing::Unit;
 use crate::geometry::numbers::portable_math::{pow, tan};
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 
 /// Coverage and density of a layer in each cell of a ground.
-pub(crate) struct Shares {
+pub(crate) struct LayerShares {
     /// Share of the paper that the layer covers.
     pub covered: Vec<f64>,
     /// Share of the layer's strokes that are drawn.
@@ -22,30 +22,30 @@ pub(crate) struct Shares {
 ///
 /// Strokes that stray from their lines overlap, more so the denser they are. Strokes at random positions
 /// cover 1 - exp(-x) for ink of x times the paper's area (Poisson).
-fn covers(layer: &HatchLayer, unit: Unit, density: f64) -> f64 {
-    if layer.kind != Kind::Lines || layer.swell {
-        return density * MOST_COVERED;
+fn covered_share(layer: &HatchLayer, unit: Unit, density: f64) -> f64 {
+    if layer.kind != HatchKind::Lines || layer.swell {
+        return density * MAX_SCREEN_COVERAGE;
     }
     let [pitch, width, length, gap, bow] =
         [layer.pitch(), layer.width, layer.length, layer.gap, layer.bow].map(|length| length.in_unit(unit));
     let inked = if length > 0.0 { length / (length + gap) } else { 1.0 };
     let ink = density * width * stroke_path::mean_width(layer, unit) / pitch * inked;
     let turn = length * tan(layer.turn.to_radians().min(1.0)) / 4.0;
-    let astray = (STRAYS * (layer.stray + (turn + bow / 2.0) / pitch)).min(1.0) * density;
-    (ink - astray * (ink - (1.0 - pow(std::f64::consts::E, -ink)))).min(MOST_COVERED)
+    let astray = (RANDOMNESS_PER_STRAY * (layer.stray + (turn + bow / 2.0) / pitch)).min(1.0) * density;
+    (ink - astray * (ink - (1.0 - pow(std::f64::consts::E, -ink)))).min(MAX_SCREEN_COVERAGE)
 }
 
 /// Randomness per unit of stray. Strokes that stray by their spacing on average count as 90 % random.
-const STRAYS: f64 = 0.9;
+const RANDOMNESS_PER_STRAY: f64 = 0.9;
 
 /// The greatest share of the paper that a layer covers.
 pub(crate) fn fullest(layer: &HatchLayer, unit: Unit) -> f64 {
-    covers(layer, unit, 1.0).max(f64::MIN_POSITIVE)
+    covered_share(layer, unit, 1.0).max(f64::MIN_POSITIVE)
 }
 
 /// The greatest share of the paper that all layers cover together. Coverage tables cannot exceed it.
 #[must_use]
-pub fn most_covered(options: &HatchOptions, unit: Unit) -> f64 {
+pub fn max_coverage(options: &HatchOptions, unit: Unit) -> f64 {
     1.0 - options.layers.iter().map(|layer| 1.0 - fullest(layer, unit)).product::<f64>()
 }
 
@@ -58,26 +58,26 @@ fn density(layer: &HatchLayer, unit: Unit, share: f64) -> f64 {
         return 1.0;
     }
     let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
+    for _ in 0..DENSITY_BISECTIONS {
         let middle = f64::midpoint(low, high);
-        if covers(layer, unit, middle) < share { low = middle } else { high = middle }
+        if covered_share(layer, unit, middle) < share { low = middle } else { high = middle }
     }
     f64::midpoint(low, high)
 }
 
 /// Bisections that find a density.
-const HALVINGS: usize = 30;
+const DENSITY_BISECTIONS: usize = 30;
 
 /// Greatest coverage of a screen, so that lines stay separate.
-const MOST_COVERED: f64 = 0.98;
+const MAX_SCREEN_COVERAGE: f64 = 0.98;
 
 /// Coverage and density of a layer in each cell.
 pub(crate) fn shares(
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,
     number: usize,
-) -> Shares {
+) -> LayerShares {
     let fullest: Vec<f64> = options.layers.iter().map(|layer| fullest(layer, context.unit)).collect();
     let mut known: FxHashMap<u64, f64> = FxHashMap::default();
     let covered: Vec<f64> = ground
@@ -98,5 +98,5 @@ pub(crate) fn shares(
         *known.entry(share.to_bits()).or_insert_with(|| density(&options.layers[number], context.unit, share))
     };
     let density = covered.iter().map(|share| of(*share)).collect();
-    Shares { covered, density }
+    LayerShares { covered, density }
 }

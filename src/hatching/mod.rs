@@ -27,46 +27,46 @@ use std::sync::Arc;
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
-pub use clip::polygon_clip::Filling;
+pub use clip::polygon_clip::WindingRule;
 pub use context::HatchContext;
 pub use dots::halftone::{CellDots, DotScreen, ToneBorders, dots};
 pub use dots::stipple::{Stipple, stipple};
-pub use guides::direction_field::Flow;
-pub use guides::guide::{Guide, Scope};
-pub use guides::stroke_layout::{Hand, HatchStroke};
-pub use layer_shares::most_covered;
-pub use options::{Direction, HatchLayer, HatchOptions, Kind};
+pub use guides::direction_field::GuideDirections;
+pub use guides::guide::{Guide, GuideScope};
+pub use guides::stroke_layout::{HatchStroke, StrokeLayout};
+pub use layer_shares::max_coverage;
+pub use options::{Direction, HatchKind, HatchLayer, HatchOptions};
 pub use paper::grain::{Grain, Tooth, grain, speckle};
 pub use paper::sheet::{Paper, paper, tooth};
-pub use patterns::pattern_marks::{OnSurface, pattern};
+pub use patterns::pattern_marks::{SurfacePattern, pattern};
 pub use patterns::pattern_options::{Pattern, PatternFixed, PatternKind};
 pub use patterns::tile::Tile;
-pub use tone::Tone;
+pub use tone::ToneCoverage;
 
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance};
-use crate::geometry::names::name_ids::identities;
+use crate::geometry::names::name_ids::stable_ids;
 use crate::geometry::numbers::noise::hash;
-use crate::regions::{Ground, Look};
+use crate::regions::{HatchRegions, SurfaceLabel};
 use crate::strokes::Ink;
 use guides::streamlines::{Spacing, streamlines};
-use layer_shares::{Shares, shares};
+use layer_shares::{LayerShares, shares};
 
 /// Strokes of one layer of hatching on the page.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Hatched {
+pub struct LayerStrokes {
     /// The strokes, in the order of their guides.
     pub strokes: Vec<HatchStroke>,
 }
 
 /// The strokes of each layer of lines. Layers of dots have none.
 #[must_use]
-pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) -> Vec<Hatched> {
+pub fn strokes(ground: &HatchRegions, context: &HatchContext, options: &HatchOptions) -> Vec<LayerStrokes> {
     let layers = options.layers.iter().enumerate();
     layers
         .map(|(number, layer)| {
-            if layer.kind != Kind::Lines {
-                return Hatched::default();
+            if layer.kind != HatchKind::Lines {
+                return LayerStrokes::default();
             }
             let shares = shares(ground, context, options, number);
             let hand = hand(layer, context, number);
@@ -78,7 +78,7 @@ pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) 
                     hand.lay(guide, ground, if layer.swell { &shares.covered } else { &shares.density })
                 })
                 .collect();
-            Hatched { strokes: laid.into_iter().flatten().collect() }
+            LayerStrokes { strokes: laid.into_iter().flatten().collect() }
         })
         .collect()
 }
@@ -89,24 +89,26 @@ pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) 
 /// their regions.
 #[must_use]
 pub fn fill(
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,
-    blacks: Vec<(BezPath, Look)>,
+    blacks: Vec<(BezPath, SurfaceLabel)>,
 ) -> Option<Layer> {
     let hatched = strokes(ground, context, options);
     let ink = options.layers.first().map_or(Ink::Fixed(Colour::BLACK), |layer| layer.colour);
-    let black = |(path, look): (BezPath, Look)| {
+    let black = |(path, look): (BezPath, SurfaceLabel)| {
         let paint = Paint::Fill(colour(ink, look, context));
         Mark { path, paint, provenance: provenance(look, context) }
     };
     let mut marks: Vec<Mark> = blacks.into_iter().map(black).collect();
     for (number, (layer, hatched)) in options.layers.iter().zip(&hatched).enumerate() {
         match layer.kind {
-            Kind::Lines => {
+            HatchKind::Lines => {
                 marks.extend(lines::line_layer::lines(ground, context, options, number, layer, hatched))
             }
-            Kind::Dots | Kind::Stipple => marks.extend(spots(ground, context, options, number, layer)),
+            HatchKind::Dots | HatchKind::Stipple => {
+                marks.extend(spots(ground, context, options, number, layer))
+            }
         }
     }
     (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks })
@@ -114,7 +116,7 @@ pub fn fill(
 
 /// Share of the paper that a layer covers at a point of a cell. It follows the light there if the layer is
 /// graded, else the bin.
-fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell: u32, p: Point) -> f64 {
+fn covered_at(ground: &HatchRegions, context: &HatchContext, layer: &HatchLayer, cell: u32, p: Point) -> f64 {
     let own = &ground.cells[cell as usize];
     let Some(tone) = context.tones.get(own.look.paint.index()).or(context.tones.last()) else { return 0.0 };
     let samples = context.samples.filter(|_| layer.graded);
@@ -126,7 +128,7 @@ fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell:
 
 /// The marks of a layer of dots, one for each cell.
 fn spots(
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,
     number: usize,
@@ -145,7 +147,7 @@ fn spots(
     };
     let px = long(Length::px(1.0));
     let seed = hash(context.seed, &[number as u64]);
-    let cells = if layer.kind == Kind::Dots {
+    let cells = if layer.kind == HatchKind::Dots {
         let tone_borders = if layer.graded { ToneBorders::Whole } else { ToneBorders::Cut };
         // The page's y points down, so the angle changes its sign.
         let angle = -layer.angle.to_radians();
@@ -153,7 +155,7 @@ fn spots(
         dots(ground, &screen, &coverage)
     } else {
         let (radius, uneven) = (long(layer.width) / 2.0, layer.uneven);
-        stipple(ground, &Stipple { radius, uneven, rounds: ROUNDS, seed, px }, &coverage)
+        stipple(ground, &Stipple { radius, uneven, rounds: STIPPLE_ROUNDS, seed, px }, &coverage)
     };
     let mark = |dots: CellDots| {
         let look = ground.cells[dots.cell as usize].look;
@@ -165,15 +167,15 @@ fn spots(
 }
 
 /// Relaxation rounds of stippling. Fewer leave it uneven; many more produce a visible lattice.
-const ROUNDS: u32 = 8;
+const STIPPLE_ROUNDS: u32 = 8;
 
 /// Guides in the direction of a layer.
 fn guides(
-    ground: &Ground,
+    ground: &HatchRegions,
     layer: &HatchLayer,
     number: usize,
     context: &HatchContext,
-    shares: &Shares,
+    shares: &LayerShares,
     seed: u64,
 ) -> Vec<Guide> {
     let wanted = |cell: u32| shares.covered[cell as usize] > 0.0;
@@ -191,12 +193,12 @@ fn guides(
                     .iter()
                     .any(|(k, _)| samples.facets[*k] == facet && wanted(samples.cells[*k]))
             };
-            let doublings = if layer.swell { 0 } else { DOUBLINGS };
+            let doublings = if layer.swell { 0 } else { SPACING_DOUBLINGS };
             let px = Length::px(1.0).in_unit(context.unit);
             streamlines(ground, flow, wanted, &is_inked, &Spacing { pitch, doublings, px, seed })
         }
         None => {
-            let names = identities(context.parts.iter().map(|name| &**name));
+            let names = stable_ids(context.parts.iter().map(|name| &**name));
             guides::guide::straight(ground, wanted, &names, angle, turn, pitch, seed)
         }
     };
@@ -208,12 +210,12 @@ fn guides(
 }
 
 /// Doublings of the spacing. The lightest tones have curved strokes four times as far apart as the darkest.
-const DOUBLINGS: u32 = 2;
+const SPACING_DOUBLINGS: u32 = 2;
 
 /// Stroke parameters of a layer in page units.
-fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
+fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> StrokeLayout {
     let long = |length: Length| length.in_unit(context.unit);
-    Hand {
+    StrokeLayout {
         length: long(layer.length),
         gap: long(layer.gap),
         uneven: layer.uneven,
@@ -232,7 +234,7 @@ fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
 }
 
 /// The colour of an ink on a surface with a given look.
-fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
+fn colour(ink: Ink, look: SurfaceLabel, context: &HatchContext) -> Colour {
     match ink {
         Ink::Fixed(colour) => colour,
         Ink::Shade(shade) => {
@@ -244,7 +246,7 @@ fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
 }
 
 /// Classes and names of a mark on a surface with a given look.
-fn provenance(look: Look, context: &HatchContext) -> Provenance {
+fn provenance(look: SurfaceLabel, context: &HatchContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         identity: 0,

@@ -50,7 +50,7 @@ impl Default for HatchOptions {
 /// Kind of marks in a layer of hatching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum HatchKind {
     /// Parallel strokes.
     #[default]
     Lines,
@@ -82,7 +82,7 @@ pub enum Direction {
 #[serde(default, deny_unknown_fields)]
 pub struct HatchLayer {
     /// Kind of marks. Default: lines.
-    pub kind: Kind,
+    pub kind: HatchKind,
     /// Direction of strokes. Default: page.
     pub direction: Direction,
     /// Angle from the direction, degrees, counter-clockwise. For `page` it is measured from the right.
@@ -152,7 +152,7 @@ pub struct HatchLayer {
 impl Default for HatchLayer {
     fn default() -> Self {
         Self {
-            kind: Kind::Lines,
+            kind: HatchKind::Lines,
             direction: Direction::Page,
             angle: 45.0,
             turn_parts: 0.0,
@@ -186,7 +186,7 @@ impl HatchLayer {
     /// Whether this layer needs light or directions sampled at a lattice of page points.
     #[must_use]
     pub fn samples(&self) -> bool {
-        self.kind != Kind::Lines
+        self.kind != HatchKind::Lines
             || self.swell
             || matches!(self.direction, Direction::Surface | Direction::Light)
     }
@@ -195,7 +195,7 @@ impl HatchLayer {
     #[must_use]
     pub fn pitch(&self) -> Length {
         let screen = |lpi: f64| Length::mm(25.4 / lpi);
-        let usual = if self.kind == Kind::Dots { screen(USUAL_SCREEN) } else { Length::px(4.0) };
+        let usual = if self.kind == HatchKind::Dots { screen(DEFAULT_SCREEN_LPI) } else { Length::px(4.0) };
         self.lpi.map(screen).or(self.spacing).unwrap_or(usual)
     }
 }
@@ -210,7 +210,7 @@ fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
 
 fn above_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::Error> {
     let length = Length::deserialize(deserializer)?;
-    if length.value >= LEAST_LENGTH {
+    if length.value >= MIN_LENGTH {
         return Ok(length);
     }
     Err(serde::de::Error::custom("a distance or width of hatching must be at least 0.05"))
@@ -231,7 +231,7 @@ fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f
 }
 
 /// Default screen ruling, lines per inch, as used in printed comics.
-const USUAL_SCREEN: f64 = 60.0;
+const DEFAULT_SCREEN_LPI: f64 = 60.0;
 
 /// Least length of hatching, in the unit of the length. Finer hatching would be invisible and very slow.
-const LEAST_LENGTH: f64 = 0.05;
+const MIN_LENGTH: f64 = 0.05;

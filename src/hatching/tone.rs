@@ -1,15 +1,15 @@
-//! [`Tone`]: ink coverage by light, and its division among the layers of hatching.
+//! [`ToneCoverage`]: ink coverage by light, and its division among the layers of hatching.
 
 /// Light bins of one material, and the coverage of each.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tone {
+pub struct ToneCoverage {
     /// Rising edges between the bins.
     pub levels: Vec<f64>,
     /// Coverage of each bin, darkest first: one more than there are edges.
     pub coverage: Vec<f64>,
 }
 
-impl Tone {
+impl ToneCoverage {
     /// The tone of bins with a table of coverage, which is interpolated if its length differs from the number
     /// of bins.
     #[must_use]
@@ -74,7 +74,7 @@ pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
             let own = (left / blank).min(*most).max(0.0);
             left -= own * blank;
             blank *= 1.0 - own;
-            if left < LEAST {
+            if left < MIN_LAYER_COVERAGE {
                 left = 0.0
             }
             own
@@ -83,7 +83,7 @@ pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
 }
 
 /// Least coverage of a layer. A smaller remainder would be a few isolated strokes.
-const LEAST: f64 = 0.012;
+const MIN_LAYER_COVERAGE: f64 = 0.012;
 
 #[cfg(test)]
 mod tests {
@@ -101,15 +101,15 @@ mod tests {
 
     #[test]
     fn tables_are_spread_over_bins() {
-        let tone = Tone::new(&[0.2, 0.4, 0.6, 0.8], &[1.0, 0.0]);
+        let tone = ToneCoverage::new(&[0.2, 0.4, 0.6, 0.8], &[1.0, 0.0]);
         assert_eq!(tone.coverage, [1.0, 0.75, 0.5, 0.25, 0.0]);
-        assert_eq!(Tone::new(&[], &[0.5, 0.0]).coverage, [0.5]);
-        assert_eq!(Tone::new(&[0.5], &[]).coverage, [0.0, 0.0]);
+        assert_eq!(ToneCoverage::new(&[], &[0.5, 0.0]).coverage, [0.5]);
+        assert_eq!(ToneCoverage::new(&[0.5], &[]).coverage, [0.0, 0.0]);
     }
 
     #[test]
     fn coverage_never_rises_with_light() {
-        let tone = Tone::new(&[0.2, 0.5, 0.9], &[0.7, 0.4, 0.1, 0.0]);
+        let tone = ToneCoverage::new(&[0.2, 0.5, 0.9], &[0.7, 0.4, 0.1, 0.0]);
         let mut before = f64::INFINITY;
         for k in 0..=1000 {
             let covered = tone.of_light(f64::from(k) / 1000.0);

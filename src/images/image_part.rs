@@ -1,33 +1,33 @@
-//! [`Part`]: the part of a picture that a view shows, resampled to the size it is shown in, and where its
+//! [`ImagePart`]: the part of a picture that a view shows, resampled to the size it is shown in, and where its
 //! pieces are on the page.
 
 use glam::{DMat2, DVec2};
 use kurbo::{Affine, BezPath, PathEl, Vec2};
 
 use crate::colour::pixel_picture::Picture;
-use crate::images::clusters::affine_fit::Affinity;
-use crate::scene::textures::Imaged;
+use crate::images::clusters::affine_fit::AffineFit;
+use crate::scene::textures::EmbeddedTexture;
 
 /// Largest number of pixels of a picture in a drawing.
-const MOST_PIXELS: f64 = 4_194_304.0;
+const MAX_PIXELS: f64 = 4_194_304.0;
 
 /// Margin around the shown part for interpolation between neighbours, pixels.
-const MARGIN: f64 = 1.5;
+const MARGIN_PIXELS: f64 = 1.5;
 
 /// Piece of the page that one affine map covers.
-pub(crate) struct Mapped {
+pub(crate) struct MappedPiece {
     pub outline: BezPath,
-    map: Affinity,
+    map: AffineFit,
     /// Offset from the place it shows to the first repetition of the picture, texels.
     shift: DVec2,
     low: DVec2,
     high: DVec2,
 }
 
-impl Mapped {
+impl MappedPiece {
     /// Piece with this outline on the page, with the frame shifted by `offset`. The picture repeats after
     /// `periods`.
-    pub fn new(outline: BezPath, map: Affinity, offset: Vec2, periods: [Option<f64>; 2]) -> Self {
+    pub fn new(outline: BezPath, map: AffineFit, offset: Vec2, periods: [Option<f64>; 2]) -> Self {
         let points = outline.elements().iter().filter_map(PathEl::end_point);
         let places = points.map(|p| map.place(DVec2::new(p.x - offset.x, p.y - offset.y)));
         let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -39,17 +39,22 @@ impl Mapped {
 }
 
 /// Part of a picture that a view shows.
-pub(crate) struct Part {
+pub(crate) struct ImagePart {
     pub picture: Picture,
     /// Origin in the plane of the texels, and pixels per texel.
     from: DVec2,
     scale: DVec2,
 }
 
-impl Part {
+impl ImagePart {
     /// Resamples the shown part with `scale` pixels per texel, or fewer where the picture would be too large.
     /// Without repetition, it reaches at most one picture size past each edge. `None` if nothing is shown.
-    pub fn of(imaged: &Imaged, pieces: &[Mapped], scale: f64, periods: [Option<f64>; 2]) -> Option<Self> {
+    pub fn of(
+        imaged: &EmbeddedTexture,
+        pieces: &[MappedPiece],
+        scale: f64,
+        periods: [Option<f64>; 2],
+    ) -> Option<Self> {
         let mut low = DVec2::INFINITY;
         let mut high = DVec2::NEG_INFINITY;
         for piece in pieces {
@@ -67,10 +72,10 @@ impl Part {
         if !wide.is_finite() {
             return None;
         }
-        let pixels = (wide.x * scale + 2.0 * MARGIN) * (wide.y * scale + 2.0 * MARGIN);
-        let scale = scale * (MOST_PIXELS / pixels).min(1.0).sqrt();
+        let pixels = (wide.x * scale + 2.0 * MARGIN_PIXELS) * (wide.y * scale + 2.0 * MARGIN_PIXELS);
+        let scale = scale * (MAX_PIXELS / pixels).min(1.0).sqrt();
         // The bounds are borders of texels, which keeps texels unchanged at full scale.
-        let margin = MARGIN / scale;
+        let margin = MARGIN_PIXELS / scale;
         let from = (low - margin + 0.5).floor() - 0.5;
         let to = (high + margin + 0.5).ceil() - 0.5;
         let count = ((to - from) * scale).round().max(DVec2::ONE).min(DVec2::splat(16_384.0));
@@ -79,7 +84,7 @@ impl Part {
     }
 
     /// Transform from pixels of the part to the page, for one piece.
-    pub fn transform(&self, piece: &Mapped, offset: Vec2) -> Affine {
+    pub fn transform(&self, piece: &MappedPiece, offset: Vec2) -> Affine {
         let (page_from_place, origin) = piece.map.to_page();
         let matrix = page_from_place * DMat2::from_diagonal(DVec2::ONE / self.scale);
         let moved = page_from_place * (self.from - piece.shift) + origin;

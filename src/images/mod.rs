@@ -7,7 +7,7 @@
 //! 4. The shown part of the image is resampled to the size it has on the page.
 //!
 //! The clip path of the mark limits the result to the visible part of the surface.
-//! Files, in reading order: [`facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
+//! Files, in reading order: [`visible_facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
 //! [`tone_veils`] transparent layers that give an image its shading.
 
 mod clusters;
@@ -21,33 +21,33 @@ use glam::DVec2;
 
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
-use crate::drawing::{ImagePaint, ImagePiece, Shows};
+use crate::drawing::{ImagePaint, ImagePiece, PieceContent};
 use crate::mesh::PartId;
-use crate::scene::textures::Imaged;
-use clusters::cluster_arrangement::{Arranged, MOST_PIECES, TOLERANCE_PX};
-use clusters::facet_cluster::{Cluster, Fit, Neighbours, Painted};
+use crate::scene::textures::EmbeddedTexture;
+use clusters::cluster_arrangement::{ClusterArrangement, MAX_PIECES, TOLERANCE_PX};
+use clusters::facet_cluster::{ClusterFit, ClusterPaint, FacetCluster, FacetNeighbours};
 use facets::facet::Facet;
-pub(crate) use facets::image_context::Stage;
-use image_part::{Mapped, Part};
+pub(crate) use facets::image_context::ImageContext;
+use image_part::{ImagePart, MappedPiece};
 
 /// Overlap of pieces under their neighbours, px.
-const REACH_PX: f64 = 0.5;
+const OVERLAP_PX: f64 = 0.5;
 
 /// Width of a repetition below which the mean colour is shown, px.
-const LEAST_PERIOD_PX: f64 = 1.5;
+const MIN_PERIOD_PX: f64 = 1.5;
 
 /// Largest width and height in the drawing of a picture that is repeated, pixels, unless one repetition is
 /// larger.
-const MOST_SPAN: f64 = 1024.0;
+const MAX_SPAN_PIXELS: f64 = 1024.0;
 
 /// Length below which a piece shows its mean colour, px.
-const FLAT_PIECE_PX: f64 = 2.5;
+const MIN_MAPPED_PIECE_PX: f64 = 2.5;
 
 /// Share of the visible area of a picture that may be shown less finely than requested.
-const COARSE_PART: f64 = 0.1;
+const MAX_COARSE_SHARE: f64 = 0.1;
 
 /// Result for one picture in a view.
-pub(crate) struct Pieces {
+pub(crate) struct ImagePieces {
     /// Pieces of each part of the model.
     pub of_part: Vec<(PartId, ImagePaint)>,
     /// Largest displacement, px, if it is larger than usual, and the number of pieces left out.
@@ -56,58 +56,58 @@ pub(crate) struct Pieces {
 
 /// Pieces of a picture, with colours changed by `toned`; `None` if it is not visible.
 pub(crate) fn pictures(
-    stage: &Stage,
-    imaged: &Imaged,
+    stage: &ImageContext,
+    imaged: &EmbeddedTexture,
     toned: impl Fn(&mut Picture) + Copy,
-) -> Option<Pieces> {
-    let Stage { view, px, offset, .. } = *stage;
-    let facets = facets::face_subdivision::facets(stage, imaged);
+) -> Option<ImagePieces> {
+    let ImageContext { view, px, offset, .. } = *stage;
+    let facets = facets::face_subdivision::visible_facets(stage, imaged);
     let periods = imaged.texels().periods().map(|period| period.map(|count| count as f64));
     let scale = (stage.samples * stretch(&facets, px)?).min(1.0);
     let spans = periods.map(|period| {
         let period = period?;
-        Some(period * (MOST_SPAN / (period * scale)).floor().max(1.0))
+        Some(period * (MAX_SPAN_PIXELS / (period * scale)).floor().max(1.0))
     });
-    let mut facets = facets::facet::cut_to_spans(facets, spans, periods, LEAST_PERIOD_PX * px, &view.frame);
+    let mut facets = facets::facet::cut_to_spans(facets, spans, periods, MIN_PERIOD_PX * px, &view.frame);
     for facet in &mut facets {
         let [low, high] = facet.places();
         facet.colour = imaged.one_colour(low, high);
     }
-    let neighbours = Neighbours::of(&facets);
-    let fit = Fit { tolerance: px, spans, reach: px, perspective: view.frame.perspective };
-    let Arranged { mut clusters, tolerance } =
-        clusters::cluster_arrangement::arranged(stage.screen, &facets, &neighbours, fit);
-    let too_many = clusters.len().saturating_sub(MOST_PIECES);
+    let neighbours = FacetNeighbours::of(&facets);
+    let fit = ClusterFit { tolerance: px, spans, reach: px, perspective: view.frame.perspective };
+    let ClusterArrangement { mut clusters, tolerance } =
+        clusters::cluster_arrangement::arrange_clusters(stage.screen, &facets, &neighbours, fit);
+    let too_many = clusters.len().saturating_sub(MAX_PIECES);
     for cluster in &mut clusters {
-        if length(cluster, &facets) < FLAT_PIECE_PX * px {
-            cluster.shows = Painted::Colour(mean(imaged, cluster, &facets));
+        if length(cluster, &facets) < MIN_MAPPED_PIECE_PX * px {
+            cluster.shows = ClusterPaint::Colour(mean(imaged, cluster, &facets));
         }
     }
     if too_many > 0 {
         let mut areas: Vec<f64> = clusters.iter().map(|cluster| cluster.area(&facets)).collect();
         areas.sort_by(|a, b| b.total_cmp(a));
-        let least = areas[MOST_PIECES];
+        let least = areas[MAX_PIECES];
         clusters.retain(|cluster| cluster.area(&facets) > least);
     }
 
     let mut mapped = Vec::new();
-    let mut shown: Vec<(PartId, Made)> = Vec::new();
+    let mut shown: Vec<(PartId, PieceFill)> = Vec::new();
     for cluster in &clusters {
         let Some(outline) =
-            clusters::cluster_outline::outline(cluster, &facets, &neighbours, (REACH_PX * px, px), offset)
+            clusters::cluster_outline::outline(cluster, &facets, &neighbours, (OVERLAP_PX * px, px), offset)
         else {
             continue;
         };
         let made = match cluster.shows {
-            Painted::Colour(colour) => Made::Flat(outline, colour),
-            Painted::Picture(map) => {
-                mapped.push(Mapped::new(outline, map, offset, periods));
-                Made::Mapped(mapped.len() - 1)
+            ClusterPaint::Colour(colour) => PieceFill::Flat(outline, colour),
+            ClusterPaint::Picture(map) => {
+                mapped.push(MappedPiece::new(outline, map, offset, periods));
+                PieceFill::Mapped(mapped.len() - 1)
             }
         };
         shown.push((cluster.part, made));
     }
-    let part = Part::of(imaged, &mapped, scale, periods);
+    let part = ImagePart::of(imaged, &mapped, scale, periods);
     let one = |colour| {
         let mut picture = Picture { width: 1, height: 1, pixels: vec![colour] };
         toned(&mut picture);
@@ -115,16 +115,19 @@ pub(crate) fn pictures(
     };
     // Where all pieces have one colour, the drawing holds one white pixel as their picture.
     let nothing = Picture { width: 1, height: 1, pixels: vec![Colour::WHITE] };
-    let transform = |piece: &Mapped| part.as_ref().map(|part| part.transform(piece, offset));
+    let transform = |piece: &MappedPiece| part.as_ref().map(|part| part.transform(piece, offset));
     shown.sort_by_key(|(part, _)| *part);
     let mut of_part: Vec<(PartId, Vec<ImagePiece>)> = Vec::new();
     for (owner, made) in shown {
         let piece = match made {
-            Made::Flat(outline, colour) => ImagePiece { outline, shows: Shows::Colour(one(colour)) },
-            Made::Mapped(number) => match transform(&mapped[number]) {
-                Some(affine) => {
-                    ImagePiece { outline: mapped[number].outline.clone(), shows: Shows::Pixels(affine) }
-                }
+            PieceFill::Flat(outline, colour) => {
+                ImagePiece { outline, shows: PieceContent::Colour(one(colour)) }
+            }
+            PieceFill::Mapped(number) => match transform(&mapped[number]) {
+                Some(affine) => ImagePiece {
+                    outline: mapped[number].outline.clone(),
+                    shows: PieceContent::Pixels(affine),
+                },
                 None => continue,
             },
         };
@@ -138,18 +141,18 @@ pub(crate) fn pictures(
     let picture = Arc::new(picture);
     let with = |(part, pieces)| (part, ImagePaint { picture: Arc::clone(&picture), pieces });
     let coarse = (tolerance > TOLERANCE_PX).then_some((tolerance, too_many));
-    Some(Pieces { of_part: of_part.into_iter().map(with).collect(), coarse })
+    Some(ImagePieces { of_part: of_part.into_iter().map(with).collect(), coarse })
 }
 
 /// Fill of a piece before assembly.
-enum Made {
+enum PieceFill {
     Flat(kurbo::BezPath, Colour),
     /// Index of the mapped piece.
     Mapped(usize),
 }
 
 /// Longer side of the bounding box of a cluster.
-fn length(cluster: &Cluster, facets: &[Facet]) -> f64 {
+fn length(cluster: &FacetCluster, facets: &[Facet]) -> f64 {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let corners = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].corners);
     let (low, high) = corners.fold(none, |(low, high), corner| {
@@ -160,7 +163,7 @@ fn length(cluster: &Cluster, facets: &[Facet]) -> f64 {
 }
 
 /// Mean colour of a small cluster: that of the bounding box of its places.
-fn mean(imaged: &Imaged, cluster: &Cluster, facets: &[Facet]) -> Colour {
+fn mean(imaged: &EmbeddedTexture, cluster: &FacetCluster, facets: &[Facet]) -> Colour {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let places = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].places());
     let (low, high) = places.fold(none, |(low, high), p| (low.min(p), high.max(p)));
@@ -188,7 +191,7 @@ fn stretch(facets: &[Facet], px: f64) -> Option<f64> {
     }
     let mut stretches: Vec<(f64, f64)> = facets.iter().filter_map(of).collect();
     stretches.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut left = stretches.iter().map(|(_, area)| area).sum::<f64>() * COARSE_PART;
+    let mut left = stretches.iter().map(|(_, area)| area).sum::<f64>() * MAX_COARSE_SHARE;
     let reaches = |(_, area): &&(f64, f64)| {
         left -= area;
         left <= 0.0

@@ -1,4 +1,4 @@
-//! [`Shades`]: transparent veils painted over a picture to show the tones other than its own.
+//! [`ToneVeils`]: transparent veils painted over a picture to show the tones other than its own.
 //!
 //! 1. A drawing holds a picture once, in its lightest tone.
 //! 2. Each other tone is a veil: a colour between black and white, painted with an opacity. If the tone
@@ -12,11 +12,11 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::light::Shading;
 use crate::scene::Paint;
-use crate::scene::textures::Imaged;
+use crate::scene::textures::EmbeddedTexture;
 
 /// Veils over a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Shades {
+pub(crate) struct ToneVeils {
     /// Effect of the picture's own tone on each channel of a colour: a factor and an addend.
     tone: [[f64; 2]; 3],
     /// Veils in the order of painting, with the tones that each lies over.
@@ -25,7 +25,7 @@ pub(crate) struct Shades {
 
 /// Effect of a tone on colours.
 #[derive(Debug, Clone, Copy)]
-struct Made {
+struct ToneResponse {
     /// Factor for the difference of two colours, per channel.
     slope: [f64; 3],
     /// Resulting mean colour of the picture.
@@ -33,37 +33,40 @@ struct Made {
 }
 
 /// Contrast below which a picture shows nothing, so its plain tones replace it.
-const LEAST_SLOPE: f64 = 0.02;
+const MIN_TONE_SLOPE: f64 = 0.02;
 
 /// Largest colour error of a veil that is laid over earlier ones.
-const SLACK: f64 = 0.012;
+const MAX_COLOUR_ERROR: f64 = 0.012;
 
-impl Shades {
+impl ToneVeils {
     /// Veils for a picture; `None` if the tones have fixed colours that do not depend on the picture.
-    pub fn of(shading: &Shading, paints: &[Paint], imaged: &Imaged) -> Option<Self> {
+    pub fn of(shading: &Shading, paints: &[Paint], imaged: &EmbeddedTexture) -> Option<Self> {
         let channels = |paint: crate::mesh::PaintId| Some(paints.get(paint.index())?.colour.channels());
         let probes = [channels(imaged.probes[0])?, channels(imaged.probes[1])?];
         let mean = channels(imaged.paint)?;
-        let tones: Vec<Made> = (0..shading.tone_count(imaged.paint))
+        let tones: Vec<ToneResponse> = (0..shading.tone_count(imaged.paint))
             .map(|tone| {
                 let [dark, light] = imaged.probes.map(|probe| shading.colour(probe, tone).channels());
                 let slope = |c: usize| ((light[c] - dark[c]) / (probes[1][c] - probes[0][c])).max(0.0);
-                Made { slope: [0, 1, 2].map(slope), mean: shading.colour(imaged.paint, tone).channels() }
+                ToneResponse {
+                    slope: [0, 1, 2].map(slope),
+                    mean: shading.colour(imaged.paint, tone).channels(),
+                }
             })
             .collect();
         Self::over(&tones, mean)
     }
 
-    fn over(tones: &[Made], mean: [f64; 3]) -> Option<Self> {
-        let least = |made: &Made| made.slope.into_iter().fold(f64::INFINITY, f64::min);
+    fn over(tones: &[ToneResponse], mean: [f64; 3]) -> Option<Self> {
+        let least = |made: &ToneResponse| made.slope.into_iter().fold(f64::INFINITY, f64::min);
         let (lightest, lit) = tones.iter().enumerate().max_by(|a, b| least(a.1).total_cmp(&least(b.1)))?;
-        if least(lit) < LEAST_SLOPE {
+        if least(lit) < MIN_TONE_SLOPE {
             return None;
         }
         let tone = [0, 1, 2].map(|c| [lit.slope[c], lit.mean[c] - lit.slope[c] * mean[c]]);
         // Share of the picture that a tone leaves, and its addend.
-        let left = |made: &Made| {
-            let parts = [0, 1, 2].map(|c| made.slope[c] / lit.slope[c].max(LEAST_SLOPE));
+        let left = |made: &ToneResponse| {
+            let parts = [0, 1, 2].map(|c| made.slope[c] / lit.slope[c].max(MIN_TONE_SLOPE));
             let part = parts.into_iter().fold(1.0, f64::min);
             let added = [0, 1, 2].map(|c| (made.mean[c] - part * lit.mean[c]).clamp(0.0, 1.0 - part));
             (part, added)
@@ -82,7 +85,7 @@ impl Shades {
         for (tone, own_part, own_added) in others {
             let more = own_part / part;
             let rest = [0, 1, 2].map(|c| own_added[c] - added[c] * more);
-            if rest.into_iter().any(|rest| rest < -SLACK || rest > 1.0 - more + SLACK) {
+            if rest.into_iter().any(|rest| rest < -MAX_COLOUR_ERROR || rest > 1.0 - more + MAX_COLOUR_ERROR) {
                 alone.extend(veil(own_part, own_added).map(|(veil, _, _)| (veil, vec![tone])));
                 continue;
             }
@@ -130,7 +133,7 @@ mod tests {
     use super::*;
 
     /// Resulting colour in a tone.
-    fn seen(shades: &Shades, colour: [f64; 3], tone: u16) -> [f64; 3] {
+    fn seen(shades: &ToneVeils, colour: [f64; 3], tone: u16) -> [f64; 3] {
         let below = [0, 1, 2].map(|c| colour[c] * shades.tone[c][0] + shades.tone[c][1]);
         shades.veils.iter().filter(|(_, tones)| tones.contains(&tone)).fold(below, |below, (veil, _)| {
             let opacity = f64::from(veil.a) / 255.0;
@@ -140,8 +143,9 @@ mod tests {
 
     const MEAN: [f64; 3] = [0.6, 0.5, 0.3];
 
-    fn multiplying(factors: &[[f64; 3]]) -> Vec<Made> {
-        let made = |slope: &[f64; 3]| Made { slope: *slope, mean: [0, 1, 2].map(|c| slope[c] * MEAN[c]) };
+    fn multiplying(factors: &[[f64; 3]]) -> Vec<ToneResponse> {
+        let made =
+            |slope: &[f64; 3]| ToneResponse { slope: *slope, mean: [0, 1, 2].map(|c| slope[c] * MEAN[c]) };
         factors.iter().map(made).collect()
     }
 
@@ -151,7 +155,7 @@ mod tests {
 
     #[test]
     fn grey_tones_are_exact_and_lie_on_each_other() {
-        let shades = Shades::over(&multiplying(&[[0.3; 3], [0.7; 3], [1.0; 3]]), MEAN).unwrap();
+        let shades = ToneVeils::over(&multiplying(&[[0.3; 3], [0.7; 3], [1.0; 3]]), MEAN).unwrap();
         assert_eq!(
             shades.veils.iter().map(|(_, tones)| tones.clone()).collect::<Vec<_>>(),
             [vec![1, 0], vec![0]]
@@ -167,7 +171,7 @@ mod tests {
     #[test]
     fn many_steps_add_up_to_no_error() {
         let factors: Vec<[f64; 3]> = (0..128).map(|k| [0.3 + 0.7 * f64::from(k) / 127.0; 3]).collect();
-        let shades = Shades::over(&multiplying(&factors), MEAN).unwrap();
+        let shades = ToneVeils::over(&multiplying(&factors), MEAN).unwrap();
         for (tone, factor) in (0..).zip(&factors) {
             let off = off(seen(&shades, [0.9; 3], tone), factor.map(|f| f * 0.9));
             assert!(off < 0.004, "{tone}: {off}");
@@ -177,12 +181,12 @@ mod tests {
     #[test]
     fn tinted_tones_are_right_for_the_mean_and_highlights_lie_alone() {
         let mut tones = multiplying(&[[0.7, 0.66, 0.78], [1.0; 3]]);
-        tones.push(Made { slope: [0.4; 3], mean: MEAN.map(|c| 0.4 * c + 0.6) });
-        let shades = Shades::over(&tones, MEAN).unwrap();
+        tones.push(ToneResponse { slope: [0.4; 3], mean: MEAN.map(|c| 0.4 * c + 0.6) });
+        let shades = ToneVeils::over(&tones, MEAN).unwrap();
         assert!(off(seen(&shades, MEAN, 0), tones[0].mean) < 0.004);
         assert!(off(seen(&shades, [0.2, 0.3, 0.1], 2), [0.68, 0.72, 0.64]) < 0.004);
         let white = seen(&shades, [1.0; 3], 0);
         assert!(off(white, [0.7, 0.66, 0.78]) < 0.09, "{white:?}");
-        assert!(Shades::over(&[Made { slope: [0.0; 3], mean: MEAN }], MEAN).is_none());
+        assert!(ToneVeils::over(&[ToneResponse { slope: [0.0; 3], mean: MEAN }], MEAN).is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! [`openness`]: ambient visibility, the share of the sky that each vertex of a mesh sees.
+//! [`ambient_visibility`]: ambient visibility, the share of the sky that each vertex of a mesh sees.
 //!
 //! Source: Zhukov, Iones and Kronin, "An ambient light illumination model", Rendering Techniques 1998: the
 //! cosine-weighted share of a hemisphere that nothing near obscures.
@@ -11,23 +11,23 @@ use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::geometry::numbers::tolerance;
-use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, Start};
+use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, RayStart};
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
 
 /// Number of directions over the whole sphere; nearly half of them are above a vertex.
-const DIRECTIONS: usize = 256;
+const DIRECTION_COUNT: usize = 256;
 
 /// Smallest cosine of a direction that counts. Lower ones contribute little, and their rays pass the most
 /// faces.
-const LEAST_COSINE: f64 = 0.1;
+const MIN_RAY_COSINE: f64 = 0.1;
 
 /// Share of the sky that each vertex sees on the outer side of the surface, from 0 (none) to 1 (all).
 ///
 /// Only obstacles within `reach` of a position (world units) count; with infinity all do. Vertices without a
 /// normal see everything, and so do vertices of faces that are not `asked`. An empty `asked` means all faces.
 #[must_use]
-pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
+pub fn ambient_visibility(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
     let rays = ParallelRays::new(mesh);
     let directions = directions();
     let (mut normals, lifts) = normals(mesh);
@@ -40,13 +40,13 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
     // Starts slightly above the surface, so that faces around a hollow block as well.
     let start = |v: usize| {
         let at = mesh.positions[v];
-        Start { point: at + normals[v] * lifts[v], reach: reach(at) }
+        RayStart { point: at + normals[v] * lifts[v], reach: reach(at) }
     };
-    let starts: Vec<Start> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
+    let starts: Vec<RayStart> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
     let ask = |direction: DVec3, tree: Option<&RayTree>| {
-        let above = |v: &usize| direction.dot(normals[*v]) > LEAST_COSINE;
+        let above = |v: &usize| direction.dot(normals[*v]) > MIN_RAY_COSINE;
         let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
-        let of: Vec<Start> = looking.iter().map(|v| starts[*v]).collect();
+        let of: Vec<RayStart> = looking.iter().map(|v| starts[*v]).collect();
         let mut bits = vec![0u64; starts.len().div_ceil(64)];
         for (v, blocked) in looking.iter().zip(rays.blocked(&of, direction, tree)?) {
             bits[v / 64] |= u64::from(blocked) << (v % 64);
@@ -65,7 +65,7 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
         let (mut seen, mut all) = (0.0, 0.0);
         for (direction, blocked) in directions.iter().zip(&blocked) {
             let cosine = direction.dot(normals[v]);
-            if cosine > LEAST_COSINE {
+            if cosine > MIN_RAY_COSINE {
                 all += cosine;
                 if blocked[v / 64] >> (v % 64) & 1 == 0 {
                     seen += cosine;
@@ -82,9 +82,9 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
 /// Source: Vogel, "A better way to construct the sunflower head", 1979, on a sphere.
 fn directions() -> Vec<DVec3> {
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    (0..DIRECTIONS)
+    (0..DIRECTION_COUNT)
         .map(|k| {
-            let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+            let z = 1.0 - (2 * k + 1) as f64 / DIRECTION_COUNT as f64;
             let (r, angle) = ((1.0 - z * z).sqrt(), k as f64 * turn);
             DVec3::new(r * cos(angle), r * sin(angle), z)
         })
@@ -114,7 +114,7 @@ fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
         }
     }
     let lift = |((sum, count), contact): ((f64, u32), f64)| {
-        (tolerance::LOOKOUT_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
+        (tolerance::SKY_PROBE_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
     };
     let lifts = lengths.into_iter().zip(contacts).map(lift).collect();
     (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lifts)
@@ -159,7 +159,7 @@ mod tests {
         let mut soup = Soup::default();
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
         let alone = Mesh::build(soup.clone());
-        assert!(openness(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
+        assert!(ambient_visibility(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
         // A square of side 2 at height 1 covers a known part of the sky for the point below its middle. It is
         // the view factor of four rectangles with sides 1 and 1 at distance 1.
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
@@ -167,9 +167,9 @@ mod tests {
         let r = 0.5_f64.sqrt();
         let covered =
             4.0 / std::f64::consts::TAU * 2.0 * r * crate::geometry::numbers::portable_math::atan2(r, 1.0);
-        let found = at(&mesh, &openness(&mesh, &[], everywhere), DVec3::ZERO);
+        let found = at(&mesh, &ambient_visibility(&mesh, &[], everywhere), DVec3::ZERO);
         assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
-        assert_eq!(at(&mesh, &openness(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
+        assert_eq!(at(&mesh, &ambient_visibility(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
     }
 
     #[test]
@@ -178,7 +178,7 @@ mod tests {
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
         let mesh = Mesh::build(soup);
-        let found = openness(&mesh, &[], everywhere);
+        let found = ambient_visibility(&mesh, &[], everywhere);
         // In the corner the normal is halfway, and a right-angled wedge is left: sin 45°.
         let corner = at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
@@ -203,18 +203,18 @@ mod tests {
         for inward in [false, true] {
             let mut alone = Soup::default();
             add(&mut alone, DVec3::ZERO, 1.0, inward);
-            assert!(openness(&Mesh::build(alone), &[], everywhere).iter().all(|o| *o == 1.0));
+            assert!(ambient_visibility(&Mesh::build(alone), &[], everywhere).iter().all(|o| *o == 1.0));
         }
         let mut room = Soup::default();
         add(&mut room, DVec3::ZERO, 1.0, false);
         add(&mut room, DVec3::splat(-2.0), 5.0, false);
         let mesh = Mesh::build(room);
-        let found = openness(&mesh, &[], everywhere);
+        let found = ambient_visibility(&mesh, &[], everywhere);
         for (position, open) in mesh.positions.iter().zip(found) {
             let is_outside = (*position - DVec3::splat(0.5)).abs().max_element() > 1.0;
             assert_eq!(open, if is_outside { 1.0 } else { 0.0 }, "{position}");
         }
-        assert!(openness(&Mesh::default(), &[], everywhere).is_empty());
+        assert!(ambient_visibility(&Mesh::default(), &[], everywhere).is_empty());
     }
 
     #[test]
@@ -226,12 +226,12 @@ mod tests {
         let positions = (0..3 * count).map(|k| point(k / 3) + 3.0 * point(k + 10_000)).collect();
         let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
         let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
-        let starts: Vec<Start> =
-            mesh.positions.iter().step_by(2).map(|p| Start { point: *p, reach: f64::INFINITY }).collect();
+        let starts: Vec<RayStart> =
+            mesh.positions.iter().step_by(2).map(|p| RayStart { point: *p, reach: f64::INFINITY }).collect();
         assert!(ParallelRays::new(&mesh).blocked(&starts, DVec3::Z, None).is_none());
         let on = |threads| {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| openness(&mesh, &[], everywhere))
+            pool.install(|| ambient_visibility(&mesh, &[], everywhere))
         };
         assert_eq!(on(1), on(4));
     }

@@ -16,17 +16,17 @@ pub mod tones;
 #[cfg(test)]
 mod tests;
 
-pub use ambient_occlusion::openness;
+pub use ambient_occlusion::ambient_visibility;
 pub use contour_field::contour_refinement::cuts_near_contours;
-pub use contour_field::culling::normal_cones::Cones;
+pub use contour_field::culling::normal_cones::NormalCones;
 pub use contour_field::facing_field::facing;
 pub use contour_field::field_smoothing::smooth_near_zero;
 pub use contour_field::level_set_cut::{SurfaceCut, cut};
 pub use lights::light_options::{LightOptions, LightSource, SourceKind, Space};
-pub use lights::light_slope::Slope;
-pub(crate) use lights::light_slope::TURN_OF_CHORD;
+pub use lights::light_slope::LightSlope;
+pub(crate) use lights::light_slope::TURN_PER_CHORD;
 pub use lights::lighting::{Caster, SurfacePoint};
-pub use shading_normals::ShadedNormals;
+pub use shading_normals::ShadingNormals;
 pub use tones::shade_options::ShadeOptions;
 pub use tones::shading::Shading;
 pub use tones::tone_options::ToneOptions;

@@ -1,4 +1,4 @@
-//! [`ShadedNormals`]: the normals used for lighting a mesh, three for each face.
+//! [`ShadingNormals`]: the normals used for lighting a mesh, three for each face.
 //!
 //! 1. Rounded surfaces use the normals that also give their contour.
 //! 2. Other faces use the normals of the file, if there are any.
@@ -8,19 +8,19 @@
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
-use crate::mesh::{FaceId, Mesh, Share, shares};
+use crate::mesh::{FaceId, Mesh, VertexRange, vertex_ranges};
 use crate::surface::{HardEdges, SmoothNormals};
 
 /// Normals used for lighting a mesh. Inside a face they are interpolated and normalized.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ShadedNormals {
+pub struct ShadingNormals {
     /// Unit normals, local space, on the outer side of their faces.
     pub normals: Vec<DVec3>,
     /// Indices of the normals at the corners of each face.
     pub corners: Vec<[u32; 3]>,
 }
 
-impl ShadedNormals {
+impl ShadingNormals {
     /// Normals of a mesh with these hard edges. `smooth` gives the normals of its rounded parts, which also
     /// give their contour.
     #[must_use]
@@ -72,8 +72,8 @@ impl ShadedNormals {
         }
         let workers =
             if self.normals.len() < FACES_PER_TASK { 1 } else { rayon_core::current_num_threads().min(8) };
-        let shares = shares(self.normals.len(), &self.corners, workers);
-        let of_share = |share: &Share| {
+        let shares = vertex_ranges(self.normals.len(), &self.corners, workers);
+        let of_share = |share: &VertexRange| {
             let mut sums = vec![DVec3::ZERO; share.vertices.len()];
             for face in share.faces.iter().flat_map(Clone::clone) {
                 let ids = self.corners[face];
@@ -116,7 +116,7 @@ impl ShadedNormals {
     /// Replaces corner normals that are zero or turned away from the face by the normal of the face.
     fn mend(&mut self, mesh: &Mesh) {
         let own = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
-        let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < LEAST_COSINE;
+        let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < MIN_FACE_COSINE;
         let is_bad = |face: &u32| {
             let own = own(*face as usize);
             own != DVec3::ZERO && self.of(*face).iter().any(|normal| bad(*normal, own))
@@ -138,7 +138,7 @@ impl ShadedNormals {
 const FACES_PER_TASK: usize = 1 << 12;
 
 /// Smallest cosine between a corner normal and the normal of its face.
-const LEAST_COSINE: f64 = -0.2;
+const MIN_FACE_COSINE: f64 = -0.2;
 
 #[cfg(test)]
 mod tests {
@@ -160,7 +160,7 @@ mod tests {
             let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
             let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
             let hard = HardEdges::above(&mesh, 40.0);
-            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default());
+            let shaded = ShadingNormals::new(&mesh, &hard, &SmoothNormals::default());
             (mesh, shaded)
         };
         let (mesh, steep) = sheet(2.0);
@@ -185,7 +185,7 @@ mod tests {
             ..Soup::default()
         };
         let mesh = Mesh::build(soup);
-        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
+        let shaded = ShadingNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
         assert!(shaded.of(0).iter().all(|n| n.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-6));
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::LineKind;
 use crate::mesh::{MaterialId, Mesh, PartId, Wire};
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 
 /// In [`FeatureSegment::hosts`]: no face.
 pub const NO_FACE: u32 = u32::MAX;
@@ -22,14 +22,14 @@ pub enum Role {
     Line,
     /// Edge of the mesh contour of a rounded surface. It decides on the visibility of the smooth contour
     /// nearby, and is drawn itself only where there is none.
-    Witness {
+    MeshContour {
         /// Whether the surface is convex here.
         convex: bool,
         /// Whether only a few faces turn away here, and the smooth surface does not.
         fold: bool,
     },
     /// Piece of a smooth contour, drawn where the mesh contour is visible.
-    Curve,
+    SmoothContour,
 }
 
 /// Straight piece of a feature line.
@@ -47,7 +47,7 @@ pub struct FeatureSegment {
     /// Whether the surface is rounded here, so that corners along the line are artefacts of the mesh.
     pub smooth: bool,
     /// Origin of the surface.
-    pub origin: Origin,
+    pub origin: MeshSource,
     /// Role in the drawing.
     pub role: Role,
     /// Turn of the surface across the line, degrees; 180 if not applicable, 0 where it does not turn.
@@ -68,7 +68,7 @@ impl FeatureSegment {
             kind: LineKind::Wire,
             both_seen: true,
             smooth: false,
-            origin: Origin::default(),
+            origin: MeshSource::default(),
             role: Role::Line,
             strength: 180.0,
             part: wire.part,
@@ -91,7 +91,7 @@ pub(crate) fn segment(
         kind,
         both_seen: true,
         smooth: hosts[1] == NO_FACE,
-        origin: Origin::default(),
+        origin: MeshSource::default(),
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[face as usize],
@@ -103,7 +103,7 @@ pub(crate) fn segment(
 /// surface is on their left, seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContourCurve {
-    /// Its segments in [`FeatureLines::segments`].
+    /// Its segments in [`FeatureLines::chain_segments`].
     pub segments: Range<u32>,
     /// Whether it is closed.
     pub closed: bool,

@@ -30,7 +30,7 @@ pub use edges::edge_search::EdgeSearch;
 pub use feature_line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use image::{ImageOptions, Source};
 pub use isophotes::lit_surface::Lit;
-pub(crate) use isophotes::visible_faces::{in_sight, shows_inside};
+pub(crate) use isophotes::visible_faces::{shows_inside, visible_faces_of};
 pub use line_kind::LineKind;
 pub use line_options::{Contours, HiddenLines, LineOptions, Normals};
 pub use prepared_surface::{Finer, Surface};
@@ -41,7 +41,7 @@ use crate::parallel::prelude::*;
 
 use crate::light;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
-use crate::surface::{Origin, Patches};
+use crate::surface::{MeshSource, Patches};
 use crate::view::View;
 
 /// n·v as used for tracing contours, one per smooth vertex; smoothed where it is near zero.
@@ -55,7 +55,7 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
 
 /// Results that are shared by all views of a surface.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Known<'a> {
+pub struct SharedSearches<'a> {
     /// Search for lines along edges. Ignored if it does not fit the mesh.
     pub search: Option<&'a EdgeSearch>,
     /// All curves where the surface passes through itself: [`intersections::intersection_lines::all_curves`].
@@ -65,18 +65,23 @@ pub struct Known<'a> {
 /// All feature lines of a view, of the kinds in the options.
 #[must_use]
 pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
-    extract_with(surface, Known::default(), view, options)
+    extract_with(surface, SharedSearches::default(), view, options)
 }
 
 /// All feature lines of a view, using results that are shared by all views of the surface.
 #[must_use]
-pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &LineOptions) -> FeatureLines {
+pub fn extract_with(
+    surface: &Surface,
+    known: SharedSearches,
+    view: &View,
+    options: &LineOptions,
+) -> FeatureLines {
     let mut lines = FeatureLines::default();
     if !options.enabled || options.kinds.is_empty() {
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
-    let (asked, overlap) = (options, edges::coplanar_overlaps::is_asked(mesh));
+    let (asked, overlap) = (options, edges::coplanar_overlaps::has_overlaps(mesh));
     let with_borders = || {
         let more =
             [LineKind::Border, LineKind::Material].into_iter().filter(|kind| !options.kinds.contains(kind));
@@ -110,11 +115,11 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         Vec::new()
     };
     let options = asked;
-    let overlaid =
-        overlap.then(|| edges::coplanar_overlaps::settle(mesh, view, &mut lines.segments, options));
+    let overlaid = overlap
+        .then(|| edges::coplanar_overlaps::classify_overlaps(mesh, view, &mut lines.segments, options));
     if let Some((contours, facing)) = contours {
         lines.append_contours(contours);
-        edges::ripple_edges::tell(mesh, view, smooth, &facing, &mut lines.segments);
+        edges::ripple_edges::mark_ripples(mesh, view, smooth, &facing, &mut lines.segments);
     }
     if options.kinds.contains(&LineKind::Intersection)
         && let Some(curves) = known.intersections.or(curves.as_ref())
@@ -134,13 +139,13 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     if let Some(overlaid) = overlaid {
         overlaid.append_to(mesh, &mut lines);
     }
-    tell_origins(surface, &mut lines);
+    set_origins(surface, &mut lines);
     lines
 }
 
 /// Sets the origin of each segment from its faces.
-fn tell_origins(surface: &Surface, lines: &mut FeatureLines) {
-    if surface.origins.iter().all(|origin| *origin == Origin::Constructed) {
+fn set_origins(surface: &Surface, lines: &mut FeatureLines) {
+    if surface.origins.iter().all(|origin| *origin == MeshSource::Constructed) {
         return;
     }
     let origin = |face: u32| surface.origins.get(face as usize).copied().unwrap_or_default();

@@ -4,20 +4,20 @@ use std::borrow::Cow;
 
 use super::LineOptions;
 use super::line_options::{Contours, Normals};
-use crate::light::{self, Cones};
+use crate::light::{self, NormalCones};
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
-use crate::surface::creases::pose_creases::bent;
+use crate::surface::creases::pose_creases::pose_creases;
 use crate::surface::normals::file_normals::file_cosines;
 use crate::surface::patches::patch_layout;
-use crate::surface::refine::mesh_splice::{Cuts, Refined, splice};
-use crate::surface::{HardEdges, Origin, Patches, SmoothNormals};
+use crate::surface::refine::mesh_splice::{MeshCuts, RefinedMesh, splice};
+use crate::surface::{HardEdges, MeshSource, Patches, SmoothNormals};
 use crate::view::Frame;
 
 /// Cosine of the largest angle (20 degrees) between the file's normals at an edge that the file shades
 /// smoothly.
-const SAME_NORMAL_COSINE: f32 = 0.94;
+const MIN_SMOOTH_NORMAL_COSINE: f32 = 0.94;
 
 /// A mesh and the surface that it approximates. The same for all views, except after [`Surface::finer_for`].
 #[derive(Debug, Clone, Default)]
@@ -33,7 +33,7 @@ pub struct Surface {
     /// Normals of rounded parts, which have smooth contours; none with [`Contours::Mesh`].
     pub smooth: SmoothNormals,
     /// Origin of the surface, one per face.
-    pub origins: Vec<Origin>,
+    pub origins: Vec<MeshSource>,
     /// Connected component of each face; empty if there is only one, or if not computed.
     pub pieces: Vec<u32>,
     /// Whether faces were subdivided.
@@ -49,7 +49,7 @@ impl Surface {
         Self::with_patches(mesh, options).0
     }
 
-    /// The surface of a mesh, and its patches if any are round. [`Surface::posed`] needs them for moving
+    /// The surface of a mesh, and its patches if any are round. [`Surface::posed_model`] needs them for moving
     /// meshes.
     #[must_use]
     pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
@@ -57,12 +57,12 @@ impl Surface {
             return (Self { mesh, ..Self::default() }, None);
         }
         if options.contours == Contours::Mesh {
-            let (hard, origins, pieces) = patch_layout::of_faces(&mesh, options.crease_deg);
+            let (hard, origins, pieces) = patch_layout::classify_faces(&mesh, options.crease_deg);
             return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
-            mesh.forget_normals(|face| !patches.believed[face as usize]);
+            mesh.remove_normals(|face| !patches.believed[face as usize]);
         }
         let smooth = normals(&mesh, &patches, &[]);
         let surface = Self {
@@ -83,7 +83,7 @@ impl Surface {
     ///
     /// It keeps its creases and rounded parts, and gets new creases where the pose folds it. Figures get
     /// none, since their skin stays round. `patches` and `crease_deg` are those it was made with. `before`
-    /// yields the mesh at earlier times, latest first (see [`bent`]).
+    /// yields the mesh at earlier times, latest first (see [`pose_creases`]).
     #[must_use]
     pub fn posed(
         &self,
@@ -99,8 +99,13 @@ impl Surface {
             patches.is_some_and(figure)
         };
         let hard = &self.hard;
-        let folds =
-            bent(&self.mesh, &mesh, crease_deg, |edge| !hard.is_hard(edge) && !is_figure(edge), before);
+        let folds = pose_creases(
+            &self.mesh,
+            &mesh,
+            crease_deg,
+            |edge| !hard.is_hard(edge) && !is_figure(edge),
+            before,
+        );
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
             hard: hard.clone().with(&mesh, &folds),
@@ -128,15 +133,15 @@ impl Surface {
     }
 
     /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
-    /// needs it, or if it is subdivided already. The [`Cones`] of this surface only save time.
+    /// needs it, or if it is subdivided already. The [`NormalCones`] of this surface only save time.
     #[must_use]
-    pub fn refined_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Finer> {
+    pub fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<Finer> {
         let cuts = self.cuts_for(camera, cones)?;
         let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
         Some(self.of_finer(finer, &self.sides_of_roundings()))
     }
 
-    fn cuts_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Cuts> {
+    fn cuts_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<MeshCuts> {
         if self.refined || self.fine_for.as_ref() == Some(camera) {
             return None;
         }
@@ -144,14 +149,14 @@ impl Surface {
     }
 
     /// The surface of a subdivided mesh. `sides` are those of [`Self::sides_of_roundings`].
-    fn of_finer(&self, finer: Refined, sides: &[[u32; 2]]) -> Finer {
-        let Refined { mesh, smooth, hosts, kept, edges } = finer;
+    fn of_finer(&self, finer: RefinedMesh, sides: &[[u32; 2]]) -> Finer {
+        let RefinedMesh { mesh, smooth, hosts, kept, edges } = finer;
         let surface = Self {
-            hard: self.hard.carried(&edges, mesh.edges.len()),
-            wrinkles: self.wrinkles.carried(&edges, mesh.edges.len()),
+            hard: self.hard.remapped(&edges, mesh.edges.len()),
+            wrinkles: self.wrinkles.remapped(&edges, mesh.edges.len()),
             roundings: self
                 .roundings
-                .carried(&edges, mesh.edges.len())
+                .remapped(&edges, mesh.edges.len())
                 .with(&pieces_between(&mesh, (&hosts, kept), sides), mesh.edges.len()),
             mesh,
             smooth,
@@ -228,7 +233,7 @@ fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
 /// Whether the file's normals are creased at an edge; `None` where it has none.
 fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
-    Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < SAME_NORMAL_COSINE))
+    Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < MIN_SMOOTH_NORMAL_COSINE))
 }
 
 #[cfg(test)]

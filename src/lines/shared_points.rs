@@ -14,12 +14,12 @@ use super::{FeatureLines, FeatureSegment, LineKind};
 use crate::mesh::Mesh;
 
 /// Number of hash tables that are filled in parallel; a power of two.
-const TABLES: u64 = 16;
+const TABLE_COUNT: u64 = 16;
 
 /// Key of a point: the bits of its coordinates.
-type Name = [u64; 3];
+type PointKey = [u64; 3];
 
-fn name(p: DVec3) -> Name {
+fn point_key(p: DVec3) -> PointKey {
     p.to_array().map(f64::to_bits)
 }
 
@@ -68,7 +68,7 @@ impl FeatureLines {
 /// Global ids of the points of all runs, starting with `first`. Each distinct point is appended to `points`
 /// once.
 fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<u32>> {
-    let table = |p: &DVec3| (FxBuildHasher.hash_one(name(*p)) >> 32) % TABLES;
+    let table = |p: &DVec3| (FxBuildHasher.hash_one(point_key(*p)) >> 32) % TABLE_COUNT;
     let tables: Vec<Vec<u8>> =
         runs.par_iter().with_max_len(1).map(|run| run.iter().map(|p| table(p) as u8).collect()).collect();
     let mut total = 0;
@@ -79,13 +79,13 @@ fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<
     let starts: Vec<usize> = starts.collect();
     // For each point the first one with the same key.
     let earliest: Vec<AtomicU32> = (0..total as u32).map(AtomicU32::new).collect();
-    (0..TABLES as u8).into_par_iter().with_max_len(1).for_each(|own| {
-        let mut known: FxHashMap<Name, u32> = FxHashMap::default();
-        known.reserve(total / TABLES as usize);
+    (0..TABLE_COUNT as u8).into_par_iter().with_max_len(1).for_each(|own| {
+        let mut known: FxHashMap<PointKey, u32> = FxHashMap::default();
+        known.reserve(total / TABLE_COUNT as usize);
         for ((run, tables), start) in runs.iter().zip(&tables).zip(&starts) {
             for (k, p) in run.iter().enumerate().filter(|(k, _)| tables[*k] == own) {
                 let at = (start + k) as u32;
-                let before = *known.entry(name(*p)).or_insert(at);
+                let before = *known.entry(point_key(*p)).or_insert(at);
                 if before < at {
                     earliest[at as usize].store(before, Relaxed);
                 }
@@ -109,17 +109,17 @@ fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<
 
 /// Ids of shared points, by key.
 #[derive(Default)]
-pub(crate) struct PointIds(FxHashMap<Name, u32>);
+pub(crate) struct PointIds(FxHashMap<PointKey, u32>);
 
 impl PointIds {
     /// Ids of distinct points, numbered from `first` on.
     pub fn new(points: &[DVec3], first: u32) -> Self {
-        Self(points.iter().map(|p| name(*p)).zip(first..).collect())
+        Self(points.iter().map(|p| point_key(*p)).zip(first..).collect())
     }
 
     /// Id of a point, which is appended to `points` if new. `points[0]` has the id `first`.
     pub fn of(&mut self, points: &mut Vec<DVec3>, first: u32, p: DVec3) -> u32 {
-        *self.0.entry(name(p)).or_insert_with(|| {
+        *self.0.entry(point_key(p)).or_insert_with(|| {
             points.push(p);
             first + points.len() as u32 - 1
         })

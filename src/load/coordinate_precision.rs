@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::VISIBLE_STEP;
+use crate::geometry::numbers::tolerance::MAX_ROUNDED_STEP_OF_SIZE;
 use crate::scene::{Geometry, Scene};
 
 /// Maximum number of positions of a file that are measured, evenly spread.
@@ -19,16 +19,16 @@ const MAX_SAMPLES: usize = 1024;
 
 /// Minimum digits that indicate single precision. Almost every number of seven digits is the shortest text of
 /// some `f32`.
-const SINGLE_DIGITS: i32 = 8;
+const MIN_SINGLE_DIGITS: i32 = 8;
 
 /// Minimum digits that indicate double precision.
-const DOUBLE_DIGITS: i32 = 15;
+const MIN_DOUBLE_DIGITS: i32 = 15;
 
 /// Maximum relative error of an `f32` written with nine digits: half a unit of the ninth digit.
-const SINGLE_ERROR: f64 = 5.000_001e-9;
+const MAX_SINGLE_ERROR: f64 = 5.000_001e-9;
 
 /// Numbers below this fraction of the largest are noise around zero and are not measured.
-const NOISE_OF_LARGEST: f64 = 1e-6;
+const MIN_VALUE_OF_LARGEST: f64 = 1e-6;
 
 /// Stores the measured precision in each geometry of a scene.
 pub(crate) fn measure(scene: &mut Scene) {
@@ -62,7 +62,7 @@ impl Precision {
     fn of(positions: &[DVec3]) -> Self {
         let numbers = || positions.iter().flat_map(|p| p.to_array());
         let largest = numbers().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let all = || numbers().filter(|x| x.abs() > NOISE_OF_LARGEST * largest);
+        let all = || numbers().filter(|x| x.abs() > MIN_VALUE_OF_LARGEST * largest);
         let mut text = String::new();
         let mut most_digits = 0;
         let mut step: f64 = 0.0;
@@ -74,15 +74,15 @@ impl Precision {
                 step = step.max(unit);
             }
         }
-        if most_digits >= SINGLE_DIGITS && all().all(is_single) {
+        if most_digits >= MIN_SINGLE_DIGITS && all().all(is_single) {
             return Self::Single;
         }
-        if most_digits >= DOUBLE_DIGITS {
+        if most_digits >= MIN_DOUBLE_DIGITS {
             return Self::Exact;
         }
         let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
         let high = positions.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
-        if step > 0.0 && step <= VISIBLE_STEP * low.distance(high) {
+        if step > 0.0 && step <= MAX_ROUNDED_STEP_OF_SIZE * low.distance(high) {
             Self::Decimals(step)
         } else {
             Self::Exact
@@ -93,7 +93,7 @@ impl Precision {
 /// Whether a number represents an `f32`: it has at least nine digits of one, or its shortest unique digits.
 fn is_single(number: f64) -> bool {
     let single = number as f32;
-    (number - f64::from(single)).abs() <= SINGLE_ERROR * number.abs()
+    (number - f64::from(single)).abs() <= MAX_SINGLE_ERROR * number.abs()
         || single.to_string().parse() == Ok(number)
 }
 

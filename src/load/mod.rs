@@ -38,7 +38,7 @@ use crate::animation::Rigged;
 use crate::error::{self, Error};
 use crate::scene::Scene;
 
-const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
+const SUPPORTED_FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
 
 /// A format of model files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -128,7 +128,7 @@ fn open_with<T: From<Scene>>(
     read_gltf: impl FnOnce(&Path) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let scene = refuse_strangers(path).and_then(|()| match ModelFormat::of_ending(&ending) {
+    let scene = refuse_other_files(path).and_then(|()| match ModelFormat::of_ending(&ending) {
         Some(ModelFormat::Obj) => obj::read(path).map(T::from),
         Some(ModelFormat::Gltf) => read_gltf(path),
         Some(ModelFormat::Stl) => stl::read(path).map(T::from),
@@ -149,17 +149,17 @@ fn read_bytes<T: From<Scene>>(
     read_gltf: impl FnOnce(&[u8], &dyn Fn(&str, usize) -> Result<Vec<u8>, std::io::Error>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     const STEM: &str = "model";
-    refuse_strange_bytes(bytes)?;
+    refuse_other_content(bytes)?;
     match format {
-        ModelFormat::Obj => measured(obj::read_bytes(bytes, STEM, |_| None)).map(T::from),
+        ModelFormat::Obj => with_precision(obj::read_bytes(bytes, STEM, |_| None)).map(T::from),
         ModelFormat::Gltf => read_gltf(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
-        ModelFormat::Stl => measured(stl::read_bytes(bytes, STEM)).map(T::from),
-        ModelFormat::Ply => measured(ply::read_bytes(bytes, STEM)).map(T::from),
+        ModelFormat::Stl => with_precision(stl::read_bytes(bytes, STEM)).map(T::from),
+        ModelFormat::Ply => with_precision(ply::read_bytes(bytes, STEM)).map(T::from),
     }
 }
 
 fn unknown(message: impl Into<String>) -> Error {
-    Error::new(message).of_kind(error::ErrorKind::Unsupported).remedy(FORMATS)
+    Error::new(message).of_kind(error::ErrorKind::Unsupported).remedy(SUPPORTED_FORMATS)
 }
 
 /// Reads a file and passes its bytes and the stem of its name to a reader.
@@ -169,13 +169,13 @@ pub(crate) fn read_with(
 ) -> Result<Scene, Error> {
     let bytes = parallel_file_read::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut scene = measured(reader(&bytes, &stem)).map_err(|error| error.in_file(path))?;
+    let mut scene = with_precision(reader(&bytes, &stem)).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());
     Ok(scene)
 }
 
 /// Adds the precision of the coordinates to a scene.
-fn measured(scene: Result<Scene, Error>) -> Result<Scene, Error> {
+fn with_precision(scene: Result<Scene, Error>) -> Result<Scene, Error> {
     scene.map(|mut scene| {
         coordinate_precision::measure(&mut scene);
         scene
@@ -187,15 +187,15 @@ fn cannot_be_read(error: std::io::Error) -> Error {
 }
 
 /// Returns an error if the beginning of a file shows that it is not a model.
-fn refuse_strangers(path: &Path) -> Result<(), Error> {
+fn refuse_other_files(path: &Path) -> Result<(), Error> {
     let mut head = Vec::new();
     let file = fs::File::open(path).map_err(cannot_be_read)?;
     file.take(256).read_to_end(&mut head).map_err(cannot_be_read)?;
-    refuse_strange_bytes(&head)
+    refuse_other_content(&head)
 }
 
 /// Returns an error for the usual results of a failed download.
-fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
+fn refuse_other_content(bytes: &[u8]) -> Result<(), Error> {
     let start = bytes.trim_ascii_start();
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
     let begins =
@@ -215,7 +215,7 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// The first 20 bytes of a word, escaped for error messages.
-pub(crate) fn shown(word: &[u8]) -> String {
+pub(crate) fn quoted_start(word: &[u8]) -> String {
     let start: Vec<u8> = word.iter().copied().take(20).collect();
     decode(&start).escape_debug().to_string()
 }
@@ -250,10 +250,10 @@ mod tests {
             ("\u{feff}<HTML>", "web page"),
             ("", "nothing to draw"),
         ] {
-            let error = refuse_strange_bytes(bytes.as_bytes()).unwrap_err().to_string();
+            let error = refuse_other_content(bytes.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(wanted), "{error}");
         }
-        assert!(refuse_strange_bytes(b"v 0 0 0").is_ok());
+        assert!(refuse_other_content(b"v 0 0 0").is_ok());
     }
 
     #[test]

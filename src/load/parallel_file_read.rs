@@ -11,17 +11,17 @@ use std::sync::{Mutex, PoisonError};
 use crate::parallel::prelude::*;
 
 /// Minimum size for parallel reading, bytes. Distributing smaller files takes longer than reading them.
-const LEAST: u64 = 8 << 20;
+const MIN_PARALLEL_BYTES: u64 = 8 << 20;
 
 /// Bytes per read call.
-const BLOCK: usize = 64 << 10;
+const BLOCK_BYTES: usize = 64 << 10;
 
 /// Blocks per parallel task.
-const CHUNK: usize = 16;
+const BLOCKS_PER_TASK: usize = 16;
 
 /// Reads all bytes of a file.
 pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
-    read_from(path, LEAST)
+    read_from(path, MIN_PARALLEL_BYTES)
 }
 
 /// As [`read`], parallel from a size of `least` bytes on.
@@ -41,23 +41,23 @@ fn read_from(path: &Path, least: u64) -> io::Result<Vec<u8>> {
 /// blocks; a zeroed vector would be touched by one thread.
 fn in_blocks(path: &Path, size: usize) -> io::Result<Vec<u8>> {
     let failed = Mutex::new(None);
-    let read = |file: &mut io::Result<File>, k: usize| -> io::Result<[u8; BLOCK]> {
-        let mut block = [0; BLOCK];
+    let read = |file: &mut io::Result<File>, k: usize| -> io::Result<[u8; BLOCK_BYTES]> {
+        let mut block = [0; BLOCK_BYTES];
         let file = file.as_mut().map_err(|error| io::Error::from(error.kind()))?;
-        file.seek(SeekFrom::Start((k * BLOCK) as u64))?;
-        file.read_exact(&mut block[..BLOCK.min(size - k * BLOCK)])?;
+        file.seek(SeekFrom::Start((k * BLOCK_BYTES) as u64))?;
+        file.read_exact(&mut block[..BLOCK_BYTES.min(size - k * BLOCK_BYTES)])?;
         Ok(block)
     };
-    let blocks: Vec<[u8; BLOCK]> = (0..size.div_ceil(BLOCK))
+    let blocks: Vec<[u8; BLOCK_BYTES]> = (0..size.div_ceil(BLOCK_BYTES))
         .into_par_iter()
-        .with_min_len(CHUNK)
-        .with_max_len(CHUNK)
+        .with_min_len(BLOCKS_PER_TASK)
+        .with_max_len(BLOCKS_PER_TASK)
         .map_init(
             || File::open(path),
             |file, k| {
                 read(file, k).unwrap_or_else(|error| {
                     failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-                    [0; BLOCK]
+                    [0; BLOCK_BYTES]
                 })
             },
         )
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn a_file_read_in_blocks_is_the_file() {
         let path = std::env::temp_dir().join(format!("ligne-large-file-{}", std::process::id()));
-        for size in [1, BLOCK - 1, BLOCK, 40 * BLOCK + 12_345] {
+        for size in [1, BLOCK_BYTES - 1, BLOCK_BYTES, 40 * BLOCK_BYTES + 12_345] {
             let bytes: Vec<u8> = (0..size).map(|k| ((k * 31) % 251) as u8).collect();
             fs::write(&path, &bytes).expect("a file");
             assert!(read_from(&path, 1).expect("its bytes") == bytes, "{size}");

@@ -9,10 +9,10 @@ const EXACT_POWERS: [f64; 23] = [
 ];
 
 /// Powers of ten that shift a number by up to eight digits.
-const SHIFTS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+const DIGIT_SHIFTS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
 
 /// Integers below this are exact in an `f64`.
-const EXACT_MANTISSA: u64 = 1 << 53;
+const MAX_EXACT_MANTISSA: u64 = 1 << 53;
 
 /// Position in a text. After the end it reads newlines, so that every line ends.
 #[derive(Clone)]
@@ -152,7 +152,7 @@ impl<'a> Cursor<'a> {
         self.number_with_exponent(start, negative, mantissa, whole + fraction, fraction)
     }
 
-    /// Rest of [`Cursor::number`]: exponents, long mantissas and words.
+    /// Rest of [`Cursor::assign_kinds`]: exponents, long mantissas and words.
     fn number_with_exponent(
         &mut self,
         start: usize,
@@ -161,7 +161,7 @@ impl<'a> Cursor<'a> {
         digits: usize,
         fraction: usize,
     ) -> Option<f64> {
-        if (1..=19).contains(&digits) && mantissa < EXACT_MANTISSA && matches!(self.peek(), b'e' | b'E') {
+        if (1..=19).contains(&digits) && mantissa < MAX_EXACT_MANTISSA && matches!(self.peek(), b'e' | b'E') {
             let e = self.at;
             self.at += 1;
             let down = self.sign();
@@ -240,7 +240,7 @@ fn leading_digits(bytes: [u8; 8]) -> (usize, u64) {
 fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
     while let Some(eight) = bytes.get(at..).and_then(|b| b.first_chunk()) {
         let (count, number) = leading_digits(*eight);
-        value = value.wrapping_mul(SHIFTS.get(count).copied().unwrap_or(1)).wrapping_add(number);
+        value = value.wrapping_mul(DIGIT_SHIFTS.get(count).copied().unwrap_or(1)).wrapping_add(number);
         at += count;
         if count < 8 {
             return (value, at);
@@ -268,7 +268,7 @@ pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
         count += fraction;
     }
     // One division of two exact numbers is rounded once, so the result is correct.
-    let exact = count.wrapping_sub(1) < 19 && mantissa < EXACT_MANTISSA;
+    let exact = count.wrapping_sub(1) < 19 && mantissa < MAX_EXACT_MANTISSA;
     if !exact || matches!(bytes.get(at), Some(b'e' | b'E')) {
         return None;
     }

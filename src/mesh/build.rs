@@ -13,16 +13,16 @@ use glam::DVec3;
 use super::order::canonical_order;
 use super::seams::open_edges;
 use super::weld::nearby_vertices;
-use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, part_metrics};
+use super::{Cleaning, EdgeFaces, Edges, Mesh, MeshMetrics, Soup, part_metrics};
 use crate::mesh::components::bodies::bodies;
-use crate::mesh::components::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
+use crate::mesh::components::orientation::{ConnectedTriangles, OrientedSurfaces, TurnedFaces, turn_faces};
 use crate::mesh::normals::face_normals::normals_and_narrow;
-use crate::mesh::normals::normal_carriers::{Faces, take_over};
+use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
 use crate::mesh::normals::triangle_area::{has_own_area, may_have_flat_faces};
 use crate::mesh::overlaps::overlay_order::overlays;
 use crate::mesh::seams::face_split::cut_faces;
-use crate::mesh::weld::duplicate_faces::{one_of_doubles, retain_faces};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::weld::duplicate_faces::{retain_faces, unique_faces};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 impl Mesh {
     /// Builds the mesh of a flattened scene.
@@ -32,7 +32,7 @@ impl Mesh {
     /// - Open edges that lie along each other are sewn (see `seams`).
     /// - Faces wound inward or against their neighbours are turned (see `orientation`).
     ///
-    /// [`Mesh::cleaning`] and [`Mesh::turned`] count the changes. The result does not depend on the numbering
+    /// [`Mesh::cleaning`] and [`Mesh::turn_camera`] count the changes. The result does not depend on the numbering
     /// of vertices, the order of faces, or the first corner of a face. Only parts and materials keep their
     /// order.
     #[must_use]
@@ -47,7 +47,8 @@ impl Mesh {
         let counted = if has_flat_faces { bounds(&soup, has_own_area) } else { None };
         // Adding zero turns -0 into +0.
         soup.positions.par_iter_mut().for_each(|p| *p += DVec3::ZERO);
-        cleaning.welded = canonical_order::by_place(&mut soup, low.abs().max(high.abs()).max_element());
+        cleaning.welded =
+            canonical_order::sort_by_position(&mut soup, low.abs().max(high.abs()).max_element());
         let (counted_low, counted_high) = counted.unwrap_or((low, high));
         let origin = part_metrics::origin(counted_low, counted_high);
         if origin != DVec3::ZERO {
@@ -62,24 +63,24 @@ impl Mesh {
         let turned_of_open = surfaces.turn_closed_only();
         let mut is_as_found = true;
         if turn(&mut soup, &surfaces, &mut turned) {
-            canonical_order::faces_by_place(&mut soup);
+            canonical_order::sort_faces_by_position(&mut soup);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
             is_as_found = false;
         }
 
         let of_bodies = |soup: &Soup, bodies: &[_]| {
-            Extents::new(soup, origin, has_flat_faces).united(bodies, origin, soup.single_precision)
+            MeshMetrics::new(soup, origin, has_flat_faces).united(bodies, origin, soup.single_precision)
         };
         let mut joined_parts = bodies(&soup, &edges);
         let mut extents = of_bodies(&soup, &joined_parts);
         let (borders, reaches) = border_vertices(&soup, &edges, &extents);
-        if let Some(joined) = nearby_vertices::near(&soup.positions, &borders, &reaches) {
+        if let Some(joined) = nearby_vertices::join_nearby(&soup.positions, &borders, &reaches) {
             replace_vertices(&mut soup, &joined, &mut cleaning);
             drop_collapsed(&mut soup, &mut cleaning);
             edges = Edges::build(soup.positions.len(), &soup.triangles);
             (is_final, is_as_found) = (false, false);
         }
-        if let Some(keep) = one_of_doubles(&soup, &edges) {
+        if let Some(keep) = unique_faces(&soup, &edges) {
             cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
             retain_faces(&mut soup, &keep);
             let mut left = 0..;
@@ -128,9 +129,9 @@ impl Mesh {
         };
         let (mut face_normals, narrow) = normals_and_narrow(&soup.positions, &soup.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
-        let carriers =
-            Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers(&narrow);
-        take_over(&carriers, &mut face_normals);
+        let carriers = CoplanarSearch { positions, triangles, parts, edges: &edges, extents: &extents }
+            .carriers(&narrow);
+        copy_carrier_normals(&carriers, &mut face_normals);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
@@ -165,13 +166,13 @@ impl Mesh {
 }
 
 /// The connected surfaces of a soup.
-fn surfaces(soup: &Soup, edges: &Edges) -> Surfaces {
+fn surfaces(soup: &Soup, edges: &Edges) -> OrientedSurfaces {
     let Soup { positions, triangles, triangle_part: parts, .. } = soup;
-    Surfaces::new(&Triangles { positions, triangles, parts, edges })
+    OrientedSurfaces::new(&ConnectedTriangles { positions, triangles, parts, edges })
 }
 
 /// Turns and counts the faces that must be turned. Returns false if there are none.
-fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> bool {
+fn turn(soup: &mut Soup, surfaces: &OrientedSurfaces, counts: &mut Vec<TurnedFaces>) -> bool {
     let any = !surfaces.turned.is_empty();
     if any {
         turn_faces(soup, &surfaces.turned);
@@ -204,7 +205,7 @@ fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DV
 
 /// Faces with a corner that satisfies `moves`, ascending.
 fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
-    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
 }
 
@@ -229,13 +230,13 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
 }
 
 /// Vertices on open edges, ascending, with their weld tolerance: the largest of their parts.
-fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, Vec<f64>) {
+fn border_vertices(soup: &Soup, edges: &Edges, extents: &MeshMetrics) -> (Vec<u32>, Vec<f64>) {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |e: usize| match edges.faces(e) {
         EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
         _ => None,
     };
-    let ends = (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(open);
+    let ends = (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter_map(open);
     let mut vertices: Vec<(u32, f64)> =
         ends.flat_map_iter(|(ends, reach)| ends.map(|v| (v, reach))).collect();
     vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));

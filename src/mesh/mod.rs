@@ -31,19 +31,19 @@ pub mod weld;
 
 use glam::DVec3;
 
-pub use components::disjoint_sets::{Groups, Numbered};
+pub use components::disjoint_sets::{DisjointSets, NumberedSets};
 pub use components::orientation::TurnedFaces;
 pub use edges::edge_set::EdgeSet;
 pub use edges::edge_table::{EdgeFaces, Edges};
-pub(crate) use edges::vertex_edges::FirstEdges;
-pub(crate) use edges::vertex_ranges::{Share, share_count, shares};
+pub(crate) use edges::vertex_edges::VertexEdges;
+pub(crate) use edges::vertex_ranges::{VertexRange, range_count, vertex_ranges};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use normals::dihedral::Dihedral;
-pub use normals::dihedral_cosines::Turns;
+pub use normals::dihedral_cosines::DihedralCosines;
 pub use overlaps::overlay_order::Overlay;
-pub use part_metrics::{Extent, Extents};
+pub use part_metrics::{MeshMetrics, PartMetrics};
 pub use soup::{EdgeMark, Soup, Wire};
-pub use vertex_sources::Sources;
+pub use vertex_sources::VertexSources;
 pub use weld::duplicate_faces::Cleaning;
 
 /// A welded triangle mesh, built by [`Mesh::build`].
@@ -56,7 +56,7 @@ pub struct Mesh {
     /// near them, which preserves precision.
     pub origin: DVec3,
     /// Size of each part. Every tolerance is a fraction of it.
-    pub extents: Extents,
+    pub extents: MeshMetrics,
     /// Vertex positions, world units relative to `origin`.
     pub positions: Vec<DVec3>,
     /// Vertex ids of each face, counter-clockwise seen from outside. Surfaces without an outside, such as
@@ -73,7 +73,7 @@ pub struct Mesh {
     /// Part of each face.
     pub face_part: Vec<PartId>,
     /// For each part, the first part of its body: parts whose surfaces continue in each other. Empty if every
-    /// part is a separate body. See [`Mesh::body`].
+    /// part is a separate body. See [`Mesh::without_title`].
     pub bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
@@ -121,7 +121,7 @@ impl Mesh {
 
     /// A copy where the faces that satisfy `clear` are degenerate, so that they hide nothing.
     #[must_use]
-    pub fn seen_through(&self, clear: impl Fn(FaceId) -> bool) -> Self {
+    pub fn with_transparent_faces(&self, clear: impl Fn(FaceId) -> bool) -> Self {
         let mut mesh = self.clone();
         for (face, normal) in mesh.face_normals.iter_mut().enumerate() {
             if clear(FaceId(face as u32)) {
@@ -132,7 +132,7 @@ impl Mesh {
     }
 
     /// Removes the file normals of the faces that satisfy `wrong`.
-    pub fn forget_normals(&mut self, wrong: impl Fn(u32) -> bool) {
+    pub fn remove_normals(&mut self, wrong: impl Fn(u32) -> bool) {
         for (face, corners) in self.corner_normals.iter_mut().enumerate() {
             if wrong(face as u32) {
                 *corners = [u32::MAX; 3];

@@ -1,4 +1,4 @@
-//! [`Extents`]: size, position and tolerances of each part.
+//! [`MeshMetrics`]: size, position and tolerances of each part.
 //!
 //! Tolerances are fractions of the size of a part, never of the whole model, so that a part does not depend
 //! on others elsewhere.
@@ -12,19 +12,19 @@ use super::{FaceId, Mesh, PartId, Soup};
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::geometry::numbers::tolerance;
 use crate::mesh::normals::triangle_area::{has_own_area, scale_of};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Grid step of the mesh origin, in sizes of the model rounded up to a power of two. A coarse grid keeps the
 /// origin when parts are added or removed.
-const ORIGIN_OF_SIZE: f64 = 256.0;
+const ORIGIN_STEP_OF_SIZE: f64 = 256.0;
 
 /// Maximum contact distance due to the precision of a file, as a share of the part. A file with coarser
 /// coordinates does not determine which surfaces touch.
-const CONTACT_AT_MOST: f64 = 1e-3;
+const MAX_CONTACT_OF_PART: f64 = 1e-3;
 
 /// Size, position and tolerances of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
+pub struct PartMetrics {
     /// Lower corner of the box, local space.
     pub low: DVec3,
     /// Upper corner of the box, local space.
@@ -41,18 +41,18 @@ pub struct Extent {
     /// Maximum displacement of a vertex by rounding, world units; 0 where coordinates are exact.
     pub rounding: f64,
     /// Extent of the part without the rest of its body.
-    own: Own,
+    own: OwnExtent,
 }
 
 /// Scale and box of a single part.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Own {
+struct OwnExtent {
     scale: f64,
     low: DVec3,
     high: DVec3,
 }
 
-impl Extent {
+impl PartMetrics {
     const NOTHING: Self = Self {
         low: DVec3::INFINITY,
         high: DVec3::NEG_INFINITY,
@@ -61,7 +61,7 @@ impl Extent {
         weld: 0.0,
         step: 0.0,
         rounding: 0.0,
-        own: Own { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
+        own: OwnExtent { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
     };
 
     /// Diagonal of the box, world units.
@@ -73,7 +73,7 @@ impl Extent {
     /// Compares two parts by size, then by position. Independent of their order in the file.
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
-        let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
+        let place = |own: &OwnExtent| [own.low.to_array(), own.high.to_array()];
         let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
         self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
     }
@@ -87,8 +87,8 @@ impl Extent {
 
 /// Extents of all parts of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct Extents {
-    of_part: Vec<Extent>,
+pub struct MeshMetrics {
+    of_part: Vec<PartMetrics>,
     /// Centre of the box around everything, local space. Only for searches whose result does not depend on
     /// it.
     pub middle: DVec3,
@@ -99,7 +99,7 @@ pub struct Extents {
     counted: (DVec3, f64),
 }
 
-impl Extents {
+impl MeshMetrics {
     /// Extents of the parts of a soup with positions relative to `origin`.
     ///
     /// With `has_flat_faces`, faces without area do not count for the extent of their part, unless it has no
@@ -140,13 +140,13 @@ impl Extents {
         };
         let of_faces: Vec<Boxes> = soup
             .triangles
-            .par_chunks(GRAIN)
+            .par_chunks(MIN_TASK_ITEMS)
             .enumerate()
             .map(|(chunk, faces)| {
                 let mut boxes = Boxes::new();
                 for (i, t) in faces.iter().enumerate() {
                     if counts(t.map(|v| soup.positions[v as usize])) {
-                        grow(&mut boxes, part(chunk * GRAIN + i), t);
+                        grow(&mut boxes, part(chunk * MIN_TASK_ITEMS + i), t);
                     }
                 }
                 boxes
@@ -155,9 +155,9 @@ impl Extents {
         let mut boxes = of_faces.concat();
         soup.wires.iter().for_each(|wire| grow(&mut boxes, wire.part, &wire.vertices));
 
-        let mut all = Extent::NOTHING;
+        let mut all = PartMetrics::NOTHING;
         let count = boxes.iter().map(|(part, ..)| part.index() + 1).max().unwrap_or(0);
-        let mut of_part = vec![Extent::NOTHING; count];
+        let mut of_part = vec![PartMetrics::NOTHING; count];
         for (part, low, high) in boxes {
             for extent in [&mut of_part[part.index()], &mut all] {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
@@ -169,17 +169,17 @@ impl Extents {
 
     /// Extent of a part; empty for a part without faces and wires.
     #[must_use]
-    pub fn of(&self, part: PartId) -> &Extent {
-        self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
+    pub fn of(&self, part: PartId) -> &PartMetrics {
+        self.of_part.get(part.index()).unwrap_or(&PartMetrics::NOTHING)
     }
 
     /// Extents of all parts.
     #[must_use]
-    pub fn all(&self) -> &[Extent] {
+    pub fn all(&self) -> &[PartMetrics] {
         &self.of_part
     }
 
-    /// Rank of each part in the order of [`Extent::precedence`]. Equal parts keep the order of the file.
+    /// Rank of each part in the order of [`PartMetrics::precedence`]. Equal parts keep the order of the file.
     #[must_use]
     pub fn ranks(&self) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.of_part.len() as u32).collect();
@@ -218,14 +218,14 @@ impl Extents {
     }
 }
 
-impl Extents {
+impl MeshMetrics {
     /// Gives each part the extent of its body, the union of its parts. The order of parts still depends on
     /// their own sizes.
     pub(crate) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
         if bodies.is_empty() {
             return self;
         }
-        let mut of_body = vec![Extent::NOTHING; self.of_part.len()];
+        let mut of_body = vec![PartMetrics::NOTHING; self.of_part.len()];
         for (extent, body) in self.of_part.iter().zip(bodies) {
             let own = &mut of_body[body.index()];
             (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
@@ -233,7 +233,7 @@ impl Extents {
         }
         of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision, extent.step));
         for (extent, body) in self.of_part.iter_mut().zip(bodies) {
-            *extent = Extent { own: extent.own, ..of_body[body.index()] };
+            *extent = PartMetrics { own: extent.own, ..of_body[body.index()] };
         }
         self
     }
@@ -252,7 +252,7 @@ fn ball(middle: DVec3, diagonal: f64) -> (DVec3, f64) {
     (middle, (least / quarter).ceil() * quarter)
 }
 
-impl Extent {
+impl PartMetrics {
     fn measure(&mut self, origin: DVec3, single_precision: bool, step: f64) {
         if self.low.x > self.high.x {
             return;
@@ -266,12 +266,13 @@ impl Extent {
         let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
         self.step = step.max(of_single);
         // A visible lattice is the intended shape.
-        let step = if step <= tolerance::VISIBLE_STEP * self.diagonal() { step } else { 0.0 };
-        let rounding = (tolerance::ROUNDING_OF_LATTICE * step).max(tolerance::ROUNDING_OF_SINGLE * of_single);
-        self.rounding = rounding.min(CONTACT_AT_MOST * self.scale);
-        let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
+        let step = if step <= tolerance::MAX_ROUNDED_STEP_OF_SIZE * self.diagonal() { step } else { 0.0 };
+        let rounding =
+            (tolerance::MAX_LATTICE_ROUNDING_STEPS * step).max(tolerance::MAX_F32_ROUNDING_STEPS * of_single);
+        self.rounding = rounding.min(MAX_CONTACT_OF_PART * self.scale);
+        let between = (2.0 * written).max(2.0 * self.rounding).min(MAX_CONTACT_OF_PART * self.scale);
         self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
-        self.own = Own { scale: self.scale, low: self.low, high: self.high };
+        self.own = OwnExtent { scale: self.scale, low: self.low, high: self.high };
     }
 }
 
@@ -283,7 +284,7 @@ pub(crate) fn origin(low: DVec3, high: DVec3) -> DVec3 {
     if size == 0.0 {
         return middle + DVec3::ZERO;
     }
-    let step = ORIGIN_OF_SIZE * power_of_two_above(size);
+    let step = ORIGIN_STEP_OF_SIZE * power_of_two_above(size);
     // Adding zero turns -0 into +0.
     (middle / step).round() * step + DVec3::ZERO
 }
@@ -292,7 +293,7 @@ impl Mesh {
     /// The extent of the part that a face belongs to.
     #[inline]
     #[must_use]
-    pub fn extent(&self, face: FaceId) -> &Extent {
+    pub fn extent(&self, face: FaceId) -> &PartMetrics {
         self.extents.of(self.face_part[face.index()])
     }
 }

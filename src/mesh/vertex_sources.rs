@@ -1,4 +1,4 @@
-//! [`Sources`]: source vertices of a mesh in its soup, so that the mesh can follow a pose.
+//! [`VertexSources`]: source vertices of a mesh in its soup, so that the mesh can follow a pose.
 //!
 //! A pose changes positions and normals only. Welding, edges, creases and patches stay those of the rest
 //! pose.
@@ -9,18 +9,18 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::{Extents, Mesh, Soup};
+use super::{Mesh, MeshMetrics, Soup};
 use crate::mesh::normals::face_normals::normals_and_narrow;
-use crate::mesh::normals::normal_carriers::{Faces, take_over};
+use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
 use crate::mesh::overlaps::overlay_order::overlays;
 
 /// Maximum distance, as a share of the model, between vertices of a pose that are welded at rest. It covers
 /// the rounding of joints.
-const TOGETHER: f64 = 1e-6;
+const MAX_SPREAD_OF_MODEL: f64 = 1e-6;
 
 /// Mapping between the vertices of a soup and of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Sources {
+pub struct VertexSources {
     /// For each vertex of the soup, the vertex of the mesh at its position.
     vertices: Vec<u32>,
     /// For each vertex of the mesh, the first vertex of the soup at its position.
@@ -29,7 +29,7 @@ pub struct Sources {
     normals: usize,
 }
 
-impl Sources {
+impl VertexSources {
     /// Maps a mesh and the soup that it was built from. `None` if some position of one is missing in the
     /// other.
     #[must_use]
@@ -60,8 +60,8 @@ impl Mesh {
     /// `None` if it is a different soup, or if welded vertices have separated. The mesh must then be built
     /// again.
     #[must_use]
-    pub fn posed(&self, sources: &Sources, soup: &Soup) -> Option<Self> {
-        let Sources { vertices, first, triangles, normals } = sources;
+    pub fn posed(&self, sources: &VertexSources, soup: &Soup) -> Option<Self> {
+        let VertexSources { vertices, first, triangles, normals } = sources;
         let same = [soup.positions.len(), soup.triangles.len(), soup.normals.len()];
         if same != [vertices.len(), *triangles, *normals] || self.positions.len() != first.len() {
             return None;
@@ -79,9 +79,9 @@ impl Mesh {
             steps: soup.steps.clone(),
             ..Soup::default()
         };
-        let extents = Extents::new(&moved, self.origin, true);
+        let extents = MeshMetrics::new(&moved, self.origin, true);
         let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
-        let together = TOGETHER * extents.counted_diagonal();
+        let together = MAX_SPREAD_OF_MODEL * extents.counted_diagonal();
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
             (local(*p, self.origin) - joined).length().partial_cmp(&together).is_none_or(Ordering::is_gt)
@@ -95,9 +95,9 @@ impl Mesh {
         };
         let (mut face_normals, narrow) = normals_and_narrow(&moved.positions, &moved.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
-        let carriers =
-            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers(&narrow);
-        take_over(&carriers, &mut face_normals);
+        let carriers = CoplanarSearch { positions, triangles, parts, edges: &self.edges, extents: &extents }
+            .carriers(&narrow);
+        copy_carrier_normals(&carriers, &mut face_normals);
         let mut posed = Self {
             face_normals,
             carriers,
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn a_moved_mesh_is_as_one_built_there() {
         let rest = Mesh::build(soup(0.0, 0.0));
-        let sources = Sources::of(&rest, &soup(0.0, 0.0)).unwrap();
+        let sources = VertexSources::of(&rest, &soup(0.0, 0.0)).unwrap();
         let moved = rest.posed(&sources, &soup(3.0, 0.0)).unwrap();
         let built = Mesh::build(soup(3.0, 0.0));
         // Sorted, because the moved mesh keeps the order of the rest pose.
@@ -168,9 +168,9 @@ mod tests {
     #[test]
     fn what_parts_is_built_anew() {
         let rest = Mesh::build(soup(0.0, 0.0));
-        let sources = Sources::of(&rest, &soup(0.0, 0.0)).unwrap();
+        let sources = VertexSources::of(&rest, &soup(0.0, 0.0)).unwrap();
         assert!(rest.posed(&sources, &soup(0.0, 0.1)).is_none());
         assert!(rest.posed(&sources, &Soup::default()).is_none());
-        assert!(Sources::of(&rest, &soup(9.0, 0.0)).is_none());
+        assert!(VertexSources::of(&rest, &soup(9.0, 0.0)).is_none());
     }
 }

@@ -1,23 +1,23 @@
-//! [`Starts`]: the vertices where the lines of a body start, the same throughout a clip.
+//! [`LineStarts`]: the vertices where the lines of a body start, the same throughout a clip.
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
-use super::moving_bodies::Body;
+use super::moving_bodies::MovingBody;
 use super::options::MotionOptions;
-use crate::animation::{Moment, Rigged};
+use crate::animation::{PosedVertices, Rigged};
 use crate::geometry::numbers::noise::hash;
 use crate::scene::Geometry;
 
 /// Number of random candidates per line. The candidate farthest from all chosen vertices is taken, so that
 /// lines do not crowd where the mesh is fine (best-candidate sampling, Mitchell 1991).
-const CANDIDATES: usize = 6;
+const CANDIDATES_PER_LINE: usize = 6;
 
 /// Number of vertices that define the centre of a body.
-const ANCHORS: usize = 64;
+const MIDDLE_VERTICES: usize = 64;
 
 /// Motion line of a body.
-pub(crate) struct Start {
+pub(crate) struct LineStart {
     /// Index of the line.
     pub number: usize,
     /// Vertex of the part where it starts.
@@ -32,8 +32,8 @@ pub(crate) struct Start {
 }
 
 /// Starts of the lines of a body.
-pub(crate) struct Starts {
-    pub lines: Vec<Start>,
+pub(crate) struct LineStarts {
+    pub lines: Vec<LineStart>,
     /// Vertices spread over the body.
     pub anchors: Vec<usize>,
     /// Material at the first line.
@@ -42,10 +42,10 @@ pub(crate) struct Starts {
     pub missing: Vec<u32>,
 }
 
-impl Starts {
+impl LineStarts {
     /// Chooses vertices of a body at random by their rest positions, independent of their numbers, or as the
     /// style names them.
-    pub fn new(rigged: &Rigged, body: &Body, options: &MotionOptions, seed: u64) -> Self {
+    pub fn new(rigged: &Rigged, body: &MovingBody, options: &MotionOptions, seed: u64) -> Self {
         let mut own = Self { lines: Vec::new(), anchors: Vec::new(), material: None, missing: Vec::new() };
         let Some(part) = rigged.scene.parts.get(body.part) else { return own };
         let Some(geometry) = rigged.scene.geometries.get(part.geometry) else { return own };
@@ -58,7 +58,7 @@ impl Starts {
             .collect();
         let shuffled = shuffled(geometry, body, hash(seed, &[body.identity]));
         let count = rules.len().max(options.lines as usize);
-        let mut spread = Spread { geometry, left: shuffled.clone(), taken: Vec::new() };
+        let mut spread = VertexSpread { geometry, left: shuffled.clone(), taken: Vec::new() };
         for number in 0..count {
             let rule = rules.get(number).copied();
             let change = rule.map(|rule| options.line[rule].clone()).unwrap_or_default();
@@ -70,7 +70,7 @@ impl Starts {
             });
             let Some(vertex) = named.or_else(|| spread.next()) else { break };
             spread.taken.push(geometry.positions[vertex]);
-            own.lines.push(Start {
+            own.lines.push(LineStart {
                 number,
                 vertex,
                 named: named.is_some(),
@@ -79,22 +79,22 @@ impl Starts {
                 visible: change.visible.unwrap_or(true),
             });
         }
-        own.anchors = shuffled.into_iter().take(ANCHORS).collect();
+        own.anchors = shuffled.into_iter().take(MIDDLE_VERTICES).collect();
         own.material = own.lines.first().and_then(|line| material_at(geometry, line.vertex));
         own
     }
 
     /// Mean speed over a step of the vertices where lines start, world units per second.
-    pub fn speed(&self, part: usize, [now, before]: [&Moment; 2], step: f64) -> f64 {
+    pub fn speed(&self, part: usize, [now, before]: [&PosedVertices; 2], step: f64) -> f64 {
         let way =
-            |line: &Start| Some(now.place(part, line.vertex)?.distance(before.place(part, line.vertex)?));
+            |line: &LineStart| Some(now.place(part, line.vertex)?.distance(before.place(part, line.vertex)?));
         let ways: Vec<f64> = self.lines.iter().filter_map(way).collect();
         ways.iter().sum::<f64>() / ways.len().max(1) as f64 / step
     }
 }
 
 /// The drawn vertices of a body, one per position, in a random order that depends only on positions.
-fn shuffled(geometry: &Geometry, body: &Body, seed: u64) -> Vec<usize> {
+fn shuffled(geometry: &Geometry, body: &MovingBody, seed: u64) -> Vec<usize> {
     let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
     let mut met: FxHashSet<[u64; 3]> = FxHashSet::default();
     let mut keyed: Vec<(u64, usize)> = Vec::new();
@@ -110,13 +110,13 @@ fn shuffled(geometry: &Geometry, body: &Body, seed: u64) -> Vec<usize> {
 }
 
 /// Takes vertices one by one, each far from the earlier ones.
-struct Spread<'a> {
+struct VertexSpread<'a> {
     geometry: &'a Geometry,
     left: Vec<usize>,
     taken: Vec<DVec3>,
 }
 
-impl Spread<'_> {
+impl VertexSpread<'_> {
     fn next(&mut self) -> Option<usize> {
         let place = |vertex: usize| self.geometry.positions[vertex];
         let gap = |vertex: usize| {
@@ -124,7 +124,7 @@ impl Spread<'_> {
             ways.fold(f64::INFINITY, f64::min)
         };
         let mut best: Option<(usize, f64)> = None;
-        for (k, vertex) in self.left.iter().take(CANDIDATES).enumerate() {
+        for (k, vertex) in self.left.iter().take(CANDIDATES_PER_LINE).enumerate() {
             let gap = gap(*vertex);
             if best.is_none_or(|(_, most)| gap > most) {
                 best = Some((k, gap));

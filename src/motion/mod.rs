@@ -31,23 +31,23 @@ pub mod options;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::animation::{Moment, Playing, Rigged};
+use crate::animation::{Playing, PosedVertices, Rigged};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::cos;
 use crate::scene::{Mover, Scene, Trail};
-use line_starts::Starts;
-use moving_bodies::{Body, Choice, bodies};
+use line_starts::LineStarts;
+use moving_bodies::{BodySelection, MovingBody, bodies};
 
-pub use options::{FadeBy, LineChange, MotionOptions, Path, Speed};
+pub use options::{FadeBy, LineChange, MotionOptions, Speed, TrailPath};
 
 /// Points of a trail per segment. Long segments of bent trails are therefore drawn as curves.
-pub const POINTS_A_SEGMENT: usize = 4;
+pub const POINTS_PER_SEGMENT: usize = 4;
 
-/// The scene while clips play, as [`Rigged::posed`] gives it. If the options enable motion lines, it includes
+/// The scene while clips play, as [`Rigged::posed_model`] gives it. If the options enable motion lines, it includes
 /// the bodies that may leave them. `seed` selects the vertices where lines start.
 ///
 /// # Errors
-/// As [`Rigged::posed`].
+/// As [`Rigged::posed_model`].
 pub fn posed(
     rigged: &Rigged,
     playing: &[Playing],
@@ -69,21 +69,21 @@ fn movers(
     seed: u64,
     scene: &mut Scene,
 ) -> Vec<Mover> {
-    let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
+    let (choice, step) = (BodySelection::new(rigged, options), 1.0 / options.rate);
     let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
     // Index of each part of the file among the visible parts.
     let mut places = 0..;
     let places: Vec<Option<usize>> = (0..rigged.scene.parts.len())
         .map(|part| now.is_shown(part).then(|| places.next()).flatten())
         .collect();
-    let found: Vec<(usize, Body, Starts, bool)> = bodies(rigged, |part| now.differs(&before, part))
+    let found: Vec<(usize, MovingBody, LineStarts, bool)> = bodies(rigged, |part| now.differs(&before, part))
         .into_par_iter()
         .filter_map(|body| {
             let place = places.get(body.part).copied().flatten()?;
-            let starts = Starts::new(rigged, &body, options, seed);
+            let starts = LineStarts::new(rigged, &body, options, seed);
             let speed = starts.speed(body.part, [&now, &before], step);
-            let chosen = choice.takes(&body, speed);
-            let leaves = speed > 0.0 && (chosen || choice.asks_page) && has_extent(scene, place, &body);
+            let chosen = choice.selects(&body, speed);
+            let leaves = speed > 0.0 && (chosen || choice.by_page_speed) && has_extent(scene, place, &body);
             leaves.then_some((place, body, starts, chosen))
         })
         .collect();
@@ -99,8 +99,8 @@ fn movers(
         return Vec::new();
     }
     let longest = found.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
-    let interval = step / POINTS_A_SEGMENT as f64;
-    let buffer: Vec<Moment> = (0..longest.unwrap_or(0) * POINTS_A_SEGMENT + 1)
+    let interval = step / POINTS_PER_SEGMENT as f64;
+    let buffer: Vec<PosedVertices> = (0..longest.unwrap_or(0) * POINTS_PER_SEGMENT + 1)
         .into_par_iter()
         .map(|k| rigged.at(&earlier(playing, interval * k as f64)))
         .collect();
@@ -122,12 +122,13 @@ fn movers(
 }
 
 /// For the joint of a body, the index of its closest ancestor among the bodies of the same part.
-fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> Option<usize> {
+fn above(rigged: &Rigged, body: &MovingBody, all: &[(usize, MovingBody, LineStarts, bool)]) -> Option<usize> {
     let mut node = body.node;
     loop {
         node = rigged.rig.nodes.get(node)?.parent?;
-        let of_node =
-            |(_, other, ..): &(usize, Body, Starts, bool)| other.part == body.part && other.node == node;
+        let of_node = |(_, other, ..): &(usize, MovingBody, LineStarts, bool)| {
+            other.part == body.part && other.node == node
+        };
         if let Some(place) = all.iter().position(of_node) {
             return Some(place);
         }
@@ -140,18 +141,18 @@ pub(crate) fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
 }
 
 /// The trails of the vertices where lines start.
-fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Moment]) -> Vec<Trail> {
-    let middle = |moment: &Moment| {
+fn trails(part: usize, starts: &LineStarts, options: &MotionOptions, buffer: &[PosedVertices]) -> Vec<Trail> {
+    let middle = |moment: &PosedVertices| {
         let places: Vec<DVec3> =
             starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex)).collect();
         places.iter().sum::<DVec3>() / places.len().max(1) as f64
     };
     let way: Vec<DVec3> = match options.path {
-        Path::Vertex => Vec::new(),
-        Path::Body => buffer.iter().map(middle).collect(),
+        TrailPath::Vertex => Vec::new(),
+        TrailPath::Body => buffer.iter().map(middle).collect(),
     };
     // A body scaled to zero appears from nothing. Its trail starts where it has a size.
-    let places = |moment: &Moment| {
+    let places = |moment: &PosedVertices| {
         let places = starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex));
         places.collect::<Vec<DVec3>>()
     };
@@ -159,10 +160,10 @@ fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Momen
     let lines = starts.lines.iter().filter(|line| line.visible);
     lines
         .map(|line| {
-            let count = (line.segments * POINTS_A_SEGMENT + 1).min(sized);
-            let own = |moment: &Moment| moment.place(part, line.vertex);
+            let count = (line.segments * POINTS_PER_SEGMENT + 1).min(sized);
+            let own = |moment: &PosedVertices| moment.place(part, line.vertex);
             let mut points: Vec<DVec3> = match (options.path, buffer.first().and_then(own), way.first()) {
-                (Path::Body, Some(here), Some(now)) => {
+                (TrailPath::Body, Some(here), Some(now)) => {
                     way.iter().take(count).map(|then| here + (*then - *now)).collect()
                 }
                 _ => buffer.iter().take(count).map_while(own).collect(),
@@ -191,7 +192,7 @@ fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
 
 /// A sentence that explains why no body leaves lines at a moment; `None` if one does.
 #[must_use]
-pub fn why_none(
+pub fn no_lines_reason(
     rigged: &Rigged,
     playing: &[Playing],
     options: &MotionOptions,
@@ -200,9 +201,10 @@ pub fn why_none(
     if !scene.movers.as_ref()?.is_empty() {
         return None;
     }
-    let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
+    let (choice, step) = (BodySelection::new(rigged, options), 1.0 / options.rate);
     let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
-    let speed = |body: &Body| Starts::new(rigged, body, options, 0).speed(body.part, [&now, &before], step);
+    let speed =
+        |body: &MovingBody| LineStarts::new(rigged, body, options, 0).speed(body.part, [&now, &before], step);
     let moving = bodies(rigged, |part| now.is_shown(part) && now.differs(&before, part));
     let fastest = moving.iter().map(|body| (speed(body), body)).filter(|(speed, _)| *speed > 0.0);
     let Some((speed, body)) = fastest.max_by(|a, b| a.0.total_cmp(&b.0)) else {
@@ -210,7 +212,7 @@ pub fn why_none(
     };
     let name = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
     let reason = match choice.speed {
-        _ if choice.asks_page || choice.takes(body, speed) => {
+        _ if choice.by_page_speed || choice.selects(body, speed) => {
             "all moving parts have no size at this moment".to_owned()
         }
         Some(least) => format!(
@@ -230,7 +232,7 @@ const MIN_HEIGHT_OF_SIDE: f64 = crate::geometry::numbers::tolerance::DEGENERATE_
 ///
 /// It has none after scaling to zero: all its triangles lack area, or all vertices of a joint coincide.
 /// Bodies of wires always have one.
-fn has_extent(scene: &Scene, place: usize, body: &Body) -> bool {
+fn has_extent(scene: &Scene, place: usize, body: &MovingBody) -> bool {
     if body.is_joint() {
         let part = scene.parts.get(place);
         let geometry = part.and_then(|part| scene.geometries.get(part.geometry));
@@ -259,7 +261,7 @@ fn is_point(mut places: impl Iterator<Item = DVec3>) -> bool {
 }
 
 /// The triangles of a body, world.
-fn triangles(scene: &Scene, place: usize, body: &Body) -> Vec<[DVec3; 3]> {
+fn triangles(scene: &Scene, place: usize, body: &MovingBody) -> Vec<[DVec3; 3]> {
     let Some(part) = scene.parts.get(place) else { return Vec::new() };
     let Some(geometry) = scene.geometries.get(part.geometry) else { return Vec::new() };
     let corner = |vertex: u32| {

@@ -2,14 +2,14 @@
 
 use super::options::{MotionOptions, Speed};
 use crate::animation::Rigged;
-use crate::geometry::names::name_ids::identities;
+use crate::geometry::names::name_ids::stable_ids;
 use crate::geometry::numbers::noise::hash;
 
 /// Default speed limit in model sizes per second. Faster bodies leave lines if nothing else selects bodies.
-const FAST: f64 = 0.5;
+const MIN_SPEED_SIZES_PER_S: f64 = 0.5;
 
 /// Unit of motion: a part, or the vertices that one joint of its skin moves most.
-pub(crate) struct Body {
+pub(crate) struct MovingBody {
     /// Index of the part in the file.
     pub part: usize,
     /// Node or joint that moves it.
@@ -20,7 +20,7 @@ pub(crate) struct Body {
     own: Option<Vec<bool>>,
 }
 
-impl Body {
+impl MovingBody {
     /// Whether it is moved by a joint of a skin.
     pub fn is_joint(&self) -> bool {
         self.own.is_some()
@@ -33,9 +33,9 @@ impl Body {
 }
 
 /// The bodies of the moving parts of a scene: whole parts, and skinned parts joint by joint.
-pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body> {
+pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<MovingBody> {
     let (scene, rig) = (&rigged.scene, &rigged.rig);
-    let parts = identities(scene.parts.iter().map(|part| part.name.as_str()));
+    let parts = stable_ids(scene.parts.iter().map(|part| part.name.as_str()));
     let mut bodies = Vec::new();
     for (part, ((node, _), shown)) in
         rig.parts.iter().zip(&scene.parts).enumerate().filter(|(part, _)| moves(*part))
@@ -43,7 +43,7 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body
         let identity = parts.get(part).copied().unwrap_or_default();
         let is_skinned = rig.forms.get(shown.geometry).is_some_and(|form| form.skin.is_some());
         if !is_skinned {
-            bodies.push(Body { part, node: *node, identity, own: None });
+            bodies.push(MovingBody { part, node: *node, identity, own: None });
             continue;
         }
         let count = scene.geometries.get(shown.geometry).map_or(0, |geometry| geometry.positions.len());
@@ -52,7 +52,7 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body
         let mut joints = carriers.clone();
         joints.sort_unstable();
         joints.dedup();
-        bodies.extend(joints.into_iter().map(|joint| Body {
+        bodies.extend(joints.into_iter().map(|joint| MovingBody {
             part,
             node: joint,
             identity: hash(identity, &[joint as u64]),
@@ -63,9 +63,9 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body
 }
 
 /// Selection of bodies by name, by the file, or by speed.
-pub(crate) struct Choice<'a> {
+pub(crate) struct BodySelection<'a> {
     /// Whether bodies that are fast enough on the page leave lines.
-    pub asks_page: bool,
+    pub by_page_speed: bool,
     rigged: &'a Rigged,
     options: &'a MotionOptions,
     /// Whether each node is selected, itself or through an ancestor.
@@ -74,7 +74,7 @@ pub(crate) struct Choice<'a> {
     pub speed: Option<f64>,
 }
 
-impl<'a> Choice<'a> {
+impl<'a> BodySelection<'a> {
     pub fn new(rigged: &'a Rigged, options: &'a MotionOptions) -> Self {
         let rig = &rigged.rig;
         let mut nodes = vec![false; rig.nodes.len()];
@@ -90,13 +90,16 @@ impl<'a> Choice<'a> {
             Some(Speed::Model(speed)) => Some(speed),
             Some(Speed::Page(_)) => None,
             None if !options.parts.is_empty() || nodes.contains(&true) => None,
-            None => rigged.scene.bounds().map(|(least, greatest)| FAST * least.distance(greatest)),
+            None => rigged
+                .scene
+                .bounds()
+                .map(|(least, greatest)| MIN_SPEED_SIZES_PER_S * least.distance(greatest)),
         };
-        Self { asks_page: matches!(options.speed, Some(Speed::Page(_))), rigged, options, nodes, speed }
+        Self { by_page_speed: matches!(options.speed, Some(Speed::Page(_))), rigged, options, nodes, speed }
     }
 
     /// Whether a body at a speed leaves lines in every view.
-    pub fn takes(&self, body: &Body, speed: f64) -> bool {
+    pub fn selects(&self, body: &MovingBody, speed: f64) -> bool {
         let named = |part: usize| {
             let name = self.rigged.scene.parts.get(part).map_or("", |part| &part.name);
             let node = self.rigged.rig.parts.get(part).map(|(node, _)| *node);

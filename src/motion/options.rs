@@ -12,10 +12,10 @@ use crate::geometry::names::glob::Glob;
 use crate::strokes::Ink;
 
 /// Greatest number of lines per body, and of segments per line.
-const MOST: u32 = 1000;
+const MAX_COUNT: u32 = 1000;
 
 /// Greatest length of a fade, frames. Longer fades would hide short-lived strokes.
-const MOST_FRAMES: u32 = 24;
+const MAX_FADE_FRAMES: u32 = 24;
 
 /// Which bodies leave motion lines, and how these are drawn.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -39,7 +39,7 @@ pub struct MotionOptions {
     /// selects bodies.
     pub speed: Option<Speed>,
     /// Motion that lines follow. Default: vertex.
-    pub path: Path,
+    pub path: TrailPath,
     /// Greatest angle between a trail's directions now and earlier, degrees. Past it the line ends; 180 means
     /// never. Default: 150.
     #[serde(deserialize_with = "angle")]
@@ -83,7 +83,7 @@ impl Default for MotionOptions {
             rate: 24.0,
             parts: Vec::new(),
             speed: None,
-            path: Path::default(),
+            path: TrailPath::default(),
             turn: 150.0,
             over: false,
             width: Length::px(1.0),
@@ -99,7 +99,7 @@ impl Default for MotionOptions {
 /// Motion that lines follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Path {
+pub enum TrailPath {
     /// That of the vertex where the line starts: arcs behind rotating bodies.
     #[default]
     Vertex,
@@ -139,10 +139,10 @@ pub struct LineChange {
 /// Reads a number of lines or segments.
 fn count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let count = f64::deserialize(deserializer)?;
-    if (1.0..=f64::from(MOST)).contains(&count) && count.fract() == 0.0 {
+    if (1.0..=f64::from(MAX_COUNT)).contains(&count) && count.fract() == 0.0 {
         Ok(count as u32)
     } else {
-        Err(D::Error::custom(format!("{count} is not a count; write a whole number from 1 to {MOST}")))
+        Err(D::Error::custom(format!("{count} is not a count; write a whole number from 1 to {MAX_COUNT}")))
     }
 }
 
@@ -153,11 +153,11 @@ fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>,
 /// Reads a number of frames.
 fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let frames = f64::deserialize(deserializer)?;
-    if (0.0..=f64::from(MOST_FRAMES)).contains(&frames) && frames.fract() == 0.0 {
+    if (0.0..=f64::from(MAX_FADE_FRAMES)).contains(&frames) && frames.fract() == 0.0 {
         Ok(frames as u32)
     } else {
         Err(D::Error::custom(format!(
-            "{frames} frames are not possible; write a whole number from 0 to {MOST_FRAMES}"
+            "{frames} frames are not possible; write a whole number from 0 to {MAX_FADE_FRAMES}"
         )))
     }
 }

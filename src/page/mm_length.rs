@@ -45,10 +45,12 @@ impl Visitor<'_> for MmVisitor {
     }
 
     fn visit_f64<E: Error>(self, mm: f64) -> Result<Mm, E> {
-        if mm.is_finite() && mm.abs() <= LONGEST {
+        if mm.is_finite() && mm.abs() <= MAX_LENGTH_MM {
             Ok(Mm(mm))
         } else {
-            Err(E::custom(format!("a length of {mm} mm is too large; at most {LONGEST} mm are possible")))
+            Err(E::custom(format!(
+                "a length of {mm} mm is too large; at most {MAX_LENGTH_MM} mm are possible"
+            )))
         }
     }
 
@@ -63,7 +65,7 @@ impl Visitor<'_> for MmVisitor {
 }
 
 /// Largest length, mm; longer ones are typing errors.
-const LONGEST: f64 = 20_000.0;
+const MAX_LENGTH_MM: f64 = 20_000.0;
 
 #[cfg(test)]
 mod tests {

@@ -32,8 +32,8 @@ pub mod page_source;
 pub mod print_inks;
 pub mod sheet;
 
-pub use composed_page::Composed;
+pub use composed_page::ComposedPage;
 pub use model_reader::ModelReader;
 pub use page_file::PageFile;
-pub use page_source::Source;
-pub use print_inks::Print;
+pub use page_source::PageSource;
+pub use print_inks::PrintInks;

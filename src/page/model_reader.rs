@@ -7,11 +7,11 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::scene::Scene;
 
-type Read = dyn Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync;
+type ReadModel = dyn Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync;
 
 /// A function that reads models in further formats; by default there is none.
 #[derive(Clone, Default)]
-pub struct ModelReader(Option<Arc<Read>>);
+pub struct ModelReader(Option<Arc<ReadModel>>);
 
 impl ModelReader {
     /// Wraps a function that returns `None` for formats that it does not support.

@@ -11,36 +11,36 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::comic::{self, ComicPage};
-use super::composed_page::Composed;
+use super::composed_page::ComposedPage;
 use super::model_reader::ModelReader;
-use super::page_source::Source;
-use super::print_inks::Print;
+use super::page_source::PageSource;
+use super::print_inks::PrintInks;
 use super::sheet::{self, SheetPage};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::style::toml_reader::{self, Fault};
+use crate::style::toml_reader::{self, TomlFault};
 
 /// Kinds of page.
-const KINDS: [&str; 2] = ["comic", "sheet"];
+const PAGE_KINDS: [&str; 2] = ["comic", "sheet"];
 
 /// Keys of a page file.
-const KEYS: [&str; 2] = ["page", "pages"];
+const FILE_KEYS: [&str; 2] = ["page", "pages"];
 
 /// Maximum number of pages, including those of the files that it names.
-const MOST_PAGES: usize = 2000;
+const MAX_PAGES: usize = 2000;
 
 /// A page file that has been read.
 #[derive(Debug, Clone)]
 pub struct PageFile {
     /// Each page with the file that contains it.
-    pages: Vec<(Source, Kind)>,
+    pages: Vec<(PageSource, PageKind)>,
     /// The page files that were read.
     files: Vec<PathBuf>,
 }
 
 /// The keys of a page, by kind.
 #[derive(Debug, Clone)]
-enum Kind {
+enum PageKind {
     Comic(Box<ComicPage>),
     Sheet(Box<SheetPage>),
 }
@@ -63,7 +63,7 @@ impl PageFile {
     /// The same as those of [`PageFile::open`].
     pub fn from_text(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let mut read = Self { pages: Vec::new(), files: Vec::new() };
-        let source = Source {
+        let source = PageSource {
             path: path.as_ref().to_path_buf(),
             text: text.to_owned(),
             models: ModelReader::default(),
@@ -103,8 +103,8 @@ impl PageFile {
         let mut files = self.files.clone();
         for (source, kind) in &self.pages {
             files.extend(match kind {
-                Kind::Comic(page) => page.inputs(source),
-                Kind::Sheet(page) => page.inputs(source),
+                PageKind::Comic(page) => page.inputs(source),
+                PageKind::Sheet(page) => page.inputs(source),
             });
         }
         files.sort();
@@ -116,10 +116,10 @@ impl PageFile {
     ///
     /// # Errors
     /// Returns an error if a key is invalid, or differs from that of an earlier page.
-    pub fn print(&self) -> Result<Print, Error> {
-        let mut print = Print::default();
+    pub fn print(&self) -> Result<PrintInks, Error> {
+        let mut print = PrintInks::default();
         for (source, kind) in &self.pages {
-            if let Kind::Comic(page) = kind {
+            if let PageKind::Comic(page) = kind {
                 print.add(&page.print(), source)?;
             }
         }
@@ -131,10 +131,10 @@ impl PageFile {
     /// # Errors
     /// Returns an error with its line if a model, style, font or camera cannot be read, or keys contradict
     /// each other.
-    pub fn compose(&self) -> Result<Vec<Composed>, Error> {
-        let compose = |(source, kind): &(Source, Kind)| match kind {
-            Kind::Comic(page) => comic::compose(page, source),
-            Kind::Sheet(page) => sheet::compose(page, source),
+    pub fn compose(&self) -> Result<Vec<ComposedPage>, Error> {
+        let compose = |(source, kind): &(PageSource, PageKind)| match kind {
+            PageKind::Comic(page) => comic::compose(page, source),
+            PageKind::Sheet(page) => sheet::compose(page, source),
         };
         self.pages.iter().map(compose).collect()
     }
@@ -154,22 +154,22 @@ impl PageFile {
         })?;
         self.files.push(path.clone());
         above.push(fs::canonicalize(&path).unwrap_or_else(|_| path.clone()));
-        self.add(Source { path, text, models: ModelReader::default() }, above)?;
+        self.add(PageSource { path, text, models: ModelReader::default() }, above)?;
         above.pop();
         Ok(())
     }
 
-    fn add(&mut self, source: Source, above: &mut Vec<PathBuf>) -> Result<(), Error> {
-        let document = DeTable::parse(&source.text).map_err(|error| source.unread(&error.into()))?;
+    fn add(&mut self, source: PageSource, above: &mut Vec<PathBuf>) -> Result<(), Error> {
+        let document = DeTable::parse(&source.text).map_err(|error| source.read_error(&error.into()))?;
         let mut pages = Vec::new();
         let mut named = None;
         for (key, value) in document.into_inner() {
             match &**key.get_ref() {
-                "page" => pages = listed(value),
+                "page" => pages = page_values(value),
                 "pages" => named = Some(value),
                 other => {
                     let word = Spanned::new(key.span(), other.to_owned());
-                    return Err(source.unknown(&word, "key", &KEYS));
+                    return Err(source.unknown(&word, "key", &FILE_KEYS));
                 }
             }
         }
@@ -178,7 +178,7 @@ impl PageFile {
             self.pages.push((source.clone(), kind));
         }
         let named: Vec<Spanned<String>> = match named {
-            Some(named) => read(named).map_err(|error| source.unread(&error))?,
+            Some(named) => read(named).map_err(|error| source.read_error(&error))?,
             None => Vec::new(),
         };
         for path in &named {
@@ -188,8 +188,8 @@ impl PageFile {
                 return Err(source.fault(&path.span(), &message, "let no page file hold itself"));
             }
             self.add_file(found, above)?;
-            if self.pages.len() > MOST_PAGES {
-                let message = format!("these are more than {MOST_PAGES} pages");
+            if self.pages.len() > MAX_PAGES {
+                let message = format!("these are more than {MAX_PAGES} pages");
                 return Err(source.fault(&path.span(), &message, "part them into several files"));
             }
         }
@@ -202,7 +202,7 @@ impl PageFile {
 }
 
 /// The pages under the key `page`, one or more.
-fn listed(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
+fn page_values(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
     let span = value.span();
     match value.into_inner() {
         DeValue::Array(pages) => pages.into_iter().collect(),
@@ -210,12 +210,12 @@ fn listed(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
     }
 }
 
-fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
+fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, TomlFault> {
     toml_reader::from_value(value)
 }
 
 /// Reads one page by the keys of its `kind`.
-fn read_page(mut page: Spanned<DeValue>, source: &Source) -> Result<Kind, Error> {
+fn read_page(mut page: Spanned<DeValue>, source: &PageSource) -> Result<PageKind, Error> {
     let span = page.span();
     let advice = "write kind = \"comic\" or kind = \"sheet\"";
     let DeValue::Table(table) = page.get_mut() else {
@@ -228,12 +228,12 @@ fn read_page(mut page: Spanned<DeValue>, source: &Source) -> Result<Kind, Error>
         return Err(source.fault(&kind.span(), "this does not fit here", advice));
     };
     let made = match name {
-        "comic" => read(page).map(|page| Kind::Comic(Box::new(page))),
-        "sheet" => read(page).map(|page| Kind::Sheet(Box::new(page))),
+        "comic" => read(page).map(|page| PageKind::Comic(Box::new(page))),
+        "sheet" => read(page).map(|page| PageKind::Sheet(Box::new(page))),
         other => {
             let word = Spanned::new(kind.span(), other.to_owned());
-            return Err(source.unknown(&word, "kind of page", &KINDS));
+            return Err(source.unknown(&word, "kind of page", &PAGE_KINDS));
         }
     };
-    made.map_err(|error| source.unread(&error))
+    made.map_err(|error| source.read_error(&error))
 }

@@ -1,4 +1,4 @@
-//! [`Size`]: the trimmed size of a page, by name or as lengths.
+//! [`PageSize`]: the trimmed size of a page, by name or as lengths.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer};
 use super::mm_length::Mm;
 
 /// Named sizes in portrait format: width and height, mm.
-const SIZES: [(&str, f64, f64); 17] = [
+const NAMED_SIZES: [(&str, f64, f64); 17] = [
     ("A0", 841.0, 1189.0),
     ("A1", 594.0, 841.0),
     ("A2", 420.0, 594.0),
@@ -30,30 +30,30 @@ const SIZES: [(&str, f64, f64); 17] = [
 
 /// The trimmed size of a page in mm: a name (`"A4"`, `"US comic"`), `"170x260mm"` or `[170, 260]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Size {
+pub struct PageSize {
     /// Width, mm.
     pub width: f64,
     /// Height, mm.
     pub height: f64,
 }
 
-impl Default for Size {
+impl Default for PageSize {
     /// A4 in portrait format.
     fn default() -> Self {
         Self { width: 210.0, height: 297.0 }
     }
 }
 
-impl Size {
+impl PageSize {
     /// All named sizes.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        SIZES.iter().map(|(name, ..)| *name)
+        NAMED_SIZES.iter().map(|(name, ..)| *name)
     }
 
     /// Parses a name or `170x260mm`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
-        let named = SIZES.iter().find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()));
+        let named = NAMED_SIZES.iter().find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()));
         if let Some((_, width, height)) = named {
             return Some(Self { width: *width, height: *height });
         }
@@ -61,21 +61,21 @@ impl Size {
         let unit = height.trim().trim_start_matches(|c: char| !c.is_ascii_alphabetic());
         let bare = width.trim().ends_with(|c: char| c.is_ascii_digit() || c == '.');
         let width = if bare { Mm::parse(&format!("{}{unit}", width.trim())) } else { Mm::parse(width) };
-        Some(Self { width: width?.0, height: Mm::parse(height)?.0 }).filter(Self::is_one)
+        Some(Self { width: width?.0, height: Mm::parse(height)?.0 }).filter(Self::is_in_range)
     }
 
     /// The same size in landscape format.
     #[must_use]
-    pub fn lying(self) -> Self {
+    pub fn landscape(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }
     }
 
-    fn is_one(&self) -> bool {
+    fn is_in_range(&self) -> bool {
         [self.width, self.height].into_iter().all(|side| (1.0..=20_000.0).contains(&side))
     }
 }
 
-impl<'de> Deserialize<'de> for Size {
+impl<'de> Deserialize<'de> for PageSize {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(SizeVisitor)
     }
@@ -84,15 +84,15 @@ impl<'de> Deserialize<'de> for Size {
 struct SizeVisitor;
 
 impl<'de> Visitor<'de> for SizeVisitor {
-    type Value = Size;
+    type Value = PageSize;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("the size of a page, such as \"A4\", \"170x260mm\" or [170, 260]")
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<Size, E> {
-        Size::parse(text).ok_or_else(|| {
-            let names: Vec<&str> = Size::names().collect();
+    fn visit_str<E: Error>(self, text: &str) -> Result<PageSize, E> {
+        PageSize::parse(text).ok_or_else(|| {
+            let names: Vec<&str> = PageSize::names().collect();
             E::custom(format!(
                 "`{text}` is not a page size; write one of {}, or such as \"170x260mm\"",
                 names.join(", ")
@@ -100,14 +100,14 @@ impl<'de> Visitor<'de> for SizeVisitor {
         })
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut sides: A) -> Result<Size, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut sides: A) -> Result<PageSize, A::Error> {
         let wrong = || A::Error::custom("a size has two sides of 1 to 20000 mm; write such as [170, 260]");
         let width: Mm = sides.next_element()?.ok_or_else(wrong)?;
         let height: Mm = sides.next_element()?.ok_or_else(wrong)?;
         if sides.next_element::<Mm>()?.is_some() {
             return Err(wrong());
         }
-        Some(Size { width: width.0, height: height.0 }).filter(Size::is_one).ok_or_else(wrong)
+        Some(PageSize { width: width.0, height: height.0 }).filter(PageSize::is_in_range).ok_or_else(wrong)
     }
 }
 
@@ -116,8 +116,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_are_read() {
-        let sides = |text| Size::parse(text).map(|size| [size.width, size.height]);
+    fn page_sizes_are_parsed() {
+        let sides = |text| PageSize::parse(text).map(|size| [size.width, size.height]);
         assert_eq!(sides("a4"), Some([210.0, 297.0]));
         assert_eq!(sides("us Comic"), Some([168.275, 260.35]));
         assert_eq!(sides("170x260"), Some([170.0, 260.0]));

@@ -1,4 +1,4 @@
-//! [`Source`]: the text and path of a page file, for errors with a position and for relative paths.
+//! [`PageSource`]: the text and path of a page file, for errors with a position and for relative paths.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use toml::Spanned;
 use super::model_reader::ModelReader;
 use crate::error::Error;
 use crate::style::sheet_errors;
-use crate::style::toml_reader::Fault;
+use crate::style::toml_reader::TomlFault;
 
 /// The text of a page file and its path.
 #[derive(Debug, Clone)]
-pub struct Source {
+pub struct PageSource {
     /// The path as the caller gave it.
     pub path: PathBuf,
     /// The text.
@@ -21,7 +21,7 @@ pub struct Source {
     pub models: ModelReader,
 }
 
-impl Source {
+impl PageSource {
     /// An error at a position in the file, with the line, a caret and advice.
     #[must_use]
     pub fn fault(&self, span: &Range<usize>, message: &str, advice: &str) -> Error {
@@ -29,7 +29,7 @@ impl Source {
     }
 
     /// An error from reading the file.
-    pub(crate) fn unread(&self, error: &Fault) -> Error {
+    pub(crate) fn read_error(&self, error: &TomlFault) -> Error {
         sheet_errors::in_sheet(&self.text, error).in_file(&self.path)
     }
 
@@ -81,7 +81,7 @@ impl Source {
 
     /// A path relative to the folder of the file.
     #[must_use]
-    pub fn beside(&self, path: &str) -> PathBuf {
+    pub fn resolve(&self, path: &str) -> PathBuf {
         self.folder().join(path)
     }
 
@@ -96,7 +96,7 @@ impl Source {
     /// # Errors
     /// Returns an error if there is no such file.
     pub fn existing(&self, path: &Spanned<String>, what: &str) -> Result<PathBuf, Error> {
-        let found = self.beside(path.get_ref());
+        let found = self.resolve(path.get_ref());
         if found.is_file() {
             return Ok(found);
         }

@@ -1,4 +1,4 @@
-//! [`Print`]: the inks that the pages of a file request.
+//! [`PrintInks`]: the inks that the pages of a file request.
 //!
 //! One file has one set of inks, so pages that set the same key must agree.
 
@@ -7,12 +7,12 @@ use std::path::PathBuf;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::page_source::Source;
+use super::page_source::PageSource;
 use crate::colour::srgb::Colour;
 use crate::error::Error;
 
 /// Names of ink sets.
-const INKS: [&str; 3] = ["screen", "k", "cmyk"];
+const INK_SETS: [&str; 3] = ["screen", "k", "cmyk"];
 
 /// The keys of a page for its inks.
 #[derive(Debug, Clone, Default)]
@@ -24,7 +24,7 @@ pub struct PrintKeys {
     /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<Spanned<f64>>,
     /// Spot colours.
-    pub spot: Option<Spanned<Spots>>,
+    pub spot: Option<Spanned<SpotColours>>,
 }
 
 /// One or more spot colours.
@@ -33,7 +33,7 @@ pub struct PrintKeys {
     untagged,
     expecting = "this is not a spot colour; write { name = \"PANTONE 185 C\", colour = \"#e4002b\" }, or a list of these"
 )]
-pub enum Spots {
+pub enum SpotColours {
     /// One.
     One(SpotKeys),
     /// Several.
@@ -54,7 +54,7 @@ pub struct SpotKeys {
 /// The inks of all pages of a file. A field is `None` if no page sets it.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
-pub struct Print {
+pub struct PrintInks {
     /// `screen`, `k` or `cmyk`.
     pub ink: Option<String>,
     /// File of the ICC profile of the press.
@@ -65,21 +65,21 @@ pub struct Print {
     pub spots: Vec<SpotKeys>,
 }
 
-impl Print {
+impl PrintInks {
     /// Adds the inks of a page.
     ///
     /// # Errors
     /// Returns an error if a key is invalid, or differs from that of an earlier page.
-    pub(crate) fn add(&mut self, keys: &PrintKeys, source: &Source) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, keys: &PrintKeys, source: &PageSource) -> Result<(), Error> {
         if let Some(ink) = &keys.ink {
             let name = ink.get_ref().to_ascii_lowercase();
-            if !INKS.contains(&name.as_str()) {
-                return Err(source.unknown(ink, "set of inks", &INKS));
+            if !INK_SETS.contains(&name.as_str()) {
+                return Err(source.unknown(ink, "set of inks", &INK_SETS));
             }
-            agree(&mut self.ink, name, ink, source)?;
+            set_once(&mut self.ink, name, ink, source)?;
         }
         if let Some(icc) = &keys.icc {
-            agree(&mut self.icc, source.existing(icc, "ICC profile")?, icc, source)?;
+            set_once(&mut self.icc, source.existing(icc, "ICC profile")?, icc, source)?;
         }
         if let Some(limit) = &keys.ink_limit {
             if !(100.0..=400.0).contains(limit.get_ref()) {
@@ -90,12 +90,12 @@ impl Print {
                 let message = format!("an ink limit needs four inks, and these are `{}`", ink.get_ref());
                 return Err(source.fault(&limit.span(), &message, "leave it out, or write ink = \"cmyk\""));
             }
-            agree(&mut self.ink_limit, *limit.get_ref(), limit, source)?;
+            set_once(&mut self.ink_limit, *limit.get_ref(), limit, source)?;
         }
         let Some(spots) = &keys.spot else { return Ok(()) };
         let several = match spots.get_ref() {
-            Spots::One(one) => std::slice::from_ref(one),
-            Spots::Several(several) => several,
+            SpotColours::One(one) => std::slice::from_ref(one),
+            SpotColours::Several(several) => several,
         };
         for spot in several {
             if spot.name.trim().is_empty() {
@@ -117,11 +117,11 @@ impl Print {
 }
 
 /// Sets a value that must be the same for all pages.
-fn agree<T: PartialEq, K>(
+fn set_once<T: PartialEq, K>(
     all: &mut Option<T>,
     own: T,
     key: &Spanned<K>,
-    source: &Source,
+    source: &PageSource,
 ) -> Result<(), Error> {
     if all.as_ref().is_some_and(|all| *all != own) {
         let message = "an earlier page has other inks, and one file has one set of inks";

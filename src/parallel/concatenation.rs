@@ -1,4 +1,4 @@
-//! [`joined`]: concatenates lists in parallel.
+//! [`concatenate`]: concatenates lists in parallel.
 //!
 //! The system clears memory pages when they are first touched. For long lists this takes longer than the copy
 //! itself, so all threads share it.
@@ -6,10 +6,10 @@
 use super::prelude::*;
 
 /// Minimum number of values that one task copies.
-const LEAST: usize = 1 << 12;
+const MIN_TASK_VALUES: usize = 1 << 12;
 
 /// Concatenates lists in their order, on all threads.
-pub fn joined<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
+pub fn concatenate<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
     let mut starts = Vec::with_capacity(lists.len());
     let mut total = 0;
     for list in lists {
@@ -24,7 +24,7 @@ pub fn joined<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
             lists[*own][at - starts[*own]]
         }
     };
-    (0..total).into_par_iter().with_min_len(LEAST).map_init(|| 0, value).collect()
+    (0..total).into_par_iter().with_min_len(MIN_TASK_VALUES).map_init(|| 0, value).collect()
 }
 
 #[cfg(test)]
@@ -36,9 +36,9 @@ mod tests {
         let lists: Vec<Vec<usize>> = (0..200)
             .map(|k| (0..(k * 7919) % 301 * usize::from(k % 5 > 1)).map(|i| k * 1000 + i).collect())
             .collect();
-        assert!(lists.concat().len() > 3 * LEAST && lists.iter().any(Vec::is_empty));
+        assert!(lists.concat().len() > 3 * MIN_TASK_VALUES && lists.iter().any(Vec::is_empty));
         for some in [&lists[..], &lists[..3], &lists[..1], &[]] {
-            assert_eq!(joined(some), some.concat());
+            assert_eq!(concatenate(some), some.concat());
         }
     }
 }

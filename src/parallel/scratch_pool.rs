@@ -1,4 +1,4 @@
-//! [`Spare`]: a pool of scratch objects that parallel tasks reuse.
+//! [`ScratchPool`]: a pool of scratch objects that parallel tasks reuse.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -6,9 +6,9 @@ use std::sync::{Mutex, PoisonError};
 ///
 /// Objects are not reset: lists keep their capacity, and their content, between tasks.
 #[derive(Debug, Default)]
-pub(crate) struct Spare<T>(Mutex<Vec<T>>);
+pub(crate) struct ScratchPool<T>(Mutex<Vec<T>>);
 
-impl<T: Default> Spare<T> {
+impl<T: Default> ScratchPool<T> {
     /// Runs `work` with an object of the pool, or with a new one if all are lent.
     pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let mut one = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
@@ -24,7 +24,7 @@ mod tests {
 
     #[test]
     fn what_was_lent_is_lent_again_and_what_is_out_is_not() {
-        let spare: Spare<Vec<u32>> = Spare::default();
+        let spare: ScratchPool<Vec<u32>> = ScratchPool::default();
         spare.lend(|one| {
             one.push(1);
             spare.lend(|other| {

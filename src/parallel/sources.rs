@@ -127,9 +127,9 @@ split_ranges!(usize, u32, u64, u8);
 
 /// Two sources of equal length that run together.
 #[derive(Clone)]
-pub(crate) struct Both<A, B>(pub A, pub B);
+pub(crate) struct SourcePair<A, B>(pub A, pub B);
 
-impl<A: Split, B: Split> Split for Both<A, B> {
+impl<A: Split, B: Split> Split for SourcePair<A, B> {
     type Item = (A::Item, B::Item);
     type Iter = std::iter::Zip<A::Iter, B::Iter>;
     fn length(&self) -> usize {

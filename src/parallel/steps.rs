@@ -1,6 +1,6 @@
 //! Steps of parallel loops: adapters between source and end.
 
-use super::sources::{Both, Split};
+use super::sources::{SourcePair, Split};
 
 /// Parallel loop before it runs: a source, its steps, and the limits of its parts.
 #[must_use]
@@ -36,9 +36,9 @@ impl<S: Split, F: Step<S>> IntoParallelIterator for Parallel<S, F> {
 
 /// Identity step.
 #[derive(Clone)]
-pub(crate) struct Plain;
+pub(crate) struct NoStep;
 
-impl<S: Split> Step<S> for Plain {
+impl<S: Split> Step<S> for NoStep {
     type Item = S::Item;
     fn pass(&self, part: S, _: usize) -> impl Iterator<Item = S::Item> {
         part.items()
@@ -107,9 +107,9 @@ impl<'a, S: Split, T: Copy + 'a, F: Step<S, Item = &'a T>> Step<S> for Copied<F>
     }
 }
 
-impl<A: Split, B: Split, F: Step<A>, G: Step<B>> Step<Both<A, B>> for Zip<F, G> {
+impl<A: Split, B: Split, F: Step<A>, G: Step<B>> Step<SourcePair<A, B>> for Zip<F, G> {
     type Item = (F::Item, G::Item);
-    fn pass(&self, part: Both<A, B>, first: usize) -> impl Iterator<Item = (F::Item, G::Item)> {
+    fn pass(&self, part: SourcePair<A, B>, first: usize) -> impl Iterator<Item = (F::Item, G::Item)> {
         self.0.pass(part.0, first).zip(self.1.pass(part.1, first))
     }
 }
@@ -131,9 +131,9 @@ impl<S: Split, F: Step<S>, T, I: Fn() -> T + Sync, G: Fn(T, F::Item) -> T + Sync
     }
 }
 
-impl<S: Split> Parallel<S, Plain> {
+impl<S: Split> Parallel<S, NoStep> {
     pub(crate) fn new(source: S) -> Self {
-        Self { source, step: Plain, min: 1, max: usize::MAX }
+        Self { source, step: NoStep, min: 1, max: usize::MAX }
     }
 }
 
@@ -200,10 +200,10 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
     pub(crate) fn zip<B: IntoParallelIterator>(
         self,
         other: B,
-    ) -> Parallel<Both<S, B::Source>, Zip<F, B::Step>> {
+    ) -> Parallel<SourcePair<S, B::Source>, Zip<F, B::Step>> {
         let other = other.into_par_iter();
         let len = self.source.length().min(other.source.length());
-        let source = Both(self.source.cut_at(len).0, other.source.cut_at(len).0);
+        let source = SourcePair(self.source.cut_at(len).0, other.source.cut_at(len).0);
         let (min, max) = (self.min.max(other.min), self.max.min(other.max));
         Parallel { source, step: Zip(self.step, other.step), min, max }
     }

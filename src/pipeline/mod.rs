@@ -42,9 +42,9 @@ mod view;
 pub use compose::hotspots::hotspots;
 pub use compose::map_files::MapFiles;
 pub use prepare::prepared_scene::Prepared;
-pub use prepare::rigged_scene::Resting;
+pub use prepare::rigged_scene::PosedRenderer;
 pub use report::drawing_report::{Report, Stopwatch};
-pub use section::section_style::{hatched, hatched_for, trailed};
+pub use section::section_style::{with_cut_hatching, with_cut_hatching_for, with_trail_lines};
 pub use stages::stage::Stage;
 
 use crate::drawing::{Drawing, Page, Unit};

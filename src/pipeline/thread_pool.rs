@@ -1,8 +1,8 @@
-//! [`on_threads`]: runs work on the threads of the pool.
+//! [`run_on_pool`]: runs work on the threads of the pool.
 
 /// Runs work on a thread of the pool. A caller from another thread then waits once, instead of once per
 /// parallel part.
-pub(crate) fn on_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn run_on_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon_core::scope(|_| work())
 }
 
@@ -13,6 +13,6 @@ mod tests {
     #[test]
     fn work_begins_on_a_thread_that_shares_it() {
         assert!(rayon_core::current_thread_index().is_none());
-        assert!(on_threads(rayon_core::current_thread_index).is_some());
+        assert!(run_on_pool(rayon_core::current_thread_index).is_some());
     }
 }

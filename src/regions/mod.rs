@@ -23,10 +23,10 @@ pub mod surface_curves;
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
-pub use hatch_regions::hatch_map::Ground;
-pub use labels::labelled_page::{PageBorders, Seen, see};
-pub use labels::surface_label::{Darkened, Look};
-pub use lattice::page_lattice::Samples;
+pub use hatch_regions::hatch_map::HatchRegions;
+pub use labels::labelled_page::{LabelledPage, PageBorders, label_page};
+pub use labels::surface_label::{ShadowDarkening, SurfaceLabel};
+pub use lattice::page_lattice::LightLattice;
 pub use options::{RegionOptions, Seams, StepsAs};
 pub use paint::region_paint::paint;
 pub use paint::tone_ramps::Ramp;
@@ -36,11 +36,11 @@ use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::tolerance;
 use cells::border_arcs::{OUTSIDE_PATCH, RawArc};
 use cells::triangulation::Triangulation;
-use labels::surface_label::NOTHING;
+use labels::surface_label::NO_LABEL;
 
 /// Border between two regions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Border {
+pub struct RegionBorder {
     /// Curve in user units. Both regions are painted up to it.
     pub path: BezPath,
     /// Regions on both sides, the one on the right of the path on the page (y down) first. None outside the
@@ -54,7 +54,7 @@ pub struct Border {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
     /// Its label.
-    pub look: Look,
+    pub look: SurfaceLabel,
     /// Area, user units squared.
     pub area: f64,
     /// Loops around it and around its holes: indices into [`Regions::borders`], and whether each is passed
@@ -70,21 +70,21 @@ pub struct Regions {
     /// All regions.
     pub regions: Vec<Region>,
     /// All borders.
-    pub borders: Vec<Border>,
+    pub borders: Vec<RegionBorder>,
     /// Number of cells with different labels, because a line around them has a gap.
     pub leaks: u64,
 }
 
 /// Collects regions of equal label. Neighbours that differ in hatching bin only are one region.
 #[must_use]
-pub fn gather(seen: &Seen, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
-    let (mut patches, table) = patches(seen, |look| Look { bin: 0, ..*look }, options, unit);
-    let drawn = Drawn { step: seen.step, leaks: seen.leaks, options, chain, unit };
+pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
+    let (mut patches, table) = patches(seen, |look| SurfaceLabel { bin: 0, ..*look }, options, unit);
+    let drawn = BorderDrawing { step: seen.step, leaks: seen.leaks, options, chain, unit };
     let ramps = match options.steps_as {
         StepsAs::Bands => Vec::new(),
         StepsAs::Gradients => {
             let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.looks.len());
-            let tolerance = Length::px(tolerance::RAMP_PX).in_unit(unit);
+            let tolerance = Length::px(tolerance::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
             paint::tone_ramps::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
         }
     };
@@ -92,39 +92,39 @@ pub fn gather(seen: &Seen, options: &RegionOptions, chain: &ChainOptions, unit: 
 }
 
 /// Collects regions after relabelling by `coarser`, which may make labels equal.
-pub(crate) fn gather_as(
-    seen: &Seen,
-    coarser: impl Fn(&Look) -> Look,
+pub(crate) fn gather_relabelled(
+    seen: &LabelledPage,
+    coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     chain: &ChainOptions,
     unit: Unit,
 ) -> Regions {
     let (patches, table) = patches(seen, coarser, options, unit);
-    let drawn = Drawn { step: seen.step, leaks: seen.leaks, options, chain, unit };
+    let drawn = BorderDrawing { step: seen.step, leaks: seen.leaks, options, chain, unit };
     regions(&seen.cut, &patches, &table, Vec::new(), &drawn)
 }
 
 /// Patches of equal label, with small ones merged, and the table of labels.
 fn patches(
-    seen: &Seen,
-    coarser: impl Fn(&Look) -> Look,
+    seen: &LabelledPage,
+    coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     unit: Unit,
-) -> (cells::patches::Patches, Vec<Look>) {
-    let (looks, table) = seen.seen_as(coarser);
+) -> (cells::patches::Patches, Vec<SurfaceLabel>) {
+    let (looks, table) = seen.relabelled(coarser);
     let crumb = options.crumb.in_unit(unit).max(0.0) / seen.step;
-    (cells::patches::gather(&seen.cut, &looks, NOTHING, 2.0 * crumb * crumb), table)
+    (cells::patches::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
 }
 
 /// Patch that each triangle is painted with.
 fn owners(patches: &cells::patches::Patches) -> Vec<u32> {
     // All paper counts as one patch, together with the outside of the page.
-    let is_paper = |patch: u32| patches.looks[patch as usize] == NOTHING;
+    let is_paper = |patch: u32| patches.looks[patch as usize] == NO_LABEL;
     patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
 }
 
 /// How borders are drawn.
-struct Drawn<'a> {
+struct BorderDrawing<'a> {
     step: f64,
     leaks: u64,
     options: &'a RegionOptions,
@@ -136,9 +136,9 @@ struct Drawn<'a> {
 fn regions(
     cut: &Triangulation,
     patches: &cells::patches::Patches,
-    table: &[Look],
+    table: &[SurfaceLabel],
     mut ramps: Vec<Option<Ramp>>,
-    drawn: &Drawn,
+    drawn: &BorderDrawing,
 ) -> Regions {
     let traced = cells::border_arcs::trace(cut, &owners(patches), patches.looks.len());
     let mut number: Vec<Option<u32>> = vec![None; patches.looks.len()];
@@ -157,13 +157,17 @@ fn regions(
         .arcs
         .par_iter()
         .with_max_len(4)
-        .map(|arc| Border { path: curve(cut, arc, drawn), sides: arc.sides.map(of), closed: arc.closed })
+        .map(|arc| RegionBorder {
+            path: curve(cut, arc, drawn),
+            sides: arc.sides.map(of),
+            closed: arc.closed,
+        })
         .collect();
     Regions { regions, borders, leaks: drawn.leaks }
 }
 
 /// Fitted curve of an arc.
-fn curve(cut: &Triangulation, arc: &RawArc, drawn: &Drawn) -> BezPath {
+fn curve(cut: &Triangulation, arc: &RawArc, drawn: &BorderDrawing) -> BezPath {
     let at = |v: &u32| {
         let [x, y] = cut.points[*v as usize];
         Point::new(x as f64 * drawn.step, y as f64 * drawn.step)
@@ -171,16 +175,23 @@ fn curve(cut: &Triangulation, arc: &RawArc, drawn: &Drawn) -> BezPath {
     let points: Vec<Point> = arc.points.iter().map(at).collect();
     let px = Length::px(1.0);
     let chain = ChainOptions {
-        smooth: if drawn.chain.smooth.in_unit(drawn.unit) > px.in_unit(drawn.unit) * SMOOTH_PX {
-            Length::px(SMOOTH_PX)
+        smooth: if drawn.chain.smooth.in_unit(drawn.unit) > px.in_unit(drawn.unit) * MAX_BORDER_SMOOTHING_PX {
+            Length::px(MAX_BORDER_SMOOTHING_PX)
         } else {
             drawn.chain.smooth
         },
         fit_tolerance: drawn.options.fit_tolerance,
         ..drawn.chain.clone()
     };
-    chains::curve(&points, &arc.soft, arc.closed, tolerance::REGION_SNAP * drawn.step, &chain, drawn.unit)
+    chains::curve(
+        &points,
+        &arc.soft,
+        arc.closed,
+        tolerance::REGION_SNAP_STEPS * drawn.step,
+        &chain,
+        drawn.unit,
+    )
 }
 
 /// Largest displacement of borders by smoothing, px. Neighbouring borders may be close to each other.
-const SMOOTH_PX: f64 = 0.1;
+const MAX_BORDER_SMOOTHING_PX: f64 = 0.1;

@@ -43,7 +43,7 @@ impl Default for GlassOptions {
 }
 
 /// Minimum opacity of glass, so that fully transparent glass stays visible.
-const LEAST_OPACITY: f64 = 0.15;
+const MIN_GLASS_OPACITY: f64 = 0.15;
 
 impl Material {
     /// Opacity of the material in the file, 0 to 1: alpha of its colour times the share of light that it does
@@ -60,7 +60,7 @@ impl GlassOptions {
     pub fn opacity_of(&self, material: &Material) -> Option<f64> {
         let own = material.opacity();
         if own < 1.0 {
-            return Some(own.max(LEAST_OPACITY));
+            return Some(own.max(MIN_GLASS_OPACITY));
         }
         self.materials.iter().any(|glob| glob.matches(&material.name)).then_some(self.opacity)
     }
@@ -78,7 +78,7 @@ impl GlassOptions {
 }
 
 /// Copy of a scene without the triangles of some materials.
-pub(crate) fn without(scene: &Scene, is_gone: impl Fn(usize) -> bool) -> Scene {
+pub(crate) fn without_materials(scene: &Scene, is_gone: impl Fn(usize) -> bool) -> Scene {
     let mut left = scene.clone();
     for geometry in &mut left.geometries {
         let stays: Vec<bool> = (0..geometry.triangles.len())

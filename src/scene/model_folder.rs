@@ -8,17 +8,17 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 
 /// Maximum number of names that are read from a folder.
-const MAX_NAMES: usize = 1 << 16;
+const MAX_FOLDER_NAMES: usize = 1 << 16;
 
 /// Maximum number of steps of a path, counted from its end, that are searched in the model's folder.
-const MAX_STEPS: usize = 16;
+const MAX_PATH_STEPS: usize = 16;
 
 /// Reads a file next to the model, by the name that the model uses.
 ///
 /// # Errors
 /// If the name, or a link that it stands for, leads outside the model's folder, or if the file cannot be
 /// read.
-pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
+pub fn read_from_model_folder(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !stays_inside(name) {
         return Err(Error::new(format!("{name} is outside the model's folder")).in_file(model));
     }
@@ -66,13 +66,13 @@ fn is_within(folder: &Path, file: &Path) -> bool {
 
 /// The files in a model's folder and its sub-folders. Each folder is listed once.
 #[derive(Debug)]
-pub(crate) struct Neighbours {
+pub(crate) struct ModelFolder {
     folder: PathBuf,
     /// Names in each listed folder, keyed by their lower case. Folders are relative to the model.
     listed: RefCell<BTreeMap<String, BTreeMap<String, Vec<String>>>>,
 }
 
-impl Neighbours {
+impl ModelFolder {
     /// Starts with no folder listed.
     pub fn of(model: &Path) -> Self {
         Self { folder: folder_of(model).to_path_buf(), listed: RefCell::default() }
@@ -103,17 +103,17 @@ impl Neighbours {
                 _ => steps.push(step),
             }
         }
-        let steps = steps.get(steps.len().saturating_sub(MAX_STEPS)..)?;
+        let steps = steps.get(steps.len().saturating_sub(MAX_PATH_STEPS)..)?;
         let mut folders = vec![below.trim_end_matches('/')];
         folders.extend((!below.is_empty()).then_some(""));
         (0..steps.len()).find_map(|from| {
             let end = steps.get(from..)?;
-            folders.iter().find_map(|folder| self.spelt(folder, end))
+            folders.iter().find_map(|folder| self.find_any_case(folder, end))
         })
     }
 
     /// Path of the file at the end of some steps below a folder, in any letter case.
-    fn spelt(&self, folder: &str, steps: &[&str]) -> Option<String> {
+    fn find_any_case(&self, folder: &str, steps: &[&str]) -> Option<String> {
         let mut path = folder.to_owned();
         for step in steps {
             let alike = self.names(&path, &step.to_lowercase());
@@ -141,7 +141,7 @@ impl Neighbours {
         if !(folder.is_empty() || is_within(&self.folder, &path)) {
             return names;
         }
-        let entries = fs::read_dir(path).into_iter().flatten().flatten().take(MAX_NAMES);
+        let entries = fs::read_dir(path).into_iter().flatten().flatten().take(MAX_FOLDER_NAMES);
         for name in entries.filter_map(|entry| entry.file_name().into_string().ok()) {
             names.entry(name.to_lowercase()).or_default().push(name);
         }
@@ -195,7 +195,7 @@ mod tests {
             "secret.png",
         ];
         let folder = Folder::new("beside", &files);
-        let beside = Neighbours::of(&folder.0.join("models/a.obj"));
+        let beside = ModelFolder::of(&folder.0.join("models/a.obj"));
         for (below, name, wanted) in [
             ("", "wall.png", Some("Wall.PNG")),
             ("", "C:\\work\\wall.png", Some("Wall.PNG")),
@@ -231,15 +231,15 @@ mod tests {
         symlink(folder.0.join("outside"), models.join("maps")).unwrap();
         symlink("real.png", models.join("same.png")).unwrap();
         let model = models.join("a.obj");
-        let beside = Neighbours::of(&model);
+        let beside = ModelFolder::of(&model);
         for name in ["linked.png", "LINKED.png", "maps/secret.png", "C:\\maps\\secret.png"] {
             assert_eq!(beside.find("", name), None, "{name}");
         }
         for name in ["linked.png", "maps/secret.png"] {
-            let error = read_beside(&model, name).unwrap_err().to_string();
+            let error = read_from_model_folder(&model, name).unwrap_err().to_string();
             assert!(error.contains("is a link out of the model's folder"), "{error}");
         }
         assert_eq!(beside.find("", "SAME.PNG").as_deref(), Some("same.png"));
-        assert_eq!(read_beside(&model, "same.png").unwrap(), b"models/real.png");
+        assert_eq!(read_from_model_folder(&model, "same.png").unwrap(), b"models/real.png");
     }
 }

@@ -5,15 +5,15 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::{Geometry, Paints, Part, Scene};
 use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::cameras::framing::{bounds, world_points};
 use crate::scene::extent::coordinate_limits::is_drawable;
 
-const NONE: u32 = u32::MAX;
+const NO_INDEX: u32 = u32::MAX;
 impl Scene {
     /// All triangles and wires in world space.
     ///
-    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and elements without a
+    /// Part ids index [`Scene::split_by_ink`]; material ids index [`Scene::materials`], and elements without a
     /// material get the id after the last. Mirrored parts have their winding reversed. Parts whose transform
     /// is singular or not finite are left out.
     #[must_use]
@@ -30,7 +30,7 @@ impl Scene {
     /// Like [`Scene::to_soup`], but consumes the geometries: they are empty afterwards, and a single
     /// untransformed geometry is moved without a copy.
     pub(crate) fn take_soup(&mut self, paints: Option<&Paints>) -> Soup {
-        let soup = match self.only_one().filter(|_| paints.is_none()) {
+        let soup = match self.single_untransformed_geometry().filter(|_| paints.is_none()) {
             Some(only) => {
                 let mut from = std::mem::take(&mut self.geometries[only]);
                 // The step of single precision depends on the largest coordinate, so it is computed before
@@ -39,7 +39,7 @@ impl Scene {
                 let (positions, triangles) =
                     (std::mem::take(&mut from.positions), std::mem::take(&mut from.triangles));
                 let mut soup = Soup { positions, triangles, ..Soup::default() };
-                let appended = Appended { part: PartId::default(), vertex: 0, triangle: 0 };
+                let appended = AppendedRange { part: PartId::default(), vertex: 0, triangle: 0 };
                 append_attributes(
                     &mut soup,
                     &from,
@@ -56,10 +56,10 @@ impl Scene {
     }
 
     /// Index of the geometry, if there is a single part with the identity transform.
-    fn only_one(&self) -> Option<usize> {
+    fn single_untransformed_geometry(&self) -> Option<usize> {
         let [part] = self.parts.as_slice() else { return None };
         let geometry = self.geometry_of(part).filter(|_| part.world_from_part == DAffine3::IDENTITY)?;
-        (geometry.positions.len() < NONE as usize).then_some(part.geometry)
+        (geometry.positions.len() < NO_INDEX as usize).then_some(part.geometry)
     }
 
     fn flattened(&self, paints: Option<&Paints>) -> Soup {
@@ -85,7 +85,7 @@ impl Scene {
     fn reserve(&self, soup: &mut Soup) {
         let (mut positions, mut triangles) = (0, 0);
         for geometry in self.parts.iter().filter_map(|part| self.geometry_of(part)) {
-            if positions + geometry.positions.len() < NONE as usize {
+            if positions + geometry.positions.len() < NO_INDEX as usize {
                 positions += geometry.positions.len();
                 triangles += geometry.triangles.len();
             }
@@ -124,17 +124,17 @@ impl Scene {
 fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
     let first = soup.positions.len();
     // Ids have 32 bits; a part that does not fit is left out.
-    if first + from.positions.len() >= NONE as usize {
+    if first + from.positions.len() >= NO_INDEX as usize {
         return;
     }
     let is_identity = *place == DAffine3::IDENTITY;
     if is_identity {
         soup.positions.extend_from_slice(&from.positions);
     } else {
-        let placed = from.positions.par_iter().with_min_len(GRAIN);
+        let placed = from.positions.par_iter().with_min_len(MIN_TASK_ITEMS);
         soup.positions.par_extend(placed.map(|&p| place.transform_point3(p)));
         let own = soup.positions.get(first..).unwrap_or_default();
-        if !own.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p)) {
+        if !own.par_iter().with_min_len(MIN_TASK_ITEMS).all(|&p| is_drawable(p)) {
             soup.positions.truncate(first);
             return;
         }
@@ -142,12 +142,12 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
     let turned = place.matrix3.determinant() < 0.0;
     let first_triangle = soup.triangles.len();
     append_corners(&mut soup.triangles, &from.triangles, first as u32, turned);
-    let appended = Appended { part, vertex: first, triangle: first_triangle };
+    let appended = AppendedRange { part, vertex: first, triangle: first_triangle };
     append_attributes(soup, from, place, appended, default_material);
 }
 
 /// Part, first vertex and first triangle of the geometry that was appended last.
-struct Appended {
+struct AppendedRange {
     part: PartId,
     vertex: usize,
     triangle: usize,
@@ -158,17 +158,17 @@ fn append_attributes(
     soup: &mut Soup,
     from: &Geometry,
     place: &DAffine3,
-    appended: Appended,
+    appended: AppendedRange,
     default_material: u32,
 ) {
-    let Appended { part, vertex: first, triangle: first_triangle } = appended;
+    let AppendedRange { part, vertex: first, triangle: first_triangle } = appended;
     let turned = place.matrix3.determinant() < 0.0;
     let count = soup.triangles.len();
 
-    fill(&mut soup.triangle_part, count, part);
+    extend_to(&mut soup.triangle_part, count, part);
     let material = from.material.unwrap_or(default_material);
     if from.triangle_material.is_empty() {
-        fill(&mut soup.triangle_material, count, MaterialId(material));
+        extend_to(&mut soup.triangle_material, count, MaterialId(material));
     } else {
         soup.triangle_material.extend(from.triangle_material.iter().map(|&m| MaterialId(m)));
         soup.triangle_material.resize(count, MaterialId(material));
@@ -210,7 +210,7 @@ pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
 }
 
 /// Extends a list with `value` up to `count` items.
-fn fill<T: Copy>(list: &mut Vec<T>, count: usize, value: T) {
+fn extend_to<T: Copy>(list: &mut Vec<T>, count: usize, value: T) {
     list.resize(count, value);
 }
 
@@ -236,7 +236,7 @@ fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
 
 fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {
     let all = from;
-    let from = all.par_iter().with_min_len(GRAIN);
+    let from = all.par_iter().with_min_len(MIN_TASK_ITEMS);
     match (first, turned) {
         (0, false) => to.extend_from_slice(all),
         (_, false) => to.par_extend(from.map(|t| t.map(|i| i.saturating_add(first)))),
@@ -254,11 +254,11 @@ fn append_optional(
     count: usize,
 ) {
     if !from.is_empty() {
-        to.resize(first_triangle, [NONE; 3]);
+        to.resize(first_triangle, [NO_INDEX; 3]);
         append_corners(to, from, first, turned);
     }
     if !to.is_empty() {
-        to.resize(count, [NONE; 3]);
+        to.resize(count, [NO_INDEX; 3]);
     }
 }
 
@@ -268,12 +268,13 @@ fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_tria
     let count = soup.triangles.len();
     let is_identity = place.matrix3 == DMat3::IDENTITY;
     let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
-    soup.normals.par_extend(from.normals.par_iter().with_min_len(GRAIN).map(|&[x, y, z]| {
+    soup.normals.par_extend(from.normals.par_iter().with_min_len(MIN_TASK_ITEMS).map(|&[x, y, z]| {
         let normal = DVec3::new(x.into(), y.into(), z.into());
         let normal = if is_identity { normal } else { turn * normal }.try_normalize();
         normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
     }));
-    let all_sound = soup.normals[first..].par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]);
+    let all_sound =
+        soup.normals[first..].par_iter().with_min_len(MIN_TASK_ITEMS).all(|normal| *normal != [0.0; 3]);
     append_optional(
         &mut soup.corner_normals,
         &from.corner_normals,
@@ -285,7 +286,7 @@ fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_tria
     if !all_sound {
         for corner in soup.corner_normals.iter_mut().skip(first_triangle).flatten() {
             if soup.normals.get(*corner as usize).is_some_and(|n| *n == [0.0; 3]) {
-                *corner = NONE;
+                *corner = NO_INDEX;
             }
         }
     }
@@ -324,7 +325,7 @@ mod tests {
         let soup = scene(&[DAffine3::IDENTITY]).to_soup();
         assert_eq!(soup.triangles, [[0, 1, 2]]);
         assert_eq!(soup.normals[0], [0.0, 0.0, 1.0]);
-        assert_eq!(soup.corner_normals, [[0, 0, NONE]]);
+        assert_eq!(soup.corner_normals, [[0, 0, NO_INDEX]]);
         assert_eq!(soup.triangle_material, [MaterialId(1)]);
     }
 
@@ -346,7 +347,7 @@ mod tests {
         assert_eq!(soup.triangles, [[0, 1, 2], [4, 6, 5]]);
         assert_eq!(soup.triangle_part, [PartId(0), PartId(1)]);
         assert_eq!(soup.positions[0], DVec3::Z);
-        assert_eq!(soup.corner_normals[1], [2, NONE, 2]);
+        assert_eq!(soup.corner_normals[1], [2, NO_INDEX, 2]);
         assert_eq!(soup.normals[2], [0.0, 0.0, -1.0]);
         assert_eq!(soup.edge_marks[1], [EdgeMark::Contour, EdgeMark::Hard, EdgeMark::Hidden]);
     }
@@ -390,11 +391,11 @@ mod tests {
         model.geometries.push(plain);
         model.parts[1].geometry = 1;
         let soup = model.to_soup();
-        assert_eq!(soup.corner_normals[1], [NONE; 3]);
+        assert_eq!(soup.corner_normals[1], [NO_INDEX; 3]);
         assert_eq!(soup.edge_marks[1], [EdgeMark::Unmarked; 3]);
         assert_eq!(soup.wires, [Wire { vertices: [5, 6], part: PartId(1), material: MaterialId(1) }]);
         model.parts.reverse();
         let soup = model.to_soup();
-        assert_eq!(soup.corner_normals, [[NONE; 3], [0, 0, NONE]]);
+        assert_eq!(soup.corner_normals, [[NO_INDEX; 3], [0, 0, NO_INDEX]]);
     }
 }

@@ -60,12 +60,12 @@ impl Warnings {
 /// Defects of one kind in a file. The first is described with its location, the others are only counted, so
 /// that many cost no more than one.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Spots {
+pub(crate) struct WarningExamples {
     first: Option<String>,
     others: u64,
 }
 
-impl Spots {
+impl WarningExamples {
     /// Adds a defect; the sentence is built only for the first.
     pub fn add(&mut self, sentence: impl FnOnce() -> String) {
         match self.first {

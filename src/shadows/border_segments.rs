@@ -1,10 +1,10 @@
-//! [`joined`]: shadow borders as segments on the surface that share their ends.
+//! [`join_borders`]: shadow borders as segments on the surface that share their ends.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::shadow_receivers::Borders;
+use super::shadow_receivers::ShadowBorders;
 use super::upper_envelope::EdgePart;
 use crate::geometry::numbers::powers_of_two::power_of_two_below;
 use crate::mesh::{FaceId, Mesh};
@@ -12,7 +12,7 @@ use crate::view::Frame;
 
 /// Segments on faces, joined where they share a point.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Joined {
+pub(crate) struct JoinedBorders {
     /// Ends of the segments, local space.
     pub points: Vec<DVec3>,
     /// Face and ends of each segment.
@@ -20,15 +20,15 @@ pub(crate) struct Joined {
 }
 
 /// Cosine between a plane's normal and the line of sight below which points are interpolated.
-const GRAZING_COSINE: f64 = 1e-7;
+const MAX_GRAZING_COSINE: f64 = 1e-7;
 
 /// Joins the borders from all views of one light.
 ///
 /// Pieces share a point where the border continues from one face to the next and where they share a vertex of
 /// the light's view map. They also share one where loose ends meet: there the shadow of one edge continues as
 /// that of another.
-pub(crate) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
-    let mut all = Joined::default();
+pub(crate) fn join_borders(mesh: &Mesh, views: Vec<ShadowBorders>) -> JoinedBorders {
+    let mut all = JoinedBorders::default();
     // Distance from each point within which another one is the same.
     let mut reaches: Vec<f64> = Vec::new();
     for borders in &views {
@@ -71,7 +71,7 @@ pub(crate) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
     all
 }
 
-impl Joined {
+impl JoinedBorders {
     fn add(&mut self, point: DVec3, reach: f64, reaches: &mut Vec<f64>) -> u32 {
         self.points.push(point);
         reaches.push(reach);
@@ -147,7 +147,7 @@ fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f
     let normal = (b - a).cross(c - a);
     let ray = if frame.perspective { (interpolated - frame.eye).normalize_or_zero() } else { frame.forward };
     let fall = normal.dot(ray);
-    if fall.abs() <= GRAZING_COSINE * normal.length() {
+    if fall.abs() <= MAX_GRAZING_COSINE * normal.length() {
         return interpolated;
     }
     interpolated + ray * (normal.dot(a - interpolated) / fall)

@@ -1,12 +1,12 @@
-//! [`outside`]: the outer side of each face, where the mesh determines it.
+//! [`face_orientations`]: the outer side of each face, where the mesh determines it.
 
 use glam::DVec3;
 
-use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh};
+use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh};
 
 /// Outer side of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Outside {
+pub(crate) enum FaceOrientation {
     /// The side of its normal.
     Front,
     /// The opposite side: the face belongs to a solid that is wound inside out.
@@ -17,14 +17,14 @@ pub(crate) enum Outside {
 
 /// Largest length of the sum of area-weighted normals of a solid, as a share of its area. The sum is 0 for a
 /// closed surface; a few holes are allowed.
-const OPEN: f64 = 0.1;
+const MAX_SOLID_NORMAL_SHARE: f64 = 0.1;
 
 /// Share of edges with inconsistent winding above which the winding is not trusted.
-const MIXED: f64 = 0.01;
+const MAX_MIXED_EDGE_SHARE: f64 = 0.01;
 
 /// Sums over a connected component of the surface.
 #[derive(Debug, Clone, Copy, Default)]
-struct Component {
+struct SurfaceComponent {
     area: f64,
     normal: DVec3,
     volume: f64,
@@ -34,30 +34,32 @@ struct Component {
     place: DVec3,
 }
 
-impl Component {
-    fn outside(&self) -> Outside {
-        if self.normal.length() > OPEN * self.area || self.mixed as f64 > MIXED * self.edges as f64 {
-            Outside::Unknown
+impl SurfaceComponent {
+    fn outside(&self) -> FaceOrientation {
+        if self.normal.length() > MAX_SOLID_NORMAL_SHARE * self.area
+            || self.mixed as f64 > MAX_MIXED_EDGE_SHARE * self.edges as f64
+        {
+            FaceOrientation::Unknown
         } else if self.volume > 0.0 {
-            Outside::Front
+            FaceOrientation::Front
         } else if self.volume < 0.0 {
-            Outside::Back
+            FaceOrientation::Back
         } else {
-            Outside::Unknown
+            FaceOrientation::Unknown
         }
     }
 }
 
 /// Outer side of each face of the mesh.
-pub(crate) fn outside(mesh: &Mesh) -> Vec<Outside> {
-    let connected = Groups::new(mesh.triangles.len(), |join| {
+pub(crate) fn face_orientations(mesh: &Mesh) -> Vec<FaceOrientation> {
+    let connected = DisjointSets::new(mesh.triangles.len(), |join| {
         for edge in 0..mesh.edges.len() {
             if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
                 join(a, b);
             }
         }
     });
-    let mut pieces = vec![Component::default(); mesh.triangles.len()];
+    let mut pieces = vec![SurfaceComponent::default(); mesh.triangles.len()];
     for face in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(FaceId(face));
         let piece = &mut pieces[connected.of(face) as usize];
@@ -102,8 +104,8 @@ mod tests {
                 }
             }
         }
-        let found = outside(&Mesh::build(soup));
-        let wanted = [vec![Outside::Front; 12], vec![Outside::Unknown; 3]].concat();
+        let found = face_orientations(&Mesh::build(soup));
+        let wanted = [vec![FaceOrientation::Front; 12], vec![FaceOrientation::Unknown; 3]].concat();
         assert_eq!(found, wanted);
     }
 }

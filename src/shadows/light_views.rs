@@ -10,14 +10,14 @@ use crate::scene::{Camera, Projection};
 use crate::view::View;
 
 /// Side of the image, user units. A thousandth of it is the px of the line tolerances.
-const SIDE: f64 = 1000.0;
+const IMAGE_SIDE_UNITS: f64 = 1000.0;
 
 /// Width of the image, relative to the bounding sphere of the mesh.
-const MARGIN: f64 = 1.001;
+const IMAGE_MARGIN_FACTOR: f64 = 1.001;
 
 /// A point light farther than this from the centre of the mesh, in radii of its bounding sphere, needs only
 /// one image.
-const FAR: f64 = 1.3;
+const MIN_SINGLE_VIEW_RADII: f64 = 1.3;
 
 /// View from a light in one direction.
 #[derive(Debug, Clone)]
@@ -49,21 +49,29 @@ pub(crate) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
     let (middle, radius) = mesh.extents.counted_ball();
     let camera = |eye: DVec3, forward: DVec3, projection: Projection| {
         let up = forward.any_orthonormal_vector();
-        Camera { eye, target: eye + forward * radius, up, projection, width: SIDE, height: SIDE, near: None }
+        Camera {
+            eye,
+            target: eye + forward * radius,
+            up,
+            projection,
+            width: IMAGE_SIDE_UNITS,
+            height: IMAGE_SIDE_UNITS,
+            near: None,
+        }
     };
     let whole = |camera: Camera| vec![LightView { view: View::new(mesh, &camera), side: None }];
     match *caster {
         Caster::Directional { towards } => {
             let Some(towards) = towards.try_normalize() else { return Vec::new() };
-            let height = 2.0 * radius * MARGIN;
+            let height = 2.0 * radius * IMAGE_MARGIN_FACTOR;
             whole(camera(middle + towards * (2.0 * radius), -towards, Projection::Orthographic { height }))
         }
         Caster::Point { position } if !position.is_finite() => Vec::new(),
         Caster::Point { position } => {
             let distance = position.distance(middle);
-            if distance > FAR * radius {
+            if distance > MIN_SINGLE_VIEW_RADII * radius {
                 let half = atan2(radius, (distance * distance - radius * radius).sqrt());
-                let fov_y_deg = 2.0 * MARGIN * half.to_degrees();
+                let fov_y_deg = 2.0 * IMAGE_MARGIN_FACTOR * half.to_degrees();
                 let towards = (middle - position) / distance;
                 return whole(camera(position, towards, Projection::Perspective { fov_y_deg }));
             }
@@ -108,7 +116,13 @@ mod tests {
                 let shown: Vec<&LightView> = views.iter().filter(|v| v.shows(*p)).collect();
                 assert_eq!(shown.len(), 1);
                 let image = shown[0].view.frame.image_from_local(*p);
-                assert!(image.x >= 0.0 && image.x <= SIDE && image.y >= 0.0 && image.y <= SIDE, "{image}");
+                assert!(
+                    image.x >= 0.0
+                        && image.x <= IMAGE_SIDE_UNITS
+                        && image.y >= 0.0
+                        && image.y <= IMAGE_SIDE_UNITS,
+                    "{image}"
+                );
             }
         }
     }

@@ -29,11 +29,11 @@ pub use shadow_lines::{ShadowLines, ShadowSegment};
 
 use crate::lines::Surface;
 use crate::mesh::Mesh;
-use face_orientation::Outside;
+use face_orientation::FaceOrientation;
 use light_views::LightView;
 
 /// Largest number of lights that cast shadows: the number of bits in a mask.
-pub const MOST_CASTERS: usize = 32;
+pub const MAX_CASTERS: usize = 32;
 
 /// Shadows of some lights on a mesh.
 #[derive(Debug, Clone, Default)]
@@ -44,14 +44,14 @@ pub struct Shadows {
     /// Views from each light.
     views: Vec<Vec<LightView>>,
     /// Outer side of each face.
-    outside: Vec<Outside>,
+    outside: Vec<FaceOrientation>,
 }
 
 impl Shadows {
-    /// Computes the shadows of these lights, at most of the first [`MOST_CASTERS`].
+    /// Computes the shadows of these lights, at most of the first [`MAX_CASTERS`].
     #[must_use]
     pub fn new(mesh: &Mesh, casters: &[Caster]) -> Self {
-        let casters = casters[..casters.len().min(MOST_CASTERS)].to_vec();
+        let casters = casters[..casters.len().min(MAX_CASTERS)].to_vec();
         if mesh.triangles.is_empty() || casters.is_empty() {
             return Self::default();
         }
@@ -63,10 +63,10 @@ impl Shadows {
             let of_caster = light_views::views(&surface.mesh, caster);
             let cast: Vec<_> =
                 of_caster.par_iter().map(|light| shadow_receivers::borders(&surface, light)).collect();
-            lines.add(k as u32, border_segments::joined(&surface.mesh, cast));
+            lines.add(k as u32, border_segments::join_borders(&surface.mesh, cast));
             views.push(of_caster);
         }
-        Self { lines, casters, views, outside: face_orientation::outside(mesh) }
+        Self { lines, casters, views, outside: face_orientation::face_orientations(mesh) }
     }
 
     /// Lights that cast these shadows; bit k of a mask belongs to light k.
@@ -91,7 +91,7 @@ impl Shadows {
     pub fn shadowed(&self, mesh: &Mesh, points: &[(u32, DVec3)]) -> Vec<u32> {
         let mut masks = vec![0; points.len()];
         for (k, (caster, views)) in self.casters.iter().zip(&self.views).enumerate() {
-            point_shadows::mark(mesh, caster, views, &self.outside, points, 1 << k, &mut masks);
+            point_shadows::mark_shadowed(mesh, caster, views, &self.outside, points, 1 << k, &mut masks);
         }
         masks
     }

@@ -4,17 +4,17 @@ use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
 use super::Caster;
-use super::face_orientation::Outside;
+use super::face_orientation::FaceOrientation;
 use super::light_views::LightView;
 use crate::mesh::{FaceId, Mesh};
 use crate::visibility::front_faces;
 
 /// Sets a bit in the masks of the points that another face shades from a light.
-pub(crate) fn mark(
+pub(crate) fn mark_shadowed(
     mesh: &Mesh,
     caster: &Caster,
     views: &[LightView],
-    outside: &[Outside],
+    outside: &[FaceOrientation],
     points: &[(u32, DVec3)],
     bit: u32,
     masks: &mut [u32],
@@ -57,13 +57,13 @@ fn towards(caster: &Caster, point: DVec3) -> DVec3 {
 }
 
 /// Whether a face of a solid turns its inside to the light.
-fn is_averted(mesh: &Mesh, caster: &Caster, outside: &[Outside], face: u32, point: DVec3) -> bool {
+fn is_averted(mesh: &Mesh, caster: &Caster, outside: &[FaceOrientation], face: u32, point: DVec3) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
     let fall = (b - a).cross(c - a).dot(towards(caster, point));
     match outside[face as usize] {
-        Outside::Front => fall <= 0.0,
-        Outside::Back => fall >= 0.0,
-        Outside::Unknown => false,
+        FaceOrientation::Front => fall <= 0.0,
+        FaceOrientation::Back => fall >= 0.0,
+        FaceOrientation::Unknown => false,
     }
 }
 

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::border_segments::Joined;
+use super::border_segments::JoinedBorders;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
 use crate::mesh::Mesh;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 
 /// Straight piece of a shadow border.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub struct ShadowLines {
 
 impl ShadowLines {
     /// Adds the borders of one light.
-    pub(crate) fn add(&mut self, caster: u32, joined: Joined) {
+    pub(crate) fn add(&mut self, caster: u32, joined: JoinedBorders) {
         let first = self.points.len() as u32;
         self.points.extend(joined.points);
         let segment =
@@ -51,7 +51,7 @@ impl ShadowLines {
             kind: LineKind::Isophote,
             both_seen: true,
             smooth: false,
-            origin: Origin::default(),
+            origin: MeshSource::default(),
             role: Role::Line,
             strength: 0.0,
             part: mesh.face_part[segment.face as usize],

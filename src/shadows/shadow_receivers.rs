@@ -9,24 +9,24 @@ use glam::DVec3;
 
 use super::cast_edges::{self, CastEdge};
 use super::light_views::LightView;
-use super::upper_envelope::{Candidate, EdgePart, envelope};
-use crate::geometry::lists::csr_lists::grouped;
+use super::upper_envelope::{EdgePart, ReceiverCandidate, envelope};
+use crate::geometry::lists::csr_lists::csr_lists;
 use crate::lines::Surface;
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::visibility::occlusion::tiled_triangles::{Occluder, Reach, Triangles};
+use crate::visibility::occlusion::tiled_triangles::{Occluder, OccluderBounds, TiledTriangles};
 use crate::visibility::occlusion::triangle_occlusion::covered;
-use crate::visibility::tiles::tile_grid::Grid;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Largest number of tiles across the image.
-const MOST_TILES: u32 = 512;
+const MAX_TILES_ACROSS: u32 = 512;
 
 /// Tiles per task. Fixed, so the result does not depend on the number of threads.
-const TASK: usize = 32;
+const TILES_PER_TASK: usize = 32;
 
 /// Shadow borders in one view of a light.
-pub(crate) struct Borders<'a> {
+pub(crate) struct ShadowBorders<'a> {
     pub light: &'a LightView,
     /// Edges that cast the shadows.
     pub edges: Vec<CastEdge>,
@@ -36,51 +36,51 @@ pub(crate) struct Borders<'a> {
 
 /// Part of an edge in one tile.
 #[derive(Debug, Clone, Copy)]
-struct Item {
+struct TileEdge {
     edge: u32,
     start: f64,
     end: f64,
 }
 
 /// Computes all shadow borders in one view of a light.
-pub(crate) fn borders<'a>(surface: &Surface, light: &'a LightView) -> Borders<'a> {
+pub(crate) fn borders<'a>(surface: &Surface, light: &'a LightView) -> ShadowBorders<'a> {
     let Surface { mesh, .. } = surface;
     let edges = cast_edges::edges(surface, light);
     let candidates = candidates(mesh, &light.view, &edges);
-    let limits = Limits::new(&light.view.frame);
+    let limits = ViewTolerances::new(&light.view.frame);
     let first = |k: usize| candidates.partition_point(|(edge, _)| (*edge as usize) < k);
     let runs = (0..edges.len())
         .into_par_iter()
         .with_min_len(64)
         .map(|k| {
             let length = (edges[k].b - edges[k].a).truncate().length();
-            let of_edge: Vec<Candidate> =
+            let of_edge: Vec<ReceiverCandidate> =
                 candidates[first(k)..first(k + 1)].iter().map(|(_, candidate)| *candidate).collect();
             envelope(of_edge, limits.piece / length.max(limits.piece))
         })
         .collect();
-    Borders { light, edges, runs }
+    ShadowBorders { light, edges, runs }
 }
 
 /// Faces that may receive the shadow of each edge, in the order of the edges.
-fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candidate)> {
+fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, ReceiverCandidate)> {
     let Some(first) = edges.first() else { return Vec::new() };
-    let limits = &Limits::new(&view.frame);
+    let limits = &ViewTolerances::new(&view.frame);
     let bounds = (first.a.truncate(), first.a.truncate());
     let (low, high) = edges.iter().fold(bounds, |(low, high), edge| {
         let (a, b) = (edge.a.truncate(), edge.b.truncate());
         (low.min(a).min(b), high.max(a).max(b))
     });
     let across = ((mesh.triangles.len() as f64).sqrt() / 2.0) as u32;
-    let grid = &Grid::new(low, high, across.clamp(8, MOST_TILES));
-    let items = grouped(grid.len(), |put| {
+    let grid = &TileGrid::new(low, high, across.clamp(8, MAX_TILES_ACROSS));
+    let items = csr_lists(grid.len(), |put| {
         for (k, edge) in edges.iter().enumerate() {
-            grid.walk(edge.a, edge.b, |tile, start, end| put(tile, Item { edge: k as u32, start, end }));
+            grid.walk(edge.a, edge.b, |tile, start, end| put(tile, TileEdge { edge: k as u32, start, end }));
         }
     });
-    let triangles = Triangles { mesh, view, grid, limits };
+    let triangles = TiledTriangles { mesh, view, grid, limits };
     let boxes = triangles.tile_boxes();
-    let faces = grouped(grid.len(), |put| {
+    let faces = csr_lists(grid.len(), |put| {
         for (id, tiles) in boxes.iter().enumerate().filter(|(_, tiles)| !tiles.is_empty()) {
             for (tile, _) in grid.tiles_of(*tiles) {
                 if !items.of(tile).is_empty() {
@@ -90,19 +90,19 @@ fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candida
         }
     });
     drop(boxes);
-    let found: Vec<Vec<(u32, Candidate)>> = (0..grid.len().div_ceil(TASK))
+    let found: Vec<Vec<(u32, ReceiverCandidate)>> = (0..grid.len().div_ceil(TILES_PER_TASK))
         .into_par_iter()
         .map(|task| {
             let mut found = Vec::new();
-            for tile in task * TASK..((task + 1) * TASK).min(grid.len()) {
+            for tile in task * TILES_PER_TASK..((task + 1) * TILES_PER_TASK).min(grid.len()) {
                 let (items, ids) = (items.of(tile), faces.of(tile));
                 if items.is_empty() || ids.is_empty() {
                     continue;
                 }
-                let all: Vec<(Reach, Occluder)> =
+                let all: Vec<(OccluderBounds, Occluder)> =
                     ids.iter().map(|id| (triangles.reach(*id), triangles.occluder(*id))).collect();
                 for item in items.iter().filter(|item| item.end > item.start) {
-                    let tester = Tester { view, limits, edge: &edges[item.edge as usize] };
+                    let tester = ReceiverTest { view, limits, edge: &edges[item.edge as usize] };
                     tester.gather(item, &all, &mut found);
                 }
             }
@@ -115,15 +115,20 @@ fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candida
 }
 
 /// Edge that is compared with faces.
-struct Tester<'a> {
+struct ReceiverTest<'a> {
     view: &'a View,
-    limits: &'a Limits,
+    limits: &'a ViewTolerances,
     edge: &'a CastEdge,
 }
 
-impl Tester<'_> {
+impl ReceiverTest<'_> {
     /// Adds the faces of a tile that may receive the shadow of a part of the edge.
-    fn gather(&self, item: &Item, faces: &[(Reach, Occluder)], found: &mut Vec<(u32, Candidate)>) {
+    fn gather(
+        &self,
+        item: &TileEdge,
+        faces: &[(OccluderBounds, Occluder)],
+        found: &mut Vec<(u32, ReceiverCandidate)>,
+    ) {
         let edge = self.edge;
         let (p, q) = (edge.at(item.start), edge.at(item.end));
         let (low, high) = (p.min(q) - self.limits.beside, p.max(q) + self.limits.beside);
@@ -143,10 +148,10 @@ impl Tester<'_> {
     /// Reports the parts where a face lies behind the edge, or touches it on its outer side.
     fn receive(
         &self,
-        item: &Item,
+        item: &TileEdge,
         face: &Occluder,
         shared: [Option<usize>; 2],
-        mut push: impl FnMut(Candidate),
+        mut push: impl FnMut(ReceiverCandidate),
     ) {
         let edge = self.edge;
         let corners = &face.corners;
@@ -158,7 +163,7 @@ impl Tester<'_> {
         let depth = |t: f64| edge.at(t).z - nearness(t);
         let step = |q: f64| self.limits.step(q, &face.slack, neighbour, &self.view.frame);
         let is_behind = |t: f64| depth(t) > step(edge.at(t).z);
-        let candidate = |start: f64, end: f64, touches: bool| Candidate {
+        let candidate = |start: f64, end: f64, touches: bool| ReceiverCandidate {
             face: face.face,
             start,
             end,

@@ -3,7 +3,7 @@
 
 /// Face behind an edge, or touching it, over a part of the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Candidate {
+pub(crate) struct ReceiverCandidate {
     /// Id of the face.
     pub face: u32,
     /// Start on the edge, as a parameter.
@@ -16,7 +16,7 @@ pub(crate) struct Candidate {
     pub touches: bool,
 }
 
-impl Candidate {
+impl ReceiverCandidate {
     fn at(&self, t: f64) -> f64 {
         let span = self.end - self.start;
         if span <= 0.0 {
@@ -42,14 +42,14 @@ pub(crate) struct EdgePart {
 
 /// Nearest candidate over each part of an edge, ascending; nothing where that candidate touches the edge.
 /// Runs and gaps no longer than `shortest` are rounding.
-pub(crate) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<EdgePart> {
+pub(crate) fn envelope(mut candidates: Vec<ReceiverCandidate>, shortest: f64) -> Vec<EdgePart> {
     candidates.retain(|c| c.end > c.start);
     let mut stops: Vec<f64> = candidates.iter().flat_map(|c| [c.start, c.end]).collect();
     stops.sort_by(f64::total_cmp);
     stops.dedup();
     candidates.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.face.cmp(&b.face)));
-    let mut winners: Vec<(Candidate, f64, f64)> = Vec::new();
-    let mut active: Vec<Candidate> = Vec::new();
+    let mut winners: Vec<(ReceiverCandidate, f64, f64)> = Vec::new();
+    let mut active: Vec<ReceiverCandidate> = Vec::new();
     let mut next = 0;
     for pair in stops.windows(2) {
         let (from, to) = (pair[0], pair[1]);
@@ -66,8 +66,13 @@ pub(crate) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<Edg
 }
 
 /// Nearest of the candidates between two parameters; all of them must cover that range.
-fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Candidate, f64, f64)>) {
-    let ahead = |a: &Candidate, b: &Candidate| {
+fn nearest_over(
+    active: &[ReceiverCandidate],
+    from: f64,
+    to: f64,
+    winners: &mut Vec<(ReceiverCandidate, f64, f64)>,
+) {
+    let ahead = |a: &ReceiverCandidate, b: &ReceiverCandidate| {
         (a.at(to).total_cmp(&b.at(to))).then(a.touches.cmp(&b.touches)).then(b.face.cmp(&a.face))
     };
     let first = active.iter().max_by(|a, b| a.at(from).total_cmp(&b.at(from)).then(ahead(a, b)));
@@ -75,7 +80,7 @@ fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Can
     // Each successor is nearer at the end than the one before, so the loop terminates.
     loop {
         let mut end = to;
-        let mut heir: Option<&Candidate> = None;
+        let mut heir: Option<&ReceiverCandidate> = None;
         for other in active {
             let (lead, lag) = (best.at(at) - other.at(at), other.at(to) - best.at(to));
             if lag <= 0.0 {
@@ -94,16 +99,16 @@ fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Can
 }
 
 /// Joins neighbouring winners on one face and drops those that are too short.
-fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
-    struct Part {
+fn runs(winners: &[(ReceiverCandidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
+    struct EnvelopePart {
         face: u32,
         touches: bool,
         start: f64,
         end: f64,
         nearness: [f64; 2],
     }
-    let mut parts: Vec<Part> = Vec::new();
-    let add = |parts: &mut Vec<Part>, part: Part| match parts.last_mut() {
+    let mut parts: Vec<EnvelopePart> = Vec::new();
+    let add = |parts: &mut Vec<EnvelopePart>, part: EnvelopePart| match parts.last_mut() {
         Some(last)
             if (last.face, last.touches) == (part.face, part.touches)
                 && part.start - last.end <= shortest =>
@@ -115,10 +120,13 @@ fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
     };
     for (c, start, end) in winners {
         let nearness = [c.at(*start), c.at(*end)];
-        add(&mut parts, Part { face: c.face, touches: c.touches, start: *start, end: *end, nearness });
+        add(
+            &mut parts,
+            EnvelopePart { face: c.face, touches: c.touches, start: *start, end: *end, nearness },
+        );
     }
     // Once short parts are dropped, their neighbours may meet.
-    let mut long: Vec<Part> = Vec::new();
+    let mut long: Vec<EnvelopePart> = Vec::new();
     for part in parts {
         if part.end - part.start > shortest {
             add(&mut long, part);
@@ -133,7 +141,7 @@ fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
     }
     long.into_iter()
         .filter(|part| !part.touches)
-        .map(|Part { face, start, end, nearness, .. }| {
+        .map(|EnvelopePart { face, start, end, nearness, .. }| {
             let start = if start <= shortest { 0.0 } else { start };
             let end = if 1.0 - end <= shortest { 1.0 } else { end };
             EdgePart { face, start, end, nearness }
@@ -145,11 +153,11 @@ fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
 mod tests {
     use super::*;
 
-    fn candidate(face: u32, start: f64, end: f64, nearness: [f64; 2]) -> Candidate {
-        Candidate { face, start, end, nearness, touches: false }
+    fn candidate(face: u32, start: f64, end: f64, nearness: [f64; 2]) -> ReceiverCandidate {
+        ReceiverCandidate { face, start, end, nearness, touches: false }
     }
 
-    fn found(candidates: &[Candidate]) -> Vec<(u32, f64, f64)> {
+    fn found(candidates: &[ReceiverCandidate]) -> Vec<(u32, f64, f64)> {
         envelope(candidates.to_vec(), 1e-6).iter().map(|r| (r.face, r.start, r.end)).collect()
     }
 
@@ -158,7 +166,7 @@ mod tests {
         let far = candidate(1, 0.0, 1.0, [1.0, 1.0]);
         let near = candidate(2, 0.25, 0.5, [2.0, 2.0]);
         assert_eq!(found(&[far, near]), [(1, 0.0, 0.25), (2, 0.25, 0.5), (1, 0.5, 1.0)]);
-        let touching = Candidate { touches: true, ..near };
+        let touching = ReceiverCandidate { touches: true, ..near };
         assert_eq!(found(&[touching, far]), [(1, 0.0, 0.25), (1, 0.5, 1.0)]);
     }
 

@@ -25,28 +25,28 @@ use crate::parallel::prelude::*;
 use kurbo::BezPath;
 
 pub use crate::geometry::names::glob::Glob;
-pub use brushes::brush::{Brush, BrushShape, Turns};
-pub use brushes::brush_source::{BrushChange, BrushSource, Inside, ShapeSource, TurnSources};
-pub use brushes::brush_strip::Strip;
+pub use brushes::brush::{Brush, BrushShape, TurnShapes};
+pub use brushes::brush_source::{BrushChange, BrushSource, PictureInside, ShapeSource, TurnSources};
+pub use brushes::brush_strip::BrushStrip;
 pub use pens::hand::{Hand, HandChange};
 pub use pens::ink_context::{InkContext, Parting};
 pub use pens::ink_widths::InkWidths;
 pub use pens::pen::{Ink, Pen, PenChange};
-pub use pens::pen_rules::{Condition, LayerOptions, LayersBy, Order, Rule, StrokeOptions};
+pub use pens::pen_rules::{Condition, LayerOptions, LayersBy, MarkOrder, Rule, StrokeOptions};
 pub use widths::swell::{Swell, SwellChange};
 
-use crate::chains::{Chain, Under};
+use crate::chains::{Chain, LineBackdrop};
 use crate::colour::srgb::Colour;
 use crate::drawing::{
     ImagePaint, Layer, LayerKind, Mark, OutlinePaint, Paint, Provenance, StrokePaint, Unit,
 };
-use crate::geometry::names::name_ids::identities;
+use crate::geometry::names::name_ids::stable_ids;
 use crate::lines::{HiddenLines, LineKind};
-use axes::stroke_axis::Axis;
+use axes::stroke_axis::StrokeAxis;
 use brushes::brush_image::StripPictures;
-use inking::chain_ink::Inked;
-use inking::ink_spans::Tint;
-use inking::stroke_shape::Shape;
+use inking::chain_ink::ChainInk;
+use inking::ink_spans::SpanInk;
+use inking::stroke_shape::StrokeShape;
 use outlines::stroke_outline::Nib;
 
 /// Turns chains into the layers `hidden-lines` and `lines`, back to front. Empty layers are omitted.
@@ -102,10 +102,10 @@ fn marks(
     pen: impl Fn(&Chain) -> Pen + Sync,
     context: &InkContext,
 ) -> [Vec<Mark>; 2] {
-    let is_tinted = |chain: &Chain| chain.samples.iter().any(|s| s.under != Under::default());
+    let is_tinted = |chain: &Chain| chain.samples.iter().any(|s| s.under != LineBackdrop::default());
     if chains.par_iter().any(|chain| is_tinted(chain) || pen(chain).has_hand()) {
         let pens: Vec<Pen> = chains.par_iter().map(|chain| pen(chain)).collect();
-        let mut hidden = handmade(chains, &pens, context);
+        let mut hidden = varying_marks(chains, &pens, context);
         let visible = hidden.split_off(behind);
         return [hidden, visible].map(|marks| marks.into_iter().flatten().collect());
     }
@@ -125,9 +125,9 @@ fn layers_of(kind: LayerKind, marks: Vec<Mark>, options: LayerOptions, unit: Uni
         LayersBy::Pen => by_pen(kind, marks, unit),
     };
     layers.retain(|layer| !layer.marks.is_empty());
-    if options.order == Order::Travel {
+    if options.order == MarkOrder::Travel {
         for layer in &mut layers {
-            layer.marks = travel_order::shorten(std::mem::take(&mut layer.marks));
+            layer.marks = travel_order::shorten_travel(std::mem::take(&mut layer.marks));
             layer.ordered = true;
         }
     }
@@ -135,19 +135,19 @@ fn layers_of(kind: LayerKind, marks: Vec<Mark>, options: LayerOptions, unit: Uni
 }
 
 /// The marks of chains if some have hand-drawn effects or are interrupted by halos.
-fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
+fn varying_marks(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
     let px = context.px();
-    let axes: Vec<Axis> = chains.par_iter().map(|chain| Axis::of(chain, px).evened(px)).collect();
-    let identities = identities(context.parts.iter().map(|name| &**name));
+    let axes: Vec<StrokeAxis> = chains.par_iter().map(|chain| StrokeAxis::of(chain, px).evened(px)).collect();
+    let identities = stable_ids(context.parts.iter().map(|name| &**name));
     let depths = context.depths;
     let reach = |pen: &Pen| {
         let halo = pen.halo.in_unit(context.unit);
         if halo > 0.0 { halo + pen.width.in_unit(context.unit) / 2.0 } else { 0.0 }
     };
-    let haloed: Vec<gaps::halo::Haloed> =
-        axes.iter().zip(pens).map(|(axis, pen)| gaps::halo::Haloed { axis, reach: reach(pen) }).collect();
+    let haloed: Vec<gaps::halo::HaloLine> =
+        axes.iter().zip(pens).map(|(axis, pen)| gaps::halo::HaloLine { axis, reach: reach(pen) }).collect();
     let gaps = gaps::halo::gaps(&haloed, depths, px);
-    let joined = axes::joined_ends::joined(chains, &axes);
+    let joined = axes::joined_ends::joined_ends(chains, &axes);
     let thick_of: Vec<Vec<f64>> = (0..chains.len())
         .into_par_iter()
         .map(|i| {
@@ -164,9 +164,9 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         if chain.path.elements().len() < 2 || width <= 0.0 {
             return Vec::new();
         }
-        let inks = inking::ink_spans::stretches(&axes[i], chain, pen, context);
+        let inks = inking::ink_spans::ink_spans(&axes[i], chain, pen, context);
         let is_plain =
-            inks.len() == 1 && inks[0].tint == Tint { colour: colour(chain, context, pen), width: 1.0 };
+            inks.len() == 1 && inks[0].tint == SpanInk { colour: colour(chain, context, pen), width: 1.0 };
         if is_plain && !pen.has_hand() && gaps[i].is_empty() {
             return mark(chain, context, pen).into_iter().collect();
         }
@@ -177,7 +177,7 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
             if side == 0 { widths.first() } else { widths.last() }.copied()
         };
         let joined = joined[i].map(|end| end.and_then(there));
-        let shapes = Inked {
+        let shapes = ChainInk {
             chain,
             axis,
             pen,
@@ -191,12 +191,12 @@ fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Ma
         }
         .shapes(context);
         let painted = shapes.into_iter().map(|(shape, colour)| match shape {
-            Shape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
-            Shape::Outline { path, axis, width: mean } => {
+            StrokeShape::Path(path, closed) => stroked(path, closed, colour, chain, context, pen),
+            StrokeShape::Outline { path, axis, width: mean } => {
                 let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
                 Mark { path, paint, provenance: provenance(chain, context) }
             }
-            Shape::Image { path, strip, pixels, pieces } => {
+            StrokeShape::Image { path, strip, pixels, pieces } => {
                 let picture = pictures.of(&strip, pixels, colour);
                 let paint = Paint::Image(ImagePaint { picture, pieces });
                 Mark { path, paint, provenance: provenance(chain, context) }
@@ -214,7 +214,7 @@ fn is_solid(chain: &Chain, context: &InkContext, pen: &Pen) -> bool {
 
 /// The ink colour of a chain when the surface next to it is unknown.
 fn colour(chain: &Chain, context: &InkContext, pen: &Pen) -> Colour {
-    inking::ink_spans::plain(chain, pen, None, context)
+    inking::ink_spans::pen_colour(chain, pen, None, context)
 }
 
 /// One chain with its pen. `None` if it has no path or its pen no width.
@@ -226,7 +226,7 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     let fades = pen.fade > 0.0 && chain.samples.iter().any(|sample| sample.strength < 1.0);
     if is_solid(chain, context, pen) && fades {
         let px = context.px();
-        let mut axis = Axis::of(chain, px);
+        let mut axis = StrokeAxis::of(chain, px);
         let leaving = inking::frame_cut::leaving(chain, &axis, context.frame, px);
         for (side, past) in
             inking::frame_cut::past(leaving, axis.length(), pen, context.unit).into_iter().enumerate()
@@ -238,11 +238,11 @@ fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
         if let Some(path) = outlines::stroke_outline::soft_outline(&axis, &widths, &nib) {
             let (colour, mean) = (colour(chain, context, pen), widths::width_profile::mean(&axis, &widths));
             let whole = if leaving == [None; 2] { chain.path.clone() } else { axis.path(px) };
-            let mut shape = Shape::Outline { path, axis: whole, width: mean };
+            let mut shape = StrokeShape::Outline { path, axis: whole, width: mean };
             if let Some(frame) = context.frame.filter(|_| leaving != [None; 2]) {
                 shape = inking::frame_cut::cut(shape, frame, px)?;
             }
-            if let Shape::Outline { path, axis, width: mean } = shape {
+            if let StrokeShape::Outline { path, axis, width: mean } = shape {
                 let paint = Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: width });
                 return Some(Mark { path, paint, provenance: provenance(chain, context) });
             }
@@ -264,9 +264,9 @@ fn stroked(
         (Vec::new(), 0.0)
     } else {
         let period: Vec<f64> = pen.dash.iter().map(|length| length.in_unit(context.unit)).collect();
-        match gaps::gap_origin::ends(chain).filter(|_| !closed) {
+        match gaps::gap_origin::end_anchors(chain).filter(|_| !closed) {
             Some(ends) => gaps::dash::fixed(&path, ends, &period),
-            None if closed => gaps::dash::fit_round(&path, gaps::gap_origin::place(chain), &period),
+            None if closed => gaps::dash::fit_round(&path, gaps::gap_origin::fixed_share(chain), &period),
             None => gaps::dash::fit(&path, closed, &period),
         }
     };

@@ -10,7 +10,7 @@ use crate::drawing::{Layer, Mark, Paint};
 /// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
 /// layers are unchanged.
 #[must_use]
-pub fn along(layer: Layer) -> Layer {
+pub fn in_travel_order(layer: Layer) -> Layer {
     let colour = |mark: &Mark| match &mark.paint {
         Paint::Stroke(stroke) => Some(stroke.colour),
         _ => None,
@@ -22,7 +22,7 @@ pub fn along(layer: Layer) -> Layer {
         return layer;
     }
     let strokes = layer.marks.iter().flat_map(single).collect();
-    Layer { marks: rejoined(shorten(strokes)), ordered: true, ..layer }
+    Layer { marks: rejoined(shorten_travel(strokes)), ordered: true, ..layer }
 }
 
 /// The subpaths of a mark, one mark each.
@@ -54,7 +54,7 @@ fn rejoined(strokes: Vec<Mark>) -> Vec<Mark> {
 
 /// End of a mark's path.
 #[derive(Clone, Copy)]
-struct End {
+struct PathEnd {
     /// Index of the mark.
     mark: usize,
     /// Whether the path must be reversed to start here.
@@ -69,13 +69,13 @@ struct End {
 /// Paths may be reversed. Dashes of reversed paths still end well, because dash patterns are symmetrical or
 /// are reversed too.
 #[must_use]
-pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
-    let mut remaining: Vec<End> = Vec::with_capacity(marks.len() * 2);
+pub fn shorten_travel(marks: Vec<Mark>) -> Vec<Mark> {
+    let mut remaining: Vec<PathEnd> = Vec::with_capacity(marks.len() * 2);
     for (mark, paths) in marks.iter().enumerate() {
         let (Some(start), Some(end)) = (first_point(paths), last_point(paths)) else { continue };
-        remaining.push(End { mark, turned: false, at: start });
+        remaining.push(PathEnd { mark, turned: false, at: start });
         if turns_well(paths) && start != end {
-            remaining.push(End { mark, turned: true, at: end });
+            remaining.push(PathEnd { mark, turned: true, at: end });
         }
     }
     let mut used = vec![false; marks.len()];
@@ -83,7 +83,7 @@ pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
     let mut pen = Point::ZERO;
     let mut left = remaining.len();
     while left > 0 {
-        let mut grid = EndCells::new(&remaining);
+        let mut grid = PathEndGrid::new(&remaining);
         // A grid for many ends is slow for few. Rebuild it when three quarters are gone.
         let rebuild_at = left / 4;
         while left > rebuild_at
@@ -132,17 +132,17 @@ fn turns_well(mark: &Mark) -> bool {
 }
 
 /// Ends in a uniform grid over their bounding box.
-struct EndCells {
+struct PathEndGrid {
     origin: Point,
     cell: f64,
     columns: usize,
     rows: usize,
-    cells: Vec<Vec<End>>,
+    cells: Vec<Vec<PathEnd>>,
 }
 
-impl EndCells {
+impl PathEndGrid {
     /// A grid with about two ends per cell.
-    fn new(ends: &[End]) -> Self {
+    fn new(ends: &[PathEnd]) -> Self {
         let mut low = Point::new(f64::INFINITY, f64::INFINITY);
         let mut high = Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY);
         for end in ends {
@@ -172,9 +172,9 @@ impl EndCells {
     }
 
     /// The closest end of a mark not yet drawn. Among equally close ends, the first mark wins.
-    fn take_nearest(&mut self, pen: Point, used: &[bool]) -> Option<End> {
+    fn take_nearest(&mut self, pen: Point, used: &[bool]) -> Option<PathEnd> {
         let (column, row) = self.cell_of(pen);
-        let mut best: Option<(f64, usize, bool, End)> = None;
+        let mut best: Option<(f64, usize, bool, PathEnd)> = None;
         for ring in 0..self.columns.max(self.rows) {
             // Cells of this ring are at least this far from any point of the middle cell.
             let nearest = (ring.saturating_sub(1)) as f64 * self.cell;
@@ -246,7 +246,7 @@ mod tests {
     fn a_comb_is_drawn_back_and_forth() {
         let teeth: Vec<Mark> =
             (0..50).map(|i| mark(f64::from(i * 37 % 50), 0.0, f64::from(i * 37 % 50), 100.0)).collect();
-        let short = shorten(teeth.clone());
+        let short = shorten_travel(teeth.clone());
         assert_eq!(short.len(), 50);
         assert!((way(&short) - 49.0).abs() < 1e-9, "{}", way(&short));
         assert!(way(&teeth) > 5_000.0);
@@ -261,7 +261,7 @@ mod tests {
         };
         let marks: Vec<Mark> =
             (0..300).map(|_| mark(random(), random(), random(), random() * 0.01)).collect();
-        let short = shorten(marks.clone());
+        let short = shorten_travel(marks.clone());
         assert_eq!(short.len(), marks.len());
         // The greedy choice by exhaustive search.
         let mut left = marks;
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn degenerate_drawings() {
-        assert!(shorten(vec![]).is_empty());
-        assert_eq!(shorten(vec![mark(5.0, 5.0, 5.0, 5.0); 3]).len(), 3);
+        assert!(shorten_travel(vec![]).is_empty());
+        assert_eq!(shorten_travel(vec![mark(5.0, 5.0, 5.0, 5.0); 3]).len(), 3);
     }
 }

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 use crate::error::spelling::british;
 
 /// A table whose keys are names chosen by the user.
-const NAMES: &str = "artist_texture";
+const USER_NAMED_TABLE: &str = "artist_texture";
 
 /// Renames the keys of a sheet to British spelling, so that sheets in either spelling merge.
 pub(crate) fn to_british(table: &mut Table) {
@@ -16,16 +16,16 @@ pub(crate) fn to_british(table: &mut Table) {
         }
     }
     for (key, value) in table.iter_mut() {
-        if key != NAMES {
-            in_value(value);
+        if key != USER_NAMED_TABLE {
+            value_to_british(value);
         }
     }
 }
 
-fn in_value(value: &mut Value) {
+fn value_to_british(value: &mut Value) {
     match value {
         Value::Table(table) => to_british(table),
-        Value::Array(list) => list.iter_mut().for_each(in_value),
+        Value::Array(list) => list.iter_mut().for_each(value_to_british),
         _ => {}
     }
 }

@@ -35,7 +35,7 @@ pub use keys::{KeyType, StyleKey};
 #[cfg(feature = "page")]
 pub(crate) use sheet_loader::placed_change;
 #[cfg(feature = "page")]
-pub(crate) use unitless_lengths::bare_lengths;
+pub(crate) use unitless_lengths::unitless_length_warning;
 
 use crate::chains::ChainOptions;
 use crate::colour::srgb::Colour;
@@ -86,7 +86,7 @@ pub struct Style {
 impl Default for Style {
     /// The style `ink`.
     fn default() -> Self {
-        Self::preset("ink").unwrap_or_else(|| tables::style_sheet::Sheet::default().into_style())
+        Self::preset("ink").unwrap_or_else(|| tables::style_sheet::StyleSheet::default().into_style())
     }
 }
 
@@ -149,14 +149,14 @@ impl Style {
     /// # Errors
     /// Returns an error with the file or change, the line, the wrong key and the nearest known key.
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
-        sheet_loader::load(name_or_path, sets)
+        sheet_loader::load_style(name_or_path, sets)
     }
 
     /// A complete sheet of a style: every key with its value or default, and a line of help. It loads as the
     /// same style. Paths in it are relative to the working folder.
     ///
     /// # Errors
-    /// The same as those of [`Style::load`].
+    /// The same as those of [`Style::load_style`].
     pub fn full_sheet(name_or_path: &str) -> Result<String, Error> {
         Ok(keys::full_sheet::full_sheet(name_or_path, &sheet_loader::all_keys(name_or_path)?))
     }

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::StyleKey;
-use super::toml_reader::Fault;
+use super::toml_reader::TomlFault;
 use crate::error::Error;
 use crate::error::messages::{Explained, Mistake, explain};
 use crate::error::nearest::distance;
@@ -21,23 +21,23 @@ use crate::style::keys::advice::{alternatives, ending, listed, write_value};
 pub(crate) use crate::error::nearest::nearest;
 
 /// Longest line that is shown in full, characters.
-const LONGEST: usize = 120;
+const MAX_SHOWN_CHARACTERS: usize = 120;
 
 /// Longest value that is quoted in a message, bytes.
-const MAX_QUOTED: usize = 40;
+const MAX_QUOTED_BYTES: usize = 40;
 
 /// An error in a TOML text, with its line and a caret.
 #[cfg(feature = "page")]
-pub(crate) fn in_sheet(text: &str, error: &Fault) -> Error {
-    placed(text, error, &explained(text, error))
+pub(crate) fn in_sheet(text: &str, error: &TomlFault) -> Error {
+    error_at(text, error, &explain_fault(text, error))
 }
 
 /// Explains the parser's message in plain words; quotes the value if the message does not name it.
-fn explained(text: &str, error: &Fault) -> Explained {
+fn explain_fault(text: &str, error: &TomlFault) -> Explained {
     let explained = explain(error.message());
     let value = error.span().and_then(|span| text.get(span)).unwrap_or_default().trim();
     match explained.message.strip_prefix("this does not") {
-        Some(rest) if !value.is_empty() && value.len() <= MAX_QUOTED && !value.contains('\n') => {
+        Some(rest) if !value.is_empty() && value.len() <= MAX_QUOTED_BYTES && !value.contains('\n') => {
             Explained { message: format!("`{value}` does not{rest}"), ..explained }
         }
         _ => explained,
@@ -45,12 +45,12 @@ fn explained(text: &str, error: &Fault) -> Explained {
 }
 
 /// An error in a style sheet, with its line, a caret, and advice from the table of keys.
-pub(crate) fn in_style_sheet(text: &str, error: &Fault) -> Error {
+pub(crate) fn in_style_sheet(text: &str, error: &TomlFault) -> Error {
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
-    placed(text, error, &with_keys(explained(text, error), &path, &path, false))
+    error_at(text, error, &with_keys(explain_fault(text, error), &path, &path, false))
 }
 
-fn placed(text: &str, error: &Fault, explained: &Explained) -> Error {
+fn error_at(text: &str, error: &TomlFault, explained: &Explained) -> Error {
     let Explained { message, advice, .. } = explained;
     match error.span() {
         Some(span) => at_span(text, &span, message, advice.as_deref()),
@@ -69,10 +69,10 @@ pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Op
 }
 
 /// An error in a change of the command line, with a caret below the change.
-pub(crate) fn in_change(set: &str, text: &str, error: &Fault) -> Error {
+pub(crate) fn in_change(set: &str, text: &str, error: &TomlFault) -> Error {
     let typed = set.split('=').next().unwrap_or_default().trim();
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
-    let Explained { message, advice, .. } = with_keys(explained(text, error), &path, typed, true);
+    let Explained { message, advice, .. } = with_keys(explain_fault(text, error), &path, typed, true);
     let before = "--set ";
     let picture = error.span().map(|span| {
         let (_, column, _, width) = locate(text, &span);
@@ -171,8 +171,8 @@ fn with_remedy(error: Error, advice: Option<&str>, picture: Option<&str>) -> Err
 /// The position of a span: line number from 1, column from 0, the line, and the width. Columns count
 /// characters.
 fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
-    let start = floor(text, span.start);
-    let end = floor(text, span.end).max(start);
+    let start = floor_char_boundary(text, span.start);
+    let end = floor_char_boundary(text, span.end).max(start);
     let before = text.get(..start).unwrap_or_default();
     let number = before.matches('\n').count() + 1;
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -185,19 +185,23 @@ fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
 
 /// The section of a long line around a position, with the adjusted column and width.
 fn excerpt(column: usize, line: String, width: usize) -> (usize, String, usize) {
-    if line.chars().count() <= LONGEST {
+    if line.chars().count() <= MAX_SHOWN_CHARACTERS {
         return (column, line, width);
     }
-    let from = column.saturating_sub(LONGEST / 3);
-    let shown: String = line.chars().skip(from).take(LONGEST).collect();
+    let from = column.saturating_sub(MAX_SHOWN_CHARACTERS / 3);
+    let shown: String = line.chars().skip(from).take(MAX_SHOWN_CHARACTERS).collect();
     let [before, after] =
-        [from > 0, line.chars().count() > from + LONGEST].map(|cut| if cut { "…" } else { "" });
+        [from > 0, line.chars().count() > from + MAX_SHOWN_CHARACTERS].map(|cut| if cut { "…" } else { "" });
     let column = column - from + before.chars().count();
-    (column, format!("{before}{shown}{after}"), width.min(LONGEST + 1 - column.min(LONGEST)))
+    (
+        column,
+        format!("{before}{shown}{after}"),
+        width.min(MAX_SHOWN_CHARACTERS + 1 - column.min(MAX_SHOWN_CHARACTERS)),
+    )
 }
 
 /// The last character boundary at or before a byte.
-fn floor(text: &str, byte: usize) -> usize {
+fn floor_char_boundary(text: &str, byte: usize) -> usize {
     (0..=byte.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
@@ -206,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_long_lines_a_part_is_shown() {
+    fn long_lines_are_excerpted() {
         let line = format!("{}x{}", "a".repeat(500), "b".repeat(500));
         let told = at_span(&line, &(500..501), "wrong", None).remedy.unwrap();
         let lines: Vec<&str> = told.lines().collect();
@@ -217,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn places_inside_text() {
+    fn spans_are_located_by_line_and_column() {
         assert_eq!(locate("a\nbü = 1\n", &(2..5)), (2, 0, "bü = 1".into(), 2));
         assert_eq!(locate("", &(0..0)), (1, 0, String::new(), 1));
         assert_eq!(locate("ab", &(9..12)), (1, 2, "ab".into(), 1));

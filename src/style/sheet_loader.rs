@@ -10,18 +10,18 @@ use toml::{Table, Value};
 use super::Style;
 use super::key_spelling::to_british;
 use super::sheet_errors::{self, nearest};
-use super::toml_reader::{self, Fault};
+use super::toml_reader::{self, TomlFault};
 use crate::error::Error;
 use crate::style::files::artist_file::{place_artist_textures, read_artist_textures};
 use crate::style::files::brush_file::place_brushes;
 use crate::style::files::picture_file::place_paper;
 use crate::style::files::tile_file::place_tiles;
-use crate::style::tables::fills_table::set_aside;
+use crate::style::tables::fills_table::remove_replaced_keys;
 use crate::style::tables::ramp_source::place_pictures;
-use crate::style::tables::style_sheet::Sheet;
+use crate::style::tables::style_sheet::StyleSheet;
 
 /// A sheet that has been found.
-struct Source {
+struct SheetSource {
     /// Identity of the sheet: the built-in name, or the resolved path.
     identity: PathBuf,
     /// Name of the sheet in errors.
@@ -31,21 +31,22 @@ struct Source {
     text: String,
 }
 
-/// Loads a style, see [`Style::load`].
-pub(crate) fn load(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
-    merged(find(name_or_path, None)?, sets)
+/// Loads a style, see [`Style::load_style`].
+pub(crate) fn load_style(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
+    merged_style(find(name_or_path, None)?, sets)
 }
 
 /// Reads the text of a sheet, see [`Style::from_toml`].
 pub(crate) fn load_text(text: &str) -> Result<Style, Error> {
     let shown = PathBuf::from("style sheet");
-    merged(Source { identity: PathBuf::new(), shown, folder: None, text: text.to_owned() }, &[])
+    merged_style(SheetSource { identity: PathBuf::new(), shown, folder: None, text: text.to_owned() }, &[])
 }
 
 /// The style of a sheet, the sheets it extends, and changes.
-fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
+fn merged_style(source: SheetSource, sets: &[String]) -> Result<Style, Error> {
     let merged = merged_table(source, sets)?;
-    let mut sheet: Sheet = toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
+    let mut sheet: StyleSheet =
+        toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
     sheet.fills.read_pictures()?;
     sheet.fills.read_tiles()?;
     sheet.read_brushes()?;
@@ -62,7 +63,7 @@ pub(crate) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
 /// The sheets of a style that are not built in: name in messages and keys, lowest priority first.
 #[cfg(feature = "page")]
 pub(crate) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
-    let chain = chain(find(name_or_path, None)?)?;
+    let chain = sheet_chain(find(name_or_path, None)?)?;
     Ok(chain
         .into_iter()
         .rev()
@@ -72,9 +73,9 @@ pub(crate) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Er
 }
 
 /// The merged keys of a sheet, the sheets it extends, and changes.
-fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
+fn merged_table(source: SheetSource, sets: &[String]) -> Result<Table, Error> {
     let mut merged = Table::new();
-    for (_, sheet) in chain(source)?.into_iter().rev() {
+    for (_, sheet) in sheet_chain(source)?.into_iter().rev() {
         merge(&mut merged, sheet);
     }
     for set in sets {
@@ -85,8 +86,8 @@ fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
 }
 
 /// A sheet and the sheets it extends in turn, with their keys.
-fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
-    let mut sheets: Vec<(Source, Table)> = Vec::new();
+fn sheet_chain(source: SheetSource) -> Result<Vec<(SheetSource, Table)>, Error> {
+    let mut sheets: Vec<(SheetSource, Table)> = Vec::new();
     let mut seen: Vec<PathBuf> = Vec::new();
     let mut next = Some(source);
     while let Some(source) = next.take() {
@@ -96,7 +97,7 @@ fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
         if let Some(parent) = &sheet.extends {
             let place = || sheet_errors::place_of_value(&source.text, "extends");
             let found = find(parent, source.folder.as_deref())
-                .map_err(|error| name_in(error, &source.shown, &place()))?;
+                .map_err(|error| error_in_sheet(error, &source.shown, &place()))?;
             if seen.contains(&found.identity) {
                 return Err(Error::new(format!(
                     "`extends = \"{parent}\"` leads back to a sheet it comes from"
@@ -119,10 +120,10 @@ fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
 }
 
 /// Finds a sheet: a built-in name, or a path relative to `folder`.
-fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
+fn find(name: &str, folder: Option<&Path>) -> Result<SheetSource, Error> {
     if let Some(text) = Style::sheet_text(name) {
         let shown = PathBuf::from(format!("styles/{name}.toml"));
-        return Ok(Source { identity: PathBuf::from(name), shown, folder: None, text: text.to_owned() });
+        return Ok(SheetSource { identity: PathBuf::from(name), shown, folder: None, text: text.to_owned() });
     }
     let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
     let looks_like_path = name.ends_with(".toml") || name.contains(['/', '\\']);
@@ -145,11 +146,11 @@ fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
     })?;
     let identity = std::fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
     let folder = path.parent().map(Path::to_path_buf);
-    Ok(Source { identity, shown: path, folder, text })
+    Ok(SheetSource { identity, shown: path, folder, text })
 }
 
 /// Reports an error at the sheet that names a missing sheet.
-fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
+fn error_in_sheet(mut error: Error, sheet: &Path, place: &str) -> Error {
     if let Some(file) = &error.file {
         error.message = format!("{}: {}", file.display(), error.message);
     }
@@ -157,7 +158,7 @@ fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
 }
 
 /// Reads a sheet twice: as options, to find errors, and as a table, to merge it.
-fn read(text: &str) -> Result<(Sheet, Table), Fault> {
+fn read(text: &str) -> Result<(StyleSheet, Table), TomlFault> {
     let (sheet, mut table) = (toml_reader::from_text(text)?, toml::from_str(text)?);
     to_british(&mut table);
     Ok((sheet, table))
@@ -221,7 +222,7 @@ fn merge(base: &mut Table, over: Table) {
         match (base.get_mut(&key), value) {
             (Some(Value::Table(below)), Value::Table(above)) => {
                 if key == "fills" {
-                    set_aside(below, &above);
+                    remove_replaced_keys(below, &above);
                 }
                 merge(below, above);
             }

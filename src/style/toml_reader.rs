@@ -1,6 +1,6 @@
 //! Deserialises options from TOML, with the position of each error.
 //!
-//! The text is parsed by `toml`. Its tables become a tree of [`Node`]s with spans, and one small deserialiser
+//! The text is parsed by `toml`. Its tables become a tree of [`TomlNode`]s with spans, and one small deserialiser
 //! walks the tree.
 //!
 //! The deserialisers of `toml` give the same results. But with them the compiler instantiates the code of
@@ -21,12 +21,12 @@ use toml::{Spanned, Table, Value};
 
 /// An error in a TOML text, with its byte range.
 #[derive(Debug, Clone)]
-pub(crate) struct Fault {
+pub(crate) struct TomlFault {
     message: String,
     span: Option<Range<usize>>,
 }
 
-impl Fault {
+impl TomlFault {
     pub(crate) fn message(&self) -> &str {
         &self.message
     }
@@ -41,76 +41,76 @@ impl Fault {
     }
 }
 
-impl Display for Fault {
+impl Display for TomlFault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for TomlFault {}
 
-impl serde::de::Error for Fault {
+impl serde::de::Error for TomlFault {
     fn custom<T: Display>(message: T) -> Self {
         Self { message: message.to_string(), span: None }
     }
 }
 
-impl From<toml::de::Error> for Fault {
+impl From<toml::de::Error> for TomlFault {
     fn from(error: toml::de::Error) -> Self {
         Self { message: error.message().to_owned(), span: error.span() }
     }
 }
 
 /// Deserialises options from a TOML text.
-pub(crate) fn from_text<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
+pub(crate) fn from_text<T: DeserializeOwned>(text: &str) -> Result<T, TomlFault> {
     let document = DeTable::parse(text)?;
     let span = document.span();
-    T::deserialize(Node::table(document.into_inner(), span)?)
+    T::deserialize(TomlNode::table(document.into_inner(), span)?)
 }
 
 /// Deserialises options from a table without spans.
-pub(crate) fn from_table<T: DeserializeOwned>(table: Table) -> Result<T, Fault> {
-    T::deserialize(Node::from(Value::Table(table)))
+pub(crate) fn from_table<T: DeserializeOwned>(table: Table) -> Result<T, TomlFault> {
+    T::deserialize(TomlNode::from(Value::Table(table)))
 }
 
 /// Deserialises options from a part of a parsed text.
 #[cfg(feature = "page")]
-pub(crate) fn from_value<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
-    T::deserialize(Node::spanned(value)?)
+pub(crate) fn from_value<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, TomlFault> {
+    T::deserialize(TomlNode::spanned(value)?)
 }
 
 /// A value with its position in the text.
-struct Node {
-    kind: Kind,
+struct TomlNode {
+    kind: TomlKind,
     span: Option<Range<usize>>,
 }
 
-enum Kind {
+enum TomlKind {
     Bool(bool),
     Integer(i64),
     Unsigned(u64),
     Float(f64),
     Text(String),
     Date,
-    List(Vec<Node>),
-    Table(Vec<(Key, Node)>),
+    List(Vec<TomlNode>),
+    Table(Vec<(TomlKey, TomlNode)>),
 }
 
-struct Key {
+struct TomlKey {
     text: Cow<'static, str>,
     span: Option<Range<usize>>,
 }
 
-impl Node {
-    fn spanned(value: Spanned<DeValue>) -> Result<Self, Fault> {
+impl TomlNode {
+    fn spanned(value: Spanned<DeValue>) -> Result<Self, TomlFault> {
         let span = value.span();
-        let wrong = |message: &str| Fault { message: message.to_owned(), span: Some(span.clone()) };
+        let wrong = |message: &str| TomlFault { message: message.to_owned(), span: Some(span.clone()) };
         let kind = match value.into_inner() {
-            DeValue::String(text) => Kind::Text(text.into_owned()),
+            DeValue::String(text) => TomlKind::Text(text.into_owned()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
-                Ok(number) => Kind::Integer(number),
+                Ok(number) => TomlKind::Integer(number),
                 Err(_) => u64::from_str_radix(digits.as_str(), digits.radix())
-                    .map(Kind::Unsigned)
+                    .map(TomlKind::Unsigned)
                     .map_err(|_| wrong("integer number overflowed"))?,
             },
             DeValue::Float(digits) => {
@@ -118,65 +118,66 @@ impl Node {
                 if number.is_infinite() && !digits.as_str().contains("inf") {
                     return Err(wrong("floating-point number overflowed"));
                 }
-                Kind::Float(number)
+                TomlKind::Float(number)
             }
-            DeValue::Boolean(value) => Kind::Bool(value),
-            DeValue::Datetime(_) => Kind::Date,
+            DeValue::Boolean(value) => TomlKind::Bool(value),
+            DeValue::Datetime(_) => TomlKind::Date,
             DeValue::Array(items) => {
-                Kind::List(items.into_iter().map(Self::spanned).collect::<Result<_, _>>()?)
+                TomlKind::List(items.into_iter().map(Self::spanned).collect::<Result<_, _>>()?)
             }
             DeValue::Table(table) => return Self::table(table, span),
         };
         Ok(Self { kind, span: Some(span) })
     }
 
-    fn table(table: DeTable, span: Range<usize>) -> Result<Self, Fault> {
+    fn table(table: DeTable, span: Range<usize>) -> Result<Self, TomlFault> {
         let entry = |(key, value): (Spanned<_>, Spanned<DeValue>)| {
             let (span, key): (_, Cow<str>) = (key.span(), key.into_inner());
-            Ok((Key { text: Cow::Owned(key.into_owned()), span: Some(span) }, Self::spanned(value)?))
+            Ok((TomlKey { text: Cow::Owned(key.into_owned()), span: Some(span) }, Self::spanned(value)?))
         };
-        let entries = table.into_iter().map(entry).collect::<Result<_, Fault>>()?;
-        Ok(Self { kind: Kind::Table(entries), span: Some(span) })
+        let entries = table.into_iter().map(entry).collect::<Result<_, TomlFault>>()?;
+        Ok(Self { kind: TomlKind::Table(entries), span: Some(span) })
     }
 }
 
-impl From<Value> for Node {
+impl From<Value> for TomlNode {
     fn from(value: Value) -> Self {
         let kind = match value {
-            Value::String(text) => Kind::Text(text),
-            Value::Integer(number) => Kind::Integer(number),
-            Value::Float(number) => Kind::Float(number),
-            Value::Boolean(value) => Kind::Bool(value),
-            Value::Datetime(_) => Kind::Date,
-            Value::Array(items) => Kind::List(items.into_iter().map(Self::from).collect()),
+            Value::String(text) => TomlKind::Text(text),
+            Value::Integer(number) => TomlKind::Integer(number),
+            Value::Float(number) => TomlKind::Float(number),
+            Value::Boolean(value) => TomlKind::Bool(value),
+            Value::Datetime(_) => TomlKind::Date,
+            Value::Array(items) => TomlKind::List(items.into_iter().map(Self::from).collect()),
             Value::Table(table) => {
-                let entry = |(text, value)| (Key { text: Cow::Owned(text), span: None }, Self::from(value));
-                Kind::Table(table.into_iter().map(entry).collect())
+                let entry =
+                    |(text, value)| (TomlKey { text: Cow::Owned(text), span: None }, Self::from(value));
+                TomlKind::Table(table.into_iter().map(entry).collect())
             }
         };
         Self { kind, span: None }
     }
 }
 
-impl<'de> Deserializer<'de> for Node {
-    type Error = Fault;
+impl<'de> Deserializer<'de> for TomlNode {
+    type Error = TomlFault;
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlFault> {
         let Self { kind, span } = self;
         let read = match kind {
-            Kind::Bool(value) => visitor.visit_bool(value),
-            Kind::Integer(number) => visitor.visit_i64(number),
-            Kind::Unsigned(number) => visitor.visit_u64(number),
-            Kind::Float(number) => visitor.visit_f64(number),
-            Kind::Text(text) => visitor.visit_string(text),
-            Kind::Date => Err(Fault::invalid_type(Unexpected::Other("a date"), &visitor)),
-            Kind::List(items) => visitor.visit_seq(Items(items.into_iter())),
-            Kind::Table(entries) => visitor.visit_map(Entries::new(entries)),
+            TomlKind::Bool(value) => visitor.visit_bool(value),
+            TomlKind::Integer(number) => visitor.visit_i64(number),
+            TomlKind::Unsigned(number) => visitor.visit_u64(number),
+            TomlKind::Float(number) => visitor.visit_f64(number),
+            TomlKind::Text(text) => visitor.visit_string(text),
+            TomlKind::Date => Err(TomlFault::invalid_type(Unexpected::Other("a date"), &visitor)),
+            TomlKind::List(items) => visitor.visit_seq(ListItems(items.into_iter())),
+            TomlKind::Table(entries) => visitor.visit_map(TableEntries::new(entries)),
         };
         read.map_err(|fault| fault.at(&span))
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlFault> {
         visitor.visit_some(self)
     }
 
@@ -184,7 +185,7 @@ impl<'de> Deserializer<'de> for Node {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, Fault> {
+    ) -> Result<V::Value, TomlFault> {
         visitor.visit_newtype_struct(self)
     }
 
@@ -193,17 +194,17 @@ impl<'de> Deserializer<'de> for Node {
         name: &'static str,
         fields: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Fault> {
+    ) -> Result<V::Value, TomlFault> {
         match fields {
             // `Spanned` requests its two ends and its value by three private names.
             [start, end, value] if name.starts_with("$__serde_spanned") => {
                 let span = self.span.clone();
                 let range = span.clone().unwrap_or_default();
-                let place = |at: usize| Self { kind: Kind::Unsigned(at as u64), span: None };
-                let key = |name| Key { text: Cow::Borrowed(name), span: None };
+                let place = |at: usize| Self { kind: TomlKind::Unsigned(at as u64), span: None };
+                let key = |name| TomlKey { text: Cow::Borrowed(name), span: None };
                 let entries =
                     vec![(key(start), place(range.start)), (key(end), place(range.end)), (key(value), self)];
-                visitor.visit_map(Entries::new(entries)).map_err(|fault| fault.at(&span))
+                visitor.visit_map(TableEntries::new(entries)).map_err(|fault| fault.at(&span))
             }
             _ => self.deserialize_any(visitor),
         }
@@ -214,13 +215,12 @@ impl<'de> Deserializer<'de> for Node {
         name: &'static str,
         variants: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Fault> {
+    ) -> Result<V::Value, TomlFault> {
         let Self { kind, span } = self;
         let read = match kind {
-            Kind::Text(text) => visitor.visit_enum(StringDeserializer::new(text)),
-            Kind::Table(entries) => {
-                MapAccessDeserializer::new(Entries::new(entries)).deserialize_enum(name, variants, visitor)
-            }
+            TomlKind::Text(text) => visitor.visit_enum(StringDeserializer::new(text)),
+            TomlKind::Table(entries) => MapAccessDeserializer::new(TableEntries::new(entries))
+                .deserialize_enum(name, variants, visitor),
             kind => Self { kind, span: span.clone() }.deserialize_any(visitor),
         };
         read.map_err(|fault| fault.at(&span))
@@ -232,10 +232,10 @@ impl<'de> Deserializer<'de> for Node {
     }
 }
 
-impl<'de> Deserializer<'de> for Key {
-    type Error = Fault;
+impl<'de> Deserializer<'de> for TomlKey {
+    type Error = TomlFault;
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlFault> {
         match self.text {
             Cow::Borrowed(text) => visitor.visit_borrowed_str(text),
             Cow::Owned(text) => visitor.visit_string(text),
@@ -247,7 +247,7 @@ impl<'de> Deserializer<'de> for Key {
         _: &'static str,
         _: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Fault> {
+    ) -> Result<V::Value, TomlFault> {
         visitor.visit_enum(StringDeserializer::new(self.text.into_owned()))
     }
 
@@ -258,12 +258,12 @@ impl<'de> Deserializer<'de> for Key {
 }
 
 /// The items of a list.
-struct Items(vec::IntoIter<Node>);
+struct ListItems(vec::IntoIter<TomlNode>);
 
-impl<'de> SeqAccess<'de> for Items {
-    type Error = Fault;
+impl<'de> SeqAccess<'de> for ListItems {
+    type Error = TomlFault;
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, TomlFault> {
         self.0.next().map(|item| seed.deserialize(item)).transpose()
     }
 
@@ -273,30 +273,30 @@ impl<'de> SeqAccess<'de> for Items {
 }
 
 /// The entries of a table.
-struct Entries {
-    rest: vec::IntoIter<(Key, Node)>,
+struct TableEntries {
+    rest: vec::IntoIter<(TomlKey, TomlNode)>,
     /// The value of the key that was read last, with the position of the key.
-    next: Option<(Option<Range<usize>>, Node)>,
+    next: Option<(Option<Range<usize>>, TomlNode)>,
 }
 
-impl Entries {
-    fn new(entries: Vec<(Key, Node)>) -> Self {
+impl TableEntries {
+    fn new(entries: Vec<(TomlKey, TomlNode)>) -> Self {
         Self { rest: entries.into_iter(), next: None }
     }
 }
 
-impl<'de> MapAccess<'de> for Entries {
-    type Error = Fault;
+impl<'de> MapAccess<'de> for TableEntries {
+    type Error = TomlFault;
 
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, TomlFault> {
         let Some((key, value)) = self.rest.next() else { return Ok(None) };
         self.next = Some((key.span.clone(), value));
         let span = key.span.clone();
         seed.deserialize(key).map(Some).map_err(|fault| fault.at(&span))
     }
 
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
-        let (key, value) = self.next.take().ok_or_else(|| Fault::custom("a value without a key"))?;
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, TomlFault> {
+        let (key, value) = self.next.take().ok_or_else(|| TomlFault::custom("a value without a key"))?;
         let span = value.span.clone().or(key);
         seed.deserialize(value).map_err(|fault| fault.at(&span))
     }
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn values_and_faults_are_those_of_toml() {
+    fn results_and_errors_match_toml() {
         for text in [
             "width = 1.5",
             "width = 2\nkind = \"plain\"\nnames = [\"a\", \"b\"]",
@@ -369,12 +369,12 @@ mod tests {
     }
 
     #[test]
-    fn built_in_sheets_are_read_alike() {
+    fn built_in_sheets_parse_equally_as_text_and_table() {
         for name in crate::Style::names() {
             let text = crate::Style::sheet_text(name).unwrap();
             let table = toml::from_str::<Table>(text).unwrap();
-            let sheet = from_text::<crate::style::tables::style_sheet::Sheet>(text).unwrap();
-            let merged: crate::style::tables::style_sheet::Sheet = from_table(table).unwrap();
+            let sheet = from_text::<crate::style::tables::style_sheet::StyleSheet>(text).unwrap();
+            let merged: crate::style::tables::style_sheet::StyleSheet = from_table(table).unwrap();
             assert_eq!(format!("{sheet:?}"), format!("{merged:?}"), "{name}");
         }
     }

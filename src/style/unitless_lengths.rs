@@ -1,4 +1,4 @@
-//! [`bare_lengths`]: a warning about numbers without a unit on a page in mm.
+//! [`unitless_length_warning`]: a warning about numbers without a unit on a page in mm.
 //!
 //! A bare number is a length in px. On a page in mm users often intend mm, so these numbers are reported
 //! once:
@@ -16,7 +16,7 @@ use super::sheet_loader::{change, own_sheets};
 use crate::drawing::length::MM_PER_PX;
 
 /// A number without a unit.
-struct Bare {
+struct UnitlessLength {
     /// Path of its key, without `[]`.
     key: String,
     value: f64,
@@ -24,7 +24,7 @@ struct Bare {
 
 /// The warning about numbers without a unit in a style and its changes, for a page in mm. `None` if there are
 /// none or the style cannot be read.
-pub(crate) fn bare_lengths(name_or_path: &str, sets: &[String]) -> Option<String> {
+pub(crate) fn unitless_length_warning(name_or_path: &str, sets: &[String]) -> Option<String> {
     let mut found = Vec::new();
     for set in sets {
         if let Ok(table) = change(set) {
@@ -42,8 +42,8 @@ pub(crate) fn bare_lengths(name_or_path: &str, sets: &[String]) -> Option<String
         for table in texts.filter_map(|text| toml::from_str::<Table>(text).ok()) {
             gather(&table, "", &mut stock);
         }
-        let is_stock = |own: &Bare| {
-            let same = |other: &Bare| other.key == own.key && other.value == own.value;
+        let is_stock = |own: &UnitlessLength| {
+            let same = |other: &UnitlessLength| other.key == own.key && other.value == own.value;
             stock.iter().any(same) || is_default(own)
         };
         found.extend(in_sheets.into_iter().filter(|own| !is_stock(own)));
@@ -66,7 +66,7 @@ pub(crate) fn bare_lengths(name_or_path: &str, sets: &[String]) -> Option<String
 }
 
 /// Whether a number is the default of its key.
-fn is_default(own: &Bare) -> bool {
+fn is_default(own: &UnitlessLength) -> bool {
     let Some(key) = StyleKey::find(&own.key) else { return false };
     let general = key.inherits.as_deref().and_then(StyleKey::find).unwrap_or(key);
     let default = general.default.and_then(|text| toml::from_str::<Table>(&format!("v = {text}")).ok());
@@ -78,7 +78,7 @@ fn is_default(own: &Bare) -> bool {
 }
 
 /// Collects the bare lengths of a table at path `above`.
-fn gather(table: &Table, above: &str, found: &mut Vec<Bare>) {
+fn gather(table: &Table, above: &str, found: &mut Vec<UnitlessLength>) {
     for (key, value) in table {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         match (StyleKey::find(&path).map(|key| key.kind), value) {
@@ -92,7 +92,7 @@ fn gather(table: &Table, above: &str, found: &mut Vec<Bare>) {
     }
 }
 
-fn gather_numbers(value: &Value, key: &str, found: &mut Vec<Bare>) {
+fn gather_numbers(value: &Value, key: &str, found: &mut Vec<UnitlessLength>) {
     let number = match value {
         Value::Integer(number) => *number as f64,
         Value::Float(number) => *number,
@@ -100,6 +100,6 @@ fn gather_numbers(value: &Value, key: &str, found: &mut Vec<Bare>) {
         _ => return,
     };
     if number != 0.0 {
-        found.push(Bare { key: key.to_owned(), value: number });
+        found.push(UnitlessLength { key: key.to_owned(), value: number });
     }
 }

@@ -19,10 +19,10 @@ pub mod patches;
 pub mod refine;
 
 pub use creases::hard_edges::HardEdges;
-pub use curvature::principal_curvatures::Principal;
+pub use curvature::principal_curvatures::PrincipalCurvatures;
 pub use curvature::surface_curvature::Curvature;
 pub use cylinders::strip_cylinders::{Cylinder, cylinders};
 pub use normals::smooth_normals::SmoothNormals;
 pub use patches::patch_layout::Patches;
-pub use patches::surface_class::Origin;
+pub use patches::surface_class::MeshSource;
 pub use refine::edge_arc::EdgeArc;

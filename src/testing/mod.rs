@@ -36,7 +36,7 @@ pub use crate::assert_drawing;
 pub const BLESS: &str = "LIGNE_BLESS";
 
 /// Most lines of a failure message.
-const MOST_LINES: usize = 30;
+const MAX_FAILURE_LINES: usize = 30;
 
 /// Asserts that a [`Drawing`] equals its approved version: `assert_drawing!(drawing, "name")`.
 ///
@@ -129,9 +129,9 @@ pub fn check(
         None => format!("`{name}` has no approved drawing {}\n", approved.display()),
         Some(diff) => {
             let lines = diff.lines();
-            let more = lines.len().saturating_sub(MOST_LINES);
+            let more = lines.len().saturating_sub(MAX_FAILURE_LINES);
             let mut text = format!("`{name}` differs from {}: {}\n", approved.display(), diff.summary());
-            lines.iter().take(MOST_LINES).for_each(|line| text += &format!("  {line}\n"));
+            lines.iter().take(MAX_FAILURE_LINES).for_each(|line| text += &format!("  {line}\n"));
             if more > 0 {
                 text += &format!("  and {more} more lines\n");
             }
@@ -141,7 +141,7 @@ pub fn check(
     let picture = difference.map(|diff| diff.picture(View::Over).to_svg(&SvgOptions::default()));
     for (what, text) in [("actual", Some(drawn)), ("diff", picture)] {
         if let Some(text) = text {
-            let path = beside(&approved, name, what);
+            let path = review_path(&approved, name, what);
             match std::fs::write(&path, text) {
                 Ok(()) => told += &format!("{what:<10} {}\n", path.display()),
                 Err(error) => {
@@ -165,7 +165,7 @@ fn compare(known: &str, drawn: &str, tolerance: &str) -> Result<Option<Diff>, Er
 
 /// Path of a file for inspection in the temporary folder. The name contains a hash of the approved path, so
 /// that parallel tests do not overwrite each other's files.
-fn beside(approved: &Path, name: &str, what: &str) -> PathBuf {
+fn review_path(approved: &Path, name: &str, what: &str) -> PathBuf {
     let flat: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     let place = FxBuildHasher.hash_one(approved);
     std::env::temp_dir().join(format!("ligne-{flat}-{place:016x}.{what}.svg"))

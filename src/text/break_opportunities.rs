@@ -7,11 +7,11 @@ use unicode_linebreak::{BreakOpportunity, linebreaks};
 use crate::error::Error;
 
 /// Minimum length of a word that is hyphenated, letters.
-const SHORTEST_PARTED: usize = 5;
+const MIN_HYPHENATED_LETTERS: usize = 5;
 
 /// A break opportunity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Break {
+pub(crate) struct LineBreak {
     /// Position in the text, bytes.
     pub at: usize,
     /// Whether the line ends with a hyphen, because the break is inside a word.
@@ -30,22 +30,22 @@ pub(crate) fn language(code: &str) -> Result<Lang, Error> {
 }
 
 /// All break opportunities of a text, including its start and its end.
-pub(crate) fn breaks(text: &str, language: Option<Lang>) -> Vec<Break> {
-    let mut found = vec![Break { at: 0, hyphen: false, must: true }];
+pub(crate) fn line_breaks(text: &str, language: Option<Lang>) -> Vec<LineBreak> {
+    let mut found = vec![LineBreak { at: 0, hyphen: false, must: true }];
     let mut from = 0;
     for (at, opportunity) in linebreaks(text) {
         if let Some(language) = language {
-            part(text, from..at, language, &mut found);
+            hyphenate_words(text, from..at, language, &mut found);
         }
         let hyphen = text[..at].ends_with('\u{ad}');
-        found.push(Break { at, hyphen, must: opportunity == BreakOpportunity::Mandatory });
+        found.push(LineBreak { at, hyphen, must: opportunity == BreakOpportunity::Mandatory });
         from = at;
     }
     found
 }
 
 /// Adds the hyphenation points of the words in a range of the text.
-fn part(text: &str, range: std::ops::Range<usize>, language: Lang, found: &mut Vec<Break>) {
+fn hyphenate_words(text: &str, range: std::ops::Range<usize>, language: Lang, found: &mut Vec<LineBreak>) {
     let stretch = &text[range.clone()];
     let mut words = stretch.char_indices().peekable();
     while let Some((start, c)) = words.next() {
@@ -57,14 +57,14 @@ fn part(text: &str, range: std::ops::Range<usize>, language: Lang, found: &mut V
             end = at + stretch[at..].chars().next().map_or(0, char::len_utf8);
         }
         let word = &stretch[start..end];
-        if word.chars().count() < SHORTEST_PARTED {
+        if word.chars().count() < MIN_HYPHENATED_LETTERS {
             continue;
         }
         let mut at = range.start + start;
         let syllables: Vec<&str> = hypher::hyphenate(word, language).collect();
         for syllable in syllables.iter().take(syllables.len().saturating_sub(1)) {
             at += syllable.len();
-            found.push(Break { at, hyphen: true, must: false });
+            found.push(LineBreak { at, hyphen: true, must: false });
         }
     }
 }
@@ -75,8 +75,8 @@ mod tests {
 
     fn shown(text: &str, code: Option<&str>) -> String {
         let mut out = text.to_owned();
-        for Break { at, hyphen, must } in
-            breaks(text, code.map(|code| language(code).unwrap())).into_iter().rev()
+        for LineBreak { at, hyphen, must } in
+            line_breaks(text, code.map(|code| language(code).unwrap())).into_iter().rev()
         {
             out.insert(
                 at,
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_break_between_words_and_where_a_language_parts_them() {
+    fn lines_break_between_words_and_at_hyphenation_points() {
         assert_eq!(shown("a well-known fact.\nSo", None), "!a |well-|known |fact.\n!So!");
         assert_eq!(shown("Extensive hyphenation!", Some("en")), "!Ex-ten-sive |hy-phen-ation!!");
         assert_eq!(shown("Kraftfahrzeug", Some("de")), "!Kraft-fahr-zeug!");

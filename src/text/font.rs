@@ -13,22 +13,22 @@ use crate::drawing::FontFile;
 use crate::error::{Error, ErrorKind};
 
 /// The bundled fonts, in the order of fallback.
-const SHIPPED: [(&str, &[u8]); 3] = [
+const BUNDLED_FONTS: [(&str, &[u8]); 3] = [
     ("comic", include_bytes!("../../fonts/ComicNeue-Bold.otf")),
     ("technical", include_bytes!("../../fonts/RoutedGothic.ttf")),
     ("plain", include_bytes!("../../fonts/B612-Regular.otf")),
 ];
 
 /// Maximum size of a font file, bytes.
-const LARGEST_FILE: u64 = 64 << 20;
+const MAX_FILE_BYTES: u64 = 64 << 20;
 
 /// A font; cheap to clone. Variable fonts are used with their default axes.
 #[derive(Clone)]
 pub struct Font {
-    inner: Arc<Inner>,
+    inner: Arc<FontData>,
 }
 
-struct Inner {
+struct FontData {
     /// Full name for messages.
     name: String,
     file: Arc<FontFile>,
@@ -53,7 +53,7 @@ impl Font {
     /// The names of the bundled fonts.
     #[must_use]
     pub fn names() -> Vec<&'static str> {
-        SHIPPED.iter().map(|(name, _)| *name).collect()
+        BUNDLED_FONTS.iter().map(|(name, _)| *name).collect()
     }
 
     /// A bundled font by name.
@@ -61,7 +61,7 @@ impl Font {
     /// # Errors
     /// Returns an error if there is no font of that name.
     pub fn named(name: &str) -> Result<Self, Error> {
-        match SHIPPED.iter().find(|(known, _)| *known == name) {
+        match BUNDLED_FONTS.iter().find(|(known, _)| *known == name) {
             Some((_, bytes)) => Self::from_bytes(bytes),
             None => Err(Error::new(format!("there is no font `{name}`"))
                 .remedy(format!("choose {}, or name a TTF or OTF file", Self::names().join(", ")))),
@@ -76,7 +76,7 @@ impl Font {
         let path = path.as_ref();
         let read = || {
             let length = std::fs::metadata(path)?.len();
-            if length > LARGEST_FILE {
+            if length > MAX_FILE_BYTES {
                 return Ok(Vec::new());
             }
             std::fs::read(path)
@@ -142,7 +142,7 @@ impl Font {
             (height > 0.0).then_some(height)
         };
         file.cap_height = told.or_else(drawn).unwrap_or(0.7);
-        let inner = Inner { name, file: Arc::new(file), face, scaler, units_per_em };
+        let inner = FontData { name, file: Arc::new(file), face, scaler, units_per_em };
         Ok(Self { inner: Arc::new(inner) })
     }
 
@@ -177,7 +177,7 @@ impl Font {
 
 /// The outline of a glyph in ems, y down.
 fn outline(scaler: &ScalerFont, glyph: GlyphId, units_per_em: f64) -> BezPath {
-    let mut sink = Outline { path: BezPath::new(), units_per_em };
+    let mut sink = OutlineSink { path: BezPath::new(), units_per_em };
     if let Some(outline) = scaler.outline(glyph)
         && outline.draw(DrawMemory::Scratch, &mut sink).is_err()
     {
@@ -187,18 +187,18 @@ fn outline(scaler: &ScalerFont, glyph: GlyphId, units_per_em: f64) -> BezPath {
 }
 
 /// A sink that converts an outline from font units to ems, y down.
-struct Outline {
+struct OutlineSink {
     path: BezPath,
     units_per_em: f64,
 }
 
-impl Outline {
+impl OutlineSink {
     fn at(&self, x: f32, y: f32) -> (f64, f64) {
         (f64::from(x) / self.units_per_em, -f64::from(y) / self.units_per_em)
     }
 }
 
-impl PathSink for Outline {
+impl PathSink for OutlineSink {
     fn move_to(&mut self, x: f32, y: f32) {
         self.path.move_to(self.at(x, y));
     }

@@ -9,41 +9,41 @@ use std::fmt;
 use unicode_linebreak::{BreakClass, break_property};
 
 use super::Font;
-use super::shaping::glyphs_of;
+use super::shaping::shape_glyphs;
 use crate::error::Error;
 
 /// A letter that the requested font lacks, and the font that replaces it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Fallback {
+pub struct FontFallback {
     /// The letter with its combining marks.
     pub letter: String,
     /// The requested font.
-    pub asked: String,
+    pub requested: String,
     /// The font that has the letter.
     pub used: String,
 }
 
-impl fmt::Display for Fallback {
+impl fmt::Display for FontFallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { letter, asked, used } = self;
-        write!(f, "the font {asked} has no {}; {used} is used", spelled(letter))
+        let Self { letter, requested: asked, used } = self;
+        write!(f, "the font {asked} has no {}; {used} is used", quoted_with_code(letter))
     }
 }
 
 /// Formats a letter with its code points: `` `Ω` (U+03A9) ``.
-fn spelled(letter: &str) -> String {
+fn quoted_with_code(letter: &str) -> String {
     let codes: Vec<String> = letter.chars().map(|c| format!("U+{:04X}", c as u32)).collect();
     format!("`{letter}` ({})", codes.join(" "))
 }
 
 /// The fonts of a text, the requested one first.
-pub(crate) struct Chain {
+pub(crate) struct FontChain {
     pub fonts: Vec<Font>,
     /// Cache: the index of the font for each letter.
     known: BTreeMap<String, usize>,
 }
 
-impl Chain {
+impl FontChain {
     pub fn new(asked: &Font) -> Self {
         Self { fonts: vec![asked.clone()], known: BTreeMap::new() }
     }
@@ -65,7 +65,7 @@ impl Chain {
             return Ok(*number);
         }
         let has = |font: &Font| {
-            let glyphs = glyphs_of(font, letter, false, None);
+            let glyphs = shape_glyphs(font, letter, false, None);
             glyphs.is_ok_and(|(glyphs, whole)| whole && glyphs.len() > 1)
         };
         // Invisible characters need no glyph.
@@ -82,8 +82,11 @@ impl Chain {
         }
         let Some(number) = number else {
             let names: Vec<&str> = self.fonts.iter().map(Font::name).collect();
-            let message =
-                format!("the letter {} is in none of the fonts {}", spelled(letter), names.join(", "));
+            let message = format!(
+                "the letter {} is in none of the fonts {}",
+                quoted_with_code(letter),
+                names.join(", ")
+            );
             return Err(
                 Error::new(message).remedy("name a font file with this letter, or write another letter")
             );
@@ -93,12 +96,16 @@ impl Chain {
     }
 
     /// The letters that the requested font lacks.
-    pub fn fallbacks(&self) -> Vec<Fallback> {
+    pub fn fallbacks(&self) -> Vec<FontFallback> {
         let name =
             |number: usize| self.fonts.get(number).map(|font| font.name().to_owned()).unwrap_or_default();
         let others = self.known.iter().filter(|(_, number)| **number > 0);
         others
-            .map(|(letter, number)| Fallback { letter: letter.clone(), asked: name(0), used: name(*number) })
+            .map(|(letter, number)| FontFallback {
+                letter: letter.clone(),
+                requested: name(0),
+                used: name(*number),
+            })
             .collect()
     }
 }

@@ -40,22 +40,22 @@ pub(crate) fn greedy(
 ///
 /// `cost` gets the number of the line and its two breaks. `None` means that this line is impossible, and so
 /// are longer lines with the same end.
-pub(crate) fn choose(
+pub(crate) fn choose_balanced(
     lines: usize,
     last: usize,
     cost: &mut dyn FnMut(usize, usize, usize) -> Option<f64>,
     may_end: &dyn Fn(usize) -> bool,
 ) -> Option<(f64, Vec<usize>)> {
-    let worst = search(lines, last, cost, may_end, f64::max)?.0;
+    let worst = search_breaks(lines, last, cost, may_end, f64::max)?.0;
     let mut within = |line: usize, from: usize, to: usize| {
         cost(line, from, to).filter(|cost| *cost <= worst).map(|cost| cost * cost)
     };
-    let (_, ends) = search(lines, last, &mut within, may_end, |a, b| a + b)?;
+    let (_, ends) = search_breaks(lines, last, &mut within, may_end, |a, b| a + b)?;
     Some((worst, ends))
 }
 
 /// Dynamic programming over breaks: the cheapest ends of `lines` lines, with costs combined by `together`.
-fn search(
+fn search_breaks(
     lines: usize,
     last: usize,
     cost: &mut dyn FnMut(usize, usize, usize) -> Option<f64>,
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn the_costliest_line_is_as_cheap_as_of_all_ways() {
+    fn balanced_breaks_match_brute_force() {
         let mut seed = 7_u64;
         let mut random = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -131,10 +131,13 @@ mod tests {
             });
             let best = of_all.min_by(|a, b| (a.0, a.1).partial_cmp(&(b.0, b.1)).unwrap()).unwrap();
             let mut cost = |line: usize, from: usize, to: usize| Some(own(line, from, to));
-            let (worst, ends) = choose(lines, last, &mut cost, &|_| true).unwrap();
+            let (worst, ends) = choose_balanced(lines, last, &mut cost, &|_| true).unwrap();
             assert!((worst - best.0).abs() < 1e-9, "round {round}: {worst} is not {}", best.0);
             assert_eq!(ends, best.2, "round {round}");
         }
-        assert!(choose(3, 2, &mut |_, _, _| Some(1.0), &|_| true).is_none(), "more lines than pieces");
+        assert!(
+            choose_balanced(3, 2, &mut |_, _, _| Some(1.0), &|_| true).is_none(),
+            "more lines than pieces"
+        );
     }
 }

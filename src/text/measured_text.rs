@@ -1,4 +1,4 @@
-//! [`Source`]: a text with its break opportunities, and the widths of lines between them.
+//! [`MeasuredText`]: a text with its break opportunities, and the widths of lines between them.
 //!
 //! Whole pieces are measured once and summed, so the width of a line without hyphens needs no shaping. Lines
 //! with hyphens shape their first and last piece.
@@ -6,20 +6,20 @@
 use std::sync::Arc;
 
 use super::Setting;
-use super::break_opportunities::{Break, breaks, language};
-use super::line_breaking::{choose, greedy};
-use super::shaped_pieces::{Piece, Pieces};
+use super::break_opportunities::{LineBreak, language, line_breaks};
+use super::line_breaking::{choose_balanced, greedy};
+use super::shaped_pieces::{ShapedPiece, ShapedPieces};
 use crate::error::{Error, ErrorKind};
 
 /// Maximum number of lines times break opportunities for balanced breaking.
-const MOST_WAYS: usize = 4_000_000;
+const MAX_LINE_BREAK_PAIRS: usize = 4_000_000;
 
 /// A text with its breaks and measures. Lengths in ems.
-pub(crate) struct Source<'a> {
+pub(crate) struct MeasuredText<'a> {
     text: &'a str,
     pub setting: &'a Setting,
-    pub breaks: Vec<Break>,
-    pub pieces: Pieces<'a>,
+    pub breaks: Vec<LineBreak>,
+    pub pieces: ShapedPieces<'a>,
     /// For each break, the number of whole pieces before it; for each number of pieces, their width with
     /// blanks.
     stretches: Vec<usize>,
@@ -32,7 +32,7 @@ pub(crate) struct Source<'a> {
     fault: Option<Error>,
 }
 
-impl<'a> Source<'a> {
+impl<'a> MeasuredText<'a> {
     /// Shapes a trimmed text.
     pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
         let em = setting.em();
@@ -42,8 +42,8 @@ impl<'a> Source<'a> {
             );
         }
         let language = setting.language.as_deref().map(language).transpose()?;
-        let breaks = breaks(text, language);
-        let mut pieces = Pieces::new(text, setting);
+        let breaks = line_breaks(text, language);
+        let mut pieces = ShapedPieces::new(text, setting);
         let whole: Vec<usize> = (0..breaks.len()).filter(|number| !breaks[*number].hyphen).collect();
         let mut widths = vec![0.0];
         let mut reach = [setting.font.file().cap_height, 0.0];
@@ -107,7 +107,7 @@ impl<'a> Source<'a> {
             (first, last, self.widths[end] - self.widths[begin])
         } else {
             let parts = self.parts(from, to);
-            let pieces: Vec<Arc<Piece>> = parts
+            let pieces: Vec<Arc<ShapedPiece>> = parts
                 .iter()
                 .map(|(from, to, hyphen)| self.pieces.piece(*from, *to, *hyphen))
                 .collect::<Result<_, _>>()?;
@@ -145,15 +145,15 @@ impl<'a> Source<'a> {
     }
 
     /// Returns an error if the search for balanced breaks would be too large.
-    pub fn refuse_many(&self, lines: usize) -> Result<(), Error> {
-        if lines.saturating_mul(self.breaks.len()) <= MOST_WAYS {
+    pub fn check_search_size(&self, lines: usize) -> Result<(), Error> {
+        if lines.saturating_mul(self.breaks.len()) <= MAX_LINE_BREAK_PAIRS {
             return Ok(());
         }
         Err(Error::new("the text is too long to balance its lines").remedy("give it a width"))
     }
 
     /// The most even ends of `lines` lines, and the largest cost of a line.
-    pub fn best(
+    pub fn best_ends(
         &mut self,
         lines: usize,
         parted: bool,
@@ -161,7 +161,7 @@ impl<'a> Source<'a> {
     ) -> Option<(f64, Vec<usize>)> {
         let may_end: Vec<bool> = self.breaks.iter().map(|place| parted || !place.hyphen).collect();
         let last = self.breaks.len() - 1;
-        choose(lines, last, &mut |line, from, to| cost(self, line, from, to), &|at| may_end[at])
+        choose_balanced(lines, last, &mut |line, from, to| cost(self, line, from, to), &|at| may_end[at])
     }
 
     /// The smallest ellipse around the lines of a text: half its width, and the ends of lines.
@@ -180,13 +180,13 @@ impl<'a> Source<'a> {
             if corner(0) * corner(0) >= reached {
                 break;
             }
-            self.refuse_many(lines)?;
+            self.check_search_size(lines)?;
             let mut cost = |source: &mut Self, line: usize, from: usize, to: usize| {
                 let half = source.line_width(from, to)? / 2.0;
                 let square = half * half + corner(line) * corner(line);
                 (half * half < reached).then_some(square)
             };
-            if let Some(found) = self.best(lines, parted, &mut cost)
+            if let Some(found) = self.best_ends(lines, parted, &mut cost)
                 && found.0 < reached
             {
                 best = Some(found);

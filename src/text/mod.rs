@@ -31,6 +31,6 @@ mod shaping;
 pub mod text_block;
 
 pub use font::Font;
-pub use font_fallback::Fallback;
-pub use setting::{Align, Setting, Size};
-pub use text_block::{Block, Line};
+pub use font_fallback::FontFallback;
+pub use setting::{Align, LetterSize, Setting};
+pub use text_block::{TextBlock, TextLine};

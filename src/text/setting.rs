@@ -4,7 +4,7 @@ use super::Font;
 
 /// Letter size, in user units of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
+pub enum LetterSize {
     /// Em size of the font.
     Em(f64),
     /// Height of capitals, as usual on technical drawings.
@@ -30,7 +30,7 @@ pub struct Setting {
     /// The font. Letters that it lacks are taken from the bundled fonts.
     pub font: Font,
     /// Letter size.
-    pub size: Size,
+    pub size: LetterSize,
     /// Distance between baselines, in ems.
     pub leading: f64,
     /// Alignment of lines.
@@ -45,21 +45,21 @@ impl Setting {
     /// Settings with an em of 1 unit, centred lines and a leading of 1.2.
     #[must_use]
     pub fn new(font: Font) -> Self {
-        let (size, align) = (Size::Em(1.0), Align::Centre);
+        let (size, align) = (LetterSize::Em(1.0), Align::Centre);
         Self { font, size, leading: 1.2, align, upper_case: false, language: None }
     }
 
     /// Sets the em size, in user units.
     #[must_use]
     pub fn with_em(mut self, em: f64) -> Self {
-        self.size = Size::Em(em);
+        self.size = LetterSize::Em(em);
         self
     }
 
     /// Sets the height of capitals, in user units.
     #[must_use]
     pub fn with_capitals(mut self, height: f64) -> Self {
-        self.size = Size::Capitals(height);
+        self.size = LetterSize::Capitals(height);
         self
     }
 
@@ -95,8 +95,8 @@ impl Setting {
     #[must_use]
     pub fn em(&self) -> f64 {
         match self.size {
-            Size::Em(em) => em,
-            Size::Capitals(height) => height / self.font.file().cap_height,
+            LetterSize::Em(em) => em,
+            LetterSize::Capitals(height) => height / self.font.file().cap_height,
         }
     }
 

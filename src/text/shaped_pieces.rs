@@ -1,4 +1,4 @@
-//! [`Pieces`]: the unbreakable pieces of a text, each shaped and measured once.
+//! [`ShapedPieces`]: the unbreakable pieces of a text, each shaped and measured once.
 //!
 //! 1. The letters of a piece are grouped into runs of one font and one embedding level.
 //! 2. Each run is shaped, and its ink is measured from the outlines.
@@ -9,16 +9,16 @@ use std::sync::Arc;
 
 use kurbo::{Affine, Rect, Shape};
 
-use super::bidi::{levels, runs_left};
-use super::font_fallback::{Chain, Fallback, letters};
-use super::shaping::glyphs_of;
+use super::bidi::{embedding_levels, runs_left};
+use super::font_fallback::{FontChain, FontFallback, letters};
+use super::shaping::shape_glyphs;
 use super::{Font, Setting};
 use crate::drawing::SetGlyph;
 use crate::error::Error;
 
 /// Glyphs of one font and direction. Lengths in ems of the requested font.
 #[derive(Debug, Clone)]
-pub(crate) struct Run {
+pub(crate) struct GlyphRun {
     pub font: Font,
     /// Em of its font, in ems of the requested font.
     pub em: f64,
@@ -34,9 +34,9 @@ pub(crate) struct Run {
 
 /// An unbreakable piece of text, and the blanks after it. Lengths in ems.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Piece {
-    pub runs: Vec<Run>,
-    pub blanks: Vec<Run>,
+pub(crate) struct ShapedPiece {
+    pub runs: Vec<GlyphRun>,
+    pub blanks: Vec<GlyphRun>,
     pub width: f64,
     pub blank_width: f64,
     /// Ink outside the advance width, on the left and on the right.
@@ -46,39 +46,39 @@ pub(crate) struct Piece {
 }
 
 /// Shapes the pieces of a text and caches them.
-pub(crate) struct Pieces<'a> {
+pub(crate) struct ShapedPieces<'a> {
     text: &'a str,
     setting: &'a Setting,
-    chain: Chain,
+    chain: FontChain,
     /// Embedding level of the character at each byte.
     levels: BTreeMap<usize, u8>,
     /// Whether the base direction is right to left.
     pub runs_left: bool,
-    known: BTreeMap<(usize, usize, bool), Arc<Piece>>,
+    known: BTreeMap<(usize, usize, bool), Arc<ShapedPiece>>,
 }
 
-impl<'a> Pieces<'a> {
+impl<'a> ShapedPieces<'a> {
     pub fn new(text: &'a str, setting: &'a Setting) -> Self {
         let runs_left = runs_left(text);
-        let levels = levels(text, u8::from(runs_left));
+        let levels = embedding_levels(text, u8::from(runs_left));
         let levels = text.char_indices().map(|(at, _)| at).zip(levels).collect();
-        let chain = Chain::new(&setting.font);
+        let chain = FontChain::new(&setting.font);
         Self { text, setting, chain, levels, runs_left, known: BTreeMap::new() }
     }
 
     /// The piece between two bytes of the text, with or without a hyphen at its end.
-    pub fn piece(&mut self, from: usize, to: usize, hyphen: bool) -> Result<Arc<Piece>, Error> {
+    pub fn piece(&mut self, from: usize, to: usize, hyphen: bool) -> Result<Arc<ShapedPiece>, Error> {
         if let Some(piece) = self.known.get(&(from, to, hyphen)) {
             return Ok(Arc::clone(piece));
         }
         let text = self.text.get(from..to).unwrap_or_default();
         let core = text.trim_end();
-        let mut piece = Piece { runs: self.runs(from, core, hyphen)?, ..Piece::default() };
+        let mut piece = ShapedPiece { runs: self.runs(from, core, hyphen)?, ..ShapedPiece::default() };
         piece.blanks = self.runs(from + core.len(), &text[core.len()..], false)?;
-        let measured = |runs: &[Run]| runs.iter().map(|run| run.width).sum::<f64>();
+        let measured = |runs: &[GlyphRun]| runs.iter().map(|run| run.width).sum::<f64>();
         (piece.width, piece.blank_width) = (measured(&piece.runs), measured(&piece.blanks));
         let mut x = 0.0;
-        let order = super::bidi::seen_order(&piece.runs.iter().map(|run| run.level).collect::<Vec<_>>());
+        let order = super::bidi::visual_order(&piece.runs.iter().map(|run| run.level).collect::<Vec<_>>());
         for run in order.into_iter().filter_map(|number| piece.runs.get(number)) {
             if let Some(ink) = run.ink {
                 let [left, right] = &mut piece.overhang;
@@ -96,11 +96,11 @@ impl<'a> Pieces<'a> {
     }
 
     /// The letters that the requested font lacks.
-    pub fn fallbacks(&self) -> Vec<Fallback> {
+    pub fn fallbacks(&self) -> Vec<FontFallback> {
         self.chain.fallbacks()
     }
 
-    fn runs(&mut self, from: usize, text: &str, hyphen: bool) -> Result<Vec<Run>, Error> {
+    fn runs(&mut self, from: usize, text: &str, hyphen: bool) -> Result<Vec<GlyphRun>, Error> {
         let mut runs: Vec<(usize, u8, String)> = Vec::new();
         let mut last = u8::from(self.runs_left);
         let mut at = from;
@@ -138,13 +138,13 @@ impl<'a> Pieces<'a> {
         Ok(())
     }
 
-    fn run(&self, number: usize, level: u8, words: String) -> Result<Run, Error> {
+    fn run(&self, number: usize, level: u8, words: String) -> Result<GlyphRun, Error> {
         let asked = &self.setting.font;
         let font = self.chain.fonts.get(number).unwrap_or(asked).clone();
         // Fallback fonts are scaled to the height of capitals of the requested font.
         let em = if number == 0 { 1.0 } else { asked.file().cap_height / font.file().cap_height };
         let language = self.setting.language.as_deref();
-        let (mut glyphs, _) = glyphs_of(&font, &words, level % 2 == 1, language)?;
+        let (mut glyphs, _) = shape_glyphs(&font, &words, level % 2 == 1, language)?;
         let width = glyphs.pop().map_or(0.0, |end| end.x) * em;
         let boxes = glyphs.iter().filter_map(|glyph| {
             let outline = font.outline(glyph.id);
@@ -152,6 +152,6 @@ impl<'a> Pieces<'a> {
             (!outline.elements().is_empty()).then(|| (place * outline).bounding_box())
         });
         let ink = boxes.reduce(|a, b| a.union(b));
-        Ok(Run { font, em, level, words, glyphs, width, ink })
+        Ok(GlyphRun { font, em, level, words, glyphs, width, ink })
     }
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 
 /// The glyphs of a text from left to right, in ems of the font, and whether the font has all of them. One
 /// extra glyph marks the end.
-pub(crate) fn glyphs_of(
+pub(crate) fn shape_glyphs(
     font: &Font,
     text: &str,
     runs_left: bool,

@@ -1,4 +1,4 @@
-//! [`Block`]: a text broken into lines, and the lines set below each other.
+//! [`TextBlock`]: a text broken into lines, and the lines set below each other.
 //!
 //! 1. Lines are broken at given line breaks, greedily to a width, evenly to a width, or into an ellipse.
 //! 2. The runs of each line are put in visual order and positioned.
@@ -8,25 +8,25 @@ use std::sync::Arc;
 
 use kurbo::{Affine, BezPath, Point, Rect, Vec2};
 
-use super::bidi::seen_order;
-use super::font_fallback::Fallback;
-use super::measured_text::Source;
-use super::shaped_pieces::Run;
+use super::bidi::visual_order;
+use super::font_fallback::FontFallback;
+use super::measured_text::MeasuredText;
+use super::shaped_pieces::GlyphRun;
 use super::{Align, Setting};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Mark, Paint, Provenance, SetGlyph, TextRun};
 use crate::error::{Error, ErrorKind};
 
 /// Maximum length of a text, bytes.
-const LONGEST: usize = 50_000;
+const MAX_TEXT_BYTES: usize = 50_000;
 
 /// Words are hyphenated if that shrinks the ellipse at least to this share.
-const WORTH_PARTING: f64 = 0.85;
+const MAX_HYPHENATED_SIZE_RATIO: f64 = 0.85;
 
 /// A line of a block. Lengths in user units, from the upper left corner of the block, y down.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Line {
+pub struct TextLine {
     /// The text in reading order.
     pub words: String,
     /// Left side.
@@ -42,10 +42,10 @@ pub struct Line {
     pub descent: f64,
     /// Offset from the left side to the first letter, and the runs from the left with their positions.
     start: f64,
-    runs: Vec<(f64, Run)>,
+    runs: Vec<(f64, GlyphRun)>,
 }
 
-impl Line {
+impl TextLine {
     /// The bounding box.
     #[must_use]
     pub fn bounds(&self) -> Rect {
@@ -56,28 +56,28 @@ impl Line {
 /// A text in lines. Lengths in user units, from its upper left corner, y down.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Block {
+pub struct TextBlock {
     /// The lines from top to bottom.
-    pub lines: Vec<Line>,
+    pub lines: Vec<TextLine>,
     /// Width of the block.
     pub width: f64,
     /// Height, from the top of the first line to the bottom of the last one.
     pub height: f64,
     /// Letters that the font lacks, with the fonts that replace it.
-    pub fallbacks: Vec<Fallback>,
+    pub fallbacks: Vec<FontFallback>,
     em: f64,
 }
 
-impl Block {
+impl TextBlock {
     /// Sets a text with its own line breaks only.
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or the text is too long.
     pub fn unbroken(text: &str, setting: &Setting) -> Result<Self, Error> {
-        let text = tidied(text)?;
-        let mut source = Source::new(&text, setting)?;
+        let text = trim_lines(text)?;
+        let mut source = MeasuredText::new(&text, setting)?;
         let ends = source.greedy(f64::INFINITY, false).unwrap_or_default();
-        set(&mut source, &ends, None)
+        set_lines(&mut source, &ends, None)
     }
 
     /// Sets a text in lines of at most `width` user units, each as full as possible. The block has that
@@ -86,10 +86,10 @@ impl Block {
     /// # Errors
     /// Returns an error if a word is too wide, no font has a glyph, or the text is too long.
     pub fn in_width(text: &str, setting: &Setting, width: f64) -> Result<Self, Error> {
-        let text = tidied(text)?;
-        let mut source = Source::new(&text, setting)?;
+        let text = trim_lines(text)?;
+        let mut source = MeasuredText::new(&text, setting)?;
         let ends = source.greedy(width, true).map_err(|begin| source.too_wide(begin, width))?;
-        set(&mut source, &ends, Some(width))
+        set_lines(&mut source, &ends, Some(width))
     }
 
     /// Sets a text in the fewest lines of at most `width` user units, as even as possible.
@@ -98,22 +98,22 @@ impl Block {
     /// does not fit otherwise. The block is as wide as its widest line.
     ///
     /// # Errors
-    /// Returns the same errors as [`Block::in_width`].
+    /// Returns the same errors as [`TextBlock::in_width`].
     pub fn balanced(text: &str, setting: &Setting, width: f64) -> Result<Self, Error> {
-        let text = tidied(text)?;
-        let mut source = Source::new(&text, setting)?;
+        let text = trim_lines(text)?;
+        let mut source = MeasuredText::new(&text, setting)?;
         let (parted, full) = match source.greedy(width, false) {
             Ok(ends) => (false, ends),
             Err(_) => (true, source.greedy(width, true).map_err(|begin| source.too_wide(begin, width))?),
         };
-        source.refuse_many(full.len())?;
+        source.check_search_size(full.len())?;
         let limit = source.in_ems(width);
-        let mut cost = |source: &mut Source, _: usize, from: usize, to: usize| {
+        let mut cost = |source: &mut MeasuredText, _: usize, from: usize, to: usize| {
             let width = source.line_width(from, to)?;
             (width <= limit).then_some(width)
         };
-        let ends = source.best(full.len(), parted, &mut cost).map_or(full, |(_, ends)| ends);
-        set(&mut source, &ends, None)
+        let ends = source.best_ends(full.len(), parted, &mut cost).map_or(full, |(_, ends)| ends);
+        set_lines(&mut source, &ends, None)
     }
 
     /// Sets a text in the smallest ellipse around the centre of the block with height `aspect` times its
@@ -129,17 +129,17 @@ impl Block {
             return Err(Error::new(format!("an ellipse with aspect {aspect} is not possible"))
                 .remedy("give a number above 0"));
         }
-        let text = tidied(text)?;
-        let mut source = Source::new(&text, setting)?;
+        let text = trim_lines(text)?;
+        let mut source = MeasuredText::new(&text, setting)?;
         let mut best = source.smallest_ellipse(aspect, false)?;
         if source.breaks.iter().any(|place| place.hyphen) {
             let parted = source.smallest_ellipse(aspect, true)?;
-            if parted.0 < best.0 * WORTH_PARTING {
+            if parted.0 < best.0 * MAX_HYPHENATED_SIZE_RATIO {
                 best = parted;
             }
         }
         let (radius, ends) = best;
-        let block = set(&mut source, &ends, None)?;
+        let block = set_lines(&mut source, &ends, None)?;
         let radius = radius * setting.em();
         Ok((block, Vec2::new(radius, radius * aspect)))
     }
@@ -163,12 +163,12 @@ impl Block {
         self.lines.iter().flat_map(|line| self.marks_of(line, corner, colour)).collect()
     }
 
-    fn marks_of(&self, line: &Line, corner: Point, colour: Colour) -> Vec<Mark> {
+    fn marks_of(&self, line: &TextLine, corner: Point, colour: Colour) -> Vec<Mark> {
         let stretches = line.runs.chunk_by(|(_, a), (_, b)| a.font == b.font && a.level == b.level);
         stretches.filter_map(|runs| self.mark(line, runs, corner, colour)).collect()
     }
 
-    fn mark(&self, line: &Line, runs: &[(f64, Run)], corner: Point, colour: Colour) -> Option<Mark> {
+    fn mark(&self, line: &TextLine, runs: &[(f64, GlyphRun)], corner: Point, colour: Colour) -> Option<Mark> {
         let (begin, first) = runs.first()?;
         let x = corner.x + line.x + line.start + begin * self.em;
         let em = first.em * self.em;
@@ -209,10 +209,12 @@ impl Block {
 }
 
 /// Trims the lines of a text; an error if it is too long or empty.
-fn tidied(text: &str) -> Result<String, Error> {
-    if text.len() > LONGEST {
+fn trim_lines(text: &str) -> Result<String, Error> {
+    if text.len() > MAX_TEXT_BYTES {
         let message = format!("a text of {} bytes is too long to be set in one block", text.len());
-        return Err(Error::new(message).remedy(format!("give at most {LONGEST} bytes, or several blocks")));
+        return Err(
+            Error::new(message).remedy(format!("give at most {MAX_TEXT_BYTES} bytes, or several blocks"))
+        );
     }
     let lines: Vec<&str> = text.trim().lines().map(str::trim).collect();
     if lines.iter().all(|line| line.is_empty()) {
@@ -222,14 +224,14 @@ fn tidied(text: &str) -> Result<String, Error> {
 }
 
 /// Sets the lines that end at the given breaks. The block has the given width, or that of its widest line.
-fn set(source: &mut Source, ends: &[usize], width: Option<f64>) -> Result<Block, Error> {
+fn set_lines(source: &mut MeasuredText, ends: &[usize], width: Option<f64>) -> Result<TextBlock, Error> {
     source.take_fault()?;
     let em = source.setting.em();
     let mut begin = 0;
     let mut lines = Vec::with_capacity(ends.len());
     for (number, end) in ends.iter().enumerate() {
         let baseline = (source.reach[0] + number as f64 * source.setting.leading) * em;
-        lines.push(line(source, begin, *end, baseline)?);
+        lines.push(set_line(source, begin, *end, baseline)?);
         begin = *end;
     }
     let widest = lines.iter().map(|line| line.width).fold(0.0, f64::max);
@@ -242,13 +244,13 @@ fn set(source: &mut Source, ends: &[usize], width: Option<f64>) -> Result<Block,
         };
     }
     let height = lines.last().map_or(0.0, |line| line.baseline + line.descent);
-    Ok(Block { lines, width, height, fallbacks: source.pieces.fallbacks(), em })
+    Ok(TextBlock { lines, width, height, fallbacks: source.pieces.fallbacks(), em })
 }
 
 /// Sets the line between two breaks.
-fn line(source: &mut Source, from: usize, to: usize, baseline: f64) -> Result<Line, Error> {
+fn set_line(source: &mut MeasuredText, from: usize, to: usize, baseline: f64) -> Result<TextLine, Error> {
     let em = source.setting.em();
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<GlyphRun> = Vec::new();
     let mut overhang = 0.0;
     let parts = source.parts(from, to);
     for (number, (from, to, hyphen)) in parts.iter().enumerate() {
@@ -267,7 +269,7 @@ fn line(source: &mut Source, from: usize, to: usize, baseline: f64) -> Result<Li
     let levels: Vec<u8> = runs.iter().map(|run| run.level).collect();
     let mut x = 0.0;
     let mut placed = Vec::with_capacity(runs.len());
-    for number in seen_order(&levels) {
+    for number in visual_order(&levels) {
         let run = runs[number].clone();
         let width = run.width;
         placed.push((x, run));
@@ -275,5 +277,5 @@ fn line(source: &mut Source, from: usize, to: usize, baseline: f64) -> Result<Li
     }
     let width = source.measured(from, to)? * em;
     let [ascent, descent] = source.reach.map(|reach| reach * em);
-    Ok(Line { words, x: 0.0, width, baseline, ascent, descent, start: overhang * em, runs: placed })
+    Ok(TextLine { words, x: 0.0, width, baseline, ascent, descent, start: overhang * em, runs: placed })
 }

@@ -17,9 +17,9 @@ use glam::DVec3;
 
 use super::Frame;
 use crate::geometry::numbers::tolerance;
-use crate::mesh::normals::normal_carriers::Faces;
+use crate::mesh::normals::normal_carriers::CoplanarSearch;
 use crate::mesh::{FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Largest sine of the angle of an unsure face. Narrower faces, which rounding may turn by more, have a
 /// carrier in the mesh, or none.
@@ -33,7 +33,7 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     let mut facing = vec![false; mesh.triangles.len()];
     let of_chunk = |(chunk, facing): (usize, &mut [bool])| {
         let mut unsure = Vec::new();
-        for (face, facing) in ((chunk * GRAIN) as u32..).zip(facing) {
+        for (face, facing) in ((chunk * MIN_TASK_ITEMS) as u32..).zip(facing) {
             let corners = mesh.corners(FaceId(face));
             *facing = frame.faces_eye(corners[0], corners[1], corners[2]);
             if is_rounded && face < whole {
@@ -43,7 +43,7 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
         }
         unsure
     };
-    let unsure: Vec<Vec<u32>> = facing.par_chunks_mut(GRAIN).enumerate().map(of_chunk).collect();
+    let unsure: Vec<Vec<u32>> = facing.par_chunks_mut(MIN_TASK_ITEMS).enumerate().map(of_chunk).collect();
     let unsure = unsure.concat();
     for [face, carrier] in &mesh.carriers {
         facing[*face as usize] = facing[*carrier as usize];
@@ -51,7 +51,7 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     if !is_rounded {
         return (facing, Vec::new());
     }
-    let decided = decide(&Faces::of(mesh), &unsure, &mut facing);
+    let decided = decide(&CoplanarSearch::of(mesh), &unsure, &mut facing);
     let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(decided).collect();
     others.sort_unstable();
     others.dedup();
@@ -60,7 +60,7 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
 
 /// Decides each connected set of unsure faces (ascending) in one plane. Returns the faces that do not keep
 /// their own angle.
-fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
+fn decide(faces: &CoplanarSearch, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
     let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
     let mut is_seen = vec![false; unsure.len()];
     let mut others = Vec::new();

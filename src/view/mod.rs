@@ -24,7 +24,7 @@ pub use frame::Frame;
 
 use crate::geometry::numbers::tolerance;
 use crate::mesh::Mesh;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::Camera;
 
 /// Mesh seen by a camera.
@@ -50,10 +50,15 @@ impl View {
     pub fn new(mesh: &Mesh, camera: &Camera) -> Self {
         let mut frame = Frame::new(camera, mesh.origin);
         if frame.near.is_none() && frame.perspective {
-            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::NEAR_OF_TARGET);
+            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::CLIP_PLANE_OF_TARGET);
         }
-        let points =
-            || mesh.positions.par_iter().with_min_len(GRAIN).map(|p| frame.image_from_local(*p)).collect();
+        let points = || {
+            mesh.positions
+                .par_iter()
+                .with_min_len(MIN_TASK_ITEMS)
+                .map(|p| frame.image_from_local(*p))
+                .collect()
+        };
         let (points, (facing, unsure)): (Vec<DVec3>, _) =
             crate::parallel::join(points, || edge_on_faces::facing(mesh, &frame));
         let clipped = clipping::clip_faces(mesh, &frame, &points);

@@ -5,7 +5,7 @@ use kurbo::Point;
 
 use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 
 /// Id of a vertex of the view map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -69,7 +69,7 @@ pub struct ViewEdge {
     /// along it are then artefacts of tessellation.
     pub smooth: bool,
     /// Origin of the surface under the line.
-    pub origin: Origin,
+    pub origin: MeshSource,
     /// Strength of the line: for a crease its dihedral angle in degrees (0 to 180), for other kinds 180.
     pub strength: f32,
     /// Part of its nearer surface.
@@ -94,7 +94,7 @@ pub struct ViewMap {
     /// Agreement between smooth contours and mesh contours.
     pub contours: ContourCounts,
     /// Visible parts of the mesh contours of rounded surfaces, drawn or not.
-    pub seen_contours: Vec<SeenContour>,
+    pub visible_contours: Vec<VisibleContour>,
     /// Feature segments that are sides of folds thinner than a pen stroke, ascending. They show nothing
     /// useful.
     pub needles: Vec<u32>,
@@ -104,7 +104,7 @@ pub struct ViewMap {
 
 /// Visible piece of the mesh contour of a rounded surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SeenContour {
+pub struct VisibleContour {
     /// Start and end in the camera's frame, user units.
     pub ends: [DVec2; 2],
     /// Its feature segment.

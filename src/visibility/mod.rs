@@ -25,8 +25,8 @@ pub mod tiles;
 pub mod view_tolerances;
 
 pub use assembly::map_builder::{build, build_through, build_with};
-pub use assembly::motion_lines::{Beside, build_beside};
-pub use culling::view_occlusion::ViewCovers;
-pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-pub use queries::gap_occlusion::{Ahead, Way};
-pub use queries::nearest_faces::{Front, front_faces};
+pub use assembly::motion_lines::{BodyLines, build_motion_lines};
+pub use culling::view_occlusion::ViewOcclusionBuffer;
+pub use graph::{ContourCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind, VisibleContour};
+pub use queries::gap_occlusion::{GapOcclusion, GapSegment};
+pub use queries::nearest_faces::{FrontFace, front_faces};

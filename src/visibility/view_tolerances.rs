@@ -1,12 +1,12 @@
-//! [`Limits`]: the tolerances of one view, in its units.
+//! [`ViewTolerances`]: the tolerances of one view, in its units.
 
 use crate::geometry::numbers::tolerance;
-use crate::mesh::Extent;
+use crate::mesh::PartMetrics;
 use crate::view::Frame;
 
 /// Tolerances of one view, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct ViewTolerances {
     /// Distance outside a triangle's border that still counts as inside, user units.
     pub cover: f64,
     /// Height in the image below which a triangle covers nothing, user units.
@@ -26,19 +26,19 @@ pub struct Limits {
     pub px: f64,
 }
 
-impl Limits {
+impl ViewTolerances {
     /// Tolerances for a frame. A px here is a thousandth of the frame's longer side, for any user unit.
     #[must_use]
     pub fn new(frame: &Frame) -> Self {
         let px = frame.px();
         Self {
-            cover: tolerance::COVER_PX * px,
-            height: tolerance::IMAGE_HEIGHT_PX * px,
+            cover: tolerance::TRIANGLE_BORDER_PX * px,
+            height: tolerance::MIN_IMAGE_HEIGHT_PX * px,
             contact: tolerance::CONTACT_PX * px,
             neighbour: tolerance::NEIGHBOUR_PX * px,
-            piece: tolerance::PIECE_PX * px,
-            beside: tolerance::BESIDE_PX * px,
-            double: tolerance::DOUBLE_PX * px,
+            piece: tolerance::MIN_VISIBILITY_SPAN_PX * px,
+            beside: tolerance::BACKGROUND_PROBE_PX * px,
+            double: tolerance::DUPLICATE_LINE_PX * px,
             px,
         }
     }
@@ -46,7 +46,7 @@ impl Limits {
     /// Difference in nearness required for a triangle to hide a line at nearness `q`.
     #[inline]
     #[must_use]
-    pub fn step(&self, q: f64, own: &Slack, shares_vertex: bool, frame: &Frame) -> f64 {
+    pub fn step(&self, q: f64, own: &FaceTolerances, shares_vertex: bool, frame: &Frame) -> f64 {
         let (in_image, in_space) =
             if shares_vertex { (self.neighbour, own.neighbour) } else { (self.contact, own.contact) };
         frame.nearness_across(q, in_image).max(frame.nearness_step(q, in_space))
@@ -55,7 +55,7 @@ impl Limits {
 
 /// Tolerances of a triangle that do not depend on the view: depth differences within rounding, world units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slack {
+pub struct FaceTolerances {
     /// Distance that counts as touching.
     pub contact: f64,
     /// Distance that counts as touching for lines that share a vertex with the triangle.
@@ -64,11 +64,11 @@ pub struct Slack {
     pub in_plane: f64,
 }
 
-impl Slack {
+impl FaceTolerances {
     /// Tolerances for the triangles of a part.
     #[inline]
     #[must_use]
-    pub fn of(extent: &Extent) -> Self {
+    pub fn of(extent: &PartMetrics) -> Self {
         Self {
             contact: extent.contact,
             neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale,

@@ -16,9 +16,9 @@ f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 11 12 16 15\nf 10 11 15 14\nf 12 9 
 ";
 
 /// A temporary folder, removed when it is dropped.
-pub struct Folder(PathBuf);
+pub struct TestFolder(PathBuf);
 
-impl Folder {
+impl TestFolder {
     /// An empty folder with a unique path that contains `name`.
     pub fn new(name: &str) -> Self {
         static FOLDERS: AtomicUsize = AtomicUsize::new(0);
@@ -65,20 +65,20 @@ impl Folder {
     }
 
     /// Runs `ligne` in the folder, with arguments separated by spaces.
-    pub fn ligne(&self, line: &str) -> Run {
+    pub fn ligne(&self, line: &str) -> RunResult {
         self.run(&line.split_whitespace().collect::<Vec<_>>())
     }
 
     /// Runs `ligne` in the folder with these arguments.
-    pub fn run(&self, args: &[&str]) -> Run {
+    pub fn run(&self, args: &[&str]) -> RunResult {
         let output = self.command(args).output().expect("the program runs");
-        Run::new(output)
+        RunResult::new(output)
     }
 
     /// Runs `ligne` in the folder with additional environment variables.
-    pub fn run_with(&self, variables: &[(&str, &str)], line: &str) -> Run {
+    pub fn run_with(&self, variables: &[(&str, &str)], line: &str) -> RunResult {
         let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
-        Run::new(command.envs(variables.iter().copied()).output().expect("the program runs"))
+        RunResult::new(command.envs(variables.iter().copied()).output().expect("the program runs"))
     }
 
     /// The path of a file in the folder.
@@ -101,7 +101,7 @@ impl Folder {
     }
 }
 
-impl Drop for Folder {
+impl Drop for TestFolder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
@@ -109,13 +109,13 @@ impl Drop for Folder {
 
 /// Exit status and output of a run.
 #[derive(Debug)]
-pub struct Run {
+pub struct RunResult {
     pub status: Option<i32>,
     pub out: String,
     pub err: String,
 }
 
-impl Run {
+impl RunResult {
     pub fn new(output: Output) -> Self {
         Self {
             status: output.status.code(),
@@ -125,26 +125,26 @@ impl Run {
     }
 
     /// Checks exit status 2, no standard output, and `what` in standard error.
-    pub fn refused(&self, what: &str) {
+    pub fn expect_refusal(&self, what: &str) {
         assert_eq!(self.status, Some(2), "{self:?}");
         assert!(self.err.contains(what), "no `{what}` in {self:?}");
         assert!(self.out.is_empty() && !self.err.contains("panicked"), "{self:?}");
     }
 
     /// Checks the exit status, and that there was no panic.
-    pub fn ends(&self, status: i32) -> &Self {
+    pub fn expect_status(&self, status: i32) -> &Self {
         assert!(self.status == Some(status) && !self.err.contains("panicked"), "{self:?}");
         self
     }
 
     /// Checks that standard output or standard error contains `what`.
-    pub fn says(&self, what: &str) -> &Self {
+    pub fn expect_output(&self, what: &str) -> &Self {
         assert!(self.out.contains(what) || self.err.contains(what), "no `{what}` in {self:?}");
         self
     }
 
     /// Checks exit status 0.
-    pub fn done(&self) -> &Self {
+    pub fn expect_success(&self) -> &Self {
         assert_eq!(self.status, Some(0), "{self:?}");
         self
     }

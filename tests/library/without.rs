@@ -6,7 +6,7 @@ use std::io::Write as _;
 use crate::support::readers::shared_folder;
 
 #[test]
-fn what_was_skipped_is_said() {
+fn missing_shared_models_are_reported() {
     if let Some(line) = shared_folder::absent() {
         // Written directly to stderr, because the test harness hides the output of print macros in passing
         // tests.

@@ -21,8 +21,8 @@ const TILE: Material = paint("tile", [0.35, 0.3, 0.32]);
 const STONE: Material = paint("stone", [0.62, 0.62, 0.6]);
 const WOOD: Material = paint("wood", [0.45, 0.32, 0.2]);
 
-const WIDE: f64 = 6.0;
-const DEEP: f64 = 5.0;
+const HOUSE_WIDTH_M: f64 = 6.0;
+const HOUSE_DEPTH_M: f64 = 5.0;
 const STOREY: f64 = 3.0;
 const WALL: f64 = 0.3;
 
@@ -43,17 +43,14 @@ fn wall(length: f64, openings: &[(f64, f64, f64, f64)]) -> Solid {
 /// Overhanging roof with two slopes, or with four that meet in a point.
 fn roof(pointed: bool) -> Solid {
     if !pointed {
-        let rim = [at(-0.4, 0.0), at(DEEP + 0.4, 0.0), at(DEEP / 2.0, 2.2)];
-        return prism(&rim, &[], -0.3, WIDE + 0.3).moved(glam::DAffine3::from_mat3(glam::DMat3::from_cols(
-            DVec3::Y,
-            DVec3::Z,
-            DVec3::X,
-        )));
+        let rim = [at(-0.4, 0.0), at(HOUSE_DEPTH_M + 0.4, 0.0), at(HOUSE_DEPTH_M / 2.0, 2.2)];
+        return prism(&rim, &[], -0.3, HOUSE_WIDTH_M + 0.3)
+            .moved(glam::DAffine3::from_mat3(glam::DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)));
     }
     let mut solid = Solid::default();
-    let eaves = rectangle(at(-0.35, -0.4), at(WIDE + 0.35, DEEP + 0.4));
+    let eaves = rectangle(at(-0.35, -0.4), at(HOUSE_WIDTH_M + 0.35, HOUSE_DEPTH_M + 0.4));
     let eaves = solid.ring(eaves.into_iter().map(|point| point.extend(0.0)));
-    let top = solid.point(DVec3::new(WIDE / 2.0, DEEP / 2.0, 2.6));
+    let top = solid.point(DVec3::new(HOUSE_WIDTH_M / 2.0, HOUSE_DEPTH_M / 2.0, 2.6));
     solid.band(&eaves, &[top]);
     solid.faces.push(eaves.iter().rev().copied().collect());
     solid
@@ -85,13 +82,14 @@ pub fn street() -> Assembly {
     let windows = [(0.8, 0.9, 1.1, 1.5), (2.45, 0.9, 1.1, 1.5), (4.1, 0.9, 1.1, 1.5)];
     let shop = [(0.7, 0.5, 2.4, 1.8), (4.1, 0.05, 1.1, 2.3)];
     let fronts = [BRICK, PLASTER].map(|paint| {
-        let upper = yard.mesh(&format!("front-{}", paint.name), paint, wall(WIDE, &windows));
-        let lower = yard.mesh(&format!("shop-{}", paint.name), paint, wall(WIDE, &shop));
+        let upper = yard.mesh(&format!("front-{}", paint.name), paint, wall(HOUSE_WIDTH_M, &windows));
+        let lower = yard.mesh(&format!("shop-{}", paint.name), paint, wall(HOUSE_WIDTH_M, &shop));
         // A side wall stands between front and back with a small gap to both.
-        let side = wall(DEEP - 2.0 * WALL - 0.02, &[(1.7, 0.9, 1.0, 1.4)]);
+        let side = wall(HOUSE_DEPTH_M - 2.0 * WALL - 0.02, &[(1.7, 0.9, 1.0, 1.4)]);
         [upper, lower, yard.mesh(&format!("side-{}", paint.name), paint, side)]
     });
-    let floor = block(DVec3::new(0.05, 0.05, -0.12), DVec3::new(WIDE - 0.05, DEEP - 0.05, 0.0));
+    let floor =
+        block(DVec3::new(0.05, 0.05, -0.12), DVec3::new(HOUSE_WIDTH_M - 0.05, HOUSE_DEPTH_M - 0.05, 0.0));
     let floor = yard.mesh("floor", STONE, floor);
     let chimney = yard.mesh("chimney", BRICK, pillar(DVec3::ZERO, DVec3::new(0.7, 0.7, 2.4)));
     let sill = yard.mesh("sill", STONE, block(DVec3::new(0.7, -0.14, 0.78), DVec3::new(2.0, 0.1, 0.88)));
@@ -109,8 +107,8 @@ pub fn street() -> Assembly {
             let foot = corner + DVec3::Z * (STOREY + 0.13) * f64::from(storey);
             yard.place(floor, ALONG, foot);
             yard.place(if storey == 0 { lower } else { upper }, ALONG, foot + DVec3::Z * 0.01);
-            yard.place(upper, ALONG, foot + DVec3::new(0.0, DEEP - WALL, 0.01));
-            for x in [WALL, WIDE] {
+            yard.place(upper, ALONG, foot + DVec3::new(0.0, HOUSE_DEPTH_M - WALL, 0.01));
+            for x in [WALL, HOUSE_WIDTH_M] {
                 yard.place(side, ACROSS, foot + DVec3::new(x, WALL + 0.01, 0.01));
             }
             if storey > 0 {
@@ -121,7 +119,7 @@ pub fn street() -> Assembly {
         }
         let top = corner + DVec3::Z * ((STOREY + 0.13) * f64::from(storeys) - 0.1);
         roofs.append(&roof(i % 3 == 1).shifted(top.x, top.y, top.z));
-        yard.place(chimney, ALONG, top + DVec3::new(1.2 + 0.7 * (i % 3) as f64, DEEP * 0.3, 0.4));
+        yard.place(chimney, ALONG, top + DVec3::new(1.2 + 0.7 * (i % 3) as f64, HOUSE_DEPTH_M * 0.3, 0.4));
         yard.place(step, ALONG, corner + DVec3::new(4.65, 0.0, -0.13));
     }
     let roofs = yard.mesh("roofs", TILE, roofs);

@@ -23,8 +23,8 @@ const RING: f64 = 50.0;
 const PIN: f64 = 4.0;
 
 /// Eccentricity of the discs, and play between discs and pins.
-const OFF: f64 = 2.0;
-const PLAY: f64 = 0.1;
+const ECCENTRICITY_MM: f64 = 2.0;
+const PLAY_MM: f64 = 0.1;
 
 /// Radius of the circle of the output pins, and radius of a pin.
 const CARRIED: f64 = 31.0;
@@ -42,14 +42,14 @@ const ROUND: usize = 48;
 
 /// Toothed outline of a disc: the curve at a constant distance from the path of the pins.
 fn lobes() -> Vec<DVec2> {
-    let (count, radius) = (f64::from(PINS), PIN + PLAY);
+    let (count, radius) = (f64::from(PINS), PIN + PLAY_MM);
     let steps = 12 * (PINS - 1);
     let point = |k: u32| {
         let turn = TAU * f64::from(k) / f64::from(steps);
         let lean = (1.0 - count) * turn;
-        let lean = atan2(sin(lean), RING / (OFF * count) - cos(lean));
-        let x = RING * cos(turn) - radius * cos(turn + lean) - OFF * cos(count * turn);
-        let y = -RING * sin(turn) + radius * sin(turn + lean) + OFF * sin(count * turn);
+        let lean = atan2(sin(lean), RING / (ECCENTRICITY_MM * count) - cos(lean));
+        let x = RING * cos(turn) - radius * cos(turn + lean) - ECCENTRICITY_MM * cos(count * turn);
+        let y = -RING * sin(turn) + radius * sin(turn + lean) + ECCENTRICITY_MM * sin(count * turn);
         // The formula runs clockwise, so y is negated.
         at(x, -y)
     };
@@ -57,8 +57,13 @@ fn lobes() -> Vec<DVec2> {
 }
 
 fn disc() -> Solid {
-    let hole =
-        |k: u32| circle(polar(DVec2::ZERO, CARRIED, TAU * f64::from(k) / 6.0), CARRIER_PIN + OFF + PLAY, 32);
+    let hole = |k: u32| {
+        circle(
+            polar(DVec2::ZERO, CARRIED, TAU * f64::from(k) / 6.0),
+            CARRIER_PIN + ECCENTRICITY_MM + PLAY_MM,
+            32,
+        )
+    };
     let mut holes: Vec<Vec<DVec2>> = (0..6).map(hole).collect();
     holes.push(circle(DVec2::ZERO, 18.0, ROUND));
     along_x(prism(&lobes(), &holes, 0.0, 12.0))
@@ -196,7 +201,7 @@ fn input_shaft() -> Solid {
     let lobe = |low: f64, off: f64| {
         shaft_turned(&[(0.0, low), (14.0, low), (14.0, low + 12.0), (0.0, low + 12.0)]).shifted(0.0, 0.0, off)
     };
-    together([shaft, lobe(6.0, -OFF), lobe(20.0, OFF)])
+    together([shaft, lobe(6.0, -ECCENTRICITY_MM), lobe(20.0, ECCENTRICITY_MM)])
 }
 
 fn output_flange() -> Solid {
@@ -253,10 +258,10 @@ pub fn drive() -> Assembly {
     ];
     input.extend(several("cover-screw", screw, UP, around(-8.0, SCREWS, 8, 0.0)));
     let mut gear = vec![
-        place("disc-1", disc, up(-OFF, 6.0), UP),
-        place("disc-2", disc, up(OFF, 20.0), OVER),
-        place("roller-bearing-1", roller, up(-OFF, 6.0), UP),
-        place("roller-bearing-2", roller, up(OFF, 20.0), OVER),
+        place("disc-1", disc, up(-ECCENTRICITY_MM, 6.0), UP),
+        place("disc-2", disc, up(ECCENTRICITY_MM, 20.0), OVER),
+        place("roller-bearing-1", roller, up(-ECCENTRICITY_MM, 6.0), UP),
+        place("roller-bearing-2", roller, up(ECCENTRICITY_MM, 20.0), OVER),
     ];
     gear.extend(several("ring-pin", pin, UP, around(0.0, RING, PINS, 0.0)));
     let mut output = vec![

@@ -1,6 +1,6 @@
 //! Picture of a stroke with a drying brush: full ink at the start, streaks of bristles at the end.
 
-use ligne::geometry::numbers::noise::{hash, smooth, unit};
+use ligne::geometry::numbers::noise::{hash, unit_interval, value_noise};
 
 const WIDTH: usize = 640;
 const HEIGHT: usize = 64;
@@ -21,13 +21,13 @@ fn shade(column: usize, row: usize) -> u8 {
     let (x, y) = ((column as f64 + 0.5) / WIDTH as f64, (row as f64 + 0.5) / HEIGHT as f64 - 0.5);
     // Neighbouring bristles stick together. Each has a different amount of ink and loses it unevenly.
     let bristle = row as f64 / 2.6;
-    let load = 0.75 * smooth(1, bristle) + 0.25 * (2.0 * unit(hash(2, &[row as u64])) - 1.0);
-    let uneven = smooth(3 + (row / 2) as u64, column as f64 / 42.0);
+    let load = 0.75 * value_noise(1, bristle) + 0.25 * (2.0 * unit_interval(hash(2, &[row as u64])) - 1.0);
+    let uneven = value_noise(3 + (row / 2) as u64, column as f64 / 42.0);
     let wet = 0.95 + 0.55 * load + 0.3 * uneven - 1.35 * ((x - 0.18).max(0.0) / 0.82);
     // Edges of the stroke: round at the start, ragged where it is dry.
     let round = (x / 0.045).min(1.0);
     let half = 0.46 * (round * (2.0 - round)).sqrt();
-    let ragged = 0.03 * smooth(90 + u64::from(y > 0.0), column as f64 / 30.0);
+    let ragged = 0.03 * value_noise(90 + u64::from(y > 0.0), column as f64 / 30.0);
     let inside = (half + ragged - y.abs()) * HEIGHT as f64;
     let ink = (wet * 6.0).clamp(0.0, 1.0).min(inside.clamp(0.0, 1.0));
     (255.0 * (1.0 - ink)).round() as u8

@@ -8,11 +8,11 @@ use crate::geometry::plane::planar_distance::length;
 use kurbo::{BezPath, CubicBez, ParamCurve, Point, Vec2};
 
 /// Rounds of reparameterization: each point's parameter moves to the foot point on the curve.
-const ROUNDS: usize = 4;
+const MAX_NEWTON_ROUNDS: usize = 4;
 
 /// Maximum number of points in the least-squares system. Longer runs are sampled evenly, but all points are
 /// checked.
-const MOST_POINTS: usize = 40;
+const MAX_SOLVED_POINTS: usize = 40;
 
 /// Appends cubics through `points` to `path`, which ends at the first of them. Both tangents point along the
 /// line. No point deviates by more than `tolerance`.
@@ -93,7 +93,7 @@ fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<Cub
         let third = chord / 3.0;
         return Some(CubicBez::new(first, first + start * third, last - end * third, last));
     }
-    let stride = points.len().div_ceil(MOST_POINTS);
+    let stride = points.len().div_ceil(MAX_SOLVED_POINTS);
     let chosen: Vec<Point> =
         points.iter().copied().step_by(stride).take((points.len() - 2) / stride + 1).chain([last]).collect();
     let mut parameters = Vec::with_capacity(chosen.len());
@@ -110,7 +110,7 @@ fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<Cub
     for parameter in &mut parameters {
         *parameter /= along;
     }
-    for round in 0..ROUNDS {
+    for round in 0..MAX_NEWTON_ROUNDS {
         let curve = solve(&chosen, &parameters, start, end, chord, along)?;
         // Reparameterization cannot correct a larger distance than this.
         let hopeless = if round == 0 { 36.0 } else { 6.0 } * tolerance * tolerance;

@@ -19,30 +19,30 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use kurbo::{BezPath, Point, Vec2};
 
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
-use crate::geometry::plane::planar_distance::{length, nearest_centre};
+use crate::geometry::plane::planar_distance::{fit_circle_centre, length};
 
 /// Minimum number of corners of an arc, and of a whole circle.
-const MIN_CORNERS: usize = 5;
-const MIN_OF_CIRCLE: usize = 16;
+const MIN_ARC_CORNERS: usize = 5;
+const MIN_CIRCLE_CORNERS: usize = 16;
 
 /// Largest turn from chord to chord, radians: that of a polygon with 16 sides, and how much rounding may add.
 /// A polygon with 15 sides turns by 0.026 more.
-const MAX_STEP: f64 = TAU / 16.0;
-const MAX_WIDER: f64 = 0.02;
+const MAX_STEP_RAD: f64 = TAU / 16.0;
+const MAX_ROUNDING_RAD: f64 = 0.02;
 
 /// Factor in the error of an arc's radius: factor × rounding ÷ angle². An arc's height over its chord is
 /// radius × angle² ÷ 8.
-const UNCERTAIN: f64 = 8.0;
+const RADIUS_ERROR_FACTOR: f64 = 8.0;
 
 /// Minimum turn of a stretch that is an arc for any rounding, radians.
 ///
 /// Over an eighth of a turn, an ellipse that is a tenth longer than wide deviates from every circle by a
 /// thousandth of its length. The factor 0.999 allows for rounding.
-const CERTAIN_TURN: f64 = FRAC_PI_4 * 0.999;
+const MIN_CERTAIN_TURN_RAD: f64 = FRAC_PI_4 * 0.999;
 
 /// Tolerances of the circle test, user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Nearness {
+pub(crate) struct CircleTolerance {
     /// How far the rounding of the file may move a corner.
     pub rounding: f64,
     /// Largest error of an arc's radius.
@@ -51,7 +51,7 @@ pub(crate) struct Nearness {
 
 /// A stretch of a polyline on one circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Arc {
+pub(crate) struct CircularArc {
     /// First and last corner. In a closed line the indices continue past its end.
     pub first: usize,
     pub last: usize,
@@ -61,7 +61,7 @@ pub(crate) struct Arc {
     pub turn: f64,
 }
 
-impl Arc {
+impl CircularArc {
     /// Whether the arc is a whole circle.
     pub fn is_circle(&self) -> bool {
         self.turn.abs() >= TAU
@@ -88,33 +88,36 @@ impl Arc {
 }
 
 /// Arcs of a polyline, in its order. A closed line has to start at the first corner of the first arc.
-pub(crate) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
+pub(crate) fn arcs(points: &[Point], closed: bool, near: CircleTolerance) -> Vec<CircularArc> {
     let n = points.len();
-    if n < MIN_CORNERS || !points.iter().all(|p| p.is_finite()) {
+    if n < MIN_ARC_CORNERS || !points.iter().all(|p| p.is_finite()) {
         return Vec::new();
     }
     if !closed {
         return stretches(points, near);
     }
-    if let Some(circle) = whole(points, near) {
+    if let Some(circle) = fit_whole_circle(points, near) {
         return vec![circle];
     }
     // The points twice: the first stretch that ends before the last point ends where a stretch of the closed
     // line does.
     let twice: Vec<Point> = points.iter().chain(points).copied().collect();
-    let Some(begin) = longest_from(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
+    let Some(begin) = longest_arcs(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
     else {
         return Vec::new();
     };
     let begin = begin % n;
     let once: Vec<Point> = (0..=n).map(|k| points[(begin + k) % n]).collect();
     let found = stretches(&once, near);
-    found.into_iter().map(|arc| Arc { first: arc.first + begin, last: arc.last + begin, ..arc }).collect()
+    found
+        .into_iter()
+        .map(|arc| CircularArc { first: arc.first + begin, last: arc.last + begin, ..arc })
+        .collect()
 }
 
 /// Extends the first and last arc of an open line to its ends, if these lie inside a chord. Such an end moves
 /// onto the arc.
-pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearness) {
+pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [CircularArc], near: CircleTolerance) {
     let n = points.len();
     if let Some(arc) = arcs.last_mut().filter(|arc| arc.last + 2 == n)
         && let Some((end, step)) = onto_arc(arc, [points[n - 2], points[n - 1]], arc.turn, near)
@@ -131,12 +134,17 @@ pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearn
 }
 
 /// Position of a line's end on the arc that continues past `corner`, and the angle from that corner.
-fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> Option<(Point, f64)> {
+fn onto_arc(
+    arc: &CircularArc,
+    [corner, end]: [Point; 2],
+    turn: f64,
+    near: CircleTolerance,
+) -> Option<(Point, f64)> {
     let (a, b) = (corner - arc.centre, end - arc.centre);
     let step = atan2(a.cross(b), a.dot(b));
     let inside = arc.radius - length(b);
     let is_on = step * turn > 0.0
-        && step.abs() <= MAX_STEP
+        && step.abs() <= MAX_STEP_RAD
         && (turn + step).abs() < TAU
         && inside >= -near.rounding
         && inside <= near.radius;
@@ -144,35 +152,35 @@ fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> 
 }
 
 /// The circle through all corners of a closed line, if they lie on one.
-fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
-    if points.len() < MIN_OF_CIRCLE {
+fn fit_whole_circle(points: &[Point], near: CircleTolerance) -> Option<CircularArc> {
+    if points.len() < MIN_CIRCLE_CORNERS {
         return None;
     }
     let mut round: Vec<Point> = points.to_vec();
     round.push(*points.first()?);
     let (centre, radius, turn) = circle(&round, near.rounding)?;
     let is_round = (turn.abs() - TAU).abs() < 1e-6;
-    is_round.then(|| Arc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
+    is_round.then(|| CircularArc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
 }
 
 /// Certain arcs among the longest stretches of an open line, in order.
-fn stretches(points: &[Point], near: Nearness) -> Vec<Arc> {
-    let is_certain = |arc: &Arc| {
+fn stretches(points: &[Point], near: CircleTolerance) -> Vec<CircularArc> {
+    let is_certain = |arc: &CircularArc| {
         let turn = arc.turn.abs();
-        turn >= CERTAIN_TURN || UNCERTAIN * near.rounding <= near.radius * turn * turn
+        turn >= MIN_CERTAIN_TURN_RAD || RADIUS_ERROR_FACTOR * near.rounding <= near.radius * turn * turn
     };
-    longest_from(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
+    longest_arcs(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
 }
 
 /// Longest stretches of an open line, in order.
-fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
+fn longest_arcs(points: &[Point], near: CircleTolerance) -> impl Iterator<Item = CircularArc> {
     let mut from = 0;
     std::iter::from_fn(move || {
-        while from + MIN_CORNERS <= points.len() {
-            if let Some(arc) = longest(points, from, near) {
+        while from + MIN_ARC_CORNERS <= points.len() {
+            if let Some(arc) = longest_arc(points, from, near) {
                 // Starting one point later may reach farther: a line's end inside a chord is nearly on the
                 // arc, but not part of it.
-                let next = longest(points, from + 1, near).filter(|next| next.last > arc.last);
+                let next = longest_arc(points, from + 1, near).filter(|next| next.last > arc.last);
                 let arc = next.unwrap_or(arc);
                 from = arc.last;
                 return Some(arc);
@@ -184,13 +192,13 @@ fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
 }
 
 /// Longest stretch that starts at a corner.
-fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
+fn longest_arc(points: &[Point], first: usize, near: CircleTolerance) -> Option<CircularArc> {
     let attempt = |last: usize| {
         let (centre, radius, turn) = circle(points.get(first..=last)?, near.rounding)?;
-        (turn.abs() < TAU).then_some(Arc { first, last, centre, radius, turn })
+        (turn.abs() < TAU).then_some(CircularArc { first, last, centre, radius, turn })
     };
     let end = points.len().checked_sub(1)?;
-    let mut best = attempt(first + MIN_CORNERS - 1)?;
+    let mut best = attempt(first + MIN_ARC_CORNERS - 1)?;
     let mut bad = end + 1;
     while bad > end && best.last < end {
         let next = (first + 2 * (best.last - first)).min(end);
@@ -212,12 +220,12 @@ fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
 /// Centre, radius and turning angle of the circle that holds all points within `rounding`. Each point must
 /// lie farther round than the one before.
 fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
-    let centre = nearest_centre(points)?;
+    let centre = fit_circle_centre(points)?;
     let radius = points.iter().map(|p| length(*p - centre)).sum::<f64>() / points.len() as f64;
     if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
         return None;
     }
-    let most = MAX_STEP + 1e-6 + (2.0 * rounding / radius).min(MAX_WIDER);
+    let most = MAX_STEP_RAD + 1e-6 + (2.0 * rounding / radius).min(MAX_ROUNDING_RAD);
     let mut turn = 0.0;
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - centre, pair[1] - centre);
@@ -231,7 +239,7 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
 }
 
 /// Moves the centre of an arc so that the circle passes through both end corners.
-fn through_ends(arc: Arc, points: &[Point]) -> Arc {
+fn through_ends(arc: CircularArc, points: &[Point]) -> CircularArc {
     let (start, end) = (points[arc.first], points[arc.last]);
     let (middle, chord) = (start.midpoint(end), end - start);
     let far = length(chord);
@@ -245,11 +253,11 @@ fn through_ends(arc: Arc, points: &[Point]) -> Arc {
     // Of the three possible angles, the one nearest to that of the corners.
     let turns = [turn, turn + TAU, turn - TAU];
     let nearest = turns.into_iter().min_by(|a, b| (a - arc.turn).abs().total_cmp(&(b - arc.turn).abs()));
-    Arc { centre, radius: length(a), turn: nearest.unwrap_or(turn), ..arc }
+    CircularArc { centre, radius: length(a), turn: nearest.unwrap_or(turn), ..arc }
 }
 
 /// Path of a whole circle that starts at a corner.
-pub(crate) fn circle_path(arc: &Arc, corner: Point) -> BezPath {
+pub(crate) fn circle_path(arc: &CircularArc, corner: Point) -> BezPath {
     let out = corner - arc.centre;
     let start = arc.centre + out * (arc.radius / length(out).max(f64::MIN_POSITIVE));
     let mut path = BezPath::new();

@@ -5,10 +5,10 @@ use crate::geometry::plane::planar_distance::length;
 use kurbo::{Point, Vec2};
 
 /// Cosine of the smallest turn of a corner (45 degrees) over the whole window.
-const WIDE_COSINE: f64 = 0.707;
+const MAX_WINDOW_COSINE: f64 = 0.707;
 
 /// Cosine of the smallest turn of a corner (40 degrees) over half the window. A tight bend turns less there.
-const NARROW_COSINE: f64 = 0.766;
+const MAX_HALF_WINDOW_COSINE: f64 = 0.766;
 
 /// Indices of the corners among points `spacing` apart, measured over `window`. The ends of an open line are
 /// excluded.
@@ -22,7 +22,7 @@ pub(crate) fn corners(points: &[Point], closed: bool, spacing: f64, window: f64)
     let turns: Vec<f64> = (0..n).map(|i| cosine(points, closed, i, wide)).collect();
     let mut found = Vec::new();
     for i in 0..n {
-        if turns[i] > WIDE_COSINE || cosine(points, closed, i, narrow) > NARROW_COSINE {
+        if turns[i] > MAX_WINDOW_COSINE || cosine(points, closed, i, narrow) > MAX_HALF_WINDOW_COSINE {
             continue;
         }
         // Non-maximum suppression: only the sharpest point within a window is a corner.

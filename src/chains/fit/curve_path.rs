@@ -7,17 +7,17 @@
 use kurbo::{BezPath, Point, Vec2};
 
 use super::bezier_fit::{end_tangent, fit, tangent_of, unit};
-use crate::chains::sampled_line::Line;
-use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::chains::sampled_line::SampledLine;
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
 
 /// Cosine of the largest turn (20 degrees) within a tessellated curve.
-const STEP_COSINE: f64 = 0.9397;
+const MIN_STEP_COSINE: f64 = 0.9397;
 
 /// Minimum number of sides of a tessellated curve.
-const LEAST_SIDES: usize = 4;
+const MIN_CURVE_SIDES: usize = 4;
 
 /// Path of straight segments through all points.
-pub(crate) fn polyline(line: &Line) -> BezPath {
+pub(crate) fn polyline(line: &SampledLine) -> BezPath {
     let mut path = BezPath::new();
     if let Some((first, rest)) = line.points.split_first() {
         path.move_to(*first);
@@ -63,13 +63,13 @@ pub(crate) fn closed_smooth(points: &[Point], tolerance: f64) -> BezPath {
 /// Whether all points lie within `tolerance` of the segment from first to last.
 fn is_straight(points: &[Point], tolerance: f64) -> bool {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return true };
-    points.iter().all(|p| distance2(*p, *first, *last) <= tolerance * tolerance)
+    points.iter().all(|p| segment_distance_squared(*p, *first, *last) <= tolerance * tolerance)
 }
 
 /// Appends an open exact polyline, with curves in place of its tessellated stretches.
 pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
     let sides = points.len().saturating_sub(1);
-    if sides < LEAST_SIDES {
+    if sides < MIN_CURVE_SIDES {
         points.iter().skip(1).for_each(|p| path.line_to(*p));
         return;
     }
@@ -78,7 +78,7 @@ pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
     while i < sides {
         let run = curved[i..].iter().take_while(|c| **c).count();
         let run = run.min(run_to_corner(points, i, run));
-        if run < LEAST_SIDES {
+        if run < MIN_CURVE_SIDES {
             for p in &points[i + 1..=i + run.max(1)] {
                 path.line_to(*p);
             }
@@ -90,20 +90,20 @@ pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
         let before = (i > 0).then(|| points[i] - points[i - 1]);
         let after = (i + run < sides).then(|| points[i + run + 1] - points[i + run]);
         let n = stretch.len();
-        let start = joined(before, outward(stretch[0], stretch[1], stretch[2]));
-        let end = joined(after, -outward(stretch[n - 1], stretch[n - 2], stretch[n - 3]));
+        let start = tangent_or_neighbour(before, end_direction(stretch[0], stretch[1], stretch[2]));
+        let end = tangent_or_neighbour(after, -end_direction(stretch[n - 1], stretch[n - 2], stretch[n - 3]));
         fit(&subdivided(stretch), start, end, tolerance, path);
         i += run;
     }
 }
 
 /// Path of a closed exact polyline, with curves in place of its tessellated stretches.
-pub(crate) fn closed_exact(line: &Line, tolerance: f64) -> BezPath {
+pub(crate) fn closed_exact(line: &SampledLine, tolerance: f64) -> BezPath {
     let points = &line.points;
     let n = points.len();
     let curved = curved_sides(points, true, tolerance);
     let mut path = BezPath::new();
-    if n >= 2 * LEAST_SIDES && curved.iter().all(|c| *c) {
+    if n >= 2 * MIN_CURVE_SIDES && curved.iter().all(|c| *c) {
         let ring = subdivided(&line.opened_at(0).points);
         let seam = unit(points[1] - points[n - 1]);
         path.move_to(points[0]);
@@ -126,7 +126,7 @@ pub(crate) fn closed_exact(line: &Line, tolerance: f64) -> BezPath {
 
 /// Number of sides from `i` on, at most `run`, without a corner between them.
 fn run_to_corner(points: &[Point], i: usize, run: usize) -> usize {
-    (1..run).find(|k| turn(points, i + k) < STEP_COSINE).unwrap_or(run)
+    (1..run).find(|k| turn(points, i + k) < MIN_STEP_COSINE).unwrap_or(run)
 }
 
 fn turn(points: &[Point], i: usize) -> f64 {
@@ -144,7 +144,7 @@ fn curved_sides(points: &[Point], closed: bool, tolerance: f64) -> Vec<bool> {
             return None;
         }
         let cosine = turn(points, i);
-        (cosine >= STEP_COSINE).then(|| (2.0 - 2.0 * cosine.min(1.0)).max(0.0).sqrt())
+        (cosine >= MIN_STEP_COSINE).then(|| (2.0 - 2.0 * cosine.min(1.0)).max(0.0).sqrt())
     };
     (0..sides)
         .map(|i| {
@@ -161,7 +161,7 @@ fn curved_sides(points: &[Point], closed: bool, tolerance: f64) -> Vec<bool> {
 }
 
 /// Tangent at the end `a` of a curve through `a`, `b`, `c`: the chord, rotated by half a step.
-fn outward(a: Point, b: Point, c: Point) -> Vec2 {
+fn end_direction(a: Point, b: Point, c: Point) -> Vec2 {
     let (chord, next) = (unit(b - a), unit(c - b));
     let (la, lb) = (length(b - a), length(c - b));
     unit(chord - (next - chord) * (la / (la + lb).max(f64::MIN_POSITIVE)))
@@ -169,9 +169,9 @@ fn outward(a: Point, b: Point, c: Point) -> Vec2 {
 
 /// Direction of a straight neighbour if the curve meets it without a corner, otherwise the curve's own
 /// direction.
-fn joined(neighbour: Option<Vec2>, own: Vec2) -> Vec2 {
+fn tangent_or_neighbour(neighbour: Option<Vec2>, own: Vec2) -> Vec2 {
     match neighbour.map(unit) {
-        Some(straight) if straight.dot(own) > STEP_COSINE => straight,
+        Some(straight) if straight.dot(own) > MIN_STEP_COSINE => straight,
         _ => own,
     }
 }

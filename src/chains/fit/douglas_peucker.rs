@@ -7,35 +7,36 @@
 
 use kurbo::{Point, Vec2};
 
-use crate::chains::sampled_line::Line;
+use crate::chains::sampled_line::SampledLine;
 
 /// Largest distance of a collinear point from the line between its neighbours, user units.
-const COLLINEAR: f64 = 1e-9;
+const MAX_COLLINEAR_DISTANCE: f64 = 1e-9;
 
 /// Minimum number of points for which both halves run in parallel, and the largest ratio of the whole to its
 /// smaller half.
-const LONG: usize = 512;
-const EVEN: usize = 8;
+const MIN_PARALLEL_POINTS: usize = 512;
+const MAX_SPLIT_IMBALANCE: usize = 8;
 
 /// Largest error of a line's strength where points are left out.
-const STRENGTH: f64 = 0.08;
+const MAX_STRENGTH_ERROR: f64 = 0.08;
 
 /// Leaves out the points that are collinear with their neighbours. A line that doubles back keeps its length.
-pub(crate) fn straighten(line: Line) -> Line {
+pub(crate) fn straighten(line: SampledLine) -> SampledLine {
     if line.len() < 3 {
         return line;
     }
     let between = |a: usize, b: usize, c: usize| {
         let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
         let whole = line.points[c] - line.points[a];
-        to.dot(on) > 0.0 && to.cross(whole).powi(2) <= COLLINEAR * COLLINEAR * whole.hypot2()
+        to.dot(on) > 0.0
+            && to.cross(whole).powi(2) <= MAX_COLLINEAR_DISTANCE * MAX_COLLINEAR_DISTANCE * whole.hypot2()
     };
     let mut kept: Vec<usize> = Vec::with_capacity(line.len());
     for c in 0..line.len() {
         if let &[.., a, b] = &kept[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
-            && Chord::new(&line, a, c).off(b).1 <= STRENGTH
+            && Chord::new(&line, a, c).off(b).1 <= MAX_STRENGTH_ERROR
         {
             kept.pop();
         }
@@ -57,7 +58,7 @@ pub(crate) fn straighten(line: Line) -> Line {
 
 /// Simplifies a line within `tolerance`, and keeps the ends of an open line. A closed line keeps its first
 /// point and the point farthest from it.
-pub(crate) fn simplify(line: &Line, tolerance: f64) -> Line {
+pub(crate) fn simplify(line: &SampledLine, tolerance: f64) -> SampledLine {
     let n = line.len();
     if n < 3 {
         return line.clone();
@@ -78,7 +79,7 @@ pub(crate) fn simplify(line: &Line, tolerance: f64) -> Line {
 }
 
 /// Indices of the kept points of an open line.
-fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
+fn keep(line: &SampledLine, tolerance2: f64) -> Vec<usize> {
     let n = line.len();
     let mut stays = vec![true; n];
     if let [_, between @ .., _] = &mut stays[..] {
@@ -89,14 +90,14 @@ fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
 }
 
 /// Marks the kept points between two kept points.
-fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
-    while let Some(i) = worst(line, a, b, tolerance2) {
+fn split(line: &SampledLine, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
+    while let Some(i) = farthest_point(line, a, b, tolerance2) {
         let (low, high) = between.split_at_mut(i - a - 1);
         let Some((stays, high)) = high.split_first_mut() else { return };
         *stays = true;
         let (below, above) = (i - a, b - i);
         // Only near-even splits fork, so that the recursion depth stays logarithmic.
-        if below.min(above) * EVEN >= b - a && b - a >= LONG {
+        if below.min(above) * MAX_SPLIT_IMBALANCE >= b - a && b - a >= MIN_PARALLEL_POINTS {
             crate::parallel::join(
                 || split(line, tolerance2, [a, i], low),
                 || split(line, tolerance2, [i, b], high),
@@ -114,12 +115,12 @@ fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: 
 }
 
 /// First of the points between two others with the largest error, if that exceeds the tolerance.
-fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
+fn farthest_point(line: &SampledLine, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
     let chord = Chord::new(line, a, b);
     let mut worst = (tolerance2, None);
     for i in a + 1..b {
         let (distance2, strength) = chord.off(i);
-        let strength = strength / STRENGTH;
+        let strength = strength / MAX_STRENGTH_ERROR;
         let d = distance2.max(strength * strength * tolerance2);
         if d > worst.0 {
             worst = (d, Some(i));
@@ -130,7 +131,7 @@ fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
 
 /// Segment between two points of a line.
 struct Chord<'a> {
-    line: &'a Line,
+    line: &'a SampledLine,
     from: Point,
     way: Vec2,
     length2: f64,
@@ -140,7 +141,7 @@ struct Chord<'a> {
 }
 
 impl<'a> Chord<'a> {
-    fn new(line: &'a Line, a: usize, b: usize) -> Self {
+    fn new(line: &'a SampledLine, a: usize, b: usize) -> Self {
         let (from, strength) = (line.points[a], line.samples[a].strength);
         let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
         Self { line, from, way, length2: way.hypot2(), strength, change }
@@ -165,16 +166,17 @@ mod tests {
     use super::*;
     use crate::chains::Sample;
     use crate::geometry::dice::Dice;
-    use crate::geometry::plane::planar_distance::distance2;
+    use crate::geometry::plane::planar_distance::segment_distance_squared;
 
     /// Reference: the same recursion without parallel tasks.
-    fn plain(line: &Line, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
+    fn plain(line: &SampledLine, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
         let off = |i: usize| {
             let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
             let (p, way) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
             let t = if way.hypot2() > 0.0 { (p.dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-            let strength = (at - (from + (to - from) * t)).abs() / STRENGTH;
-            distance2(line.points[i], line.points[a], line.points[b]).max(strength * strength * tolerance2)
+            let strength = (at - (from + (to - from) * t)).abs() / MAX_STRENGTH_ERROR;
+            segment_distance_squared(line.points[i], line.points[a], line.points[b])
+                .max(strength * strength * tolerance2)
         };
         let far = (a + 1..b).filter(|i| off(*i) > tolerance2);
         let Some(worst) = far.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else { return };
@@ -187,7 +189,7 @@ mod tests {
     fn points_stay_as_one_stretch_after_the_other_says() {
         let mut dice = Dice::new(7);
         for n in [2, 3, 40, 700, 5000] {
-            let mut line = Line::default();
+            let mut line = SampledLine::default();
             let (mut p, mut strength) = (Point::ZERO, 1.0);
             for _ in 0..n {
                 p += Vec2::new(dice.between(0.2, 1.0), dice.between(-0.6, 0.6));

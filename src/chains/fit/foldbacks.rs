@@ -3,14 +3,14 @@
 //! Along a row of nearly edge-on triangles a contour runs forward, back and forward again over the same
 //! pixels. A shortcut between the two passes draws the same.
 
-use crate::chains::sampled_line::Line;
-use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::chains::sampled_line::SampledLine;
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
 
 /// Replaces fold-backs by shortcuts.
 ///
 /// A fold-back is a stretch of at most `reach` arc length, clearly longer than its chord, that stays within
 /// `tolerance` of it.
-pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
+pub(crate) fn remove_foldbacks(line: &SampledLine, tolerance: f64, reach: f64) -> SampledLine {
     let n = line.len();
     if n < 4 {
         return line.clone();
@@ -40,8 +40,9 @@ pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
 }
 
 /// Whether all points between `i` and `j` are smooth and lie near the shortcut.
-fn is_thin(line: &Line, i: usize, j: usize, tolerance: f64) -> bool {
+fn is_thin(line: &SampledLine, i: usize, j: usize, tolerance: f64) -> bool {
     let (a, b) = (line.points[i], line.points[j]);
     let near = tolerance * tolerance;
-    (i + 1..j).all(|k| line.soft[k - 1] && line.soft[k] && distance2(line.points[k], a, b) <= near)
+    (i + 1..j)
+        .all(|k| line.soft[k - 1] && line.soft[k] && segment_distance_squared(line.points[k], a, b) <= near)
 }

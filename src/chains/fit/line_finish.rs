@@ -6,19 +6,19 @@
 
 use kurbo::{BezPath, Point};
 
-use super::circular_arcs::{Arc, Nearness, arcs, circle_path, extend_to_ends};
+use super::circular_arcs::{CircleTolerance, CircularArc, arcs, circle_path, extend_to_ends};
 use super::corner_points::corners;
 use super::curve_path::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
 use super::douglas_peucker::{simplify, straighten};
-use super::foldbacks::unfold;
+use super::foldbacks::remove_foldbacks;
 use super::resampling::resample;
 use super::whittaker_smoothing::smooth;
-use crate::chains::sampled_line::Line;
+use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
 
 /// Chain options in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tolerances {
+pub(crate) struct FinishTolerances {
     /// One CSS px in user units.
     pub px: f64,
     pub smooth: f64,
@@ -29,29 +29,29 @@ pub(crate) struct Tolerances {
     /// Fit tolerance; 0 if no curves are fitted.
     pub fit: f64,
     /// Tolerances of arcs; `None` if no arcs are sought.
-    pub circle: Option<Nearness>,
+    pub circle: Option<CircleTolerance>,
     /// Whether points are needed in addition to a fitted curve.
     pub points: bool,
 }
 
 /// Spacing of the resampled points that are smoothed, px.
-const SPACING_PX: f64 = 1.0;
+const SAMPLE_SPACING_PX: f64 = 1.0;
 
 /// Window for corner detection on smoothed lines, px.
-const CORNER_PX: f64 = 6.0;
+const CORNER_WINDOW_PX: f64 = 6.0;
 
 /// Window for the turn of a line without noise, px.
-const SHARP_PX: f64 = 2.0;
+const SHARP_WINDOW_PX: f64 = 2.0;
 
 /// Minimum number of points for which fitting and simplifying run in parallel.
-const LONG: usize = 256;
+const MIN_PARALLEL_POINTS: usize = 256;
 
 /// Cosine of the smallest turn (35 degrees) over that length that makes a corner.
-const SHARP_COSINE: f64 = 0.82;
+const MAX_SHARP_COSINE: f64 = 0.82;
 
 /// Finishes a line: its points and its path. The line has no points if a curve is fitted and no points are
 /// needed.
-pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
+pub(crate) fn finish(raw: SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
     let Some(near) = t.circle else { return finish_between(raw, t) };
     let mut raw = straighten(raw);
     let mut found = arcs(&raw.points, raw.closed, near);
@@ -66,8 +66,11 @@ pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
         }
         [first, ..] if raw.closed => {
             let begun = raw.opened_at(first.first % raw.len());
-            let moved =
-                |arc: &Arc| Arc { first: arc.first - first.first, last: arc.last - first.first, ..*arc };
+            let moved = |arc: &CircularArc| CircularArc {
+                first: arc.first - first.first,
+                last: arc.last - first.first,
+                ..*arc
+            };
             let (mut line, mut path) = with_arcs(&begun, &found.iter().map(moved).collect::<Vec<_>>(), t);
             close(&mut line);
             path.close_path();
@@ -78,15 +81,15 @@ pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Finishes an open line with arcs. The stretches between arcs are finished one by one.
-fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
-    let mut line = Line::default();
+fn with_arcs(raw: &SampledLine, arcs: &[CircularArc], t: FinishTolerances) -> (SampledLine, BezPath) {
+    let mut line = SampledLine::default();
     let mut path = BezPath::new();
     if let Some(first) = raw.points.first() {
         path.move_to(*first);
     }
     let last = raw.len().saturating_sub(1);
     let mut at = 0;
-    let between = |from: usize, to: usize, line: &mut Line, path: &mut BezPath| {
+    let between = |from: usize, to: usize, line: &mut SampledLine, path: &mut BezPath| {
         if to > from {
             let (part, drawn) = finish_between(raw.slice(from, to), t);
             append(line, &part);
@@ -106,7 +109,7 @@ fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Finishes a line without arcs.
-fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
+fn finish_between(raw: SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
     }
@@ -127,17 +130,18 @@ fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Closes a line that ends where it began, without the repeated end.
-fn close(line: &mut Line) {
+fn close(line: &mut SampledLine) {
     line.closed = true;
     line.pop();
 }
 
 /// Finishes a line that is not smoothed anywhere.
-fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
+fn exact(raw: SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
     let straightened = straighten(raw);
     // A line of two points cannot be simplified.
-    let simple =
-        |line: Line| if t.simplify > 0.0 && line.len() > 2 { simplify(&line, t.simplify) } else { line };
+    let simple = |line: SampledLine| {
+        if t.simplify > 0.0 && line.len() > 2 { simplify(&line, t.simplify) } else { line }
+    };
     if t.fit <= 0.0 {
         let line = simple(straightened);
         let path = polyline(&line);
@@ -153,14 +157,14 @@ fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
         }
         path
     };
-    let line = if t.points { simple(straightened) } else { Line::default() };
+    let line = if t.points { simple(straightened) } else { SampledLine::default() };
     (line, path)
 }
 
 /// Finishes a closed line that is smooth everywhere.
-fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
-    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
-    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+fn closed(raw: &SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
+    let line = remove_foldbacks(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SAMPLE_SPACING_PX * t.px);
     let found = find_corners(&dense, spacing, t);
     if let Some(first) = found.first() {
         let turned = dense.opened_at(*first);
@@ -182,19 +186,23 @@ fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
 /// The simplified points, if needed, and the curve fitted through all points. Both use the dense line, so
 /// they can run in parallel.
 fn simple_and_fitted<P: Send>(
-    dense: &Line,
+    dense: &SampledLine,
     fits: bool,
-    t: Tolerances,
+    t: FinishTolerances,
     fitted: impl FnOnce() -> P + Send,
-) -> (Line, Option<P>) {
-    let simple = || if t.points || !fits { simplify(dense, t.simplify) } else { Line::default() };
+) -> (SampledLine, Option<P>) {
+    let simple = || if t.points || !fits { simplify(dense, t.simplify) } else { SampledLine::default() };
     let fitted = || fits.then(fitted);
-    if dense.len() < LONG { (simple(), fitted()) } else { crate::parallel::join(simple, fitted) }
+    if dense.len() < MIN_PARALLEL_POINTS {
+        (simple(), fitted())
+    } else {
+        crate::parallel::join(simple, fitted)
+    }
 }
 
 /// Finishes an open line stretch by stretch, each either smooth or exact.
-fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
-    let mut line = Line::default();
+fn open(raw: &SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
+    let mut line = SampledLine::default();
     let mut path = BezPath::new();
     if let Some(first) = raw.points.first() {
         path.move_to(*first);
@@ -218,32 +226,33 @@ fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Whether a line without noise has a corner at a vertex.
-fn is_sharp(raw: &Line, i: usize, t: Tolerances) -> bool {
+fn is_sharp(raw: &SampledLine, i: usize, t: FinishTolerances) -> bool {
     if !t.clean {
         return false;
     }
     let n = raw.len();
-    // Chord to the first point at distance `SHARP_PX`, in one direction along the line.
+    // Chord to the first point at distance `SHARP_WINDOW_PX`, in one direction along the line.
     let chord = |step: usize| {
         let ends_at = |k: usize| !raw.closed && (if step == 1 { i + k == n - 1 } else { i == k });
         let at = |k: usize| raw.points[(i + k * step) % n];
-        let far = (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_PX * t.px || ends_at(*k))?;
+        let far = (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_WINDOW_PX * t.px || ends_at(*k))?;
         let (before, behind) = (at(far - 1), at(far));
         let (short, long) = (length(before - raw.points[i]), length(behind - raw.points[i]));
-        let share = ((SHARP_PX * t.px - short) / (long - short).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let share =
+            ((SHARP_WINDOW_PX * t.px - short) / (long - short).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         Some(before.lerp(behind, share) - raw.points[i])
     };
     if !raw.closed && (i == 0 || i + 1 >= n) {
         return false;
     }
     let (Some(ahead), Some(back)) = (chord(1), chord(n - 1)) else { return false };
-    -ahead.dot(back) < SHARP_COSINE * length(ahead) * length(back)
+    -ahead.dot(back) < MAX_SHARP_COSINE * length(ahead) * length(back)
 }
 
 /// Finishes a smooth open stretch: cut at its corners, and each part smoothed.
-fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
-    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
-    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+fn soft_stretch(raw: &SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
+    let line = remove_foldbacks(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SAMPLE_SPACING_PX * t.px);
     let mut cuts = vec![0];
     cuts.extend(find_corners(&dense, spacing, t));
     cuts.push(dense.len().saturating_sub(1));
@@ -251,7 +260,7 @@ fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Corners of a slightly smoothed copy, since the raw line turns at every vertex.
-fn find_corners(dense: &Line, spacing: f64, t: Tolerances) -> Vec<usize> {
+fn find_corners(dense: &SampledLine, spacing: f64, t: FinishTolerances) -> Vec<usize> {
     let n = dense.len();
     let mut points: Vec<Point> = dense.points.clone();
     for _ in 0..2 {
@@ -263,12 +272,12 @@ fn find_corners(dense: &Line, spacing: f64, t: Tolerances) -> Vec<usize> {
             }
         }
     }
-    corners(&points, dense.closed, spacing, CORNER_PX * t.px)
+    corners(&points, dense.closed, spacing, CORNER_WINDOW_PX * t.px)
 }
 
 /// Smooths, simplifies and fits the parts of a dense open line between cuts.
-fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
-    let mut line = Line::default();
+fn between(dense: &SampledLine, cuts: &[usize], t: FinishTolerances) -> (SampledLine, BezPath) {
+    let mut line = SampledLine::default();
     let mut path = BezPath::new();
     if let Some(first) = dense.points.first() {
         path.move_to(*first);
@@ -295,7 +304,7 @@ fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
 }
 
 /// Appends a line that starts where the other ends.
-fn append(line: &mut Line, part: &Line) {
+fn append(line: &mut SampledLine, part: &SampledLine) {
     for i in 0..part.len() {
         line.push_of(part.points[i], part.samples[i], part.soft[i], part.silhouette[i], part.part[i]);
     }
@@ -309,7 +318,7 @@ mod tests {
 
     #[test]
     fn curves_are_the_same_whether_points_are_asked_for_or_not() {
-        let t = Tolerances {
+        let t = FinishTolerances {
             px: 1.0,
             smooth: 0.4,
             simplify: 0.1,
@@ -323,7 +332,7 @@ mod tests {
         let kinds: [fn(usize) -> bool; 3] = [|_| true, |_| false, |i| i > 60];
         for (is_soft, closed) in kinds.into_iter().flat_map(|soft| [(soft, true), (soft, false)]) {
             for n in [12, 400] {
-                let mut line = Line { closed, ..Line::default() };
+                let mut line = SampledLine { closed, ..SampledLine::default() };
                 for i in 0..n {
                     let turn = std::f64::consts::TAU * i as f64 / n as f64;
                     let far = 200.0 + if i > n / 2 { 40.0 } else { 0.0 };
@@ -331,7 +340,7 @@ mod tests {
                     line.push(point, Sample::new(0.0, 1.0), is_soft(i), false);
                 }
                 let (points, with) = finish(line.clone(), t);
-                let (none, without) = finish(line.clone(), Tolerances { points: false, ..t });
+                let (none, without) = finish(line.clone(), FinishTolerances { points: false, ..t });
                 assert_eq!(with, without, "{n} points, closed: {closed}");
                 assert!(points.len() > 1 && none.len() == 0, "{n} points, closed: {closed}");
             }

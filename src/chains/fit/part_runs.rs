@@ -7,20 +7,20 @@
 
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, Point};
 
-use crate::chains::sampled_line::Line;
+use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
 
 /// Largest shift of a cut along the line by smoothing: a length in px, plus a share of the way from the cut
 /// before.
-const SHIFT_PX: f64 = 4.0;
-const SHIFT_SHARE: f64 = 0.1;
+const MAX_SHIFT_PX: f64 = 4.0;
+const MAX_SHIFT_SHARE: f64 = 0.1;
 
 /// Error of arc lengths, px.
-const LENGTH_PX: f64 = 0.01;
+const MAX_LENGTH_ERROR_PX: f64 = 0.01;
 
 /// Minimum parameter range of a piece of a curve.
-const LEAST_SHARE: f64 = 1e-9;
+const MIN_PIECE_SHARE: f64 = 1e-9;
 
 /// Runs of a raw line that lie in one part each.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +33,8 @@ pub(crate) struct PartRuns {
 }
 
 /// Piece of a finished line in one part.
-pub(crate) struct Piece {
-    pub line: Line,
+pub(crate) struct PartPiece {
+    pub line: SampledLine,
     pub path: BezPath,
     pub part: PartId,
     /// Whether it starts and ends where the whole line does.
@@ -42,11 +42,11 @@ pub(crate) struct Piece {
 }
 
 /// Position on a line: the index of a side, and the parameter on it.
-type Place = (usize, f64);
+type CurvePosition = (usize, f64);
 
 impl PartRuns {
     /// Runs of a raw line; `None` if all of it lies in one part.
-    pub fn of(line: &Line) -> Option<Self> {
+    pub fn of(line: &SampledLine) -> Option<Self> {
         let n = line.len();
         let sides = if line.closed { n } else { n.saturating_sub(1) };
         let first = line.part.first()?;
@@ -68,7 +68,7 @@ impl PartRuns {
     }
 
     /// Pieces of the finished line. Points are left out if the line has none.
-    pub fn cut(mut self, line: &Line, path: &BezPath, px: f64) -> Vec<Piece> {
+    pub fn cut(mut self, line: &SampledLine, path: &BezPath, px: f64) -> Vec<PartPiece> {
         let curve: Vec<PathSeg> = path.segments().collect();
         if self.closed {
             let start = curve.first().map_or(self.points[0], PathSeg::start);
@@ -77,7 +77,7 @@ impl PartRuns {
         let sides = sides_of(line);
         let [on_curve, on_line] = [&curve, &sides].map(|segments| self.places(segments, px));
         let (Some(on_curve), on_line) = (on_curve, on_line) else {
-            return vec![Piece {
+            return vec![PartPiece {
                 line: line.clone(),
                 path: path.clone(),
                 part: self.runs[0].2,
@@ -86,7 +86,7 @@ impl PartRuns {
         };
         let count = self.runs.len();
         let piece = |k: usize| {
-            let next = |places: &[Place]| if k + 1 < count { Some(places[k + 1]) } else { None };
+            let next = |places: &[CurvePosition]| if k + 1 < count { Some(places[k + 1]) } else { None };
             let curve = between(&curve, on_curve[k], next(&on_curve), self.closed.then_some(on_curve[0]));
             let mut path = BezPath::new();
             for (i, segment) in curve.iter().enumerate() {
@@ -95,11 +95,11 @@ impl PartRuns {
                 }
                 path.push(segment.as_path_el());
             }
-            let line = on_line.as_ref().map_or_else(Line::default, |places| {
+            let line = on_line.as_ref().map_or_else(SampledLine::default, |places| {
                 line_between(line, places[k], next(places), self.closed.then_some(places[0]))
             });
             let is_end = [!self.closed && k == 0, !self.closed && k + 1 == count];
-            Piece { line, path, part: self.runs[k].2, is_end }
+            PartPiece { line, path, part: self.runs[k].2, is_end }
         };
         (0..count).map(piece).filter(|piece| !piece.path.elements().is_empty()).collect()
     }
@@ -125,13 +125,13 @@ impl PartRuns {
     }
 
     /// Start positions of the runs on the finished line, ascending; `None` if the line has no length.
-    fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<Place>> {
+    fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<CurvePosition>> {
         // Arc length at the end of each segment.
         let mut whole = 0.0;
         let ends: Vec<f64> = segments
             .iter()
             .map(|segment| {
-                whole += segment.arclen(LENGTH_PX * px);
+                whole += segment.arclen(MAX_LENGTH_ERROR_PX * px);
                 whole
             })
             .collect();
@@ -140,16 +140,16 @@ impl PartRuns {
         }
         let start = |i: usize| if i == 0 { 0.0 } else { ends[i - 1] };
         // Last position found, and its arc lengths on the finished and on the raw line.
-        let mut last: (Place, f64, f64) = ((0, 0.0), 0.0, 0.0);
+        let mut last: (CurvePosition, f64, f64) = ((0, 0.0), 0.0, 0.0);
         let mut places = Vec::with_capacity(self.runs.len());
         for (k, (at, point, _)) in self.runs.iter().enumerate() {
             if k > 0 || self.closed {
                 let step = (at - last.2) / self.length * whole;
-                let (wanted, window) = (last.1 + step, SHIFT_PX * px + SHIFT_SHARE * step);
+                let (wanted, window) = (last.1 + step, MAX_SHIFT_PX * px + MAX_SHIFT_SHARE * step);
                 let first = ends.partition_point(|end| *end < wanted - window).max(last.0.0);
                 let near = (first..segments.len()).take_while(|i| start(*i) <= wanted + window);
                 let nearest = |i: usize| {
-                    let found = segments[i].nearest(*point, LENGTH_PX * px).t;
+                    let found = segments[i].nearest(*point, MAX_LENGTH_ERROR_PX * px).t;
                     let share = if i == last.0.0 { found.max(last.0.1) } else { found };
                     ((segments[i].eval(share) - *point).hypot2(), (i, share))
                 };
@@ -165,7 +165,7 @@ impl PartRuns {
 }
 
 /// Sides of a polyline as path segments.
-fn sides_of(line: &Line) -> Vec<PathSeg> {
+fn sides_of(line: &SampledLine) -> Vec<PathSeg> {
     let n = line.len();
     let sides = if line.closed { n } else { n.saturating_sub(1) };
     let side = |i: usize| PathSeg::Line(kurbo::Line::new(line.points[i], line.points[(i + 1) % n]));
@@ -174,8 +174,13 @@ fn sides_of(line: &Line) -> Vec<PathSeg> {
 
 /// Parameter ranges of the segments between two positions. Without `to` they reach the end of the line, and
 /// in a closed line on to the first position.
-fn stretches(count: usize, from: Place, to: Option<Place>, first: Option<Place>) -> Vec<(usize, f64, f64)> {
-    let run = |from: Place, to: Place| {
+fn stretches(
+    count: usize,
+    from: CurvePosition,
+    to: Option<CurvePosition>,
+    first: Option<CurvePosition>,
+) -> Vec<(usize, f64, f64)> {
+    let run = |from: CurvePosition, to: CurvePosition| {
         (from.0..=to.0.min(count.saturating_sub(1)))
             .map(move |i| (i, if i == from.0 { from.1 } else { 0.0 }, if i == to.0 { to.1 } else { 1.0 }))
     };
@@ -185,10 +190,15 @@ fn stretches(count: usize, from: Place, to: Option<Place>, first: Option<Place>)
         (None, None) => run(from, end).collect(),
         (None, Some(first)) => run(from, end).chain(run((0, 0.0), first)).collect(),
     };
-    stretches.into_iter().filter(|(_, from, to)| to - from > LEAST_SHARE).collect()
+    stretches.into_iter().filter(|(_, from, to)| to - from > MIN_PIECE_SHARE).collect()
 }
 
-fn between(segments: &[PathSeg], from: Place, to: Option<Place>, first: Option<Place>) -> Vec<PathSeg> {
+fn between(
+    segments: &[PathSeg],
+    from: CurvePosition,
+    to: Option<CurvePosition>,
+    first: Option<CurvePosition>,
+) -> Vec<PathSeg> {
     let stretches = stretches(segments.len(), from, to, first).into_iter();
     let part = |(i, from, to): (usize, f64, f64)| {
         if from <= 0.0 && to >= 1.0 { segments[i] } else { segments[i].subsegment(from..to) }
@@ -196,11 +206,16 @@ fn between(segments: &[PathSeg], from: Place, to: Option<Place>, first: Option<P
     stretches.map(part).collect()
 }
 
-fn line_between(line: &Line, from: Place, to: Option<Place>, first: Option<Place>) -> Line {
+fn line_between(
+    line: &SampledLine,
+    from: CurvePosition,
+    to: Option<CurvePosition>,
+    first: Option<CurvePosition>,
+) -> SampledLine {
     let n = line.len();
     let sides = if line.closed { n } else { n.saturating_sub(1) };
     let stretches = stretches(sides, from, to, first);
-    let mut part = Line::default();
+    let mut part = SampledLine::default();
     let mut add = |i: usize, share: f64| {
         let j = (i + 1) % n;
         let (point, sample) = match share {
@@ -223,8 +238,8 @@ mod tests {
     use crate::chains::Sample;
     use crate::geometry::numbers::portable_math::{cos, sin};
 
-    fn ring(closed: bool, part: impl Fn(usize) -> u32) -> Line {
-        let mut line = Line { closed, ..Line::default() };
+    fn ring(closed: bool, part: impl Fn(usize) -> u32) -> SampledLine {
+        let mut line = SampledLine { closed, ..SampledLine::default() };
         for i in 0..60 {
             let turn = std::f64::consts::TAU * i as f64 / 60.0;
             let point = Point::new(100.0 * cos(turn), 100.0 * sin(turn));
@@ -233,7 +248,7 @@ mod tests {
         line
     }
 
-    fn polyline(line: &Line) -> BezPath {
+    fn polyline(line: &SampledLine) -> BezPath {
         let mut path = BezPath::new();
         line.points
             .iter()

@@ -1,12 +1,12 @@
 //! Resamples a line at even spacing.
 
-use crate::chains::sampled_line::Line;
+use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
 
 /// Evenly spaced points at most `spacing` apart, ends included. Returns the line and its actual spacing.
 ///
 /// A closed line keeps its first point.
-pub(crate) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
+pub(crate) fn resample(line: &SampledLine, spacing: f64) -> (SampledLine, f64) {
     let n = line.len();
     let sides = if line.closed { n } else { n.saturating_sub(1) };
     let lengths: Vec<f64> = (0..sides).map(|i| length(line.points[(i + 1) % n] - line.points[i])).collect();
@@ -18,7 +18,7 @@ pub(crate) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
     let count = ((total / spacing).ceil() as usize).max(least);
     let step = total / count as f64;
     let last = if line.closed { count } else { count + 1 };
-    let mut even = Line {
+    let mut even = SampledLine {
         points: Vec::with_capacity(last),
         samples: Vec::with_capacity(last),
         soft: Vec::with_capacity(last),

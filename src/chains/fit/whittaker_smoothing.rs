@@ -9,10 +9,10 @@ use crate::geometry::plane::planar_distance::length;
 use kurbo::{Point, Vec2};
 
 /// Maximum number of rounds of raising weights.
-const ROUNDS: usize = 6;
+const MAX_ROUNDS: usize = 6;
 
 /// Wavelength, in spacings, that is damped by half at weight 1.
-const CUTOFF: f64 = 36.0;
+const CUTOFF_SPACINGS: f64 = 36.0;
 
 /// Smooths evenly spaced points and moves none by more than `tolerance`. The ends of an open line stay.
 pub(crate) fn smooth(points: &[Point], closed: bool, tolerance: f64) -> Vec<Point> {
@@ -24,7 +24,7 @@ pub(crate) fn smooth(points: &[Point], closed: bool, tolerance: f64) -> Vec<Poin
         return solve(points, tolerance, true);
     }
     // A closed line is extended on both sides by more than the reach of the smoother.
-    let margin = (4.0 * CUTOFF) as usize;
+    let margin = (4.0 * CUTOFF_SPACINGS) as usize;
     let unrolled: Vec<Point> =
         (0..n + 2 * margin).map(|k| points[(k + n * (margin / n + 1) - margin) % n]).collect();
     let mut smooth = solve(&unrolled, tolerance, false);
@@ -35,7 +35,7 @@ pub(crate) fn smooth(points: &[Point], closed: bool, tolerance: f64) -> Vec<Poin
 
 fn solve(points: &[Point], tolerance: f64, pinned: bool) -> Vec<Point> {
     let n = points.len();
-    let radians = std::f64::consts::TAU / CUTOFF;
+    let radians = std::f64::consts::TAU / CUTOFF_SPACINGS;
     let stiffness = 1.0 / (radians * radians * radians * radians);
     let mut weights = vec![1.0; n];
     if pinned {
@@ -43,7 +43,7 @@ fn solve(points: &[Point], tolerance: f64, pinned: bool) -> Vec<Point> {
         weights[n - 1] = 1e9;
     }
     let mut smooth = points.to_vec();
-    for round in 0..ROUNDS {
+    for round in 0..MAX_ROUNDS {
         smooth = whittaker(points, &weights, stiffness);
         let mut strays = false;
         for i in 0..n {
@@ -53,7 +53,7 @@ fn solve(points: &[Point], tolerance: f64, pinned: bool) -> Vec<Point> {
                 weights[i] *= (ratio * ratio).min(16.0) * 2.0;
             }
         }
-        if !strays || round + 1 == ROUNDS {
+        if !strays || round + 1 == MAX_ROUNDS {
             break;
         }
     }

@@ -1,16 +1,16 @@
-//! [`Step`]: a view edge with a direction, and a total order of such steps that depends on geometry only.
+//! [`DirectedEdge`]: a view edge with a direction, and a total order of such steps that depends on geometry only.
 
 use crate::geometry::plane::planar_distance::length;
 use crate::visibility::{ViewMap, ViewVertexId};
 
 /// Edge of a route, with its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Step {
+pub(crate) struct DirectedEdge {
     pub edge: u32,
     pub reversed: bool,
 }
 
-impl Step {
+impl DirectedEdge {
     /// The same edge in the other direction.
     pub fn turned(self) -> Self {
         Self { reversed: !self.reversed, ..self }
@@ -34,8 +34,8 @@ impl Step {
 
 /// Orders steps by start, end and segment. Segments come last because their numbers depend on what else is
 /// drawn.
-pub(crate) fn order(map: &ViewMap, a: Step, b: Step) -> std::cmp::Ordering {
-    let segment = |s: Step| map.edges[s.edge as usize].segment;
+pub(crate) fn order(map: &ViewMap, a: DirectedEdge, b: DirectedEdge) -> std::cmp::Ordering {
+    let segment = |s: DirectedEdge| map.edges[s.edge as usize].segment;
     let at = |v: ViewVertexId| map.vertices[v.index()].position;
     let (p, q) = (at(a.from(map)), at(b.from(map)));
     let (r, s) = (at(a.to(map)), at(b.to(map)));

@@ -1,14 +1,14 @@
-//! [`Class`]: the properties that view edges must share to be joined into one chain.
+//! [`EdgeClass`]: the properties that view edges must share to be joined into one chain.
 
 use crate::lines::LineKind;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{MaterialId, PartId};
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 use crate::visibility::{ViewEdge, ViewMap};
 
 /// Class of a view edge. Only edges of equal class are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Class {
+pub(crate) struct EdgeClass {
     pub kind: LineKind,
     /// First part of the body. A line may continue from part to part of one surface.
     pub body: PartId,
@@ -16,10 +16,10 @@ pub(crate) struct Class {
     pub hidden: bool,
     pub silhouette: bool,
     pub both_seen: bool,
-    pub origin: Origin,
+    pub origin: MeshSource,
 }
 
-impl Class {
+impl EdgeClass {
     /// Class of an edge in the view map. All hidden edges are equal in this respect, for any invisibility
     /// above 0.
     pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {

@@ -6,31 +6,31 @@
 use crate::parallel::prelude::*;
 use kurbo::Vec2;
 
-use super::directed_edge::{Step, order};
-use super::edge_class::Class;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::directed_edge::{DirectedEdge, order};
+use super::edge_class::EdgeClass;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::visibility::ViewMap;
 
 /// Marks an end that nothing continues.
-pub(crate) const NONE: u32 = u32::MAX;
+pub(crate) const NO_PARTNER: u32 = u32::MAX;
 
 /// Maximum number of ends of one class at a vertex that are paired by direction. At larger fans only pieces
 /// of one segment are paired.
-const MOST_ENDS: usize = 48;
+const MAX_JUNCTION_ENDS: usize = 48;
 
 /// Cosine of the sharpest turn (50 degrees) of a line at a junction of lines of its class.
-const JUNCTION_COSINE: f64 = 0.643;
+const MIN_JUNCTION_COSINE: f64 = 0.643;
 
 /// Vertices per task.
-const CHUNK: usize = 4096;
+const VERTICES_PER_TASK: usize = 4096;
 
 /// Edge ends at each vertex: end `2e` is the start of edge `e`, and `2e + 1` its end.
-struct Ends(Grouped<u32>);
+struct VertexEnds(CsrLists<u32>);
 
-impl Ends {
+impl VertexEnds {
     /// Collects the ends of the edges that `keep` accepts.
     fn new(map: &ViewMap, keep: impl Fn(usize) -> bool) -> Self {
-        Self(grouped(map.vertices.len(), |put| {
+        Self(csr_lists(map.vertices.len(), |put| {
             for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
                 put(edge.start.index(), (2 * e) as u32);
                 put(edge.end.index(), (2 * e + 1) as u32);
@@ -45,7 +45,7 @@ impl Ends {
 
 /// Ends that meet at a range of vertices.
 #[derive(Debug, Default)]
-struct Met {
+struct VertexPairs {
     /// Pairs that are the only two of their class at a vertex.
     pairs: Vec<[u32; 2]>,
     /// Groups of three or more ends of one class at a vertex, concatenated, and the index after each group.
@@ -53,9 +53,9 @@ struct Met {
     crowd_ends: Vec<usize>,
 }
 
-impl Met {
+impl VertexPairs {
     /// Ends that meet at a range of vertices.
-    fn at(vertices: std::ops::Range<usize>, ends: &Ends, classes: &[Option<Class>]) -> Self {
+    fn at(vertices: std::ops::Range<usize>, ends: &VertexEnds, classes: &[Option<EdgeClass>]) -> Self {
         let mut met = Self::default();
         let mut rest: Vec<u32> = Vec::new();
         for vertex in vertices {
@@ -95,30 +95,33 @@ impl Met {
     }
 
     /// Pairs within the groups. `partner` must hold all simple pairs.
-    fn matched(mut self, map: &ViewMap, partner: &[u32], window: f64) -> Vec<[u32; 2]> {
-        let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
-        let mut junction = Junction::default();
+    fn pair_crowds(mut self, map: &ViewMap, partner: &[u32], window: f64) -> Vec<[u32; 2]> {
+        let step = |end: u32| DirectedEdge { edge: end / 2, reversed: end % 2 == 1 };
+        let mut junction = JunctionScratch::default();
         let mut matched = Vec::with_capacity(self.crowd_ends.len());
         let mut begin = 0;
         for end in self.crowd_ends {
             let crowd = &mut self.crowds[begin..end];
             // Equal turns are ordered by geometry, not by position in the map.
             crowd.sort_by(|a, b| order(map, step(*a), step(*b)));
-            junction.straightest(map, crowd, partner, window, &mut matched);
+            junction.pair_straightest(map, crowd, partner, window, &mut matched);
             begin = end;
         }
         matched
     }
 }
 
-/// Partner of each end of the edges that have a class, or [`NONE`]. `window` is the length for measuring
+/// Partner of each end of the edges that have a class, or [`NO_PARTNER`]. `window` is the length for measuring
 /// directions at junctions.
-pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
-    let ends = Ends::new(map, |e| classes[e].is_some());
-    let mut partner = vec![NONE; 2 * map.edges.len()];
+pub(crate) fn pair_ends(map: &ViewMap, classes: &[Option<EdgeClass>], window: f64) -> Vec<u32> {
+    let ends = VertexEnds::new(map, |e| classes[e].is_some());
+    let mut partner = vec![NO_PARTNER; 2 * map.edges.len()];
     let count = map.vertices.len();
-    let chunk = |k: usize| Met::at(k * CHUNK..count.min((k + 1) * CHUNK), &ends, classes);
-    let met: Vec<Met> = (0..count.div_ceil(CHUNK)).into_par_iter().with_max_len(1).map(chunk).collect();
+    let chunk = |k: usize| {
+        VertexPairs::at(k * VERTICES_PER_TASK..count.min((k + 1) * VERTICES_PER_TASK), &ends, classes)
+    };
+    let met: Vec<VertexPairs> =
+        (0..count.div_ceil(VERTICES_PER_TASK)).into_par_iter().with_max_len(1).map(chunk).collect();
     let mut join = |[a, b]: [u32; 2]| {
         partner[a as usize] = b;
         partner[b as usize] = a;
@@ -126,7 +129,7 @@ pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) ->
     met.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
     // All directions are measured before any junction is paired, so the result does not depend on the order.
     let matched: Vec<Vec<[u32; 2]>> =
-        met.into_par_iter().with_max_len(1).map(|met| met.matched(map, &partner, window)).collect();
+        met.into_par_iter().with_max_len(1).map(|met| met.pair_crowds(map, &partner, window)).collect();
     for [a, b] in matched.into_iter().flatten() {
         partner[a as usize] = b;
         partner[b as usize] = a;
@@ -134,21 +137,21 @@ pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) ->
     partner
 }
 
-fn class(classes: &[Option<Class>], end: u32) -> Option<Class> {
+fn class(classes: &[Option<EdgeClass>], end: u32) -> Option<EdgeClass> {
     classes[(end / 2) as usize]
 }
 
 /// Buffers that are reused from junction to junction.
 #[derive(Debug, Default)]
-struct Junction {
+struct JunctionScratch {
     directions: Vec<Vec2>,
     pairs: Vec<(bool, f64, usize, usize)>,
     taken: Vec<bool>,
 }
 
-impl Junction {
+impl JunctionScratch {
     /// Pairs the ends of one class at a junction: pieces of one segment first, then the smallest turns.
-    fn straightest(
+    fn pair_straightest(
         &mut self,
         map: &ViewMap,
         crowd: &[u32],
@@ -159,7 +162,7 @@ impl Junction {
         let Self { directions, pairs, taken } = self;
         let segment = |end: u32| map.edges[(end / 2) as usize].segment;
         directions.clear();
-        if crowd.len() <= MOST_ENDS {
+        if crowd.len() <= MAX_JUNCTION_ENDS {
             directions.extend(crowd.iter().map(|end| direction(map, *end, partner, window)));
         }
         pairs.clear();
@@ -170,7 +173,7 @@ impl Junction {
                     (Some(a), Some(b)) => -a.dot(*b),
                     _ => -1.0,
                 };
-                if one || cosine > JUNCTION_COSINE {
+                if one || cosine > MIN_JUNCTION_COSINE {
                     pairs.push((one, cosine, i, j));
                 }
             }
@@ -204,7 +207,7 @@ fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
             break;
         }
         match partner[(at ^ 1) as usize] {
-            NONE => break,
+            NO_PARTNER => break,
             next if next / 2 == end / 2 => break,
             next => at = next,
         }
@@ -222,7 +225,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
     use crate::lines::LineKind;
     use crate::mesh::{MaterialId, PartId};
-    use crate::surface::Origin;
+    use crate::surface::MeshSource;
     use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
     /// A random graph with the given numbers of vertices and edges.
@@ -248,7 +251,7 @@ mod tests {
                 silhouette: false,
                 both_seen: roll(5, k, 2) == 0,
                 smooth: false,
-                origin: Origin::Constructed,
+                origin: MeshSource::Constructed,
                 strength: 90.0,
                 part: PartId(0),
                 material: MaterialId(0),
@@ -259,8 +262,8 @@ mod tests {
     }
 
     /// Reference: the same pairing, one vertex and one class at a time.
-    fn plain(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
-        let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
+    fn plain(map: &ViewMap, classes: &[Option<EdgeClass>], window: f64) -> Vec<u32> {
+        let step = |end: u32| DirectedEdge { edge: end / 2, reversed: end % 2 == 1 };
         let all = || (0..2 * map.edges.len() as u32).filter(|end| class(classes, *end).is_some());
         let mut groups: Vec<Vec<u32>> = Vec::new();
         for vertex in 0..map.vertices.len() {
@@ -270,7 +273,7 @@ mod tests {
                 groups.push(group.collect());
             }
         }
-        let mut partner = vec![NONE; 2 * map.edges.len()];
+        let mut partner = vec![NO_PARTNER; 2 * map.edges.len()];
         for group in groups.iter().filter(|group| group.len() == 2) {
             (partner[group[0] as usize], partner[group[1] as usize]) = (group[1], group[0]);
         }
@@ -278,7 +281,7 @@ mod tests {
         for group in groups.iter_mut().filter(|group| group.len() > 2) {
             group.sort_by(|a, b| order(map, step(*a), step(*b)));
             let mut matched = Vec::new();
-            Junction::default().straightest(map, group, &before, window, &mut matched);
+            JunctionScratch::default().pair_straightest(map, group, &before, window, &mut matched);
             for [a, b] in matched {
                 (partner[a as usize], partner[b as usize]) = (b, a);
             }
@@ -290,10 +293,10 @@ mod tests {
     fn ends_continue_each_other_as_one_vertex_after_the_other_says() {
         for (vertices, edges) in [(1, 9), (20, 30), (300, 400), (150, 600)] {
             let map = tangle(vertices, edges);
-            let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| Class::of(&map, edge));
-            let classes: Vec<Option<Class>> = map.edges.iter().enumerate().map(of).collect();
+            let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| EdgeClass::of(&map, edge));
+            let classes: Vec<Option<EdgeClass>> = map.edges.iter().enumerate().map(of).collect();
             for window in [0.0, 500.0] {
-                assert_eq!(partners(&map, &classes, window), plain(&map, &classes, window), "{edges} edges");
+                assert_eq!(pair_ends(&map, &classes, window), plain(&map, &classes, window), "{edges} edges");
             }
         }
     }

@@ -9,15 +9,15 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use crate::parallel::{self, Parallel};
 
-use super::directed_edge::{Step, order};
-use super::edge_class::Class;
-use super::junction_pairing::{NONE, partners};
+use super::directed_edge::{DirectedEdge, order};
+use super::edge_class::EdgeClass;
+use super::junction_pairing::{NO_PARTNER, pair_ends};
 use crate::visibility::ViewMap;
 
 /// Edges in the order and direction of the lines through them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Routes {
-    steps: Vec<Step>,
+    steps: Vec<DirectedEdge>,
     spans: Vec<Span>,
 }
 
@@ -36,20 +36,22 @@ impl Routes {
     }
 
     /// Steps of a route, and whether it is closed.
-    pub fn get(&self, route: usize) -> (&[Step], bool) {
+    pub fn get(&self, route: usize) -> (&[DirectedEdge], bool) {
         let span = self.spans[route];
         (&self.steps[span.first as usize..span.end as usize], span.closed)
     }
 
-    pub fn iter(&self) -> Parallel<Range<usize>, impl parallel::Step<Range<usize>, Item = (&[Step], bool)>> {
-        (0..self.len()).into_par_iter().with_min_len(CHUNK).map(|route| self.get(route))
+    pub fn iter(
+        &self,
+    ) -> Parallel<Range<usize>, impl parallel::Step<Range<usize>, Item = (&[DirectedEdge], bool)>> {
+        (0..self.len()).into_par_iter().with_min_len(ROUTES_PER_TASK).map(|route| self.get(route))
     }
 
     /// Changes every route in place. The routes must still be stored one after another.
-    fn each(&mut self, change: impl Fn(&mut [Step], &mut Span) + Sync) {
+    fn each(&mut self, change: impl Fn(&mut [DirectedEdge], &mut Span) + Sync) {
         let mut rest = &mut self.steps[..];
-        let mut tasks = Vec::with_capacity(self.spans.len().div_ceil(CHUNK));
-        for spans in self.spans.chunks_mut(CHUNK) {
+        let mut tasks = Vec::with_capacity(self.spans.len().div_ceil(ROUTES_PER_TASK));
+        for spans in self.spans.chunks_mut(ROUTES_PER_TASK) {
             let (Some(first), Some(last)) = (spans.first(), spans.last()) else { continue };
             let count = (last.end - first.first) as usize;
             let (steps, after) = std::mem::take(&mut rest).split_at_mut(count);
@@ -67,40 +69,40 @@ impl Routes {
 }
 
 /// Routes per task.
-const CHUNK: usize = 1024;
+const ROUTES_PER_TASK: usize = 1024;
 
 /// Joins the edges that have a class. `window` is the length for measuring directions at junctions.
 ///
 /// The result does not depend on the order or direction of the edges, except for lines that coincide exactly.
-pub(crate) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Routes {
-    let partner = partners(map, classes, window);
+pub(crate) fn routes(map: &ViewMap, classes: &[Option<EdgeClass>], window: f64) -> Routes {
+    let partner = pair_ends(map, classes, window);
     let mut used: Vec<bool> = classes.iter().map(Option::is_none).collect();
     let mut routes = Routes { steps: Vec::with_capacity(map.edges.len()), spans: Vec::new() };
     // Open routes start at unpaired ends; the remaining edges form closed routes.
     for open in [true, false] {
         for end in 0..partner.len() {
-            if used[end / 2] || (open && partner[end] != NONE) {
+            if used[end / 2] || (open && partner[end] != NO_PARTNER) {
                 continue;
             }
             let first = routes.steps.len();
             let mut at = end as u32;
             loop {
                 used[(at / 2) as usize] = true;
-                routes.steps.push(Step { edge: at / 2, reversed: at % 2 == 1 });
+                routes.steps.push(DirectedEdge { edge: at / 2, reversed: at % 2 == 1 });
                 let next = partner[(at ^ 1) as usize];
-                if next == NONE || used[(next / 2) as usize] {
+                if next == NO_PARTNER || used[(next / 2) as usize] {
                     break;
                 }
                 at = next;
             }
             let end = routes.steps.len() as u32;
-            routes.spans.push(Span { first: first as u32, end, closed: !open, segment: NONE });
+            routes.spans.push(Span { first: first as u32, end, closed: !open, segment: NO_PARTNER });
         }
     }
     routes.each(|steps, span| {
         make_canonical(map, steps, span.closed);
         let segments = steps.iter().map(|step| map.edges[step.edge as usize].segment);
-        span.segment = segments.min().unwrap_or(NONE);
+        span.segment = segments.min().unwrap_or(NO_PARTNER);
     });
     let steps = &routes.steps;
     routes.spans.par_sort_by(|a, b| {
@@ -111,15 +113,15 @@ pub(crate) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> R
 }
 
 /// Gives a route a direction, and a closed route a start, that depend on its geometry only.
-fn make_canonical(map: &ViewMap, steps: &mut [Step], closed: bool) {
-    let reverse = |steps: &mut [Step]| {
+fn make_canonical(map: &ViewMap, steps: &mut [DirectedEdge], closed: bool) {
+    let reverse = |steps: &mut [DirectedEdge]| {
         steps.reverse();
         for step in steps {
             *step = step.turned();
         }
     };
     if closed {
-        let lower = |s: Step| if order(map, s, s.turned()).is_le() { s } else { s.turned() };
+        let lower = |s: DirectedEdge| if order(map, s, s.turned()).is_le() { s } else { s.turned() };
         let least = |a: &usize, b: &usize| order(map, lower(steps[*a]), lower(steps[*b]));
         let Some(start) = (0..steps.len()).min_by(least) else { return };
         if order(map, steps[start], steps[start].turned()).is_le() {

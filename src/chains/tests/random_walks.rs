@@ -123,7 +123,7 @@ fn simplifying_twice_is_simplifying_once() {
     all(|dice, lines| {
         let tolerance = 0.1 + f64::from(dice.below(90)) / 10.0;
         for (points, ..) in lines {
-            let mut line = Line::default();
+            let mut line = SampledLine::default();
             points
                 .iter()
                 .for_each(|(x, y)| line.push(Point::new(*x, *y), Sample::new(1.0, 1.0), true, false));

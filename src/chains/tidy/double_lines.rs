@@ -10,45 +10,45 @@ use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
 use rustc_hash::FxHashMap;
 
-use super::raw_line::{Degrees, Raw};
-use super::removed_lines::{Bin, Reason};
+use super::raw_line::{RawLine, VertexDegrees};
+use super::removed_lines::{RemovalLog, RemovalReason};
 use super::short_lines::may_be_noise;
-use crate::chains::sampled_line::Line;
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
-use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::chains::sampled_line::SampledLine;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
 use crate::lines::LineKind;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 use crate::visibility::ViewVertexId;
 
 /// Largest distance between double lines, in tidy lengths.
-const DOUBLE: f64 = 0.3;
+const MAX_DISTANCE_TIDY_LENGTHS: f64 = 0.3;
 
 /// Cosine of the largest angle (35 degrees) between parallel lines.
-const PARALLEL_COSINE: f64 = 0.82;
+const MIN_PARALLEL_COSINE: f64 = 0.82;
 
 /// Minimum share of a line that must run next to others for the line to be a double.
-const COVERED: f64 = 0.8;
+const MIN_COVERED_SHARE: f64 = 0.8;
 
 /// Window for the direction of a jagged line, in double distances.
-const WINDOW: f64 = 4.0;
+const DIRECTION_WINDOW_DISTANCES: f64 = 4.0;
 
 /// Maximum length of a short overlap, in double distances, and how much larger its distance to other lines
 /// may be. For the side of a rim the length of the whole rim counts.
-const FLAKE: f64 = 21.0;
-const FLAKE_DISTANCE: f64 = 4.0;
+const MAX_FLAKE_DISTANCES: f64 = 21.0;
+const FLAKE_DISTANCE_RATIO: f64 = 4.0;
 
 /// Maximum share of silhouette in a short overlap.
-const OUTLINE: f64 = 0.25;
+const MAX_FLAKE_SILHOUETTE_SHARE: f64 = 0.25;
 
 /// Minimum length of an uncovered stretch of a double that is still drawn, in double distances. One that
 /// contains silhouette is drawn if the silhouette is longer than one distance.
-const BARE: f64 = 10.0;
+const MIN_UNCOVERED_DISTANCES: f64 = 10.0;
 
 /// Minimum number of lines per task.
-const MIN_LINES: usize = 8;
+const MIN_LINES_PER_TASK: usize = 8;
 
 /// Largest lengthwise offset between parallel lines, as a share of the distance.
-const ABREAST: f64 = 0.3;
+const MAX_OVERHANG_RATIO: f64 = 0.3;
 
 /// Straight piece of a visible line, with its smoothed direction.
 #[derive(Debug, Clone, Copy)]
@@ -60,12 +60,12 @@ struct LinePiece {
 }
 
 /// Pieces of lines by square cells of the page.
-struct Buckets {
+struct PieceGrid {
     cell: f64,
     corner: Point,
     columns: usize,
     rows: usize,
-    pieces: Grouped<u32>,
+    pieces: CsrLists<u32>,
 }
 
 /// Drops smooth contours, and creases of scans and roundings, that double a longer visible line. Their
@@ -73,20 +73,25 @@ struct Buckets {
 ///
 /// A line that may be noise covers no other. The middle line of a rounding gives way to any other line and
 /// covers none of them.
-pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
-    let distance = DOUBLE * tidy;
+pub(crate) fn drop_doubles(
+    raws: &mut Vec<RawLine>,
+    degrees: &mut VertexDegrees,
+    tidy: f64,
+    bin: &mut RemovalLog,
+) {
+    let distance = MAX_DISTANCE_TIDY_LENGTHS * tidy;
     if !raws.par_iter().any(is_suspect) {
         return;
     }
-    let pieces_of = |(i, raw): (usize, &Raw)| {
+    let pieces_of = |(i, raw): (usize, &RawLine)| {
         let pieces = if raw.class.hidden { Vec::new() } else { collect(i as u32, &raw.line, distance) };
         (pieces, raw.length())
     };
     let (found, lengths): (Vec<Vec<LinePiece>>, Vec<f64>) = raws
         .par_iter()
         .enumerate()
-        .with_min_len(MIN_LINES)
-        .with_max_len(2 * MIN_LINES)
+        .with_min_len(MIN_LINES_PER_TASK)
+        .with_max_len(2 * MIN_LINES_PER_TASK)
         .map(pieces_of)
         .unzip();
     let mut ends = 0;
@@ -96,8 +101,8 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
     };
     let spans: Vec<usize> = std::iter::once(0).chain(found.iter().map(end)).collect();
     let pieces = found.concat();
-    let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
-    let rims = Rims::of(raws, &lengths);
+    let Some(buckets) = PieceGrid::new(&pieces, 4.0 * distance) else { return };
+    let rims = RimLengths::of(raws, &lengths);
     let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
     let roundings: Vec<bool> = raws.iter().map(is_rounding).collect();
     // For each side of a double, whether it is uncovered; none for other lines. Only longer lines cover a
@@ -110,9 +115,10 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
         let total = lengths[i];
         // A short line is more likely an artefact, but a gap in the silhouette would be worse.
         let whole = rims.length(&raws[i], total);
-        let flake = whole < FLAKE * distance && raws[i].silhouette_part() < OUTLINE;
-        let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
-        let allowed = (1.0 - COVERED) * total;
+        let flake =
+            whole < MAX_FLAKE_DISTANCES * distance && raws[i].silhouette_part() < MAX_FLAKE_SILHOUETTE_SHARE;
+        let distance = if flake { FLAKE_DISTANCE_RATIO * distance } else { distance };
+        let allowed = (1.0 - MIN_COVERED_SHARE) * total;
         let mut bare = 0.0;
         let mut alone = Vec::with_capacity(own.len());
         for piece in own {
@@ -143,8 +149,8 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
     };
     let gone: Vec<Option<Vec<bool>>> = (0..raws.len())
         .into_par_iter()
-        .with_min_len(MIN_LINES)
-        .with_max_len(2 * MIN_LINES)
+        .with_min_len(MIN_LINES_PER_TASK)
+        .with_max_len(2 * MIN_LINES_PER_TASK)
         .map(alone)
         .collect();
     if gone.iter().all(Option::is_none) {
@@ -157,9 +163,9 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
             continue;
         };
         let parts = parts_alone(&raw, &alone, distance);
-        bin.put(&raw, || Reason::Double);
+        bin.put(&raw, || RemovalReason::Double);
         if parts.is_empty() {
-            degrees.leave_out(&raw);
+            degrees.remove_line(&raw);
         }
         kept.extend(parts);
     }
@@ -167,10 +173,10 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
 }
 
 /// Total lengths of lines with the same two end vertices, such as the near and the far side of a hole's rim.
-struct Rims(FxHashMap<[ViewVertexId; 2], f64>);
+struct RimLengths(FxHashMap<[ViewVertexId; 2], f64>);
 
-impl Rims {
-    fn of(raws: &[Raw], lengths: &[f64]) -> Self {
+impl RimLengths {
+    fn of(raws: &[RawLine], lengths: &[f64]) -> Self {
         let mut rims = FxHashMap::default();
         for (raw, length) in raws.iter().zip(lengths).filter(|(raw, _)| !raw.class.hidden && !raw.is_ring()) {
             *rims.entry(Self::key(raw)).or_insert(0.0) += length;
@@ -178,20 +184,20 @@ impl Rims {
         Self(rims)
     }
 
-    fn key(raw: &Raw) -> [ViewVertexId; 2] {
+    fn key(raw: &RawLine) -> [ViewVertexId; 2] {
         let [a, b] = raw.ends;
         [a.min(b), a.max(b)]
     }
 
     /// Length of the rim that a line is a side of, or its own length.
-    fn length(&self, raw: &Raw, own: f64) -> f64 {
+    fn length(&self, raw: &RawLine, own: f64) -> f64 {
         if raw.is_ring() { own } else { self.0.get(&Self::key(raw)).copied().unwrap_or(own) }
     }
 }
 
 /// Stretches of a double that are drawn: long uncovered runs, and runs with silhouette longer than
 /// `distance`.
-fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
+fn parts_alone(raw: &RawLine, alone: &[bool], distance: f64) -> Vec<RawLine> {
     if !alone.contains(&true) {
         return Vec::new();
     }
@@ -211,12 +217,12 @@ fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
         let long = |side: usize| length(open.points[side + 1] - open.points[side]);
         let all: f64 = (first..=last).map(long).sum();
         let outline: f64 = (first..=last).filter(|side| open.silhouette[*side]).map(long).sum();
-        if all > BARE * distance || outline > distance {
+        if all > MIN_UNCOVERED_DISTANCES * distance || outline > distance {
             let ends = [first == 0, last + 1 == sides];
             let covered = [0, 1].map(|end| !raw.line.closed && ends[end] && raw.covered[end]);
             // Another line continues at the cut, so the vertices keep their degree.
             let part =
-                Raw { line: open.slice(first, last + 1), covered, vertices: Vec::new(), ..raw.clone() };
+                RawLine { line: open.slice(first, last + 1), covered, vertices: Vec::new(), ..raw.clone() };
             parts.push(part);
         }
         first = last + 1;
@@ -225,26 +231,26 @@ fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
 }
 
 /// Whether a line may be a double. Lines of exact models are all drawn.
-fn is_suspect(raw: &Raw) -> bool {
+fn is_suspect(raw: &RawLine) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
             LineKind::Contour => raw.smooth,
-            LineKind::Crease => raw.class.origin == Origin::Scanned || is_rounding(raw),
+            LineKind::Crease => raw.class.origin == MeshSource::Scanned || is_rounding(raw),
             _ => false,
         }
 }
 
 /// Whether a line is the middle line of a rounding: a crease on a surface that is smooth across it.
-fn is_rounding(raw: &Raw) -> bool {
-    raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != Origin::Scanned
+fn is_rounding(raw: &RawLine) -> bool {
+    raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != MeshSource::Scanned
 }
 
 /// Pieces of a line, each with its direction over a few distances.
-fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
+fn collect(index: u32, line: &SampledLine, distance: f64) -> Vec<LinePiece> {
     let n = line.len();
     let sides = if line.closed { n } else { n - 1 };
     let mut pieces = Vec::with_capacity(sides);
-    let reach = WINDOW * distance / 2.0;
+    let reach = DIRECTION_WINDOW_DISTANCES * distance / 2.0;
     for k in 0..sides {
         let (a, b) = (line.points[k], line.points[(k + 1) % n]);
         let mut low = k;
@@ -262,12 +268,12 @@ fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
 }
 
 /// Pieces per task.
-const PIECES: usize = 1 << 10;
+const PIECES_PER_TASK: usize = 1 << 10;
 
 /// Maximum number of grid cells per piece.
-const CELLS_OF_PIECE: usize = 8;
+const MAX_CELLS_PER_PIECE: usize = 8;
 
-impl Buckets {
+impl PieceGrid {
     fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
         let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
         let mut low = ends().next()?;
@@ -278,23 +284,23 @@ impl Buckets {
         }
         // At most a million cells on giant pages, and few cells for few pieces.
         let (width, height) = (high.x - low.x, high.y - low.y);
-        let of_piece = (width * height / (CELLS_OF_PIECE * pieces.len()) as f64).sqrt();
+        let of_piece = (width * height / (MAX_CELLS_PER_PIECE * pieces.len()) as f64).sqrt();
         let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
         if !cell.is_finite() || cell <= 0.0 {
             return None;
         }
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
-        let mut buckets = Self { cell, corner: low, columns, rows, pieces: Grouped::default() };
+        let mut buckets = Self { cell, corner: low, columns, rows, pieces: CsrLists::default() };
         let cells_of = |(chunk, some): (usize, &[LinePiece])| {
             let mut found = Vec::with_capacity(2 * some.len());
-            for (i, piece) in (chunk * PIECES..).zip(some) {
+            for (i, piece) in (chunk * PIECES_PER_TASK..).zip(some) {
                 buckets.each_cell(piece.a, piece.b, |cell| found.push((cell, i as u32)));
             }
             found
         };
         let found: Vec<Vec<(usize, u32)>> =
-            pieces.par_chunks(PIECES).enumerate().with_max_len(1).map(cells_of).collect();
-        buckets.pieces = grouped_pairs(columns * rows, found.iter().flatten().copied());
+            pieces.par_chunks(PIECES_PER_TASK).enumerate().with_max_len(1).map(cells_of).collect();
+        buckets.pieces = csr_lists_from_pairs(columns * rows, found.iter().flatten().copied());
         Some(buckets)
     }
 
@@ -334,10 +340,10 @@ impl Buckets {
         let (columns, rows) = self.range(point, point, distance);
         rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
             self.pieces.of(row * self.columns + column).iter().map(|i| &pieces[*i as usize]).any(|other| {
-                other.direction.dot(direction).abs() >= PARALLEL_COSINE
-                    && other.is_abreast(point, ABREAST * distance)
+                other.direction.dot(direction).abs() >= MIN_PARALLEL_COSINE
+                    && other.is_abreast(point, MAX_OVERHANG_RATIO * distance)
                     && admit(other.line)
-                    && distance2(point, other.a, other.b) <= distance * distance
+                    && segment_distance_squared(point, other.a, other.b) <= distance * distance
             })
         })
     }
@@ -356,24 +362,24 @@ impl LinePiece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chains::link::edge_class::Class;
+    use crate::chains::link::edge_class::EdgeClass;
     use crate::chains::sample::Sample;
     use crate::mesh::{MaterialId, PartId};
     use crate::visibility::ViewMap;
 
-    fn contour(points: &[(f64, f64)], ends: [u32; 2]) -> Raw {
-        let mut line = Line::default();
+    fn contour(points: &[(f64, f64)], ends: [u32; 2]) -> RawLine {
+        let mut line = SampledLine::default();
         points.iter().for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), true, false));
-        let class = Class {
+        let class = EdgeClass {
             kind: LineKind::Contour,
             body: PartId(0),
             material: MaterialId(0),
             hidden: false,
             silhouette: false,
             both_seen: false,
-            origin: Origin::Scanned,
+            origin: MeshSource::Scanned,
         };
-        Raw {
+        RawLine {
             line,
             class,
             invisibility: 0,
@@ -394,8 +400,8 @@ mod tests {
             let near = contour(&[(50.0, 3.0), (65.0, 3.0)], [2, 3]);
             let far = contour(&[(50.0, 3.0), (57.0, 7.0), (65.0, 3.0)], far_ends);
             let mut raws = vec![outline, near, far];
-            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
-            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            let mut degrees = VertexDegrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut RemovalLog::default());
             raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
         };
         assert_eq!(left([3, 2]), [0, 2, 3], "both sides of a rim end in the same two places");
@@ -411,8 +417,8 @@ mod tests {
             crease.smooth = false;
             crease.pronounced = pronounced;
             let mut raws = vec![rim, crease];
-            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
-            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            let mut degrees = VertexDegrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut RemovalLog::default());
             raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
         };
         assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
@@ -426,10 +432,10 @@ mod tests {
             let mut crease = contour(&[(50.0, 2.5), (119.0, 2.5), (123.0, 2.5)], [2, 3]);
             crease.class.kind = LineKind::Crease;
             (crease.class.origin, crease.smooth, crease.pronounced) =
-                (Origin::Constructed, is_rounding, 100.0);
+                (MeshSource::Constructed, is_rounding, 100.0);
             let mut raws = vec![outline, crease];
-            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
-            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            let mut degrees = VertexDegrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut RemovalLog::default());
             raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
         };
         assert_eq!(left(true), [0]);

@@ -3,15 +3,15 @@
 //! For a fraction of a px, mesh contours dip behind folds of the surface next to them. A pen would draw one
 //! line.
 
-use crate::chains::link::directed_edge::Step;
-use crate::chains::link::edge_class::Class;
+use crate::chains::link::directed_edge::DirectedEdge;
+use crate::chains::link::edge_class::EdgeClass;
 use crate::chains::link::routes::Routes;
 use crate::lines::LineKind;
-use crate::visibility::{Ahead, ViewMap, Way};
+use crate::visibility::{GapOcclusion, GapSegment, ViewMap};
 
 /// Run of route steps that are all hidden or all visible.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct VisibilityRun {
     first: usize,
     end: usize,
     length: f64,
@@ -22,17 +22,17 @@ struct Stretch {
 ///
 /// A stretch must be shorter than `gap`, lie between visible stretches, and be hidden by its own surface
 /// only. `routes` must join edges regardless of visibility.
-pub(crate) fn bridge(
+pub(crate) fn bridge_gaps(
     map: &ViewMap,
     routes: &Routes,
     gap: f64,
-    ahead: Option<&Ahead>,
-    classes: &mut [Option<Class>],
+    ahead: Option<&GapOcclusion>,
+    classes: &mut [Option<EdgeClass>],
 ) {
-    let gaps: Vec<Gap> =
+    let gaps: Vec<HiddenGap> =
         routes.iter().flat_map_iter(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
-    let ways: Vec<Way> = gaps.iter().map(|gap| gap.way).collect();
-    let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.hides(&ways));
+    let ways: Vec<GapSegment> = gaps.iter().map(|gap| gap.way).collect();
+    let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.occluded_gaps(&ways));
     for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
         for step in &gap.steps {
             if let Some(class) = &mut classes[step.edge as usize] {
@@ -43,20 +43,26 @@ pub(crate) fn bridge(
 }
 
 /// Hidden stretch that may be bridged.
-struct Gap {
-    steps: Vec<Step>,
-    way: Way,
+struct HiddenGap {
+    steps: Vec<DirectedEdge>,
+    way: GapSegment,
 }
 
 /// Hidden stretches shorter than `gap` between visible stretches of one smooth contour.
-fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option<Class>]) -> Vec<Gap> {
-    let is_hidden = |step: &Step| class(classes, step).is_none_or(|c| c.hidden);
+fn gaps(
+    map: &ViewMap,
+    steps: &[DirectedEdge],
+    closed: bool,
+    gap: f64,
+    classes: &[Option<EdgeClass>],
+) -> Vec<HiddenGap> {
+    let is_hidden = |step: &DirectedEdge| class(classes, step).is_none_or(|c| c.hidden);
     if !steps.iter().any(is_hidden) {
         return Vec::new();
     }
     let runs = runs(map, steps, closed, is_hidden);
     let count = runs.len();
-    let smooth = |step: &Step| {
+    let smooth = |step: &DirectedEdge| {
         let edge = &map.edges[step.edge as usize];
         edge.kind == LineKind::Contour && edge.smooth
     };
@@ -71,19 +77,19 @@ fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option
         if beside(i + count - 1).max(beside(i + 1)) < run.length {
             continue;
         }
-        let own: Vec<Step> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
+        let own: Vec<DirectedEdge> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
         if own.iter().all(smooth) {
-            gaps.extend(Gap::new(map, own));
+            gaps.extend(HiddenGap::new(map, own));
         }
     }
     gaps
 }
 
-impl Gap {
-    fn new(map: &ViewMap, steps: Vec<Step>) -> Option<Self> {
+impl HiddenGap {
+    fn new(map: &ViewMap, steps: Vec<DirectedEdge>) -> Option<Self> {
         let (first, last) = (*steps.first()?, *steps.last()?);
         let ends = [first.from(map), last.to(map)].map(|v| map.vertices[v.index()]);
-        let way = Way {
+        let way = GapSegment {
             ends: ends.map(|vertex| vertex.position),
             depths: ends.map(|vertex| vertex.depth),
             segments: [first, last].map(|step| map.edges[step.edge as usize].segment),
@@ -94,11 +100,16 @@ impl Gap {
 
 /// Runs of equal value along a route. In a closed route the last run may pass the start of the route: its
 /// `end` then exceeds the number of steps.
-fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Stretch> {
+fn runs(
+    map: &ViewMap,
+    steps: &[DirectedEdge],
+    closed: bool,
+    value: impl Fn(&DirectedEdge) -> bool,
+) -> Vec<VisibilityRun> {
     let n = steps.len();
     let start =
         if closed { (1..n).find(|k| value(&steps[*k]) != value(&steps[k - 1])).unwrap_or(0) } else { 0 };
-    let mut runs: Vec<Stretch> = Vec::new();
+    let mut runs: Vec<VisibilityRun> = Vec::new();
     for k in start..start + n {
         let step = &steps[k % n];
         let (now, length) = (value(step), step.length(map));
@@ -107,12 +118,12 @@ fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bo
                 run.end = k + 1;
                 run.length += length;
             }
-            _ => runs.push(Stretch { first: k, end: k + 1, length, value: now }),
+            _ => runs.push(VisibilityRun { first: k, end: k + 1, length, value: now }),
         }
     }
     runs
 }
 
-fn class(classes: &[Option<Class>], step: &Step) -> Option<Class> {
+fn class(classes: &[Option<EdgeClass>], step: &DirectedEdge) -> Option<EdgeClass> {
     classes[step.edge as usize]
 }

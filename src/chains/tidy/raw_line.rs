@@ -1,21 +1,21 @@
-//! [`Raw`]: the line of a route, with the properties that tidying needs.
+//! [`RawLine`]: the line of a route, with the properties that tidying needs.
 
-use crate::chains::link::edge_class::Class;
+use crate::chains::link::edge_class::EdgeClass;
 use crate::chains::link::routes::Routes;
-use crate::chains::sampled_line::Line;
+use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
 use crate::lines::LineKind;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 use crate::visibility::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
 
 /// Largest dihedral angle of a scan's crease that may be noise, degrees.
-const FAINT_DEG: f32 = 45.0;
+const MAX_NOISE_DEG: f32 = 45.0;
 
 /// Line before smoothing.
 #[derive(Debug, Clone)]
-pub(crate) struct Raw {
-    pub line: Line,
-    pub class: Class,
+pub(crate) struct RawLine {
+    pub line: SampledLine,
+    pub class: EdgeClass,
     /// Smallest number of surfaces in front of its hidden edges; 0 if it is visible.
     pub invisibility: u16,
     /// Whether more than half of its edges lie on smooth surfaces.
@@ -34,16 +34,21 @@ pub(crate) struct Raw {
     pub segment: u32,
 }
 
-impl Raw {
+impl RawLine {
     /// Line of a route; `None` if the route projects to a point. Contours and creases of scans count as
     /// smooth.
-    pub fn of_route(map: &ViewMap, routes: &Routes, route: usize, classes: &[Option<Class>]) -> Option<Self> {
+    pub fn of_route(
+        map: &ViewMap,
+        routes: &Routes,
+        route: usize,
+        classes: &[Option<EdgeClass>],
+    ) -> Option<Self> {
         let (steps, closed) = routes.get(route);
         let (first, last) = (steps.first()?, steps.last()?);
         let class = classes[first.edge as usize]?;
         let noisy =
-            class.origin == Origin::Scanned && matches!(class.kind, LineKind::Contour | LineKind::Crease);
-        let line = Line::of_route(map, steps, closed, noisy);
+            class.origin == MeshSource::Scanned && matches!(class.kind, LineKind::Contour | LineKind::Crease);
+        let line = SampledLine::of_route(map, steps, closed, noisy);
         // A closed line of two points becomes an open one that runs there and back.
         let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };
         if line.len() < 2 {
@@ -52,7 +57,8 @@ impl Raw {
         let edges = || steps.iter().map(|step| &map.edges[step.edge as usize]);
         let hidden = edges().map(|edge| edge.invisibility).filter(|i| *i > 0).min().unwrap_or(0);
         let pronounced = if class.kind == LineKind::Crease {
-            let excess = |edge: &ViewEdge| f64::from((edge.strength - FAINT_DEG) / (90.0 - FAINT_DEG));
+            let excess =
+                |edge: &ViewEdge| f64::from((edge.strength - MAX_NOISE_DEG) / (90.0 - MAX_NOISE_DEG));
             edges().zip(steps).map(|(edge, step)| excess(edge) * step.length(map)).sum()
         } else {
             0.0
@@ -95,10 +101,10 @@ impl Raw {
 }
 
 /// Number of visible edge ends at each view vertex.
-pub(crate) struct Degrees(Vec<u32>);
+pub(crate) struct VertexDegrees(Vec<u32>);
 
-impl Degrees {
-    pub fn new(map: &ViewMap, classes: &[Option<Class>]) -> Self {
+impl VertexDegrees {
+    pub fn new(map: &ViewMap, classes: &[Option<EdgeClass>]) -> Self {
         let mut degrees = vec![0; map.vertices.len()];
         for (edge, class) in map.edges.iter().zip(classes) {
             if class.is_some_and(|class| !class.hidden) {
@@ -125,7 +131,7 @@ impl Degrees {
     }
 
     /// Removes all edges of a line that is dropped.
-    pub fn leave_out(&mut self, raw: &Raw) {
+    pub fn remove_line(&mut self, raw: &RawLine) {
         raw.vertices.iter().for_each(|vertex| self.cut_off(*vertex));
     }
 }

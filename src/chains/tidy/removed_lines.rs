@@ -1,14 +1,14 @@
-//! [`Removed`]: lines that tidying dropped, and why. Recorded on request only.
+//! [`RemovedLine`]: lines that tidying dropped, and why. Recorded on request only.
 
 use kurbo::Point;
 
-use super::raw_line::{Degrees, Raw};
+use super::raw_line::{RawLine, VertexDegrees};
 use crate::lines::LineKind;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 
 /// Why a line was dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Reason {
+pub enum RemovalReason {
     /// Short and isolated.
     Crumb,
     /// Short, with one dangling end.
@@ -27,7 +27,7 @@ pub enum Reason {
     Point,
 }
 
-impl Reason {
+impl RemovalReason {
     /// All reasons.
     pub const ALL: [Self; 8] =
         [Self::Crumb, Self::Spur, Self::Stub, Self::Loop, Self::Double, Self::Noise, Self::Weak, Self::Point];
@@ -48,11 +48,11 @@ impl Reason {
     }
 
     /// Reason for a line that was found to be too short.
-    pub(crate) fn of_crumb(raw: &Raw, degrees: &Degrees) -> Self {
+    pub(crate) fn of_short_line(raw: &RawLine, degrees: &VertexDegrees) -> Self {
         let ends = [0, 1].map(|side| raw.covered[side] || degrees.is_free(raw.ends[side]));
         match raw.class.kind {
             kind if kind.is_inside() => Self::Weak,
-            LineKind::Crease if raw.class.origin == Origin::Scanned => Self::Noise,
+            LineKind::Crease if raw.class.origin == MeshSource::Scanned => Self::Noise,
             _ if raw.is_ring() => Self::Loop,
             _ if ends[0] && ends[1] => Self::Crumb,
             _ => Self::Spur,
@@ -62,7 +62,7 @@ impl Reason {
 
 /// A dropped line, or a dropped part of one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Removed {
+pub struct RemovedLine {
     /// Points in user units of the page.
     pub points: Vec<Point>,
     /// Whether the last point joins the first.
@@ -70,43 +70,43 @@ pub struct Removed {
     /// Kind of line.
     pub kind: LineKind,
     /// Why it was dropped.
-    pub reason: Reason,
+    pub reason: RemovalReason,
 }
 
-/// Log of dropped lines. Records nothing unless created by [`Bin::kept`].
+/// Log of dropped lines. Records nothing unless created by [`RemovalLog::kept`].
 #[derive(Debug, Default)]
-pub(crate) struct Bin(Option<Vec<Removed>>);
+pub(crate) struct RemovalLog(Option<Vec<RemovedLine>>);
 
-impl Bin {
+impl RemovalLog {
     /// A log that records lines.
     pub fn kept() -> Self {
         Self(Some(Vec::new()))
     }
 
     /// Records a whole line.
-    pub fn put(&mut self, raw: &Raw, reason: impl FnOnce() -> Reason) {
+    pub fn put(&mut self, raw: &RawLine, reason: impl FnOnce() -> RemovalReason) {
         if let Some(kept) = &mut self.0 {
             let (points, closed) = (raw.line.points.clone(), raw.line.closed);
-            kept.push(Removed { points, closed, kind: raw.class.kind, reason: reason() });
+            kept.push(RemovedLine { points, closed, kind: raw.class.kind, reason: reason() });
         }
     }
 
     /// Records a part of a line.
-    pub fn put_part(&mut self, raw: &Raw, reason: Reason, points: impl FnOnce() -> Vec<Point>) {
+    pub fn record_part(&mut self, raw: &RawLine, reason: RemovalReason, points: impl FnOnce() -> Vec<Point>) {
         if let Some(kept) = &mut self.0 {
-            kept.push(Removed { points: points(), closed: false, kind: raw.class.kind, reason });
+            kept.push(RemovedLine { points: points(), closed: false, kind: raw.class.kind, reason });
         }
     }
 
     /// Records a single edge that became part of no line.
-    pub fn put_piece(&mut self, kind: LineKind, reason: Reason, ends: [Point; 2]) {
+    pub fn record_piece(&mut self, kind: LineKind, reason: RemovalReason, ends: [Point; 2]) {
         if let Some(kept) = &mut self.0 {
-            kept.push(Removed { points: ends.to_vec(), closed: false, kind, reason });
+            kept.push(RemovedLine { points: ends.to_vec(), closed: false, kind, reason });
         }
     }
 
     /// All records, in order.
-    pub fn emptied(self) -> Vec<Removed> {
+    pub fn into_removed(self) -> Vec<RemovedLine> {
         self.0.unwrap_or_default()
     }
 }

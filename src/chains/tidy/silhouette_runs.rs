@@ -2,14 +2,14 @@
 //!
 //! On rounded surfaces the property flickers, so runs that are too short are merged into their neighbours.
 
-use super::raw_line::Raw;
-use crate::chains::link::edge_class::Class;
-use crate::chains::sampled_line::Line;
+use super::raw_line::RawLine;
+use crate::chains::link::edge_class::EdgeClass;
+use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
 
 /// Run of sides that are all silhouette, or all not.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct SilhouetteRun {
     first: usize,
     end: usize,
     length: f64,
@@ -20,7 +20,7 @@ struct Stretch {
 
 /// Minimum lengths of runs, user units.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shortest {
+pub(crate) struct MinRunLengths {
     /// On rounded surfaces, and for lines found in the image.
     pub soft: f64,
     /// On sharp edges.
@@ -30,7 +30,7 @@ pub(crate) struct Shortest {
 /// Cuts a line into parts that are all silhouette, or all not, each of the minimum length.
 ///
 /// Returns `None` for a line with a single part. Its class is then set.
-pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
+pub(crate) fn split_at_silhouette(raw: &mut RawLine, shortest: MinRunLengths) -> Option<Vec<RawLine>> {
     if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
         raw.class.silhouette = raw.line.silhouette[0];
         return None;
@@ -40,12 +40,12 @@ pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
     let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
     let opened = raw.line.closed.then(|| raw.line.opened_at(change.unwrap_or(0)));
     let open = opened.as_ref().unwrap_or(&raw.line);
-    let runs = even(runs(open), shortest);
+    let runs = merge_short_runs(runs(open), shortest);
     if let [run] = runs[..] {
         raw.class.silhouette = run.value;
         return None;
     }
-    let part = |(i, run): (usize, &Stretch)| {
+    let part = |(i, run): (usize, &SilhouetteRun)| {
         let mut part = with_silhouette(raw, open.slice(run.first, run.end), run.value);
         part.covered = [i == 0 && raw.covered[0], i + 1 == runs.len() && raw.covered[1]];
         part
@@ -54,12 +54,12 @@ pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
 }
 
 /// Part of a line. Its vertices are not needed any more.
-fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
-    Raw { line, class: Class { silhouette, ..raw.class }, vertices: Vec::new(), ..*raw }
+fn with_silhouette(raw: &RawLine, line: SampledLine, silhouette: bool) -> RawLine {
+    RawLine { line, class: EdgeClass { silhouette, ..raw.class }, vertices: Vec::new(), ..*raw }
 }
 
-fn runs(line: &Line) -> Vec<Stretch> {
-    let mut runs: Vec<Stretch> = Vec::new();
+fn runs(line: &SampledLine) -> Vec<SilhouetteRun> {
+    let mut runs: Vec<SilhouetteRun> = Vec::new();
     for i in 0..line.len() - 1 {
         let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
         let is_hard = !line.soft[i];
@@ -69,22 +69,22 @@ fn runs(line: &Line) -> Vec<Stretch> {
                 run.length += side;
                 run.is_hard &= is_hard;
             }
-            _ => runs.push(Stretch { first: i, end: i + 1, length: side, value, is_hard }),
+            _ => runs.push(SilhouetteRun { first: i, end: i + 1, length: side, value, is_hard }),
         }
     }
     runs
 }
 
 /// Merges the shortest run below the minimum with its neighbours, until all runs are long enough.
-fn even(mut runs: Vec<Stretch>, shortest: Shortest) -> Vec<Stretch> {
+fn merge_short_runs(mut runs: Vec<SilhouetteRun>, shortest: MinRunLengths) -> Vec<SilhouetteRun> {
     while runs.len() > 1 {
-        let least = |run: &Stretch| if run.is_hard { shortest.hard } else { shortest.soft };
+        let least = |run: &SilhouetteRun| if run.is_hard { shortest.hard } else { shortest.soft };
         let too_short = (0..runs.len()).filter(|k| runs[*k].length < least(&runs[*k]));
         let Some(least) = too_short.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
         let low = least.saturating_sub(1);
         let high = (least + 1).min(runs.len() - 1);
         let value = if low == least { runs[high].value } else { runs[low].value };
-        let joined = Stretch {
+        let joined = SilhouetteRun {
             first: runs[low].first,
             end: runs[high].end,
             length: runs[low..=high].iter().map(|r| r.length).sum(),
@@ -102,7 +102,7 @@ mod tests {
 
     /// Lengths that remain of runs that alternate between silhouette and not.
     fn left(lengths: &[f64], is_hard: bool) -> Vec<f64> {
-        let stretch = |(k, length): (usize, &f64)| Stretch {
+        let stretch = |(k, length): (usize, &f64)| SilhouetteRun {
             first: k,
             end: k + 1,
             length: *length,
@@ -110,7 +110,10 @@ mod tests {
             is_hard,
         };
         let stretches = lengths.iter().enumerate().map(stretch).collect();
-        even(stretches, Shortest { soft: 12.0, hard: 4.0 }).iter().map(|stretch| stretch.length).collect()
+        merge_short_runs(stretches, MinRunLengths { soft: 12.0, hard: 4.0 })
+            .iter()
+            .map(|stretch| stretch.length)
+            .collect()
     }
 
     #[test]

@@ -14,42 +14,42 @@
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
 
-use super::raw_line::{Degrees, Raw};
-use super::removed_lines::{Bin, Reason};
+use super::raw_line::{RawLine, VertexDegrees};
+use super::removed_lines::{RemovalLog, RemovalReason};
 use crate::chains::Sample;
-use crate::chains::sampled_line::Line;
-use crate::geometry::plane::planar_distance::{distance2, length};
-use crate::visibility::{Ahead, Way};
+use crate::chains::sampled_line::SampledLine;
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::visibility::{GapOcclusion, GapSegment};
 
 /// Largest gap without an overhang, and with one.
-const JUMP: f64 = 2.5;
-const JUMP_TRIMMED: f64 = 0.6;
+const MAX_JUMP_TIDY_LENGTHS: f64 = 2.5;
+const MAX_TRIMMED_JUMP_TIDY_LENGTHS: f64 = 0.6;
 
 /// Gaps above these limits must be roughly straight, straight, and very straight between lines longer than
 /// the gap.
-const HOP: f64 = 0.35;
-const LEAP: f64 = 0.8;
-const FLIGHT: f64 = 1.5;
+const GAP_SMALL_TIDY_LENGTHS: f64 = 0.35;
+const GAP_MEDIUM_TIDY_LENGTHS: f64 = 0.8;
+const GAP_LARGE_TIDY_LENGTHS: f64 = 1.5;
 
 /// Longest overhang.
-const STUB: f64 = 8.0;
+const MAX_STUB_TIDY_LENGTHS: f64 = 8.0;
 
 /// An overhang longer than this must lie on the other line, within the second length. The third is the window
 /// for measuring directions.
-const LONG_STUB: f64 = 4.0;
-const LONG_STUB_NEAR: f64 = 0.3;
-const WINDOW: f64 = 1.5;
+const MIN_LONG_STUB_TIDY_LENGTHS: f64 = 4.0;
+const MAX_LONG_STUB_DISTANCE_TIDY_LENGTHS: f64 = 0.3;
+const DIRECTION_TIDY_LENGTHS: f64 = 1.5;
 
 /// Minimum number of ends per task.
-const MIN_ENDS: usize = 16;
+const MIN_ENDS_PER_TASK: usize = 16;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
-const STITCH_COSINE: f64 = 0.707;
+const MIN_STITCH_COSINE: f64 = 0.707;
 
 /// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of gaps above the three limits.
-const HOP_COSINE: f64 = 0.6;
-const LEAP_COSINE: f64 = 0.866;
-const FLIGHT_COSINE: f64 = 0.96;
+const MIN_SMALL_GAP_COSINE: f64 = 0.6;
+const MIN_MEDIUM_GAP_COSINE: f64 = 0.866;
+const MIN_LARGE_GAP_COSINE: f64 = 0.96;
 
 /// Candidate stitch between two ends (`2 * line + side`), with the cuts on both lines.
 #[derive(Debug, Clone, Copy)]
@@ -57,15 +57,15 @@ struct Stitch {
     cost: f64,
     a: usize,
     b: usize,
-    cut_a: SeamEnd,
-    cut_b: SeamEnd,
+    cut_a: StitchEnd,
+    cut_b: StitchEnd,
 }
 
 impl Stitch {
     /// The segment that the stitch adds, for the occlusion test.
-    fn way(&self, raws: &[Raw]) -> Way {
+    fn way(&self, raws: &[RawLine]) -> GapSegment {
         let cuts = [self.cut_a, self.cut_b];
-        Way {
+        GapSegment {
             ends: cuts.map(|cut| cut.point),
             depths: cuts.map(|cut| cut.sample.depth),
             segments: [self.a, self.b].map(|end| raws[end / 2].segment),
@@ -75,7 +75,7 @@ impl Stitch {
 
 /// Start of a line after a cut: it starts at `point` and continues with point `next`, counted from that end.
 #[derive(Debug, Clone, Copy)]
-struct SeamEnd {
+struct StitchEnd {
     point: Point,
     sample: Sample,
     next: usize,
@@ -86,23 +86,23 @@ struct SeamEnd {
 ///
 /// No stitch passes behind another surface.
 pub(crate) fn stitch(
-    mut raws: Vec<Raw>,
-    degrees: &mut Degrees,
+    mut raws: Vec<RawLine>,
+    degrees: &mut VertexDegrees,
     tidy: f64,
-    ahead: Option<&Ahead>,
-    bin: &mut Bin,
-) -> Vec<Raw> {
-    let stitches = choose(&raws, degrees, tidy, ahead);
+    ahead: Option<&GapOcclusion>,
+    bin: &mut RemovalLog,
+) -> Vec<RawLine> {
+    let stitches = cheapest_stitches(&raws, degrees, tidy, ahead);
     if stitches.is_empty() {
         return raws;
     }
-    let mut link: Vec<Option<(usize, SeamEnd)>> = vec![None; 2 * raws.len()];
+    let mut link: Vec<Option<(usize, StitchEnd)>> = vec![None; 2 * raws.len()];
     for s in stitches {
         for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
             if cut.trimmed > 0.0 {
-                let walk = Walk::new(&raws[end / 2].line, end % 2);
+                let walk = OrientedLine::new(&raws[end / 2].line, end % 2);
                 let stub = || (0..cut.next).map(|k| walk.point(k)).chain([cut.point]).collect();
-                bin.put_part(&raws[end / 2], Reason::Stub, stub);
+                bin.record_part(&raws[end / 2], RemovalReason::Stub, stub);
                 degrees.cut_off(raws[end / 2].ends[end % 2]);
             }
         }
@@ -126,10 +126,10 @@ pub(crate) fn stitch(
         let closed = link[start].is_some();
         let first = std::mem::take(&mut raws[i].line);
         let vertices = std::mem::take(&mut raws[i].vertices);
-        let mut whole = Raw { line: Line::default(), vertices, ..raws[i] };
+        let mut whole = RawLine { line: SampledLine::default(), vertices, ..raws[i] };
         if !closed && link[start ^ 1].is_none() {
             used[i] = true;
-            sewn.push(Raw { line: first, ..whole });
+            sewn.push(RawLine { line: first, ..whole });
             continue;
         }
         raws[i].line = first;
@@ -143,7 +143,13 @@ pub(crate) fn stitch(
                 whole.vertices.extend(&raws[at / 2].vertices);
             }
             let line = &raws[at / 2].line;
-            add(&mut whole.line, line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));
+            append_trimmed(
+                &mut whole.line,
+                line,
+                at % 2 == 1,
+                link[at].map(|l| l.1),
+                link[at ^ 1].map(|l| l.1),
+            );
             match link[at ^ 1] {
                 Some((next, _)) if !used[next / 2] => at = next,
                 _ => break at ^ 1,
@@ -162,7 +168,12 @@ pub(crate) fn stitch(
 }
 
 /// The cheapest stitches, with each end in at most one.
-fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> Vec<Stitch> {
+fn cheapest_stitches(
+    raws: &[RawLine],
+    degrees: &VertexDegrees,
+    tidy: f64,
+    ahead: Option<&GapOcclusion>,
+) -> Vec<Stitch> {
     let mut ends: Vec<(Point, usize)> = Vec::new();
     for (i, raw) in raws.iter().enumerate() {
         if raw.smooth && !raw.class.hidden && !raw.line.closed && raw.line.len() > 1 {
@@ -175,20 +186,20 @@ fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> 
         }
     }
     ends.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)).then(a.1.cmp(&b.1)));
-    let reach = STUB * tidy;
+    let reach = MAX_STUB_TIDY_LENGTHS * tidy;
     let of_end = |(k, (p, a)): (usize, &(Point, usize))| {
         let (p, a) = (*p, *a);
         let near = ends[k + 1..].iter().take_while(move |(q, _)| q.x - p.x <= reach);
         near.filter_map(move |(q, b)| {
             let may = (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class;
-            if may { best(raws, a, *b, tidy) } else { None }
+            if may { best_stitch(raws, a, *b, tidy) } else { None }
         })
     };
-    let all = ends.par_iter().enumerate().with_min_len(MIN_ENDS);
+    let all = ends.par_iter().enumerate().with_min_len(MIN_ENDS_PER_TASK);
     let mut found: Vec<Stitch> = all.flat_map_iter(of_end).collect();
     if let Some(ahead) = ahead {
-        let ways: Vec<Way> = found.iter().map(|stitch| stitch.way(raws)).collect();
-        let mut hidden = ahead.hides(&ways).into_iter();
+        let ways: Vec<GapSegment> = found.iter().map(|stitch| stitch.way(raws)).collect();
+        let mut hidden = ahead.occluded_gaps(&ways).into_iter();
         found.retain(|_| !hidden.next().unwrap_or(false));
     }
     found.sort_by(|s, u| s.cost.total_cmp(&u.cost).then((s.a, s.b).cmp(&(u.a, u.b))));
@@ -205,47 +216,50 @@ fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> 
 }
 
 /// The cheapest way to stitch two ends: without a cut, or with the overhang of either line cut off.
-fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
-    let (from, to) = (Walk::new(&raws[a / 2].line, a), Walk::new(&raws[b / 2].line, b));
+fn best_stitch(raws: &[RawLine], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
+    let (from, to) = (OrientedLine::new(&raws[a / 2].line, a), OrientedLine::new(&raws[b / 2].line, b));
     let same = a / 2 == b / 2;
-    let total = |walk: &Walk| walk.arc(6.0 * tidy);
+    let total = |walk: &OrientedLine| walk.arc(6.0 * tidy);
     if same && total(&from) < 6.0 * tidy {
         return None;
     }
-    let whole = |walk: &Walk| walk.cut(0, 0.0, 0.0);
+    let whole = |walk: &OrientedLine| walk.cut(0, 0.0, 0.0);
     let ways = [
         Some((whole(&from), whole(&to))),
-        to.nearest(from.point(0), STUB * tidy).map(|cut| (whole(&from), cut)),
-        from.nearest(to.point(0), STUB * tidy).map(|cut| (cut, whole(&to))),
+        to.nearest(from.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (whole(&from), cut)),
+        from.nearest(to.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (cut, whole(&to))),
     ];
     let stitches = ways.into_iter().flatten().filter_map(|(cut_a, cut_b)| {
         let jump = cut_b.point - cut_a.point;
         let trimmed = cut_a.trimmed + cut_b.trimmed;
-        let most = if trimmed > 0.0 { JUMP_TRIMMED } else { JUMP };
+        let most = if trimmed > 0.0 { MAX_TRIMMED_JUMP_TIDY_LENGTHS } else { MAX_JUMP_TIDY_LENGTHS };
         if length(jump) > most * tidy {
             return None;
         }
-        let back = from.direction(&cut_a, WINDOW * tidy);
-        let ahead = to.direction(&cut_b, WINDOW * tidy);
-        let bent = -back.dot(ahead) < STITCH_COSINE;
+        let back = from.direction(&cut_a, DIRECTION_TIDY_LENGTHS * tidy);
+        let ahead = to.direction(&cut_b, DIRECTION_TIDY_LENGTHS * tidy);
+        let bent = -back.dot(ahead) < MIN_STITCH_COSINE;
         let way = crate::chains::fit::bezier_fit::unit(jump);
         let least = match length(jump) / tidy {
-            far if far > FLIGHT => FLIGHT_COSINE,
-            far if far > LEAP => LEAP_COSINE,
-            far if far > HOP => HOP_COSINE,
+            far if far > GAP_LARGE_TIDY_LENGTHS => MIN_LARGE_GAP_COSINE,
+            far if far > GAP_MEDIUM_TIDY_LENGTHS => MIN_MEDIUM_GAP_COSINE,
+            far if far > GAP_SMALL_TIDY_LENGTHS => MIN_SMALL_GAP_COSINE,
             _ => -1.0,
         };
         let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
         // A line that is mostly overhang is a separate line.
-        let eaten =
-            |walk: &Walk, cut: &SeamEnd| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
-        let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
+        let eaten = |walk: &OrientedLine, cut: &StitchEnd| {
+            cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed
+        };
+        let consumed =
+            trimmed > MIN_LONG_STUB_TIDY_LENGTHS * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
         // Two short lines are not joined by a longer gap.
         let far = length(jump);
         let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
-        let thin = arcs[0].max(arcs[1]) < far || (far > FLIGHT * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
+        let thin = arcs[0].max(arcs[1]) < far
+            || (far > GAP_LARGE_TIDY_LENGTHS * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
         // An overhang is cut off only if it runs next to the other line.
-        let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
+        let apart = from.stub_leaves(&cut_a, &to, tidy) || to.stub_leaves(&cut_b, &from, tidy);
         (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
             cost: length(jump) + 0.25 * trimmed,
             a,
@@ -258,13 +272,13 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
 }
 
 /// A line seen from one of its ends.
-struct Walk<'a> {
-    line: &'a Line,
+struct OrientedLine<'a> {
+    line: &'a SampledLine,
     backwards: bool,
 }
 
-impl<'a> Walk<'a> {
-    fn new(line: &'a Line, end: usize) -> Self {
+impl<'a> OrientedLine<'a> {
+    fn new(line: &'a SampledLine, end: usize) -> Self {
         Self { line, backwards: end % 2 == 1 }
     }
 
@@ -289,17 +303,17 @@ impl<'a> Walk<'a> {
     }
 
     /// Cut at parameter `t` of the side after point `k`.
-    fn cut(&self, k: usize, t: f64, trimmed: f64) -> SeamEnd {
+    fn cut(&self, k: usize, t: f64, trimmed: f64) -> StitchEnd {
         let sample = |k: usize| self.line.samples[self.index(k)];
         let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
         let sample = if t > 0.0 { sample(k).lerp(sample(k + 1), t) } else { sample(k) };
-        SeamEnd { point, sample, next: k + 1, trimmed }
+        StitchEnd { point, sample, next: k + 1, trimmed }
     }
 
     /// Cut nearest to `p` within the first `reach` of the line, the far end excluded.
-    fn nearest(&self, p: Point, reach: f64) -> Option<SeamEnd> {
+    fn nearest(&self, p: Point, reach: f64) -> Option<StitchEnd> {
         let mut arc = 0.0;
-        let mut least: Option<(f64, SeamEnd)> = None;
+        let mut least: Option<(f64, StitchEnd)> = None;
         for k in 0..self.line.len() - 1 {
             let (a, b) = (self.point(k), self.point(k + 1));
             let side = length(b - a);
@@ -319,17 +333,22 @@ impl<'a> Walk<'a> {
     }
 
     /// Unit direction of the line at a cut.
-    fn direction(&self, cut: &SeamEnd, window: f64) -> Vec2 {
+    fn direction(&self, cut: &StitchEnd, window: f64) -> Vec2 {
         let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
         crate::chains::fit::bezier_fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
     }
 
     /// Whether any point that is cut off lies too far from the start of the other line.
-    fn strays(&self, cut: &SeamEnd, other: &Walk, tidy: f64) -> bool {
+    fn stub_leaves(&self, cut: &StitchEnd, other: &OrientedLine, tidy: f64) -> bool {
         if cut.trimmed <= 0.0 {
             return false;
         }
-        let near = tidy * if cut.trimmed > LONG_STUB * tidy { LONG_STUB_NEAR } else { JUMP_TRIMMED };
+        let near = tidy
+            * if cut.trimmed > MIN_LONG_STUB_TIDY_LENGTHS * tidy {
+                MAX_LONG_STUB_DISTANCE_TIDY_LENGTHS
+            } else {
+                MAX_TRIMMED_JUMP_TIDY_LENGTHS
+            };
         let near = near * near;
         (0..cut.next).any(|k| {
             let p = self.point(k);
@@ -338,15 +357,21 @@ impl<'a> Walk<'a> {
                 .take_while(|j| {
                     let before = arc;
                     arc += length(other.point(*j) - other.point(j - 1));
-                    before < (STUB + 1.0) * tidy
+                    before < (MAX_STUB_TIDY_LENGTHS + 1.0) * tidy
                 })
-                .all(|j| distance2(p, other.point(j - 1), other.point(j)) > near)
+                .all(|j| segment_distance_squared(p, other.point(j - 1), other.point(j)) > near)
         })
     }
 }
 
 /// Appends a line in either direction, without the parts cut off at its start and end.
-fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<SeamEnd>, end: Option<SeamEnd>) {
+fn append_trimmed(
+    whole: &mut SampledLine,
+    line: &SampledLine,
+    backwards: bool,
+    begin: Option<StitchEnd>,
+    end: Option<StitchEnd>,
+) {
     let n = line.len();
     let index = |k: usize| if backwards { n - 1 - k } else { k };
     let first = begin.map_or(0, |cut| cut.next);

@@ -8,32 +8,32 @@
 use crate::parallel::prelude::*;
 
 use super::double_lines::drop_doubles;
-use super::hidden_gaps::bridge;
-use super::raw_line::{Degrees, Raw};
-use super::removed_lines::{Bin, Reason};
-use super::short_lines::drop_crumbs;
-use super::silhouette_runs::{self, Shortest};
+use super::hidden_gaps::bridge_gaps;
+use super::raw_line::{RawLine, VertexDegrees};
+use super::removed_lines::{RemovalLog, RemovalReason};
+use super::short_lines::drop_short_lines;
+use super::silhouette_runs::{self, MinRunLengths};
 use super::stitching::stitch;
-use crate::chains::link::edge_class::Class;
+use crate::chains::link::edge_class::EdgeClass;
 use crate::chains::link::routes::routes;
 use crate::lines::{HiddenLines, LineKind};
-use crate::surface::Origin;
-use crate::visibility::{Ahead, ViewEdge, ViewMap};
+use crate::surface::MeshSource;
+use crate::visibility::{GapOcclusion, ViewEdge, ViewMap};
 
 /// Largest hidden gap that is bridged, in tidy lengths.
-const GAP: f64 = 0.6;
+const MAX_HIDDEN_GAP_TIDY_LENGTHS: f64 = 0.6;
 
 /// Minimum length of a silhouette or inner run on rounded surfaces, in tidy lengths.
-const SILHOUETTE: f64 = 3.0;
+const MIN_SMOOTH_RUN_TIDY_LENGTHS: f64 = 3.0;
 
 /// Minimum length of such a run on sharp edges, where its ends are exact, in tidy lengths.
-const SILHOUETTE_OF_EDGE: f64 = 1.0;
+const MIN_SHARP_RUN_TIDY_LENGTHS: f64 = 1.0;
 
 /// Minimum length of a line, in tidy lengths; a shorter one is less than a dot of the pen.
-const POINT: f64 = 0.1;
+const MIN_LINE_TIDY_LENGTHS: f64 = 0.1;
 
 /// Maximum number of rounds of stitching and dropping. Each may free the ends of other lines.
-const ROUNDS: usize = 3;
+const MAX_ROUNDS: usize = 3;
 
 /// The tidied lines of a view map. Hidden lines are left out if they are not drawn; all other dropped lines
 /// are recorded in `bin`.
@@ -42,20 +42,27 @@ pub(crate) fn tidied(
     hidden: HiddenLines,
     tidy: f64,
     window: f64,
-    ahead: Option<&Ahead>,
-    bin: &mut Bin,
-) -> Vec<Raw> {
-    let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(map, e))).collect();
+    ahead: Option<&GapOcclusion>,
+    bin: &mut RemovalLog,
+) -> Vec<RawLine> {
+    let mut classes: Vec<Option<EdgeClass>> =
+        map.edges.par_iter().map(|e| Some(EdgeClass::of(map, e))).collect();
     if tidy > 0.0 {
-        leave_out_needles(map, &mut classes, bin);
+        drop_thin_folds(map, &mut classes, bin);
         // Only contours have such gaps, and contours are continued by contours only.
         let is_contour = |e: &ViewEdge| e.kind == LineKind::Contour;
         if map.edges.par_iter().any(|e| e.invisibility > 0 && e.smooth && is_contour(e)) {
-            let source = |(e, class): (&ViewEdge, &Option<Class>)| {
-                class.filter(|_| is_contour(e)).map(|_| Class::of_source(map, e))
+            let source = |(e, class): (&ViewEdge, &Option<EdgeClass>)| {
+                class.filter(|_| is_contour(e)).map(|_| EdgeClass::of_source(map, e))
             };
-            let sources: Vec<Option<Class>> = map.edges.par_iter().zip(&classes).map(source).collect();
-            bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);
+            let sources: Vec<Option<EdgeClass>> = map.edges.par_iter().zip(&classes).map(source).collect();
+            bridge_gaps(
+                map,
+                &routes(map, &sources, window),
+                MAX_HIDDEN_GAP_TIDY_LENGTHS * tidy,
+                ahead,
+                &mut classes,
+            );
         }
     }
     classes.par_iter_mut().for_each(|slot| {
@@ -66,23 +73,23 @@ pub(crate) fn tidied(
             class.silhouette = false;
         } else {
             // Without tidying nothing counts as noise.
-            class.origin = Origin::Constructed;
+            class.origin = MeshSource::Constructed;
         }
     });
     let routes = routes(map, &classes, window);
-    let raw = |route| Raw::of_route(map, &routes, route, &classes);
+    let raw = |route| RawLine::of_route(map, &routes, route, &classes);
     let all = || (0..routes.len()).into_par_iter().with_min_len(64).with_max_len(128).map(raw).collect();
-    let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) =
-        crate::parallel::join(all, || Degrees::new(map, &classes));
-    let mut raws: Vec<Raw> = raws.into_iter().flatten().collect();
+    let (raws, mut degrees): (Vec<Option<RawLine>>, VertexDegrees) =
+        crate::parallel::join(all, || VertexDegrees::new(map, &classes));
+    let mut raws: Vec<RawLine> = raws.into_iter().flatten().collect();
     if tidy <= 0.0 {
         return raws;
     }
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let count = raws.len();
         raws = stitch(raws, &mut degrees, tidy, ahead, bin);
         drop_doubles(&mut raws, &mut degrees, tidy, bin);
-        drop_crumbs(&mut raws, &mut degrees, tidy, bin);
+        drop_short_lines(&mut raws, &mut degrees, tidy, bin);
         if raws.len() == count {
             break;
         }
@@ -91,13 +98,14 @@ pub(crate) fn tidied(
 }
 
 /// Drops dots, and cuts lines where they change between silhouette and inner contour.
-fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
-    let shortest = Shortest { soft: SILHOUETTE * tidy, hard: SILHOUETTE_OF_EDGE * tidy };
-    let parts = |raw: &mut Raw| {
-        let is_dot = !raw.class.hidden && raw.length() < POINT * tidy;
-        if is_dot { Some(Vec::new()) } else { silhouette_runs::cut(raw, shortest) }
+fn cut(mut raws: Vec<RawLine>, tidy: f64, bin: &mut RemovalLog) -> Vec<RawLine> {
+    let shortest =
+        MinRunLengths { soft: MIN_SMOOTH_RUN_TIDY_LENGTHS * tidy, hard: MIN_SHARP_RUN_TIDY_LENGTHS * tidy };
+    let parts = |raw: &mut RawLine| {
+        let is_dot = !raw.class.hidden && raw.length() < MIN_LINE_TIDY_LENGTHS * tidy;
+        if is_dot { Some(Vec::new()) } else { silhouette_runs::split_at_silhouette(raw, shortest) }
     };
-    let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().with_max_len(16).map(parts).collect();
+    let parts: Vec<Option<Vec<RawLine>>> = raws.par_iter_mut().with_max_len(16).map(parts).collect();
     // Most lines stay whole, and then nothing is moved.
     if parts.iter().all(Option::is_none) {
         return raws;
@@ -108,7 +116,7 @@ fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
             None => all.push(raw),
             Some(parts) => {
                 if parts.is_empty() {
-                    bin.put(&raw, || Reason::Point);
+                    bin.put(&raw, || RemovalReason::Point);
                 }
                 all.extend(parts);
             }
@@ -118,7 +126,7 @@ fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
 }
 
 /// Drops the sides of folds that are thinner than a pen, except silhouette.
-fn leave_out_needles(map: &ViewMap, classes: &mut [Option<Class>], bin: &mut Bin) {
+fn drop_thin_folds(map: &ViewMap, classes: &mut [Option<EdgeClass>], bin: &mut RemovalLog) {
     if map.needles.is_empty() {
         return;
     }
@@ -128,7 +136,7 @@ fn leave_out_needles(map: &ViewMap, classes: &mut [Option<Class>], bin: &mut Bin
             *class = None;
             if edge.invisibility == 0 {
                 let ends = [edge.start, edge.end].map(|v| map.vertices[v.index()].position);
-                bin.put_piece(edge.kind, Reason::Double, ends);
+                bin.record_piece(edge.kind, RemovalReason::Double, ends);
             }
         }
     }

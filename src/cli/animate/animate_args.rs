@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::draw::contact_sheet::MomentSheetArgs;
 use crate::cli::options::draw_args::HowArgs;
-use crate::cli::options::values::shard::Share;
+use crate::cli::options::values::shard::ShardSpec;
 
 const EXAMPLES: &str = "Examples:
   ligne animate crane.glb crane.svg                    one animated SVG
@@ -71,8 +71,8 @@ pub(crate) struct AnimateArgs {
     pub(crate) save_levels: Option<PathBuf>,
 
     /// Draw share K of N of the frames, or share K of a job array with /N
-    #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = Share::parse)]
-    pub(crate) shard: Option<Share>,
+    #[arg(long, value_name = "K/N", help_heading = "Frames", value_parser = ShardSpec::parse)]
+    pub(crate) shard: Option<ShardSpec>,
 
     /// Skip frames that exist
     #[arg(long, help_heading = "Frames")]

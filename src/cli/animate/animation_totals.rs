@@ -1,4 +1,4 @@
-//! [`Total`]: times, counts and warnings summed over all frames.
+//! [`AnimationTotals`]: times, counts and warnings summed over all frames.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::pipeline::report::drawing_report::{Counts, StagesMs};
 
 /// Times, counts and warnings of an animation. The report is this structure as JSON.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct Total {
+pub(crate) struct AnimationTotals {
     /// Number of frames, and of distinct drawings.
     pub(crate) frames: u64,
     pub(crate) drawings: u64,
@@ -27,7 +27,7 @@ pub(crate) struct Total {
     pub(crate) warned: BTreeMap<String, usize>,
 }
 
-impl Total {
+impl AnimationTotals {
     /// Adds the report of one drawing.
     pub(crate) fn add(&mut self, report: &Report, ms: f64) {
         self.drawings += 1;

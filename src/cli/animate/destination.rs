@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::output::numbered_files::Numbered;
+use crate::cli::output::numbered_files::NumberedFiles;
 use crate::cli::output::output_files::{Output, is_stdout};
 use crate::error::Error;
 
 /// Names of numbered files and endings of films, for messages.
-const NUMBERED: &str = "frames/%04d.svg, .png or .pdf";
-const FILMS: &str = ".svg, .gif, .png, .webp, .mp4 or .webm";
+const NUMBERED_NAMES: &str = "frames/%04d.svg, .png or .pdf";
+const FILM_ENDINGS: &str = ".svg, .gif, .png, .webp, .mp4 or .webm";
 
 /// Output of an animation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Destination {
     /// One file per frame.
-    Numbered(Numbered),
+    Numbered(NumberedFiles),
     /// One film in this format.
     Film(PathBuf, FilmFormat),
     /// One contact sheet of a few moments.
@@ -44,10 +44,10 @@ impl Destination {
         }
         let wrong = |message: String| {
             Error::new(message).in_file(path).remedy(format!(
-                "end the name with {FILMS} for one film, or write {NUMBERED} for one file per frame"
+                "end the name with {FILM_ENDINGS} for one film, or write {NUMBERED_NAMES} for one file per frame"
             ))
         };
-        if let Some(numbered) = Numbered::of(path, "a frame", wrong)? {
+        if let Some(numbered) = NumberedFiles::of(path, "a frame", wrong)? {
             return Ok(Self::Numbered(numbered));
         }
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());

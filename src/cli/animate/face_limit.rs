@@ -8,11 +8,11 @@ use crate::error::Error;
 
 /// Limit on the number of faces of frames.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Faces {
+pub(crate) enum FaceLimit {
     /// No limit.
     All,
     /// Maximum number of faces, the same for all drawings.
-    Most(u64),
+    AtMost(u64),
     /// Drawing time per frame in ms; the number of faces adapts to it.
     Budget(f64),
     /// Maximum number of faces of each drawing, one entry per drawing.

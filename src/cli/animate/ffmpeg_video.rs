@@ -9,12 +9,12 @@ use super::destination::FilmFormat;
 use crate::error::Error;
 use crate::export::Pixels;
 
-const PROGRAM: &str = "ffmpeg";
+const FFMPEG: &str = "ffmpeg";
 
-const REMEDY: &str = "install ffmpeg, or write .webp, .gif, .png or .svg";
+const FFMPEG_REMEDY: &str = "install ffmpeg, or write .webp, .gif, .png or .svg";
 
 /// Maximum length of the end of ffmpeg's messages in an error, bytes.
-const LAST_WORDS: usize = 400;
+const MAX_MESSAGE_BYTES: usize = 400;
 
 /// Film encoded by ffmpeg, which starts with the first frame.
 pub(crate) struct Video {
@@ -22,10 +22,10 @@ pub(crate) struct Video {
     format: FilmFormat,
     /// Path that ffmpeg writes to.
     path: PathBuf,
-    running: Option<Running>,
+    running: Option<RunningFfmpeg>,
 }
 
-struct Running {
+struct RunningFfmpeg {
     child: Child,
     frames: ChildStdin,
     words: JoinHandle<String>,
@@ -38,13 +38,13 @@ impl Video {
     /// # Errors
     /// If ffmpeg is not installed.
     pub(crate) fn new(path: &Path, format: FilmFormat, fps: f64) -> Result<Self, Error> {
-        let mut asked = Command::new(PROGRAM);
+        let mut asked = Command::new(FFMPEG);
         asked.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         let there = asked.status().is_ok_and(|status| status.success());
         if !there {
             return Err(Error::new("ffmpeg is not installed, and this film needs it")
                 .in_file(path)
-                .remedy(REMEDY));
+                .remedy(FFMPEG_REMEDY));
         }
         Ok(Self { fps, format, path: path.to_path_buf(), running: None })
     }
@@ -76,7 +76,7 @@ impl Video {
     /// # Errors
     /// If ffmpeg cannot write it.
     pub(crate) fn end(&mut self) -> Result<(), Error> {
-        let Some(Running { mut child, frames, words, .. }) = self.running.take() else {
+        let Some(RunningFfmpeg { mut child, frames, words, .. }) = self.running.take() else {
             return Err(Error::new("a film needs at least one frame"));
         };
         drop(frames);
@@ -85,14 +85,14 @@ impl Video {
         if status.success() {
             return Ok(());
         }
-        let from = words.len().saturating_sub(LAST_WORDS);
+        let from = words.len().saturating_sub(MAX_MESSAGE_BYTES);
         let from = (from..=words.len()).find(|at| words.is_char_boundary(*at)).unwrap_or_default();
         let last = words.get(from..).unwrap_or_default().trim().replace('\n', "; ");
-        Err(Error::new(format!("ffmpeg failed: {last}")).in_file(&self.path).remedy(REMEDY))
+        Err(Error::new(format!("ffmpeg failed: {last}")).in_file(&self.path).remedy(FFMPEG_REMEDY))
     }
 
-    fn start(&self, size: [u32; 2]) -> Result<Running, Error> {
-        let mut command = Command::new(PROGRAM);
+    fn start(&self, size: [u32; 2]) -> Result<RunningFfmpeg, Error> {
+        let mut command = Command::new(FFMPEG);
         // One thread and no time stamps, so the same frames give the same bytes.
         command.args(["-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]);
         command.args(["-s", &format!("{}x{}", size[0], size[1]), "-r", &format!("{}", self.fps), "-i", "-"]);
@@ -110,12 +110,12 @@ impl Video {
         }
         command.arg(&self.path).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let mut child =
-            command.spawn().map_err(|error| Error::io("cannot start ffmpeg", error).remedy(REMEDY))?;
-        let lost = || Error::new("cannot send frames to ffmpeg").remedy(REMEDY);
+            command.spawn().map_err(|error| Error::io("cannot start ffmpeg", error).remedy(FFMPEG_REMEDY))?;
+        let lost = || Error::new("cannot send frames to ffmpeg").remedy(FFMPEG_REMEDY);
         let frames = child.stdin.take().ok_or_else(lost)?;
         let words = child.stderr.take().ok_or_else(lost)?;
         // Read in a separate thread, because a full pipe would block ffmpeg.
-        Ok(Running { child, frames, words: std::thread::spawn(move || all(words)), size })
+        Ok(RunningFfmpeg { child, frames, words: std::thread::spawn(move || all(words)), size })
     }
 }
 

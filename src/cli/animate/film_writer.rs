@@ -1,4 +1,4 @@
-//! [`Film`]: one film file that receives frames in order.
+//! [`FilmFile`]: one film file that receives frames in order.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -15,14 +15,14 @@ use crate::export::Pixels;
 use crate::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
 
 /// Film that is being written to a staged file.
-pub(crate) struct Film {
-    writer: Writer,
+pub(crate) struct FilmFile {
+    writer: FilmWriter,
     /// The staged file, which is renamed when the film is finished.
     staging: Staging,
     file: Option<File>,
 }
 
-enum Writer {
+enum FilmWriter {
     Svg(Box<SvgFilm>),
     Gif(Box<GifFilm<BufWriter<File>>>),
     Apng(Box<ApngFilm<BufWriter<File>>>),
@@ -31,7 +31,7 @@ enum Writer {
 }
 
 /// Frame in the form that the film format needs.
-pub(crate) enum Frame {
+pub(crate) enum FilmFrame {
     Vector(Box<Drawing>),
     Pixels(Pixels),
 }
@@ -43,7 +43,7 @@ impl FilmFormat {
     }
 }
 
-impl Film {
+impl FilmFile {
     /// Begins a film of `frames` frames.
     ///
     /// # Errors
@@ -63,12 +63,12 @@ impl Film {
         let file = staging.create(path)?;
         let copy = || file.try_clone().map(BufWriter::new).map_err(|error| Error::io("cannot write", error));
         let writer = match format {
-            FilmFormat::Svg => Writer::Svg(Box::new(SvgFilm::new(fps, &library_calls::svg_options(svg)))),
-            FilmFormat::Gif => Writer::Gif(Box::new(GifFilm::new(copy()?, fps))),
-            FilmFormat::Apng => Writer::Apng(Box::new(ApngFilm::new(copy()?, fps, frames as u32))),
-            FilmFormat::Webp => Writer::Webp(WebpFilm::new(fps)),
+            FilmFormat::Svg => FilmWriter::Svg(Box::new(SvgFilm::new(fps, &library_calls::svg_options(svg)))),
+            FilmFormat::Gif => FilmWriter::Gif(Box::new(GifFilm::new(copy()?, fps))),
+            FilmFormat::Apng => FilmWriter::Apng(Box::new(ApngFilm::new(copy()?, fps, frames as u32))),
+            FilmFormat::Webp => FilmWriter::Webp(WebpFilm::new(fps)),
             FilmFormat::Mp4 | FilmFormat::Webm => {
-                Writer::Video(Video::new(staging.last().unwrap_or(path), format, fps)?)
+                FilmWriter::Video(Video::new(staging.last().unwrap_or(path), format, fps)?)
             }
         };
         Ok(Self { writer, staging, file: Some(file) })
@@ -78,14 +78,14 @@ impl Film {
     ///
     /// # Errors
     /// If the frame cannot be written.
-    pub(crate) fn push(&mut self, frame: &Frame, ticks: u32) -> Result<(), Error> {
+    pub(crate) fn push(&mut self, frame: &FilmFrame, ticks: u32) -> Result<(), Error> {
         match (&mut self.writer, frame) {
-            (Writer::Svg(film), Frame::Vector(drawing)) => film.push(drawing, ticks),
-            (Writer::Gif(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
-            (Writer::Apng(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
-            (Writer::Webp(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
-            (Writer::Video(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
-            (Writer::Svg(_), Frame::Pixels(_)) | (_, Frame::Vector(_)) => {
+            (FilmWriter::Svg(film), FilmFrame::Vector(drawing)) => film.push(drawing, ticks),
+            (FilmWriter::Gif(film), FilmFrame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (FilmWriter::Apng(film), FilmFrame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (FilmWriter::Webp(film), FilmFrame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (FilmWriter::Video(film), FilmFrame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (FilmWriter::Svg(_), FilmFrame::Pixels(_)) | (_, FilmFrame::Vector(_)) => {
                 return Err(Error::new("a frame has another format than the film"));
             }
         }
@@ -94,7 +94,7 @@ impl Film {
 
     /// Number of frames that are dropped because the format limits the frame rate.
     pub(crate) fn left_out(&self) -> u64 {
-        if let Writer::Gif(film) = &self.writer { film.left_out() } else { 0 }
+        if let FilmWriter::Gif(film) = &self.writer { film.left_out() } else { 0 }
     }
 
     /// Finishes the film and renames it to its path. Returns the number of bytes.
@@ -108,14 +108,14 @@ impl Film {
             None => Ok(()),
         };
         match writer {
-            Writer::Svg(film) => write(film.finish().as_bytes())?,
-            Writer::Webp(film) => write(&film.finish()?)?,
-            Writer::Gif(film) => {
+            FilmWriter::Svg(film) => write(film.finish().as_bytes())?,
+            FilmWriter::Webp(film) => write(&film.finish()?)?,
+            FilmWriter::Gif(film) => {
                 let mut out = film.finish()?;
                 out.flush().map_err(|error| Error::io("cannot write", error))?;
             }
-            Writer::Apng(film) => film.finish()?,
-            Writer::Video(mut film) => film.end()?,
+            FilmWriter::Apng(film) => film.finish()?,
+            FilmWriter::Video(mut film) => film.end()?,
         }
         let length =
             staging.last().and_then(|path| std::fs::metadata(path).ok()).map_or(0, |data| data.len());

@@ -1,38 +1,38 @@
-//! [`Around`]: drawings of neighbouring frames, kept while they are needed to fade strokes in and out.
+//! [`FadeWindow`]: drawings of neighbouring frames, kept while they are needed to fade strokes in and out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::parallel::prelude::*;
 
-use super::frame_plan::Course;
-use crate::animate::{Trace, fade};
+use super::frame_plan::FrameSchedule;
+use crate::animate::{StrokeTrace, fade};
 use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::motion::FadeBy;
 use crate::pipeline::Report;
 
 /// Drawing of a frame, its report, and its drawing time in ms.
-pub(crate) type Drawn = (Drawing, Report, f64);
+pub(crate) type TimedDrawing = (Drawing, Report, f64);
 
 /// Window of drawings around the frames that are being finished.
-pub(crate) struct Around<'a> {
-    course: &'a Course,
+pub(crate) struct FadeWindow<'a> {
+    course: &'a FrameSchedule,
     /// Number of drawings before and after each frame that its fading uses.
     frames: u32,
     by: FadeBy,
-    kept: BTreeMap<usize, (Drawn, Trace)>,
+    kept: BTreeMap<usize, (TimedDrawing, StrokeTrace)>,
 }
 
-impl<'a> Around<'a> {
-    pub(crate) fn new(course: &'a Course, frames: u32, by: FadeBy) -> Self {
+impl<'a> FadeWindow<'a> {
+    pub(crate) fn new(course: &'a FrameSchedule, frames: u32, by: FadeBy) -> Self {
         Self { course, frames, by, kept: BTreeMap::new() }
     }
 
     /// Draws the missing frames of the windows around `frames`, and drops drawings outside them.
-    pub(crate) fn look_at(
+    pub(crate) fn prepare_frames(
         &mut self,
         frames: &[usize],
-        draw: impl Fn(usize) -> Result<Drawn, Error> + Sync,
+        draw: impl Fn(usize) -> Result<TimedDrawing, Error> + Sync,
     ) -> Result<(), Error> {
         let beside = |frame: usize| self.pairs(frame).flatten().flatten().chain([frame]);
         let wanted: BTreeSet<usize> = frames.iter().copied().flat_map(beside).collect();
@@ -43,14 +43,14 @@ impl<'a> Around<'a> {
         let drawn: Vec<_> = missing.par_iter().with_max_len(1).map(draw).collect();
         for drawn in drawn {
             let (frame, drawn) = drawn?;
-            let trace = Trace::of(&drawn.0);
+            let trace = StrokeTrace::of(&drawn.0);
             self.kept.insert(frame, (drawn, trace));
         }
         Ok(())
     }
 
     /// Drawing of a prepared frame with fading strokes; none if the frame is not in the window.
-    pub(crate) fn faded(&self, frame: usize) -> Option<Drawn> {
+    pub(crate) fn faded_drawing(&self, frame: usize) -> Option<TimedDrawing> {
         let ((drawing, report, ms), _) = self.kept.get(&frame)?;
         let trace = |frame: Option<usize>| self.kept.get(&frame?).map(|(_, trace)| trace);
         let around: Vec<_> = self.pairs(frame).map(|pair| pair.map(trace)).collect();

@@ -1,4 +1,4 @@
-//! [`Plan`]: pose, camera and page of each frame.
+//! [`FramePlan`]: pose, camera and page of each frame.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -7,13 +7,13 @@ use glam::DAffine3;
 use serde_json::Value;
 
 use super::animate_args::AnimateArgs;
-use crate::animate::{Moment, Timeline, Turntable, reach};
+use crate::animate::{FrameSpec, Timeline, Turntable, film_points};
 use crate::animation::{Playing, Rigged};
-use crate::cli::draw::contact_sheet::PICTURES;
-use crate::cli::models::clip_blend::Blend;
+use crate::cli::draw::contact_sheet::PICTURE_COUNT;
+use crate::cli::models::clip_blend::ClipBlend;
 use crate::cli::options::values::paper_size::Paper;
 use crate::cli::request::draw_request::DrawRequest;
-use crate::cli::request::viewpoint::{View, Viewpoint, on_sheet, viewpoint};
+use crate::cli::request::viewpoint::{ViewRequest, Viewpoint, on_sheet, viewpoint};
 use crate::colour::srgb::Colour;
 use crate::drawing::Page;
 use crate::error::Error;
@@ -21,9 +21,9 @@ use crate::scene::Camera;
 
 /// Pose, camera and page of each frame.
 #[derive(Debug)]
-pub(crate) struct Plan {
-    pub(crate) course: Course,
-    eye: Eye,
+pub(crate) struct FramePlan {
+    pub(crate) course: FrameSchedule,
+    eye: CameraMotion,
     paper: Paper,
     pub(crate) warnings: Vec<String>,
     /// Notes on choices made for the user.
@@ -32,16 +32,16 @@ pub(crate) struct Plan {
 
 /// Timeline with everything that moves on it.
 #[derive(Debug)]
-pub(crate) struct Course {
+pub(crate) struct FrameSchedule {
     pub(crate) timeline: Timeline,
     /// Clips that play, if any.
-    clips: Option<Blend>,
+    clips: Option<ClipBlend>,
     turntable: Option<Turntable>,
 }
 
 /// Camera of the frames.
 #[derive(Debug)]
-enum Eye {
+enum CameraMotion {
     /// One camera for all frames, moved by a turntable if there is one.
     Still(Camera),
     /// Animated camera of the model, by name.
@@ -50,7 +50,7 @@ enum Eye {
     Path(Vec<Camera>),
 }
 
-impl Plan {
+impl FramePlan {
     /// Plans the frames of an animation.
     ///
     /// # Errors
@@ -67,11 +67,11 @@ impl Plan {
         let own = if moves && request.animation.is_empty() {
             None
         } else {
-            let blend = Blend::new(clips, &request.animation, request.repeat);
+            let blend = ClipBlend::new(clips, &request.animation, request.repeat);
             Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
         };
         let notes = own.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
-        let [begins, ends] = own.as_ref().map_or([0.0, 0.0], Blend::span);
+        let [begins, ends] = own.as_ref().map_or([0.0, 0.0], ClipBlend::span);
         let cameras = args.path.as_deref().map(open_path).transpose()?;
         let from = args.from.unwrap_or(begins);
         let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
@@ -92,7 +92,7 @@ impl Plan {
         let rest = rigged.posed(&[])?;
         let turntable = args.turntable.map(|steps| Turntable::round(&rest, steps as usize));
         let over = [from, timeline.time(timeline.frames())];
-        let course = Course { timeline, clips: own.map(|own| own.over(over)), turntable };
+        let course = FrameSchedule { timeline, clips: own.map(|own| own.over(over)), turntable };
         let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
             Some(first) => on_sheet(&request.sheet, *first)?,
             None => viewpoint(&request.view, &request.sheet, &rigged.scene, || {
@@ -102,9 +102,9 @@ impl Plan {
         warnings.extend(warning);
         let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);
         let eye = match (cameras, &request.view) {
-            (Some(cameras), _) => Eye::Path(cameras),
-            (None, View::Recorded(name)) if named(name) => Eye::OfModel(name.clone()),
-            (None, _) => Eye::Still(camera),
+            (Some(cameras), _) => CameraMotion::Path(cameras),
+            (None, ViewRequest::Recorded(name)) if named(name) => CameraMotion::OfModel(name.clone()),
+            (None, _) => CameraMotion::Still(camera),
         };
         Ok(Self { course, eye, paper, warnings, notes })
     }
@@ -118,15 +118,15 @@ impl Plan {
         rigged: &Rigged,
         frame: usize,
         background: Option<Colour>,
-    ) -> Result<Moment, Error> {
+    ) -> Result<FrameSpec, Error> {
         let playing = self.course.playing(frame);
         let camera = match &self.eye {
-            Eye::Still(camera) => *camera,
-            Eye::Path(cameras) => cameras
+            CameraMotion::Still(camera) => *camera,
+            CameraMotion::Path(cameras) => cameras
                 .get(frame)
                 .copied()
                 .ok_or_else(|| Error::new(format!("frame {frame} has no camera on the path")))?,
-            Eye::OfModel(name) => {
+            CameraMotion::OfModel(name) => {
                 let cameras = rigged.cameras(&playing)?;
                 let own = cameras.iter().find(|own| own.name == *name).map(|own| own.camera);
                 own.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
@@ -135,11 +135,11 @@ impl Plan {
         let camera = self.course.turntable.map_or(camera, |table| table.camera(&camera, frame));
         let (width, height) = self.paper.frame();
         let page = Page { background, ..self.paper.page() };
-        Ok(Moment { playing, camera: camera.with_frame(width, height), page })
+        Ok(FrameSpec { playing, camera: camera.with_frame(width, height), page })
     }
 }
 
-impl Course {
+impl FrameSchedule {
     /// Drawing `by` drawings after (negative: before) the one at frame `drawn`; none outside the animation. A
     /// turntable without other animation wraps around.
     pub(crate) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
@@ -166,7 +166,7 @@ impl Course {
             None => DAffine3::IDENTITY,
         };
         let poses: Vec<_> = self.timeline.drawn().map(|frame| (self.playing(frame), moved(frame))).collect();
-        reach(rigged, &poses)
+        film_points(rigged, &poses)
     }
 }
 
@@ -177,7 +177,7 @@ fn moments(from: f64, to: f64) -> Result<Timeline, Error> {
     }
     // Refuses invalid times.
     Timeline::between(from, to, 1.0)?;
-    Timeline::of_frames(PICTURES, from, (PICTURES - 1) as f64 / (to - from))
+    Timeline::of_frames(PICTURE_COUNT, from, (PICTURE_COUNT - 1) as f64 / (to - from))
 }
 
 /// Removes `--time` from a remedy, since `ligne animate` does not accept it.

@@ -1,22 +1,22 @@
-//! [`Stage`]: draws frames in parallel and writes them in order.
+//! [`FrameRenderer`]: draws frames in parallel and writes them in order.
 
 use std::path::Path;
 
 use crate::parallel::prelude::*;
 
 use super::animate_args::AnimateArgs;
-use super::animation_totals::{Total, refuse_warnings};
+use super::animation_totals::{AnimationTotals, refuse_warnings};
 use super::destination::FilmFormat;
-use super::face_limit::Faces;
-use super::film_writer::{Film, Frame};
-use super::frame_fading::{Around, Drawn};
-use super::frame_plan::Plan;
-use crate::animate::{Animator, Budget, Level};
+use super::face_limit::FaceLimit;
+use super::film_writer::{FilmFile, FilmFrame};
+use super::frame_fading::{FadeWindow, TimedDrawing};
+use super::frame_plan::FramePlan;
+use crate::animate::{Animator, Budget, DetailLevel};
 use crate::animation::Rigged;
 use crate::cli::draw::model_drawing;
 use crate::cli::library_calls;
-use crate::cli::options::values::shard::Share;
-use crate::cli::output::numbered_files::Numbered;
+use crate::cli::options::values::shard::ShardSpec;
+use crate::cli::output::numbered_files::NumberedFiles;
 use crate::cli::output::output_files::{Format, Staging};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::DrawRequest;
@@ -29,37 +29,41 @@ use crate::pipeline::{Report, Stopwatch};
 use crate::style::Style;
 
 /// Everything that the frames share.
-pub(crate) struct Stage<'a> {
+pub(crate) struct FrameRenderer<'a> {
     pub(crate) args: &'a AnimateArgs,
     pub(crate) request: &'a DrawRequest,
-    pub(crate) plan: &'a Plan,
+    pub(crate) plan: &'a FramePlan,
     pub(crate) rigged: &'a Rigged,
     pub(crate) style: &'a Style,
     /// Levels of detail, if frames may have fewer faces than the model.
     pub(crate) detail: Option<&'a Detail>,
-    pub(crate) faces: Faces,
+    pub(crate) faces: FaceLimit,
     pub(crate) progress: &'a Progress,
 }
 
 /// Finished frame.
-struct Made {
+struct FinishedFrame {
     /// The frame for a film; none if it is already written to a file.
-    frame: Option<Frame>,
+    frame: Option<FilmFrame>,
     report: Report,
     /// Drawing time, ms.
     ms: f64,
 }
 
-impl Stage<'_> {
+impl FrameRenderer<'_> {
     /// Draws the frames and writes one file per frame.
-    pub(crate) fn numbered(&self, numbered: &Numbered, total: &mut Total) -> Result<(), Error> {
+    pub(crate) fn numbered(
+        &self,
+        numbered: &NumberedFiles,
+        total: &mut AnimationTotals,
+    ) -> Result<(), Error> {
         let folder = &numbered.folder;
         if !folder.as_os_str().is_empty() && !folder.is_dir() {
             std::fs::create_dir_all(folder)
                 .map_err(|error| Error::io("cannot create the folder", error).in_file(folder))?;
         }
         let timeline = self.plan.course.timeline;
-        let shard = self.args.shard.map(Share::shard).transpose()?;
+        let shard = self.args.shard.map(ShardSpec::shard).transpose()?;
         let mine = |drawn: &usize| shard.is_none_or(|shard| shard.has(drawn / timeline.hold()));
         let missing = |drawn: &usize| {
             !self.args.resume || (0..timeline.shown(*drawn)).any(|held| !numbered.path(drawn + held).exists())
@@ -67,7 +71,7 @@ impl Stage<'_> {
         let frames: Vec<usize> = timeline.drawn().filter(mine).collect();
         total.frames = frames.iter().map(|drawn| timeline.shown(*drawn) as u64).sum();
         let frames: Vec<usize> = frames.into_iter().filter(missing).collect();
-        let one = |drawn: usize, (drawing, mut report, ms): Drawn| -> Result<Made, Error> {
+        let one = |drawn: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
             let mut watch = Stopwatch::start();
             let bytes = match numbered.format {
                 Format::Png => library_calls::png(&drawing, self.dpi(&drawing))?,
@@ -84,13 +88,18 @@ impl Stage<'_> {
                 report.counts.bytes_out += bytes.len() as u64;
             }
             report.stages_ms.write = watch.lap_ms();
-            Ok(Made { frame: None, report, ms })
+            Ok(FinishedFrame { frame: None, report, ms })
         };
-        self.in_order(&frames, one, |_, _| Ok(0.0), total)
+        self.draw_in_order(&frames, one, |_, _| Ok(0.0), total)
     }
 
     /// Draws all frames into one film.
-    pub(crate) fn film(&self, path: &Path, format: FilmFormat, total: &mut Total) -> Result<(), Error> {
+    pub(crate) fn film(
+        &self,
+        path: &Path,
+        format: FilmFormat,
+        total: &mut AnimationTotals,
+    ) -> Result<(), Error> {
         let timeline = self.plan.course.timeline;
         let frames: Vec<usize> = timeline.drawn().collect();
         total.frames = timeline.frames() as u64;
@@ -99,24 +108,24 @@ impl Stage<'_> {
             Some(_) => error,
         };
         let mut film =
-            Film::new(path, format, timeline.fps(), frames.len(), &self.request.svg).map_err(in_file)?;
-        let one = |_: usize, (drawing, mut report, ms): Drawn| -> Result<Made, Error> {
+            FilmFile::new(path, format, timeline.fps(), frames.len(), &self.request.svg).map_err(in_file)?;
+        let one = |_: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
             let mut watch = Stopwatch::start();
             let frame = if format.is_vector() {
-                Frame::Vector(Box::new(drawing))
+                FilmFrame::Vector(Box::new(drawing))
             } else {
                 let options = PngOptions::of_resolution(Resolution::Dpi(self.dpi(&drawing)));
-                Frame::Pixels(drawing.to_pixels(&options).map_err(in_file)?)
+                FilmFrame::Pixels(drawing.to_pixels(&options).map_err(in_file)?)
             };
             report.stages_ms.write = watch.lap_ms();
-            Ok(Made { frame: Some(frame), report, ms })
+            Ok(FinishedFrame { frame: Some(frame), report, ms })
         };
-        let put = |drawn: usize, frame: &Frame| {
+        let put = |drawn: usize, frame: &FilmFrame| {
             let mut watch = Stopwatch::start();
             film.push(frame, timeline.shown(drawn) as u32).map_err(in_file)?;
             Ok(watch.lap_ms())
         };
-        self.in_order(&frames, one, put, total)?;
+        self.draw_in_order(&frames, one, put, total)?;
         if film.left_out() > 0 {
             let warning = format!(
                 "GIF shows a frame for two hundredths of a second at least: {} of {} frames are left out; .webp and .png have more \
@@ -134,7 +143,7 @@ impl Stage<'_> {
     }
 
     /// Draws one frame.
-    pub(crate) fn draw(&self, animator: &Animator, frame: usize) -> Result<Drawn, Error> {
+    pub(crate) fn draw(&self, animator: &Animator, frame: usize) -> Result<TimedDrawing, Error> {
         let mut watch = Stopwatch::start();
         let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
         let (drawing, mut report) = animator.draw(&moment).map_err(|error| match error.file {
@@ -153,14 +162,14 @@ impl Stage<'_> {
     }
 
     /// Draws frames within their face limits and passes them on in order.
-    fn in_order(
+    fn draw_in_order(
         &self,
         frames: &[usize],
-        make: impl Fn(usize, Drawn) -> Result<Made, Error> + Sync,
-        mut put: impl FnMut(usize, &Frame) -> Result<f64, Error>,
-        total: &mut Total,
+        make: impl Fn(usize, TimedDrawing) -> Result<FinishedFrame, Error> + Sync,
+        mut put: impl FnMut(usize, &FilmFrame) -> Result<f64, Error>,
+        total: &mut AnimationTotals,
     ) -> Result<(), Error> {
-        let mut take = |drawn: usize, made: &Made, total: &mut Total| {
+        let mut take = |drawn: usize, made: &FinishedFrame, total: &mut AnimationTotals| {
             if let Some(frame) = &made.frame {
                 total.stages_ms.write += put(drawn, frame)?;
             }
@@ -169,21 +178,21 @@ impl Stage<'_> {
         };
         let Some(detail) = self.detail else {
             let animator = Animator::new(self.rigged, self.style);
-            return self.at_once(&animator, frames, &make, &mut take, total);
+            return self.draw_in_parallel(&animator, frames, &make, &mut take, total);
         };
-        let level = |faces: u64| Level::of(detail, &self.rigged.scene, faces);
+        let level = |faces: u64| DetailLevel::of(detail, &self.rigged.scene, faces);
         let faces_of = |drawn: usize| match &self.faces {
-            Faces::Listed(list) => list.get(drawn / self.plan.course.timeline.hold()).copied(),
-            Faces::Most(most) => Some(*most),
-            Faces::All | Faces::Budget(_) => None,
+            FaceLimit::Listed(list) => list.get(drawn / self.plan.course.timeline.hold()).copied(),
+            FaceLimit::AtMost(most) => Some(*most),
+            FaceLimit::All | FaceLimit::Budget(_) => None,
         };
-        let Faces::Budget(ms) = self.faces else {
+        let FaceLimit::Budget(ms) = self.faces else {
             for frames in frames.chunk_by(|a, b| faces_of(*a) == faces_of(*b)) {
                 let faces = frames.first().and_then(|drawn| faces_of(*drawn)).unwrap_or(u64::MAX);
                 let level = level(faces)?;
                 let animator = Animator::at_level(self.rigged, &level, self.style).ready();
                 total.faces.extend(frames.iter().map(|_| faces));
-                self.at_once(&animator, frames, &make, &mut take, total)?;
+                self.draw_in_parallel(&animator, frames, &make, &mut take, total)?;
             }
             return Ok(());
         };
@@ -197,7 +206,7 @@ impl Stage<'_> {
             while let Some((drawn, rest)) = left.split_first().filter(|_| budget.faces() == faces) {
                 self.step(frames.len() - left.len(), frames.len());
                 let made = make(*drawn, self.draw(&animator, *drawn)?)?;
-                budget.took(made.ms);
+                budget.record_frame(made.ms);
                 total.faces.push(faces);
                 take(*drawn, &made, total)?;
                 left = rest;
@@ -207,25 +216,27 @@ impl Stage<'_> {
     }
 
     /// Draws as many frames in parallel as there are threads, and passes them on in order.
-    fn at_once(
+    fn draw_in_parallel(
         &self,
         animator: &Animator,
         frames: &[usize],
-        make: &(impl Fn(usize, Drawn) -> Result<Made, Error> + Sync),
-        take: &mut impl FnMut(usize, &Made, &mut Total) -> Result<(), Error>,
-        total: &mut Total,
+        make: &(impl Fn(usize, TimedDrawing) -> Result<FinishedFrame, Error> + Sync),
+        take: &mut impl FnMut(usize, &FinishedFrame, &mut AnimationTotals) -> Result<(), Error>,
+        total: &mut AnimationTotals,
     ) -> Result<(), Error> {
         let at_once = rayon_core::current_num_threads().max(1);
         let motion = &self.style.motion;
-        let mut around = Around::new(&self.plan.course, motion.fade, motion.fade_by);
+        let mut around = FadeWindow::new(&self.plan.course, motion.fade, motion.fade_by);
         let draw = |drawn: usize| self.draw(animator, drawn);
         for (number, window) in frames.chunks(at_once).enumerate() {
             self.step(number * at_once, frames.len());
             if motion.fade > 0 {
-                around.look_at(window, draw)?;
+                around.prepare_frames(window, draw)?;
             }
-            let make = |drawn: &usize| make(*drawn, around.faded(*drawn).map_or_else(|| draw(*drawn), Ok)?);
-            let made: Vec<Result<Made, Error>> = window.par_iter().with_max_len(1).map(make).collect();
+            let make =
+                |drawn: &usize| make(*drawn, around.faded_drawing(*drawn).map_or_else(|| draw(*drawn), Ok)?);
+            let made: Vec<Result<FinishedFrame, Error>> =
+                window.par_iter().with_max_len(1).map(make).collect();
             for (drawn, made) in window.iter().zip(made) {
                 take(*drawn, &made?, total)?;
             }

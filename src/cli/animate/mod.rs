@@ -26,11 +26,11 @@ use std::path::Path;
 
 use crate::cli::output::output_files::{Format, Output};
 pub(crate) use animate_args::AnimateArgs;
-use animation_totals::{Total, refuse_warnings};
+use animation_totals::{AnimationTotals, refuse_warnings};
 use destination::Destination;
-use face_limit::Faces;
-use frame_plan::Plan;
-use frame_renderer::Stage;
+use face_limit::FaceLimit;
+use frame_plan::FramePlan;
+use frame_renderer::FrameRenderer;
 
 use super::models::lod;
 use super::output::number_text;
@@ -39,18 +39,18 @@ use super::step::open_rigged;
 use super::{library_calls, print, say};
 use crate::animation::Rigged;
 use crate::cli::draw::contact_sheet::{check_outputs, picture_request};
-use crate::cli::options::framing_args::Frame;
+use crate::cli::options::framing_args::FramedParts;
 use crate::cli::output::output_files::{Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::{DrawRequest, check_apart};
 use crate::cli::request::viewpoint::viewpoint;
 use crate::error::Error;
-use crate::pipeline::{Stopwatch, hatched_for, trailed};
+use crate::pipeline::{Stopwatch, with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
 use crate::style::Style;
 
 /// Style setting for limited face counts: contours along mesh edges, which are faster than smooth curves.
-const HURRIED: &str = "lines.contours=mesh";
+const FAST_CONTOUR_SETTING: &str = "lines.contours=mesh";
 
 /// Draws all frames and prints a summary.
 pub(crate) fn run(mut args: AnimateArgs) -> Result<(), Error> {
@@ -143,11 +143,18 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
     }
 }
 
-fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -> Result<Total, Error> {
+fn draw(
+    args: &AnimateArgs,
+    request: &DrawRequest,
+    destination: &Destination,
+) -> Result<AnimationTotals, Error> {
     // A smooth contour takes equally long on few and on many faces. Settings of the user come later and win.
     let hurried = args.budget.is_some() || args.levels.is_some();
-    let sets: Vec<String> =
-        hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
+    let sets: Vec<String> = hurried
+        .then(|| FAST_CONTOUR_SETTING.to_owned())
+        .into_iter()
+        .chain(request.sets.iter().cloned())
+        .collect();
     let mut style = library_calls::load_style(&request.style, &sets, request.background)?;
     let is_dxf = matches!(destination, Destination::Numbered(numbered) if numbered.format == Format::Dxf);
     if is_dxf || request.is_to_scale() {
@@ -171,21 +178,21 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     if let Some(up) = request.up {
         rigged.scene.up = up;
     }
-    let mut notes = usage_warnings::unmatched(&rigged.scene, &request.only, &request.hide);
+    let mut notes = usage_warnings::unmatched_patterns(&rigged.scene, &request.only, &request.hide);
     notes.extend(usage_warnings::bare_lengths(request));
-    let mut whole = (request.frame == Frame::All).then(|| rigged.clone());
+    let mut whole = (request.frame == FramedParts::All).then(|| rigged.clone());
     library_calls::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
     if request.section.is_asked() {
         open_up(request, &mut rigged, &mut whole, &mut style)?;
     }
-    let plan = Plan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
+    let plan = FramePlan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
     if !request.quiet {
         for note in &plan.notes {
-            progress.tell(&format!("note: {}: {note}", request.model.display()));
+            progress.print_line(&format!("note: {}: {note}", request.model.display()));
         }
     }
     let timeline = plan.course.timeline;
-    let mut total = Total { fps: timeline.fps(), ..Total::default() };
+    let mut total = AnimationTotals { fps: timeline.fps(), ..AnimationTotals::default() };
     total.stages_ms.load = watch.lap_ms();
     for warning in rigged.scene.warnings.lines().into_iter().chain(plan.warnings.iter().cloned()).chain(notes)
     {
@@ -194,12 +201,12 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     refuse_warnings(request, total.warned.keys())?;
     let drawings = timeline.drawn().count();
     let faces = match (&args.levels, args.budget, request.faces) {
-        (_, Some(ms), _) => Faces::Budget(ms),
-        (Some(path), None, _) => Faces::Listed(face_limit::read_levels(path, drawings)?),
-        (None, None, Some(most)) => Faces::Most(most),
-        (None, None, None) => Faces::All,
+        (_, Some(ms), _) => FaceLimit::Budget(ms),
+        (Some(path), None, _) => FaceLimit::Listed(face_limit::read_levels(path, drawings)?),
+        (None, None, Some(most)) => FaceLimit::AtMost(most),
+        (None, None, None) => FaceLimit::All,
     };
-    let stage = Stage {
+    let stage = FrameRenderer {
         args,
         request,
         plan: &plan,
@@ -243,18 +250,18 @@ fn open_up(
         let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*points)))?;
         let [_, _, forward] = eye.camera.axes();
         if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            *style = hatched_for(style, &mut scene, &mut section.faces, &[eye.camera]);
+            *style = with_cut_hatching_for(style, &mut scene, &mut section.faces, &[eye.camera]);
         }
     }
     if request.section.take_apart(&mut scene)? {
         *whole = None;
-        *style = trailed(style);
+        *style = with_trail_lines(style);
     }
     *rigged = Rigged::from(scene);
     Ok(())
 }
 
-fn write_report(path: &Path, total: &Total) -> Result<(), Error> {
+fn write_report(path: &Path, total: &AnimationTotals) -> Result<(), Error> {
     // Numbers and strings always serialise.
     let mut json = serde_json::to_string_pretty(total).unwrap_or_default();
     json.push('\n');
@@ -268,8 +275,8 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// Summary line: `48 frames, 24 drawings, 91.2 kB, 1.30 s, 18.5 drawings a second`
-fn summary(total: &Total, seconds: f64) -> String {
-    let Total { frames, drawings, counts, faces, drawing_ms, .. } = total;
+fn summary(total: &AnimationTotals, seconds: f64) -> String {
+    let AnimationTotals { frames, drawings, counts, faces, drawing_ms, .. } = total;
     let held = if frames == drawings {
         String::new()
     } else {

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 
-use super::project_config::Config;
-use super::toml_options::{Given, displace, fault_of, word};
+use super::project_config::ProjectConfig;
+use super::toml_options::{ConfiguredOption, drop_overridden, option_fault, word};
 use crate::error::Error;
 use crate::style::Style;
 
@@ -19,7 +19,7 @@ pub(crate) const VARIABLES: [(&str, &str); 3] =
 
 /// Environment of a call.
 #[derive(Debug, Default)]
-pub(crate) struct Surroundings {
+pub(crate) struct CallEnvironment {
     /// The working folder.
     pub(crate) folder: Option<PathBuf>,
     /// Values of [`VARIABLES`].
@@ -28,7 +28,7 @@ pub(crate) struct Surroundings {
     pub(crate) is_ci: bool,
 }
 
-impl Surroundings {
+impl CallEnvironment {
     /// Environment of this process.
     pub(crate) fn of_process() -> Self {
         let value = |(name, _)| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned());
@@ -47,7 +47,7 @@ impl Surroundings {
 pub(crate) fn complete(
     mut words: Vec<OsString>,
     program: &Command,
-    surroundings: &Surroundings,
+    surroundings: &CallEnvironment,
 ) -> Result<Vec<OsString>, Error> {
     let lenient = program.clone().ignore_errors(true).try_get_matches_from(&words);
     let Some((name, matches)) = lenient.as_ref().ok().and_then(ArgMatches::subcommand) else {
@@ -65,14 +65,14 @@ pub(crate) fn complete(
     // Drawing options of `ligne styles` apply to its sheet only, which shows all styles unless some are
     // typed.
     let mut variables = if name == "styles" { Vec::new() } else { of_variables(command, surroundings) };
-    displace(command, &mut variables, &known);
+    drop_overridden(command, &mut variables, &known);
     known.extend(variables.iter().map(|given| given.option.clone()));
     check(command, &variables)?;
 
     let mut configured = Vec::new();
     if !known.iter().any(|option| option == "no-config") {
         configured = of_file(name, surroundings.folder.as_deref())?;
-        displace(command, &mut configured, &known);
+        drop_overridden(command, &mut configured, &known);
     }
     let added = configured.into_iter().chain(variables).flat_map(|given| given.words).map(OsString::from);
     // Only switches can precede the command name.
@@ -83,12 +83,12 @@ pub(crate) fn complete(
 }
 
 /// Options that variables set for a command. Empty variables are ignored.
-fn of_variables(command: &Command, surroundings: &Surroundings) -> Vec<Given> {
+fn of_variables(command: &Command, surroundings: &CallEnvironment) -> Vec<ConfiguredOption> {
     let pairs = VARIABLES.iter().zip(&surroundings.variables);
     let said = pairs.filter_map(|((_, option), value)| Some((*option, value.as_deref()?)));
     let has = |option: &str| command.get_arguments().any(|known| known.get_long() == Some(option));
     said.filter(|(option, value)| !value.is_empty() && has(option))
-        .map(|(option, value)| Given {
+        .map(|(option, value)| ConfiguredOption {
             option: option.to_owned(),
             words: vec![word(option, Some(value))],
             span: 0..value.len(),
@@ -97,11 +97,11 @@ fn of_variables(command: &Command, surroundings: &Surroundings) -> Vec<Given> {
 }
 
 /// Refuses values of variables that the option would refuse.
-fn check(command: &Command, variables: &[Given]) -> Result<(), Error> {
+fn check(command: &Command, variables: &[ConfiguredOption]) -> Result<(), Error> {
     for given in variables {
         let name = VARIABLES.iter().find(|(_, option)| *option == given.option).map_or("", |(name, _)| name);
         let value = given.words.first().and_then(|word| word.split_once('=')).map(|(_, value)| value);
-        if let Some((message, advice)) = fault_of(command, &given.option, value) {
+        if let Some((message, advice)) = option_fault(command, &given.option, value) {
             let error = Error::new(message).at(name);
             return Err(match advice {
                 Some(advice) => error.remedy(advice),
@@ -119,15 +119,15 @@ fn check(command: &Command, variables: &[Given]) -> Result<(), Error> {
 }
 
 /// Options that the file sets for a command.
-fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
-    let find = || folder.map_or(Ok(None), Config::find);
+fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<ConfiguredOption>, Error> {
+    let find = || folder.map_or(Ok(None), ProjectConfig::find);
     Ok(match command {
         "draw" => find()?.map(|config| config.draw),
         // Each frame has its own time.
         "animate" => {
             find()?.map(|config| config.draw.into_iter().filter(|given| given.option != "time").collect())
         }
-        "diff" => find()?.map(Config::diff),
+        "diff" => find()?.map(ProjectConfig::diff),
         // STEP options apply to all commands that read models. These commands use no other keys, so they
         // ignore errors in the file.
         "page" | "info" | "lod" => find().unwrap_or_default().map(|config| {

@@ -9,33 +9,33 @@ use clap::{Args, Command};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::toml_options::{File, Given, Keys, word};
+use super::toml_options::{ConfiguredOption, OptionKeys, TomlFile, word};
 use crate::cli::options::draw_args::HowArgs;
 use crate::diff::Tolerances;
 use crate::error::Error;
 
 /// Name of the file.
-const NAME: &str = "ligne.toml";
+const FILE_NAME: &str = "ligne.toml";
 
 /// Tables of the file.
-const TABLES: [&str; 2] = ["draw", "diff"];
+const TABLE_NAMES: [&str; 2] = ["draw", "diff"];
 
 /// Contents of a `ligne.toml`.
 #[derive(Debug, Default)]
-pub(crate) struct Config {
+pub(crate) struct ProjectConfig {
     /// Options of drawings.
-    pub(crate) draw: Vec<Given>,
+    pub(crate) draw: Vec<ConfiguredOption>,
     /// Tolerance for comparisons, in the form of the option `--tolerance`.
     pub(crate) tolerance: Option<String>,
 }
 
-impl Config {
+impl ProjectConfig {
     /// Finds the file in a folder or its parents, and reads it.
     pub(crate) fn find(folder: &Path) -> Result<Option<Self>, Error> {
         let mut above = PathBuf::new();
         for candidate in folder.ancestors() {
-            if candidate.join(NAME).is_file() {
-                return Self::read(&above.join(NAME)).map(Some);
+            if candidate.join(FILE_NAME).is_file() {
+                return Self::read(&above.join(FILE_NAME)).map(Some);
             }
             above.push("..");
         }
@@ -43,19 +43,23 @@ impl Config {
     }
 
     fn read(path: &Path) -> Result<Self, Error> {
-        let file = File::read(path, NAME)?;
+        let file = TomlFile::read(path, FILE_NAME)?;
         let (table, values) = (file.table()?, file.values()?);
         let mut config = Self::default();
         for (key, value) in &table {
             let name = key.get_ref().as_ref();
             let DeValue::Table(table) = value.get_ref() else {
-                let known = TABLES.contains(&name);
-                return Err(if known { file.misfit(value, "a table") } else { file.unknown(key, &TABLES) });
+                let known = TABLE_NAMES.contains(&name);
+                return Err(if known {
+                    file.misfit(value, "a table")
+                } else {
+                    file.unknown(key, &TABLE_NAMES)
+                });
             };
             match (name, values.get(name).and_then(toml::Value::as_table)) {
                 ("draw", Some(values)) => {
                     let command = HowArgs::augment_args(Command::new("draw"));
-                    let keys = Keys { command: &command, without: &[], others: &[] };
+                    let keys = OptionKeys { command: &command, without: &[], others: &[] };
                     config.draw = keys.read(&file, table, values)?;
                 }
                 ("diff", _) => {
@@ -66,23 +70,24 @@ impl Config {
                         config.tolerance = Some(tolerance(&file, value)?);
                     }
                 }
-                _ => return Err(file.unknown(key, &TABLES)),
+                _ => return Err(file.unknown(key, &TABLE_NAMES)),
             }
         }
         Ok(config)
     }
 
     /// Options for `ligne diff`: the tolerance and the drawing options, except `quiet`.
-    pub(crate) fn diff(self) -> Vec<Given> {
+    pub(crate) fn diff(self) -> Vec<ConfiguredOption> {
         let words = |text: &String| vec![word("tolerance", Some(text))];
-        let given = |text| Given { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
+        let given =
+            |text| ConfiguredOption { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
         let drawn = self.draw.into_iter().filter(|given| given.option != "quiet");
         self.tolerance.iter().map(given).chain(drawn).collect()
     }
 }
 
 /// Reads a tolerance from text, or from a table with layers, classes, `lines`, `fills` and `default` as keys.
-pub(crate) fn tolerance(file: &File, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
+pub(crate) fn tolerance(file: &TomlFile, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
     let check = |text: String, value: &Spanned<DeValue<'_>>| match Tolerances::parse(&text) {
         Ok(_) => Ok(text),
         Err(error) => Err(file.adopt(&error, &value.span())),

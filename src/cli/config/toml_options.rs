@@ -16,11 +16,11 @@ use crate::error::spelling::british;
 use crate::style::{self, Style, sheet_errors};
 
 /// Options that need another option, with that option.
-const NEEDS: [(&str, &str); 2] = [("landscape", "page"), ("scale", "page")];
+const REQUIRED_OPTIONS: [(&str, &str); 2] = [("landscape", "page"), ("scale", "page")];
 
 /// TOML file whose keys are options.
 #[derive(Debug, Clone)]
-pub(crate) struct File {
+pub(crate) struct TomlFile {
     /// Path of the file in errors.
     pub(crate) path: PathBuf,
     /// Folder that relative paths in the file start from.
@@ -28,7 +28,7 @@ pub(crate) struct File {
     pub(crate) text: String,
 }
 
-impl File {
+impl TomlFile {
     /// Reads a file. `what` names it in errors.
     pub(crate) fn read(path: &Path, what: &str) -> Result<Self, Error> {
         let bytes = std::fs::read(path).map_err(|error| {
@@ -98,7 +98,7 @@ impl File {
 
 /// Option that was set by a file or variable.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Given {
+pub(crate) struct ConfiguredOption {
     /// Long name of the option.
     pub(crate) option: String,
     /// Equivalent words of a call.
@@ -108,7 +108,7 @@ pub(crate) struct Given {
 }
 
 /// Keys that a table may hold.
-pub(crate) struct Keys<'a> {
+pub(crate) struct OptionKeys<'a> {
     /// Command with the options.
     pub(crate) command: &'a Command,
     /// Options that are excluded.
@@ -117,9 +117,14 @@ pub(crate) struct Keys<'a> {
     pub(crate) others: &'a [&'a str],
 }
 
-impl Keys<'_> {
+impl OptionKeys<'_> {
     /// Reads a table. `table` has positions, and `values` the same entries without positions.
-    pub(crate) fn read(&self, file: &File, table: &DeTable<'_>, values: &Table) -> Result<Vec<Given>, Error> {
+    pub(crate) fn read(
+        &self,
+        file: &TomlFile,
+        table: &DeTable<'_>,
+        values: &Table,
+    ) -> Result<Vec<ConfiguredOption>, Error> {
         let mut given = Vec::new();
         for (key, value) in table {
             let name = key.get_ref().as_ref();
@@ -139,16 +144,16 @@ impl Keys<'_> {
             let values = texts(file, option, name, value, values.get(written))?;
             let mut words = Vec::new();
             for (text, span) in values {
-                let text = placed(file, name, text, &span)?;
-                if let Some((message, advice)) = fault_of(self.command, name, text.as_deref()) {
+                let text = resolve_paths(file, name, text, &span)?;
+                if let Some((message, advice)) = option_fault(self.command, name, text.as_deref()) {
                     return Err(file.fault(&span, &message, advice.as_deref()));
                 }
                 words.push(word(name, text.as_deref()));
             }
-            given.push(Given { option: name.to_owned(), words, span: value.span() });
+            given.push(ConfiguredOption { option: name.to_owned(), words, span: value.span() });
         }
         // The parser returns keys in alphabetical order.
-        given.sort_by_key(|given: &Given| given.span.start);
+        given.sort_by_key(|given: &ConfiguredOption| given.span.start);
         self.refuse_contradictions(file, &given)?;
         Ok(given)
     }
@@ -165,7 +170,7 @@ impl Keys<'_> {
         self.options().filter_map(Arg::get_long).chain(self.others.iter().copied()).collect()
     }
 
-    fn refuse_contradictions(&self, file: &File, given: &[Given]) -> Result<(), Error> {
+    fn refuse_contradictions(&self, file: &TomlFile, given: &[ConfiguredOption]) -> Result<(), Error> {
         for (i, later) in given.iter().enumerate() {
             let earlier = given.iter().take(i);
             let mut both_say_something = earlier.filter(|g| !g.words.is_empty() && !later.words.is_empty());
@@ -181,9 +186,10 @@ impl Keys<'_> {
 }
 
 /// Refuses options whose required option is missing.
-pub(crate) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
-    for Given { option, words, span } in given {
-        let mut needs = NEEDS.iter().filter(|(needing, _)| needing == option).map(|(_, needed)| *needed);
+pub(crate) fn refuse_incomplete(file: &TomlFile, given: &[ConfiguredOption]) -> Result<(), Error> {
+    for ConfiguredOption { option, words, span } in given {
+        let mut needs =
+            REQUIRED_OPTIONS.iter().filter(|(needing, _)| needing == option).map(|(_, needed)| *needed);
         if let Some(missing) = needs.find(|needed| given.iter().all(|other| other.option != *needed))
             && !words.is_empty()
         {
@@ -196,12 +202,13 @@ pub(crate) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
 
 /// Removes options that typed options override: the same option, except `set`, which accumulates, and
 /// conflicting options. Also removes options whose required option is then missing.
-pub(crate) fn displace(command: &Command, given: &mut Vec<Given>, typed: &[String]) {
+pub(crate) fn drop_overridden(command: &Command, given: &mut Vec<ConfiguredOption>, typed: &[String]) {
     given
         .retain(|g| typed.iter().all(|t| (*t != g.option || t == "set") && !conflict(command, t, &g.option)));
     let left: Vec<String> = given.iter().filter(|g| !g.words.is_empty()).map(|g| g.option.clone()).collect();
     given.retain(|g| {
-        let mut needs = NEEDS.iter().filter(|(option, _)| *option == g.option).map(|(_, needed)| *needed);
+        let mut needs =
+            REQUIRED_OPTIONS.iter().filter(|(option, _)| *option == g.option).map(|(_, needed)| *needed);
         needs.all(|needed| typed.iter().chain(&left).any(|other| other == needed))
     });
 }
@@ -222,7 +229,7 @@ pub(crate) fn word(option: &str, value: Option<&str>) -> String {
 }
 
 /// Checks the value of an option with the parser. Returns a message and advice; none if the value is valid.
-pub(crate) fn fault_of(
+pub(crate) fn option_fault(
     command: &Command,
     option: &str,
     value: Option<&str>,
@@ -272,22 +279,24 @@ fn plain_advice(text: &str) -> String {
     .to_owned()
 }
 
-type Text = (Option<String>, Range<usize>);
+type OptionText = (Option<String>, Range<usize>);
 
 /// Values of an option as typed text, with their positions. A switch that is off has none.
 fn texts(
-    file: &File,
+    file: &TomlFile,
     option: &Arg,
     name: &str,
     value: &Spanned<DeValue<'_>>,
     plain: Option<&toml::Value>,
-) -> Result<Vec<Text>, Error> {
+) -> Result<Vec<OptionText>, Error> {
     match (option.get_action(), value.get_ref(), plain) {
         (ArgAction::SetTrue, DeValue::Boolean(on), _) => {
             Ok(if *on { vec![(None, value.span())] } else { Vec::new() })
         }
         (ArgAction::SetTrue, _, _) => Err(file.misfit(value, "true or false")),
-        (ArgAction::Append, DeValue::Array(list), _) => list.iter().map(|v| text(file, v, TEXTS)).collect(),
+        (ArgAction::Append, DeValue::Array(list), _) => {
+            list.iter().map(|v| text(file, v, EXPECTED_TEXTS)).collect()
+        }
         (ArgAction::Append, DeValue::Table(table), Some(toml::Value::Table(plain))) if name == "set" => {
             let changes = table.iter().filter_map(|(key, value)| {
                 let change = format!("{}={}", key.get_ref(), plain.get(key.get_ref().as_ref())?);
@@ -298,7 +307,7 @@ fn texts(
         (ArgAction::Append, _, _) if name == "set" => {
             text(file, value, "a table such as { lines.crease_deg = 30 }").map(|t| vec![t])
         }
-        (ArgAction::Append, _, _) => text(file, value, TEXTS).map(|t| vec![t]),
+        (ArgAction::Append, _, _) => text(file, value, EXPECTED_TEXTS).map(|t| vec![t]),
         (_, DeValue::Integer(number), _) => Ok(vec![(Some(number.to_string()), value.span())]),
         (_, DeValue::Float(number), _) => Ok(vec![(Some(number.to_string()), value.span())]),
         _ => text(file, value, "text or a number").map(|t| vec![t]),
@@ -306,9 +315,9 @@ fn texts(
 }
 
 /// Expected value of a repeatable option, for messages.
-const TEXTS: &str = "text, or a list of texts";
+const EXPECTED_TEXTS: &str = "text, or a list of texts";
 
-fn text(file: &File, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<Text, Error> {
+fn text(file: &TomlFile, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<OptionText, Error> {
     match value.get_ref() {
         DeValue::String(text) => Ok((Some(text.clone().into_owned()), value.span())),
         _ => Err(file.misfit(value, wanted)),
@@ -316,8 +325,8 @@ fn text(file: &File, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<Text,
 }
 
 /// Resolves paths in a value against the folder of the file.
-fn placed(
-    file: &File,
+fn resolve_paths(
+    file: &TomlFile,
     name: &str,
     value: Option<String>,
     span: &Range<usize>,

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::comparison::Told;
-use super::input_pairs::Pairing;
+use super::comparison::FileComparison;
+use super::input_pairs::InputPairs;
 use crate::cli::library_calls;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place};
 use crate::diff::{Diff, View};
@@ -11,17 +11,17 @@ use crate::error::Error;
 use crate::export::SvgOptions;
 
 /// Resolution of PNG pictures, pixels per inch.
-const DPI: f64 = 96.0;
+const PICTURE_DPI: f64 = 96.0;
 
 /// Output of the pictures.
-pub(crate) enum Images {
+pub(crate) enum PictureTarget {
     File(Output),
     Folder(PathBuf),
 }
 
-impl Images {
+impl PictureTarget {
     /// Reads the output path and checks it before any work is done.
-    pub(crate) fn new(path: &Path, pairing: &Pairing) -> Result<Self, Error> {
+    pub(crate) fn new(path: &Path, pairing: &InputPairs) -> Result<Self, Error> {
         if pairing.folders {
             if path.is_dir() {
                 return Ok(Self::Folder(path.to_path_buf()));
@@ -43,12 +43,12 @@ impl Images {
     /// Stages a picture of each difference.
     pub(crate) fn add(
         &self,
-        told: &[(String, Told)],
+        told: &[(String, FileComparison)],
         view: View,
         staging: &mut Staging,
     ) -> Result<(), Error> {
         for (name, told) in told {
-            let Told::Both(diff) = told else { continue };
+            let FileComparison::Both(diff) = told else { continue };
             if diff.is_same() {
                 continue;
             }
@@ -67,7 +67,7 @@ impl Images {
 fn bytes(diff: &Diff, view: View, format: Format) -> Result<Vec<u8>, Error> {
     let drawing = diff.picture(view);
     match format {
-        Format::Png => library_calls::png(&drawing, DPI),
+        Format::Png => library_calls::png(&drawing, PICTURE_DPI),
         _ => Ok(drawing.to_svg(&SvgOptions::default()).into_bytes()),
     }
 }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 
 /// File endings of models.
-pub(crate) const MODELS: [&str; 7] = ["obj", "gltf", "glb", "stl", "ply", "step", "stp"];
+pub(crate) const MODEL_ENDINGS: [&str; 7] = ["obj", "gltf", "glb", "stl", "ply", "step", "stp"];
 
 /// Maximum depth of nested folders. Stops at cyclic links.
-const DEEPEST: usize = 32;
+const MAX_FOLDER_DEPTH: usize = 32;
 
 /// Comparable files of a folder and its sub-folders. Returns the relative path with `/`, and the path.
 pub(crate) fn drawings(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
@@ -20,7 +20,7 @@ pub(crate) fn drawings(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
         };
         for entry in std::fs::read_dir(&inner).map_err(unread)? {
             let path = entry.map_err(unread)?.path();
-            if path.is_dir() && depth < DEEPEST {
+            if path.is_dir() && depth < MAX_FOLDER_DEPTH {
                 open.push((path, depth + 1));
             } else if path.is_file() && can_be_compared(&path) {
                 let parts = path.strip_prefix(folder).unwrap_or(&path).components();
@@ -35,5 +35,5 @@ pub(crate) fn drawings(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
 
 fn can_be_compared(path: &Path) -> bool {
     let ending = path.extension().unwrap_or_default();
-    MODELS.iter().chain(&["svg"]).any(|known| ending.eq_ignore_ascii_case(known))
+    MODEL_ENDINGS.iter().chain(&["svg"]).any(|known| ending.eq_ignore_ascii_case(known))
 }

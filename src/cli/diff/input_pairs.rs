@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::folder_files::{self, MODELS};
+use super::folder_files::{self, MODEL_ENDINGS};
 use crate::cli::draw::model_drawing;
 use crate::cli::options::draw_args::HowArgs;
 use crate::cli::request::draw_request::DrawRequest;
@@ -12,17 +12,17 @@ use crate::error::Error;
 use crate::export::encoding::gzip;
 
 /// Maximum size of a drawing file, bytes.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_DRAWING_BYTES: u64 = 1 << 30;
 
 /// Files to compare, by name.
 #[derive(Debug)]
-pub(crate) struct Pairing {
+pub(crate) struct InputPairs {
     pub(crate) names: BTreeMap<String, [Option<PathBuf>; 2]>,
     /// Whether the inputs are folders.
     pub(crate) folders: bool,
 }
 
-impl Pairing {
+impl InputPairs {
     /// Pairs two files, or the files of two folders.
     ///
     /// # Errors
@@ -67,19 +67,22 @@ pub(crate) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Pi
         Ok(request)
     };
     if is_model(before) {
-        let (svg, seen) = model_drawing::encoded_and_seen(&request(before)?)?;
+        let (svg, seen) = model_drawing::encode_with_view(&request(before)?)?;
         let first = picture(before, &String::from_utf8_lossy(&svg))?;
         if !is_model(after) {
             return Ok([first, picture(after, &text(after)?)?]);
         }
         let request = DrawRequest { view: seen, ..request(after)? };
-        let second = picture(after, &String::from_utf8_lossy(&model_drawing::encoded(&request)?))?;
+        let second =
+            picture(after, &String::from_utf8_lossy(&model_drawing::encode_first_output(&request)?))?;
         // A model without named parts takes the name of its file, which would count as a difference.
         let stems = [before, after].map(|path| path.file_stem().unwrap_or_default().to_string_lossy());
         return Ok([first, second.with_part_renamed(&stems[1], &stems[0])]);
     }
     let second = || match is_model(after) {
-        true => picture(after, &String::from_utf8_lossy(&model_drawing::encoded(&request(after)?)?)),
+        true => {
+            picture(after, &String::from_utf8_lossy(&model_drawing::encode_first_output(&request(after)?)?))
+        }
         false => picture(after, &text(after)?),
     };
     let (first, second) =
@@ -92,7 +95,7 @@ fn picture(path: &Path, svg: &str) -> Result<Picture, Error> {
 }
 
 fn is_model(path: &Path) -> bool {
-    path.extension().is_some_and(|e| MODELS.iter().any(|model| e.eq_ignore_ascii_case(model)))
+    path.extension().is_some_and(|e| MODEL_ENDINGS.iter().any(|model| e.eq_ignore_ascii_case(model)))
 }
 
 /// Reads a drawing as text, and unpacks it if necessary.
@@ -101,13 +104,13 @@ fn text(path: &Path) -> Result<String, Error> {
         Error::io("cannot read the drawing", error).in_file(path).remedy("check the path")
     };
     let size = std::fs::metadata(path).map_err(unread)?.len();
-    if size > MOST_BYTES {
+    if size > MAX_DRAWING_BYTES {
         return Err(Error::new("the file is larger than 1 GB")
             .in_file(path)
             .remedy("give a smaller drawing"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;
-    let bytes = gzip::plain(bytes, MOST_BYTES as usize).map_err(|error| error.in_file(path))?;
+    let bytes = gzip::plain(bytes, MAX_DRAWING_BYTES as usize).map_err(|error| error.in_file(path))?;
     String::from_utf8(bytes).map_err(|error| {
         Error::new("the file is not SVG: it is not UTF-8 text")
             .in_file(path)

@@ -16,10 +16,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use self::comparison::Told;
-use self::difference_pictures::Images;
-use self::input_pairs::Pairing;
-use super::{DIFFERENCES, library_calls, print};
+use self::comparison::FileComparison;
+use self::difference_pictures::PictureTarget;
+use self::input_pairs::InputPairs;
+use super::{EXIT_DIFFERENCES, library_calls, print};
 use crate::cli::options::draw_args::HowArgs;
 use crate::cli::output::output_files::Staging;
 use crate::diff::{self, DiffOptions, Ignore, Tolerances, View};
@@ -89,15 +89,15 @@ fn ignore(text: &str) -> Result<Ignore, String> {
 
 /// Compares the inputs, prints the differences, and draws them if requested.
 pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
-    let pairing = Pairing::new(&args.before, &args.after)?;
-    let images = args.image.as_deref().map(|path| Images::new(path, &pairing)).transpose()?;
+    let pairing = InputPairs::new(&args.before, &args.after)?;
+    let images = args.image.as_deref().map(|path| PictureTarget::new(path, &pairing)).transpose()?;
     let options = DiffOptions {
         tolerances: args.tolerance.clone().unwrap_or_default(),
         pixels: args.pixels,
         ignore: args.ignore.iter().fold(Ignore::default(), |all, more| all.and(*more)),
         brief: !(args.all || args.json || args.markdown || args.image.is_some()),
     };
-    let told = library_calls::in_threads(args.how.threads, || told(args, &pairing, &options))??;
+    let told = library_calls::in_threads(args.how.threads, || compare_pairs(args, &pairing, &options))??;
     if let Some(images) = images {
         let view = if args.side_by_side { View::SideBySide } else { View::Over };
         let mut staging = Staging::default();
@@ -113,12 +113,16 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
     print(text.as_bytes())?;
     Ok(match told.iter().all(|(_, told)| told.is_same()) {
         true => ExitCode::SUCCESS,
-        false => ExitCode::from(DIFFERENCES),
+        false => ExitCode::from(EXIT_DIFFERENCES),
     })
 }
 
 /// Compares all pairs. Returns the results by name.
-fn told(args: &DiffArgs, pairing: &Pairing, options: &DiffOptions) -> Result<Vec<(String, Told)>, Error> {
+fn compare_pairs(
+    args: &DiffArgs,
+    pairing: &InputPairs,
+    options: &DiffOptions,
+) -> Result<Vec<(String, FileComparison)>, Error> {
     let mut told = Vec::new();
     for (name, sides) in &pairing.names {
         told.push((
@@ -126,10 +130,10 @@ fn told(args: &DiffArgs, pairing: &Pairing, options: &DiffOptions) -> Result<Vec
             match sides {
                 [Some(before), Some(after)] => {
                     let [before, after] = input_pairs::pictures(before, after, &args.how)?;
-                    Told::Both(Box::new(diff::compare(&before, &after, options)))
+                    FileComparison::Both(Box::new(diff::compare(&before, &after, options)))
                 }
-                [Some(_), None] => Told::Only(0),
-                _ => Told::Only(1),
+                [Some(_), None] => FileComparison::Only(0),
+                _ => FileComparison::Only(1),
             },
         ));
     }

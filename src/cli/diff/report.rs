@@ -5,12 +5,12 @@ use std::io::IsTerminal;
 use serde_json::{Value, json};
 
 use super::DiffArgs;
-use super::comparison::Told;
-use super::input_pairs::Pairing;
+use super::comparison::FileComparison;
+use super::input_pairs::InputPairs;
 use crate::diff::Verdict;
 
 /// Text for a terminal: the findings of one drawing, or a heading and findings for each drawing of a folder.
-pub(crate) fn text(told: &[(String, Told)], pairing: &Pairing, all: bool) -> String {
+pub(crate) fn text(told: &[(String, FileComparison)], pairing: &InputPairs, all: bool) -> String {
     let coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let mut out = String::new();
     let mut put = |line: &str| {
@@ -19,10 +19,10 @@ pub(crate) fn text(told: &[(String, Told)], pairing: &Pairing, all: bool) -> Str
     };
     for (name, told) in told {
         match told {
-            Told::Only(side) => {
+            FileComparison::Only(side) => {
                 put(&format!("{:<10} {name}", if *side == 0 { "removed" } else { "added" }));
             }
-            Told::Both(diff) => {
+            FileComparison::Both(diff) => {
                 if pairing.folders {
                     put(&format!("{name}: {}", diff.summary()));
                 }
@@ -57,14 +57,16 @@ fn paint(line: &str) -> String {
 }
 
 /// JSON: one object for a single drawing, a list for folders.
-pub(crate) fn json(told: &[(String, Told)], pairing: &Pairing) -> String {
-    let value = |told: &Told| match told {
-        Told::Only(side) => json!({ "same": false, "only": if *side == 0 { "before" } else { "after" } }),
+pub(crate) fn json(told: &[(String, FileComparison)], pairing: &InputPairs) -> String {
+    let value = |told: &FileComparison| match told {
+        FileComparison::Only(side) => {
+            json!({ "same": false, "only": if *side == 0 { "before" } else { "after" } })
+        }
         // The JSON comes from this crate, so parsing succeeds.
-        Told::Both(diff) => serde_json::from_str(&diff.to_json()).unwrap_or(Value::Null),
+        FileComparison::Both(diff) => serde_json::from_str(&diff.to_json()).unwrap_or(Value::Null),
     };
     let document = if pairing.folders {
-        let named = |(name, told): &(String, Told)| json!({ "name": name, "diff": value(told) });
+        let named = |(name, told): &(String, FileComparison)| json!({ "name": name, "diff": value(told) });
         let same = told.iter().all(|(_, told)| told.is_same());
         json!({ "same": same, "drawings": told.iter().map(named).collect::<Vec<_>>() })
     } else {
@@ -75,7 +77,7 @@ pub(crate) fn json(told: &[(String, Told)], pairing: &Pairing) -> String {
 }
 
 /// Markdown with a section for each drawing that differs.
-pub(crate) fn markdown(told: &[(String, Told)], args: &DiffArgs) -> String {
+pub(crate) fn markdown(told: &[(String, FileComparison)], args: &DiffArgs) -> String {
     let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
     let (before, after) = (args.before.display(), args.after.display());
     let mut out = format!("## {before} → {after}\n\n");
@@ -86,13 +88,13 @@ pub(crate) fn markdown(told: &[(String, Told)], args: &DiffArgs) -> String {
     };
     for (name, told) in told.iter().filter(|(_, told)| !told.is_same()) {
         match told {
-            Told::Only(side) => {
+            FileComparison::Only(side) => {
                 out += &format!(
                     "### {name}\n\nThe drawing is {}.\n\n",
                     if *side == 0 { "removed" } else { "new" }
                 );
             }
-            Told::Both(diff) => out += &(diff.to_markdown(name) + "\n"),
+            FileComparison::Both(diff) => out += &(diff.to_markdown(name) + "\n"),
         }
     }
     out

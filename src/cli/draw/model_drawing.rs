@@ -6,22 +6,22 @@ use glam::DVec3;
 
 use super::web_output;
 use crate::animation::Rigged;
-use crate::cli::models::opened_model::{Opened, open};
+use crate::cli::models::opened_model::{OpenedModel, open};
 use crate::cli::options::dxf_args;
-use crate::cli::options::framing_args::Frame;
+use crate::cli::options::framing_args::FramedParts;
 #[cfg(feature = "pdf")]
 use crate::cli::options::print_args;
 use crate::cli::output::number_text;
 use crate::cli::output::output_files::{Format, Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::DrawRequest;
-use crate::cli::request::viewpoint::{View, Viewpoint, viewpoint};
+use crate::cli::request::viewpoint::{ViewRequest, Viewpoint, viewpoint};
 use crate::cli::request::{model_hints, usage_warnings};
 use crate::cli::{library_calls, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::encoding::gzip;
-use crate::pipeline::{MapFiles, Prepared, Report, Stopwatch, hatched_for, trailed};
+use crate::pipeline::{MapFiles, Prepared, Report, Stopwatch, with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
@@ -31,10 +31,10 @@ const SCREEN_DPI: f64 = 96.0;
 const PRINT_DPI: f64 = 300.0;
 
 /// Drawing encoded in all its formats, not yet written.
-pub(crate) struct Drawn {
+pub(crate) struct EncodedDrawing {
     drawing: Drawing,
     /// The camera and sheet of the drawing.
-    seen: View,
+    seen: ViewRequest,
     pub(crate) report: Report,
     /// Hints and choices made for the user. They are not warnings, so `--strict` accepts them.
     pub(crate) notes: Vec<String>,
@@ -43,7 +43,7 @@ pub(crate) struct Drawn {
     maps: Option<MapFiles>,
 }
 
-impl Drawn {
+impl EncodedDrawing {
     /// The drawing without its report and encoded bytes.
     pub(crate) fn into_drawing(self) -> Drawing {
         self.drawing
@@ -93,7 +93,7 @@ pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
 }
 
 /// Draws one view and encodes its outputs.
-fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
+fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<EncodedDrawing, Error> {
     let progress = Progress::start(request.quiet, &request.model);
     let mut drawn = None;
     draw_views(&[request], watch, &progress, |_, view| {
@@ -109,7 +109,7 @@ pub(crate) fn draw_views(
     requests: &[&DrawRequest],
     watch: &mut Stopwatch,
     progress: &Progress,
-    take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+    take: impl FnMut(&DrawRequest, EncodedDrawing) -> Result<(), Error>,
 ) -> Result<(), Error> {
     draw_model(None, requests, watch, progress, take)
 }
@@ -120,7 +120,7 @@ pub(crate) fn draw_model(
     requests: &[&DrawRequest],
     watch: &mut Stopwatch,
     progress: &Progress,
-    mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+    mut take: impl FnMut(&DrawRequest, EncodedDrawing) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let Some(request) = requests.first() else { return Ok(()) };
     let mut style = library_calls::load_style(&request.style, &request.sets, request.background)?;
@@ -128,7 +128,7 @@ pub(crate) fn draw_model(
         style = style.to_scale();
     }
     progress.step("reading");
-    let Opened { mut scene, mut framed, mut warnings, mut notes } = open(request, model, &style)?;
+    let OpenedModel { mut scene, mut framed, mut warnings, mut notes } = open(request, model, &style)?;
     notes.extend(model_hints::of_drawing(request, &scene));
     if let Some(up) = request.up {
         scene.up = up;
@@ -136,7 +136,7 @@ pub(crate) fn draw_model(
     let load_ms = watch.lap_ms();
     progress.step("drawing");
     if !request.outputs.is_empty() {
-        warnings.extend(usage_warnings::idle(request, std::env::args_os()));
+        warnings.extend(usage_warnings::unused_options(request, std::env::args_os()));
     }
     if request.section.section.is_some() {
         // The section plane and its hatching depend on the view of the uncut model. The frame fits the
@@ -149,22 +149,23 @@ pub(crate) fn draw_model(
         let cameras: Vec<Camera> = cameras.collect::<Result<_, Error>>()?;
         let forward = cameras.first().map_or(DVec3::NEG_Z, |camera| camera.axes()[2]);
         if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            style = hatched_for(&style, &mut scene, &mut section.faces, &cameras);
+            style = with_cut_hatching_for(&style, &mut scene, &mut section.faces, &cameras);
         }
-        framed = (request.frame == Frame::All).then_some(whole);
+        framed = (request.frame == FramedParts::All).then_some(whole);
     }
     if request.section.take_apart(&mut scene)? {
         framed = None;
-        style = trailed(&style);
+        style = with_trail_lines(&style);
     }
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     let told = scene.warnings.lines().into_iter().chain(warnings).collect();
-    let hidden = usage_warnings::hidden(request, &scene);
-    let mut of_scene = OfScene { triangles: triangles(&scene), told, hidden, notes, whole: None };
+    let hidden = usage_warnings::remaining_parts(request, &scene);
+    let mut of_scene = SceneReport { triangles: triangles(&scene), told, hidden, notes, whole: None };
     let mut kept = None;
-    let enclosed: Vec<_> = eyes.iter().map(|eye| usage_warnings::enclosed(&scene, &eye.camera)).collect();
+    let enclosed: Vec<_> =
+        eyes.iter().map(|eye| usage_warnings::camera_inside_part(&scene, &eye.camera)).collect();
     watch.lap_ms();
     // The scene is kept if hotspots or several views need it.
     let prepared = match eyes.as_slice() {
@@ -190,7 +191,7 @@ pub(crate) fn draw_model(
 }
 
 /// Data of the scene that all its views share.
-struct OfScene<'a> {
+struct SceneReport<'a> {
     triangles: u64,
     /// Warnings of the scene and of the options.
     told: Vec<String>,
@@ -205,11 +206,11 @@ struct OfScene<'a> {
 fn draw_view(
     request: &DrawRequest,
     (Viewpoint { camera, paper, warning }, page, enclosed): (Viewpoint, Page, Option<String>),
-    of_scene: &OfScene,
+    of_scene: &SceneReport,
     (style, prepared): (&Style, &Prepared),
     watch: &mut Stopwatch,
     progress: &Progress,
-) -> Result<Drawn, Error> {
+) -> Result<EncodedDrawing, Error> {
     watch.lap_ms();
     let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
     let bare = web_output::complete(request, &mut drawing, of_scene.whole, &camera, style)?;
@@ -224,7 +225,7 @@ fn draw_view(
         }
     }
     if report.warnings.is_empty() {
-        report.warnings.extend(usage_warnings::next_to_nothing(&drawing));
+        report.warnings.extend(usage_warnings::tiny_drawing(&drawing));
     }
 
     progress.step("writing");
@@ -252,7 +253,7 @@ fn draw_view(
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
     report.warnings.extend(left_out);
     let notes = of_scene.notes.clone();
-    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, notes, encoded, maps })
+    Ok(EncodedDrawing { drawing, seen: ViewRequest::Fixed(camera, paper), report, notes, encoded, maps })
 }
 
 pub(crate) fn default_dpi(unit: Unit) -> f64 {
@@ -273,20 +274,20 @@ pub(crate) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<
 }
 
 /// Encodes the first output of a request without writing it.
-pub(crate) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
-    Ok(encoded_and_seen(request)?.0)
+pub(crate) fn encode_first_output(request: &DrawRequest) -> Result<Vec<u8>, Error> {
+    Ok(encode_with_view(request)?.0)
 }
 
 /// Encodes the first output of a request, and returns its view so that another model can be drawn the same
 /// way.
-pub(crate) fn encoded_and_seen(request: &DrawRequest) -> Result<(Vec<u8>, View), Error> {
+pub(crate) fn encode_with_view(request: &DrawRequest) -> Result<(Vec<u8>, ViewRequest), Error> {
     let drawn = draw(request, &mut Stopwatch::start())?;
     refuse_warnings(request, &drawn.report)?;
     Ok((drawn.encoded.into_iter().next().unwrap_or_default(), drawn.seen))
 }
 
 /// Writes all outputs and the report, all or none.
-fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Result<(), Error> {
+fn write(request: &DrawRequest, drawn: &mut EncodedDrawing, watch: &mut Stopwatch) -> Result<(), Error> {
     let mut staging = Staging::default();
     for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
         if output.format == Format::SvgToStdout {
@@ -307,7 +308,7 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
         let json = drawn.report.to_json();
         if is_stdout(path) { printed = Some(json) } else { staging.add(path, json.as_bytes())? }
     }
-    if let (Some(path), View::Fixed(camera, _)) = (&request.save_camera, &drawn.seen) {
+    if let (Some(path), ViewRequest::Fixed(camera, _)) = (&request.save_camera, &drawn.seen) {
         staging.add(path, camera.to_json().as_bytes())?;
     }
     for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
@@ -340,7 +341,7 @@ fn pixels(png: &[u8]) -> Option<[u32; 2]> {
 
 /// Summary line: `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`. The pixel size of a PNG is
 /// added if it differs from the page size.
-pub(crate) fn summary(drawn: &Drawn, bytes: &[u8], seconds: f64) -> String {
+pub(crate) fn summary(drawn: &EncodedDrawing, bytes: &[u8], seconds: f64) -> String {
     let Page { width, height, unit, .. } = drawn.drawing.page;
     let counts = &drawn.report.counts;
     let of_page = |side: u32, length: f64| unit == Unit::Px && f64::from(side) == length;
@@ -368,9 +369,9 @@ mod tests {
     fn the_summary_is_one_line() {
         let page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
         let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
-        let drawn = Drawn {
+        let drawn = EncodedDrawing {
             drawing: Drawing::new("", page, Vec::new()),
-            seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
+            seen: ViewRequest::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
             notes: Vec::new(),
             encoded: Vec::new(),

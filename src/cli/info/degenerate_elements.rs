@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::cli::output::number_text::{counted, short};
 use crate::scene::Scene;
-use crate::scene::extent::drawn_points::{DrawnPart, LeftOut};
+use crate::scene::extent::drawn_points::{DegenerateCounts, DrawnPart};
 
 /// Excluded faces and lines of a part.
 #[derive(Debug, Serialize)]
@@ -21,8 +21,8 @@ pub(crate) struct LeftOutInfo {
 }
 
 /// Excluded faces and lines of each part, one entry per part.
-pub(crate) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<LeftOut> {
-    let mut left_out = vec![LeftOut::default(); scene.parts.len()];
+pub(crate) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<DegenerateCounts> {
+    let mut left_out = vec![DegenerateCounts::default(); scene.parts.len()];
     for own in drawn {
         if let Some(slot) = left_out.get_mut(own.part) {
             *slot = own.left_out;
@@ -44,7 +44,7 @@ pub(crate) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
 
 impl LeftOutInfo {
     /// Entries of the parts with excluded elements.
-    pub fn of(scene: &Scene, left_out: &[LeftOut]) -> Vec<Self> {
+    pub fn of(scene: &Scene, left_out: &[DegenerateCounts]) -> Vec<Self> {
         let parts = scene.parts.iter().zip(left_out).filter(|(_, own)| !own.is_none());
         let info = parts.map(|(part, own)| Self {
             part: part.name.clone(),

@@ -22,7 +22,7 @@ mod text_lists;
 mod text_summary;
 
 pub(crate) use self::info_args::InfoArgs;
-use self::model_contents::Info;
+use self::model_contents::ModelInfo;
 use super::print;
 use super::step::open_rigged;
 use crate::error::Error;
@@ -30,7 +30,7 @@ use crate::error::Error;
 /// Reads the model and prints its contents.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let rigged = open_rigged(&args.model, &args.step)?;
-    let info = Info::of(&rigged.posed(&[])?, &rigged.rig, args);
+    let info = ModelInfo::of(&rigged.posed(&[])?, &rigged.rig, args);
     if args.json {
         let json = serde_json::to_string_pretty(&info).unwrap_or_default();
         print(format!("{json}\n").as_bytes())

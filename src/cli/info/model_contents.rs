@@ -1,4 +1,4 @@
-//! [`Info`]: contents and defects of a model file.
+//! [`ModelInfo`]: contents and defects of a model file.
 
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ use crate::scene::{Geometry, Scene, UpAxis};
 
 /// Contents and defects of a model file.
 #[derive(Debug, Serialize)]
-pub(crate) struct Info {
+pub(crate) struct ModelInfo {
     pub file: String,
     pub format: &'static str,
     pub up: &'static str,
@@ -57,7 +57,7 @@ pub(crate) struct BoundsInfo {
     pub size_mm: Option<[f64; 3]>,
 }
 
-impl Info {
+impl ModelInfo {
     /// Collects contents and defects of a scene.
     pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
@@ -88,7 +88,7 @@ impl Info {
         let unit =
             (args.unit.is_some() || model_unit::is_stated(scene)).then(|| ModelUnit::of(scene, args.unit));
         if let Some((min, max)) = bounds.filter(|_| args.unit.is_none()) {
-            warnings.extend(model_unit::doubt(scene, (max - min).max_element()));
+            warnings.extend(model_unit::implausible_size(scene, (max - min).max_element()));
         }
         Self {
             file: args.model.display().to_string(),

@@ -8,7 +8,7 @@ use super::text_lists::named;
 use crate::cli::output::number_text::{counted, short};
 use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
-use crate::scene::extent::drawn_points::LeftOut;
+use crate::scene::extent::drawn_points::DegenerateCounts;
 
 /// Contents and precision of a part.
 #[derive(Debug, Serialize)]
@@ -46,7 +46,7 @@ impl PartInfo {
     pub fn of(
         scene: &Scene,
         number: usize,
-        left_out: &LeftOut,
+        left_out: &DegenerateCounts,
         turned: &[TurnedFaces],
         precision: PrecisionInfo,
         bounds: Option<(DVec3, DVec3)>,

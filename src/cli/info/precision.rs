@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::cli::output::number_text::three_digits;
 use crate::mesh::components::bodies::body_of;
-use crate::mesh::{Extent, Mesh, PartId};
+use crate::mesh::{Mesh, PartId, PartMetrics};
 use crate::scene::Scene;
 use crate::scene::triangle_soup::longest_axis;
 
@@ -56,7 +56,7 @@ pub(crate) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
 }
 
 impl PrecisionInfo {
-    fn of(extent: &Extent, lattice: f64, lattice_source: StepSource) -> Self {
+    fn of(extent: &PartMetrics, lattice: f64, lattice_source: StepSource) -> Self {
         let is_drawn = extent.low.x <= extent.high.x;
         let source = if lattice >= extent.step { lattice_source } else { StepSource::SinglePrecision };
         Self {

@@ -3,9 +3,9 @@
 use glam::{DAffine3, DVec3};
 
 use super::info_args::InfoArgs;
-use super::model_contents::Info;
+use super::model_contents::ModelInfo;
 use crate::animation::rig::{Node, Placement, Skin};
-use crate::animation::{Channel, Clip, Interpolation, Property, Rig, Target, Track};
+use crate::animation::{AnimationTarget, Clip, ClipChannel, Interpolation, NodeProperty, Rig, Track};
 use crate::cli::step::StepArgs;
 use crate::scene::{Geometry, Material, Part, Scene};
 
@@ -36,7 +36,7 @@ fn walk() -> Clip {
     let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
     Clip {
         name: "Walk".to_owned(),
-        channels: vec![Channel { target: Target::Node(0, Property::Scale), track }],
+        channels: vec![ClipChannel { target: AnimationTarget::Node(0, NodeProperty::Scale), track }],
     }
 }
 
@@ -50,7 +50,7 @@ fn args(model: &str) -> InfoArgs {
 
 #[test]
 fn people_read_lists_of_a_bearable_length() {
-    let text = Info::of(&scene(22), &rig(walk()), &args("m.obj")).text(false);
+    let text = ModelInfo::of(&scene(22), &rig(walk()), &args("m.obj")).text(false);
     let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                  22 parts:\n    bolt 0: 1 triangle, 1 line\n";
     assert!(text.starts_with(start), "{text}");
@@ -68,12 +68,12 @@ fn people_read_what_parts_are_painted_by() {
     let mut scene = scene(1);
     scene.geometries[0].corner_uvs = vec![[0; 3]];
     assert!(
-        Info::of(&scene, &Rig::default(), &args("m.obj"))
+        ModelInfo::of(&scene, &Rig::default(), &args("m.obj"))
             .text(false)
             .contains(": 1 triangle, 1 line, texture coordinates\n")
     );
     scene.geometries[0].colours = vec![[1.0; 4]; 3];
-    let text = Info::of(&scene, &Rig::default(), &args("m.obj")).text(false);
+    let text = ModelInfo::of(&scene, &Rig::default(), &args("m.obj")).text(false);
     assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
 }
 
@@ -88,7 +88,7 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
     right.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     scene.geometries.push(right);
     scene.parts[1].geometry = 1;
-    let info = Info::of(&scene, &Rig::default(), &args("m.obj"));
+    let info = ModelInfo::of(&scene, &Rig::default(), &args("m.obj"));
     let text = info.text(false);
     let wanted = "  4 triangles turned in 1 surface: their winding in the file points inward or contradicts their neighbours\n  2 parts:\n    \
                   bolt 0: 4 triangles, 4 triangles turned in 1 surface\n    bolt 1: 4 triangles\n";
@@ -102,7 +102,7 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
 
 #[test]
 fn programs_read_everything() -> Result<(), serde_json::Error> {
-    let json = serde_json::to_string(&Info::of(&scene(22), &rig(walk()), &args("m.obj")))?;
+    let json = serde_json::to_string(&ModelInfo::of(&scene(22), &rig(walk()), &args("m.obj")))?;
     let value: serde_json::Value = serde_json::from_str(&json)?;
     assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
     assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
@@ -115,7 +115,7 @@ fn programs_read_everything() -> Result<(), serde_json::Error> {
 fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error> {
     let mut scene = scene(2);
     scene.parts[1].world_from_part = DAffine3::from_scale(DVec3::ZERO);
-    let info = Info::of(&scene, &Rig::default(), &args("m.obj"));
+    let info = ModelInfo::of(&scene, &Rig::default(), &args("m.obj"));
     assert!(
         info.text(true).contains(", exact coordinates\n    bolt 1: 1 triangle, 1 line\n"),
         "{}",
@@ -141,14 +141,14 @@ fn parts_of_one_body_have_the_step_of_the_coarsest() {
     other.triangles = vec![[1, 0, 3]];
     scene.geometries.push(other);
     scene.parts[1].geometry = 1;
-    let text = Info::of(&scene, &Rig::default(), &args("m.obj")).text(true);
+    let text = ModelInfo::of(&scene, &Rig::default(), &args("m.obj")).text(true);
     assert_eq!(text.matches(", step 1e-5 (decimals of the file), rounding 9e-6\n").count(), 2, "{text}");
 }
 
 #[test]
 fn an_empty_model_has_no_bounds() {
     assert!(
-        Info::of(&scene(0), &Rig::default(), &args("m.obj"))
+        ModelInfo::of(&scene(0), &Rig::default(), &args("m.obj"))
             .text(false)
             .starts_with("m.obj: OBJ, y up\n  0 triangles")
     );
@@ -169,7 +169,7 @@ fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
         skins: vec![Skin { joints: vec![2, 0], binds: vec![DAffine3::IDENTITY; 2] }],
         ..rig(walk())
     };
-    let info = Info::of(&scene(1), &rig, &args("m.glb"));
+    let info = ModelInfo::of(&scene(1), &rig, &args("m.glb"));
     assert!(info.text(false).contains("  2 joints (--all lists them)\n"), "{}", info.text(false));
     assert!(
         info.text(true).contains("  2 joints:\n    hips\n    spine, below hips\n"),
@@ -184,7 +184,7 @@ fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
 #[test]
 fn clips_beyond_twenty_are_listed_in_full_only() {
     let clips = vec![walk(); 25];
-    let info = Info::of(&scene(1), &Rig { clips, ..Rig::default() }, &args("m.glb"));
+    let info = ModelInfo::of(&scene(1), &Rig { clips, ..Rig::default() }, &args("m.glb"));
     assert_eq!(info.text(false).matches("    Walk: ").count(), 20);
     assert_eq!(info.text(true).matches("    Walk: ").count(), 25);
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::cli::output::number_text::counted;
 
 /// Maximum number of list entries without `--all`.
-pub(crate) const SHOWN: usize = 20;
+pub(crate) const MAX_SHOWN_ENTRIES: usize = 20;
 
 /// A name, or a placeholder for an empty one.
 pub(crate) fn named(name: &str) -> &str {

@@ -6,15 +6,15 @@ use super::degenerate_elements;
 use super::joints::JointInfo;
 use super::lights_cameras_clips::{CameraInfo, ClipInfo, LightInfo};
 use super::materials::MaterialInfo;
-use super::model_contents::{BoundsInfo, Info};
-use super::text_lists::{SHOWN, list};
+use super::model_contents::{BoundsInfo, ModelInfo};
+use super::text_lists::{MAX_SHOWN_ENTRIES, list};
 use crate::cli::output::number_text::{counted, short};
 
-impl Info {
+impl ModelInfo {
     /// Formats the contents as text. A full text lists everything, with bounds and precision of each part. A
-    /// short text stops after [`SHOWN`] entries per list.
+    /// short text stops after [`MAX_SHOWN_ENTRIES`] entries per list.
     pub(crate) fn text(&self, is_full: bool) -> String {
-        let most = if is_full { usize::MAX } else { SHOWN };
+        let most = if is_full { usize::MAX } else { MAX_SHOWN_ENTRIES };
         let mut text = String::new();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use clap::{Arg, ArgAction, Args, Command};
 
 use super::conventions::{EXIT_STATUS, FILES, environment};
-use crate::cli::SHARING;
+use crate::cli::SHARING_COMMANDS;
 use crate::cli::options::draw_args::HowArgs;
 
 const INTRODUCTION: &str = "\
@@ -22,12 +22,12 @@ This page is generated from the program with `ligne man --markdown`. `ligne COMM
 given several times. GLOB is a name pattern: `*` matches any characters and `?` one character. Upper and lower case differ.
 ";
 
-const SHARED: &str = "\
+const SHARED_TEXT: &str = "\
 `draw`, `animate` and `diff` take these options. Their long names are also the keys of [ligne.toml](config.md) and of
 [case files](case-file.md).
 ";
 
-const EXIT: &str = "\
+const EXIT_TEXT: &str = "\
 Errors and warnings go to standard error. After an error nothing is written, and existing files stay unchanged.
 ";
 
@@ -37,7 +37,9 @@ pub(crate) fn markdown(program: &Command) -> String {
     let is_shared = |command: &Command, option: &Arg| {
         let is_known = drawing.get_arguments().any(|other| other.get_id() == option.get_id());
         let is_own = command.get_name() == "styles" && option.get_id() == "style";
-        is_known && !is_own && (command.get_name() == "draw" || SHARING.contains(&command.get_name()))
+        is_known
+            && !is_own
+            && (command.get_name() == "draw" || SHARING_COMMANDS.contains(&command.get_name()))
     };
     let mut text = INTRODUCTION.to_owned();
     text.push_str("\n| Command | Purpose |\n| --- | --- |\n");
@@ -51,7 +53,7 @@ pub(crate) fn markdown(program: &Command) -> String {
     for command in commands() {
         section(&mut text, command, &is_shared);
     }
-    let _ = write!(text, "\n## Shared options\n\n{SHARED}");
+    let _ = write!(text, "\n## Shared options\n\n{SHARED_TEXT}");
     tables(&mut text, drawing.get_arguments());
     text.push_str("\n## Environment\n\nAn option wins over a variable. An empty variable counts as unset.\n\n| Variable | Effect |\n| --- | --- |\n");
     for (name, effect) in environment(|_| true) {
@@ -62,7 +64,7 @@ pub(crate) fn markdown(program: &Command) -> String {
     for paragraph in FILES {
         let _ = write!(text, "\n{paragraph}\n");
     }
-    let _ = write!(text, "\n## Exit status\n\n{EXIT}\n| Status | Meaning |\n| --- | --- |\n");
+    let _ = write!(text, "\n## Exit status\n\n{EXIT_TEXT}\n| Status | Meaning |\n| --- | --- |\n");
     for (status, meaning) in EXIT_STATUS {
         let _ = writeln!(text, "| {status} | {} |", cell(meaning));
     }

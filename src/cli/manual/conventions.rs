@@ -3,10 +3,11 @@
 use crate::cli::config::call_defaults::VARIABLES;
 
 /// Effects of [`VARIABLES`].
-const EFFECTS: [&str; 3] = ["Default of --style.", "Default of --threads.", "Default of --step-converter."];
+const VARIABLE_EFFECTS: [&str; 3] =
+    ["Default of --style.", "Default of --threads.", "Default of --step-converter."];
 
 /// Variables for STEP models that have no option, with their effects.
-const STEP: [(&str, &str); 2] = [
+const STEP_VARIABLES: [(&str, &str); 2] = [
     ("LIGNE_CACHE", "Folder for converted STEP models [default: the cache folder of the user]."),
     (
         "LIGNE_STEP_SECONDS, LIGNE_STEP_MB",
@@ -15,7 +16,7 @@ const STEP: [(&str, &str); 2] = [
 ];
 
 /// Variables of job arrays, with their effects.
-const ARRAYS: [(&str, &str); 2] = [
+const JOB_ARRAY_VARIABLES: [(&str, &str); 2] = [
     (
         "SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT",
         "Default of --shard for ligne draw --out-dir with several models. --shard /N takes K from the first variable.",
@@ -57,7 +58,7 @@ pub(crate) const FILES: [&str; 4] = [
 /// Variables that a command reads, with their effects. `has` returns whether the command has an option.
 pub(crate) fn environment(has: impl Fn(&str) -> bool) -> Vec<(&'static str, &'static str)> {
     let mut entries: Vec<(&str, &str)> = Vec::new();
-    for ((name, option), effect) in VARIABLES.iter().zip(EFFECTS) {
+    for ((name, option), effect) in VARIABLES.iter().zip(VARIABLE_EFFECTS) {
         if has(option) {
             entries.push((name, effect));
         }
@@ -66,10 +67,10 @@ pub(crate) fn environment(has: impl Fn(&str) -> bool) -> Vec<(&'static str, &'st
         entries.push(("CI", "If set, ligne test refuses --bless."));
     }
     if has("folders") {
-        entries.extend(ARRAYS);
+        entries.extend(JOB_ARRAY_VARIABLES);
     }
     if has("step-converter") {
-        entries.extend(STEP);
+        entries.extend(STEP_VARIABLES);
     }
     entries
 }

@@ -1,4 +1,4 @@
-//! [`Blend`]: clips selected by `--animation`, and their weights over time.
+//! [`ClipBlend`]: clips selected by `--animation`, and their weights over time.
 
 use crate::animation::{Clip, Playing};
 use crate::error::Error;
@@ -6,12 +6,12 @@ use crate::geometry::names::glob::Glob;
 use crate::style::sheet_errors::nearest;
 
 /// Maximum number of clip names in a message.
-const MAX_NAMES: usize = 12;
+const MAX_SHOWN_CLIPS: usize = 12;
 
 /// Clips that play together, and their weights over time.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Blend {
-    asked: Vec<Asked>,
+pub(crate) struct ClipBlend {
+    asked: Vec<BlendedClip>,
     /// Earliest start and latest end of the clips, seconds.
     span: [f64; 2],
     /// Time span of weights without explicit times, seconds.
@@ -23,23 +23,23 @@ pub(crate) struct Blend {
 
 /// Clip with its weight.
 #[derive(Debug, Clone, PartialEq)]
-struct Asked {
+struct BlendedClip {
     clip: usize,
     span: [f64; 2],
     /// Weight; a clip without one gets an equal share of the remaining weight.
-    weight: Option<Weight>,
+    weight: Option<ClipWeight>,
 }
 
 /// Weight over time: linear between keys, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
-enum Weight {
+enum ClipWeight {
     /// Keys of time in seconds and weight.
     Timed(Vec<(f64, f64)>),
     /// Weights at evenly spaced times.
     Spread(Vec<f64>),
 }
 
-impl Blend {
+impl ClipBlend {
     /// Selects clips by texts: `NAME`, `NAME:WEIGHT`, or a comma-separated list. A name may be a pattern such
     /// as `Walk*`. Without texts the first clip plays. With `repeats` each clip loops.
     ///
@@ -60,13 +60,13 @@ impl Blend {
         }
         let find = |name: &str| clips.iter().position(|clip| clip.name == name);
         let mut asked = Vec::new();
-        let mut add = |name: &str, weight: Option<Weight>| {
+        let mut add = |name: &str, weight: Option<ClipWeight>| {
             let clip = match find(name) {
                 Some(clip) => clip,
                 None => matching(clips, name, &mut notes)?,
             };
             let span = clips.get(clip).map_or([0.0; 2], Clip::span);
-            asked.push(Asked { clip, span, weight });
+            asked.push(BlendedClip { clip, span, weight });
             Ok(())
         };
         for text in texts {
@@ -77,13 +77,17 @@ impl Blend {
             }
             for item in text.split(',').map(str::trim) {
                 match item.rsplit_once(':').filter(|_| find(item).is_none()) {
-                    Some((name, weight)) => add(name, Some(Weight::parse(weight)?))?,
+                    Some((name, weight)) => add(name, Some(ClipWeight::parse(weight)?))?,
                     None => add(item, None)?,
                 }
             }
         }
         if texts.is_empty() {
-            asked.push(Asked { clip: 0, span: clips.first().map_or([0.0; 2], Clip::span), weight: None });
+            asked.push(BlendedClip {
+                clip: 0,
+                span: clips.first().map_or([0.0; 2], Clip::span),
+                weight: None,
+            });
         }
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
@@ -118,7 +122,7 @@ impl Blend {
         let told: f64 = weights.iter().flatten().sum();
         let equal = weights.iter().filter(|weight| weight.is_none()).count();
         let left = (1.0 - told).max(0.0) / equal.max(1) as f64;
-        let own = |(own, weight): (&Asked, Option<f64>)| {
+        let own = |(own, weight): (&BlendedClip, Option<f64>)| {
             let [from, to] = own.span;
             let time =
                 if self.repeats && to > from { from + (time - from).rem_euclid(to - from) } else { time };
@@ -152,14 +156,14 @@ fn matching(clips: &[Clip], pattern: &str, notes: &mut Vec<String>) -> Result<us
     Err(Error::new(format!("the model has no animation `{pattern}`")).remedy(remedy))
 }
 
-/// Names of clips, shortened to [`MAX_NAMES`].
+/// Names of clips, shortened to [`MAX_SHOWN_CLIPS`].
 fn names(clips: &[Clip]) -> String {
-    let shown: Vec<&str> = clips.iter().take(MAX_NAMES).map(|clip| clip.name.as_str()).collect();
-    let more = clips.len().saturating_sub(MAX_NAMES);
+    let shown: Vec<&str> = clips.iter().take(MAX_SHOWN_CLIPS).map(|clip| clip.name.as_str()).collect();
+    let more = clips.len().saturating_sub(MAX_SHOWN_CLIPS);
     if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
-impl Weight {
+impl ClipWeight {
     /// Reads `0.7`, `1..0` (over the drawn time), or `1@0.5..0@2` (times in seconds).
     fn parse(text: &str) -> Result<Self, Error> {
         let wrong = |message: String| {
@@ -223,19 +227,19 @@ fn between(keys: &[(f64, f64)], time: f64) -> f64 {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::animation::{Channel, Interpolation, Property, Target, Track};
+    use crate::animation::{AnimationTarget, ClipChannel, Interpolation, NodeProperty, Track};
 
     fn clips() -> Vec<Clip> {
         let clip = |(name, to): (&str, f64)| {
             let track = Track::new(vec![0.0, to], vec![0.0; 6], Interpolation::Linear).unwrap();
-            let target = Target::Node(0, Property::Translation);
-            Clip { name: name.to_owned(), channels: vec![Channel { target, track }] }
+            let target = AnimationTarget::Node(0, NodeProperty::Translation);
+            Clip { name: name.to_owned(), channels: vec![ClipChannel { target, track }] }
         };
         [("Walk", 1.0), ("Run", 4.0), ("rig:Idle,slow", 2.0)].map(clip).to_vec()
     }
 
-    fn blend(texts: &[&str]) -> Result<Blend, Error> {
-        Blend::new(&clips(), &texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>(), false)
+    fn blend(texts: &[&str]) -> Result<ClipBlend, Error> {
+        ClipBlend::new(&clips(), &texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>(), false)
     }
 
     fn weights(texts: &[&str], time: f64) -> Vec<(usize, f64)> {
@@ -285,7 +289,7 @@ mod tests {
 
     #[test]
     fn clips_begin_again() {
-        let blend = Blend { repeats: true, ..blend(&["Walk", "Run"]).unwrap() };
+        let blend = ClipBlend { repeats: true, ..blend(&["Walk", "Run"]).unwrap() };
         let times: Vec<f64> = blend.playing(5.25).iter().map(|own| own.time).collect();
         assert_eq!(times, [0.25, 1.25]);
     }

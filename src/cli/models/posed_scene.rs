@@ -1,6 +1,6 @@
 //! Scene at one moment of its animation.
 
-use super::clip_blend::Blend;
+use super::clip_blend::ClipBlend;
 use crate::animation::{Clip, Rigged};
 use crate::cli::request::draw_request::DrawRequest;
 use crate::error::Error;
@@ -18,7 +18,7 @@ pub(crate) fn scene_at(
     request: &DrawRequest,
     style: &Style,
 ) -> Result<(Scene, Vec<String>), Error> {
-    if request.stands() {
+    if request.is_at_rest() {
         return Ok((rigged.scene, Vec::new()));
     }
     let in_file = |error: Error| match &rigged.scene.file {
@@ -26,10 +26,10 @@ pub(crate) fn scene_at(
         _ => error,
     };
     let (clips, time) = (&rigged.rig.clips, request.time.unwrap_or(0.0));
-    let blend = Blend::new(clips, &request.animation, request.repeat).map_err(in_file)?;
+    let blend = ClipBlend::new(clips, &request.animation, request.repeat).map_err(in_file)?;
     let playing = blend.playing(time);
     let mut scene = motion::posed(&rigged, &playing, &style.motion, style.seed).map_err(in_file)?;
-    if let Some(reason) = motion::why_none(&rigged, &playing, &style.motion, &scene) {
+    if let Some(reason) = motion::no_lines_reason(&rigged, &playing, &style.motion, &scene) {
         scene.warnings.note(reason);
     }
     for Clip { name, .. } in playing

@@ -4,21 +4,21 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::options::values::shard::Share;
+use crate::cli::options::values::shard::ShardSpec;
 use crate::cli::output::output_files::is_stdout;
 use crate::error::Error;
 use crate::load::ModelFormat;
 
 /// Options for several models, several views, and watching.
 #[derive(Debug, Args)]
-pub(crate) struct ManyArgs {
+pub(crate) struct BatchArgs {
     /// Draw all models into this folder: DIR/NAME.svg, or DIR/NAME-VIEW.svg with several views
     #[arg(long, value_name = "DIR", help_heading = "Batch", conflicts_with = "outputs")]
     pub(crate) out_dir: Option<PathBuf>,
 
     /// Formats of the drawings: svg, png, pdf, dxf [default: svg]
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Batch", value_parser = Named::parse)]
-    format: Vec<Named>,
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Batch", value_parser = FormatName::parse)]
+    format: Vec<FormatName>,
 
     /// Format of a model on standard input: obj, gltf, glb, stl, ply
     #[arg(long, value_name = "NAME", help_heading = "Batch", value_parser = model_format)]
@@ -29,8 +29,8 @@ pub(crate) struct ManyArgs {
     pub(crate) folders: bool,
 
     /// Draw share K of N of the models, or share K of a job array with /N [env: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX]
-    #[arg(long, value_name = "K/N", help_heading = "Batch", requires = "out_dir", value_parser = Share::parse)]
-    pub(crate) shard: Option<Share>,
+    #[arg(long, value_name = "K/N", help_heading = "Batch", requires = "out_dir", value_parser = ShardSpec::parse)]
+    pub(crate) shard: Option<ShardSpec>,
 
     /// Skip drawings that are newer than their model, style sheet and camera record
     #[arg(long, help_heading = "Batch")]
@@ -43,14 +43,14 @@ pub(crate) struct ManyArgs {
 
 /// A name after `--format`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Named {
+enum FormatName {
     /// Ending of a drawing format.
     Drawing(&'static str),
     /// Model format, an older spelling of `--input-format`.
     Model(ModelFormat),
 }
 
-impl Named {
+impl FormatName {
     fn parse(text: &str) -> Result<Self, String> {
         let drawing = ["svg", "png", "pdf", "dxf"].into_iter().find(|name| text.eq_ignore_ascii_case(name));
         let named = drawing.map(Self::Drawing).or_else(|| ModelFormat::of_ending(text).map(Self::Model));
@@ -63,7 +63,7 @@ fn model_format(text: &str) -> Result<ModelFormat, String> {
     ModelFormat::of_ending(text).ok_or_else(|| "write obj, gltf, glb, stl or ply".to_owned())
 }
 
-impl ManyArgs {
+impl BatchArgs {
     /// Whether these options need batch drawing.
     pub(crate) const fn is_asked(&self) -> bool {
         self.out_dir.is_some() || self.resume || self.watch
@@ -73,7 +73,7 @@ impl ManyArgs {
     pub(crate) fn endings(&self) -> Vec<&'static str> {
         let mut endings = Vec::new();
         for named in &self.format {
-            if let Named::Drawing(ending) = named
+            if let FormatName::Drawing(ending) = named
                 && !endings.contains(ending)
             {
                 endings.push(*ending);
@@ -92,8 +92,8 @@ impl ManyArgs {
     ) -> Result<Option<ModelFormat>, Error> {
         let piped = models.into_iter().filter(|model| is_stdout(model)).count();
         let older = self.format.iter().filter_map(|named| match named {
-            Named::Model(format) => Some(*format),
-            Named::Drawing(_) => None,
+            FormatName::Model(format) => Some(*format),
+            FormatName::Drawing(_) => None,
         });
         let mut formats = self.input_format.into_iter().chain(older);
         let wrong =

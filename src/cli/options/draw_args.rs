@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
-use super::batch_args::ManyArgs;
+use super::batch_args::BatchArgs;
 use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 #[cfg(feature = "pdf")]
@@ -15,8 +15,8 @@ use super::style_keys;
 use super::values::paper_size;
 use super::web_args::WebArgs;
 use crate::cli::draw::contact_sheet::ViewSheetArgs;
-use crate::cli::options::values::completion_values::Offered;
-use crate::cli::options::values::paper_size::{Extent, Measure};
+use crate::cli::options::values::completion_values::CompletionValues;
+use crate::cli::options::values::paper_size::{PageLength, PaperSize};
 use crate::cli::step::StepArgs;
 use crate::colour::srgb::Colour;
 use crate::pipeline::Stage;
@@ -64,7 +64,7 @@ pub(crate) struct DrawArgs {
     pub(crate) save: SaveArgs,
 
     #[command(flatten)]
-    pub(crate) many: ManyArgs,
+    pub(crate) many: BatchArgs,
 
     #[command(flatten)]
     pub(crate) web: WebArgs,
@@ -96,12 +96,12 @@ pub(crate) struct DrawArgs {
 pub(crate) struct HowArgs {
     /// Built-in style, or style sheet [env: LIGNE_STYLE]
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink", hide_possible_values = true,
-        value_parser = Offered::new(Style::names(), |name| Ok(name.to_owned())))]
+        value_parser = CompletionValues::new(Style::names(), |name| Ok(name.to_owned())))]
     pub(crate) style: String,
 
     /// Change one style key, such as lines.crease_deg=30; repeatable; ligne styles --keys lists the keys
     #[arg(long = "set", value_name = "KEY=VALUE", hide_possible_values = true,
-        value_parser = Offered::late(style_keys::settings, setting))]
+        value_parser = CompletionValues::late(style_keys::settings, setting))]
     pub(crate) sets: Vec<String>,
 
     /// Random seed for hand-drawn effects [default: the style's]
@@ -180,12 +180,12 @@ pub(crate) struct HowArgs {
     /// Size of the drawing in px, such as 1000x800 or 1000 [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
         value_parser = paper_size::size_px)]
-    pub(crate) size: Option<Extent>,
+    pub(crate) size: Option<PaperSize>,
 
     /// Page in mm: A0 to A6, Letter, Legal, Tabloid, or such as 210x297mm
     #[arg(long, value_name = "NAME|WIDTHxHEIGHT", help_heading = "Page", hide_possible_values = true,
-        value_parser = Offered::new(paper_size::sheet_names(), paper_size::page_mm))]
-    pub(crate) page: Option<Extent>,
+        value_parser = CompletionValues::new(paper_size::sheet_names(), paper_size::page_mm))]
+    pub(crate) page: Option<PaperSize>,
 
     /// Turn the page to landscape
     #[arg(long, help_heading = "Page", requires = "page")]
@@ -193,7 +193,7 @@ pub(crate) struct HowArgs {
 
     /// Free border, such as 10mm [default: 10mm on a page, 0 otherwise]
     #[arg(long, value_name = "LENGTH", help_heading = "Page", value_parser = paper_size::margin)]
-    pub(crate) margin: Option<Measure>,
+    pub(crate) margin: Option<PageLength>,
 
     /// Orthographic scale, such as 1:2 for half size; see --unit
     #[arg(long, value_name = "PAPER:MODEL", help_heading = "Page", requires = "page", conflicts_with = "fov",

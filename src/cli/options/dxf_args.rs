@@ -21,20 +21,20 @@ pub(crate) struct DxfArgs {
     /// DXF lengths: page (mm, 1 px = 1/96 inch) or model (model units; needs an orthographic view)
     #[arg(long, value_name = "WHOSE", help_heading = "Output", default_value = "page",
         value_parser = PossibleValuesParser::new(["page", "model"])
-            .map(|name| if name == "model" { Lengths::Model } else { Lengths::Page }))]
-    dxf_length: Lengths,
+            .map(|name| if name == "model" { DxfLengthSource::Model } else { DxfLengthSource::Page }))]
+    dxf_length: DxfLengthSource,
 }
 
 /// Source of the lengths in a DXF file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Lengths {
+enum DxfLengthSource {
     Page,
     Model,
 }
 
 impl Default for DxfArgs {
     fn default() -> Self {
-        Self { dxf: DxfVersion::default(), dxf_length: Lengths::Page }
+        Self { dxf: DxfVersion::default(), dxf_length: DxfLengthSource::Page }
     }
 }
 
@@ -49,8 +49,8 @@ pub(crate) fn encode(
 ) -> Result<(Vec<u8>, Option<String>), Error> {
     let mut options = DxfOptions::default().with_version(args.dxf);
     match (args.dxf_length, camera.projection) {
-        (Lengths::Page, _) => {}
-        (Lengths::Model, Projection::Orthographic { height }) => {
+        (DxfLengthSource::Page, _) => {}
+        (DxfLengthSource::Model, Projection::Orthographic { height }) => {
             let per_unit = camera.height / height;
             // The frame is centred on the page, and the camera looks at its centre.
             let [right, up, _] = camera.axes();
@@ -60,7 +60,7 @@ pub(crate) fn encode(
             ];
             options = options.with_length(DxfLength::Model(per_unit)).with_origin(at);
         }
-        (Lengths::Model, Projection::Perspective { .. }) => {
+        (DxfLengthSource::Model, Projection::Perspective { .. }) => {
             return Err(Error::new("a perspective view has no uniform scale")
                 .at("--dxf-length")
                 .remedy("give --ortho or a named view, or leave --dxf-length out"));

@@ -11,9 +11,9 @@ use crate::cli::options::values::model_unit::ModelUnit;
 #[derive(Debug, Clone, Args)]
 pub(crate) struct FramingArgs {
     /// Parts to fit into the frame: visible, or all even when --only, --hide or --section removes some [default: visible]
-    #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = Frame::Visible,
+    #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = FramedParts::Visible,
         hide_default_value = true)]
-    pub(crate) frame: Frame,
+    pub(crate) frame: FramedParts,
 
     /// Model point at the centre of the frame; needs --scale or an orthographic camera record
     #[arg(long, visible_alias = "center", value_name = "X,Y,Z", help_heading = "View", allow_hyphen_values = true,
@@ -27,7 +27,7 @@ pub(crate) struct FramingArgs {
 
 /// Parts that must fit into the frame. Plain comments keep the values on one line of help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Frame {
+pub(crate) enum FramedParts {
     // All parts of the model.
     All,
     // The parts that are drawn.

@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 
 use crate::cli::output::output_files::{Format, Output};
 use crate::colour::srgb::Colour;
-use crate::drawing::{Composition, Drawing, Item, Page};
+use crate::drawing::{Composition, Drawing, Page, PlacedDrawing};
 use crate::error::Error;
 use crate::export::{Inks, PdfOptions, Screen, Spot, Standard, to_pdf};
 
@@ -66,7 +66,7 @@ fn screen(text: &str) -> Result<Screen, String> {
 impl PrintArgs {
     /// Merges these options with the print settings of a page file. Typed options take precedence.
     #[cfg(feature = "page")]
-    pub(crate) fn beside(&self, ink: Option<&str>, file: &crate::page::Print) -> (Self, Option<String>) {
+    pub(crate) fn beside(&self, ink: Option<&str>, file: &crate::page::PrintInks) -> (Self, Option<String>) {
         let mut all = self.clone();
         let inks = ink.map(str::to_owned).or_else(|| file.ink.clone());
         all.icc = all.icc.or_else(|| file.icc.clone());
@@ -121,7 +121,7 @@ impl PrintArgs {
     /// Options of the PDF exporter, if an output is a PDF.
     ///
     /// # Errors
-    /// Returns an error as [`PrintArgs::options`] does, and if PDF options are given without a PDF output.
+    /// Returns an error as [`PrintArgs::contour_options`] does, and if PDF options are given without a PDF output.
     pub(crate) fn of_outputs(
         &self,
         ink: Option<&str>,
@@ -161,7 +161,10 @@ pub(crate) fn encode(drawing: &Drawing, options: Option<&PdfOptions>) -> Result<
     let (name, drawing, place) = ("drawing".to_owned(), drawing.clone(), kurbo::Affine::IDENTITY);
     let page = Page { background: None, ..drawing.page };
     let title = drawing.title.clone();
-    to_pdf(&[Composition::new(title, page, vec![Item { name, drawing, place, clip: None }])], options)
+    to_pdf(
+        &[Composition::new(title, page, vec![PlacedDrawing { name, drawing, place, clip: None }])],
+        options,
+    )
 }
 
 #[cfg(test)]

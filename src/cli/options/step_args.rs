@@ -12,8 +12,8 @@ const DEFAULT_TOLERANCE_MM: f64 = 0.1;
 const MIN_SMOOTH_RADIUS_MM: f64 = 20.0;
 
 /// Limits of the angle between neighbouring facets, radians.
-const MIN_ANGLE: f64 = 0.05;
-const MAX_ANGLE: f64 = 0.5;
+const MIN_FACET_ANGLE_RAD: f64 = 0.05;
+const MAX_FACET_ANGLE_RAD: f64 = 0.5;
 
 /// How models in STEP files (.step, .stp) are converted to triangles.
 #[derive(Debug, Clone, Default, Args)]
@@ -28,13 +28,15 @@ pub(crate) struct StepArgs {
 }
 
 /// Environment variable that names a converter.
-const VARIABLE: &str = "LIGNE_STEP_CONVERTER";
+const CONVERTER_VARIABLE: &str = "LIGNE_STEP_CONVERTER";
 
 impl StepArgs {
     /// Converter from the option or the variable. The variable is read here too, because cases under test
     /// have no call to extend.
     pub(crate) fn converter(&self) -> Option<String> {
-        self.step_converter.clone().or_else(|| std::env::var(VARIABLE).ok().filter(|name| !name.is_empty()))
+        self.step_converter
+            .clone()
+            .or_else(|| std::env::var(CONVERTER_VARIABLE).ok().filter(|name| !name.is_empty()))
     }
 
     /// Maximum distance between surface and triangles, mm.
@@ -46,7 +48,9 @@ impl StepArgs {
     /// this tolerance. Small holes and fillets stay round, where the tolerance alone would allow few facets.
     pub(crate) fn angle(&self) -> f64 {
         // The sagitta of an arc with angle a and radius R is about R a² / 8.
-        (8.0 * self.tolerance_mm() / MIN_SMOOTH_RADIUS_MM).sqrt().clamp(MIN_ANGLE, MAX_ANGLE)
+        (8.0 * self.tolerance_mm() / MIN_SMOOTH_RADIUS_MM)
+            .sqrt()
+            .clamp(MIN_FACET_ANGLE_RAD, MAX_FACET_ANGLE_RAD)
     }
 }
 
@@ -83,6 +87,6 @@ mod tests {
         let angle = |mm| StepArgs { step_tolerance: Some(mm), ..StepArgs::default() }.angle();
         assert!((StepArgs::default().angle() - 0.2).abs() < 1e-12);
         assert!(angle(0.01) < angle(0.1) && angle(0.1) < angle(1.0));
-        assert_eq!((angle(1e-4), angle(1e3)), (MIN_ANGLE, MAX_ANGLE));
+        assert_eq!((angle(1e-4), angle(1e3)), (MIN_FACET_ANGLE_RAD, MAX_FACET_ANGLE_RAD));
     }
 }

@@ -3,11 +3,11 @@
 use std::error::Error as _;
 use std::io::{self, ErrorKind};
 
-use crate::cli::{LATER, WRONG};
+use crate::cli::{EXIT_TRY_LATER, EXIT_WRONG};
 use crate::error::{self, Error};
 
 /// I/O errors that persist until the user intervenes.
-const LASTING: [ErrorKind; 11] = [
+const PERMANENT_ERRORS: [ErrorKind; 11] = [
     ErrorKind::NotFound,
     ErrorKind::PermissionDenied,
     ErrorKind::AlreadyExists,
@@ -23,13 +23,14 @@ const LASTING: [ErrorKind; 11] = [
 
 /// Exit status for an error.
 pub(crate) fn of_error(error: &Error) -> u8 {
-    if passes(error) { LATER } else { WRONG }
+    if is_temporary(error) { EXIT_TRY_LATER } else { EXIT_WRONG }
 }
 
 /// Whether the same call may succeed later.
-pub(crate) fn passes(error: &Error) -> bool {
+pub(crate) fn is_temporary(error: &Error) -> bool {
     let source = error.source().and_then(|source| source.downcast_ref::<io::Error>());
-    error.kind == error::ErrorKind::Io && source.is_some_and(|source| !LASTING.contains(&source.kind()))
+    error.kind == error::ErrorKind::Io
+        && source.is_some_and(|source| !PERMANENT_ERRORS.contains(&source.kind()))
 }
 
 #[cfg(test)]
@@ -39,8 +40,11 @@ mod tests {
     #[test]
     fn a_full_disc_passes_and_a_missing_file_does_not() {
         let of = |kind: ErrorKind| of_error(&Error::io("cannot write", kind.into()));
-        assert_eq!([ErrorKind::StorageFull, ErrorKind::TimedOut, ErrorKind::Other].map(of), [LATER; 3]);
-        assert_eq!([ErrorKind::NotFound, ErrorKind::IsADirectory].map(of), [WRONG; 2]);
-        assert_eq!(of_error(&Error::new("the file is empty")), WRONG);
+        assert_eq!(
+            [ErrorKind::StorageFull, ErrorKind::TimedOut, ErrorKind::Other].map(of),
+            [EXIT_TRY_LATER; 3]
+        );
+        assert_eq!([ErrorKind::NotFound, ErrorKind::IsADirectory].map(of), [EXIT_WRONG; 2]);
+        assert_eq!(of_error(&Error::new("the file is empty")), EXIT_WRONG);
     }
 }

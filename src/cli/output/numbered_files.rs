@@ -1,4 +1,4 @@
-//! [`Numbered`]: numbered file names such as `frames/%04d.svg`.
+//! [`NumberedFiles`]: numbered file names such as `frames/%04d.svg`.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 
 /// Numbered files.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Numbered {
+pub(crate) struct NumberedFiles {
     /// Folder of the files; empty for the working folder.
     pub(crate) folder: PathBuf,
     before: String,
@@ -16,7 +16,7 @@ pub(crate) struct Numbered {
     pub(crate) format: Format,
 }
 
-impl Numbered {
+impl NumberedFiles {
     /// Reads a numbered file name; none if it has no number. `what` names the numbered thing in errors.
     pub(crate) fn of(
         path: &Path,

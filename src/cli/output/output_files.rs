@@ -104,13 +104,13 @@ pub(crate) fn check_place(path: &Path) -> Result<(), Error> {
 /// Files under temporary names next to their final paths. Files that are not committed are removed on drop.
 #[derive(Debug, Default)]
 pub(crate) struct Staging {
-    files: Vec<Staged>,
+    files: Vec<StagedFile>,
     /// Folders that were created for the files.
     folders: Vec<PathBuf>,
 }
 
 #[derive(Debug)]
-struct Staged {
+struct StagedFile {
     /// The path as it was typed, for messages.
     typed: PathBuf,
     /// Final path with symbolic links resolved.
@@ -138,7 +138,7 @@ impl Staging {
         }
         let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, error))?;
         // Registered before it is filled, so it is removed if the disc is full.
-        self.files.push(Staged { typed: path.to_path_buf(), place, written: written.clone() });
+        self.files.push(StagedFile { typed: path.to_path_buf(), place, written: written.clone() });
         file.write_all(bytes).map_err(|error| cannot_write(path, error))?;
         if let Some(existing) = existing {
             fs::set_permissions(&written, existing.permissions()).map_err(|e| cannot_write(path, e))?;
@@ -205,7 +205,7 @@ fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
 }
 
 /// File name that belongs to a temporary name of [`Staging`].
-pub(crate) fn staged_for(name: &str) -> Option<&str> {
+pub(crate) fn staged_target(name: &str) -> Option<&str> {
     let (drawing, by) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
     let (process, attempt) = by.split_once('-')?;
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -245,11 +245,11 @@ mod tests {
 
     #[test]
     fn files_beside_drawings_tell_which() {
-        assert_eq!(staged_for(".gear.v2.svg.812-0.tmp"), Some("gear.v2.svg"));
+        assert_eq!(staged_target(".gear.v2.svg.812-0.tmp"), Some("gear.v2.svg"));
         for other in
             ["gear.svg", ".gear.svg", ".tmp", ".gear.svg.812.tmp", ".gear.svg.x-0.tmp", "gear.svg.812-0.tmp"]
         {
-            assert_eq!(staged_for(other), None, "{other}");
+            assert_eq!(staged_target(other), None, "{other}");
         }
     }
 

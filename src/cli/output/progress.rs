@@ -7,16 +7,16 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Delay before progress is shown.
-const PATIENCE: Duration = Duration::from_millis(500);
+const SHOW_DELAY: Duration = Duration::from_millis(500);
 
 /// Time between two updates of the bar.
-const TICK: Duration = Duration::from_millis(100);
+const TICK_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Width of the bar in characters.
-const WIDTH: u128 = 20;
+const BAR_WIDTH_CHARS: u128 = 20;
 
 /// Escape sequence that erases the current line.
-const CLEAR: &str = "\r\x1b[K";
+const ERASE_LINE: &str = "\r\x1b[K";
 
 /// Animated progress bar. Dropping it erases the line.
 pub(crate) struct Progress {
@@ -36,18 +36,18 @@ impl Progress {
             let mut step = String::new();
             let mut visible = false;
             loop {
-                match steps.recv_timeout(if visible { TICK } else { PATIENCE }) {
+                match steps.recv_timeout(if visible { TICK_INTERVAL } else { SHOW_DELAY }) {
                     Ok(next) => step = next,
                     Err(RecvTimeoutError::Disconnected) => break,
                     Err(RecvTimeoutError::Timeout) => {}
                 }
-                if started.elapsed() >= PATIENCE {
+                if started.elapsed() >= SHOW_DELAY {
                     visible = true;
                     show(&picture(started.elapsed(), &step, &name));
                 }
             }
             if visible {
-                show(CLEAR);
+                show(ERASE_LINE);
             }
         });
         Self { shown: Some((sender, thread)) }
@@ -64,8 +64,8 @@ impl Progress {
 
 impl Progress {
     /// Prints a line on standard error above the bar. A closed pipe is not an error.
-    pub(crate) fn tell(&self, line: &str) {
-        show(&if self.shown.is_some() { format!("{CLEAR}{line}\n") } else { format!("{line}\n") });
+    pub(crate) fn print_line(&self, line: &str) {
+        show(&if self.shown.is_some() { format!("{ERASE_LINE}{line}\n") } else { format!("{line}\n") });
     }
 }
 
@@ -85,10 +85,10 @@ fn show(text: &str) {
 
 /// Text of the bar: a moving block, the current step, and the elapsed time.
 fn picture(elapsed: Duration, step: &str, name: &str) -> String {
-    let turn = (elapsed.as_millis() / TICK.as_millis()) % (2 * WIDTH);
-    let place = if turn < WIDTH { turn } else { 2 * WIDTH - 1 - turn };
-    let bar: String = (0..WIDTH).map(|i| if i.abs_diff(place) <= 1 { '=' } else { ' ' }).collect();
-    format!("{CLEAR}[{bar}] {step} {name}, {:.1} s", elapsed.as_secs_f64())
+    let turn = (elapsed.as_millis() / TICK_INTERVAL.as_millis()) % (2 * BAR_WIDTH_CHARS);
+    let place = if turn < BAR_WIDTH_CHARS { turn } else { 2 * BAR_WIDTH_CHARS - 1 - turn };
+    let bar: String = (0..BAR_WIDTH_CHARS).map(|i| if i.abs_diff(place) <= 1 { '=' } else { ' ' }).collect();
+    format!("{ERASE_LINE}[{bar}] {step} {name}, {:.1} s", elapsed.as_secs_f64())
 }
 
 #[cfg(test)]
@@ -98,11 +98,11 @@ mod tests {
     #[test]
     fn the_block_wanders_within_the_bar() {
         for tick in 0..100 {
-            let text = picture(TICK * tick, "drawing", "bunny.obj");
+            let text = picture(TICK_INTERVAL * tick, "drawing", "bunny.obj");
             let bar = text.split_once('[').and_then(|_| text.rsplit_once('[')).map(|(_, rest)| rest);
             let inside = bar.and_then(|bar| bar.split_once(']')).map(|(inside, _)| inside.to_owned());
             let inside = inside.unwrap_or_default();
-            assert_eq!(inside.len() as u128, WIDTH);
+            assert_eq!(inside.len() as u128, BAR_WIDTH_CHARS);
             assert!((2..=3).contains(&inside.matches('=').count()), "{inside}");
         }
         let text = picture(Duration::from_millis(700), "drawing", "bunny.obj");

@@ -18,7 +18,7 @@ use clap::{Args, ValueHint};
 use super::output::number_text;
 use super::step::{StepArgs, open_other};
 use super::{library_calls, print, say};
-use crate::cli::output::numbered_files::Numbered;
+use crate::cli::output::numbered_files::NumberedFiles;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::same_file;
@@ -28,7 +28,7 @@ use crate::export::encoding::gzip;
 #[cfg(feature = "pdf")]
 use crate::export::to_pdf;
 use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions};
-use crate::page::{Composed, PageFile, Print};
+use crate::page::{ComposedPage, PageFile, PrintInks};
 use crate::pipeline::Stopwatch;
 
 /// Options of `ligne page`.
@@ -101,11 +101,11 @@ pub(crate) struct PageArgs {
 }
 
 /// Output of pages.
-enum Target {
+enum PageTarget {
     /// One file for all pages.
     One(Output),
     /// One file per page.
-    Each(Numbered),
+    Each(NumberedFiles),
 }
 
 /// Draws the pages and prints a summary. With `--watch` it continues until it is stopped.
@@ -115,7 +115,7 @@ pub(crate) fn run(args: &PageArgs) -> Result<(), Error> {
     }
     let targets = targets(args)?;
     // Created first, so that changes during the first drawing are detected.
-    let mut watch = page_watch::Watch::new(&args.page);
+    let mut watch = page_watch::PageWatch::new(&args.page);
     let first = library_calls::in_threads(args.threads, || draw(args, &targets))?;
     if !args.watch {
         return first;
@@ -134,18 +134,19 @@ pub(crate) fn run(args: &PageArgs) -> Result<(), Error> {
     }
 }
 
-fn targets(args: &PageArgs) -> Result<Vec<Target>, Error> {
+fn targets(args: &PageArgs) -> Result<Vec<PageTarget>, Error> {
     let stem = || PathBuf::from(args.page.with_extension("pdf").file_name().unwrap_or_default());
     let mut paths: Vec<PathBuf> = args.out.iter().chain(&args.outputs).cloned().collect();
     if paths.is_empty() {
         paths.push(stem());
     }
-    let targets: Vec<Target> = paths.iter().map(|path| target(path, &args.page)).collect::<Result<_, _>>()?;
+    let targets: Vec<PageTarget> =
+        paths.iter().map(|path| target(path, &args.page)).collect::<Result<_, _>>()?;
     #[cfg(feature = "pdf")]
     {
-        let format = |target: &Target| match target {
-            Target::One(output) => output.format,
-            Target::Each(numbered) => numbered.format,
+        let format = |target: &PageTarget| match target {
+            PageTarget::One(output) => output.format,
+            PageTarget::Each(numbered) => numbered.format,
         };
         let writes_pdf = targets.iter().any(|target| format(target) == Format::Pdf);
         args.print.refuse_without_pdf(args.ink.as_deref(), writes_pdf)?;
@@ -153,15 +154,15 @@ fn targets(args: &PageArgs) -> Result<Vec<Target>, Error> {
     Ok(targets)
 }
 
-fn target(path: &Path, page: &Path) -> Result<Target, Error> {
+fn target(path: &Path, page: &Path) -> Result<PageTarget, Error> {
     let wrong = |message: String| {
         Error::new(message).in_file(path).remedy("write a name such as page-%d.svg for one file per page")
     };
-    let target = match Numbered::of(path, "a page", wrong)? {
-        Some(numbered) => Target::Each(numbered),
-        None => Target::One(Output::new(path.to_path_buf())?),
+    let target = match NumberedFiles::of(path, "a page", wrong)? {
+        Some(numbered) => PageTarget::Each(numbered),
+        None => PageTarget::One(Output::new(path.to_path_buf())?),
     };
-    if let Target::One(Output { path, format }) = &target
+    if let PageTarget::One(Output { path, format }) = &target
         && *format != Format::SvgToStdout
     {
         check_place(path)?;
@@ -175,14 +176,15 @@ fn target(path: &Path, page: &Path) -> Result<Target, Error> {
 }
 
 /// Draws all pages and writes them, all or none.
-fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
+fn draw(args: &PageArgs, targets: &[PageTarget]) -> Result<(), Error> {
     let watch = Stopwatch::start();
     let progress = Progress::start(args.quiet, &args.page);
     progress.step("reading");
     let step = args.step.clone();
     let file = PageFile::open(&args.page)?.reading_models(move |path| open_other(path, &step));
-    let several = |target: &&Target| matches!(target, Target::One(output) if needs_numbers(output.format));
-    if let Some(Target::One(output)) = targets.iter().find(several).filter(|_| file.len() > 1) {
+    let several =
+        |target: &&PageTarget| matches!(target, PageTarget::One(output) if needs_numbers(output.format));
+    if let Some(PageTarget::One(output)) = targets.iter().find(several).filter(|_| file.len() > 1) {
         return Err(Error::new(format!("one file of this format cannot hold {}", pages(file.len())))
             .in_file(&output.path)
             .remedy("number them, such as page-%d.svg, or write .pdf"));
@@ -191,7 +193,7 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
     let inks = file.print()?;
     let composed = file.compose()?;
     drop(progress);
-    tell_warnings(args, &composed)?;
+    report_warnings(args, &composed)?;
     let compositions: Vec<Composition> = composed.into_iter().map(|page| page.composition).collect();
     let mut staging = Staging::default();
     let mut told = Vec::new();
@@ -233,7 +235,7 @@ fn needs_numbers(format: Format) -> bool {
 }
 
 /// Prints warnings. Under `--strict` they are an error.
-fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
+fn report_warnings(args: &PageArgs, composed: &[ComposedPage]) -> Result<(), Error> {
     let warnings: Vec<&String> = composed.iter().flat_map(|page| &page.warnings).collect();
     if args.strict && !warnings.is_empty() {
         let all: Vec<&str> = warnings.iter().map(|warning| warning.as_str()).collect();
@@ -248,21 +250,25 @@ fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
 }
 
 /// A file: its path (none for standard output), its bytes, and its number of pages.
-type Encoded = (Option<PathBuf>, Vec<u8>, usize);
+type EncodedFile = (Option<PathBuf>, Vec<u8>, usize);
 
 /// Encodes the files of one output.
-fn encoded(target: &Target, pages: &[Composition], args: (&PageArgs, &Print)) -> Result<Vec<Encoded>, Error> {
+fn encoded(
+    target: &PageTarget,
+    pages: &[Composition],
+    args: (&PageArgs, &PrintInks),
+) -> Result<Vec<EncodedFile>, Error> {
     let in_file = |path: &Path, error: Error| match error.file {
         None => error.in_file(path),
         Some(_) => error,
     };
     match target {
-        Target::One(Output { path, format }) => {
+        PageTarget::One(Output { path, format }) => {
             let bytes = encode(pages, *format, args).map_err(|error| in_file(path, error))?;
             let name = (!is_stdout(path)).then(|| path.clone());
             Ok(vec![(name, bytes, pages.len())])
         }
-        Target::Each(numbered) => {
+        PageTarget::Each(numbered) => {
             let page = |(number, page): (usize, &Composition)| {
                 let path = numbered.path(number + 1);
                 let bytes = encode(std::slice::from_ref(page), numbered.format, args);
@@ -276,7 +282,7 @@ fn encoded(target: &Target, pages: &[Composition], args: (&PageArgs, &Print)) ->
 fn encode(
     pages: &[Composition],
     format: Format,
-    (args, file): (&PageArgs, &Print),
+    (args, file): (&PageArgs, &PrintInks),
 ) -> Result<Vec<u8>, Error> {
     #[cfg(not(feature = "pdf"))]
     let _ = file;

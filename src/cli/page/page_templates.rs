@@ -7,10 +7,10 @@ use crate::cli::say;
 use crate::error::Error;
 
 /// Model file that is written next to the page file: name and bytes.
-type Beside = (&'static str, &'static [u8]);
+type ModelFile = (&'static str, &'static [u8]);
 
 /// Page file of a comic page, with its models.
-const COMIC: (&str, &[Beside]) = (
+const COMIC: (&str, &[ModelFile]) = (
     include_str!("new-comic.toml"),
     &[
         ("example-crane.glb", include_bytes!("../../../examples/models/crane.glb")),
@@ -19,7 +19,7 @@ const COMIC: (&str, &[Beside]) = (
 );
 
 /// Page file of a technical sheet, with its models.
-const SHEET: (&str, &[Beside]) = (
+const SHEET: (&str, &[ModelFile]) = (
     include_str!("new-sheet.toml"),
     &[("example-pump.glb", include_bytes!("../../../examples/models/pump.glb"))],
 );

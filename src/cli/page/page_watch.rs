@@ -4,25 +4,25 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::cli::output::file_stamp::{Stamp, stamp};
+use crate::cli::output::file_stamp::{FileStamp, stamp};
 use crate::page::PageFile;
 
 /// Time between two checks of all files.
-const LOOK: Duration = Duration::from_millis(60);
+const POLL_INTERVAL: Duration = Duration::from_millis(60);
 
 /// Time that a file must stay unchanged before it is read, because programs write files in several steps.
-const REST: Duration = Duration::from_millis(80);
+const SETTLE_TIME: Duration = Duration::from_millis(80);
 
-type Stamps = BTreeMap<PathBuf, Stamp>;
+type Stamps = BTreeMap<PathBuf, FileStamp>;
 
 /// Watch over a page file and its inputs.
-pub(crate) struct Watch<'a> {
+pub(crate) struct PageWatch<'a> {
     page: &'a Path,
     files: Vec<PathBuf>,
     seen: Stamps,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> PageWatch<'a> {
     /// Starts watching. Later changes are detected.
     pub(crate) fn new(page: &'a Path) -> Self {
         let files = files(page).unwrap_or_else(|| vec![page.to_path_buf()]);
@@ -33,13 +33,13 @@ impl<'a> Watch<'a> {
     /// Waits for a change.
     pub(crate) fn changed(&mut self) {
         loop {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_INTERVAL);
             let mut now = stamps(&self.files);
             if now == self.seen {
                 continue;
             }
             loop {
-                std::thread::sleep(REST);
+                std::thread::sleep(SETTLE_TIME);
                 let later = stamps(&self.files);
                 let rests = later == now;
                 now = later;

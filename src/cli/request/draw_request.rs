@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::viewpoint::{Lens, Sheet, View};
+use super::viewpoint::{Lens, SheetRequest, ViewRequest};
 use crate::cli::options::draw_args::{DrawArgs, GroupBy, HowArgs};
 use crate::cli::options::dxf_args::DxfArgs;
-use crate::cli::options::framing_args::Frame;
+use crate::cli::options::framing_args::FramedParts;
 use crate::cli::options::section_args::SectionArgs;
 use crate::cli::options::web_args::WebArgs;
 use crate::cli::output::output_files::{Format, Output, is_stdout};
@@ -36,7 +36,7 @@ pub(crate) struct DrawRequest {
     pub(crate) sets: Vec<String>,
     /// Background that replaces the one of the style; the inner `None` is transparent.
     pub(crate) background: Option<Option<Colour>>,
-    pub(crate) view: View,
+    pub(crate) view: ViewRequest,
     pub(crate) up: Option<UpAxis>,
     pub(crate) only: Vec<String>,
     pub(crate) hide: Vec<String>,
@@ -47,9 +47,9 @@ pub(crate) struct DrawRequest {
     pub(crate) time: Option<f64>,
     /// Maximum number of faces.
     pub(crate) faces: Option<u64>,
-    pub(crate) sheet: Sheet,
+    pub(crate) sheet: SheetRequest,
     /// Parts that must fit into the frame.
-    pub(crate) frame: Frame,
+    pub(crate) frame: FramedParts,
     /// Section plane and exploded view.
     pub(crate) section: SectionArgs,
     /// Path for the camera record of the drawing.
@@ -83,7 +83,7 @@ impl DrawRequest {
     }
 
     /// Whether the model is drawn in its stored pose.
-    pub(crate) fn stands(&self) -> bool {
+    pub(crate) fn is_at_rest(&self) -> bool {
         self.animation.is_empty() && self.time.is_none()
     }
 
@@ -149,9 +149,11 @@ impl DrawRequest {
                 .remedy("give one view"));
         }
         let view = match (args.camera, args.view.first().copied()) {
-            (Some(camera), _) => View::Recorded(camera),
-            (None, Some(view)) => View::Named(view, lens),
-            (None, None) => View::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens },
+            (Some(camera), _) => ViewRequest::Recorded(camera),
+            (None, Some(view)) => ViewRequest::Named(view, lens),
+            (None, None) => {
+                ViewRequest::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens }
+            }
         };
         let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
         Ok(Self {
@@ -172,7 +174,7 @@ impl DrawRequest {
             repeat: args.repeat,
             time: args.time,
             faces: args.faces,
-            sheet: Sheet {
+            sheet: SheetRequest {
                 extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
                 margin: args.margin,
                 scale: args.scale,
@@ -240,7 +242,7 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use crate::cli::options::values::paper_size::Extent;
+    use crate::cli::options::values::paper_size::PaperSize;
 
     #[derive(Parser)]
     struct Typed {
@@ -259,7 +261,7 @@ mod tests {
         let request = request("some/folder/bunny.v2.obj")?;
         let paths: Vec<_> = request.outputs.iter().map(|output| output.path.clone()).collect();
         assert_eq!(paths, [PathBuf::from("bunny.v2.svg")]);
-        assert_eq!(request.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens: None });
+        assert_eq!(request.view, ViewRequest::Angles { azimuth_deg: None, elevation_deg: None, lens: None });
         assert!(request.sheet.extent.is_none() && request.background.is_none());
         Ok(())
     }
@@ -270,14 +272,17 @@ mod tests {
             request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
         let formats: Vec<_> = printed.outputs.iter().map(|output| output.format).collect();
         assert_eq!(formats, [Format::Svg, Format::Png, Format::SvgToStdout]);
-        assert_eq!(printed.sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
+        assert_eq!(printed.sheet.extent, Some((PaperSize { width: 297.0, height: 210.0 }, Unit::Mm)));
         assert_eq!(printed.background, Some(None));
         assert_eq!(printed.sheet.scale, Some(0.5));
         let lens = Some(Lens::Parallel);
-        assert_eq!(printed.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
+        assert_eq!(printed.view, ViewRequest::Angles { azimuth_deg: None, elevation_deg: None, lens });
         let turned = request("m.stl --azimuth -35 --elevation -10.5 --fov 20")?;
         let lens = Some(Lens::Perspective { fov_y_deg: 20.0 });
-        assert_eq!(turned.view, View::Angles { azimuth_deg: Some(-35.0), elevation_deg: Some(-10.5), lens });
+        assert_eq!(
+            turned.view,
+            ViewRequest::Angles { azimuth_deg: Some(-35.0), elevation_deg: Some(-10.5), lens }
+        );
         Ok(())
     }
 

@@ -11,30 +11,30 @@
 use glam::DVec3;
 
 use super::draw_request::DrawRequest;
-use super::viewpoint::View;
+use super::viewpoint::ViewRequest;
 use crate::geometry::names::glob::Glob;
 use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::{Scene, UpAxis};
 
 /// Maximum distance from z = 0 of a model that stands on it, as a share of its extent along z.
-const MAX_BASE_GAP: f64 = 0.005;
+const MAX_BASE_GAP_RATIO: f64 = 0.005;
 
 /// Minimum reach to each side of y = 0, as a share of the extent along y.
-const MIN_REACH: f64 = 0.05;
+const MIN_REACH_RATIO: f64 = 0.05;
 
 /// Minimum extent along z of a model that can lie on its back, as a share of its largest extent. Thinner
 /// models are sheets.
-const MIN_HEIGHT: f64 = 0.05;
+const MIN_HEIGHT_RATIO: f64 = 0.05;
 
 /// Maximum thickness of a ground, as a share of its largest extent.
-const MAX_GROUND_THICKNESS: f64 = 0.05;
+const MAX_GROUND_THICKNESS_RATIO: f64 = 0.05;
 
 /// Maximum diagonal of all parts except the ground, as a share of the whole diagonal.
-const MAX_REST: f64 = 0.1;
+const MAX_REST_RATIO: f64 = 0.1;
 
 /// Hints for a drawing of a scene. A camera record was chosen for the model, so it gives no hints.
 pub(crate) fn of_drawing(request: &DrawRequest, scene: &Scene) -> Vec<String> {
-    if matches!(request.view, View::Recorded(_) | View::Fixed(..)) {
+    if matches!(request.view, ViewRequest::Recorded(_) | ViewRequest::Fixed(..)) {
         return Vec::new();
     }
     let up = request.up;
@@ -46,27 +46,27 @@ pub(crate) fn of_drawing(request: &DrawRequest, scene: &Scene) -> Vec<String> {
 }
 
 /// Hint about a model.
-pub(crate) struct Hint {
+pub(crate) struct ModelHint {
     pub(crate) text: String,
     is_about_up: bool,
 }
 
 /// Hints about a scene.
-pub(crate) fn of_scene(scene: &Scene) -> Vec<Hint> {
-    let boxes: Vec<Option<Box>> = (0..scene.parts.len()).map(|part| box_of(scene, part)).collect();
-    let back = lies_on_its_back(scene, &boxes).then(|| Hint {
+pub(crate) fn of_scene(scene: &Scene) -> Vec<ModelHint> {
+    let boxes: Vec<Option<PartBox>> = (0..scene.parts.len()).map(|part| box_of(scene, part)).collect();
+    let back = lies_on_its_back(scene, &boxes).then(|| ModelHint {
         text: "the model seems to have z up and to lie on its back; --up z makes it stand".to_owned(),
         is_about_up: true,
     });
-    let ground = ground(scene, &boxes).map(|text| Hint { text, is_about_up: false });
+    let ground = ground(scene, &boxes).map(|text| ModelHint { text, is_about_up: false });
     back.into_iter().chain(ground).collect()
 }
 
 /// Lowest and highest corner, world space.
-type Box = (DVec3, DVec3);
+type PartBox = (DVec3, DVec3);
 
 /// World-space box of a part, from the corners of the box of its geometry.
-fn box_of(scene: &Scene, part: usize) -> Option<Box> {
+fn box_of(scene: &Scene, part: usize) -> Option<PartBox> {
     let part = scene.parts.get(part)?;
     let (low, high) = bounds(&scene.geometry_of(part)?.positions)?;
     let corner = |i: u8| {
@@ -80,22 +80,22 @@ fn box_of(scene: &Scene, part: usize) -> Option<Box> {
     bounds(&std::array::from_fn::<DVec3, 8, _>(|i| corner(i as u8)))
 }
 
-fn union(boxes: impl Iterator<Item = Box>) -> Option<Box> {
+fn union(boxes: impl Iterator<Item = PartBox>) -> Option<PartBox> {
     boxes.reduce(|(low, high), (l, h)| (low.min(l), high.max(h)))
 }
 
-fn lies_on_its_back(scene: &Scene, boxes: &[Option<Box>]) -> bool {
+fn lies_on_its_back(scene: &Scene, boxes: &[Option<PartBox>]) -> bool {
     let Some((low, high)) = union(boxes.iter().flatten().copied()) else { return false };
     let size = high - low;
-    let has_height = size.z > MIN_HEIGHT * size.max_element();
-    let stands_on_z = low.z.abs() <= MAX_BASE_GAP * size.z;
-    let straddles_y = low.y < -MIN_REACH * size.y && high.y > MIN_REACH * size.y;
+    let has_height = size.z > MIN_HEIGHT_RATIO * size.max_element();
+    let stands_on_z = low.z.abs() <= MAX_BASE_GAP_RATIO * size.z;
+    let straddles_y = low.y < -MIN_REACH_RATIO * size.y && high.y > MIN_REACH_RATIO * size.y;
     matches!(scene.format, "OBJ" | "PLY") && scene.up == UpAxis::Y && has_height && stands_on_z && straddles_y
 }
 
 /// Hint about a flat part that shrinks all others.
-fn ground(scene: &Scene, boxes: &[Option<Box>]) -> Option<String> {
-    let diagonal = |(low, high): &Box| (*high - *low).length();
+fn ground(scene: &Scene, boxes: &[Option<PartBox>]) -> Option<String> {
+    let diagonal = |(low, high): &PartBox| (*high - *low).length();
     let drawn = || boxes.iter().enumerate().filter_map(|(part, own)| Some((part, (*own)?)));
     let (largest, _) = drawn().max_by(|(_, a), (_, b)| diagonal(a).total_cmp(&diagonal(b)))?;
     let name = scene.parts.get(largest).map(|part| part.name.as_str()).filter(|name| !name.is_empty())?;
@@ -104,9 +104,9 @@ fn ground(scene: &Scene, boxes: &[Option<Box>]) -> Option<String> {
     let ground = union(drawn().filter(|(part, _)| is_hidden(*part)).map(|(_, own)| own))?;
     let rest = union(drawn().filter(|(part, _)| !is_hidden(*part)).map(|(_, own)| own))?;
     let size = ground.1 - ground.0;
-    let is_flat = size.min_element() <= MAX_GROUND_THICKNESS * size.max_element();
+    let is_flat = size.min_element() <= MAX_GROUND_THICKNESS_RATIO * size.max_element();
     let share = diagonal(&rest) / diagonal(&union([ground, rest].into_iter())?);
-    (is_flat && share <= MAX_REST).then(|| {
+    (is_flat && share <= MAX_REST_RATIO).then(|| {
         let percent = (100.0 * share).ceil().max(1.0);
         let name = name.replace(char::is_control, " ");
         format!("the part `{name}` shrinks everything else to {percent} % of the drawing; --hide '{name}' leaves it out")

@@ -10,16 +10,16 @@ use crate::cli::output::output_files::Format;
 use crate::drawing::{Drawing, Unit};
 use crate::scene::part_selection::glob_matches;
 use crate::scene::{Camera, Projection, Scene};
-use crate::style::bare_lengths as bare_lengths_of;
+use crate::style::unitless_length_warning as bare_lengths_of;
 
 /// Maximum size of a drawing that counts as tiny, as a share of the shorter side of the page.
-const SPECK: f64 = 0.02;
+const MAX_SPECK_RATIO: f64 = 0.02;
 
 /// Maximum number of part names in a warning.
-const SHOWN_NAMES: usize = 8;
+const MAX_SHOWN_NAMES: usize = 8;
 
 /// Patterns of `--only` and `--hide` that match no part.
-pub(crate) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<String> {
+pub(crate) fn unmatched_patterns(scene: &Scene, only: &[String], hide: &[String]) -> Vec<String> {
     let fits = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
     let given = only.iter().map(|glob| ("--only", glob)).chain(hide.iter().map(|glob| ("--hide", glob)));
     given
@@ -34,7 +34,7 @@ pub(crate) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<
 }
 
 /// Typed options that do not change the drawings of a request.
-pub(crate) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>) -> Vec<String> {
+pub(crate) fn unused_options(request: &DrawRequest, words: impl Iterator<Item = OsString>) -> Vec<String> {
     let words: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
     let typed = |option: &str| {
         let with_value = format!("{option}=");
@@ -51,7 +51,7 @@ pub(crate) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>)
         ("--precision", !svg, "no SVG is written"),
         ("--id-prefix", !svg, "no SVG is written"),
         ("--group", !svg, "no SVG is written"),
-        ("--repeat", request.stands(), "no animation plays"),
+        ("--repeat", request.is_at_rest(), "no animation plays"),
         ("--frame", draws_all, "all of the model is drawn"),
     ];
     let idle = rules.into_iter().filter(|(option, does_nothing, _)| *does_nothing && typed(option));
@@ -67,30 +67,31 @@ pub(crate) fn bare_lengths(request: &DrawRequest) -> Option<String> {
 }
 
 /// Warning if the camera is inside a part.
-pub(crate) fn enclosed(scene: &Scene, camera: &Camera) -> Option<String> {
+pub(crate) fn camera_inside_part(scene: &Scene, camera: &Camera) -> Option<String> {
     // The distance of an orthographic camera has no meaning.
     let Projection::Perspective { .. } = camera.projection else { return None };
-    let part = scene.part_round(camera.eye)?;
+    let part = scene.enclosing_part(camera.eye)?;
     Some(format!("the eye is inside `{}`: what is drawn is seen from within", part.name))
 }
 
 /// Warning that lists the visible parts, if `--only` or `--hide` is given.
-pub(crate) fn hidden(request: &DrawRequest, scene: &Scene) -> Option<String> {
+pub(crate) fn remaining_parts(request: &DrawRequest, scene: &Scene) -> Option<String> {
     if request.only.is_empty() && request.hide.is_empty() {
         return None;
     }
-    let mut names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).take(SHOWN_NAMES).collect();
+    let mut names: Vec<&str> =
+        scene.parts.iter().map(|part| part.name.as_str()).take(MAX_SHOWN_NAMES).collect();
     names.dedup();
-    let more = if scene.parts.len() > SHOWN_NAMES { " and others" } else { "" };
+    let more = if scene.parts.len() > MAX_SHOWN_NAMES { " and others" } else { "" };
     Some(format!("--only and --hide leave nothing else to draw than {}{more}", names.join(", ")))
 }
 
 /// Warning if the drawing is tiny.
-pub(crate) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
+pub(crate) fn tiny_drawing(drawing: &Drawing) -> Option<String> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
     let page = &drawing.page;
-    let most = SPECK * page.width.min(page.height);
+    let most = MAX_SPECK_RATIO * page.width.min(page.height);
     let mut all: Option<Rect> = None;
     for own in boxes {
         let union = all.map_or(own, |all| all.union(own));
@@ -121,7 +122,7 @@ mod tests {
     fn told(line: &str) -> Vec<String> {
         let words = || std::iter::once("draw").chain(line.split_whitespace());
         let request = DrawRequest::new(Typed::try_parse_from(words()).unwrap().args).unwrap();
-        idle(&request, words().map(OsString::from))
+        unused_options(&request, words().map(OsString::from))
     }
 
     #[test]

@@ -6,25 +6,25 @@ use std::path::Path;
 use glam::DVec3;
 
 use crate::cli::options::values::model_unit::ModelUnit;
-use crate::cli::options::values::paper_size::{Extent, Measure, Paper};
+use crate::cli::options::values::paper_size::{PageLength, Paper, PaperSize};
 use crate::cli::output::number_text::plain;
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::tan;
 use crate::scene::cameras::camera::{DEFAULT_FOV_Y_DEG, DEFAULT_FRAME_PX};
-use crate::scene::cameras::framing::MARGIN;
+use crate::scene::cameras::framing::FRAME_MARGIN;
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 use crate::scene::{Camera, NamedView, Projection, Scene};
 
 /// Share of the frame that stays free if the page has a margin. Keeps lines at the edge of the model whole.
-const MARGIN_WITHIN_MARGIN: f64 = 0.01;
+const INNER_MARGIN_RATIO: f64 = 0.01;
 
 /// Maximum size of a model that counts as a dot, as a share of the shorter side of the frame.
-const DOT: f64 = 0.02;
+const MAX_DOT_RATIO: f64 = 0.02;
 
 /// Requested view of a model.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum View {
+pub(crate) enum ViewRequest {
     /// Path of a camera record, or name of a camera in the model.
     Recorded(String),
     /// Named view; orthographic unless a projection is given.
@@ -44,10 +44,10 @@ pub(crate) enum Lens {
 
 /// Requested sheet.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sheet {
+pub(crate) struct SheetRequest {
     /// Size and unit.
-    pub(crate) extent: Option<(Extent, Unit)>,
-    pub(crate) margin: Option<Measure>,
+    pub(crate) extent: Option<(PaperSize, Unit)>,
+    pub(crate) margin: Option<PageLength>,
     /// Length on paper per length of the model. Without it the model is fitted, or the scale of the camera
     /// record is kept.
     pub(crate) scale: Option<f64>,
@@ -71,18 +71,20 @@ pub(crate) struct Viewpoint {
 /// If the camera record is wrong, if the model has no such camera, if the margin leaves no room on the page,
 /// and any error of `points`.
 pub(crate) fn viewpoint<'p>(
-    view: &View,
-    sheet: &Sheet,
+    view: &ViewRequest,
+    sheet: &SheetRequest,
     scene: &Scene,
     points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
 ) -> Result<Viewpoint, Error> {
-    let square = Extent { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
+    let square = PaperSize { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
     let (extent, unit) = sheet.extent.unwrap_or((square, Unit::Px));
     let (direction, lens) = match view {
-        View::Recorded(name) => return recorded(sheet, scene, name, points),
-        View::Fixed(camera, paper) => return Ok(Viewpoint { camera: *camera, paper: *paper, warning: None }),
-        View::Named(view, lens) => (Camera::named(*view, scene.up), lens.unwrap_or(Lens::Parallel)),
-        View::Angles { azimuth_deg, elevation_deg, lens } => (
+        ViewRequest::Recorded(name) => return recorded(sheet, scene, name, points),
+        ViewRequest::Fixed(camera, paper) => {
+            return Ok(Viewpoint { camera: *camera, paper: *paper, warning: None });
+        }
+        ViewRequest::Named(view, lens) => (Camera::named(*view, scene.up), lens.unwrap_or(Lens::Parallel)),
+        ViewRequest::Angles { azimuth_deg, elevation_deg, lens } => (
             Camera::azimuth_elevation(
                 azimuth_deg.unwrap_or(THREE_QUARTER_AZIMUTH_DEG),
                 elevation_deg.unwrap_or(THREE_QUARTER_ELEVATION_DEG),
@@ -97,20 +99,20 @@ pub(crate) fn viewpoint<'p>(
         Lens::Perspective { fov_y_deg } => Projection::Perspective { fov_y_deg },
         Lens::Parallel => Projection::Orthographic { height: 1.0 },
     };
-    let margin = if paper.margin > 0.0 { MARGIN_WITHIN_MARGIN } else { MARGIN };
+    let margin = if paper.margin > 0.0 { INNER_MARGIN_RATIO } else { FRAME_MARGIN };
     let points = points()?;
     let aimed = direction.with_frame(width, height).with_projection(projection);
     let camera = aimed.fit_points(&points, margin);
     let mut found = Viewpoint { camera, paper, warning: None };
     if sheet.scale.is_some() || sheet.centre.is_some() {
-        place(&mut found, sheet, scene, &points)?;
+        apply_sheet(&mut found, sheet, scene, &points)?;
     }
     Ok(found)
 }
 
 /// Viewpoint of a camera record. It keeps its frame unless a sheet is requested.
 fn recorded<'p>(
-    sheet: &Sheet,
+    sheet: &SheetRequest,
     scene: &Scene,
     name: &str,
     points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
@@ -118,9 +120,9 @@ fn recorded<'p>(
     let mut found = on_sheet(sheet, open_camera(scene, name)?)?;
     let points = points()?;
     if sheet.scale.is_some() || sheet.centre.is_some() {
-        place(&mut found, sheet, scene, &points)?;
+        apply_sheet(&mut found, sheet, scene, &points)?;
     } else {
-        found.warning = outside(&found, &points);
+        found.warning = framing_warning(&found, &points);
     }
     Ok(found)
 }
@@ -129,7 +131,12 @@ fn recorded<'p>(
 ///
 /// # Errors
 /// If the camera is a perspective camera.
-fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) -> Result<(), Error> {
+fn apply_sheet(
+    found: &mut Viewpoint,
+    sheet: &SheetRequest,
+    scene: &Scene,
+    points: &[DVec3],
+) -> Result<(), Error> {
     if !matches!(found.camera.projection, Projection::Orthographic { .. }) {
         let option = if sheet.scale.is_some() { "--scale" } else { "--centre" };
         return Err(Error::new("this option needs an orthographic view")
@@ -148,12 +155,12 @@ fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) 
         let height = found.camera.height * found.paper.mm_per_unit() / (scale * unit);
         found.camera.projection = Projection::Orthographic { height };
     }
-    found.warning = outside(found, points).or_else(|| too_large(found, sheet, points));
+    found.warning = framing_warning(found, points).or_else(|| too_large(found, sheet, points));
     Ok(())
 }
 
 /// Warning with the scale that would fit, if the model is larger than the page.
-fn too_large(found: &Viewpoint, sheet: &Sheet, points: &[DVec3]) -> Option<String> {
+fn too_large(found: &Viewpoint, sheet: &SheetRequest, points: &[DVec3]) -> Option<String> {
     let scale = sheet.scale?;
     let (Projection::Orthographic { height }, Projection::Orthographic { height: needed }) =
         (found.camera.projection, found.camera.fit_points(points, 0.0).projection)
@@ -169,7 +176,7 @@ fn too_large(found: &Viewpoint, sheet: &Sheet, points: &[DVec3]) -> Option<Strin
 }
 
 /// Warning if the model is outside the frame, behind the camera, or tiny.
-fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
+fn framing_warning(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
     let Viewpoint { camera, paper, .. } = found;
     let [right, up, forward] = camera.axes();
     let half = match camera.projection {
@@ -202,7 +209,7 @@ fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
         return Some("the model is outside the frame, so the drawing is empty".to_owned());
     }
     let size = high - low;
-    let dot = size.x.max(size.y) < DOT * camera.width.min(camera.height);
+    let dot = size.x.max(size.y) < MAX_DOT_RATIO * camera.width.min(camera.height);
     dot.then(|| {
         let (width, height) = (plain(size.x, 1), plain(size.y, 1));
         format!(
@@ -213,8 +220,8 @@ fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
 }
 
 /// Viewpoint of a camera that keeps its frame unless a sheet is requested.
-pub(crate) fn on_sheet(sheet: &Sheet, camera: Camera) -> Result<Viewpoint, Error> {
-    let own = (Extent { width: camera.width, height: camera.height }, Unit::Px);
+pub(crate) fn on_sheet(sheet: &SheetRequest, camera: Camera) -> Result<Viewpoint, Error> {
+    let own = (PaperSize { width: camera.width, height: camera.height }, Unit::Px);
     let (extent, unit) = sheet.extent.unwrap_or(own);
     let paper = Paper::new(extent, unit, sheet.margin)?;
     let (width, height) = paper.frame();

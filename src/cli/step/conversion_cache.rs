@@ -1,4 +1,4 @@
-//! [`Cache`]: converted models in the cache folder of the user.
+//! [`ConversionCache`]: converted models in the cache folder of the user.
 //!
 //! - The key is a hash of everything that the result depends on. It is the file name of the entry.
 //! - An entry starts with magic bytes, the up axis, and a hash of the rest. Entries that do not match are
@@ -16,21 +16,21 @@ use crate::error::Error;
 use crate::scene::UpAxis;
 
 /// Maximum total size of all entries, bytes.
-const MAX_BYTES: u64 = 1 << 30;
+const MAX_CACHE_BYTES: u64 = 1 << 30;
 
 /// Age after which unfinished files of stopped runs are removed.
-const MAX_UNFINISHED: Duration = Duration::from_secs(24 * 3600);
+const MAX_UNFINISHED_AGE: Duration = Duration::from_secs(24 * 3600);
 
 /// First bytes of an entry. The digit is the version of the format.
-const MARK: &[u8; 4] = b"LST1";
+const ENTRY_MAGIC: &[u8; 4] = b"LST1";
 
-const ENDING: &str = "step-glb";
+const ENTRY_ENDING: &str = "step-glb";
 
 /// Hash of everything that a result depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Key(u128);
+pub(crate) struct ConversionKey(u128);
 
-impl Key {
+impl ConversionKey {
     /// Key of a list of byte strings.
     pub(crate) fn of(things: &[&[u8]]) -> Self {
         let mut hash = Fnv::default();
@@ -63,12 +63,12 @@ impl Fnv {
 
 /// Cache folder.
 #[derive(Debug)]
-pub(crate) struct Cache {
+pub(crate) struct ConversionCache {
     folder: PathBuf,
     max_bytes: u64,
 }
 
-impl Cache {
+impl ConversionCache {
     /// Opens the folder of `LIGNE_CACHE`, else the cache folder of the user, else a temporary folder.
     pub(crate) fn open() -> Result<Self, Error> {
         let folder =
@@ -79,7 +79,7 @@ impl Cache {
             fs::create_dir_all(folder).is_ok()
                 && fs::metadata(folder).is_ok_and(|data| !data.permissions().readonly())
         });
-        made.map(|folder| Self { folder, max_bytes: MAX_BYTES }).ok_or_else(|| {
+        made.map(|folder| Self { folder, max_bytes: MAX_CACHE_BYTES }).ok_or_else(|| {
             Error::new("there is no folder for converted STEP models")
                 .remedy("name one with LIGNE_CACHE=FOLDER")
         })
@@ -93,17 +93,17 @@ impl Cache {
     }
 
     /// The GLB with a key, and its up axis.
-    pub(crate) fn get(&self, key: Key) -> Option<(Vec<u8>, UpAxis)> {
+    pub(crate) fn get(&self, key: ConversionKey) -> Option<(Vec<u8>, UpAxis)> {
         let path = self.path(key);
         let mut bytes = fs::read(&path).ok()?;
         let head = bytes.first_chunk::<21>()?;
-        let up = match head.strip_prefix(MARK)?.first()? {
+        let up = match head.strip_prefix(ENTRY_MAGIC)?.first()? {
             b'y' => UpAxis::Y,
             b'z' => UpAxis::Z,
             _ => return None,
         };
         let glb = bytes.get(21..)?;
-        if Key::of(&[glb]).0.to_le_bytes() != bytes.get(5..21)? {
+        if ConversionKey::of(&[glb]).0.to_le_bytes() != bytes.get(5..21)? {
             return None;
         }
         // The time only decides which entries are removed first. Failures are ignored.
@@ -114,13 +114,13 @@ impl Cache {
     }
 
     /// Stores a GLB. Failures are ignored, since the cache only saves time.
-    pub(crate) fn put(&self, key: Key, glb: &[u8], up: UpAxis) {
-        let unfinished = self.unfinished(ENDING);
+    pub(crate) fn put(&self, key: ConversionKey, glb: &[u8], up: UpAxis) {
+        let unfinished = self.unfinished(ENTRY_ENDING);
         let write = || {
             let mut file = File::create(&unfinished)?;
-            file.write_all(MARK)?;
+            file.write_all(ENTRY_MAGIC)?;
             file.write_all(if up == UpAxis::Z { b"z" } else { b"y" })?;
-            file.write_all(&Key::of(&[glb]).0.to_le_bytes())?;
+            file.write_all(&ConversionKey::of(&[glb]).0.to_le_bytes())?;
             file.write_all(glb)?;
             file.sync_all()?;
             fs::rename(&unfinished, self.path(key))
@@ -131,8 +131,8 @@ impl Cache {
         self.prune();
     }
 
-    fn path(&self, key: Key) -> PathBuf {
-        self.folder.join(format!("{:032x}.{ENDING}", key.0))
+    fn path(&self, key: ConversionKey) -> PathBuf {
+        self.folder.join(format!("{:032x}.{ENTRY_ENDING}", key.0))
     }
 
     /// Removes the oldest entries until the rest fits, and unfinished files of stopped runs.
@@ -147,7 +147,7 @@ impl Cache {
                 continue;
             };
             if entry.file_name().to_string_lossy().starts_with("tmp-") {
-                if now.duration_since(time).is_ok_and(|age| age > MAX_UNFINISHED) {
+                if now.duration_since(time).is_ok_and(|age| age > MAX_UNFINISHED_AGE) {
                     let _ = fs::remove_file(path);
                 }
             } else if has_ending(&path) {
@@ -168,7 +168,7 @@ impl Cache {
 }
 
 fn has_ending(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == ENDING)
+    path.extension().is_some_and(|ending| ending == ENTRY_ENDING)
 }
 
 /// Cache folder from environment variables.
@@ -189,17 +189,17 @@ fn folder(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
 mod tests {
     use super::*;
 
-    fn cache(name: &str, max_bytes: u64) -> Cache {
+    fn cache(name: &str, max_bytes: u64) -> ConversionCache {
         let folder = std::env::temp_dir().join(format!("ligne-step-cache-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
-        Cache { folder, max_bytes }
+        ConversionCache { folder, max_bytes }
     }
 
     #[test]
     fn entries_come_back_and_broken_ones_do_not() {
         let cache = cache("broken", 1000);
-        let key = Key::of(&[b"a", b"bc"]);
-        assert_ne!(key, Key::of(&[b"ab", b"c"]));
+        let key = ConversionKey::of(&[b"a", b"bc"]);
+        assert_ne!(key, ConversionKey::of(&[b"ab", b"c"]));
         assert_eq!(cache.get(key), None);
         cache.put(key, b"glTF and more", UpAxis::Z);
         assert_eq!(cache.get(key), Some((b"glTF and more".to_vec(), UpAxis::Z)));
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn the_oldest_entries_go_first() {
         let cache = cache("full", 150);
-        let keys = [b"a", b"b", b"c"].map(|thing| Key::of(&[thing]));
+        let keys = [b"a", b"b", b"c"].map(|thing| ConversionKey::of(&[thing]));
         for (key, days) in keys.iter().zip([30, 20, 10]) {
             cache.put(*key, &[0; 40], UpAxis::Y);
             let old = SystemTime::now() - Duration::from_secs(days * 24 * 3600);
@@ -227,7 +227,7 @@ mod tests {
             }
         }
         // Three entries of 61 bytes exceed the limit. The second one is renewed by reading it.
-        let renewed = Key::of(&[b"d"]);
+        let renewed = ConversionKey::of(&[b"d"]);
         assert!(cache.get(keys[0]).is_none() && cache.get(keys[1]).is_some());
         cache.put(renewed, &[0; 40], UpAxis::Y);
         let kept: Vec<bool> = keys.iter().chain([&renewed]).map(|key| cache.get(*key).is_some()).collect();

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::converter_process::{Limits, Outcome, run};
+use super::converter_process::{ProcessLimits, ProcessOutcome, run};
 use crate::cli::options::step_args::StepArgs;
 use crate::error::Error;
 use crate::scene::UpAxis;
@@ -17,7 +17,8 @@ const FREECAD: &str = include_str!("freecad.py");
 const NOT_INSTALLED: i32 = 91;
 
 /// Advice to install a converter.
-pub(crate) const REMEDY: &str = "install one with `pip install cascadio`, or name one with --step-converter";
+pub(crate) const INSTALL_REMEDY: &str =
+    "install one with `pip install cascadio`, or name one with --step-converter";
 
 /// Names of the interpreters and programs, in order of preference.
 const PYTHONS: &[&str] = if cfg!(windows) { &["python", "py"] } else { &["python3", "python"] };
@@ -32,12 +33,12 @@ const FREECADS: &[&str] = &[
 /// Program that converts STEP to GLB.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Converter {
-    kind: Kind,
+    kind: ConverterKind,
     program: PathBuf,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum ConverterKind {
     /// Python with cascadio.
     Cascadio,
     /// Node.js with occt-import-js.
@@ -49,7 +50,7 @@ enum Kind {
 
 /// Result of a conversion without failure.
 #[derive(Debug)]
-pub(crate) enum Converted {
+pub(crate) enum ConversionResult {
     /// The file is written. Its up axis.
     Done(UpAxis),
     /// The package is not installed. Message of the interpreter.
@@ -61,12 +62,15 @@ pub(crate) enum Converted {
 /// # Errors
 /// If the named converter does not exist.
 pub(crate) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
-    let of = |kind: Kind, names: &[&str]| -> Vec<Converter> {
+    let of = |kind: ConverterKind, names: &[&str]| -> Vec<Converter> {
         let programs = names.iter().filter_map(|name| find(name));
         programs.map(|program| Converter { kind, program }).collect()
     };
-    let [cascadio, occt, freecad] =
-        [of(Kind::Cascadio, PYTHONS), of(Kind::Occt, NODES), of(Kind::Freecad, FREECADS)];
+    let [cascadio, occt, freecad] = [
+        of(ConverterKind::Cascadio, PYTHONS),
+        of(ConverterKind::Occt, NODES),
+        of(ConverterKind::Freecad, FREECADS),
+    ];
     let Some(named) = &args.converter() else {
         return Ok([cascadio, occt, freecad].concat());
     };
@@ -84,12 +88,12 @@ pub(crate) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
         "freecad" => of_package(freecad, "freecadcmd"),
         _ => {
             let program = find(named).ok_or_else(|| missing(named))?;
-            Ok(vec![Converter { kind: Kind::of(&program), program }])
+            Ok(vec![Converter { kind: ConverterKind::of(&program), program }])
         }
     }
 }
 
-impl Kind {
+impl ConverterKind {
     /// Kind by program name: `python3.12`, `node`, `freecadcmd`. Other names are programs of the user.
     fn of(program: &Path) -> Self {
         let name = program.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -124,10 +128,10 @@ impl Converter {
     /// Name in messages.
     pub(crate) fn name(&self) -> String {
         let package = match self.kind {
-            Kind::Cascadio => "cascadio",
-            Kind::Occt => "occt-import-js",
-            Kind::Freecad => "FreeCAD",
-            Kind::Own => return self.program.display().to_string(),
+            ConverterKind::Cascadio => "cascadio",
+            ConverterKind::Occt => "occt-import-js",
+            ConverterKind::Freecad => "FreeCAD",
+            ConverterKind::Own => return self.program.display().to_string(),
         };
         format!("{package} ({})", self.program.display())
     }
@@ -137,10 +141,10 @@ impl Converter {
         let mut identity = self.program.to_string_lossy().into_owned().into_bytes();
         identity.push(0);
         identity.extend(match self.kind {
-            Kind::Cascadio => CASCADIO.as_bytes().to_vec(),
-            Kind::Occt => OCCT.as_bytes().to_vec(),
-            Kind::Freecad => FREECAD.as_bytes().to_vec(),
-            Kind::Own => fs::read(&self.program).unwrap_or_default(),
+            ConverterKind::Cascadio => CASCADIO.as_bytes().to_vec(),
+            ConverterKind::Occt => OCCT.as_bytes().to_vec(),
+            ConverterKind::Freecad => FREECAD.as_bytes().to_vec(),
+            ConverterKind::Own => fs::read(&self.program).unwrap_or_default(),
         });
         identity
     }
@@ -149,8 +153,13 @@ impl Converter {
     ///
     /// # Errors
     /// If the converter fails, or exceeds its time or memory limit.
-    pub(crate) fn convert(&self, model: &Path, glb: &Path, args: &StepArgs) -> Result<Converted, Error> {
-        let limits = Limits::of_process();
+    pub(crate) fn convert(
+        &self,
+        model: &Path,
+        glb: &Path,
+        args: &StepArgs,
+    ) -> Result<ConversionResult, Error> {
+        let limits = ProcessLimits::of_process();
         let model = std::path::absolute(model).unwrap_or_else(|_| model.to_path_buf());
         let (tolerance, angle) = (args.tolerance_mm().to_string(), args.angle().to_string());
         let in_and_out = || [OsString::from(&model), OsString::from(glb)];
@@ -161,12 +170,12 @@ impl Converter {
         let mut variables = Vec::new();
         let mut script_file = None;
         let words = match self.kind {
-            Kind::Cascadio => script(&["-c"], CASCADIO),
-            Kind::Occt => {
+            ConverterKind::Cascadio => script(&["-c"], CASCADIO),
+            ConverterKind::Occt => {
                 let memory = format!("--max-old-space-size={}", limits.mb);
                 script(&[&memory, "-e"], OCCT)
             }
-            Kind::Freecad => {
+            ConverterKind::Freecad => {
                 let [source, target] = in_and_out();
                 variables.extend([
                     ("LIGNE_STEP_IN", source),
@@ -179,55 +188,64 @@ impl Converter {
                     .map_err(|error| Error::io("cannot write a script", error).in_file(&place))?;
                 vec![script_file.insert(place).clone().into_os_string()]
             }
-            Kind::Own => in_and_out().into_iter().chain([OsString::from(&tolerance)]).collect(),
+            ConverterKind::Own => in_and_out().into_iter().chain([OsString::from(&tolerance)]).collect(),
         };
         // Node.js reserves more address space than it uses. Its own option and WebAssembly limit the memory.
-        let bounds = (limits, self.kind != Kind::Occt);
+        let bounds = (limits, self.kind != ConverterKind::Occt);
         let outcome = run(&self.program, &words, &variables, bounds, &glb.with_extension("log"));
         if let Some(script) = script_file {
             let _ = fs::remove_file(script);
         }
-        self.judge(outcome, limits, glb)
+        self.interpret_outcome(outcome, limits, glb)
     }
 
-    fn judge(&self, outcome: Outcome, limits: Limits, glb: &Path) -> Result<Converted, Error> {
+    fn interpret_outcome(
+        &self,
+        outcome: ProcessOutcome,
+        limits: ProcessLimits,
+        glb: &Path,
+    ) -> Result<ConversionResult, Error> {
         let name = self.name();
         let with = |said: String| if said.is_empty() { said } else { format!(": {said}") };
         match outcome {
-            Outcome::Exited(0, said) if !glb.is_file() => {
-                Err(Error::new(format!("{name} wrote no GLB{}", with(said))).remedy(FAILED))
+            ProcessOutcome::Exited(0, said) if !glb.is_file() => {
+                Err(Error::new(format!("{name} wrote no GLB{}", with(said))).remedy(FAILED_REMEDY))
             }
-            Outcome::Exited(0, _) => Ok(Converted::Done(match self.kind {
+            ProcessOutcome::Exited(0, _) => Ok(ConversionResult::Done(match self.kind {
                 // Cascadio keeps the axes of STEP.
-                Kind::Cascadio => UpAxis::Z,
-                Kind::Occt | Kind::Freecad | Kind::Own => UpAxis::Y,
+                ConverterKind::Cascadio => UpAxis::Z,
+                ConverterKind::Occt | ConverterKind::Freecad | ConverterKind::Own => UpAxis::Y,
             })),
-            Outcome::Exited(NOT_INSTALLED, said) if matches!(self.kind, Kind::Cascadio | Kind::Occt) => {
-                Ok(Converted::NotInstalled(said))
+            ProcessOutcome::Exited(NOT_INSTALLED, said)
+                if matches!(self.kind, ConverterKind::Cascadio | ConverterKind::Occt) =>
+            {
+                Ok(ConversionResult::NotInstalled(said))
             }
-            Outcome::Exited(code, said) => {
-                let remedy = if lacks_memory(&said) { MORE_MEMORY } else { FAILED };
+            ProcessOutcome::Exited(code, said) => {
+                let remedy = if lacks_memory(&said) { MEMORY_REMEDY } else { FAILED_REMEDY };
                 let message = format!("{name} failed with exit status {code}{}", with(said));
                 Err(Error::new(message).remedy(remedy))
             }
-            Outcome::Killed(said) => {
+            ProcessOutcome::Killed(said) => {
                 let bound = limits.mb;
                 let message =
                     format!("{name} was stopped{}; it may have needed more than {bound} MB", with(said));
-                Err(Error::new(message).remedy(MORE_MEMORY))
+                Err(Error::new(message).remedy(MEMORY_REMEDY))
             }
-            Outcome::TimedOut => Err(Error::new(format!("{name} was stopped after {} s", limits.seconds))
-                .remedy("give a larger --step-tolerance, or more time with LIGNE_STEP_SECONDS")),
-            Outcome::NotRun(error) => {
+            ProcessOutcome::TimedOut => {
+                Err(Error::new(format!("{name} was stopped after {} s", limits.seconds))
+                    .remedy("give a larger --step-tolerance, or more time with LIGNE_STEP_SECONDS"))
+            }
+            ProcessOutcome::NotRun(error) => {
                 Err(Error::io(format!("cannot run {name}"), error).remedy("check --step-converter"))
             }
         }
     }
 }
 
-const FAILED: &str = "export the STEP file again (AP214 or AP242), or try another --step-converter";
+const FAILED_REMEDY: &str = "export the STEP file again (AP214 or AP242), or try another --step-converter";
 
-const MORE_MEMORY: &str =
+const MEMORY_REMEDY: &str =
     "give a larger --step-tolerance, more memory with LIGNE_STEP_MB, or another --step-converter";
 
 /// Whether the last line of a program's output reports a lack of memory.
@@ -243,16 +261,16 @@ mod tests {
     #[test]
     fn programs_are_known_by_their_names() {
         for (program, kind) in [
-            ("/usr/bin/python3", Kind::Cascadio),
-            ("venv/bin/python3.12", Kind::Cascadio),
-            ("C/Python.EXE", Kind::Cascadio),
-            ("node", Kind::Occt),
-            ("FreeCADCmd", Kind::Freecad),
-            ("python-convert.sh", Kind::Own),
-            ("node.sh", Kind::Own),
-            ("step2glb", Kind::Own),
+            ("/usr/bin/python3", ConverterKind::Cascadio),
+            ("venv/bin/python3.12", ConverterKind::Cascadio),
+            ("C/Python.EXE", ConverterKind::Cascadio),
+            ("node", ConverterKind::Occt),
+            ("FreeCADCmd", ConverterKind::Freecad),
+            ("python-convert.sh", ConverterKind::Own),
+            ("node.sh", ConverterKind::Own),
+            ("step2glb", ConverterKind::Own),
         ] {
-            assert_eq!(Kind::of(Path::new(program)), kind, "{program}");
+            assert_eq!(ConverterKind::of(Path::new(program)), kind, "{program}");
         }
     }
 }

@@ -18,8 +18,8 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use self::conversion_cache::{Cache, Key};
-use self::converter::{Converted, candidates};
+use self::conversion_cache::{ConversionCache, ConversionKey};
+use self::converter::{ConversionResult, candidates};
 use crate::animation::Rigged;
 pub(crate) use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::file_stamp::stamp;
@@ -28,21 +28,23 @@ use crate::load::ModelFormat;
 use crate::scene::{Scene, UpAxis};
 
 /// File endings of STEP files.
-pub(crate) const ENDINGS: [&str; 2] = ["step", "stp"];
+pub(crate) const STEP_ENDINGS: [&str; 2] = ["step", "stp"];
 
 /// First bytes of a STEP file.
-const MARK: &[u8] = b"ISO-10303-21";
+const STEP_MAGIC: &[u8] = b"ISO-10303-21";
 
 /// Version of the conversion, part of the cache key. Increase it if results change for other reasons than
 /// their key.
-const VERSION: &[u8] = b"1";
+const RESULT_VERSION: &[u8] = b"1";
 
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
 
 /// Whether a model is a STEP file, by its ending.
 pub(crate) fn is_step(model: &Path) -> bool {
-    model.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
+    model
+        .extension()
+        .is_some_and(|ending| STEP_ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
 /// Reads a model of any format.
@@ -78,17 +80,17 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     let before = stamp(model);
     let bytes = fs::read(model).map_err(|error| Error::io("cannot be read", error))?;
     let start = bytes.trim_ascii_start();
-    if !start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).starts_with(MARK) {
+    if !start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).starts_with(STEP_MAGIC) {
         return Err(Error::new("this is not a STEP file: it does not begin with ISO-10303-21")
             .remedy("export it again as STEP (AP214 or AP242)"));
     }
-    let cache = Cache::open()?;
+    let cache = ConversionCache::open()?;
     let named = args.converter().is_some();
     let candidates = candidates(args)?;
     let identity: Vec<u8> =
         if named { candidates.iter().flat_map(|one| one.identity()).collect() } else { Vec::new() };
     let quality = format!("{} mm, {} rad", args.tolerance_mm(), args.angle());
-    let key = Key::of(&[VERSION, &bytes, quality.as_bytes(), &identity]);
+    let key = ConversionKey::of(&[RESULT_VERSION, &bytes, quality.as_bytes(), &identity]);
     if let Some(scene) = cache.get(key).and_then(|(glb, up)| read(model, &glb, up).ok()) {
         return Ok(scene);
     }
@@ -96,8 +98,8 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     for candidate in candidates {
         let place = cache.unfinished("glb");
         let made = candidate.convert(model, &place, args).and_then(|made| match made {
-            Converted::NotInstalled(said) => Ok(Err(said)),
-            Converted::Done(up) => {
+            ConversionResult::NotInstalled(said) => Ok(Err(said)),
+            ConversionResult::Done(up) => {
                 let glb =
                     fs::read(&place).map_err(|error| Error::io("cannot read the converted model", error))?;
                 Ok(Ok((glb, up)))
@@ -124,7 +126,7 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
         Some((candidate, said)) => Error::new(format!("{} is not installed: {said}", candidate.name())),
         None => Error::new("STEP is read through a converter, and none was found"),
     };
-    Err(error.of_kind(ErrorKind::Unsupported).remedy(converter::REMEDY))
+    Err(error.of_kind(ErrorKind::Unsupported).remedy(converter::INSTALL_REMEDY))
 }
 
 /// Reads a converted model, and restores the millimetres and the z-up axis of STEP.

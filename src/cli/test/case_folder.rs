@@ -1,27 +1,27 @@
-//! [`Folder`]: cases of a folder, and drawings that belong to no case.
+//! [`CaseFolder`]: cases of a folder, and drawings that belong to no case.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::failure_files::LEFT_BEHIND;
-use super::test_case::Case;
+use super::failure_files::FAILURE_FILE_ENDINGS;
+use super::test_case::TestCase;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 
 /// Contents of a folder of cases.
 #[derive(Debug, Default)]
-pub(crate) struct Folder {
+pub(crate) struct CaseFolder {
     /// Cases, sorted by name.
-    pub(crate) cases: Vec<Case>,
+    pub(crate) cases: Vec<TestCase>,
     /// SVG files that no case uses.
     pub(crate) orphans: Vec<PathBuf>,
 }
 
-impl Folder {
+impl CaseFolder {
     /// Reads all cases of a folder and its sub-folders, or a single case file. Keeps only cases whose name
     /// matches one of `only`, unless it is empty.
     pub(crate) fn read(path: &Path, only: &[Glob]) -> Result<Self, Error> {
-        let mut found = Found::default();
+        let mut found = FoundFiles::default();
         if path.is_dir() {
             found.search(path, "")?;
         } else if !path.exists() {
@@ -34,7 +34,7 @@ impl Folder {
         found.drawings.sort();
         let mut folder = Self::default();
         for (name, path) in found.cases {
-            folder.cases.push(Case::read(name, &path));
+            folder.cases.push(TestCase::read(name, &path));
         }
         folder.refuse_shared();
         let of_no_case =
@@ -75,13 +75,13 @@ impl Folder {
 
 /// Files found in a folder.
 #[derive(Debug, Default)]
-struct Found {
+struct FoundFiles {
     /// Name and path of each case file.
     cases: Vec<(String, PathBuf)>,
     drawings: Vec<PathBuf>,
 }
 
-impl Found {
+impl FoundFiles {
     /// Searches a folder. `prefix` is its relative path for case names. Skips names that begin with `.` or
     /// `_`, and `ligne.toml`.
     fn search(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
@@ -99,7 +99,9 @@ impl Found {
                 self.search(&path, &format!("{prefix}{file_name}/"))?;
             } else if let Some(name) = file_name.strip_suffix(".toml") {
                 self.cases.push((format!("{prefix}{name}"), path));
-            } else if file_name.ends_with(".svg") && !LEFT_BEHIND.iter().any(|end| file_name.ends_with(end)) {
+            } else if file_name.ends_with(".svg")
+                && !FAILURE_FILE_ENDINGS.iter().any(|end| file_name.ends_with(end))
+            {
                 self.drawings.push(path);
             }
         }

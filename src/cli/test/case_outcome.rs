@@ -1,8 +1,8 @@
-//! [`Outcome`]: drawing of a case, compared with the approved drawing.
+//! [`CaseOutcome`]: drawing of a case, compared with the approved drawing.
 
 use std::path::Path;
 
-use super::test_case::{Case, Made, Order};
+use super::test_case::{CaseSettings, CaseSubject, TestCase};
 use crate::cli::draw::model_drawing;
 use crate::cli::step::{StepArgs, open_other};
 use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
@@ -13,7 +13,7 @@ use crate::pipeline::Stopwatch;
 
 /// Result of a case.
 #[derive(Debug)]
-pub(crate) enum Verdict {
+pub(crate) enum CaseVerdict {
     /// The drawing matches within the tolerance.
     Passed,
     /// The drawing differs.
@@ -24,7 +24,7 @@ pub(crate) enum Verdict {
     Error(Error),
 }
 
-impl Verdict {
+impl CaseVerdict {
     /// Word for the result.
     pub(crate) fn word(&self) -> &'static str {
         match self {
@@ -38,9 +38,9 @@ impl Verdict {
 
 /// Case after drawing and comparing.
 #[derive(Debug)]
-pub(crate) struct Outcome<'a> {
-    pub(crate) case: &'a Case,
-    pub(crate) verdict: Verdict,
+pub(crate) struct CaseOutcome<'a> {
+    pub(crate) case: &'a TestCase,
+    pub(crate) verdict: CaseVerdict,
     /// Approved drawing, if it exists.
     pub(crate) before: Option<String>,
     /// Current drawing, if it could be made.
@@ -60,35 +60,35 @@ fn page(file: &Path) -> Result<Vec<u8>, Error> {
     }
 }
 
-impl<'a> Outcome<'a> {
+impl<'a> CaseOutcome<'a> {
     /// Draws a case and compares it with the approved drawing.
-    pub(crate) fn of(case: &'a Case, tolerances: &Tolerances) -> Self {
+    pub(crate) fn of(case: &'a TestCase, tolerances: &Tolerances) -> Self {
         let watch = Stopwatch::start();
-        let mut outcome = Self { case, verdict: Verdict::New, before: None, after: None, seconds: 0.0 };
+        let mut outcome = Self { case, verdict: CaseVerdict::New, before: None, after: None, seconds: 0.0 };
         outcome.verdict = match &case.order {
-            Ok(order) => outcome.draw(order, tolerances).unwrap_or_else(Verdict::Error),
-            Err(error) => Verdict::Error(error.clone()),
+            Ok(order) => outcome.draw(order, tolerances).unwrap_or_else(CaseVerdict::Error),
+            Err(error) => CaseVerdict::Error(error.clone()),
         };
         outcome.seconds = watch.seconds();
         outcome
     }
 
-    fn draw(&mut self, order: &Order, tolerances: &Tolerances) -> Result<Verdict, Error> {
+    fn draw(&mut self, order: &CaseSettings, tolerances: &Tolerances) -> Result<CaseVerdict, Error> {
         let svg = match &order.made {
-            Made::Drawing(request) => model_drawing::encoded(request)?,
-            Made::Page(file) => page(file)?,
+            CaseSubject::Drawing(request) => model_drawing::encode_first_output(request)?,
+            CaseSubject::Page(file) => page(file)?,
         };
         let after = self.after.insert(String::from_utf8_lossy(&svg).into_owned());
         let drawing = &self.case.drawing;
         let before = match std::fs::read(drawing) {
             Ok(bytes) => self.before.insert(String::from_utf8_lossy(&bytes).into_owned()),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Verdict::New),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(CaseVerdict::New),
             Err(error) => {
                 return Err(Error::io("cannot read the approved drawing", error).in_file(drawing));
             }
         };
         if before == after {
-            return Ok(Verdict::Passed);
+            return Ok(CaseVerdict::Passed);
         }
         let unfit = |error: Error| {
             error.in_file(drawing).remedy("remove the file, then approve the drawing with --bless")
@@ -97,13 +97,13 @@ impl<'a> Outcome<'a> {
         let after = Picture::from_svg(after)?;
         let tolerances = tolerances.clone().with(order.tolerances.clone());
         let diff = diff::compare(&before, &after, &DiffOptions { tolerances, ..DiffOptions::default() });
-        Ok(if diff.is_same() { Verdict::Passed } else { Verdict::Differs(Box::new(diff)) })
+        Ok(if diff.is_same() { CaseVerdict::Passed } else { CaseVerdict::Differs(Box::new(diff)) })
     }
 
     /// Difference picture as SVG, if the drawing differs.
     pub(crate) fn difference(&self) -> Option<String> {
         match &self.verdict {
-            Verdict::Differs(diff) => Some(diff.picture(View::Over).to_svg(&SvgOptions::default())),
+            CaseVerdict::Differs(diff) => Some(diff.picture(View::Over).to_svg(&SvgOptions::default())),
             _ => None,
         }
     }
@@ -111,18 +111,18 @@ impl<'a> Outcome<'a> {
     /// One-line summary. If `blessed`, differing and new drawings were approved.
     pub(crate) fn summary(&self, blessed: bool) -> String {
         match &self.verdict {
-            Verdict::New if blessed => "drawn for the first time".to_owned(),
-            Verdict::Passed => String::new(),
-            Verdict::Differs(diff) => diff.summary(),
-            Verdict::New => format!("{} is not approved yet", self.case.drawing.display()),
-            Verdict::Error(error) => error.to_string(),
+            CaseVerdict::New if blessed => "drawn for the first time".to_owned(),
+            CaseVerdict::Passed => String::new(),
+            CaseVerdict::Differs(diff) => diff.summary(),
+            CaseVerdict::New => format!("{} is not approved yet", self.case.drawing.display()),
+            CaseVerdict::Error(error) => error.to_string(),
         }
     }
 
     /// Differences, one line each.
     pub(crate) fn lines(&self) -> Vec<String> {
         match &self.verdict {
-            Verdict::Differs(diff) => diff.lines(),
+            CaseVerdict::Differs(diff) => diff.lines(),
             _ => Vec::new(),
         }
     }
@@ -130,23 +130,23 @@ impl<'a> Outcome<'a> {
 
 /// Number of cases with each result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Totals {
+pub(crate) struct CaseTotals {
     pub(crate) passed: usize,
     pub(crate) differ: usize,
     pub(crate) new: usize,
     pub(crate) errors: usize,
 }
 
-impl Totals {
+impl CaseTotals {
     /// Counts the results.
-    pub(crate) fn of(outcomes: &[Outcome<'_>]) -> Self {
+    pub(crate) fn of(outcomes: &[CaseOutcome<'_>]) -> Self {
         let mut totals = Self::default();
         for outcome in outcomes {
             match outcome.verdict {
-                Verdict::Passed => totals.passed += 1,
-                Verdict::Differs(_) => totals.differ += 1,
-                Verdict::New => totals.new += 1,
-                Verdict::Error(_) => totals.errors += 1,
+                CaseVerdict::Passed => totals.passed += 1,
+                CaseVerdict::Differs(_) => totals.differ += 1,
+                CaseVerdict::New => totals.new += 1,
+                CaseVerdict::Error(_) => totals.errors += 1,
             }
         }
         totals

@@ -3,25 +3,25 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::case_outcome::Outcome;
+use super::case_outcome::CaseOutcome;
 use crate::cli::output::output_files::Staging;
 use crate::error::Error;
 
 /// Name endings of these files. Approved drawings never have them.
-pub(crate) const LEFT_BEHIND: [&str; 2] = [".actual.svg", ".diff.svg"];
+pub(crate) const FAILURE_FILE_ENDINGS: [&str; 2] = [".actual.svg", ".diff.svg"];
 
 /// Writes the drawings of failing cases to a folder, and removes old files of cases that pass.
-pub(crate) fn keep(
+pub(crate) fn write_failures(
     folder: &Path,
-    outcomes: &[Outcome<'_>],
-    passed: impl Fn(&Outcome<'_>) -> bool,
+    outcomes: &[CaseOutcome<'_>],
+    passed: impl Fn(&CaseOutcome<'_>) -> bool,
 ) -> Result<(), Error> {
     let mut staging = Staging::default();
     for outcome in outcomes {
         let place = |end: &str| -> PathBuf { folder.join(format!("{}{end}", outcome.case.name)) };
         let texts =
             if passed(outcome) { [None, None] } else { [outcome.after.clone(), outcome.difference()] };
-        for (end, text) in LEFT_BEHIND.into_iter().zip(texts) {
+        for (end, text) in FAILURE_FILE_ENDINGS.into_iter().zip(texts) {
             let path = place(end);
             match text {
                 None => {

@@ -7,20 +7,20 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::SHOWN;
-use super::case_outcome::{Outcome, Totals, Verdict};
+use super::MAX_SHOWN_FINDINGS;
+use super::case_outcome::{CaseOutcome, CaseTotals, CaseVerdict};
 use crate::export::encoding::xml::escaped;
 
 /// Style sheet of the page.
-const SHEET: &str = include_str!("report.css");
+const PAGE_CSS: &str = include_str!("report.css");
 
 /// Writes the page. Passing cases have pictures only if `all` is set.
-pub(crate) fn page(folder: &str, outcomes: &[Outcome<'_>], all: bool, blessed: bool) -> String {
-    let (folder, totals) = (escaped(folder), escaped(&Totals::of(outcomes).line(blessed)));
+pub(crate) fn page(folder: &str, outcomes: &[CaseOutcome<'_>], all: bool, blessed: bool) -> String {
+    let (folder, totals) = (escaped(folder), escaped(&CaseTotals::of(outcomes).line(blessed)));
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{folder}: {totals}</title>\n<style>\n{SHEET}</style>\n</head>\n<body>\n\
+         <title>{folder}: {totals}</title>\n<style>\n{PAGE_CSS}</style>\n</head>\n<body>\n\
          <h1>{folder}</h1>\n<p>{totals}</p>\n\
          <input type=\"checkbox\" id=\"failed\"/> <label for=\"failed\">only what failed</label>\n<main>\n"
     );
@@ -31,8 +31,8 @@ pub(crate) fn page(folder: &str, outcomes: &[Outcome<'_>], all: bool, blessed: b
     html
 }
 
-fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
-    let is_blessed = blessed && matches!(outcome.verdict, Verdict::Differs(_) | Verdict::New);
+fn section(html: &mut String, outcome: &CaseOutcome<'_>, all: bool, blessed: bool) {
+    let is_blessed = blessed && matches!(outcome.verdict, CaseVerdict::Differs(_) | CaseVerdict::New);
     let word = if is_blessed { "blessed" } else { outcome.verdict.word() };
     let name = escaped(&outcome.case.name);
     let _ = writeln!(html, "<section class=\"{word}\">\n<h2>{name} <span>{word}</span></h2>");
@@ -42,7 +42,7 @@ fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
         let tag = if summary.contains('\n') { "pre" } else { "p" };
         let _ = writeln!(html, "<{tag}>{}</{tag}>", text(&summary));
     }
-    if all || !matches!(outcome.verdict, Verdict::Passed) {
+    if all || !matches!(outcome.verdict, CaseVerdict::Passed) {
         html.push_str("<div>\n");
         picture(html, "before", outcome.before.as_deref());
         picture(html, "after", outcome.after.as_deref());
@@ -50,7 +50,7 @@ fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
         html.push_str("</div>\n");
     }
     let lines = outcome.lines();
-    let (first, rest) = lines.split_at(lines.len().min(SHOWN));
+    let (first, rest) = lines.split_at(lines.len().min(MAX_SHOWN_FINDINGS));
     list(html, first);
     if !rest.is_empty() {
         let _ = writeln!(html, "<details>\n<summary>and {} more</summary>", rest.len());

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use super::case_outcome::{Outcome, Totals, Verdict};
+use super::case_outcome::{CaseOutcome, CaseTotals, CaseVerdict};
 use crate::export::encoding::xml::escaped;
 
 /// Writes the document. If `blessed`, differing and new drawings were approved.
-pub(crate) fn document(folder: &str, outcomes: &[Outcome<'_>], blessed: bool) -> String {
-    let Totals { differ, new, errors, .. } = Totals::of(outcomes);
+pub(crate) fn document(folder: &str, outcomes: &[CaseOutcome<'_>], blessed: bool) -> String {
+    let CaseTotals { differ, new, errors, .. } = CaseTotals::of(outcomes);
     let failures = if blessed { 0 } else { differ + new };
     let seconds: f64 = outcomes.iter().map(|outcome| outcome.seconds).sum();
     let tests = outcomes.len();
@@ -22,8 +22,8 @@ pub(crate) fn document(folder: &str, outcomes: &[Outcome<'_>], blessed: bool) ->
         let _ =
             write!(xml, "<testcase name=\"{name}\" classname=\"{folder}\" time=\"{:.3}\"", outcome.seconds);
         let element = match outcome.verdict {
-            Verdict::Error(_) => Some("error"),
-            Verdict::Differs(_) | Verdict::New if !blessed => Some("failure"),
+            CaseVerdict::Error(_) => Some("error"),
+            CaseVerdict::Differs(_) | CaseVerdict::New if !blessed => Some("failure"),
             _ => None,
         };
         let Some(element) = element else {

@@ -19,11 +19,11 @@ use std::process::ExitCode;
 use crate::parallel::prelude::*;
 use clap::Args;
 
-use self::case_folder::Folder;
-use self::case_outcome::{Outcome, Totals, Verdict};
-use super::{DIFFERENCES, WRONG, library_calls, print, say};
-use crate::cli::config::call_defaults::Surroundings;
-use crate::cli::config::project_config::Config;
+use self::case_folder::CaseFolder;
+use self::case_outcome::{CaseOutcome, CaseTotals, CaseVerdict};
+use super::{EXIT_DIFFERENCES, EXIT_WRONG, library_calls, print, say};
+use crate::cli::config::call_defaults::CallEnvironment;
+use crate::cli::config::project_config::ProjectConfig;
 use crate::cli::output::output_files::{Staging, check_place};
 use crate::cli::output::progress::Progress;
 use crate::diff::Tolerances;
@@ -31,7 +31,7 @@ use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 
 /// Maximum number of findings shown per case. Reports contain all.
-const SHOWN: usize = 20;
+const MAX_SHOWN_FINDINGS: usize = 20;
 
 /// Options of `ligne test`.
 #[derive(Debug, Args)]
@@ -85,7 +85,11 @@ pub(crate) struct TestArgs {
 }
 
 /// Draws and compares all cases, prints the results, and writes the requested reports.
-pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
+pub(crate) fn run(
+    args: &TestArgs,
+    no_config: bool,
+    surroundings: &CallEnvironment,
+) -> Result<ExitCode, Error> {
     if args.bless && surroundings.is_ci {
         return Err(Error::new("drawings cannot be approved in CI: the variable CI is set")
             .at("--bless")
@@ -95,18 +99,18 @@ pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
         check_place(file)?;
     }
     let tolerances = tolerances(no_config, surroundings)?;
-    let folder = Folder::read(&args.folder, &args.cases)?;
+    let folder = CaseFolder::read(&args.folder, &args.cases)?;
     let progress = Progress::start(args.quiet, &args.folder);
     progress.step("drawing");
-    let draw = || folder.cases.par_iter().map(|case| Outcome::of(case, &tolerances)).collect::<Vec<_>>();
+    let draw = || folder.cases.par_iter().map(|case| CaseOutcome::of(case, &tolerances)).collect::<Vec<_>>();
     let outcomes = library_calls::in_threads(args.threads, draw)?;
     drop(progress);
 
-    let totals = Totals::of(&outcomes);
+    let totals = CaseTotals::of(&outcomes);
     // Nothing is approved if a case has an error.
     let blessed = args.bless && totals.errors == 0;
     write(args, &outcomes, blessed)?;
-    print(told(args, &outcomes, totals, blessed).as_bytes())?;
+    print(results_text(args, &outcomes, totals, blessed).as_bytes())?;
     for orphan in &folder.orphans {
         say(&format!(
             "warning: {}: no case uses this drawing; remove it, or write a case for it",
@@ -114,37 +118,39 @@ pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
         ));
     }
     Ok(match totals {
-        Totals { errors: 1.., .. } => ExitCode::from(WRONG),
-        Totals { differ: 0, new: 0, .. } => ExitCode::SUCCESS,
+        CaseTotals { errors: 1.., .. } => ExitCode::from(EXIT_WRONG),
+        CaseTotals { differ: 0, new: 0, .. } => ExitCode::SUCCESS,
         _ if blessed => ExitCode::SUCCESS,
-        _ => ExitCode::from(DIFFERENCES),
+        _ => ExitCode::from(EXIT_DIFFERENCES),
     })
 }
 
 /// Tolerances of `ligne.toml`. Cases use nothing else of that file, because they contain all other settings.
-fn tolerances(no_config: bool, surroundings: &Surroundings) -> Result<Tolerances, Error> {
+fn tolerances(no_config: bool, surroundings: &CallEnvironment) -> Result<Tolerances, Error> {
     let config = match &surroundings.folder {
-        Some(folder) if !no_config => Config::find(folder)?,
+        Some(folder) if !no_config => ProjectConfig::find(folder)?,
         _ => None,
     };
     let text = config.and_then(|config| config.tolerance);
     text.map_or(Ok(Tolerances::default()), |text| Tolerances::parse(&text))
 }
 
-fn passed(outcome: &Outcome<'_>, blessed: bool) -> bool {
+fn passed(outcome: &CaseOutcome<'_>, blessed: bool) -> bool {
     match outcome.verdict {
-        Verdict::Passed => true,
-        Verdict::Differs(_) | Verdict::New => blessed,
-        Verdict::Error(_) => false,
+        CaseVerdict::Passed => true,
+        CaseVerdict::Differs(_) | CaseVerdict::New => blessed,
+        CaseVerdict::Error(_) => false,
     }
 }
 
 /// Writes approved drawings and reports, all or none.
-fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(), Error> {
+fn write(args: &TestArgs, outcomes: &[CaseOutcome<'_>], blessed: bool) -> Result<(), Error> {
     let mut staging = Staging::default();
     if blessed {
         for outcome in outcomes {
-            if let (Verdict::Differs(_) | Verdict::New, Some(after)) = (&outcome.verdict, &outcome.after) {
+            if let (CaseVerdict::Differs(_) | CaseVerdict::New, Some(after)) =
+                (&outcome.verdict, &outcome.after)
+            {
                 staging.add(&outcome.case.drawing, after.as_bytes())?;
             }
         }
@@ -157,34 +163,34 @@ fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(),
         staging.add(path, junit_report::document(&folder, outcomes, blessed).as_bytes())?;
     }
     if let Some(kept) = &args.out_dir {
-        failure_files::keep(kept, outcomes, |outcome| passed(outcome, blessed))?;
+        failure_files::write_failures(kept, outcomes, |outcome| passed(outcome, blessed))?;
     }
     staging.commit()
 }
 
 /// Result text: one line per case with its differences below, and the totals.
-fn told(args: &TestArgs, outcomes: &[Outcome<'_>], totals: Totals, blessed: bool) -> String {
+fn results_text(args: &TestArgs, outcomes: &[CaseOutcome<'_>], totals: CaseTotals, blessed: bool) -> String {
     let mut text = String::new();
     for outcome in outcomes {
-        if args.quiet && matches!(outcome.verdict, Verdict::Passed) {
+        if args.quiet && matches!(outcome.verdict, CaseVerdict::Passed) {
             continue;
         }
         let word = match outcome.verdict {
-            Verdict::Differs(_) | Verdict::New if blessed => "blessed",
+            CaseVerdict::Differs(_) | CaseVerdict::New if blessed => "blessed",
             _ => outcome.verdict.word(),
         };
         let (name, summary) = (&outcome.case.name, outcome.summary(blessed).replace('\n', "\n         "));
         let colon = if summary.is_empty() { "" } else { ": " };
         text.push_str(&format!("{word:7}  {name}{colon}{summary}\n"));
         let lines = outcome.lines();
-        for line in lines.iter().take(SHOWN) {
+        for line in lines.iter().take(MAX_SHOWN_FINDINGS) {
             text.push_str(&format!("         {line}\n"));
         }
-        if lines.len() > SHOWN {
-            text.push_str(&format!("         and {} more\n", lines.len() - SHOWN));
+        if lines.len() > MAX_SHOWN_FINDINGS {
+            text.push_str(&format!("         and {} more\n", lines.len() - MAX_SHOWN_FINDINGS));
         }
     }
-    let Totals { differ, new, errors, .. } = totals;
+    let CaseTotals { differ, new, errors, .. } = totals;
     if !args.quiet || differ + new + errors > 0 {
         text.push_str(&totals.line(blessed));
         text.push('\n');

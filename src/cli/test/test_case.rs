@@ -1,4 +1,4 @@
-//! [`Case`]: a case file, which describes a drawing and its tolerance.
+//! [`TestCase`]: a case file, which describes a drawing and its tolerance.
 
 use std::path::{Path, PathBuf};
 
@@ -6,47 +6,47 @@ use clap::{Args, Command, FromArgMatches};
 use toml::de::DeValue;
 
 use crate::cli::config::project_config::tolerance;
-use crate::cli::config::toml_options::{File, Keys, refuse_alone};
+use crate::cli::config::toml_options::{OptionKeys, TomlFile, refuse_incomplete};
 use crate::cli::options::draw_args::HowArgs;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::diff::Tolerances;
 use crate::error::Error;
 
 /// Keys of a case that are not options of `ligne draw`.
-const OWN: [&str; 4] = ["model", "page-file", "drawing", "tolerance"];
+const CASE_KEYS: [&str; 4] = ["model", "page-file", "drawing", "tolerance"];
 
 /// Options that are not allowed in cases, because they do not affect the drawing.
-const WITHOUT_EFFECT: [&str; 3] = ["threads", "quiet", "dpi"];
+const EXCLUDED_OPTIONS: [&str; 3] = ["threads", "quiet", "dpi"];
 
 /// Drawing under test.
 #[derive(Debug)]
-pub(crate) struct Case {
+pub(crate) struct TestCase {
     /// Relative path in the folder of cases, with `/` and without `.toml`.
     pub(crate) name: String,
     /// Path of the approved drawing.
     pub(crate) drawing: PathBuf,
     /// Settings of the case, or the error in its file.
-    pub(crate) order: Result<Order, Error>,
+    pub(crate) order: Result<CaseSettings, Error>,
 }
 
 /// Settings of a case.
 #[derive(Debug)]
-pub(crate) struct Order {
-    pub(crate) made: Made,
+pub(crate) struct CaseSettings {
+    pub(crate) made: CaseSubject,
     /// Tolerances that override those of the project.
     pub(crate) tolerances: Tolerances,
 }
 
 /// Subject of a case.
 #[derive(Debug)]
-pub(crate) enum Made {
+pub(crate) enum CaseSubject {
     /// Drawing of a model.
     Drawing(Box<DrawRequest>),
     /// The single page of this page file.
     Page(PathBuf),
 }
 
-impl Case {
+impl TestCase {
     /// Reads a case. A file with errors gives a case that fails.
     pub(crate) fn read(name: String, path: &Path) -> Self {
         match read(path) {
@@ -60,13 +60,13 @@ impl Case {
     }
 }
 
-fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
-    let file = File::read(path, "the case")?;
+fn read(path: &Path) -> Result<(Option<PathBuf>, CaseSettings), Error> {
+    let file = TomlFile::read(path, "the case")?;
     let (table, values) = (file.table()?, file.values()?);
     let command = HowArgs::augment_args(Command::new("draw"));
-    let keys = Keys { command: &command, without: &WITHOUT_EFFECT, others: &OWN };
+    let keys = OptionKeys { command: &command, without: &EXCLUDED_OPTIONS, others: &CASE_KEYS };
     let given = keys.read(&file, &table, &values)?;
-    refuse_alone(&file, &given)?;
+    refuse_incomplete(&file, &given)?;
 
     let path_of = |key: &str| match table.get(key) {
         None => Ok(None),
@@ -99,8 +99,8 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
 
     let drawing = drawing.map(|(drawing, _)| drawing);
     let Some((model, _)) = model else {
-        let made = Made::Page(page.map(|(page, _)| page).unwrap_or_default());
-        return Ok((drawing, Order { made, tolerances }));
+        let made = CaseSubject::Page(page.map(|(page, _)| page).unwrap_or_default());
+        return Ok((drawing, CaseSettings { made, tolerances }));
     };
     let words = std::iter::once("draw".to_owned()).chain(given.into_iter().flat_map(|given| given.words));
     let how = command.try_get_matches_from(words).and_then(|matches| HowArgs::from_arg_matches(&matches));
@@ -111,5 +111,5 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
     })?;
     let mut request = DrawRequest::of_model(model, how).map_err(|error| error.in_file(path))?;
     request.quiet = true;
-    Ok((drawing, Order { made: Made::Drawing(Box::new(request)), tolerances }))
+    Ok((drawing, CaseSettings { made: CaseSubject::Drawing(Box::new(request)), tolerances }))
 }

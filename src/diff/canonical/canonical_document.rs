@@ -12,18 +12,18 @@ use crate::parallel::prelude::*;
 use kurbo::{BezPath, PathEl, Point};
 use usvg::roxmltree::{Attribute, Document, Node};
 
-use super::computed_style::{Afar, Leave, Look, painted_alike};
+use super::computed_style::{ComputedStyle, DocumentContext, PathRewrite, painted_alike};
 use super::{path_parser, presentation_attributes};
 use crate::diff::markup::{input_limits, number_scan};
 use crate::error::Error;
-use crate::export::encoding::decimals::{Decimals, MOST_DECIMALS};
-use crate::export::paths::canonical_path::{Canonical, Form};
-use crate::export::paths::path_piece::Step;
-use crate::export::svg::mark_order::Name;
+use crate::export::encoding::decimals::{Decimals, MAX_DECIMALS};
+use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
+use crate::export::paths::path_piece::PathPoint;
+use crate::export::svg::mark_order::MarkName;
 
 /// Largest product of coordinate steps and path pieces for which relative coordinates read back exactly. Sums
 /// of 53-bit numbers are each off by half a bit.
-const MOST_STEPS: f64 = (1u64 << 50) as f64;
+const MAX_EXACT_STEPS: f64 = (1u64 << 50) as f64;
 
 /// Rewrites an SVG file in the form of this exporter, so that version control shows small differences. The
 /// picture stays the same.
@@ -52,8 +52,8 @@ pub fn canonical_svg(text: &str, precision: Option<u8>) -> Result<String, Error>
     let text = plain.as_deref().unwrap_or(text);
     let document = input_limits::parse(text)?;
     let paths = Paths::of(&document);
-    let precision = precision.unwrap_or_else(|| paths.decimals()).min(MOST_DECIMALS);
-    let written: Vec<Written> =
+    let precision = precision.unwrap_or_else(|| paths.decimals()).min(MAX_DECIMALS);
+    let written: Vec<RewrittenPath> =
         paths.found.par_iter().map(|found| written(text, found, Decimals::new(precision))).collect();
     let mut out = String::with_capacity(text.len());
     let mut cursor = 0;
@@ -77,8 +77,8 @@ pub fn canonical_svg(text: &str, precision: Option<u8>) -> Result<String, Error>
 
 /// Paths of a document, in document order.
 struct Paths<'a, 'input> {
-    found: Vec<Found<'a, 'input>>,
-    afar: Afar<'a>,
+    found: Vec<PathElement<'a, 'input>>,
+    afar: DocumentContext<'a>,
     /// Number of runs so far.
     runs: usize,
     /// Byte where the root element starts. Entity declarations before it may also contain elements.
@@ -86,9 +86,9 @@ struct Paths<'a, 'input> {
 }
 
 /// A path element of the document.
-struct Found<'a, 'input> {
+struct PathElement<'a, 'input> {
     node: Node<'a, 'input>,
-    leave: Leave,
+    leave: PathRewrite,
     /// Number of the run of paths that may be exchanged with this one.
     run: usize,
 }
@@ -96,8 +96,8 @@ struct Found<'a, 'input> {
 impl<'a, 'input> Paths<'a, 'input> {
     fn of(document: &'a Document<'input>) -> Self {
         let root = document.root_element();
-        let afar = Afar::of(document);
-        let look = Look::new(&afar);
+        let afar = DocumentContext::of(document);
+        let look = ComputedStyle::new(&afar);
         let mut paths = Self { found: Vec::new(), afar, runs: 0, begin: root.range().start };
         paths.inside(root, &look);
         paths
@@ -105,7 +105,7 @@ impl<'a, 'input> Paths<'a, 'input> {
 
     /// Collects the paths of an element. The recursion is limited because files with deeper nesting are
     /// refused.
-    fn inside(&mut self, node: Node<'a, 'input>, around: &Look<'a>) {
+    fn inside(&mut self, node: Node<'a, 'input>, around: &ComputedStyle<'a>) {
         let look = around.inside(node, &self.afar);
         // The previous path, while no other content separates it from the next one.
         let mut neighbour: Option<Node> = None;
@@ -131,14 +131,14 @@ impl<'a, 'input> Paths<'a, 'input> {
                 self.runs += 1;
             }
             neighbour = free.then_some(child);
-            self.found.push(Found { node: child, leave: own.leave(child), run: self.runs });
+            self.found.push(PathElement { node: child, leave: own.leave(child), run: self.runs });
         }
     }
 
     /// Largest number of decimals in any path data.
     fn decimals(&self) -> u8 {
-        let data = |found: &Found| {
-            let values = DATA.iter().filter_map(|name| found.node.attribute(*name));
+        let data = |found: &PathElement| {
+            let values = PATH_DATA_ATTRIBUTES.iter().filter_map(|name| found.node.attribute(*name));
             values.map(|value| number_scan::scan(value).decimals).max().unwrap_or(0)
         };
         self.found.par_iter().map(data).max().unwrap_or(0)
@@ -146,22 +146,24 @@ impl<'a, 'input> Paths<'a, 'input> {
 }
 
 /// Attributes that contain path data.
-const DATA: [&str; 2] = ["d", "data-axis"];
+const PATH_DATA_ATTRIBUTES: [&str; 2] = ["d", "data-axis"];
 
 /// A path after rewriting.
-struct Written<'a> {
+struct RewrittenPath<'a> {
     /// Text of the whole element.
     element: Cow<'a, str>,
     /// Byte range of the path data in `element`.
     data: Range<usize>,
     /// Start point of the path.
-    start: Option<Step>,
+    start: Option<PathPoint>,
 }
 
 /// Sort key of a path, as in the exporter.
-fn key<'a>((written, found): (&'a Written, &'a Found)) -> (Name<'a>, Option<Step>, &'a str) {
+fn key<'a>(
+    (written, found): (&'a RewrittenPath, &'a PathElement),
+) -> (MarkName<'a>, Option<PathPoint>, &'a str) {
     let of = |name| found.node.attribute(name);
-    let name = Name {
+    let name = MarkName {
         classes: of("class").unwrap_or_default(),
         part: of("data-part"),
         material: of("data-material"),
@@ -171,11 +173,13 @@ fn key<'a>((written, found): (&'a Written, &'a Found)) -> (Name<'a>, Option<Step
 }
 
 /// Rewrites one path element.
-fn written<'a>(text: &'a str, found: &Found, decimals: Decimals) -> Written<'a> {
+fn written<'a>(text: &'a str, found: &PathElement, decimals: Decimals) -> RewrittenPath<'a> {
     let whole = found.node.range();
     let source = text.get(whole.clone()).unwrap_or_default();
-    let mut written = Written { element: Cow::Borrowed(source), data: 0..0, start: None };
-    let own = |attribute: &Attribute| attribute.namespace().is_none() && DATA.contains(&attribute.name());
+    let mut written = RewrittenPath { element: Cow::Borrowed(source), data: 0..0, start: None };
+    let own = |attribute: &Attribute| {
+        attribute.namespace().is_none() && PATH_DATA_ATTRIBUTES.contains(&attribute.name())
+    };
     // Last attribute first, so that the ranges of earlier ones stay valid.
     let mut attributes: Vec<Attribute> = found.node.attributes().filter(own).collect();
     attributes.sort_by_key(|attribute| std::cmp::Reverse(attribute.range_value().start));
@@ -183,11 +187,11 @@ fn written<'a>(text: &'a str, found: &Found, decimals: Decimals) -> Written<'a> 
         let Some(range) = value_range(text, &attribute, &whole) else { continue };
         let is_axis = attribute.name() != "d";
         let form = match found.leave.form {
-            Form::Kept => Form::Kept,
-            _ if is_axis => Form::Stroked,
+            PathForm::Kept => PathForm::Kept,
+            _ if is_axis => PathForm::Stroked,
             form => form,
         };
-        let (data, start) = rewritten(attribute.value(), Leave { form, ..found.leave }, decimals);
+        let (data, start) = rewritten(attribute.value(), PathRewrite { form, ..found.leave }, decimals);
         let length = data.as_ref().map_or(range.len(), String::len);
         if let Some(data) = data.filter(|data| source.get(range.clone()) != Some(data)) {
             written.element.to_mut().replace_range(range.clone(), &data);
@@ -213,9 +217,9 @@ fn value_range(text: &str, attribute: &Attribute, element: &Range<usize>) -> Opt
 }
 
 /// Path data in canonical form and its start point. The data is `None` where it must stay unchanged.
-fn rewritten(data: &str, leave: Leave, decimals: Decimals) -> (Option<String>, Option<Step>) {
+fn rewritten(data: &str, leave: PathRewrite, decimals: Decimals) -> (Option<String>, Option<PathPoint>) {
     let Some(read) = path_parser::read(data) else { return (None, None) };
-    let mut canonical = Canonical::new(decimals);
+    let mut canonical = CanonicalWriter::new(decimals);
     let own_start = read.start.map(|start| canonical.step(start));
     if read.has_arcs
         || read.has_lone_moves
@@ -243,5 +247,5 @@ fn is_exact(path: &BezPath, decimals: Decimals) -> bool {
         PathEl::ClosePath => 0.0,
     };
     let largest = elements.iter().map(of_element).fold(0.0, f64::max);
-    largest * decimals.scale() * (elements.len() as f64) < MOST_STEPS
+    largest * decimals.scale() * (elements.len() as f64) < MAX_EXACT_STEPS
 }

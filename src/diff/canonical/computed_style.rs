@@ -3,14 +3,14 @@
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Attribute, Document, Node, NodeType};
 
-use crate::export::paths::canonical_path::Form;
+use crate::export::paths::canonical_path::PathForm;
 
 /// Elements whose content is drawn elsewhere or in another form.
-const ELSEWHERE: [&str; 7] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker", "glyph"];
+const INDIRECT_ELEMENTS: [&str; 7] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker", "glyph"];
 /// Elements that only describe their parent.
-const DESCRIPTIONS: [&str; 3] = ["title", "desc", "metadata"];
+const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 /// Prefixes of properties that affect neither the order nor the direction of a path.
-const HARMLESS: [&str; 17] = [
+const SAFE_PROPERTY_PREFIXES: [&str; 17] = [
     "fill",
     "stroke",
     "opacity",
@@ -30,18 +30,18 @@ const HARMLESS: [&str; 17] = [
     "solid-",
 ];
 /// Attributes of editors that store how a path was made.
-const EDITED: [&str; 4] = ["nodetypes", "type", "original-d", "path-effect"];
+const EDITOR_ATTRIBUTES: [&str; 4] = ["nodetypes", "type", "original-d", "path-effect"];
 
 /// Properties of a document that affect elements at a distance.
 #[derive(Debug, Default)]
-pub(crate) struct Afar<'a> {
+pub(crate) struct DocumentContext<'a> {
     /// Whether style sheets or scripts may change any paint.
     sheets: bool,
     /// Ids that are referenced.
     referred: FxHashSet<&'a str>,
 }
 
-impl<'a> Afar<'a> {
+impl<'a> DocumentContext<'a> {
     /// Collects style sheets, scripts and references of a document.
     pub fn of(document: &'a Document) -> Self {
         let mut afar = Self::default();
@@ -70,15 +70,15 @@ impl<'a> Afar<'a> {
 
 /// Rewrites of a path that keep the picture the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Leave {
-    pub form: Form,
+pub(crate) struct PathRewrite {
+    pub form: PathForm,
     /// Whether all points must stay, because markers or animations depend on them.
     pub all_points: bool,
 }
 
 /// How an element is painted.
 #[derive(Debug, Clone)]
-pub(crate) struct Look<'a> {
+pub(crate) struct ComputedStyle<'a> {
     fill: &'a str,
     stroke: &'a str,
     dashed: bool,
@@ -90,9 +90,9 @@ pub(crate) struct Look<'a> {
     ordered: bool,
 }
 
-impl<'a> Look<'a> {
+impl<'a> ComputedStyle<'a> {
     /// Initial style at the root.
-    pub fn new(afar: &Afar) -> Self {
+    pub fn new(afar: &DocumentContext) -> Self {
         Self {
             fill: "black",
             stroke: "none",
@@ -104,9 +104,9 @@ impl<'a> Look<'a> {
     }
 
     /// Style of a child element.
-    pub fn inside(&self, node: Node<'a, '_>, afar: &Afar) -> Self {
+    pub fn inside(&self, node: Node<'a, '_>, afar: &DocumentContext) -> Self {
         let mut look = self.clone();
-        look.used |= ELSEWHERE.contains(&node.tag_name().name());
+        look.used |= INDIRECT_ELEMENTS.contains(&node.tag_name().name());
         look.ordered |= node.attribute("data-order").is_some();
         for attribute in node.attributes() {
             match (attribute.namespace(), attribute.name()) {
@@ -114,7 +114,7 @@ impl<'a> Look<'a> {
                 (None, "d" | "style") => {}
                 (None, name) => look.set(name, attribute.value()),
                 // The path is generated from another path, or the editor lists its corners.
-                (Some(_), name) => look.used |= EDITED.contains(&name),
+                (Some(_), name) => look.used |= EDITOR_ATTRIBUTES.contains(&name),
             }
         }
         // The `style` attribute has precedence over attributes.
@@ -158,18 +158,18 @@ impl<'a> Look<'a> {
     }
 
     /// Rewrites allowed for a path of this style.
-    pub fn leave(&self, path: Node) -> Leave {
+    pub fn leave(&self, path: Node) -> PathRewrite {
         let bears = path.children().filter(Node::is_element).any(|child| !describes(&child));
         let all_points = self.used || bears;
         let (filled, stroked) = (self.fill != "none", self.stroke != "none");
         let form = match () {
-            () if all_points || self.unsure || self.ordered => Form::Kept,
-            () if stroked && self.dashed => Form::Kept,
-            () if filled => Form::Filled,
-            () if stroked => Form::Stroked,
-            () => Form::Kept,
+            () if all_points || self.unsure || self.ordered => PathForm::Kept,
+            () if stroked && self.dashed => PathForm::Kept,
+            () if filled => PathForm::Filled,
+            () if stroked => PathForm::Stroked,
+            () => PathForm::Kept,
         };
-        Leave { form, all_points }
+        PathRewrite { form, all_points }
     }
 
     /// Whether a path of this style may change places with a neighbour of equal paint. It needs one flat
@@ -212,11 +212,12 @@ pub(crate) fn painted_alike(a: Node, b: Node) -> bool {
 }
 
 fn describes(child: &Node) -> bool {
-    DESCRIPTIONS.contains(&child.tag_name().name())
+    DESCRIPTIVE_ELEMENTS.contains(&child.tag_name().name())
 }
 
 fn is_harmless(name: &str, value: &str) -> bool {
-    HARMLESS.iter().any(|known| name.starts_with(known)) || matches!(value.trim(), "none" | "normal" | "auto")
+    SAFE_PROPERTY_PREFIXES.iter().any(|known| name.starts_with(known))
+        || matches!(value.trim(), "none" | "normal" | "auto")
 }
 
 /// Whether a paint is a single colour.

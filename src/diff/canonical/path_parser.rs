@@ -4,7 +4,7 @@ use kurbo::{BezPath, Point, Vec2};
 
 /// Parsed path data.
 #[derive(Debug, Default)]
-pub(crate) struct Read {
+pub(crate) struct ParsedPath {
     /// Lines and curves with absolute coordinates.
     pub path: BezPath,
     /// Start point of the data.
@@ -16,9 +16,9 @@ pub(crate) struct Read {
 }
 
 /// Parses path data; `None` if it is invalid.
-pub(crate) fn read(data: &str) -> Option<Read> {
-    let mut reader = Reader { bytes: data.as_bytes(), at: 0 };
-    let mut found = Read::default();
+pub(crate) fn read(data: &str) -> Option<ParsedPath> {
+    let mut reader = PathReader { bytes: data.as_bytes(), at: 0 };
+    let mut found = ParsedPath::default();
     // Current point, start of the subpath, and a pending move.
     let (mut pen, mut start, mut move_to) = (Point::ZERO, Point::ZERO, None);
     // Last control point of each kind, for the shorthand curve commands.
@@ -116,12 +116,12 @@ pub(crate) fn read(data: &str) -> Option<Read> {
 }
 
 /// Reader of path data.
-struct Reader<'a> {
+struct PathReader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
-impl Reader<'_> {
+impl PathReader<'_> {
     fn blanks(&mut self) {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         self.at += rest.iter().take_while(|b| matches!(b, b' ' | b'\t' | b'\n' | b'\r' | 0x0c)).count();

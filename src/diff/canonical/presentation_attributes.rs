@@ -13,7 +13,7 @@ use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::error::Error;
 
 /// Properties that also exist as attributes with the same values.
-const PROPERTIES: [&str; 50] = [
+const PRESENTATION_PROPERTIES: [&str; 50] = [
     "alignment-baseline",
     "baseline-shift",
     "clip-path",
@@ -67,7 +67,7 @@ const PROPERTIES: [&str; 50] = [
 ];
 
 /// Most declarations of one element.
-const MOST_DECLARED: usize = 512;
+const MAX_DECLARATIONS: usize = 512;
 
 /// The file with its styles as attributes. `None` if it has no styles, or if they cannot all be expressed as
 /// attributes: media rules, pointer states, scripts or entities.
@@ -80,7 +80,7 @@ pub(crate) fn plain(text: &str) -> Result<Option<String>, Error> {
         return Ok(None);
     }
     let mut cascade = Cascade::of(&document);
-    let mut edits = Edits { text, list: Vec::new() };
+    let mut edits = StyleEdits { text, list: Vec::new() };
     if cascade.has_more || !edits.inside(document.root_element(), &mut cascade)? {
         return Ok(None);
     }
@@ -108,12 +108,12 @@ fn is_moving(document: &Document) -> bool {
 }
 
 /// Edits of a file as byte ranges and their new text.
-struct Edits<'a> {
+struct StyleEdits<'a> {
     text: &'a str,
     list: Vec<(Range<usize>, String)>,
 }
 
-impl Edits<'_> {
+impl StyleEdits<'_> {
     /// Collects the edits of an element and its children; `false` if something cannot be expressed as
     /// attributes.
     fn inside(&mut self, node: Node, cascade: &mut Cascade) -> Result<bool, Error> {
@@ -146,7 +146,7 @@ impl Edits<'_> {
         if declared.is_empty() && own_list.is_empty() {
             return true;
         }
-        if declared.len() + own_list.len() > MOST_DECLARED {
+        if declared.len() + own_list.len() > MAX_DECLARATIONS {
             return false;
         }
         let mut won: Vec<Declaration> = Vec::new();
@@ -161,13 +161,13 @@ impl Edits<'_> {
             let words = ["initial", "unset", "revert", "revert-layer"];
             let value = declaration.value;
             let computed = value.contains("var(") || value.contains("calc(");
-            PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
+            PRESENTATION_PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
         };
         let (plain, rest): (Vec<Declaration>, Vec<Declaration>) = won.into_iter().partition(is_plain);
         // A shorthand property would be written after its longhands and override them. Values that exist in
         // style sheets only stay in the style.
         let several = |other: &Declaration| matches!(other.name, "font" | "marker" | "all" | "mask-image");
-        let unsure = rest.iter().any(|other| several(other) || PROPERTIES.contains(&other.name));
+        let unsure = rest.iter().any(|other| several(other) || PRESENTATION_PROPERTIES.contains(&other.name));
         if unsure || plain.is_empty() {
             return declared.is_empty() || !unsure && own_list.is_empty() && rest.is_empty();
         }

@@ -11,21 +11,21 @@ use std::collections::BTreeMap;
 
 use kurbo::{BezPath, Point, Rect, Shape as _, Vec2};
 
-use super::cause_sentences::MOST_WAYS;
+use super::cause_sentences::MAX_DIRECTIONS;
 use super::motion::points;
-use crate::diff::findings::finding::{Cause, Finding, Place, Verdict};
-use crate::diff::matching::equal_shapes::Parted;
+use crate::diff::findings::finding::{Cause, Finding, FindingBox, Verdict};
+use crate::diff::matching::equal_shapes::ShapeMatching;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Least number of marks without an equal. Smaller drawings are compared mark by mark in about half a second.
-const LEAST_MARKS: usize = 1000;
+const MIN_UNMATCHED_MARKS: usize = 1000;
 /// At most one mark in this number may have an equal. Lines on the axis of rotation keep theirs.
-const MARKS_PER_EQUAL: usize = 20;
+const MIN_MARKS_PER_EQUAL: usize = 20;
 /// Largest difference between two shifts of equal direction, as a share of the shift.
-const SAME_WAY: f64 = 0.02;
+const DIRECTION_TOLERANCE_SHARE: f64 = 0.02;
 /// The same in px; both are added.
-const SAME_WAY_PX: f64 = 0.05;
+const DIRECTION_TOLERANCE_PX: f64 = 0.05;
 
 /// The lines of one part in one picture that have no equal.
 #[derive(Default)]
@@ -45,9 +45,9 @@ impl PartLines<'_> {
 
 /// The cause and one finding for all marks if the camera changed. Returns `None` for small drawings and for
 /// all other changes.
-pub(crate) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Option<(Finding, Cause)> {
+pub(crate) fn find(pictures: [&Picture; 2], parted: &ShapeMatching, reach: f64) -> Option<(Finding, Cause)> {
     let marks = parted.rest[0].len().max(parted.rest[1].len());
-    if marks < LEAST_MARKS || parted.equal.len() * MARKS_PER_EQUAL > marks {
+    if marks < MIN_UNMATCHED_MARKS || parted.equal.len() * MIN_MARKS_PER_EQUAL > marks {
         return None;
     }
     let [before, after] = [0, 1].map(|side: usize| lines_of_parts(pictures[side], &parted.rest[side]));
@@ -59,15 +59,17 @@ pub(crate) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Opti
     for ((old, new), [from, to]) in both.iter().zip(&middles) {
         let way = *to - map(*from);
         let keeps_form = old.longest.zip(new.longest).is_some_and(|(a, b)| is_shifted([a.0, b.0], reach));
-        let near = |other: &Vec2| (*other - way).hypot() <= SAME_WAY_PX + SAME_WAY * way.hypot();
+        let near = |other: &Vec2| {
+            (*other - way).hypot() <= DIRECTION_TOLERANCE_PX + DIRECTION_TOLERANCE_SHARE * way.hypot()
+        };
         if !keeps_form && way.hypot() > reach && !ways.iter().any(near) {
             ways.push(way);
         }
     }
-    if ways.len() <= MOST_WAYS {
+    if ways.len() <= MAX_DIRECTIONS {
         return None;
     }
-    let place = Place::of(Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height));
+    let place = FindingBox::of(Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height));
     let finding = Finding::in_place(Verdict::Moved, ShapeKind::Line, Label::default(), Vec::new(), place);
     let sentence = format!("the drawing is seen from another side: {marks} marks of {} parts", both.len());
     Some((finding, Cause { verdict: Verdict::Moved, sentence, findings: vec![0] }))

@@ -7,31 +7,31 @@ use std::sync::Arc;
 use kurbo::{Rect, Vec2};
 
 use super::motion::Motion;
-use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Verdict};
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Verdict};
 use crate::diff::report::text_report::changed;
-use crate::diff::report::unit_format::Written;
+use crate::diff::report::unit_format::UnitFormat;
 use crate::diff::shapes::picture::ShapeKind;
 use crate::drawing::LayerKind;
 
 /// Margin around a part in px. Changes inside it count as caused by the part, because lines have widths and
 /// fills are cut there.
-const ROUND_PART_PX: f64 = 4.0;
+const PART_MARGIN_PX: f64 = 4.0;
 /// Margin around a part as a share of its width plus height; both are added.
-const ROUND_PART: f64 = 0.1;
+const PART_MARGIN_SHARE: f64 = 0.1;
 /// Least share of a finding's box inside that margin.
-const SHARE_ROUND_PART: f64 = 0.3;
+const MIN_OVERLAP_SHARE: f64 = 0.3;
 /// Most colour changes named per material.
-const COLOURS: usize = 2;
+const MAX_NAMED_COLOURS: usize = 2;
 /// Most parts named per sentence.
-const NAMED: usize = 3;
+const MAX_NAMED_PARTS: usize = 3;
 /// With more directions of motion than this, the camera moved instead of the parts.
-pub(crate) const MOST_WAYS: usize = 6;
+pub(crate) const MAX_DIRECTIONS: usize = 6;
 /// Up to this many findings are listed one by one.
-const FEW: usize = 2;
+const MAX_UNGROUPED_FINDINGS: usize = 2;
 
 /// A part, and the motion that carries its marks.
 #[derive(Debug, Clone)]
-pub(crate) struct Mover {
+pub(crate) struct MovedPart {
     pub part: Arc<str>,
     pub motion: Motion,
     /// Bounding boxes before and after.
@@ -39,10 +39,10 @@ pub(crate) struct Mover {
 }
 
 /// Causes of the findings that are not explained by a motion of the whole drawing or by missing labels.
-pub(crate) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
+pub(crate) fn causes(diff: &Diff, movers: &[MovedPart]) -> Vec<Cause> {
     let mut free: Vec<bool> = vec![true; diff.findings.len()];
     let mut causes = Vec::new();
-    match from_another_side(diff, movers, &mut free) {
+    match camera_cause(diff, movers, &mut free) {
         Some(eye) => causes.push(eye),
         None => {
             causes.extend(gone(diff, &mut free));
@@ -50,7 +50,7 @@ pub(crate) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
         }
     }
     causes.extend(recoloured(diff, &mut free));
-    causes.extend(pens(diff, &mut free));
+    causes.extend(pen_causes(diff, &mut free));
     causes
 }
 
@@ -68,12 +68,12 @@ fn rect(finding: &Finding) -> Rect {
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
-/// Whether at least `SHARE_ROUND_PART` of a box is inside the margin around a part.
+/// Whether at least `MIN_OVERLAP_SHARE` of a box is inside the margin around a part.
 fn holds(outer: &Rect, inner: Rect) -> bool {
-    let round = ROUND_PART_PX + ROUND_PART * (outer.width() + outer.height());
+    let round = PART_MARGIN_PX + PART_MARGIN_SHARE * (outer.width() + outer.height());
     let outer = outer.inflate(round, round);
     let inner = inner.inflate(0.5, 0.5);
-    outer.intersect(inner).area() >= SHARE_ROUND_PART * inner.area() && outer.overlaps(inner)
+    outer.intersect(inner).area() >= MIN_OVERLAP_SHARE * inner.area() && outer.overlaps(inner)
 }
 
 /// Whether a finding may follow from a nearby part that was added, removed or moved, by its form or its
@@ -132,7 +132,7 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
             };
             let behind = take(diff, free, |f| may_follow(f) && holds(&place, rect(f)));
             let unit = diff.unit();
-            let at = unit.place(&Place::of(place));
+            let at = unit.place(&FindingBox::of(place));
             let all = if own.len() == 1 {
                 "its only mark".to_owned()
             } else {
@@ -152,7 +152,7 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 }
 
 /// Length of lines and area of fills of some findings, in words.
-fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
+fn ink(diff: &Diff, list: &[usize], unit: UnitFormat) -> String {
     let sum = |kind: ShapeKind| -> f64 {
         list.iter().map(|index| &diff.findings[*index]).filter(|f| f.kind == kind).map(|f| f.size).sum()
     };
@@ -164,15 +164,15 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
 
 /// The cause "another camera": parts move in more directions than an edit of the model explains. It claims
 /// all other changes of geometry.
-fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option<Cause> {
-    let mut ways: Vec<Vec<&Mover>> = Vec::new();
+fn camera_cause(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Option<Cause> {
+    let mut ways: Vec<Vec<&MovedPart>> = Vec::new();
     for mover in movers {
         match ways.iter_mut().find(|others| others.iter().all(|other| same_way(other, mover))) {
             Some(others) => others.push(mover),
             None => ways.push(vec![mover]),
         }
     }
-    if ways.len() <= MOST_WAYS {
+    if ways.len() <= MAX_DIRECTIONS {
         return None;
     }
     let findings = take(diff, free, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
@@ -181,18 +181,18 @@ fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option
 }
 
 /// Moved parts, grouped by common motion, with the changes around their old and new places.
-fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
+fn moved(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
-    let mut own: Vec<(&Mover, Vec<usize>)> = Vec::new();
+    let mut own: Vec<(&MovedPart, Vec<usize>)> = Vec::new();
     for mover in movers {
         let findings = take(diff, free, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
         if !findings.is_empty() {
             own.push((mover, findings));
         }
     }
-    let mut causes: Vec<(Vec<&Mover>, Vec<usize>)> = Vec::new();
+    let mut causes: Vec<(Vec<&MovedPart>, Vec<usize>)> = Vec::new();
     for (mover, findings) in &own {
-        let alike = |others: &Vec<&Mover>| others.iter().all(|other| same_way(other, mover));
+        let alike = |others: &Vec<&MovedPart>| others.iter().all(|other| same_way(other, mover));
         match causes.iter_mut().find(|(others, _)| alike(others)) {
             Some((others, all)) => {
                 others.push(mover);
@@ -201,12 +201,13 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
             None => causes.push((vec![mover], findings.clone())),
         }
     }
-    let tell = |(movers, mut findings): (Vec<&Mover>, Vec<usize>)| {
+    let tell = |(movers, mut findings): (Vec<&MovedPart>, Vec<usize>)| {
         let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
         let is_round = |f: &Finding| places.iter().any(|place| holds(place, rect(f)));
         let behind = take(diff, free, |f| may_follow(f) && is_round(f));
-        let names: Vec<String> = movers.iter().take(NAMED).map(|mover| format!("`{}`", mover.part)).collect();
-        let more = movers.len().saturating_sub(NAMED);
+        let names: Vec<String> =
+            movers.iter().take(MAX_NAMED_PARTS).map(|mover| format!("`{}`", mover.part)).collect();
+        let more = movers.len().saturating_sub(MAX_NAMED_PARTS);
         let names = match (more, names.split_last()) {
             (0, Some((last, rest))) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
             (0, _) => names.join(""),
@@ -226,14 +227,14 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
 }
 
 /// Whether two parts moved alike: at the corners of both boxes, within a fiftieth of the shift plus 0.05 px.
-fn same_way(a: &Mover, b: &Mover) -> bool {
+fn same_way(a: &MovedPart, b: &MovedPart) -> bool {
     let corners = [a, b].into_iter().flat_map(|mover| mover.motion.ways(mover.places[0]));
     let others = [(a, b), (b, a)].into_iter().flat_map(|(from, other)| other.motion.ways(from.places[0]));
     corners.zip(others).all(|(one, other)| (one - other).hypot() <= 0.05 + 0.02 * one.hypot())
 }
 
 /// A motion in words: `1.4 px right`, `turned by 3°`.
-pub(crate) fn motion(motion: &Motion, place: Rect, unit: Written) -> String {
+pub(crate) fn motion(motion: &Motion, place: Rect, unit: UnitFormat) -> String {
     let (scale, turn) = (motion.scale(), motion.turn());
     let reach = place.width().max(place.height()) / 2.0;
     let grown = (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > 4e-3;
@@ -272,7 +273,7 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     }
     let mut causes = Vec::new();
     for (name, findings) in groups {
-        if findings.len() <= FEW {
+        if findings.len() <= MAX_UNGROUPED_FINDINGS {
             continue;
         }
         let mut changes: BTreeMap<(&str, &str), usize> = BTreeMap::new();
@@ -284,8 +285,8 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         let mut changes: Vec<((&str, &str), usize)> = changes.into_iter().collect();
         changes.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
         let told: Vec<String> =
-            changes.iter().take(COLOURS).map(|((old, new), _)| format!("{old} → {new}")).collect();
-        let more = match changes.len().saturating_sub(COLOURS) {
+            changes.iter().take(MAX_NAMED_COLOURS).map(|((old, new), _)| format!("{old} → {new}")).collect();
+        let more = match changes.len().saturating_sub(MAX_NAMED_COLOURS) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
@@ -299,7 +300,7 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 
 /// Pen changes shared by lines of several parts: width, dash, ends, corners or colour. One sentence for each
 /// change.
-fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
+fn pen_causes(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
     for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
         let is_pen = |change: &Change| {
@@ -316,7 +317,7 @@ fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut causes = Vec::new();
     for (changes, findings) in groups {
         let parts: BTreeSet<_> = findings.iter().map(|index| &diff.findings[*index].label.part).collect();
-        if findings.len() <= FEW || parts.len() < 2 {
+        if findings.len() <= MAX_UNGROUPED_FINDINGS || parts.len() < 2 {
             continue;
         }
         findings.iter().for_each(|index| free[*index] = false);
@@ -326,7 +327,7 @@ fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     causes
 }
 
-impl Written {
+impl UnitFormat {
     /// A shift in words: `3 px right, 4 px down`.
     fn sides(self, way: Vec2) -> String {
         let side = |value: f64, plus: &str, minus: &str| {

@@ -3,12 +3,12 @@
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
 use crate::diff::curves::segment::Segment;
-use crate::diff::curves::segment_clusters::Bundles;
+use crate::diff::curves::segment_clusters::SegmentClusters;
 
 /// Most pairs of marks used to compute candidate motions.
-const TRIED: usize = 48;
+const MAX_MOTION_TRIALS: usize = 48;
 /// Number of sample points for scoring a motion.
-const JUDGED: usize = 600;
+const MOTION_SAMPLES: usize = 600;
 
 /// A similarity and its score.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,25 +44,25 @@ impl Motion {
 }
 
 /// Input for fitting: pairs of paths that may correspond, and all marks of both drawings as polylines.
-pub(crate) struct Marks<'a> {
+pub(crate) struct MotionInput<'a> {
     pub likes: Vec<[&'a BezPath; 2]>,
     pub lines: [Vec<Vec<Point>>; 2],
 }
 
 /// Score of a motion, measured on both drawings.
-struct Judge {
+struct MotionScore {
     places: [Vec<Point>; 2],
-    lines: [Lines; 2],
+    lines: [LineIndex; 2],
     reach: f64,
 }
 
-impl Judge {
-    fn new(marks: &Marks, reach: f64) -> Option<Self> {
+impl MotionScore {
+    fn new(marks: &MotionInput, reach: f64) -> Option<Self> {
         let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
         if places.iter().any(Vec::is_empty) {
             return None;
         }
-        Some(Self { places, lines: [0, 1].map(|side: usize| Lines::new(&marks.lines[side])), reach })
+        Some(Self { places, lines: [0, 1].map(|side: usize| LineIndex::new(&marks.lines[side])), reach })
     }
 
     /// Scores a motion; `None` for extreme scale factors.
@@ -72,7 +72,7 @@ impl Judge {
         if !(1e-3..1e3).contains(&growth) {
             return None;
         }
-        let hits = |places: &[Point], to: Affine, lines: &Lines, reach: f64| {
+        let hits = |places: &[Point], to: Affine, lines: &LineIndex, reach: f64| {
             let near = places.iter().filter(|p| lines.has(to * **p, reach)).count();
             near as f64 / places.len() as f64
         };
@@ -83,17 +83,17 @@ impl Judge {
 }
 
 /// Share of both drawings that coincides with the other one without any motion.
-pub(crate) fn stays(marks: &Marks, reach: f64) -> f64 {
-    Judge::new(marks, reach)
+pub(crate) fn stays(marks: &MotionInput, reach: f64) -> f64 {
+    MotionScore::new(marks, reach)
         .and_then(|judge| judge.judge(Affine::IDENTITY))
         .map_or(0.0, |motion| motion.share)
 }
 
 /// The motion with the highest score within `reach`: a similarity if `similar`, otherwise a shift.
-pub(crate) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
-    let judge = Judge::new(marks, reach)?;
+pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
+    let judge = MotionScore::new(marks, reach)?;
     let judge = |affine: Affine| judge.judge(affine);
-    let step = (marks.likes.len() / TRIED).max(1);
+    let step = (marks.likes.len() / MAX_MOTION_TRIALS).max(1);
     let tried = marks.likes.iter().step_by(step).filter_map(|[old, new]| {
         let (a, b) = (points(old), points(new));
         (a.len() == b.len()).then(|| fit(&a, &b, similar)).flatten()
@@ -164,12 +164,12 @@ pub(crate) fn points(path: &BezPath) -> Vec<Point> {
 fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
     let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
     let length: f64 = segments().map(|(p, q)| p.distance(q)).sum();
-    let step = length / JUDGED as f64;
+    let step = length / MOTION_SAMPLES as f64;
     let mut found = Vec::new();
     let mut rest = step / 2.0;
     for (p, q) in segments() {
         let own = p.distance(q);
-        while rest < own && found.len() <= JUDGED {
+        while rest < own && found.len() <= MOTION_SAMPLES {
             found.push(p.lerp(q, rest / own));
             rest += step;
         }
@@ -179,17 +179,17 @@ fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
 }
 
 /// Lines with an index for distance queries.
-struct Lines {
+struct LineIndex {
     segments: Vec<Segment>,
-    bundles: Bundles,
+    bundles: SegmentClusters,
 }
 
-impl Lines {
+impl LineIndex {
     fn new(lines: &[Vec<Point>]) -> Self {
         let segments = lines.iter().flat_map(|points| points.windows(2));
         let segments: Vec<Segment> =
             segments.map(|pair| Segment { chain: 0, from: pair[0], to: pair[1] }).collect();
-        let bundles = Bundles::new(&segments);
+        let bundles = SegmentClusters::new(&segments);
         Self { segments, bundles }
     }
 

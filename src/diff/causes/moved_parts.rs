@@ -5,27 +5,31 @@ use std::sync::Arc;
 
 use kurbo::Shape as _;
 
-use super::cause_sentences::Mover;
+use super::cause_sentences::MovedPart;
 use super::motion;
 use super::whole_motion;
 use crate::diff::findings::finding::{Finding, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Least share of a part's unequal marks that the motion must carry.
-const CARRIED: f64 = 0.5;
+const MIN_CARRIED_SHARE: f64 = 0.5;
 /// A part with at least this share in its old place did not move.
-const STAYED: f64 = 0.9;
+const MIN_STAYED_SHARE: f64 = 0.9;
 /// Largest residual of a shift as a share of its length. Parts that come closer to the camera grow a little.
-const OFF_OF_WAY: f64 = 0.1;
+const SHIFT_RESIDUAL_SHARE: f64 = 0.1;
 /// Least value of that residual in px.
-const LEAST_PX: f64 = 0.06;
+const MIN_RESIDUAL_PX: f64 = 0.06;
 /// Greatest value of that residual in px.
-const MOST_PX: f64 = 1.0;
+const MAX_RESIDUAL_PX: f64 = 1.0;
 /// Most parts examined.
-const MOST_PARTS: usize = 200;
+const MAX_PARTS: usize = 200;
 
 /// Parts with more than one changed mark, and their motions.
-pub(crate) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: &[Finding]) -> Vec<Mover> {
+pub(crate) fn movers(
+    pictures: [&Picture; 2],
+    rest: &[Vec<usize>; 2],
+    findings: &[Finding],
+) -> Vec<MovedPart> {
     let mut counts: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
     for finding in findings {
         let elsewhere =
@@ -34,12 +38,12 @@ pub(crate) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: 
             *counts.entry(part).or_default() += 1;
         }
     }
-    let parts = counts.into_iter().filter(|(_, count)| *count > 1).take(MOST_PARTS);
+    let parts = counts.into_iter().filter(|(_, count)| *count > 1).take(MAX_PARTS);
     parts.filter_map(|(part, _)| mover(pictures, rest, part)).collect()
 }
 
 /// The motion of one part; `None` if it did not move as a whole.
-fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Option<Mover> {
+fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Option<MovedPart> {
     let is_own = |shape: &&Shape| shape.kind != ShapeKind::Clip && shape.label.part.as_ref() == Some(part);
     let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
         rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index)).filter(is_own).collect()
@@ -58,19 +62,23 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
     let places = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
     let between = kurbo::Affine::translate(places[1].center() - places[0].center());
     let way = (places[1].center() - places[0].center()).hypot();
-    let reach = (OFF_OF_WAY * way).clamp(LEAST_PX, MOST_PX);
+    let reach = (SHIFT_RESIDUAL_SHARE * way).clamp(MIN_RESIDUAL_PX, MAX_RESIDUAL_PX);
     let shift = motion::find(&marks, &[between], reach, false);
     let found = match shift {
-        Some(shift) if shift.share >= CARRIED => shift,
+        Some(shift) if shift.share >= MIN_CARRIED_SHARE => shift,
         _ => motion::find(&marks, &[between], reach, true)?,
     };
     // Lines that are only cut differently by a moving occluder did not move, although a motion along
     // themselves fits as well.
     let stays = motion::stays(&marks, reach);
-    if stays >= STAYED || found.share <= stays {
+    if stays >= MIN_STAYED_SHARE || found.share <= stays {
         return None;
     }
     let ways = found.ways(places[0]);
-    let goes = ways.iter().any(|way| way.hypot() > LEAST_PX);
-    (goes && found.share >= CARRIED).then(|| Mover { part: Arc::clone(part), motion: found, places })
+    let goes = ways.iter().any(|way| way.hypot() > MIN_RESIDUAL_PX);
+    (goes && found.share >= MIN_CARRIED_SHARE).then(|| MovedPart {
+        part: Arc::clone(part),
+        motion: found,
+        places,
+    })
 }

@@ -5,24 +5,24 @@ use std::sync::Arc;
 use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::motion::{self, Marks, Motion};
+use super::motion::{self, Motion, MotionInput};
 use crate::diff::curves::chain::flatten;
-use crate::diff::findings::finding::{Finding, Place, PlaceKey, Verdict};
+use crate::diff::findings::finding::{Finding, FindingBox, FindingBoxKey, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Fewest marks for a motion of the whole drawing.
-const FEWEST: usize = 3;
+const MIN_MARKS: usize = 3;
 /// Least share of marks without an equal.
-const MOST_OF: f64 = 0.6;
+const MIN_CHANGED_SHARE: f64 = 0.6;
 /// Least share of these marks that the motion must carry.
-const CARRIED: f64 = 0.7;
+const MIN_CARRIED_SHARE: f64 = 0.7;
 /// A drawing rendered again in another size is smoothed again. Its lines may be off by this share of the
 /// page.
-const ANEW_OF_PAGE: f64 = 5e-4;
+const REDRAW_TOLERANCE_PAGE_SHARE: f64 = 5e-4;
 
 /// A motion of the whole drawing. Shapes with equals stay.
-pub(crate) struct Whole {
+pub(crate) struct WholeMotion {
     pub motion: Motion,
     /// The old drawing after the motion: with unchanged line widths, and with scaled ones.
     pub carried: [Picture; 2],
@@ -31,10 +31,11 @@ pub(crate) struct Whole {
 }
 
 /// Motion that carries the shapes without an equal, if most shapes have none.
-pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: f64) -> Option<Whole> {
+pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: f64) -> Option<WholeMotion> {
     let counted = |side: usize| pictures[side].shapes.len();
     let many = |side: usize| {
-        rest[side].len() >= FEWEST && rest[side].len() as f64 >= MOST_OF * (counted(side) as f64 - 1.0)
+        rest[side].len() >= MIN_MARKS
+            && rest[side].len() as f64 >= MIN_CHANGED_SHARE * (counted(side) as f64 - 1.0)
     };
     if !(many(0) && many(1)) {
         return None;
@@ -56,28 +57,28 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
     let reach = tolerance * 2.0;
     let mut found = motion::find(&marks, &[Affine::scale(grown), boxed], reach, true);
     let mut told = reach;
-    if found.is_none_or(|found| found.share < CARRIED) {
-        told = reach.max(ANEW_OF_PAGE * page);
+    if found.is_none_or(|found| found.share < MIN_CARRIED_SHARE) {
+        told = reach.max(REDRAW_TOLERANCE_PAGE_SHARE * page);
         found = motion::find(&marks, &[Affine::scale(grown), boxed], told, true);
     }
-    let motion = found.filter(|found| found.share >= CARRIED)?;
+    let motion = found.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
     let ends = motion.ways(boxes[0]);
     if ends.iter().all(|way| way.hypot() <= 2.0 * told) {
         return None;
     }
     let carried = [1.0, motion.scale()].map(|wider| carried(before, &rest[0], &motion, wider, after));
-    Some(Whole { motion, carried, reach: told * motion.scale().max(1.0) })
+    Some(WholeMotion { motion, carried, reach: told * motion.scale().max(1.0) })
 }
 
 /// Common shift of all findings, if every one is a shift by the same amount and they make up most of the
 /// drawing.
-pub(crate) fn together(
+pub(crate) fn common_shift(
     findings: &mut [Finding],
     before: &Picture,
     rest: &[usize],
     tolerance: f64,
 ) -> Option<Motion> {
-    if (rest.len() as f64) < MOST_OF * (before.shapes.len() as f64 - 1.0) {
+    if (rest.len() as f64) < MIN_CHANGED_SHARE * (before.shapes.len() as f64 - 1.0) {
         return None;
     }
     let shifts: Option<Vec<Vec2>> = findings
@@ -88,7 +89,7 @@ pub(crate) fn together(
                 .map(|[x, y]| Vec2::new(x, y))
         })
         .collect();
-    let shifts = shifts.filter(|shifts| shifts.len() >= FEWEST && shifts.len() * 2 >= rest.len())?;
+    let shifts = shifts.filter(|shifts| shifts.len() >= MIN_MARKS && shifts.len() * 2 >= rest.len())?;
     let parts = findings.iter().map(|f| &f.label.part).collect::<FxHashSet<_>>().len();
     let mean = shifts.iter().fold(Vec2::ZERO, |sum, shift| sum + *shift) / shifts.len() as f64;
     let near = shifts.iter().all(|shift| (*shift - mean).hypot() <= 2.0 * tolerance + 0.02 * mean.hypot());
@@ -100,7 +101,7 @@ pub(crate) fn together(
 }
 
 /// Input for fitting motions to these shapes.
-pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> {
+pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> MotionInput<'a> {
     let lines = shapes.map(|shapes| {
         let flat =
             shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
@@ -117,7 +118,7 @@ pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> 
     let mut likes: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(like).collect();
     // Long paths first, because they determine a motion better.
     likes.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
-    Marks { likes, lines }
+    MotionInput { likes, lines }
 }
 
 /// A picture whose unequal shapes are moved, with line widths scaled by `wider`.
@@ -142,12 +143,12 @@ fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after
 /// A finding for each carried shape that was not removed.
 pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
     let shifts = (motion.scale() - 1.0).abs() < 1e-6 && motion.turn().abs() < 1e-4;
-    let gone: FxHashSet<(PlaceKey, &Label)> =
+    let gone: FxHashSet<(FindingBoxKey, &Label)> =
         gone.iter().filter(|f| f.verdict == Verdict::Removed).map(|f| (f.place.key(), &f.label)).collect();
     let mut found = Vec::new();
     for shape in rest.iter().filter_map(|index| before.shapes.get(*index)) {
         let new = motion.affine * &shape.path;
-        let place = Place::of(new.control_box());
+        let place = FindingBox::of(new.control_box());
         if shape.kind == ShapeKind::Clip || gone.contains(&(place.key(), &*shape.label)) {
             continue;
         }
@@ -163,7 +164,7 @@ pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
                 .copied()
                 .unwrap_or(largest),
             shift: shifts.then_some([way.x, way.y]),
-            place: Place::of(new.control_box().union(shape.path.control_box())),
+            place: FindingBox::of(new.control_box().union(shape.path.control_box())),
             gone: shape.path.clone(),
             carried: true,
             material: shape.material.clone(),

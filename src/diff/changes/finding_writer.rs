@@ -2,20 +2,20 @@
 
 use crate::diff::curves::chain::Chain;
 use crate::diff::findings::finding::Change;
-use crate::diff::matching::chain_pairs::Side;
+use crate::diff::matching::chain_pairs::CoveredChains;
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape};
 
 /// Both pictures with their chains and covers.
-pub(crate) struct Teller<'a> {
+pub(crate) struct FindingWriter<'a> {
     pub pictures: [&'a Picture; 2],
-    pub sides: &'a [Side; 2],
+    pub sides: &'a [CoveredChains; 2],
     /// Aspects to ignore.
     pub ignore: Ignore,
 }
 
-impl<'a> Teller<'a> {
+impl<'a> FindingWriter<'a> {
     /// The first shape of a chain.
     pub(crate) fn shape(&self, side: usize, chain: &Chain) -> Option<&'a Shape> {
         self.pictures[side].shapes.get(*chain.shapes.first()?)

@@ -3,20 +3,20 @@
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
 
-use super::finding_writer::{Teller, label};
+use super::finding_writer::{FindingWriter, label};
 use crate::diff::curves::chain::Chain;
-use crate::diff::findings::finding::{Finding, Place, Verdict};
-use crate::diff::matching::chain_events::Event;
+use crate::diff::findings::finding::{Finding, FindingBox, Verdict};
+use crate::diff::matching::chain_events::ChainEvent;
 use crate::diff::matching::chain_pairs::bounds;
 use crate::diff::shapes::picture::ShapeKind;
 
 /// One finding for each change of a line.
-pub(crate) fn findings(teller: &Teller, events: Vec<Event>) -> Vec<Finding> {
-    events.into_par_iter().map(|event| one(teller, event)).collect()
+pub(crate) fn findings(teller: &FindingWriter, events: Vec<ChainEvent>) -> Vec<Finding> {
+    events.into_par_iter().map(|event| line_finding(teller, event)).collect()
 }
 
 /// The finding for one change of a line.
-fn one(teller: &Teller, event: Event) -> Finding {
+fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
     let chain = |side: usize, index: Option<usize>| index.map(|index| &teller.sides[side].chains[index]);
     let (old, new) = (chain(0, event.old), chain(1, event.new));
     let shapes = [old.and_then(|c| teller.shape(0, c)), new.and_then(|c| teller.shape(1, c))];
@@ -42,7 +42,7 @@ fn one(teller: &Teller, event: Event) -> Finding {
         kind: shapes.iter().flatten().next().map_or(ShapeKind::Line, |shape| shape.kind),
         label: label(shapes),
         changes: teller.changes(shapes),
-        place: Place::of(place.unwrap_or_default()),
+        place: FindingBox::of(place.unwrap_or_default()),
         size,
         growth: if old.is_some() && new.is_some() { pieces[1] - pieces[0] } else { 0.0 },
         pieces: if old.is_some() && new.is_some() { pieces } else { [0.0; 2] },

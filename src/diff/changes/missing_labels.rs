@@ -5,13 +5,13 @@ use std::sync::Arc;
 use kurbo::Rect;
 use rustc_hash::FxHashMap;
 
-use crate::diff::findings::finding::{Cause, Change, Finding, Place, Verdict};
+use crate::diff::findings::finding::{Cause, Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Index of the labelled drawing if the other one has no labels. Layers do not count, because programs create
 /// their own.
-pub(crate) fn lost(pictures: [&Picture; 2]) -> Option<usize> {
+pub(crate) fn labelled_side(pictures: [&Picture; 2]) -> Option<usize> {
     let has = pictures.map(|picture| picture.shapes.iter().any(is_labelled));
     let drawn = pictures.iter().all(|picture| !picture.shapes.is_empty());
     match has {
@@ -26,9 +26,9 @@ fn is_labelled(shape: &Shape) -> bool {
 }
 
 /// Positions in findings are rounded by less than this.
-const ROUNDED_PX: f64 = 0.02;
+const ROUNDING_PX: f64 = 0.02;
 /// Most findings of one label searched per mark.
-const MOST_PLACES: usize = 2000;
+const MAX_PLACES_PER_LABEL: usize = 2000;
 
 /// A finding for each mark whose label is missing in the other drawing, except marks that exist in one
 /// drawing only.
@@ -37,16 +37,17 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
     // Removed lines are reported as joined chains. The box of a chain contains each of its pieces.
     let mut lonely: FxHashMap<&Label, Vec<Rect>> = FxHashMap::default();
     for finding in others.iter().filter(|finding| finding.verdict == alone) {
-        let Place { x, y, width, height } = finding.place;
-        let place = Rect::new(x, y, x + width, y + height).inflate(ROUNDED_PX, ROUNDED_PX);
+        let FindingBox { x, y, width, height } = finding.place;
+        let place = Rect::new(x, y, x + width, y + height).inflate(ROUNDING_PX, ROUNDING_PX);
         lonely.entry(&finding.label).or_default().push(place);
     }
     let marks = labelled.shapes.iter().filter(|shape| is_labelled(shape) && shape.kind != ShapeKind::Clip);
     let one = |shape: &Shape| {
-        let place = Place::of(kurbo::Shape::bounding_box(&shape.path));
+        let place = FindingBox::of(kurbo::Shape::bounding_box(&shape.path));
         let bounds = kurbo::Shape::bounding_box(&shape.path);
-        let is_alone =
-            |places: &Vec<Rect>| places.iter().take(MOST_PLACES).any(|place| place.contains_rect(bounds));
+        let is_alone = |places: &Vec<Rect>| {
+            places.iter().take(MAX_PLACES_PER_LABEL).any(|place| place.contains_rect(bounds))
+        };
         if lonely.get(&*shape.label).is_some_and(is_alone) {
             return None;
         }

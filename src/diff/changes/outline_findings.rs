@@ -5,25 +5,25 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashSet;
 
-use super::finding_writer::Teller;
+use super::finding_writer::FindingWriter;
 use crate::diff::curves::chain::{self, Chain};
-use crate::diff::curves::hausdorff_distance::Near;
-use crate::diff::curves::segment_grid::SegmentCells;
-use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::curves::hausdorff_distance::NearestPointQuery;
+use crate::diff::curves::segment_grid::SegmentGrid;
+use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
 use crate::diff::matching::chain_pairs::bounds;
-use crate::diff::matching::interval_cover::{Cover, cover};
+use crate::diff::matching::interval_cover::{ChainCover, cover};
 use crate::diff::shapes::ink::trimmed;
-use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::ShapeKind;
 
 /// One finding for each line whose width varies differently.
-pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
+pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Finding> {
     let rings = [0, 1].map(|side| rings(teller, side, groups));
     if rings.iter().all(Vec::is_empty) {
         return Vec::new();
     }
-    let firsts = [chain::firsts(&rings[0]), chain::firsts(&rings[1])];
-    let grids = [0, 1].map(|side: usize| SegmentCells::new(&rings[side]));
+    let firsts = [chain::first_copies(&rings[0]), chain::first_copies(&rings[1])];
+    let grids = [0, 1].map(|side: usize| SegmentGrid::new(&rings[side]));
     let all = |side: usize| (rings[side].as_slice(), firsts[side].as_slice());
     let covers = [cover(all(0), all(1), &grids[1], groups), cover(all(1), all(0), &grids[0], groups)];
     // Largest difference for each old shape.
@@ -61,7 +61,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
                 shape.and_then(|shape| perimeters[side].get(shape)).copied().unwrap_or_default() / 2.0
             };
             let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
-            let place = Place::of(bounds(&chain.points));
+            let place = FindingBox::of(bounds(&chain.points));
             return Some(Finding {
                 size: cover.length,
                 growth: long(1, new) - long(0, chain.shapes.first()),
@@ -77,7 +77,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
             old: format!("{} px on average", trimmed(shape.ink.width)),
             new: format!("up to {} px wider or thinner on one side", trimmed(*wider)),
         };
-        let place = Place::of(bounds(&chain.points));
+        let place = FindingBox::of(bounds(&chain.points));
         let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
         Some(Finding {
             size: cover.length,
@@ -90,7 +90,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
 }
 
 /// Rings of the outlines of all unequal lines, each with its shape, in sorted order.
-fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
+fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<Chain> {
     let mut found = Vec::new();
     let mut seen: FxHashSet<usize> = FxHashSet::default();
     for chain in &teller.sides[side].chains {
@@ -106,8 +106,8 @@ fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
 }
 
 /// Largest distance of the uncovered runs of a ring from another ring.
-fn off(ring: &Chain, cover: &Cover, other: &Chain) -> f64 {
-    let near = Near::new(other);
+fn off(ring: &Chain, cover: &ChainCover, other: &Chain) -> f64 {
+    let near = NearestPointQuery::new(other);
     let mut at = 0.0;
     let mut most = 0.0f64;
     for (p, q) in ring.segments() {

@@ -5,25 +5,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use kurbo::{BezPath, Rect, Shape as _};
 use rustc_hash::FxHashMap;
 
-use super::finding_writer::{Teller, label};
+use super::finding_writer::{FindingWriter, label};
 use crate::diff::curves::region_area::{area, ring_area, winds_round};
-use crate::diff::findings::finding::{Finding, Place, Verdict};
-use crate::diff::matching::chain_events::Event;
+use crate::diff::findings::finding::{Finding, FindingBox, Verdict};
+use crate::diff::matching::chain_events::ChainEvent;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
 /// Most rings of a shape tested for nesting.
-const MOST_RINGS: usize = 200;
+const MAX_NESTED_RINGS: usize = 200;
 
 /// Ring numbers of each shape, for both pictures.
-type OfShape = [FxHashMap<usize, Vec<usize>>; 2];
+type RingsOfShape = [FxHashMap<usize, Vec<usize>>; 2];
 
 /// Shape numbers of a region before and after.
-type Key = (Option<usize>, Option<usize>);
+type RegionPair = (Option<usize>, Option<usize>);
 
 /// One finding for each changed region.
-pub(crate) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
+pub(crate) fn findings(teller: &FindingWriter, borders: Vec<ChainEvent>) -> Vec<Finding> {
     let partner = Partners::of(teller, &borders);
-    let mut by_shape: BTreeMap<Key, Vec<Event>> = BTreeMap::new();
+    let mut by_shape: BTreeMap<RegionPair, Vec<ChainEvent>> = BTreeMap::new();
     for event in borders {
         let shape = |side: usize, index: Option<usize>| {
             index.and_then(|index| teller.sides[side].chains[index].shapes.first().copied())
@@ -35,7 +35,7 @@ pub(crate) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
         );
         by_shape.entry(key).or_default().push(event);
     }
-    let of_shape: OfShape = [0, 1].map(|side: usize| {
+    let of_shape: RingsOfShape = [0, 1].map(|side: usize| {
         let mut of_shape: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
         for (index, chain) in teller.sides[side].chains.iter().enumerate() {
             of_shape.entry(chain.shapes.first().copied().unwrap_or_default()).or_default().push(index);
@@ -43,7 +43,10 @@ pub(crate) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
         of_shape
     });
     let mut areas = Areas::default();
-    by_shape.into_iter().map(|(key, events)| one(teller, &of_shape, key, events, &mut areas)).collect()
+    by_shape
+        .into_iter()
+        .map(|(key, events)| region_finding(teller, &of_shape, key, events, &mut areas))
+        .collect()
 }
 
 /// For each shape, the shape of the other picture that shares the longest border with it.
@@ -51,7 +54,7 @@ struct Partners([BTreeMap<usize, usize>; 2]);
 
 impl Partners {
     /// Finds partners by the common length of borders.
-    fn of(teller: &Teller, borders: &[Event]) -> Self {
+    fn of(teller: &FindingWriter, borders: &[ChainEvent]) -> Self {
         let mut lengths: [BTreeMap<(usize, usize), f64>; 2] = Default::default();
         let mut add = |side: usize, from: Option<&usize>, to: Option<&usize>, length: f64| {
             if let Some((from, to)) = from.zip(to) {
@@ -96,11 +99,11 @@ impl Partners {
 }
 
 /// The finding for one region, from the changes of its borders.
-fn one(
-    teller: &Teller,
-    of_shape: &OfShape,
-    (old, new): Key,
-    events: Vec<Event>,
+fn region_finding(
+    teller: &FindingWriter,
+    of_shape: &RingsOfShape,
+    (old, new): RegionPair,
+    events: Vec<ChainEvent>,
     areas: &mut Areas,
 ) -> Finding {
     let shape = |side: usize, index: Option<usize>| teller.pictures[side].shapes.get(index?);
@@ -127,7 +130,7 @@ fn one(
         kind: shapes.iter().flatten().next().map_or(ShapeKind::Region, |shape| shape.kind),
         label: label(shapes),
         changes: teller.changes(shapes),
-        place: Place::of(Rect::ZERO),
+        place: FindingBox::of(Rect::ZERO),
         size: before.or(after).unwrap_or(0.0),
         growth: if before.is_some() && after.is_some() { growth(teller, of_shape, &events) } else { 0.0 },
         pieces: [0.0; 2],
@@ -151,20 +154,20 @@ fn one(
         Verdict::Reshaped => pieces.into_iter().reduce(|a, b| a.union(b)),
         _ => whole.reduce(|a, b| a.union(b)),
     };
-    finding.place = Place::of(place.unwrap_or_default());
+    finding.place = FindingBox::of(place.unwrap_or_default());
     finding
 }
 
 /// Increase of the area of a region, from its changed rings only, so that it agrees with the reported
 /// distances.
-fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
+fn growth(teller: &FindingWriter, of_shape: &RingsOfShape, events: &[ChainEvent]) -> f64 {
     let ring = |side: usize, index: Option<usize>| -> f64 {
         let chains = &teller.sides[side].chains;
         let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
         let own = chain.shapes.first().and_then(|shape| of_shape[side].get(shape)).into_iter().flatten();
         let others = own.filter(|other| Some(**other) != index).filter_map(|other| chains.get(*other));
         let start = chain.points.first().copied().unwrap_or_default();
-        let around = others.take(MOST_RINGS).filter(|other| winds_round(&other.points, start)).count();
+        let around = others.take(MAX_NESTED_RINGS).filter(|other| winds_round(&other.points, start)).count();
         ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
     };
     let changed =

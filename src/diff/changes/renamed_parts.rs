@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use kurbo::{Rect, Shape as _};
 
-use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
@@ -63,7 +63,13 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
         Finding {
             size: length,
             new: place.to_path(0.1),
-            ..Finding::in_place(Verdict::Relabelled, ShapeKind::Line, label, vec![change], Place::of(place))
+            ..Finding::in_place(
+                Verdict::Relabelled,
+                ShapeKind::Line,
+                label,
+                vec![change],
+                FindingBox::of(place),
+            )
         }
     });
     let findings = findings.collect();

@@ -3,20 +3,20 @@
 use kurbo::{Point, Rect, Shape as _};
 
 use crate::diff::curves::chain::flatten;
-use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Most pairs of marks tested.
-const MOST_PAIRS: usize = 50_000_000;
+const MAX_PAIRS: usize = 50_000_000;
 /// Sample points along each side of the common box of two regions.
-const POINTS: usize = 8;
+const OVERLAP_SAMPLES_PER_SIDE: usize = 8;
 
 /// Findings about the stacking of unchanged marks; `stayed` holds their indexes in both pictures.
 pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize, usize)>) -> Vec<Finding> {
     stayed.sort_unstable();
     stayed.dedup_by_key(|pair| pair.0);
     let moved = out_of_order(&stayed);
-    if moved.is_empty() || moved.len().saturating_mul(stayed.len()) > MOST_PAIRS {
+    if moved.is_empty() || moved.len().saturating_mul(stayed.len()) > MAX_PAIRS {
         return Vec::new();
     }
     let boxes: Vec<Rect> = stayed
@@ -37,7 +37,7 @@ pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize
             let side = |over: bool| format!("{} {}", if over { "over" } else { "under" }, other.label);
             let change =
                 Change { what: "order".to_owned(), old: side(new < other_new), new: side(new > other_new) };
-            let place = Place::of(boxes[item]);
+            let place = FindingBox::of(boxes[item]);
             let label = (*was.label).clone();
             found.push(Finding {
                 new: shape.path.clone(),
@@ -87,12 +87,16 @@ fn overlap(a: &Shape, b: &Shape, common: Rect) -> bool {
     };
     match (a.kind, b.kind) {
         (ShapeKind::Region, ShapeKind::Region) => {
-            let step = |index: usize| (index as f64 + 0.5) / POINTS as f64;
-            (0..POINTS).flat_map(|x| (0..POINTS).map(move |y| (x, y))).any(|(x, y)| {
-                let at =
-                    Point::new(common.x0 + step(x) * common.width(), common.y0 + step(y) * common.height());
-                inside(a, at) && inside(b, at)
-            })
+            let step = |index: usize| (index as f64 + 0.5) / OVERLAP_SAMPLES_PER_SIDE as f64;
+            (0..OVERLAP_SAMPLES_PER_SIDE)
+                .flat_map(|x| (0..OVERLAP_SAMPLES_PER_SIDE).map(move |y| (x, y)))
+                .any(|(x, y)| {
+                    let at = Point::new(
+                        common.x0 + step(x) * common.width(),
+                        common.y0 + step(y) * common.height(),
+                    );
+                    inside(a, at) && inside(b, at)
+                })
         }
         (ShapeKind::Line, _) => on_line(a, |p| inside(b, p)),
         _ => on_line(b, |p| inside(a, p)),

@@ -4,9 +4,11 @@ use crate::parallel::prelude::*;
 use kurbo::{PathEl, Point};
 use rustc_hash::FxHashMap;
 
-use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
-use crate::geometry::numbers::tolerance::{FLAT_OF_CURVE, FLAT_OF_TOLERANCE, JOIN_OF_TOLERANCE};
+use crate::geometry::numbers::tolerance::{
+    FLATTENING_OF_TOLERANCE, MAX_JOIN_GAP_OF_TOLERANCE, MIN_FLATTENING_OF_CURVE,
+};
 
 /// A polyline in px, independent of how it was written: an open one starts at its lesser end, a closed one at
 /// its least point.
@@ -60,7 +62,7 @@ fn order(a: Point, b: Point) -> std::cmp::Ordering {
 }
 
 /// Chains of some shapes of a picture, in an order independent of the order of the shapes.
-pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &Groups) -> Vec<Chain> {
+pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &MarkGroups) -> Vec<Chain> {
     let flat: Vec<Vec<Chain>> = shapes
         .par_iter()
         .map(|index| {
@@ -69,7 +71,7 @@ pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
             };
             let tolerance = groups.groups.get(*group).map_or(0.01, |group| group.tolerance);
             let closes = shape.kind != ShapeKind::Line;
-            flatten(&shape.path, tolerance * FLAT_OF_TOLERANCE, closes)
+            flatten(&shape.path, tolerance * FLATTENING_OF_TOLERANCE, closes)
                 .into_iter()
                 .map(|(points, closed)| Chain { group: *group, points, closed, shapes: vec![*index] })
                 .collect()
@@ -87,7 +89,7 @@ pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
     open.sort_unstable_by_key(|(group, _)| *group);
     for (group, chains) in open {
         let tolerance = groups.groups.get(group).map_or(0.01, |group| group.tolerance);
-        done.extend(join(chains, tolerance * JOIN_OF_TOLERANCE).into_iter().map(Chain::in_order));
+        done.extend(join(chains, tolerance * MAX_JOIN_GAP_OF_TOLERANCE).into_iter().map(Chain::in_order));
     }
     sort(&mut done);
     done
@@ -108,7 +110,7 @@ pub(crate) fn sort(chains: &mut [Chain]) {
 
 /// For each chain, the first one of the same group with identical points. Chains must be sorted, so that
 /// copies follow it.
-pub(crate) fn firsts(chains: &[Chain]) -> Vec<usize> {
+pub(crate) fn first_copies(chains: &[Chain]) -> Vec<usize> {
     let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
     for (index, chain) in chains.iter().enumerate() {
         let before = firsts.last().copied().filter(|first| {
@@ -123,8 +125,9 @@ pub(crate) fn firsts(chains: &[Chain]) -> Vec<usize> {
 
 /// Rings of an outline, in an order independent of how it was written.
 pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
-    let flat =
-        outline.map(|outline| flatten(outline, tolerance * FLAT_OF_TOLERANCE, true)).unwrap_or_default();
+    let flat = outline
+        .map(|outline| flatten(outline, tolerance * FLATTENING_OF_TOLERANCE, true))
+        .unwrap_or_default();
     let ring = |(points, closed)| Chain { group: 0, points, closed, shapes: Vec::new() }.in_order();
     let mut rings: Vec<Chain> = flat.into_iter().map(ring).collect();
     rings.sort_by(|a, b| order(a.points[0], b.points[0]));
@@ -136,7 +139,7 @@ pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Cha
 pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
     let mut found: Vec<(Vec<Point>, bool)> = Vec::new();
     let size = path.control_box().size();
-    let tolerance = tolerance.max(size.width.max(size.height) * FLAT_OF_CURVE);
+    let tolerance = tolerance.max(size.width.max(size.height) * MIN_FLATTENING_OF_CURVE);
     kurbo::flatten(path.elements().iter().copied(), tolerance, |element| match element {
         PathEl::MoveTo(p) => found.push((vec![p], false)),
         PathEl::ClosePath => {
@@ -182,12 +185,12 @@ fn is_dot(points: &[Point]) -> bool {
 
 /// One end of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-struct End {
+struct ChainEnd {
     chain: usize,
     last: bool,
 }
 
-impl End {
+impl ChainEnd {
     /// The other end of the same chain.
     fn other(self) -> Self {
         Self { last: !self.last, ..self }
@@ -197,20 +200,20 @@ impl End {
 /// Joins chains of one group where exactly two ends meet within `reach`.
 fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
     let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
-    let place = |end: End| {
+    let place = |end: ChainEnd| {
         let points = &chains[end.chain].points;
         if end.last { points[points.len() - 1] } else { points[0] }
     };
     let is_dot: Vec<bool> = chains.iter().map(|chain| is_dot(&chain.points)).collect();
     let ends = || {
-        let of = |chain| [End { chain, last: false }, End { chain, last: true }];
+        let of = |chain| [ChainEnd { chain, last: false }, ChainEnd { chain, last: true }];
         (0..chains.len()).filter(|chain| !is_dot[*chain]).flat_map(of)
     };
-    let mut cells: FxHashMap<(i64, i64), Vec<End>> = FxHashMap::default();
+    let mut cells: FxHashMap<(i64, i64), Vec<ChainEnd>> = FxHashMap::default();
     for end in ends() {
         cells.entry(cell(place(end))).or_default().push(end);
     }
-    let only = |end: End| {
+    let only = |end: ChainEnd| {
         let (x, y) = cell(place(end));
         let mut near = (x - 1..=x + 1)
             .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
@@ -220,7 +223,7 @@ fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
         let first = near.next().copied();
         if near.next().is_some() { None } else { first }
     };
-    let mut next: FxHashMap<End, End> = FxHashMap::default();
+    let mut next: FxHashMap<ChainEnd, ChainEnd> = FxHashMap::default();
     for end in ends() {
         if let Some(other) = only(end).filter(|other| only(*other) == Some(end)) {
             next.insert(end, other);

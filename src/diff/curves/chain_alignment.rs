@@ -3,13 +3,13 @@
 use kurbo::{Point, Vec2};
 
 use super::chain::Chain;
-use super::hausdorff_distance::places;
+use super::hausdorff_distance::evenly_spaced_points;
 use super::segment::nearest_on;
 
 /// Fewest points compared along each chain. The number is about two per vertex, within bounds.
-const FEWEST: usize = 5;
+const MIN_SAMPLES: usize = 5;
 /// Most points compared along each chain.
-const MOST: usize = 33;
+const MAX_SAMPLES: usize = 33;
 
 /// Distances of two chains whose points correspond by arc length, in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +27,9 @@ pub(crate) struct Alignment {
 /// Aligns two chains so that the largest distance is smallest, over both directions and several starts.
 /// Swapping the chains only changes signs.
 pub(crate) fn align(a: &Chain, b: &Chain) -> Alignment {
-    let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(FEWEST, MOST);
-    let on_a: Vec<Point> = places(a, count).collect();
-    let on_b: Vec<Point> = places(b, count).collect();
+    let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(MIN_SAMPLES, MAX_SAMPLES);
+    let on_a: Vec<Point> = evenly_spaced_points(a, count).collect();
+    let on_b: Vec<Point> = evenly_spaced_points(b, count).collect();
     let mut best: Option<Alignment> = None;
     let mut offer = |a: &[Point], b: &[Point]| {
         let found = measure(a, b);
@@ -66,12 +66,12 @@ fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
             (start.distance_squared(nearest_on(p, q, start)), index, nearest_on(p, q, start))
         })
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, index, point)) = nearest else { return places(chain, count).collect() };
+    let Some((_, index, point)) = nearest else { return evenly_spaced_points(chain, count).collect() };
     let mut points = vec![point];
     points.extend_from_slice(&chain.points[index + 1..]);
     points.extend(chain.points.iter().skip(1).take(index));
     points.push(point);
-    places(&Chain { points, ..chain.clone() }, count).collect()
+    evenly_spaced_points(&Chain { points, ..chain.clone() }, count).collect()
 }
 
 /// Distances of two point lists of equal length, before and after the best motions.

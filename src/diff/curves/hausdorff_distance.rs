@@ -4,43 +4,43 @@ use kurbo::Point;
 
 use super::chain::Chain;
 use super::segment::nearest_on;
-use super::segment_grid::SegmentCells;
-use crate::geometry::numbers::tolerance::DISTANCE_SHARE;
+use super::segment_grid::SegmentGrid;
+use crate::geometry::numbers::tolerance::MAX_DISTANCE_ERROR_SHARE;
 
 /// Polylines with more points are searched with a grid.
-const FEW: usize = 48;
+const MAX_UNINDEXED_POINTS: usize = 48;
 /// Sample points per vertex for percentiles, within bounds.
-const PLACES: usize = 8;
+const SAMPLES_PER_POINT: usize = 8;
 /// Fewest sample points for percentiles.
-const FEWEST: usize = 20;
+const MIN_SAMPLES: usize = 20;
 /// Most sample points for percentiles.
-const MOST: usize = 128;
+const MAX_SAMPLES: usize = 128;
 /// Resolution of distances in px.
-const LEAST_PX: f64 = 1e-4;
+const DISTANCE_RESOLUTION_PX: f64 = 1e-4;
 
 /// Distance of two chains in px.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Apart {
-    /// Hausdorff distance, at most the share [`DISTANCE_SHARE`] of itself too small.
+pub(crate) struct ChainDistance {
+    /// Hausdorff distance, at most the share [`MAX_DISTANCE_ERROR_SHARE`] of itself too small.
     pub largest: f64,
     /// 95th percentile of the distance, over both lines.
     pub p95: f64,
 }
 
 /// Distances between two chains.
-pub(crate) fn apart(a: &Chain, b: &Chain) -> Apart {
-    let (near_a, near_b) = (Near::new(a), Near::new(b));
+pub(crate) fn chain_distance(a: &Chain, b: &Chain) -> ChainDistance {
+    let (near_a, near_b) = (NearestPointQuery::new(a), NearestPointQuery::new(b));
     let largest = near_b.farthest(a, near_a.farthest(b, 0.0));
-    let count = |chain: &Chain| (chain.points.len() * PLACES).clamp(FEWEST, MOST);
-    let mut all: Vec<f64> = places(a, count(a)).map(|p| near_b.nearest(p).1).collect();
-    all.extend(places(b, count(b)).map(|p| near_a.nearest(p).1));
+    let count = |chain: &Chain| (chain.points.len() * SAMPLES_PER_POINT).clamp(MIN_SAMPLES, MAX_SAMPLES);
+    let mut all: Vec<f64> = evenly_spaced_points(a, count(a)).map(|p| near_b.nearest(p).1).collect();
+    all.extend(evenly_spaced_points(b, count(b)).map(|p| near_a.nearest(p).1));
     all.sort_by(f64::total_cmp);
     let p95 = all.get((all.len() * 95).div_ceil(100).saturating_sub(1)).copied().unwrap_or(0.0);
-    Apart { largest: largest.max(p95), p95 }
+    ChainDistance { largest: largest.max(p95), p95 }
 }
 
 /// Evenly spaced points along a chain, from its start to its end.
-pub(crate) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point> {
+pub(crate) fn evenly_spaced_points(chain: &Chain, count: usize) -> impl Iterator<Item = Point> {
     let step = chain.length() / (count.max(2) - 1) as f64;
     let mut segments = chain.segments();
     let mut current = segments.next();
@@ -67,14 +67,15 @@ pub(crate) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point>
 }
 
 /// Nearest-point queries on a chain.
-pub(crate) struct Near<'a> {
+pub(crate) struct NearestPointQuery<'a> {
     chain: &'a Chain,
-    grid: Option<SegmentCells>,
+    grid: Option<SegmentGrid>,
 }
 
-impl<'a> Near<'a> {
+impl<'a> NearestPointQuery<'a> {
     pub(crate) fn new(chain: &'a Chain) -> Self {
-        let grid = (chain.points.len() > FEW).then(|| SegmentCells::new(std::slice::from_ref(chain)));
+        let grid = (chain.points.len() > MAX_UNINDEXED_POINTS)
+            .then(|| SegmentGrid::new(std::slice::from_ref(chain)));
         Self { chain, grid }
     }
 
@@ -96,7 +97,7 @@ impl<'a> Near<'a> {
             None => (0..self.chain.points.len() - 1).for_each(see),
             Some(grid) => {
                 let enough = |seen: f64| best.get().1 <= seen * seen;
-                grid.rings(p, (f64::MAX.sqrt(), usize::MAX), |item| see(item as usize), enough);
+                grid.visit_rings(p, (f64::MAX.sqrt(), usize::MAX), |item| see(item as usize), enough);
             }
         }
         let (index, squared) = best.get();
@@ -125,8 +126,8 @@ impl<'a> Near<'a> {
         }
         while let Some((p, near_p, q, near_q)) = open.pop() {
             let bound = |segment| to_segment(p, segment).max(to_segment(q, segment));
-            let limit = most * (1.0 + DISTANCE_SHARE) + LEAST_PX;
-            if bound(near_p).min(bound(near_q)) <= limit || p.distance(q) <= LEAST_PX {
+            let limit = most * (1.0 + MAX_DISTANCE_ERROR_SHARE) + DISTANCE_RESOLUTION_PX;
+            if bound(near_p).min(bound(near_q)) <= limit || p.distance(q) <= DISTANCE_RESOLUTION_PX {
                 continue;
             }
             let middle = p.midpoint(q);
@@ -156,22 +157,22 @@ mod tests {
     fn closed_forms() {
         let line = chain(&[(0.0, 0.0), (100.0, 0.0)]);
         let beside = chain(&[(0.0, 3.0), (100.0, 3.0)]);
-        assert_eq!(apart(&line, &beside), Apart { largest: 3.0, p95: 3.0 });
+        assert_eq!(chain_distance(&line, &beside), ChainDistance { largest: 3.0, p95: 3.0 });
         let along = chain(&[(5.0, 0.0), (105.0, 0.0)]);
-        assert!((apart(&line, &along).largest - 5.0).abs() < 1e-9);
+        assert!((chain_distance(&line, &along).largest - 5.0).abs() < 1e-9);
         let roof = chain(&[(0.0, 0.0), (50.0, 40.0), (100.0, 0.0)]);
-        assert!((apart(&line, &roof).largest - 40.0).abs() < 1e-9);
+        assert!((chain_distance(&line, &roof).largest - 40.0).abs() < 1e-9);
         // The farthest point of the line is in its middle, between two sides of the comb.
         let comb = chain(&[(0.0, 0.0), (0.0, 300.0), (100.0, 300.0), (100.0, 0.0)]);
         let wide = chain(&[(0.0, 0.0), (100.0, 0.0)]);
-        let directed = Near::new(&comb).farthest(&wide, 0.0);
+        let directed = NearestPointQuery::new(&comb).farthest(&wide, 0.0);
         assert!((directed - 50.0).abs() < 0.2, "{directed}");
     }
 
     #[test]
     fn places_are_evenly_spaced() {
         let bent = chain(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)]);
-        let found: Vec<Point> = places(&bent, 5).collect();
+        let found: Vec<Point> = evenly_spaced_points(&bent, 5).collect();
         assert_eq!(found, [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(Point::from));
     }
 }

@@ -7,9 +7,9 @@ use crate::diff::shapes::picture::Shape;
 
 /// Regions with more rings are measured by their signed area. Nesting tests are quadratic in the number of
 /// rings.
-const MOST_RINGS: usize = 200;
+const MAX_NESTED_RINGS: usize = 200;
 /// Flatness of curves in px; areas are reported to about one square px.
-const FLAT_PX: f64 = 0.05;
+const FLATNESS_PX: f64 = 0.05;
 
 /// Area of a region in square px.
 pub(crate) fn area(shape: &Shape) -> f64 {
@@ -18,8 +18,8 @@ pub(crate) fn area(shape: &Shape) -> f64 {
         return turned();
     }
     let rings: Vec<Vec<Point>> =
-        flatten(&shape.path, FLAT_PX, true).into_iter().map(|(ring, _)| ring).collect();
-    if rings.len() < 2 || rings.len() > MOST_RINGS {
+        flatten(&shape.path, FLATNESS_PX, true).into_iter().map(|(ring, _)| ring).collect();
+    if rings.len() < 2 || rings.len() > MAX_NESTED_RINGS {
         return turned();
     }
     let depth = |index: usize| {

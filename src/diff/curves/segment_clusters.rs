@@ -5,11 +5,11 @@ use kurbo::{Point, Rect};
 use super::segment::{Segment, nearest_on};
 
 /// Most segments of a leaf.
-const LEAF: usize = 4;
+const MAX_LEAF_SEGMENTS: usize = 4;
 
-/// One step of a search in [`Bundles`].
+/// One step of a search in [`SegmentClusters`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Met {
+pub(crate) enum ClusterVisit {
     /// Segments that all lie within `radius` of the segment `from`–`to`, point by point. The visitor returns
     /// whether to descend.
     Bundle { from: Point, to: Point, radius: f64 },
@@ -19,15 +19,15 @@ pub(crate) enum Met {
 
 /// Binary tree of segments, halved along the end coordinate with the largest extent.
 #[derive(Debug)]
-pub(crate) struct Bundles {
-    nodes: Vec<Node>,
+pub(crate) struct SegmentClusters {
+    nodes: Vec<ClusterNode>,
     /// Segment numbers, grouped by node.
     items: Vec<u32>,
 }
 
 /// A node of the tree.
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct ClusterNode {
     /// Bounding boxes of the starts and of the ends.
     starts: Rect,
     ends: Rect,
@@ -36,7 +36,7 @@ struct Node {
     second: Option<usize>,
 }
 
-impl Bundles {
+impl SegmentClusters {
     pub(crate) fn new(segments: &[Segment]) -> Self {
         let mut tree =
             Self { nodes: Vec::new(), items: (0..segments.len()).map(|item| item as u32).collect() };
@@ -56,8 +56,8 @@ impl Bundles {
         let (starts, ends) =
             (bounds(|s| s.from, &self.items[first..last]), bounds(|s| s.to, &self.items[first..last]));
         let index = self.nodes.len();
-        self.nodes.push(Node { starts, ends, items: (first, last), second: None });
-        if last - first <= LEAF {
+        self.nodes.push(ClusterNode { starts, ends, items: (first, last), second: None });
+        if last - first <= MAX_LEAF_SEGMENTS {
             return;
         }
         let widths = [starts.width(), starts.height(), ends.width(), ends.height()];
@@ -76,12 +76,12 @@ impl Bundles {
 
     /// Visits clusters and descends where the visitor returns `true`, until one segment stops the search.
     /// Returns whether one did.
-    pub(crate) fn search(&self, mut meet: impl FnMut(Met) -> bool) -> bool {
+    pub(crate) fn search(&self, mut meet: impl FnMut(ClusterVisit) -> bool) -> bool {
         let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(index) = open.pop() {
             let node = self.nodes[index];
             let radius = [node.starts, node.ends].map(|ends| ends.size().to_vec2().hypot() / 2.0);
-            let bundle = Met::Bundle {
+            let bundle = ClusterVisit::Bundle {
                 from: node.starts.center(),
                 to: node.ends.center(),
                 radius: radius[0].max(radius[1]),
@@ -92,7 +92,10 @@ impl Bundles {
             match node.second {
                 Some(second) => open.extend([second, index + 1]),
                 None => {
-                    if self.items[node.items.0..node.items.1].iter().any(|item| meet(Met::One(*item))) {
+                    if self.items[node.items.0..node.items.1]
+                        .iter()
+                        .any(|item| meet(ClusterVisit::One(*item)))
+                    {
                         return true;
                     }
                 }
@@ -106,8 +109,8 @@ impl Bundles {
         let within = |from: Point, to: Point, reach: f64| p.distance(nearest_on(from, to, p)) <= reach;
         self.search(|met| match met {
             // A small margin for rounding.
-            Met::Bundle { from, to, radius } => within(from, to, (reach + radius) * (1.0 + 1e-9)),
-            Met::One(item) => {
+            ClusterVisit::Bundle { from, to, radius } => within(from, to, (reach + radius) * (1.0 + 1e-9)),
+            ClusterVisit::One(item) => {
                 segments.get(item as usize).is_some_and(|segment| within(segment.from, segment.to, reach))
             }
         })
@@ -131,7 +134,7 @@ mod tests {
     #[test]
     fn points_are_near_as_by_asking_all() {
         let segments = fan(500, 0.1);
-        let tree = Bundles::new(&segments);
+        let tree = SegmentClusters::new(&segments);
         let mut hits = 0;
         for i in 0..900 {
             let p = Point::new(50.0 + f64::from(i % 30) * 1.7, 10.0 + f64::from(i / 30) * 2.3);
@@ -145,14 +148,16 @@ mod tests {
     #[test]
     fn what_lies_nearly_on_each_other_is_asked_as_one() {
         let segments = fan(10_000, 1e-5);
-        let tree = Bundles::new(&segments);
+        let tree = SegmentClusters::new(&segments);
         let p = Point::new(75.0, 32.0);
         let mut asked = 0;
         let found = tree.search(|met| {
             asked += 1;
             match met {
-                Met::Bundle { from, to, radius } => p.distance(nearest_on(from, to, p)) <= 0.02 + radius,
-                Met::One(_) => true,
+                ClusterVisit::Bundle { from, to, radius } => {
+                    p.distance(nearest_on(from, to, p)) <= 0.02 + radius
+                }
+                ClusterVisit::One(_) => true,
             }
         });
         assert!(!found && asked == 1, "{asked}");

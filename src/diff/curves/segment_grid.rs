@@ -6,32 +6,32 @@ use kurbo::Point;
 
 use super::chain::Chain;
 use super::segment::Segment;
-use super::segment_clusters::Bundles;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::segment_clusters::SegmentClusters;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Most cells along the longer side.
-const MOST_CELLS: f64 = 2048.0;
+const MAX_CELLS_PER_SIDE: f64 = 2048.0;
 
 /// Mean segment length in cells, at most. It limits the number of cells per segment.
-const CELLS_OF_SEGMENT: f64 = 16.0;
+const MEAN_CELLS_PER_SEGMENT: f64 = 16.0;
 
 /// Above this number of candidate segments, the cluster tree is used instead.
-const CROWD: usize = 4096;
+const MAX_NEAR_SEGMENTS: usize = 4096;
 
 /// Segments sorted into square cells.
 #[derive(Debug)]
-pub(crate) struct SegmentCells {
+pub(crate) struct SegmentGrid {
     pub segments: Vec<Segment>,
     origin: Point,
     cell: f64,
     columns: usize,
     rows: usize,
     /// Numbers of the segments that cross each cell.
-    items: Grouped<u32>,
-    bundles: OnceLock<Bundles>,
+    items: CsrLists<u32>,
+    bundles: OnceLock<SegmentClusters>,
 }
 
-impl SegmentCells {
+impl SegmentGrid {
     /// Builds the grid from the segments of chains.
     pub(crate) fn new(chains: &[Chain]) -> Self {
         Self::of(chains.iter().enumerate())
@@ -57,7 +57,8 @@ impl SegmentCells {
         // About one segment per cell if spread evenly, and a bounded number of cells per segment.
         let count = segments.len().max(1) as f64;
         let mean = segments.iter().map(|s| s.from.distance(s.to)).sum::<f64>() / count;
-        let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
+        let cell =
+            (side / count.sqrt().ceil().clamp(1.0, MAX_CELLS_PER_SIDE)).max(mean / MEAN_CELLS_PER_SEGMENT);
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
         let mut grid = Self {
@@ -66,10 +67,10 @@ impl SegmentCells {
             cell,
             columns,
             rows,
-            items: Grouped::default(),
+            items: CsrLists::default(),
             bundles: OnceLock::new(),
         };
-        grid.items = grouped(columns * rows, |put| {
+        grid.items = csr_lists(columns * rows, |put| {
             for (index, segment) in grid.segments.iter().enumerate() {
                 grid.cells(segment.from, segment.to, 0.0, |cell| put(cell, index as u32));
             }
@@ -115,12 +116,12 @@ impl SegmentCells {
         found.clear();
         let mut cells = 0;
         self.cells(from, to, reach, |cell| {
-            if found.len() <= CROWD {
+            if found.len() <= MAX_NEAR_SEGMENTS {
                 found.extend_from_slice(self.items.of(cell));
             }
             cells += 1;
         });
-        if found.len() > CROWD {
+        if found.len() > MAX_NEAR_SEGMENTS {
             return false;
         }
         // The segments of a single cell are already sorted.
@@ -132,15 +133,15 @@ impl SegmentCells {
     }
 
     /// Cluster tree of all segments, built on first use.
-    pub(crate) fn bundles(&self) -> &Bundles {
-        self.bundles.get_or_init(|| Bundles::new(&self.segments))
+    pub(crate) fn bundles(&self) -> &SegmentClusters {
+        self.bundles.get_or_init(|| SegmentClusters::new(&self.segments))
     }
 
     /// Visits segments in rings of cells around a point, nearest ring first.
     ///
     /// After each ring, `enough` receives the distance within which all segments were visited, and returns
     /// whether to stop. The search also stops at distance `reach` or after `most_seen` segments.
-    pub(crate) fn rings(
+    pub(crate) fn visit_rings(
         &self,
         p: Point,
         (reach, most_seen): (f64, usize),
@@ -203,7 +204,7 @@ mod tests {
     #[test]
     fn what_is_near_is_found_as_by_asking_all() {
         let chains = scattered(400, 7);
-        let grid = SegmentCells::new(&chains);
+        let grid = SegmentGrid::new(&chains);
         let mut found = Vec::new();
         for chain in scattered(60, 9) {
             let (from, to) = (chain.points[0], chain.points[1]);
@@ -221,14 +222,14 @@ mod tests {
     #[test]
     fn rings_find_the_nearest() {
         let chains = scattered(300, 11);
-        let grid = SegmentCells::new(&chains);
+        let grid = SegmentGrid::new(&chains);
         for chain in scattered(80, 13) {
             let p = chain.points[0];
             let distance = |s: &Segment| p.distance(nearest_on(s.from, s.to, p));
             let wanted = grid.segments.iter().map(distance).fold(f64::INFINITY, f64::min);
             let best = std::cell::Cell::new(f64::INFINITY);
             let see = |item: u32| best.set(best.get().min(distance(&grid.segments[item as usize])));
-            grid.rings(p, (5000.0, usize::MAX), see, |seen| best.get() <= seen);
+            grid.visit_rings(p, (5000.0, usize::MAX), see, |seen| best.get() <= seen);
             assert_eq!(best.get(), wanted);
         }
     }

@@ -92,7 +92,7 @@ pub struct Change {
 
 /// Bounding box of the old and the new mark, in px from the page's upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Place {
+pub struct FindingBox {
     /// Left edge.
     pub x: f64,
     /// Top edge.
@@ -103,10 +103,10 @@ pub struct Place {
     pub height: f64,
 }
 
-/// A [`Place`] by the bits of its numbers, as a hash key.
-pub(crate) type PlaceKey = [u64; 4];
+/// A [`FindingBox`] by the bits of its numbers, as a hash key.
+pub(crate) type FindingBoxKey = [u64; 4];
 
-impl Place {
+impl FindingBox {
     /// A rectangle rounded to a hundredth of a px.
     pub(crate) fn of(rect: Rect) -> Self {
         let round = |value: f64| (value * 100.0).round() / 100.0;
@@ -119,7 +119,7 @@ impl Place {
     }
 
     /// The hash key of this box.
-    pub(crate) fn key(&self) -> PlaceKey {
+    pub(crate) fn key(&self) -> FindingBoxKey {
         [self.x, self.y, self.width, self.height].map(f64::to_bits)
     }
 
@@ -142,7 +142,7 @@ pub struct Finding {
     /// Changed properties.
     pub changes: Vec<Change>,
     /// Bounding box of the change.
-    pub place: Place,
+    pub place: FindingBox,
     /// Length of a line or area of a region: the old one, or the new one of an added mark.
     pub size: f64,
     /// Increase of the length or area.
@@ -171,7 +171,7 @@ impl Finding {
         kind: ShapeKind,
         label: Label,
         changes: Vec<Change>,
-        place: Place,
+        place: FindingBox,
     ) -> Self {
         Self {
             verdict,

@@ -8,11 +8,11 @@ use crate::diff::shapes::picture::Picture;
 use crate::export::raster::tree_painter;
 
 /// Channel differences above this are visible. Borders are blended slightly differently.
-const VISIBLE: u8 = 24;
+const MIN_VISIBLE_DIFFERENCE: u8 = 24;
 /// Most pixels of the longer side; larger drawings are scaled down.
-const MOST_PIXELS: f64 = 4000.0;
+const MAX_SIDE_PIXELS: f64 = 4000.0;
 /// Most dashes of one line, because each is drawn separately.
-const MOST_DASHES: f64 = 200_000.0;
+const MAX_DASHES: f64 = 200_000.0;
 
 /// Number of pixels that look different.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -47,7 +47,7 @@ impl PixelDiff {
 /// Compares the pixels of two drawings; `None` if one would take too long to rasterise.
 pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
     let (width, height) = (before.width.max(after.width), before.height.max(after.height));
-    let scale = (MOST_PIXELS / width.max(height)).min(1.0);
+    let scale = (MAX_SIDE_PIXELS / width.max(height)).min(1.0);
     let (columns, rows) = ((width * scale).ceil() as u32, (height * scale).ceil() as u32);
     let a = rasterise(before, columns, rows, scale)?;
     let b = rasterise(after, columns, rows, scale)?;
@@ -55,7 +55,7 @@ pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
     for (a, b) in a.data().chunks_exact(4).zip(b.data().chunks_exact(4)) {
         let largest = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
         found.largest = found.largest.max(largest);
-        found.differing += u64::from(largest > VISIBLE);
+        found.differing += u64::from(largest > MIN_VISIBLE_DIFFERENCE);
     }
     Some(found)
 }
@@ -66,7 +66,7 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
         let pattern: f64 = shape.ink.dash.iter().sum();
         kurbo::Shape::perimeter(&shape.path, 1.0) / pattern * shape.ink.dash.len() as f64
     });
-    if dashes.fold(0.0, f64::max) > MOST_DASHES {
+    if dashes.fold(0.0, f64::max) > MAX_DASHES {
         return None;
     }
     let options = usvg::Options {
@@ -77,7 +77,7 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
         },
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_str(&sheet_inlining::without_sheets(&picture.svg).ok()??, &options).ok()?;
+    let tree = usvg::Tree::from_str(&sheet_inlining::inline_sheets(&picture.svg).ok()??, &options).ok()?;
     let mut pixmap = Pixmap::new(columns, rows)?;
     pixmap.fill(resvg::tiny_skia::Color::WHITE);
     let scale = scale as f32;

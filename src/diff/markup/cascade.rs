@@ -8,19 +8,21 @@
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Document, Node};
 
-use super::style_sheet::{Compound, Declaration, Index, Part, Relation, Sheet, Test};
+use super::style_sheet::{
+    AttributeTest, Combinator, CompoundSelector, CssSheet, Declaration, SelectorIndex, SelectorPart,
+};
 use super::tag_limits::too_much;
 use crate::error::Error;
 
 /// Most tests of selector parts against elements in a file.
-const MOST_TRIALS: usize = 40_000_000;
+const MAX_SELECTOR_TRIALS: usize = 40_000_000;
 /// Most bytes of declarations applied to elements in a file.
-const MOST_GIVEN: usize = 64_000_000;
+const MAX_DECLARATION_BYTES: usize = 64_000_000;
 
 /// Style sheets of a document, evaluated at the current element.
 pub(crate) struct Cascade<'a> {
-    sheet: Sheet<'a>,
-    index: Index<'a>,
+    sheet: CssSheet<'a>,
+    index: SelectorIndex<'a>,
     /// Number of open elements that match each selector part.
     around: Vec<u32>,
     open: Vec<Level>,
@@ -45,7 +47,7 @@ struct Level {
 impl<'a> Cascade<'a> {
     /// Reads the style sheets inside a document.
     pub(crate) fn of(document: &'a Document) -> Self {
-        let mut sheet = Sheet::default();
+        let mut sheet = CssSheet::default();
         let mut has_more = false;
         for node in document.descendants() {
             if node.has_tag_name("style") {
@@ -97,7 +99,7 @@ impl<'a> Cascade<'a> {
             let tests = part.compound.tests.iter();
             let long = tests.map(|(name, _)| 1 + node.attribute(*name).map_or(0, str::len) / 64);
             self.trials += 1 + long.sum::<usize>();
-            if self.trials > MOST_TRIALS {
+            if self.trials > MAX_SELECTOR_TRIALS {
                 let rules = self.sheet.rules.len();
                 return Err(too_much(&format!("{rules} style rules for a drawing of this size")));
             }
@@ -118,7 +120,7 @@ impl<'a> Cascade<'a> {
         let mut found: Vec<Declaration> = Vec::new();
         for block in blocks {
             self.given += block.iter().map(|d| d.name.len() + d.value.len() + 2).sum::<usize>();
-            if self.given > MOST_GIVEN {
+            if self.given > MAX_DECLARATION_BYTES {
                 return Err(too_much("declarations in style rules for a drawing of this size"));
             }
             found.extend_from_slice(block);
@@ -140,7 +142,7 @@ impl<'a> Cascade<'a> {
         if let Some(parent) = self.open.last_mut() {
             let parts = &self.sheet.parts;
             let may_follow = |number: &&u32| {
-                parts.get(**number as usize).is_some_and(|part| part.next == Some(Relation::After))
+                parts.get(**number as usize).is_some_and(|part| part.next == Some(Combinator::After))
             };
             parent.earlier.extend(level.fits.iter().filter(may_follow));
             parent.last = level.fits;
@@ -149,35 +151,35 @@ impl<'a> Cascade<'a> {
     }
 
     /// Whether the part before this one matched an element in the required relation.
-    fn is_in_place(&self, number: u32, part: &Part) -> bool {
-        let Some(before) = number.checked_sub(1) else { return part.relation == Relation::First };
+    fn is_in_place(&self, number: u32, part: &SelectorPart) -> bool {
+        let Some(before) = number.checked_sub(1) else { return part.relation == Combinator::First };
         let parent = self.open.last();
         match part.relation {
-            Relation::First => true,
-            Relation::Inside => self.around.get(before as usize).is_some_and(|count| *count > 0),
-            Relation::Child => parent.is_some_and(|parent| parent.fits.binary_search(&before).is_ok()),
-            Relation::Next => parent.is_some_and(|parent| parent.last.binary_search(&before).is_ok()),
-            Relation::After => parent.is_some_and(|parent| parent.earlier.contains(&before)),
+            Combinator::First => true,
+            Combinator::Inside => self.around.get(before as usize).is_some_and(|count| *count > 0),
+            Combinator::Child => parent.is_some_and(|parent| parent.fits.binary_search(&before).is_ok()),
+            Combinator::Next => parent.is_some_and(|parent| parent.last.binary_search(&before).is_ok()),
+            Combinator::After => parent.is_some_and(|parent| parent.earlier.contains(&before)),
         }
     }
 }
 
 /// Whether an element matches one compound selector.
-fn fits(compound: &Compound, node: Node, first: bool) -> bool {
+fn fits(compound: &CompoundSelector, node: Node, first: bool) -> bool {
     let named = compound.name.is_none_or(|name| name == node.tag_name().name());
     named
         && (first || !compound.first_child)
         && compound.tests.iter().all(|(name, test)| {
             node.attribute(*name).is_some_and(|value| match *test {
-                Test::Exists => true,
-                Test::Equals(wanted) => value == wanted,
-                Test::Word(wanted) => value.split_ascii_whitespace().any(|word| word == wanted),
-                Test::Language(wanted) => {
+                AttributeTest::Exists => true,
+                AttributeTest::Equals(wanted) => value == wanted,
+                AttributeTest::Word(wanted) => value.split_ascii_whitespace().any(|word| word == wanted),
+                AttributeTest::Language(wanted) => {
                     value.strip_prefix(wanted).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
                 }
-                Test::Begins(wanted) => !wanted.is_empty() && value.starts_with(wanted),
-                Test::Ends(wanted) => !wanted.is_empty() && value.ends_with(wanted),
-                Test::Contains(wanted) => !wanted.is_empty() && value.contains(wanted),
+                AttributeTest::Begins(wanted) => !wanted.is_empty() && value.starts_with(wanted),
+                AttributeTest::Ends(wanted) => !wanted.is_empty() && value.ends_with(wanted),
+                AttributeTest::Contains(wanted) => !wanted.is_empty() && value.contains(wanted),
             })
         })
 }

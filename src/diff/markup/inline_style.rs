@@ -10,15 +10,15 @@ use crate::error::Error;
 
 /// With more declarations than this, only the last one of each property is kept. Readers take quadratic time
 /// in the number of declarations.
-const MANY: usize = 64;
+const MAX_UNMERGED_DECLARATIONS: usize = 64;
 /// Most declarations of an element after that.
-const MOST_PROPERTIES: usize = 1000;
+const MAX_PROPERTIES: usize = 1000;
 /// Most bytes of a style that is not a plain list of declarations.
-const LONG: usize = 4096;
+const MAX_STYLE_BYTES: usize = 4096;
 
 /// Whether a style is longer than usual.
 pub(crate) fn is_long(style: &str) -> bool {
-    style.len() > LONG
+    style.len() > MAX_STYLE_BYTES
 }
 
 /// Declarations of style sheets, followed by those of the element itself, which take precedence. Escaped for
@@ -27,7 +27,7 @@ pub(crate) fn is_long(style: &str) -> bool {
 /// # Errors
 /// If the style exceeds the limits.
 pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error> {
-    let many = declared.len() + own.matches(';').count() > MANY;
+    let many = declared.len() + own.matches(';').count() > MAX_UNMERGED_DECLARATIONS;
     let listed = if many || is_long(own) { style_sheet::declarations(own) } else { None };
     let rest = if listed.is_some() { "" } else { own };
     let mut all: Vec<Declaration> = declared.iter().copied().chain(listed.into_iter().flatten()).collect();
@@ -37,7 +37,7 @@ pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error>
         all = all.into_iter().rev().filter(|d| known.insert((d.name, d.important))).collect();
         all.reverse();
     }
-    if all.len() > MOST_PROPERTIES || is_long(rest) {
+    if all.len() > MAX_PROPERTIES || is_long(rest) {
         return Err(too_much("declarations in a style"));
     }
     let mut out = String::new();

@@ -4,18 +4,18 @@
 use rustc_hash::FxHashMap;
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
 
-use super::tag_limits::{self, DEEPEST, too_deep, too_much};
+use super::tag_limits::{self, MAX_DEPTH, too_deep, too_much};
 use crate::error::Error;
 
 /// Most elements of a file.
-const MOST_NODES: u32 = 8_000_000;
+const MAX_NODES: u32 = 8_000_000;
 /// Most bytes drawn through references, in addition to four times the length of the file.
-const MOST_REFERRED_BYTES: u64 = 200_000_000;
+const MAX_REFERENCED_BYTES: u64 = 200_000_000;
 
 /// Parses an SVG file after checking its limits.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
     before_parsing(text)?;
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(in_words)?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
@@ -23,7 +23,7 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
             .at("line 1")
             .remedy("give an SVG file"));
     }
-    Weights::new(&document).check(text.len())?;
+    ElementWeights::new(&document).check(text.len())?;
     Ok(document)
 }
 
@@ -50,20 +50,20 @@ fn before_parsing(text: &str) -> Result<(), Error> {
 }
 
 /// Size of each element with all its references expanded.
-struct Weights<'a, 'input> {
+struct ElementWeights<'a, 'input> {
     ids: FxHashMap<&'a str, Node<'a, 'input>>,
-    known: FxHashMap<NodeId, Option<Weight>>,
+    known: FxHashMap<NodeId, Option<ElementWeight>>,
     root: Node<'a, 'input>,
 }
 
 /// Expanded size of an element in bytes, and the height of its tree.
 #[derive(Clone, Copy, Default)]
-struct Weight {
+struct ElementWeight {
     bytes: u64,
     height: usize,
 }
 
-impl<'a, 'input> Weights<'a, 'input> {
+impl<'a, 'input> ElementWeights<'a, 'input> {
     fn new(document: &'a Document<'input>) -> Self {
         let named = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
         Self { ids: named.collect(), known: FxHashMap::default(), root: document.root_element() }
@@ -72,7 +72,7 @@ impl<'a, 'input> Weights<'a, 'input> {
     /// Refuses a document whose references expand to too many bytes.
     fn check(mut self, length: usize) -> Result<(), Error> {
         let weight = self.of(self.root, 0)?;
-        let limit = MOST_REFERRED_BYTES.saturating_add(4 * length as u64);
+        let limit = MAX_REFERENCED_BYTES.saturating_add(4 * length as u64);
         if weight.bytes > limit {
             return Err(too_much("the references in the file expand to hundreds of megabytes"));
         }
@@ -80,21 +80,21 @@ impl<'a, 'input> Weights<'a, 'input> {
     }
 
     /// Size of an element that is `depth` levels deep.
-    fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Weight, Error> {
+    fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<ElementWeight, Error> {
         match self.known.get(&node.id()) {
-            Some(Some(known)) if depth + known.height <= DEEPEST => return Ok(*known),
+            Some(Some(known)) if depth + known.height <= MAX_DEPTH => return Ok(*known),
             Some(Some(_)) => return Err(too_deep()),
             Some(None) => {
                 let name = node.attribute("id").unwrap_or_default();
                 return Err(Error::new(format!("`{name}` refers to itself")).remedy("remove the reference"));
             }
-            None if depth > DEEPEST => return Err(too_deep()),
+            None if depth > MAX_DEPTH => return Err(too_deep()),
             None => {}
         }
         // Marks the element as in progress: reaching it again means that it refers to itself.
         self.known.insert(node.id(), None);
-        let mut weight = Weight { bytes: 64, height: 0 };
-        let mut add = |inner: Weight, times: u64| {
+        let mut weight = ElementWeight { bytes: 64, height: 0 };
+        let mut add = |inner: ElementWeight, times: u64| {
             weight.bytes = weight.bytes.saturating_add(inner.bytes.saturating_mul(times));
             weight.height = weight.height.max(inner.height + 1);
         };
@@ -103,7 +103,7 @@ impl<'a, 'input> Weights<'a, 'input> {
             // Embedded pictures are not decoded: a rectangle stands for them.
             let is_picture = node.tag_name().name() == "image" && attribute.name() == "href";
             let bytes = if is_picture { 0 } else { value.len() as u64 };
-            add(Weight { bytes, height: 0 }, 1);
+            add(ElementWeight { bytes, height: 0 }, 1);
             let href =
                 value.strip_prefix('#').filter(|_| attribute.name() == "href" && draws_its_target(node));
             // A marker is drawn at every point of a path.

@@ -1,11 +1,11 @@
 //! Scan of the numbers of an attribute: their decimals and their range, without parsing them.
 
 /// Most digits before the point. Ten million px are 2.6 km, more than any drawing needs.
-const MOST_DIGITS: i64 = 8;
+const MAX_INTEGER_DIGITS: i64 = 8;
 
 /// Result of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Numbers {
+pub(crate) struct NumberScan {
     /// Largest number of decimals.
     pub decimals: u8,
     /// Byte offset of the first number that is too large.
@@ -13,9 +13,9 @@ pub(crate) struct Numbers {
 }
 
 /// Scans the numbers in path data or another attribute.
-pub(crate) fn scan(text: &str) -> Numbers {
+pub(crate) fn scan(text: &str) -> NumberScan {
     let bytes = text.as_bytes();
-    let mut found = Numbers::default();
+    let mut found = NumberScan::default();
     let mut at = 0;
     let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
     while at < bytes.len() {
@@ -42,7 +42,7 @@ pub(crate) fn scan(text: &str) -> Numbers {
             decimals = decimals.saturating_sub(exponent).max(0);
         }
         found.decimals = found.decimals.max(u8::try_from(decimals).unwrap_or(u8::MAX));
-        if whole > MOST_DIGITS && found.too_large.is_none() {
+        if whole > MAX_INTEGER_DIGITS && found.too_large.is_none() {
             found.too_large = Some(start);
         }
     }

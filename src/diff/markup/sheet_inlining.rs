@@ -9,7 +9,7 @@ use crate::error::Error;
 
 /// The file with the declarations of its style sheets in `style` attributes, for readers that match selectors
 /// slowly. `None` if the file has entities, because text positions are ambiguous then.
-pub(crate) fn without_sheets(text: &str) -> Result<Option<String>, Error> {
+pub(crate) fn inline_sheets(text: &str) -> Result<Option<String>, Error> {
     let document = input_limits::parse(text)?;
     let mut cascade = Cascade::of(&document);
     let styles = || document.descendants().filter_map(|node| node.attribute("style"));

@@ -12,7 +12,7 @@ pub(crate) struct Declaration<'a> {
 
 /// Relation of a compound selector to the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Relation {
+pub(crate) enum Combinator {
     /// The first one of its selector.
     First,
     /// The one before matches an ancestor (descendant combinator).
@@ -27,7 +27,7 @@ pub(crate) enum Relation {
 
 /// Condition on an attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Test<'a> {
+pub(crate) enum AttributeTest<'a> {
     Exists,
     Equals(&'a str),
     Word(&'a str),
@@ -39,47 +39,47 @@ pub(crate) enum Test<'a> {
 
 /// A compound selector such as `path.crease#lid`.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Compound<'a> {
+pub(crate) struct CompoundSelector<'a> {
     pub name: Option<&'a str>,
-    pub tests: Vec<(&'a str, Test<'a>)>,
+    pub tests: Vec<(&'a str, AttributeTest<'a>)>,
     pub first_child: bool,
 }
 
 /// A compound selector with its position in its selector.
 #[derive(Debug, Clone)]
-pub(crate) struct Part<'a> {
-    pub compound: Compound<'a>,
-    pub relation: Relation,
+pub(crate) struct SelectorPart<'a> {
+    pub compound: CompoundSelector<'a>,
+    pub relation: Combinator,
     /// Index of the rule, if the selector ends here.
     pub rule: Option<usize>,
     /// Relation of the next compound selector to this one.
-    pub next: Option<Relation>,
+    pub next: Option<Combinator>,
 }
 
 /// A selector with its declarations.
 #[derive(Debug, Clone)]
-pub(crate) struct Rule {
+pub(crate) struct CssRule {
     /// Specificity: numbers of ids, of classes and attributes, and of element names.
     pub weight: [u32; 3],
-    /// Index of the declarations in [`Sheet::blocks`].
+    /// Index of the declarations in [`CssSheet::fenced_blocks`].
     pub block: usize,
 }
 
 /// All style sheets of a file.
 #[derive(Debug, Default)]
-pub(crate) struct Sheet<'a> {
+pub(crate) struct CssSheet<'a> {
     /// Compound selectors of all rules; those of one selector are neighbours.
-    pub parts: Vec<Part<'a>>,
-    pub rules: Vec<Rule>,
+    pub parts: Vec<SelectorPart<'a>>,
+    pub rules: Vec<CssRule>,
     pub blocks: Vec<Vec<Declaration<'a>>>,
     /// Whether the sheets contain rules that are not applied: at-rules, pseudo-classes or errors.
     pub has_more: bool,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> CssSheet<'a> {
     /// Parses one more sheet.
     pub(crate) fn read(&mut self, text: &'a str) {
-        let mut reader = Reader { text, at: 0 };
+        let mut reader = CssReader { text, at: 0 };
         loop {
             reader.blanks();
             match reader.peek() {
@@ -102,7 +102,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Parses a rule with its selectors and declarations.
-    fn rule(&mut self, reader: &mut Reader<'a>) {
+    fn rule(&mut self, reader: &mut CssReader<'a>) {
         let selectors = reader.until(b"{");
         let body = reader.block();
         reader.at += 1;
@@ -121,13 +121,13 @@ impl<'a> Sheet<'a> {
                         weight[2] += u32::from(compound.name.is_some());
                     }
                     let last = parts.len() - 1;
-                    let nexts: Vec<Option<Relation>> =
+                    let nexts: Vec<Option<Combinator>> =
                         (0..parts.len()).map(|index| parts.get(index + 1).map(|(_, next)| *next)).collect();
                     for (index, ((compound, relation), next)) in parts.into_iter().zip(nexts).enumerate() {
                         let rule = (index == last).then_some(self.rules.len());
-                        self.parts.push(Part { compound, relation, rule, next });
+                        self.parts.push(SelectorPart { compound, relation, rule, next });
                     }
-                    self.rules.push(Rule { weight, block });
+                    self.rules.push(CssRule { weight, block });
                 }
                 None => self.has_more = true,
             }
@@ -135,12 +135,14 @@ impl<'a> Sheet<'a> {
     }
 
     /// Index of the compound selectors by their most selective condition.
-    pub(crate) fn index(&self) -> Index<'a> {
-        let mut index = Index::default();
+    pub(crate) fn index(&self) -> SelectorIndex<'a> {
+        let mut index = SelectorIndex::default();
         for (number, part) in self.parts.iter().enumerate() {
             let of = |wanted: &str| {
                 part.compound.tests.iter().find_map(|(name, test)| match test {
-                    Test::Equals(value) | Test::Word(value) if *name == wanted => Some(*value),
+                    AttributeTest::Equals(value) | AttributeTest::Word(value) if *name == wanted => {
+                        Some(*value)
+                    }
                     _ => None,
                 })
             };
@@ -158,7 +160,7 @@ impl<'a> Sheet<'a> {
 
 /// Numbers of compound selectors by the condition on which they are looked up.
 #[derive(Debug, Default)]
-pub(crate) struct Index<'a> {
+pub(crate) struct SelectorIndex<'a> {
     pub ids: FxHashMap<&'a str, Vec<u32>>,
     pub classes: FxHashMap<&'a str, Vec<u32>>,
     pub names: FxHashMap<&'a str, Vec<u32>>,
@@ -206,7 +208,7 @@ fn trimmed(mut text: &str) -> Option<&str> {
 
 /// Pieces of a text between separators outside strings, comments and brackets.
 fn split(text: &str, separator: u8) -> impl Iterator<Item = &str> {
-    let mut reader = Reader { text, at: 0 };
+    let mut reader = CssReader { text, at: 0 };
     std::iter::from_fn(move || {
         (reader.at <= text.len()).then(|| {
             let piece = reader.until(&[separator]);
@@ -217,23 +219,23 @@ fn split(text: &str, separator: u8) -> impl Iterator<Item = &str> {
 }
 
 /// Compound selectors of one selector; `None` if it is invalid or not supported.
-fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
-    let mut reader = Reader { text, at: 0 };
-    let mut found: Vec<(Compound, Relation)> = Vec::new();
-    let mut relation = Relation::First;
+fn parts(text: &str) -> Option<Vec<(CompoundSelector<'_>, Combinator)>> {
+    let mut reader = CssReader { text, at: 0 };
+    let mut found: Vec<(CompoundSelector, Combinator)> = Vec::new();
+    let mut relation = Combinator::First;
     loop {
         let before = reader.at;
         reader.blanks();
         let apart = reader.at > before;
         let Some(next) = reader.peek() else { break };
         let sign = match next {
-            b'>' => Some(Relation::Child),
-            b'+' => Some(Relation::Next),
-            b'~' => Some(Relation::After),
+            b'>' => Some(Combinator::Child),
+            b'+' => Some(Combinator::Next),
+            b'~' => Some(Combinator::After),
             _ => None,
         };
         if let Some(sign) = sign {
-            let may = !found.is_empty() && relation == Relation::First;
+            let may = !found.is_empty() && relation == Combinator::First;
             if !may {
                 return None;
             }
@@ -241,24 +243,24 @@ fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
             relation = sign;
             continue;
         }
-        if found.is_empty() || apart || relation != Relation::First {
+        if found.is_empty() || apart || relation != Combinator::First {
             let relation = match (found.is_empty(), relation) {
-                (false, Relation::First) => Relation::Inside,
+                (false, Combinator::First) => Combinator::Inside,
                 _ => relation,
             };
-            found.push((Compound::default(), relation));
+            found.push((CompoundSelector::default(), relation));
         }
-        relation = Relation::First;
+        relation = Combinator::First;
         let (compound, _) = found.last_mut()?;
         match next {
             b'*' => reader.at += 1,
             b'.' => {
                 reader.at += 1;
-                compound.tests.push(("class", Test::Word(reader.word()?)));
+                compound.tests.push(("class", AttributeTest::Word(reader.word()?)));
             }
             b'#' => {
                 reader.at += 1;
-                compound.tests.push(("id", Test::Equals(reader.word()?)));
+                compound.tests.push(("id", AttributeTest::Equals(reader.word()?)));
             }
             b'[' => {
                 let inside = reader.until(b"]").strip_prefix('[')?;
@@ -280,33 +282,33 @@ fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
             _ => return None,
         }
     }
-    (relation == Relation::First && !found.is_empty()).then_some(found)
+    (relation == Combinator::First && !found.is_empty()).then_some(found)
 }
 
 /// Condition between `[` and `]`.
-fn attribute(text: &str) -> Option<(&str, Test<'_>)> {
-    let Some((left, value)) = text.split_once('=') else { return Some((text.trim(), Test::Exists)) };
+fn attribute(text: &str) -> Option<(&str, AttributeTest<'_>)> {
+    let Some((left, value)) = text.split_once('=') else { return Some((text.trim(), AttributeTest::Exists)) };
     let value = value.trim().trim_matches(['"', '\'']);
     let left = left.trim_end();
     let test = match left.as_bytes().last()? {
-        b'~' => Test::Word(value),
-        b'|' => Test::Language(value),
-        b'^' => Test::Begins(value),
-        b'$' => Test::Ends(value),
-        b'*' => Test::Contains(value),
-        _ => Test::Equals(value),
+        b'~' => AttributeTest::Word(value),
+        b'|' => AttributeTest::Language(value),
+        b'^' => AttributeTest::Begins(value),
+        b'$' => AttributeTest::Ends(value),
+        b'*' => AttributeTest::Contains(value),
+        _ => AttributeTest::Equals(value),
     };
     let name = left.trim_end_matches(['~', '|', '^', '$', '*']).trim();
     (!name.is_empty()).then_some((name, test))
 }
 
 /// Reader of CSS text.
-struct Reader<'a> {
+struct CssReader<'a> {
     text: &'a str,
     at: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> CssReader<'a> {
     fn rest(&self) -> &'a str {
         self.text.get(self.at..).unwrap_or_default()
     }
@@ -395,15 +397,15 @@ mod tests {
 
     #[test]
     fn rules_are_read() {
-        let mut sheet = Sheet::default();
+        let mut sheet = CssSheet::default();
         sheet.read(
             "/* a{} */ @media print { path{fill:red} } g > path.a.b , #c rect + [d|='x,}'] { fill : url(a;b) ; stroke:#000!important }\
              text:hover{fill:blue} ;x{stroke:none}",
         );
         let told: Vec<([u32; 3], usize)> = sheet.rules.iter().map(|rule| (rule.weight, rule.block)).collect();
         assert_eq!(told, [([0, 2, 2], 0), ([1, 1, 1], 0), ([0, 0, 1], 2)]);
-        let relations: Vec<Relation> = sheet.parts.iter().map(|part| part.relation).collect();
-        use Relation::{Child, First, Inside, Next};
+        let relations: Vec<Combinator> = sheet.parts.iter().map(|part| part.relation).collect();
+        use Combinator::{Child, First, Inside, Next};
         assert_eq!(relations, [First, Child, First, Inside, Next, First]);
         assert!(sheet.has_more);
         assert_eq!(
@@ -422,7 +424,7 @@ mod tests {
         {
             for count in [1, 2, 3, 200_000] {
                 let text = piece.repeat(count);
-                Sheet::default().read(&text);
+                CssSheet::default().read(&text);
                 _ = declarations(&text);
             }
         }

@@ -8,27 +8,27 @@ use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
 use crate::error::Error;
 
 /// Greatest nesting depth of elements, including references.
-pub(crate) const DEEPEST: usize = 256;
+pub(crate) const MAX_DEPTH: usize = 256;
 /// Most attributes of one element. The parser compares each pair.
-const MOST_ATTRIBUTES: usize = 512;
+const MAX_ATTRIBUTES: usize = 512;
 /// Most comparisons of names with namespaces in scope.
-const MOST_LOOKUPS: usize = 200_000_000;
+const MAX_NAMESPACE_LOOKUPS: usize = 200_000_000;
 /// Most bytes of expanded entities.
-const MOST_ENTITY_BYTES: usize = 16_000_000;
+const MAX_ENTITY_BYTES: usize = 16_000_000;
 
 /// Character references that need no declaration.
-const CHARACTERS: [&str; 6] = ["#", "amp;", "lt;", "gt;", "quot;", "apos;"];
+const PREDEFINED_ENTITIES: [&str; 6] = ["#", "amp;", "lt;", "gt;", "quot;", "apos;"];
 
 /// Refuses files that the parser would take too long for.
 pub(crate) fn check(text: &str) -> Result<(), Error> {
-    let mut tags = Tags::default();
+    let mut tags = TagCounts::default();
     tags.read(text, Tokenizer::from(text))?;
     tags.entities.check(tags.widest)
 }
 
 /// Work that the tags of a file or of an entity cause in the parser.
 #[derive(Default)]
-struct Tags {
+struct TagCounts {
     /// Number of namespaces in scope in each open element.
     open: Vec<usize>,
     /// Largest number of namespaces in scope.
@@ -44,7 +44,7 @@ struct Tags {
     entities: Entities,
 }
 
-impl Tags {
+impl TagCounts {
     /// Counts the tags of a text.
     fn read(&mut self, text: &str, tokens: Tokenizer) -> Result<(), Error> {
         for token in tokens {
@@ -73,10 +73,10 @@ impl Tags {
 
     /// Adds the counts of an element after its attributes.
     fn element(&mut self, is_open: bool) -> Result<(), Error> {
-        if self.attributes > MOST_ATTRIBUTES {
+        if self.attributes > MAX_ATTRIBUTES {
             return Err(too_much(&format!("{} attributes of one element", self.attributes)));
         }
-        if self.open.len() > DEEPEST {
+        if self.open.len() > MAX_DEPTH {
             return Err(too_deep());
         }
         let inherited = self.open.last().copied().unwrap_or(1);
@@ -89,7 +89,7 @@ impl Tags {
         let copied = if self.declared > 0 { scope.saturating_mul(scope) } else { 0 };
         let sought = self.names.saturating_mul(scope);
         self.lookups = self.lookups.saturating_add(copied).saturating_add(sought);
-        if self.lookups > MOST_LOOKUPS {
+        if self.lookups > MAX_NAMESPACE_LOOKUPS {
             return Err(too_much(&format!(
                 "{} namespaces in scope at once, for all the names here,",
                 self.widest
@@ -126,7 +126,7 @@ impl Entities {
         if !value.contains('<') {
             return Ok(());
         }
-        let mut inside = Tags::default();
+        let mut inside = TagCounts::default();
         match inside.read(text, Tokenizer::from_fragment(text, value.range())) {
             Ok(()) if inside.all_declared == 0 => self.names += inside.all_names,
             Ok(()) => self.unusable = Some(too_much("namespaces that entities declare")),
@@ -152,7 +152,7 @@ impl Entities {
             return Err(error.clone());
         }
         let lookups = self.uses.saturating_mul(self.names).saturating_mul(widest);
-        if self.uses.saturating_mul(self.bytes) > MOST_ENTITY_BYTES || lookups > MOST_LOOKUPS {
+        if self.uses.saturating_mul(self.bytes) > MAX_ENTITY_BYTES || lookups > MAX_NAMESPACE_LOOKUPS {
             return Err(too_much(&format!("{} uses of entities", self.uses)));
         }
         Ok(())
@@ -162,7 +162,7 @@ impl Entities {
 /// Number of references to entities that must be declared.
 fn references(text: &str) -> usize {
     let rests = text.split('&').skip(1);
-    rests.filter(|rest| !CHARACTERS.iter().any(|known| rest.starts_with(known))).count()
+    rests.filter(|rest| !PREDEFINED_ENTITIES.iter().any(|known| rest.starts_with(known))).count()
 }
 
 /// The tokenizer's message with its position, from text such as `invalid element at 1:2 cause expected '='
@@ -183,7 +183,7 @@ pub(crate) fn too_much(what: &str) -> Error {
 }
 
 pub(crate) fn too_deep() -> Error {
-    Error::new(format!("elements are nested more than {DEEPEST} deep"))
+    Error::new(format!("elements are nested more than {MAX_DEPTH} deep"))
         .remedy("ungroup the drawing, or save it as plain SVG")
 }
 

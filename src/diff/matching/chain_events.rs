@@ -6,29 +6,29 @@ use crate::parallel::prelude::*;
 use kurbo::BezPath;
 use rustc_hash::FxHashSet;
 
-use super::chain_pairs::{Pair, Side, bounds, pairs};
-use super::interval_cover::{Cover, Stretch};
+use super::chain_pairs::{ChainPair, CoveredChains, bounds, pairs};
+use super::interval_cover::{ChainCover, CoverRun};
 use crate::diff::curves::chain::{Chain, flatten};
 use crate::diff::curves::chain_alignment::align;
-use crate::diff::curves::hausdorff_distance::{Near, apart};
+use crate::diff::curves::hausdorff_distance::{NearestPointQuery, chain_distance};
 use crate::diff::findings::finding::Verdict;
-use crate::diff::shapes::mark_groups::{Groups, Likeness};
+use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
 /// Least covered share of a chain by another chain of its part, for the chain to count as reshaped rather
 /// than removed.
-const LEFT: f64 = 0.1;
+const MIN_REMAINING_SHARE: f64 = 0.1;
 /// Largest residual after a shift, as a share of the largest distance, for a chain to count as moved rigidly.
-const RIGID: f64 = 0.05;
+const RIGID_RESIDUAL_SHARE: f64 = 0.05;
 /// Largest residual after a similarity, as a share of the largest distance, for a chain to count as moved.
-const SIMILAR: f64 = 0.4;
+const SIMILARITY_RESIDUAL_SHARE: f64 = 0.4;
 /// Shortest repainted run in tolerances. Shorter ones come from ends and crossings of other lines.
-const CRUMB: f64 = 12.0;
+const MIN_REPAINT_TOLERANCES: f64 = 12.0;
 /// Shortest repainted run as a share of the line.
-const CRUMB_OF_LINE: f64 = 0.01;
+const MIN_REPAINT_SHARE: f64 = 0.01;
 
 /// Change of one chain; lengths in px.
 #[derive(Debug, Clone)]
-pub(crate) struct Event {
+pub(crate) struct ChainEvent {
     pub verdict: Verdict,
     pub old: Option<usize>,
     pub new: Option<usize>,
@@ -42,16 +42,17 @@ pub(crate) struct Event {
 }
 
 /// Changes of the chains of two drawings.
-pub(crate) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event> {
+pub(crate) fn events(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) -> Vec<ChainEvent> {
     let pairs = pairs(sides, groups, page);
     let paired: [FxHashSet<usize>; 2] =
         [pairs.iter().map(|pair| pair.old).collect(), pairs.iter().map(|pair| pair.new).collect()];
-    let mut events: Vec<Event> = pairs.par_iter().map(|pair| of_pair(sides, pair, groups)).collect();
-    events.extend(repainted(sides, groups));
+    let mut events: Vec<ChainEvent> =
+        pairs.par_iter().map(|pair| paired_event(sides, pair, groups)).collect();
+    events.extend(repaint_events(sides, groups));
     for side in 0..2 {
         for (index, cover) in sides[side].covers.iter().enumerate() {
             if !cover.is_whole() && !paired[side].contains(&index) {
-                events.push(of_one(sides, side, index, groups));
+                events.push(unpaired_event(sides, side, index, groups));
             }
         }
     }
@@ -60,8 +61,8 @@ pub(crate) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event
 
 /// Joins a removed and an added chain of one part that coincide but have different ink: the mark was
 /// repainted. Covers miss this where other marks are in the same place.
-fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
-    let chain = |side: usize, event: &Event| match (side, event.verdict, event.old, event.new) {
+fn recoloured(events: Vec<ChainEvent>, sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainEvent> {
+    let chain = |side: usize, event: &ChainEvent| match (side, event.verdict, event.old, event.new) {
         (0, Verdict::Removed, Some(index), _) | (1, Verdict::Added, _, Some(index)) => Some(index),
         _ => None,
     };
@@ -95,27 +96,28 @@ fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Eve
         joined.iter().map(|(at, other)| (*at, events[*other].old)).collect();
     let all = events.into_iter().enumerate().filter(|(at, _)| !gone.contains(at));
     all.map(|(at, event)| match old_of.get(&at) {
-        Some(old) => Event { verdict: Verdict::Restyled, old: *old, ..event },
+        Some(old) => ChainEvent { verdict: Verdict::Restyled, old: *old, ..event },
         None => event,
     })
     .collect()
 }
 
 /// Change of a pair of chains: moved or reshaped.
-fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
+fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroups) -> ChainEvent {
     let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
     let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
     let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
-    let apart = apart(a, b);
+    let apart = chain_distance(a, b);
     let alignment = &pair.alignment;
     // A mean shift near zero means noise, not a motion.
-    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest)
+    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID_RESIDUAL_SHARE * alignment.largest)
         && alignment.shift.hypot() >= 0.5 * alignment.largest;
     let grown = (cover_a.length - cover_b.length).abs();
-    let similar = alignment.after_similarity <= (2.0 * tolerance).max(SIMILAR * alignment.largest)
+    let similar = alignment.after_similarity
+        <= (2.0 * tolerance).max(SIMILARITY_RESIDUAL_SHARE * alignment.largest)
         && grown <= (4.0 * tolerance).max(alignment.largest)
         && cover_a.share().max(cover_b.share()) < 0.5;
-    let mut event = Event {
+    let mut event = ChainEvent {
         verdict: if rigid || similar { Verdict::Moved } else { Verdict::Reshaped },
         old: Some(pair.old),
         new: Some(pair.new),
@@ -139,20 +141,21 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
 }
 
 /// Change of a chain with uncovered runs and without a pair: reshaped, removed or added.
-fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Event {
+fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups: &MarkGroups) -> ChainEvent {
     let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
     let own = |partner: &&(u32, Likeness, f64)| {
         let other = sides[1 - side].chains.get(partner.0 as usize);
         other.is_some_and(|other| groups.same_part(chain.group, other.group))
     };
-    let rest = cover.partners.iter().find(own).filter(|partner| partner.2 > LEFT * cover.length);
+    let rest =
+        cover.partners.iter().find(own).filter(|partner| partner.2 > MIN_REMAINING_SHARE * cover.length);
     let rest = rest.map(|(partner, ..)| *partner as usize);
     let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
-    let mut event = Event {
+    let mut event = ChainEvent {
         verdict: Verdict::Reshaped,
         old,
         new,
-        size: cover.bare(),
+        size: cover.uncovered_length(),
         largest: 0.0,
         p95: 0.0,
         shift: None,
@@ -179,8 +182,8 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Even
 
 /// Largest distance of the uncovered runs of a chain from the other drawing. It is limited by the arc length
 /// to the nearest covered run, so that a line linked to another one counts only its difference.
-fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
-    let near = Near::new(other);
+fn off(chain: &Chain, cover: &ChainCover, other: &Chain, tolerance: f64) -> f64 {
+    let near = NearestPointQuery::new(other);
     let is_covered =
         |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
     let last = cover.runs.len().saturating_sub(1);
@@ -202,7 +205,7 @@ fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
 }
 
 /// Changes of chains that are covered by other ink or by another part.
-fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
+fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainEvent> {
     // `None` if the chain is unchanged; otherwise the marks that replaced it, if single marks did.
     let other = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
         let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
@@ -210,7 +213,9 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
             return None;
         }
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        let crumb = (CRUMB * tolerance).max(CRUMB_OF_LINE * cover.length).min(0.5 * cover.length);
+        let crumb = (MIN_REPAINT_TOLERANCES * tolerance)
+            .max(MIN_REPAINT_SHARE * cover.length)
+            .min(0.5 * cover.length);
         let strange = || {
             let partners = cover.partners.iter().copied();
             partners.filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
@@ -243,7 +248,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
             if mutual {
                 drawn_over = false;
                 told.insert(partner);
-                events.push(Event {
+                events.push(ChainEvent {
                     verdict: match likeness {
                         Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
                         Likeness::Label => Verdict::Relabelled,
@@ -262,34 +267,34 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
             }
         }
         if drawn_over {
-            events.push(alone(sides, 0, index));
+            events.push(one_sided_event(sides, 0, index));
         }
     }
     for (index, list) in of_new.iter().enumerate() {
         if list.is_some() && !told.contains(&index) {
-            events.push(alone(sides, 1, index));
+            events.push(one_sided_event(sides, 1, index));
         }
     }
     events
 }
 
 /// Change of a chain that exists in one drawing only, although another chain covers its place.
-fn alone(sides: &[Side; 2], side: usize, index: usize) -> Event {
+fn one_sided_event(sides: &[CoveredChains; 2], side: usize, index: usize) -> ChainEvent {
     let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
     let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
     let (gone, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
     let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
     let size = sides[side].covers[index].length;
-    Event { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
+    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
 }
 
 /// Uncovered runs of a chain as a path.
-fn bare(chain: &Chain, cover: &Cover) -> BezPath {
+fn bare(chain: &Chain, cover: &ChainCover) -> BezPath {
     stretches(chain, cover, |run| run.likeness.is_none())
 }
 
 /// The runs of a chain that satisfy a condition, as a path.
-fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Stretch) -> bool) -> BezPath {
+fn stretches(chain: &Chain, cover: &ChainCover, wanted: impl Fn(&CoverRun) -> bool) -> BezPath {
     let runs = cover.runs.iter().filter(|run| wanted(run));
     runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
 }

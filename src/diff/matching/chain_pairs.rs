@@ -8,45 +8,45 @@ use crate::parallel::prelude::*;
 use kurbo::{Point, Rect};
 use rustc_hash::FxHashMap;
 
-use super::interval_cover::Cover;
+use super::interval_cover::ChainCover;
 use crate::diff::curves::chain::Chain;
 use crate::diff::curves::chain_alignment::{Alignment, align};
-use crate::diff::curves::hausdorff_distance::places;
+use crate::diff::curves::hausdorff_distance::evenly_spaced_points;
 use crate::diff::curves::segment::nearest_on;
-use crate::diff::curves::segment_grid::SegmentCells;
-use crate::diff::shapes::mark_groups::{Groups, Likeness};
+use crate::diff::curves::segment_grid::SegmentGrid;
+use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
 /// Largest distance between an old and a new mark, as a share of the page's longer side.
-const REACH_OF_PAGE: f64 = 0.03;
+const MAX_SHIFT_PAGE_SHARE: f64 = 0.03;
 /// Distance always allowed for short marks, as a share of the page's longer side.
-const LEAST_REACH_OF_PAGE: f64 = 0.006;
+const MIN_SHIFT_PAGE_SHARE: f64 = 0.006;
 /// Largest distance as a share of the mark's own size.
-const REACH_OF_MARK: f64 = 0.5;
+const MAX_SHIFT_MARK_SHARE: f64 = 0.5;
 /// Two chains that coincide over this share are one mark, at any distance of the rest.
-const COMMON: f64 = 0.2;
+const MIN_COMMON_SHARE: f64 = 0.2;
 /// Most sample points per chain when looking for candidates.
-const PLACES: usize = 5;
+const SAMPLES_PER_CHAIN: usize = 5;
 /// Neighbours searched per sample point.
-const WANTED: usize = 4;
+const NEIGHBOURS_PER_SAMPLE: usize = 4;
 /// Most candidates aligned per chain.
-const CLOSELY: usize = 6;
+const MAX_CANDIDATES: usize = 6;
 /// Most closed chains of similar length compared with each chain.
 const MAX_CONGRUENT: usize = 64;
 /// Most segments visited per sample point. Where thousands coincide, any of them will do.
-const MOST_SEEN: usize = 512;
+const MAX_SEGMENTS_PER_SAMPLE: usize = 512;
 
 /// The chains of one drawing and their covers by the other drawing.
 #[derive(Debug)]
-pub(crate) struct Side {
+pub(crate) struct CoveredChains {
     pub chains: Vec<Chain>,
     /// For each chain, the index of its first copy.
     pub firsts: Vec<usize>,
-    pub covers: Vec<Cover>,
+    pub covers: Vec<ChainCover>,
 }
 
 /// Two chains that are the same mark.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair {
+pub(crate) struct ChainPair {
     pub old: usize,
     pub new: usize,
     pub alignment: Alignment,
@@ -54,7 +54,7 @@ pub(crate) struct Pair {
 }
 
 /// Pairs chains with uncovered runs one to one, lowest cost first.
-pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
+pub(crate) fn pairs(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) -> Vec<ChainPair> {
     let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
         (0..covers.len())
@@ -69,12 +69,12 @@ pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         let other = 1 - side;
         let targets: Vec<Chain> =
             bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
-        let grid = SegmentCells::new(&targets);
+        let grid = SegmentGrid::new(&targets);
         let of = |index: &usize| {
-            let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+            let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * MAX_SHIFT_PAGE_SHARE);
             let chain = &sides[side].chains[*index];
             near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
-            near.truncate(CLOSELY);
+            near.truncate(MAX_CANDIDATES);
             let index = *index;
             near.into_iter().map(move |there| if side == 0 { (index, there) } else { (there, index) })
         };
@@ -82,7 +82,7 @@ pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
     }
     near.par_sort_unstable();
     near.dedup();
-    let mut found: Vec<Pair> =
+    let mut found: Vec<ChainPair> =
         near.into_par_iter().filter_map(|(old, new)| judge(sides, old, new, groups, page)).collect();
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
     let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
@@ -94,25 +94,25 @@ pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
         both
     });
     found.extend(congruent(sides, groups, &bare, &mut free));
-    let copies = |pair: &Pair| {
+    let copies = |pair: &ChainPair| {
         let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
         let (old, new, pair) = (pair.old, pair.new, *pair);
         (1..)
             .take_while(move |rank| is_copy(0, old, old + rank) && is_copy(1, new, new + rank))
-            .map(move |rank| Pair { old: old + rank, new: new + rank, ..pair })
+            .map(move |rank| ChainPair { old: old + rank, new: new + rank, ..pair })
     };
-    let more: Vec<Pair> = found.iter().flat_map(copies).collect();
+    let more: Vec<ChainPair> = found.iter().flat_map(copies).collect();
     found.extend(more);
     found
 }
 
 /// Pairs remaining closed chains with the only congruent one in the other drawing, at any distance.
 fn congruent(
-    sides: &[Side; 2],
-    groups: &Groups,
+    sides: &[CoveredChains; 2],
+    groups: &MarkGroups,
     bare: &[Vec<usize>; 2],
     free: &mut [Vec<bool>; 2],
-) -> Vec<Pair> {
+) -> Vec<ChainPair> {
     let left = [0, 1].map(|side: usize| -> Vec<(f64, usize)> {
         let chains = &sides[side].chains;
         let whole = |index: &&usize| {
@@ -143,7 +143,7 @@ fn congruent(
             if alignment.after_shift <= 2.0 * tolerance(*old) + 1e-3 * length {
                 of[0].entry(*old).or_default().push(*new);
                 of[1].entry(*new).or_default().push(*old);
-                pairs.push(Pair { old: *old, new: *new, alignment, cost: alignment.largest });
+                pairs.push(ChainPair { old: *old, new: *new, alignment, cost: alignment.largest });
             }
         }
     }
@@ -157,8 +157,8 @@ fn congruent(
 
 /// Order of pairs with equal cost, independent of the order of the drawings: by the lesser start, then by the
 /// greater one.
-fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
-    let key = |pair: &Pair| {
+fn tie(sides: &[CoveredChains; 2], a: &ChainPair, b: &ChainPair) -> Ordering {
+    let key = |pair: &ChainPair| {
         let start = |side: usize, index: usize| {
             let p = sides[side].chains[index].points.first().copied().unwrap_or(Point::ZERO);
             (p.x.to_bits(), p.y.to_bits())
@@ -170,12 +170,18 @@ fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
 }
 
 /// Uncovered chains of the other drawing that are near a chain.
-fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, reach: f64) -> Vec<usize> {
+fn candidates(
+    side: &CoveredChains,
+    index: usize,
+    bare: &[usize],
+    grid: &SegmentGrid,
+    reach: f64,
+) -> Vec<usize> {
     let chain = &side.chains[index];
     let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
     let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
     let known: RefCell<FxHashMap<u32, usize>> = RefCell::default();
-    for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
+    for place in evenly_spaced_points(chain, (chain.points.len() + 1).min(SAMPLES_PER_CHAIN)) {
         // Nearby chains with their distances.
         let near: RefCell<Vec<(f64, u32)>> = RefCell::default();
         known.borrow_mut().clear();
@@ -192,14 +198,15 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
                 None => near.push((distance, segment.chain)),
             }
         };
-        let enough =
-            |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
-        grid.rings(place, (reach, MOST_SEEN), see, enough);
+        let enough = |seen: f64| {
+            near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= NEIGHBOURS_PER_SAMPLE
+        };
+        grid.visit_rings(place, (reach, MAX_SEGMENTS_PER_SAMPLE), see, enough);
         let mut near = near.into_inner();
         let nearest = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        if near.len() > 2 * WANTED {
-            near.select_nth_unstable_by(2 * WANTED, nearest);
-            near.truncate(2 * WANTED);
+        if near.len() > 2 * NEIGHBOURS_PER_SAMPLE {
+            near.select_nth_unstable_by(2 * NEIGHBOURS_PER_SAMPLE, nearest);
+            near.truncate(2 * NEIGHBOURS_PER_SAMPLE);
         }
         found.extend(near.iter().map(|(_, chain)| bare[*chain as usize]));
     }
@@ -221,11 +228,17 @@ fn ends_apart(a: &Chain, b: &Chain) -> f64 {
 }
 
 /// The pair with its cost; `None` if the two cannot be the same mark.
-fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) -> Option<Pair> {
+fn judge(
+    sides: &[CoveredChains; 2],
+    old: usize,
+    new: usize,
+    groups: &MarkGroups,
+    page: f64,
+) -> Option<ChainPair> {
     let (a, b) = (&sides[0].chains[old], &sides[1].chains[new]);
     let likeness = groups.likeness(a.group, b.group)?;
     let (cover_a, cover_b) = (&sides[0].covers[old], &sides[1].covers[new]);
-    let of = |cover: &Cover, partner: usize| {
+    let of = |cover: &ChainCover, partner: usize| {
         cover.partners.iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
     };
     let both = cover_a.length + cover_b.length;
@@ -235,11 +248,12 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
         let bounds = bounds(&chain.points);
         bounds.size().to_vec2().hypot()
     };
-    let limit =
-        (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);
+    let limit = (MAX_SHIFT_MARK_SHARE * size(a).max(size(b)))
+        .max(MIN_SHIFT_PAGE_SHARE * page)
+        .min(MAX_SHIFT_PAGE_SHARE * page);
     // A mark of another part in another place is another mark: a removed bolt did not become the washer below
     // it.
-    if common < COMMON && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
+    if common < MIN_COMMON_SHARE && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
         return None;
     }
     let strangeness = match likeness {
@@ -249,7 +263,7 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
         Likeness::Both => 4.0,
     };
     let cost = alignment.largest * strangeness * (1.0 - 0.9 * common);
-    Some(Pair { old, new, alignment, cost })
+    Some(ChainPair { old, new, alignment, cost })
 }
 
 /// Bounding box of points.

@@ -6,11 +6,11 @@ use std::hash::{Hash, Hasher};
 use kurbo::{BezPath, PathEl, Point};
 use rustc_hash::{FxHashMap, FxHasher};
 
-use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, Shape};
 
 /// Equal and unequal shapes of two pictures.
-pub(crate) struct Parted {
+pub(crate) struct ShapeMatching {
     /// Index pairs of equal shapes.
     pub equal: Vec<(usize, usize)>,
     /// Indexes of the shapes of each picture that have no equal.
@@ -19,7 +19,7 @@ pub(crate) struct Parted {
 
 /// Matches equal shapes one to one. If a line is drawn twice in one picture and once in the other, one copy
 /// remains unmatched.
-pub(crate) fn part(before: &Picture, after: &Picture, groups: &Groups) -> Parted {
+pub(crate) fn part(before: &Picture, after: &Picture, groups: &MarkGroups) -> ShapeMatching {
     let hash = |shape: &Shape, group: usize| {
         let mut hasher = FxHasher::default();
         group.hash(&mut hasher);
@@ -50,7 +50,7 @@ pub(crate) fn part(before: &Picture, after: &Picture, groups: &Groups) -> Parted
             None => new.push(index),
         }
     }
-    Parted { equal: equal_pairs, rest: [(0..gone.len()).filter(|index| gone[*index]).collect(), new] }
+    ShapeMatching { equal: equal_pairs, rest: [(0..gone.len()).filter(|index| gone[*index]).collect(), new] }
 }
 
 fn hash_path(path: &BezPath, hasher: &mut FxHasher) {

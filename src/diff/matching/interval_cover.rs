@@ -7,23 +7,23 @@ use crate::parallel::prelude::*;
 use kurbo::Point;
 
 use crate::diff::curves::chain::Chain;
-use crate::diff::curves::segment_clusters::Met;
-use crate::diff::curves::segment_grid::SegmentCells;
-use crate::diff::shapes::mark_groups::{Groups, Likeness};
+use crate::diff::curves::segment_clusters::ClusterVisit;
+use crate::diff::curves::segment_grid::SegmentGrid;
+use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
 /// Runs shorter than this many tolerances between two runs of equal likeness come from lines that merely
 /// cross the chain.
-const CROSSING: f64 = 6.0;
+const MAX_CROSSING_TOLERANCES: f64 = 6.0;
 /// Number of segments searched for an identical mark in a dense place. After that, any mark counts.
-const MOST_ASKED: usize = 4096;
+const MAX_SEGMENT_QUERIES: usize = 4096;
 /// Most runs stored for all copies of a line.
-const MOST_PIECES: usize = 4_000_000;
+const MAX_COPIED_PIECES: usize = 4_000_000;
 /// Gaps between intervals shorter than this are rounding errors.
-const ROUNDING_PX: f64 = 1e-7;
+const MIN_GAP_PX: f64 = 1e-7;
 
 /// A run of a chain, by arc length in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stretch {
+pub(crate) struct CoverRun {
     pub from: f64,
     pub to: f64,
     /// Best likeness of the marks there in the other drawing; `None` where there is none.
@@ -32,7 +32,7 @@ pub(crate) struct Stretch {
     pub partner: u32,
 }
 
-impl Stretch {
+impl CoverRun {
     pub(crate) fn length(&self) -> f64 {
         self.to - self.from
     }
@@ -40,9 +40,9 @@ impl Stretch {
 
 /// Cover of one chain by the chains of the other drawing.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Cover {
+pub(crate) struct ChainCover {
     /// Runs from start to end, without gaps.
-    pub runs: Vec<Stretch>,
+    pub runs: Vec<CoverRun>,
     /// The covering chains, the one with the greatest covered length first. Each has its best likeness and
     /// the length it covers.
     pub partners: Vec<(u32, Likeness, f64)>,
@@ -52,10 +52,10 @@ pub(crate) struct Cover {
     dot: bool,
 }
 
-impl Cover {
+impl ChainCover {
     /// Uncovered length in px.
-    pub(crate) fn bare(&self) -> f64 {
-        self.runs.iter().filter(|run| run.likeness.is_none()).map(Stretch::length).sum()
+    pub(crate) fn uncovered_length(&self) -> f64 {
+        self.runs.iter().filter(|run| run.likeness.is_none()).map(CoverRun::length).sum()
     }
 
     /// Whether the chain is completely covered.
@@ -70,17 +70,21 @@ impl Cover {
 
     /// Covered share of the length.
     pub(crate) fn share(&self) -> f64 {
-        if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
+        if self.dot {
+            f64::from(u8::from(self.is_whole()))
+        } else {
+            1.0 - self.uncovered_length() / self.length
+        }
     }
 
     /// The cover reduced to one run: covered if every part is covered, with the worst likeness of its runs;
     /// otherwise uncovered.
     fn without_crossings(self) -> Self {
-        let best = |runs: &[Stretch]| runs.iter().map(|run| run.likeness).max().flatten();
+        let best = |runs: &[CoverRun]| runs.iter().map(|run| run.likeness).max().flatten();
         let likeness = if self.is_whole() { best(&self.runs) } else { None };
         let partner = self.runs.first().map_or(0, |run| run.partner);
         let mut cover = Self {
-            runs: vec![Stretch { from: 0.0, to: self.length, likeness, partner }],
+            runs: vec![CoverRun { from: 0.0, to: self.length, likeness, partner }],
             partners: Vec::new(),
             ..self
         };
@@ -110,29 +114,29 @@ impl Cover {
 pub(crate) fn cover(
     here: (&[Chain], &[usize]),
     there: (&[Chain], &[usize]),
-    grid: &SegmentCells,
-    groups: &Groups,
-) -> Vec<Cover> {
+    grid: &SegmentGrid,
+    groups: &MarkGroups,
+) -> Vec<ChainCover> {
     let first = |index: usize| here.1.get(index).copied().unwrap_or(index);
-    let of_firsts: Vec<Option<Cover>> = here
+    let of_firsts: Vec<Option<ChainCover>> = here
         .0
         .par_iter()
         .enumerate()
-        .map_init(Scratch::default, |scratch, (index, chain)| {
-            (first(index) == index).then(|| one(chain, there.0, grid, groups, scratch))
+        .map_init(CoverScratch::default, |scratch, (index, chain)| {
+            (first(index) == index).then(|| cover_chain(chain, there.0, grid, groups, scratch))
         })
         .collect();
     // A line crossed by thousands of others has many runs; storing them for thousands of copies would take
     // too much memory.
     let mut copies = vec![0usize; here.0.len()];
     (0..copies.len()).for_each(|index| copies[first(index)] += 1);
-    let plainer = |(index, cover): (usize, Option<Cover>)| {
-        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MOST_PIECES {
+    let plainer = |(index, cover): (usize, Option<ChainCover>)| {
+        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MAX_COPIED_PIECES {
             true => cover.without_crossings(),
             false => cover,
         })
     };
-    let of_firsts: Vec<Option<Cover>> = of_firsts.into_iter().enumerate().map(plainer).collect();
+    let of_firsts: Vec<Option<ChainCover>> = of_firsts.into_iter().enumerate().map(plainer).collect();
     let copy = |index: usize| {
         let mut cover = of_firsts.get(first(index)).cloned().flatten().unwrap_or_default();
         let rank = index - first(index);
@@ -149,15 +153,15 @@ pub(crate) fn cover(
 
 /// Buffers reused from chain to chain.
 #[derive(Default)]
-struct Scratch {
+struct CoverScratch {
     near: Vec<u32>,
     /// Likeness to each group seen so far.
     likeness: Vec<(usize, Option<Likeness>)>,
-    intervals: Vec<Interval>,
+    intervals: Vec<CoverInterval>,
 }
 
 /// A segment of the chain being covered; it starts at arc length `at`.
-struct Here {
+struct ChainSegment {
     from: Point,
     to: Point,
     at: f64,
@@ -165,16 +169,16 @@ struct Here {
     tolerance: f64,
 }
 
-impl Scratch {
+impl CoverScratch {
     /// Stores the interval that another segment covers, and returns its likeness and its share of this
     /// segment.
-    fn see(
+    fn add_segment(
         &mut self,
-        here: &Here,
+        here: &ChainSegment,
         chain: &Chain,
         others: &[Chain],
-        grid: &SegmentCells,
-        groups: &Groups,
+        grid: &SegmentGrid,
+        groups: &MarkGroups,
         item: u32,
     ) -> Option<(Likeness, (f64, f64))> {
         let segment = grid.segments.get(item as usize)?;
@@ -186,7 +190,7 @@ impl Scratch {
         }
         let likeness = likeness?;
         let (start, end) = within(here.from, here.to, segment.from, segment.to, here.tolerance)?;
-        self.intervals.push(Interval {
+        self.intervals.push(CoverInterval {
             from: here.at + start * here.length,
             to: here.at + end * here.length,
             likeness,
@@ -198,18 +202,18 @@ impl Scratch {
 
 /// Covered shares of a segment in a place too dense to test all other segments.
 #[derive(Default)]
-struct Crowd {
+struct DenseCover {
     seen: usize,
     /// Disjoint shares in increasing order.
     shares: Vec<(f64, f64)>,
 }
 
-impl Crowd {
-    /// Adds a covered share: of identical marks only, and after `MOST_ASKED` tests of any mark.
+impl DenseCover {
+    /// Adds a covered share: of identical marks only, and after `MAX_SEGMENT_QUERIES` tests of any mark.
     fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
         self.seen += 1;
         let Some((likeness, (mut from, mut to))) = found else { return };
-        if likeness != Likeness::Same && self.seen < MOST_ASKED {
+        if likeness != Likeness::Same && self.seen < MAX_SEGMENT_QUERIES {
             return;
         }
         let first = self.shares.partition_point(|share| share.1 < from);
@@ -229,7 +233,7 @@ impl Crowd {
 
 /// An interval of a chain, covered by a chain of the other drawing; arc lengths in px.
 #[derive(Debug, Clone, Copy)]
-struct Interval {
+struct CoverInterval {
     from: f64,
     to: f64,
     likeness: Likeness,
@@ -237,40 +241,40 @@ struct Interval {
 }
 
 /// Covers one chain by the chains of the other drawing.
-fn one(
+fn cover_chain(
     chain: &Chain,
     others: &[Chain],
-    grid: &SegmentCells,
-    groups: &Groups,
-    scratch: &mut Scratch,
-) -> Cover {
+    grid: &SegmentGrid,
+    groups: &MarkGroups,
+    scratch: &mut CoverScratch,
+) -> ChainCover {
     let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-    let mut cover = Cover { length: chain.length(), ..Cover::default() };
+    let mut cover = ChainCover { length: chain.length(), ..ChainCover::default() };
     cover.dot = cover.length == 0.0;
     let mut at = 0.0;
     scratch.likeness.clear();
     for (from, to) in chain.segments() {
         let length = from.distance(to);
         scratch.intervals.clear();
-        let here = Here { from, to, at, length, tolerance };
+        let here = ChainSegment { from, to, at, length, tolerance };
         let crowd = !grid.near(from, to, tolerance, &mut scratch.near);
         let near = std::mem::take(&mut scratch.near);
         if crowd {
-            let mut all = Crowd::default();
+            let mut all = DenseCover::default();
             grid.bundles().search(|met| match met {
-                Met::Bundle { from, to, radius } => {
+                ClusterVisit::Bundle { from, to, radius } => {
                     within(here.from, here.to, from, to, (tolerance + radius) * (1.0 + 1e-9))
                         .is_some_and(|share| !all.covers(share))
                 }
-                Met::One(item) => {
-                    let found = scratch.see(&here, chain, others, grid, groups, item);
+                ClusterVisit::One(item) => {
+                    let found = scratch.add_segment(&here, chain, others, grid, groups, item);
                     all.add(found);
                     all.covers((0.0, 1.0))
                 }
             });
         }
         for item in near.iter().filter(|_| !crowd) {
-            let found = scratch.see(&here, chain, others, grid, groups, *item);
+            let found = scratch.add_segment(&here, chain, others, grid, groups, *item);
             // Among identical marks the first one counts.
             if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
                 break;
@@ -281,7 +285,7 @@ fn one(
         at += length;
     }
     merge(&mut cover.runs);
-    let most = CROSSING * tolerance;
+    let most = MAX_CROSSING_TOLERANCES * tolerance;
     // Absorb crossings in uncovered runs first, because the rest may separate other runs.
     absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
     absorb(&mut cover.runs, most, |run, around| {
@@ -292,11 +296,11 @@ fn one(
 }
 
 /// Partitions `start`–`end` into runs, each with the best interval that covers it.
-fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>) {
+fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], out: &mut Vec<CoverRun>) {
     if start == end {
         // A point is covered or not.
         let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
-        out.push(Stretch {
+        out.push(CoverRun {
             from: start,
             to: end,
             likeness: best.map(|best| best.likeness),
@@ -320,22 +324,22 @@ fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>
                 rest.push((from, to));
                 continue;
             }
-            out.push(Stretch {
+            out.push(CoverRun {
                 from: low,
                 to: high,
                 likeness: Some(interval.likeness),
                 partner: interval.partner,
             });
-            rest.extend([(from, low), (high, to)].into_iter().filter(|(a, b)| b - a > ROUNDING_PX));
+            rest.extend([(from, low), (high, to)].into_iter().filter(|(a, b)| b - a > MIN_GAP_PX));
         }
         free = rest;
     }
-    out.extend(free.into_iter().map(|(from, to)| Stretch { from, to, likeness: None, partner: 0 }));
+    out.extend(free.into_iter().map(|(from, to)| CoverRun { from, to, likeness: None, partner: 0 }));
     out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
 }
 
 /// Merges neighbours of equal likeness and partner.
-fn merge(runs: &mut Vec<Stretch>) {
+fn merge(runs: &mut Vec<CoverRun>) {
     runs.dedup_by(|next, run| {
         let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
         if alike {
@@ -346,7 +350,7 @@ fn merge(runs: &mut Vec<Stretch>) {
 }
 
 /// Absorbs short runs between two runs of equal likeness.
-fn absorb(runs: &mut Vec<Stretch>, most: f64, gives: impl Fn(&Stretch, &Stretch) -> bool) {
+fn absorb(runs: &mut Vec<CoverRun>, most: f64, gives: impl Fn(&CoverRun, &CoverRun) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {
         let (before, run, after) = (runs[index - 1], runs[index], runs[index + 1]);

@@ -4,7 +4,7 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Rect, Transform};
 
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::picture::Picture;
-use crate::export::raster::tree_painter::{Look, Painter};
+use crate::export::raster::tree_painter::{PaintOverride, TreePainter};
 
 /// A drawing and the aspects to ignore.
 pub(crate) struct Canvas<'a> {
@@ -14,7 +14,7 @@ pub(crate) struct Canvas<'a> {
 
 /// A square window of a drawing.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Spot {
+pub(crate) struct CanvasWindow {
     /// Upper left corner in px.
     pub x: f64,
     pub y: f64,
@@ -34,7 +34,7 @@ impl<'a> Canvas<'a> {
         let mut pixmap = Pixmap::new(u32::try_from(columns).ok()?, u32::try_from(rows).ok()?)?;
         let to = Transform::from_scale(scale as f32, scale as f32);
         self.paint(
-            Painter { precise: true, ..Painter::default() },
+            TreePainter { precise: true, ..TreePainter::default() },
             self.picture.drawn.smooth(),
             to,
             &mut pixmap,
@@ -43,7 +43,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Rasterises a window without anti-aliasing: each pixel is covered completely or not at all.
-    pub fn spot(&self, spot: Spot) -> Option<Vec<PremultipliedColorU8>> {
+    pub fn spot(&self, spot: CanvasWindow) -> Option<Vec<PremultipliedColorU8>> {
         let size = u32::try_from(spot.size).ok()?;
         let mut pixmap = Pixmap::new(size, size)?;
         let side = spot.size as f64 / spot.scale;
@@ -55,7 +55,7 @@ impl<'a> Canvas<'a> {
             (spot.x + side + slack) as f32,
             (spot.y + side + slack) as f32,
         )?;
-        let painter = Painter { window: Some(window), crisp: true, ..Painter::default() };
+        let painter = TreePainter { window: Some(window), crisp: true, ..TreePainter::default() };
         let scale = spot.scale as f32;
         let to = Transform::from_row(
             scale,
@@ -70,19 +70,19 @@ impl<'a> Canvas<'a> {
     }
 
     /// Paints the drawing without the ignored aspects.
-    fn paint(&self, painter: Painter, tree: &usvg::Tree, to: Transform, pixmap: &mut Pixmap) {
+    fn paint(&self, painter: TreePainter, tree: &usvg::Tree, to: Transform, pixmap: &mut Pixmap) {
         let Ignore { colours, widths, text, .. } = self.ignore;
         if !(colours || widths || text) {
             painter.nodes(tree.root(), to, &mut pixmap.as_mut());
             return;
         }
         let look = |path: &usvg::Path| match self.picture.drawn.stand_in(path.id()) {
-            Some(is_text) if is_text && text => Look::Absent,
-            Some(_) => Look::Own,
-            None if colours || widths => Look::Plain { black: colours, thin: widths },
-            None => Look::Own,
+            Some(is_text) if is_text && text => PaintOverride::Absent,
+            Some(_) => PaintOverride::Own,
+            None if colours || widths => PaintOverride::Plain { black: colours, thin: widths },
+            None => PaintOverride::Own,
         };
-        let painter = Painter { look: Some(&look), plain: colours, ..painter };
+        let painter = TreePainter { look: Some(&look), plain: colours, ..painter };
         painter.nodes(tree.root(), to, &mut pixmap.as_mut());
     }
 }

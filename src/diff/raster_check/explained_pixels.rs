@@ -5,21 +5,21 @@ use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 use rustc_hash::FxHashMap;
 
 use super::invisible_findings::is_seen;
-use super::pixel_comparison::{ALIKE, Coarse};
+use super::pixel_comparison::{CoarseComparison, MAX_CHANNEL_DIFFERENCE};
 use crate::colour::srgb::Colour;
-use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
 /// Side of a tile in pixels.
-const TILE: usize = 16;
+const TILE_SIDE_PIXELS: usize = 16;
 /// Most pixels inspected per tile, those with the largest difference first.
-const MAX_PIXELS: usize = 4;
+const MAX_CANDIDATES_PER_TILE: usize = 4;
 /// Margin around a changed mark in px within which differences are explained by it. Borders are anti-aliased
 /// and snap to pixels.
-const NEAR_PX: f64 = 2.0;
+const EXPLAINED_MARGIN_PX: f64 = 2.0;
 /// Long segments are split into pieces of this length in px.
-const PIECE_PX: f64 = 12.0;
+const MAX_PIECE_PX: f64 = 12.0;
 /// Most such pieces of all findings; after that, whole boxes are marked.
 const MAX_PIECES: usize = 400_000;
 /// Most recoloured marks tested; the first visible one ends the search.
@@ -40,7 +40,7 @@ pub(crate) struct Tile {
 }
 
 /// Mask of explained pixels.
-pub(crate) struct Places {
+pub(crate) struct ExplainedPixels {
     columns: usize,
     rows: usize,
     scale: f64,
@@ -48,7 +48,7 @@ pub(crate) struct Places {
     claims: bool,
 }
 
-impl Places {
+impl ExplainedPixels {
     /// Marks the pixels near all visible findings.
     pub fn new(
         findings: &[Finding],
@@ -67,13 +67,13 @@ impl Places {
         for finding in findings.iter().filter(|finding| is_seen(finding)) {
             places.claims = true;
             // A mitred corner may reach as far as two line widths.
-            let near = NEAR_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
+            let near = EXPLAINED_MARGIN_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
             let lines = finding.kind == ShapeKind::Line
                 && [&finding.gone, &finding.new].iter().any(|path| !path.elements().is_empty());
             if lines && pieces < MAX_PIECES {
                 pieces += places.along(&finding.gone, near) + places.along(&finding.new, near);
             } else {
-                let Place { x, y, width, height } = finding.place;
+                let FindingBox { x, y, width, height } = finding.place;
                 places.mark(Rect::new(x, y, x + width, y + height).inflate(near, near));
             }
         }
@@ -89,7 +89,7 @@ impl Places {
     fn along(&mut self, path: &BezPath, near: f64) -> usize {
         let mut pieces = 0;
         for segment in path.segments() {
-            let count = (segment.arclen(0.5) / PIECE_PX).ceil().clamp(1.0, 10_000.0) as usize;
+            let count = (segment.arclen(0.5) / MAX_PIECE_PX).ceil().clamp(1.0, 10_000.0) as usize;
             for piece in 0..count {
                 let at = |index: usize| index as f64 / count as f64;
                 let part = segment.subsegment(at(piece)..at(piece + 1));
@@ -113,19 +113,19 @@ impl Places {
     }
 
     /// Tiles with unexplained differing pixels, or with `any` all differing pixels, largest difference first.
-    pub fn candidates(&self, coarse: &Coarse, any: bool) -> Vec<Tile> {
-        let across = self.columns.div_ceil(TILE);
+    pub fn candidates(&self, coarse: &CoarseComparison, any: bool) -> Vec<Tile> {
+        let across = self.columns.div_ceil(TILE_SIDE_PIXELS);
         let mut tiles: Vec<Vec<(u8, usize)>> = Vec::new();
-        tiles.resize_with(across * self.rows.div_ceil(TILE), Vec::new);
+        tiles.resize_with(across * self.rows.div_ceil(TILE_SIDE_PIXELS), Vec::new);
         for index in 0..self.explained.len() {
             let value = match any {
-                true if coarse.difference[index] > ALIKE => coarse.difference[index],
+                true if coarse.difference[index] > MAX_CHANNEL_DIFFERENCE => coarse.difference[index],
                 false if !self.explained[index] => coarse.excess[index],
                 _ => 0,
             };
             if value > 0 {
                 let (column, row) = (index % self.columns, index / self.columns);
-                tiles[row / TILE * across + column / TILE].push((value, index));
+                tiles[row / TILE_SIDE_PIXELS * across + column / TILE_SIDE_PIXELS].push((value, index));
             }
         }
         let mut found: Vec<Tile> = Vec::new();
@@ -140,7 +140,7 @@ impl Places {
             found.push(Tile {
                 column: number % across,
                 row: number / across,
-                pixels: pixels.iter().take(MAX_PIXELS).map(at).collect(),
+                pixels: pixels.iter().take(MAX_CANDIDATES_PER_TILE).map(at).collect(),
                 most,
                 count: pixels.len(),
                 bounds,
@@ -198,14 +198,19 @@ impl Places {
                 ShapeKind::Region,
                 Label::default(),
                 vec![change],
-                Place::of(place),
+                FindingBox::of(place),
             )
         }
     }
 }
 
 /// Whether a change from one flat colour to another is visible: some pixel of the mark's box differs at all.
-pub(crate) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usize, scale: f64) -> bool {
+pub(crate) fn is_recoloured(
+    findings: &[Finding],
+    coarse: &CoarseComparison,
+    columns: usize,
+    scale: f64,
+) -> bool {
     let is_flat = |colour: &str| colour.starts_with('#') && !colour.contains(' ');
     let recoloured = findings.iter().filter(|finding| {
         let flat = |change: &Change| change.what == "colour" && is_flat(&change.old) && is_flat(&change.new);
@@ -214,7 +219,7 @@ pub(crate) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usiz
     let rows = coarse.difference.len() / columns.max(1);
     let pixel = |value: f64, count: usize| (value * scale).clamp(0.0, count as f64) as usize;
     recoloured.take(MAX_RECOLOURED).any(|finding| {
-        let Place { x, y, width, height } = finding.place;
+        let FindingBox { x, y, width, height } = finding.place;
         let [left, right] = [x, x + width + 1.0 / scale].map(|value| pixel(value, columns));
         (pixel(y, rows)..pixel(y + height + 1.0 / scale, rows)).any(|row| {
             let line = coarse.difference.get(row * columns + left..row * columns + right);

@@ -3,14 +3,14 @@
 use kurbo::Shape as _;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diff::findings::finding::{Change, Finding, Place, PlaceKey, Verdict};
+use crate::diff::findings::finding::{Change, Finding, FindingBox, FindingBoxKey, Verdict};
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::ink::Paint;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Changed properties that are invisible.
-const UNSEEN: [&str; 6] = ["part", "class", "layer", "tone", "hidden by", "edges"];
+const INVISIBLE_CHANGES: [&str; 6] = ["part", "class", "layer", "tone", "hidden by", "edges"];
 
 /// Whether a finding changes the look of the drawing.
 pub(crate) fn is_seen(finding: &Finding) -> bool {
@@ -24,7 +24,7 @@ pub(crate) fn is_seen(finding: &Finding) -> bool {
 }
 
 fn is_unseen(change: &Change) -> bool {
-    UNSEEN.contains(&change.what.as_str())
+    INVISIBLE_CHANGES.contains(&change.what.as_str())
 }
 
 /// Removes the visible findings of two drawings that look the same. These invisible ones stay, because users
@@ -39,7 +39,7 @@ pub(crate) fn without_picture(
     pictures: [&Picture; 2],
     ignore: Ignore,
 ) -> Vec<Finding> {
-    let mut kept = Kept::default();
+    let mut kept = MarkInventory::default();
     let mut left = Vec::new();
     for mut finding in findings {
         match finding.verdict {
@@ -51,7 +51,7 @@ pub(crate) fn without_picture(
             Verdict::Removed | Verdict::Added => {
                 let side = usize::from(finding.verdict == Verdict::Added);
                 if kept.is_copy(&finding, pictures, side)
-                    || !ignore.labels && kept.is_of_lost_part(&finding, pictures, side)
+                    || !ignore.labels && kept.belongs_to_missing_part(&finding, pictures, side)
                 {
                     left.push(finding);
                 }
@@ -71,25 +71,30 @@ pub(crate) fn without_picture(
 }
 
 /// Paints of all marks of one box, label and kind.
-type Inks<'a> = FxHashMap<(PlaceKey, &'a Label, ShapeKind), Vec<Counted<'a>>>;
+type Inks<'a> = FxHashMap<(FindingBoxKey, &'a Label, ShapeKind), Vec<PaintCount<'a>>>;
 
 /// Lookup tables of both pictures, built on first use.
 #[derive(Default)]
-struct Kept<'a> {
+struct MarkInventory<'a> {
     parts: Option<[FxHashSet<&'a str>; 2]>,
     inks: Option<Inks<'a>>,
 }
 
 /// Number of marks of each picture with one paint.
-struct Counted<'a> {
+struct PaintCount<'a> {
     paint: &'a Paint,
     width: f64,
     count: [usize; 2],
 }
 
-impl<'a> Kept<'a> {
+impl<'a> MarkInventory<'a> {
     /// Whether a mark belongs to a part that the other picture lacks.
-    fn is_of_lost_part(&mut self, finding: &Finding, pictures: [&'a Picture; 2], side: usize) -> bool {
+    fn belongs_to_missing_part(
+        &mut self,
+        finding: &Finding,
+        pictures: [&'a Picture; 2],
+        side: usize,
+    ) -> bool {
         let parts = self.parts.get_or_insert_with(|| {
             pictures.map(|picture| {
                 picture.shapes.iter().filter_map(|shape| shape.label.part.as_deref()).collect()
@@ -109,8 +114,8 @@ impl<'a> Kept<'a> {
             for (side, picture) in pictures.into_iter().enumerate() {
                 for shape in picture.shapes.iter() {
                     let Shape { path, label, kind, ink, .. } = shape;
-                    let place = Place::of(path.bounding_box()).key();
-                    let list: &mut Vec<Counted> = inks.entry((place, &**label, *kind)).or_default();
+                    let place = FindingBox::of(path.bounding_box()).key();
+                    let list: &mut Vec<PaintCount> = inks.entry((place, &**label, *kind)).or_default();
                     match list
                         .iter_mut()
                         .find(|c| *c.paint == ink.paint && c.width.to_bits() == ink.width.to_bits())
@@ -119,7 +124,7 @@ impl<'a> Kept<'a> {
                         None => {
                             let mut count = [0; 2];
                             count[side] = 1;
-                            list.push(Counted { paint: &ink.paint, width: ink.width, count });
+                            list.push(PaintCount { paint: &ink.paint, width: ink.width, count });
                         }
                     }
                 }

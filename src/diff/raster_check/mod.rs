@@ -21,25 +21,25 @@ mod pixel_comparison;
 mod raster_cost;
 mod window_extremes;
 
-use self::canvas::{Canvas, Spot};
-use self::explained_pixels::Places;
+use self::canvas::{Canvas, CanvasWindow};
+use self::explained_pixels::ExplainedPixels;
 pub(crate) use self::invisible_findings::without_picture;
-use self::pixel_comparison::Fine;
+use self::pixel_comparison::FineComparison;
 use crate::diff::findings::finding::Finding;
 pub(crate) use crate::diff::read::unsupported_features::unread;
 use crate::diff::shapes::ignore_options::Ignore;
-use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::Picture;
-pub(crate) use crate::diff::shapes::render_tree::Drawn;
-use crate::geometry::numbers::tolerance::{COARSEST_VETO_PX, FINEST_SEEN_PX};
+pub(crate) use crate::diff::shapes::render_tree::RenderTree;
+use crate::geometry::numbers::tolerance::{MAX_PICTURE_MATCH_PX, MIN_PICTURE_DIFFERENCE_PX};
 
 /// Most pixels rasterised in close inspection, for each of its two uses.
 const MAX_CLOSE_PIXELS: usize = 64_000_000;
 /// After this many differing tiles, the other candidates are accepted without inspection.
-const MAX_PROOFS: usize = 48;
+const MAX_PROVEN_TILES: usize = 48;
 
 /// Result of comparing the pixels.
-pub(crate) enum Decision {
+pub(crate) enum RasterVerdict {
     /// The pictures look the same.
     Same,
     /// The pictures differ, with findings for differences that geometry did not explain.
@@ -52,83 +52,83 @@ pub(crate) enum Decision {
 pub(crate) fn decide(
     pictures: [&Picture; 2],
     findings: &[Finding],
-    groups: &Groups,
+    groups: &MarkGroups,
     ignore: Ignore,
-) -> Decision {
+) -> RasterVerdict {
     let [width, height] =
         [pictures[0].width.min(pictures[1].width), pictures[0].height.min(pictures[1].height)];
     let outlined = pictures.iter().any(|picture| picture.shapes.iter().any(|shape| shape.ink.outlined));
     if ignore.widths && outlined {
         // The outline of a line of varying width cannot be drawn without its width.
-        return Decision::Unknown;
+        return RasterVerdict::Unknown;
     }
-    let Some(scale) = raster_cost::scale(pictures, [width, height]) else { return Decision::Unknown };
+    let Some(scale) = raster_cost::scale(pictures, [width, height]) else { return RasterVerdict::Unknown };
     let canvases = pictures.map(|picture| Canvas::new(picture, ignore));
     let (columns, rows) = ((width * scale).ceil() as usize, (height * scale).ceil() as usize);
     let (a, b) = crate::parallel::join(
         || canvases[0].coarse(columns, rows, scale),
         || canvases[1].coarse(columns, rows, scale),
     );
-    let (Some(a), Some(b)) = (a, b) else { return Decision::Unknown };
+    let (Some(a), Some(b)) = (a, b) else { return RasterVerdict::Unknown };
     // Marks with their own tolerances may have moved by the largest of these.
     let tolerances = || groups.groups.iter().map(|group| group.tolerance);
-    let widest = tolerances().fold(FINEST_SEEN_PX, f64::max);
-    let finest = tolerances().fold(COARSEST_VETO_PX, f64::min);
+    let widest = tolerances().fold(MIN_PICTURE_DIFFERENCE_PX, f64::max);
+    let finest = tolerances().fold(MAX_PICTURE_MATCH_PX, f64::min);
     let coarse = pixel_comparison::coarse([&a, &b], columns, widest * scale);
     // A flat colour that changed at all is another colour.
     let faint = explained_pixels::is_recoloured(findings, &coarse, columns, scale);
     if !coarse.has_any() {
-        return if faint { Decision::Differs(Vec::new()) } else { Decision::Same };
+        return if faint { RasterVerdict::Differs(Vec::new()) } else { RasterVerdict::Same };
     }
-    let places = Places::new(findings, pictures, columns, rows, scale);
+    let places = ExplainedPixels::new(findings, pictures, columns, rows, scale);
     let mut unexplained = Vec::new();
-    let mut close = Close { canvases: &canvases, scale, pixels: 0 };
+    let mut close = CloseInspection { canvases: &canvases, scale, pixels: 0 };
     for tile in places.candidates(&coarse, false) {
-        let believed = unexplained.len() >= MAX_PROOFS;
+        let believed = unexplained.len() >= MAX_PROVEN_TILES;
         if believed || tile.pixels.iter().any(|at| close.differs(*at, widest, true).unwrap_or(true)) {
             unexplained.push(tile);
         }
     }
     if !unexplained.is_empty() {
-        return Decision::Differs(places.findings(&unexplained, [&a, &b]));
+        return RasterVerdict::Differs(places.findings(&unexplained, [&a, &b]));
     }
     if faint {
-        return Decision::Differs(Vec::new());
+        return RasterVerdict::Differs(Vec::new());
     }
     if !places.has_claims() {
-        return Decision::Same;
+        return RasterVerdict::Same;
     }
     close.pixels = 0;
     let claimed = places.candidates(&coarse, true);
-    let differs = |tile: &explained_pixels::Tile, close: &mut Close| {
+    let differs = |tile: &explained_pixels::Tile, close: &mut CloseInspection| {
         tile.pixels.iter().any(|at| close.differs(*at, finest, false).unwrap_or(true))
     };
     match claimed.iter().any(|tile| differs(tile, &mut close)) {
-        true => Decision::Differs(Vec::new()),
-        false => Decision::Same,
+        true => RasterVerdict::Differs(Vec::new()),
+        false => RasterVerdict::Same,
     }
 }
 
 /// Close inspection of pixels of the coarse pictures.
-struct Close<'a> {
+struct CloseInspection<'a> {
     canvases: &'a [Canvas<'a>; 2],
     scale: f64,
     /// Number of pixels rasterised so far.
     pixels: usize,
 }
 
-impl Close<'_> {
+impl CloseInspection<'_> {
     /// Whether a pixel differs; `None` if the pixel budget is used up. `spots`: whether only spots as wide as
     /// the tolerance count.
     fn differs(&mut self, [column, row]: [usize; 2], tolerance: f64, spots: bool) -> Option<bool> {
-        let fine = Fine::new(self.scale, tolerance);
+        let fine = FineComparison::new(self.scale, tolerance);
         let size = fine.core + 2 * fine.reach;
         self.pixels += size * size * 2;
         if self.pixels > MAX_CLOSE_PIXELS {
             return None;
         }
         let margin = fine.reach as f64 / fine.scale;
-        let spot = Spot {
+        let spot = CanvasWindow {
             x: column as f64 / self.scale - margin,
             y: row as f64 / self.scale - margin,
             size,

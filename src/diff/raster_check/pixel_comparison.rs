@@ -2,23 +2,23 @@
 
 use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 
-use super::window_extremes::squares;
+use super::window_extremes::square_extremes;
 
 /// Largest difference of a channel that counts as equal, because opacities and blends are rounded several
 /// times. No pair in `tests/library/diff_pictures.rs` that draws one picture in two ways differs by more.
-pub(crate) const ALIKE: u8 = 2;
+pub(crate) const MAX_CHANNEL_DIFFERENCE: u8 = 2;
 /// Pixels per tolerance in close inspection.
-const PIXELS_OF_TOLERANCE: f64 = 4.0;
+const PIXELS_PER_TOLERANCE: f64 = 4.0;
 /// Least pixels per px in close inspection, so that thin lines are visible.
 const MIN_FINE_SCALE: f64 = 4.0;
 /// Most pixels per side in close inspection, without the margin.
-const MAX_CORE: f64 = 256.0;
+const MAX_CORE_PIXELS: f64 = 256.0;
 /// Up to this radius, extremes are searched pixel by pixel.
-const MAX_SMALL: usize = 2;
+const MAX_DIRECT_RADIUS_PIXELS: usize = 2;
 /// Up to this radius, equal pixels are searched in a disc; above it, extremes are compared.
-const MAX_DISC: usize = 6;
+const MAX_DISC_RADIUS_PIXELS: usize = 6;
 /// Change in coverage of a pixel when an edge moves by one pixel: both edges of a thin diagonal line.
-const EDGE: f64 = 2.0 * std::f64::consts::SQRT_2;
+const EDGE_COVERAGE_PER_PIXEL: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 fn channels(pixel: Pixel) -> [u8; 4] {
     [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
@@ -31,45 +31,45 @@ fn difference(a: Pixel, b: Pixel) -> u8 {
 }
 
 /// Comparison of two anti-aliased pictures, one entry per pixel.
-pub(crate) struct Coarse {
+pub(crate) struct CoarseComparison {
     /// Largest difference of a channel.
     pub difference: Vec<u8>,
     /// Difference not explained by an edge shifted within the tolerance.
     pub excess: Vec<u8>,
 }
 
-impl Coarse {
+impl CoarseComparison {
     /// Whether any pixel differs.
     pub fn has_any(&self) -> bool {
-        self.difference.iter().any(|difference| *difference > ALIKE)
+        self.difference.iter().any(|difference| *difference > MAX_CHANNEL_DIFFERENCE)
     }
 }
 
 /// Compares two pictures; `reach` is the tolerance in pixels.
-pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coarse {
+pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> CoarseComparison {
     let of = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
     let differences: Vec<u8> = a.iter().zip(b).map(of).collect();
     let mut excess = vec![0u8; differences.len()];
-    if differences.iter().all(|difference| *difference <= ALIKE) {
-        return Coarse { difference: differences, excess };
+    if differences.iter().all(|difference| *difference <= MAX_CHANNEL_DIFFERENCE) {
+        return CoarseComparison { difference: differences, excess };
     }
     // From one pixel on, any colour between those nearby counts as equal.
     let radius = (reach.ceil() as usize).max(1);
-    let share = if EDGE * reach < 1.0 { EDGE * reach } else { 1.0 };
+    let share = if EDGE_COVERAGE_PER_PIXEL * reach < 1.0 { EDGE_COVERAGE_PER_PIXEL * reach } else { 1.0 };
     let beyond = |value: u8, there: u8, least: u8, most: u8| {
-        if value.abs_diff(there) <= ALIKE {
+        if value.abs_diff(there) <= MAX_CHANNEL_DIFFERENCE {
             return 0;
         }
         let beyond = match share < 1.0 {
             true => f64::from(value.abs_diff(there)) - share * f64::from(most - least),
             false => f64::from(value.saturating_sub(most).max(least.saturating_sub(value))),
         };
-        (beyond - f64::from(ALIKE)).clamp(0.0, 255.0).ceil() as u8
+        (beyond - f64::from(MAX_CHANNEL_DIFFERENCE)).clamp(0.0, 255.0).ceil() as u8
     };
-    if radius <= MAX_SMALL {
+    if radius <= MAX_DIRECT_RADIUS_PIXELS {
         // Small radius: test only the pixels that differ.
         let rows = differences.len() / columns.max(1);
-        for index in (0..differences.len()).filter(|index| differences[*index] > ALIKE) {
+        for index in (0..differences.len()).filter(|index| differences[*index] > MAX_CHANNEL_DIFFERENCE) {
             let (column, row) = (index % columns, index / columns);
             let xs = column.saturating_sub(radius)..=(column + radius).min(columns - 1);
             let ys = row.saturating_sub(radius)..=(row + radius).min(rows - 1);
@@ -93,8 +93,8 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
             let [a, b] =
                 [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
             for (own, other) in [(&a, &b), (&b, &a)] {
-                let least = squares(other, columns, radius, u8::min);
-                let most = squares(other, columns, radius, u8::max);
+                let least = square_extremes(other, columns, radius, u8::min);
+                let most = square_extremes(other, columns, radius, u8::max);
                 for (index, excess) in excess.iter_mut().enumerate() {
                     *excess = (*excess).max(beyond(own[index], other[index], least[index], most[index]));
                 }
@@ -109,19 +109,19 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
         [index.checked_sub(columns), Some(index), Some(index + columns)]
             .into_iter()
             .flatten()
-            .any(|at| row(at).iter().any(|difference| *difference <= ALIKE))
+            .any(|at| row(at).iter().any(|difference| *difference <= MAX_CHANNEL_DIFFERENCE))
     };
     for index in 0..excess.len() {
         if excess[index] > 0 && differences[index] <= gap && is_alone(index) {
             excess[index] = 0;
         }
     }
-    Coarse { difference: differences, excess }
+    CoarseComparison { difference: differences, excess }
 }
 
 /// Close inspection of one pixel of the coarse comparison.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fine {
+pub(crate) struct FineComparison {
     /// Pixels per px.
     pub scale: f64,
     /// Side of the inspected area in pixels.
@@ -130,12 +130,12 @@ pub(crate) struct Fine {
     pub reach: usize,
 }
 
-impl Fine {
+impl FineComparison {
     /// Inspection of a pixel in a picture with `coarse` pixels per px.
     pub fn new(coarse: f64, tolerance: f64) -> Self {
-        let scale = (PIXELS_OF_TOLERANCE / tolerance.max(1e-9)).max(MIN_FINE_SCALE).max(coarse);
-        let scale = scale.min(MAX_CORE * coarse);
-        let reach = (tolerance * scale).ceil().clamp(1.0, 4.0 * MAX_CORE) as usize;
+        let scale = (PIXELS_PER_TOLERANCE / tolerance.max(1e-9)).max(MIN_FINE_SCALE).max(coarse);
+        let scale = scale.min(MAX_CORE_PIXELS * coarse);
+        let reach = (tolerance * scale).ceil().clamp(1.0, 4.0 * MAX_CORE_PIXELS) as usize;
         Self { scale, core: (scale / coarse).ceil() as usize, reach }
     }
 
@@ -149,7 +149,7 @@ impl Fine {
         if a == b {
             return false;
         }
-        let unlike = match self.reach <= MAX_DISC {
+        let unlike = match self.reach <= MAX_DISC_RADIUS_PIXELS {
             true => self.by_disc(pictures, size),
             false => self.by_extremes(pictures, size),
         };
@@ -183,12 +183,12 @@ impl Fine {
         let lacks = |own: Pixel, other: &[Pixel], x: usize, y: usize| {
             !disc.iter().any(|[dx, dy]| {
                 let (x, y) = (x.wrapping_add_signed(*dx), y.wrapping_add_signed(*dy));
-                other.get(y * size + x).is_some_and(|other| difference(own, *other) <= ALIKE)
+                other.get(y * size + x).is_some_and(|other| difference(own, *other) <= MAX_CHANNEL_DIFFERENCE)
             })
         };
         self.core_pixels(size, |x, y| {
             let (p, q) = (a[y * size + x], b[y * size + x]);
-            difference(p, q) > ALIKE && (lacks(p, b, x, y) || lacks(q, a, x, y))
+            difference(p, q) > MAX_CHANNEL_DIFFERENCE && (lacks(p, b, x, y) || lacks(q, a, x, y))
         })
     }
 
@@ -199,12 +199,12 @@ impl Fine {
             let [a, b] =
                 pictures.map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
             for (own, other) in [(&a, &b), (&b, &a)] {
-                let least = squares(other, size, self.reach, u8::min);
-                let most = squares(other, size, self.reach, u8::max);
+                let least = square_extremes(other, size, self.reach, u8::min);
+                let most = square_extremes(other, size, self.reach, u8::max);
                 for (index, lacks) in lacks.iter_mut().enumerate() {
                     let value = own[index];
-                    *lacks |= value > most[index].saturating_add(ALIKE)
-                        || value < least[index].saturating_sub(ALIKE);
+                    *lacks |= value > most[index].saturating_add(MAX_CHANNEL_DIFFERENCE)
+                        || value < least[index].saturating_sub(MAX_CHANNEL_DIFFERENCE);
                 }
             }
         }

@@ -7,71 +7,75 @@ use usvg::{Group, Node, Paint};
 use crate::diff::shapes::picture::Picture;
 
 /// Least pixels per px, unless another limit requires less.
-const SCALE: f64 = 1.0;
+const MIN_PIXELS_PER_PX: f64 = 1.0;
 /// Least pixels of the longer side of small drawings.
-const MIN_SIDE: f64 = 600.0;
+const MIN_SIDE_PIXELS: f64 = 600.0;
 /// Most pixels of a raster.
 const MAX_PIXELS: f64 = 1.5e6;
 /// Most pixels of the longer side.
-const MAX_SIDE: f64 = 16_000.0;
+const MAX_SIDE_PIXELS: f64 = 16_000.0;
 /// Most pixels painted for a raster, with overlapping marks counted each. A pixel takes 1 to 3 ns.
-const MAX_WORK: f64 = 600e6;
+const MAX_PAINTED_PIXELS: f64 = 600e6;
 /// Smaller rasters are not useful.
-const LEAST_SIDE: f64 = 100.0;
+const MIN_USEFUL_SIDE_PIXELS: f64 = 100.0;
 /// Most dashes of a drawing, because each is drawn separately.
 const MAX_DASHES: f64 = 400_000.0;
 /// Passes over the pixels of an isolated group.
-const LAYER: f64 = 4.0;
+const LAYER_PASSES: f64 = 4.0;
 /// Passes over the pixels of a mask.
-const MASK: f64 = 8.0;
+const MASK_PASSES: f64 = 8.0;
 /// Passes over the pixels of a filter primitive.
-const FILTER: f64 = 16.0;
+const FILTER_PASSES: f64 = 16.0;
 
 /// Pixels per px for both drawings; `None` if one would take too long.
 pub(crate) fn scale(pictures: [&Picture; 2], [width, height]: [f64; 2]) -> Option<f64> {
     let longer = width.max(height);
     let mut work = 0.0f64;
     for picture in pictures {
-        let mut cost = Cost { page: [width, height], dashes: 0.0 };
+        let mut cost = RasterCost { page: [width, height], dashes: 0.0 };
         work = work.max(cost.group(picture.drawn.smooth().root(), None));
         if cost.dashes > MAX_DASHES {
             return None;
         }
     }
-    let scale = SCALE
-        .max(MIN_SIDE / longer)
+    let scale = MIN_PIXELS_PER_PX
+        .max(MIN_SIDE_PIXELS / longer)
         .min((MAX_PIXELS / (width * height)).sqrt())
-        .min(MAX_SIDE / longer)
-        .min((MAX_WORK / work.max(1.0)).sqrt());
-    (scale.is_finite() && scale > 0.0 && scale * longer >= LEAST_SIDE).then_some(scale)
+        .min(MAX_SIDE_PIXELS / longer)
+        .min((MAX_PAINTED_PIXELS / work.max(1.0)).sqrt());
+    (scale.is_finite() && scale > 0.0 && scale * longer >= MIN_USEFUL_SIDE_PIXELS).then_some(scale)
 }
 
 /// Accumulated work of a drawing.
-struct Cost {
+struct RasterCost {
     page: [f64; 2],
     dashes: f64,
 }
 
-impl Cost {
+impl RasterCost {
     /// Passes in px² for the children of a group. `of`: area of the surface they are painted on, if it is not
     /// the page.
     fn group(&mut self, group: &Group, of: Option<f64>) -> f64 {
         let area = of.unwrap_or_else(|| self.area(group.abs_layer_bounding_box().to_rect()));
         let mut sum = 0.0;
         if group.should_isolate() {
-            sum += LAYER * area;
+            sum += LAYER_PASSES * area;
         }
         for filter in group.filters() {
-            sum += filter.primitives().iter().map(|step| FILTER * area * times(step.kind())).sum::<f64>();
+            sum += filter
+                .primitives()
+                .iter()
+                .map(|step| FILTER_PASSES * area * filter_passes(step.kind()))
+                .sum::<f64>();
         }
         let mut clip = group.clip_path();
         while let Some(path) = clip {
-            sum += LAYER * area + self.group(path.root(), Some(area));
+            sum += LAYER_PASSES * area + self.group(path.root(), Some(area));
             clip = path.clip_path();
         }
         let mut mask = group.mask();
         while let Some(content) = mask {
-            sum += MASK * area + self.group(content.root(), Some(area));
+            sum += MASK_PASSES * area + self.group(content.root(), Some(area));
             mask = content.mask();
         }
         for node in group.children() {
@@ -94,7 +98,7 @@ impl Cost {
         }
         for paint in [path.fill().map(usvg::Fill::paint), path.stroke().map(usvg::Stroke::paint)] {
             if let Some(Paint::Pattern(pattern)) = paint {
-                sum += LAYER * area + self.group(pattern.root(), Some(area));
+                sum += LAYER_PASSES * area + self.group(pattern.root(), Some(area));
             }
         }
         sum
@@ -110,7 +114,7 @@ impl Cost {
 }
 
 /// Passes of a filter primitive over each pixel.
-fn times(kind: &Kind) -> f64 {
+fn filter_passes(kind: &Kind) -> f64 {
     match kind {
         Kind::Turbulence(noise) => 4.0 * f64::from(noise.num_octaves()).max(1.0),
         Kind::ConvolveMatrix(matrix) => {

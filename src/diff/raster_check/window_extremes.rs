@@ -35,7 +35,12 @@ fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
 }
 
 /// Extreme of the square window around each pixel.
-pub(crate) fn squares(values: &[u8], columns: usize, reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
+pub(crate) fn square_extremes(
+    values: &[u8],
+    columns: usize,
+    reach: usize,
+    pick: fn(u8, u8) -> u8,
+) -> Vec<u8> {
     if reach == 0 || columns == 0 {
         return values.to_vec();
     }
@@ -62,7 +67,7 @@ mod tests {
         let (columns, rows) = (23, 17);
         let values: Vec<u8> = (0..columns * rows).map(|i| (i * 7919 % 251) as u8).collect();
         for reach in [0, 1, 2, 5, 11, 40] {
-            let found = squares(&values, columns, reach, u8::max);
+            let found = square_extremes(&values, columns, reach, u8::max);
             for y in 0..rows {
                 for x in 0..columns {
                     let (ys, xs) = (

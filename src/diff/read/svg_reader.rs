@@ -7,10 +7,10 @@ use kurbo::{Affine, BezPath, Point};
 use usvg::tiny_skia_path::PathSegment;
 
 use super::paint_description;
-use super::tagged_svg::{self, Markup, Origin};
+use super::tagged_svg::{self, ShapeOrigin, TaggedSvg};
 use crate::colour::srgb::Colour;
 use crate::diff::markup::input_limits;
-use crate::diff::raster_check::{Drawn, unread};
+use crate::diff::raster_check::{RenderTree, unread};
 use crate::diff::shapes::ink::{self, Ink, Paint};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 use crate::diff::shapes::placeholder::Details;
@@ -19,7 +19,7 @@ use crate::error::Error;
 use crate::export::SvgOptions;
 
 /// Largest coordinate accepted, in px.
-const FARTHEST_PX: f64 = 1e8;
+const MAX_COORDINATE_PX: f64 = 1e8;
 /// Stack size for the recursion over nested elements, independent of the calling thread.
 const STACK_BYTES: usize = 64 << 20;
 
@@ -62,21 +62,24 @@ fn read(svg: &str) -> Result<Picture, Error> {
         Some((id.clone(), origin.words.as_ref().map(|words| ink::is_text(words))?))
     });
     let stand_ins = stand_ins.collect();
-    let drawn = Drawn::new(std::mem::take(&mut markup.svg), stand_ins).map_err(|error| {
+    let drawn = RenderTree::new(std::mem::take(&mut markup.svg), stand_ins).map_err(|error| {
         Error::new(format!("is not a drawing: {error}")).remedy("give an SVG file with a width and a height")
     })?;
     let tree = drawn.smooth();
     let size = tree.size();
-    let mut reader = Reader { markup: &markup, shapes: Vec::new() };
-    reader.group(tree.root(), &Inherited::default());
+    let mut reader = ShapeReader { markup: &markup, shapes: Vec::new() };
+    reader.group(tree.root(), &GroupContext::default());
     let far = |shape: &Shape| {
         let bounds = shape.path.control_box();
         let most = bounds.x0.abs().max(bounds.y0.abs()).max(bounds.x1.abs()).max(bounds.y1.abs());
-        most > FARTHEST_PX || most.is_nan()
+        most > MAX_COORDINATE_PX || most.is_nan()
     };
     if let Some(shape) = reader.shapes.iter().find(|shape| far(shape)) {
-        return Err(Error::new(format!("a {} lies more than {FARTHEST_PX} px from the page", shape.label))
-            .remedy("remove it from the drawing"));
+        return Err(Error::new(format!(
+            "a {} lies more than {MAX_COORDINATE_PX} px from the page",
+            shape.label
+        ))
+        .remedy("remove it from the drawing"));
     }
     let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(tree)));
     let shapes = Arc::from(reader.shapes);
@@ -107,27 +110,27 @@ fn root_scale(transform: usvg::Transform) -> f64 {
 
 /// State inherited from groups.
 #[derive(Clone, Default)]
-struct Inherited<'a> {
+struct GroupContext<'a> {
     opacity: f64,
-    origin: Option<&'a Origin>,
+    origin: Option<&'a ShapeOrigin>,
     /// Descriptions of the filters and blend modes applied to the shape.
     effects: Vec<Arc<str>>,
     clip: bool,
 }
 
 /// Collects shapes from the usvg tree.
-struct Reader<'a> {
-    markup: &'a Markup,
+struct ShapeReader<'a> {
+    markup: &'a TaggedSvg,
     shapes: Vec<Shape>,
 }
 
-impl<'a> Reader<'a> {
-    fn origin(&self, id: &str) -> Option<&'a Origin> {
+impl<'a> ShapeReader<'a> {
+    fn origin(&self, id: &str) -> Option<&'a ShapeOrigin> {
         self.markup.origins.get(id)
     }
 
     /// Collects the shapes of a group, its clip paths and its masks.
-    fn group(&mut self, group: &usvg::Group, around: &Inherited<'a>) {
+    fn group(&mut self, group: &usvg::Group, around: &GroupContext<'a>) {
         let mut inherited = around.clone();
         // Opacity 0 from `Default` means that there is no group yet.
         let outer = if around.opacity == 0.0 { 1.0 } else { around.opacity };
@@ -141,12 +144,12 @@ impl<'a> Reader<'a> {
         }
         let mut clip = group.clip_path();
         while let Some(path) = clip {
-            self.group(path.root(), &Inherited { clip: true, ..inherited.clone() });
+            self.group(path.root(), &GroupContext { clip: true, ..inherited.clone() });
             clip = path.clip_path();
         }
         let mut mask = group.mask();
         while let Some(content) = mask {
-            self.group(content.root(), &Inherited { clip: true, ..inherited.clone() });
+            self.group(content.root(), &GroupContext { clip: true, ..inherited.clone() });
             mask = content.mask();
         }
         for child in group.children() {
@@ -159,8 +162,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Adds the shapes of a path: its fill and its stroke in painting order.
-    fn path(&mut self, path: &usvg::Path, inherited: &Inherited<'a>) {
-        let plain = Origin::default();
+    fn path(&mut self, path: &usvg::Path, inherited: &GroupContext<'a>) {
+        let plain = ShapeOrigin::default();
         let origin = self.origin(path.id()).or(inherited.origin).unwrap_or(&plain);
         let to_page = affine(path.abs_transform());
         let scale = to_page.determinant().abs().sqrt();
@@ -232,7 +235,12 @@ impl<'a> Reader<'a> {
 }
 
 /// Paint of a shape; `None` if it is invisible.
-fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Origin) -> Option<Paint> {
+fn painted(
+    paint: &usvg::Paint,
+    opacity: f32,
+    inherited: &GroupContext,
+    origin: &ShapeOrigin,
+) -> Option<Paint> {
     let opacity = f64::from(opacity) * inherited.opacity;
     let alpha = (opacity * 255.0).round() as u8;
     if alpha == 0 && !inherited.clip {
@@ -254,7 +262,7 @@ fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Or
 
 /// Properties of a text or a picture, with its rotation. The rectangle alone looks the same when rotated by
 /// 180°.
-fn details(origin: &Origin, to_page: Affine) -> Option<Arc<Details>> {
+fn details(origin: &ShapeOrigin, to_page: Affine) -> Option<Arc<Details>> {
     let mut details = origin.details.clone();
     let [a, b, ..] = to_page.as_coeffs();
     let turn = crate::geometry::numbers::portable_math::atan2(b, a).to_degrees();

@@ -17,9 +17,9 @@ use crate::drawing::{LayerKind, Unit};
 use crate::error::Error;
 
 /// Elements that draw shapes.
-const SHAPES: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
+const SHAPE_ELEMENTS: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
 /// Attributes with coordinates.
-const PLACES: [&str; 16] = [
+const POSITION_ATTRIBUTES: [&str; 16] = [
     "d",
     "points",
     "x",
@@ -38,14 +38,14 @@ const PLACES: [&str; 16] = [
     "data-axis",
 ];
 /// Other attributes whose numbers have the same limits.
-const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
+const LENGTH_ATTRIBUTES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
 /// Attributes copied to the rectangle in place of a text or a picture.
-const BOX: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
+const BOX_ATTRIBUTES: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
 /// Properties copied to that rectangle, because they change its visibility.
-const OF_BOX: [&str; 8] =
+const BOX_STYLE_PROPERTIES: [&str; 8] =
     ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
 /// Layers that this program writes.
-const LAYERS: [LayerKind; 9] = [
+const KNOWN_LAYERS: [LayerKind; 9] = [
     LayerKind::Paper,
     LayerKind::Fills,
     LayerKind::Shadows,
@@ -59,7 +59,7 @@ const LAYERS: [LayerKind; 9] = [
 
 /// Data of a shape other than geometry and paint.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Origin {
+pub(crate) struct ShapeOrigin {
     pub label: Arc<Label>,
     pub tone: Option<u16>,
     pub invisibility: u16,
@@ -75,9 +75,9 @@ pub(crate) struct Origin {
 
 /// A file prepared for usvg.
 #[derive(Debug, Default)]
-pub(crate) struct Markup {
+pub(crate) struct TaggedSvg {
     pub svg: String,
-    pub origins: FxHashMap<String, Origin>,
+    pub origins: FxHashMap<String, ShapeOrigin>,
     /// Largest number of decimals of a coordinate.
     pub decimals: u8,
     /// Whether any path has arcs.
@@ -92,8 +92,8 @@ pub(crate) struct Markup {
 }
 
 /// Writes a document for usvg.
-pub(crate) fn rewrite(document: &Document) -> Result<Markup, Error> {
-    let mut markup = Markup::default();
+pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
+    let mut markup = TaggedSvg::default();
     let root = document.root_element();
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
@@ -102,13 +102,13 @@ pub(crate) fn rewrite(document: &Document) -> Result<Markup, Error> {
         document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
     let mut cascade = Cascade::of(document);
     markup.has_more = cascade.has_more;
-    markup.element(root, &Around::default(), &mut cascade)?;
+    markup.element(root, &InheritedContext::default(), &mut cascade)?;
     Ok(markup)
 }
 
 /// State inherited from ancestors.
 #[derive(Debug, Clone, Default)]
-struct Around {
+struct InheritedContext {
     layer: Arc<str>,
     drawing: Option<Arc<str>>,
     part: Option<Arc<str>>,
@@ -116,9 +116,9 @@ struct Around {
     props: Arc<Props>,
 }
 
-impl Markup {
+impl TaggedSvg {
     /// Writes an element with its declarations from the style sheets.
-    fn element(&mut self, node: Node, around: &Around, cascade: &mut Cascade) -> Result<(), Error> {
+    fn element(&mut self, node: Node, around: &InheritedContext, cascade: &mut Cascade) -> Result<(), Error> {
         let declared = cascade.enter(node)?;
         let name = node.tag_name().name();
         let is_svg = matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
@@ -137,7 +137,7 @@ impl Markup {
     fn plain(
         &mut self,
         node: Node,
-        around: &Around,
+        around: &InheritedContext,
         declared: &[Declaration],
         cascade: &mut Cascade,
     ) -> Result<(), Error> {
@@ -153,7 +153,7 @@ impl Markup {
                 " xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
             );
         }
-        if SHAPES.contains(&name) {
+        if SHAPE_ELEMENTS.contains(&name) {
             self.shape(node, &around);
         }
         for attribute in node.attributes() {
@@ -202,7 +202,7 @@ impl Markup {
     }
 
     /// Stores the data of a shape, and writes an id if it has none.
-    fn shape(&mut self, node: Node, around: &Around) {
+    fn shape(&mut self, node: Node, around: &InheritedContext) {
         let mut classes: Vec<Arc<str>> = Vec::new();
         let mut tone = node.attribute("data-tone").and_then(|tone| tone.parse().ok());
         for class in node.attribute("class").unwrap_or_default().split_ascii_whitespace() {
@@ -212,11 +212,11 @@ impl Markup {
             }
         }
         classes.sort_unstable();
-        let Around { layer, drawing, part, .. } = around.clone();
+        let InheritedContext { layer, drawing, part, .. } = around.clone();
         let label = Label { layer, drawing, classes, part };
         let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
         let axis = node.attribute("data-axis").zip(number("data-width"));
-        let origin = Origin {
+        let origin = ShapeOrigin {
             label: Arc::new(label),
             tone,
             invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
@@ -229,7 +229,7 @@ impl Markup {
     }
 
     /// Stores the data of an element under its id.
-    fn remember(&mut self, node: Node, origin: Origin) {
+    fn remember(&mut self, node: Node, origin: ShapeOrigin) {
         let id = match node.attribute("id") {
             Some(id) => id.to_owned(),
             None => {
@@ -246,7 +246,7 @@ impl Markup {
     fn stand_in(
         &mut self,
         node: Node,
-        around: &Around,
+        around: &InheritedContext,
         declared: &[Declaration],
         cascade: &mut Cascade,
     ) -> Result<(), Error> {
@@ -266,20 +266,20 @@ impl Markup {
             "<linearGradient id=\"ligne.stand-in.{number}\" x2=\"1\" y2=\"1\"><stop stop-color=\"{first}\"/>\
              <stop offset=\"1\" stop-color=\"{last}\"/></linearGradient>"
         );
-        let Around { layer, drawing, part, .. } = around;
+        let InheritedContext { layer, drawing, part, .. } = around;
         let label = Label { layer, drawing, classes: Vec::new(), part };
-        let origin = Origin {
+        let origin = ShapeOrigin {
             label: Arc::new(label),
             words: Some(Arc::from(said.words)),
             details: said.details,
-            ..Origin::default()
+            ..ShapeOrigin::default()
         };
         self.remember(node, origin);
         let mut sized = false;
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let (name, value) = (attribute.name(), attribute.value());
             self.check(node, name, value)?;
-            if BOX.contains(&name) || OF_BOX.contains(&name) {
+            if BOX_ATTRIBUTES.contains(&name) || BOX_STYLE_PROPERTIES.contains(&name) {
                 // A text may have a position for every letter.
                 let first =
                     if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
@@ -291,7 +291,10 @@ impl Markup {
         }
         // The visibility may be set in a style.
         let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
-        let style = declared.iter().chain(&own).filter(|declaration| OF_BOX.contains(&declaration.name));
+        let style = declared
+            .iter()
+            .chain(&own)
+            .filter(|declaration| BOX_STYLE_PROPERTIES.contains(&declaration.name));
         self.svg.push_str(" style=\"");
         for Declaration { name, value, .. } in style {
             let _ = write!(self.svg, "{name}:");
@@ -310,8 +313,8 @@ impl Markup {
 
     /// Refuses numbers out of range, and records the precision of coordinates.
     fn check(&mut self, node: Node, name: &str, value: &str) -> Result<(), Error> {
-        let place = PLACES.contains(&name);
-        if !place && !MEASURES.contains(&name) {
+        let place = POSITION_ATTRIBUTES.contains(&name);
+        if !place && !LENGTH_ATTRIBUTES.contains(&name) {
             return Ok(());
         }
         let numbers = number_scan::scan(value);
@@ -331,12 +334,12 @@ impl Markup {
 }
 
 /// State for the children of an element, or for the element itself.
-fn inside(node: Node, around: &Around) -> Around {
+fn inside(node: Node, around: &InheritedContext) -> InheritedContext {
     let mut inner = around.clone();
-    const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
-    if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
+    const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
+    if node.attribute((INKSCAPE_NAMESPACE, "groupmode")) == Some("layer") {
         let id = node.attribute("id").unwrap_or_default();
-        let label = node.attribute((INKSCAPE, "label")).unwrap_or(id);
+        let label = node.attribute((INKSCAPE_NAMESPACE, "label")).unwrap_or(id);
         let known = known_layer(id).or(known_layer(label));
         // On a page of several drawings, a layer around known layers is one of the drawings.
         if known.is_some() && !around.layer.is_empty() && known_layer(&around.layer).is_none() {
@@ -359,7 +362,7 @@ fn known_layer(id: &str) -> Option<&'static str> {
         stem.strip_suffix(kind.id()).is_some_and(|before| before.is_empty() || before.ends_with(['-', '_']))
     };
     // `hidden-lines` also ends with `lines`, so the longest id wins.
-    LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
+    KNOWN_LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
 }
 
 fn escape(out: &mut String, text: &str) {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use usvg::roxmltree::{Document, Node};
 
 /// Unsupported elements, with their names in reports.
-const ELEMENTS: [(&str, &str); 14] = [
+const UNSUPPORTED_ELEMENTS: [(&str, &str); 14] = [
     ("foreignObject", "what is in a foreignObject"),
     ("animate", "animations"),
     ("animateMotion", "animations"),
@@ -23,7 +23,7 @@ const ELEMENTS: [(&str, &str); 14] = [
     ("iframe", "other pages"),
 ];
 /// Unsupported values by a substring, with their names in reports.
-const VALUES: [(&str, &str); 14] = [
+const UNSUPPORTED_VALUES: [(&str, &str); 14] = [
     ("var(", "var()"),
     ("calc(", "calc()"),
     ("env(", "env()"),
@@ -40,7 +40,7 @@ const VALUES: [(&str, &str); 14] = [
     ("BackgroundAlpha", "BackgroundAlpha in filters"),
 ];
 /// Unsupported rules of style sheets by a substring, with their names in reports.
-const SHEETS: [(&str, &str); 14] = [
+const UNSUPPORTED_RULES: [(&str, &str); 14] = [
     ("@media", "@media"),
     ("@font-face", "@font-face"),
     ("@import", "@import"),
@@ -57,7 +57,7 @@ const SHEETS: [(&str, &str); 14] = [
     (":hover", ":hover"),
 ];
 /// Properties that are supported with this value only.
-const PROPERTIES: [(&str, &str); 12] = [
+const UNSUPPORTED_PROPERTIES: [(&str, &str); 12] = [
     ("pathLength", ""),
     ("vector-effect", "none"),
     ("transform-box", "view-box"),
@@ -87,7 +87,9 @@ pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> 
         let before = found.len();
         for sheet in document.descendants().filter(|node| node.has_tag_name("style")) {
             let text = sheet.text().unwrap_or_default();
-            found.extend(SHEETS.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
+            found.extend(
+                UNSUPPORTED_RULES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name),
+            );
         }
         if found.len() == before {
             found.insert("some style rules");
@@ -99,14 +101,16 @@ pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> 
 /// Adds the unsupported contents of one element.
 fn element(node: Node, found: &mut BTreeSet<&'static str>) {
     let name = node.tag_name().name();
-    found.extend(ELEMENTS.iter().filter(|(known, _)| *known == name).map(|(_, words)| *words));
+    found.extend(UNSUPPORTED_ELEMENTS.iter().filter(|(known, _)| *known == name).map(|(_, words)| *words));
     if name == "text" {
         found.insert("fonts (texts are compared by their words and properties)");
     }
     if name == "style" {
         let text = node.text().unwrap_or_default();
-        found.extend(VALUES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
-        let properties = PROPERTIES.iter().filter(|(known, _)| known.contains('-') || *known == "animation");
+        found
+            .extend(UNSUPPORTED_VALUES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
+        let properties =
+            UNSUPPORTED_PROPERTIES.iter().filter(|(known, _)| known.contains('-') || *known == "animation");
         found.extend(properties.filter(|(known, _)| text.contains(known)).map(|(known, _)| *known));
     }
     for attribute in node.attributes() {
@@ -136,16 +140,18 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
             continue;
         }
         if value.contains('(') || name.starts_with("in") {
-            found.extend(VALUES.iter().filter(|(word, _)| is_in(value, word)).map(|(_, name)| *name));
+            found.extend(
+                UNSUPPORTED_VALUES.iter().filter(|(word, _)| is_in(value, word)).map(|(_, name)| *name),
+            );
         }
         let other = |(known, initial): &&(&str, &str)| *known == name && value.trim() != *initial;
-        found.extend(PROPERTIES.iter().filter(other).map(|(known, _)| *known));
+        found.extend(UNSUPPORTED_PROPERTIES.iter().filter(other).map(|(known, _)| *known));
         if name == "style" {
             let said = |(known, initial): &&(&str, &str)| {
                 let named = value.split(';').filter_map(|piece| piece.split_once(':'));
                 named.clone().any(|(name, value)| name.trim() == *known && value.trim() != *initial)
             };
-            found.extend(PROPERTIES.iter().filter(said).map(|(known, _)| *known));
+            found.extend(UNSUPPORTED_PROPERTIES.iter().filter(said).map(|(known, _)| *known));
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};
 use crate::diff::findings::ink_totals::Totals;
 use crate::diff::findings::pixel_count::PixelDiff;
 use crate::diff::shapes::picture::ShapeKind;
-use crate::geometry::numbers::tolerance::DISTANCE_SHARE;
+use crate::geometry::numbers::tolerance::MAX_DISTANCE_ERROR_SHARE;
 
 /// The JSON document. Lengths in px, areas in square px.
 #[derive(Serialize)]
@@ -40,7 +40,7 @@ struct Entry<'a> {
     drawing: Option<&'a str>,
     classes: Vec<&'a str>,
     part: Option<&'a str>,
-    place: Place,
+    place: FindingBox,
     size: f64,
     growth: f64,
     largest: f64,
@@ -61,7 +61,7 @@ impl Diff {
             same_at: self.same_at,
             summary: self.summary(),
             tolerance_px: self.tolerance_px,
-            distance_error_share: DISTANCE_SHARE,
+            distance_error_share: MAX_DISTANCE_ERROR_SHARE,
             causes: &self.causes,
             findings: self.findings.iter().map(entry).collect(),
             totals: &self.totals,

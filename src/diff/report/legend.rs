@@ -5,13 +5,13 @@ use kurbo::{Affine, BezPath, Size};
 use crate::colour::srgb::Colour;
 
 /// Height of a lower-case letter in line widths.
-const LETTER: f64 = 6.0;
+const LETTER_HEIGHT_WIDTHS: f64 = 6.0;
 /// Height of the legend in line widths.
-const HEIGHT: f64 = 24.0;
+const LEGEND_HEIGHT_WIDTHS: f64 = 24.0;
 
 /// Height of the legend below a picture.
 pub(crate) fn height(width: f64) -> f64 {
-    width * HEIGHT
+    width * LEGEND_HEIGHT_WIDTHS
 }
 
 /// Strokes of the legend with colour and width: a sample and a word for each row. The legend shrinks if it
@@ -22,7 +22,7 @@ pub(crate) fn marks(
     width: f64,
 ) -> Vec<(BezPath, Colour, f64)> {
     let mut found = Vec::new();
-    let size = width * LETTER;
+    let size = width * LETTER_HEIGHT_WIDTHS;
     let base = picture.height + height(width) * 0.62;
     let mut x = size * 1.5;
     for (word, colour) in rows {
@@ -34,7 +34,7 @@ pub(crate) fn marks(
         for letter in word.chars() {
             let (path, wide) = glyph(letter);
             let place = Affine::translate((x, base)) * Affine::scale(size / 4.0);
-            found.push((place * path, INK, width * 0.8));
+            found.push((place * path, TEXT_COLOUR, width * 0.8));
             x += (wide + 1.6) * size / 4.0;
         }
         x += size * 2.0;
@@ -51,7 +51,7 @@ pub(crate) fn marks(
 }
 
 /// Colour of the words.
-const INK: Colour = Colour::rgb(0x40, 0x40, 0x40);
+const TEXT_COLOUR: Colour = Colour::rgb(0x40, 0x40, 0x40);
 
 /// A single-stroke letter with an x-height of four units, baseline at y = 0, and its width.
 fn glyph(letter: char) -> (BezPath, f64) {

@@ -6,22 +6,22 @@ use crate::diff::findings::finding::Diff;
 use crate::diff::findings::ink_totals::Measure;
 
 /// Most rows of a table.
-const MOST_ROWS: usize = 40;
+const MAX_TABLE_ROWS: usize = 40;
 
 impl Diff {
     /// The comparison as Markdown with a heading.
     #[must_use]
     pub fn to_markdown(&self, title: &str) -> String {
         let mut out = format!("### {}\n\n{}\n", escape(title), escape(&self.summary()));
-        let told = self.told();
+        let told = self.report_lines();
         if !told.is_empty() {
             out.push_str("\n| | marks | |\n| --- | ---: | --- |\n");
-            for row in told.iter().take(MOST_ROWS) {
+            for row in told.iter().take(MAX_TABLE_ROWS) {
                 let detail = row.line.split_once(' ').map_or("", |(_, rest)| rest.trim_start());
                 let _ = writeln!(out, "| {} | {} | {} |", row.verdict.name(), row.count, escape(detail));
             }
-            if told.len() > MOST_ROWS {
-                let _ = writeln!(out, "| | | and {} more |", told.len() - MOST_ROWS);
+            if told.len() > MAX_TABLE_ROWS {
+                let _ = writeln!(out, "| | | and {} more |", told.len() - MAX_TABLE_ROWS);
             }
         }
         let changed: Vec<(&String, &Measure)> =
@@ -29,7 +29,7 @@ impl Diff {
         if !self.is_same() && !changed.is_empty() {
             out.push_str("\n| part | marks | length | area |\n| --- | ---: | ---: | ---: |\n");
             let unit = self.unit();
-            for (part, measure) in changed.iter().take(MOST_ROWS) {
+            for (part, measure) in changed.iter().take(MAX_TABLE_ROWS) {
                 let name = if part.is_empty() { "no part" } else { part };
                 let _ = writeln!(
                     out,

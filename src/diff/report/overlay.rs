@@ -17,29 +17,29 @@ use crate::drawing::{
 };
 
 /// Unchanged lines.
-const KEPT: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
+const KEPT_LINE_COLOUR: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
 /// Darkest unchanged fill.
-const KEPT_DARK: Colour = Colour::rgb(0xdc, 0xdc, 0xdc);
+const KEPT_DARK_COLOUR: Colour = Colour::rgb(0xdc, 0xdc, 0xdc);
 /// Lightest unchanged fill.
-const KEPT_LIGHT: Colour = Colour::rgb(0xfa, 0xfa, 0xfa);
+const KEPT_LIGHT_COLOUR: Colour = Colour::rgb(0xfa, 0xfa, 0xfa);
 /// Removed marks.
-const GONE: Colour = Colour::rgb(0xd1, 0x24, 0x2f);
+const GONE_COLOUR: Colour = Colour::rgb(0xd1, 0x24, 0x2f);
 /// Added marks.
-const NEW: Colour = Colour::rgb(0x1a, 0x7f, 0x37);
+const NEW_COLOUR: Colour = Colour::rgb(0x1a, 0x7f, 0x37);
 /// Lines from old to new places.
-const WAY: Colour = Colour::rgb(0x09, 0x69, 0xda);
+const MOVED_COLOUR: Colour = Colour::rgb(0x09, 0x69, 0xda);
 /// Repainted marks.
-const RESTYLED: Colour = Colour::rgb(0xc4, 0x7f, 0x00);
+const RESTYLED_COLOUR: Colour = Colour::rgb(0xc4, 0x7f, 0x00);
 /// Relabelled marks.
-const RELABELLED: Colour = Colour::rgb(0x82, 0x50, 0xdf);
+const RELABELLED_COLOUR: Colour = Colour::rgb(0x82, 0x50, 0xdf);
 /// Opacity of removed and added fills, 0 to 255.
-const VEIL: u8 = 70;
+const VEIL_ALPHA: u8 = 70;
 /// Width factor of removed lines that added lines nearly cover.
-const UNDER: f64 = 2.5;
+const COVERED_WIDTH_FACTOR: f64 = 2.5;
 /// Gap between two pages side by side, as a share of their width.
-const GAP: f64 = 0.03;
+const PAGE_GAP_SHARE: f64 = 0.03;
 /// Number of lines per path that lead from old to new points.
-const WAYS: usize = 3;
+const SHIFT_LINES_PER_PATH: usize = 3;
 
 /// Arrangement of a comparison as a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -60,7 +60,7 @@ impl Diff {
         let (width, height) = (before.width.max(after.width), before.height.max(after.height));
         // A line width that is visible when the whole page is displayed.
         let width_of_line = (width.max(height) / 500.0).max(0.5);
-        let mut layers = Layers::default();
+        let mut layers = OverlayMarks::default();
         let mut page = Page { width, height, unit: Unit::Px, background: Some(Colour::WHITE) };
         match view {
             View::Over => {
@@ -76,7 +76,7 @@ impl Diff {
                 }
             }
             View::SideBySide => {
-                let gap = width * GAP;
+                let gap = width * PAGE_GAP_SHARE;
                 let beside = Affine::translate((width + gap, 0.0));
                 page.width = 2.0 * width + gap;
                 layers.picture(before, Affine::IDENTITY, own);
@@ -109,11 +109,11 @@ impl Diff {
         let elsewhere =
             |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
         let rows: [(&str, Colour, bool); 5] = [
-            ("gone", GONE, has(&|f| elsewhere(f) && ink(&f.gone))),
-            ("new", NEW, has(&|f| elsewhere(f) && ink(&f.new))),
-            ("moved", WAY, view == View::Over && has(&|f| f.verdict == Verdict::Moved)),
-            ("repainted", RESTYLED, has(&same_place)),
-            ("relabelled", RELABELLED, has(&|f| f.verdict == Verdict::Relabelled)),
+            ("gone", GONE_COLOUR, has(&|f| elsewhere(f) && ink(&f.gone))),
+            ("new", NEW_COLOUR, has(&|f| elsewhere(f) && ink(&f.new))),
+            ("moved", MOVED_COLOUR, view == View::Over && has(&|f| f.verdict == Verdict::Moved)),
+            ("repainted", RESTYLED_COLOUR, has(&same_place)),
+            ("relabelled", RELABELLED_COLOUR, has(&|f| f.verdict == Verdict::Relabelled)),
         ];
         rows.into_iter().filter(|(.., there)| *there).map(|(word, colour, _)| (word, colour)).collect()
     }
@@ -122,9 +122,9 @@ impl Diff {
 /// Grey of a shape that is shown for orientation.
 fn grey(shape: &Shape) -> Colour {
     match (shape.kind, &shape.ink.paint) {
-        (ShapeKind::Line, _) => KEPT,
-        (_, Ink::Colour(colour)) => KEPT_DARK.mix(KEPT_LIGHT, colour.luma()),
-        (_, Ink::Other(_)) => KEPT_DARK.mix(KEPT_LIGHT, 0.5),
+        (ShapeKind::Line, _) => KEPT_LINE_COLOUR,
+        (_, Ink::Colour(colour)) => KEPT_DARK_COLOUR.mix(KEPT_LIGHT_COLOUR, colour.luma()),
+        (_, Ink::Other(_)) => KEPT_DARK_COLOUR.mix(KEPT_LIGHT_COLOUR, 0.5),
     }
 }
 
@@ -138,12 +138,12 @@ fn own(shape: &Shape) -> Colour {
 
 /// Marks of the overlay: the drawings themselves, and the findings on top.
 #[derive(Default)]
-struct Layers {
+struct OverlayMarks {
     drawings: Vec<Mark>,
     findings: Vec<Mark>,
 }
 
-impl Layers {
+impl OverlayMarks {
     fn into_list(self) -> Vec<Layer> {
         let layer = |kind, marks: Vec<Mark>| Layer { kind, pen: None, ordered: false, marks };
         let all = [layer(LayerKind::Fills, self.drawings), layer(LayerKind::Callouts, self.findings)];
@@ -179,8 +179,8 @@ impl Layers {
             // green ones.
             _ => {
                 let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
-                let width = if hidden { width * UNDER } else { width };
-                self.piece(finding, &finding.gone, GONE, to, width, note);
+                let width = if hidden { width * COVERED_WIDTH_FACTOR } else { width };
+                self.piece(finding, &finding.gone, GONE_COLOUR, to, width, note);
             }
         }
     }
@@ -189,9 +189,9 @@ impl Layers {
     fn brought(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         let colour = match finding.verdict {
             Verdict::Page => return,
-            Verdict::Restyled | Verdict::Restacked | Verdict::Picture => RESTYLED,
-            Verdict::Relabelled => RELABELLED,
-            _ => NEW,
+            Verdict::Restyled | Verdict::Restacked | Verdict::Picture => RESTYLED_COLOUR,
+            Verdict::Relabelled => RELABELLED_COLOUR,
+            _ => NEW_COLOUR,
         };
         self.piece(finding, &finding.new, colour, to, width, note);
     }
@@ -211,7 +211,7 @@ impl Layers {
         }
         let whole = matches!(finding.verdict, Verdict::Removed | Verdict::Added | Verdict::Restyled);
         if finding.kind == ShapeKind::Region && whole {
-            let veil = Paint::Fill(Colour { a: VEIL, ..colour });
+            let veil = Paint::Fill(Colour { a: VEIL_ALPHA, ..colour });
             self.findings.push(mark(to * path.clone(), veil, None));
         }
         self.findings.push(mark(to * path.clone(), stroke(colour, width, Vec::new()), Some(note)));
@@ -226,7 +226,7 @@ impl Layers {
         let new = polylines(&finding.new);
         let mut path = BezPath::new();
         for points in &old {
-            let step = (points.len().saturating_sub(1) / (WAYS - 1)).max(1);
+            let step = (points.len().saturating_sub(1) / (SHIFT_LINES_PER_PATH - 1)).max(1);
             for from in points.iter().step_by(step) {
                 let to = match finding.shift {
                     Some([x, y]) => Some(Point::new(from.x + x, from.y + y)),
@@ -239,7 +239,7 @@ impl Layers {
             }
         }
         if !path.elements().is_empty() {
-            self.findings.push(mark(path, stroke(WAY, width, Vec::new()), Some(note)));
+            self.findings.push(mark(path, stroke(MOVED_COLOUR, width, Vec::new()), Some(note)));
         }
     }
 }

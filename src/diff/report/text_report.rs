@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use kurbo::{Rect, Vec2};
 use rustc_hash::FxHashSet;
 
-use super::unit_format::Written;
-use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+use super::unit_format::UnitFormat;
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};
 use crate::diff::shapes::picture::ShapeKind;
 
 /// Above this number, similar findings of one part share a line.
-const FEW: usize = 3;
+const MAX_UNGROUPED_FINDINGS: usize = 3;
 
 impl Diff {
     /// Summary in one line, such as `1 removed, 12 moved (up to 0.5 px)`.
@@ -57,7 +57,7 @@ impl Diff {
     /// The findings as lines, the most serious first. Similar findings share a line.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
-        let lines = self.told().into_iter().map(|told| told.line);
+        let lines = self.report_lines().into_iter().map(|told| told.line);
         let unused =
             self.unused_tolerances.iter().map(|name| format!("note       no mark is called `{name}`"));
         let linked = self.linked().map(|target| {
@@ -93,17 +93,17 @@ impl Diff {
     }
 
     /// Lines of the report with the number of findings that each stands for.
-    pub(crate) fn told(&self) -> Vec<Told> {
+    pub(crate) fn report_lines(&self) -> Vec<ReportLine> {
         let unit = self.unit();
         let explained: FxHashSet<usize> =
             self.causes.iter().flat_map(|cause| cause.findings.iter().copied()).collect();
-        let of_cause = |cause: &Cause| Told {
+        let of_cause = |cause: &Cause| ReportLine {
             verdict: cause.verdict,
             count: cause.findings.len(),
             line: format!("{:<10} {}", cause.verdict.name(), cause.sentence),
         };
-        let mut told: Vec<Told> = self.causes.iter().map(of_cause).collect();
-        let mut groups: BTreeMap<Alike, Vec<&Finding>> = BTreeMap::new();
+        let mut told: Vec<ReportLine> = self.causes.iter().map(of_cause).collect();
+        let mut groups: BTreeMap<FindingGroupKey, Vec<&Finding>> = BTreeMap::new();
         for (_, finding) in self.findings.iter().enumerate().filter(|(index, _)| !explained.contains(index)) {
             // A part that came or went is one line for all kinds of marks.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
@@ -125,8 +125,8 @@ impl Diff {
                     Verdict::Added => measure.marks[0] == 0,
                     _ => false,
                 });
-            if findings.len() <= FEW && !whole {
-                told.extend(findings.iter().map(|f| Told { verdict, count: 1, line: line(f, unit) }));
+            if findings.len() <= MAX_UNGROUPED_FINDINGS && !whole {
+                told.extend(findings.iter().map(|f| ReportLine { verdict, count: 1, line: line(f, unit) }));
                 continue;
             }
             let count = findings.len();
@@ -141,10 +141,10 @@ impl Diff {
                 }
             };
             let boxes = findings.iter().map(|finding| rect(&finding.place));
-            let place = Place::of(boxes.reduce(|a, b| a.union(b)).unwrap_or_default());
-            let detail = together(&findings, changes, unit);
+            let place = FindingBox::of(boxes.reduce(|a, b| a.union(b)).unwrap_or_default());
+            let detail = shared_detail(&findings, changes, unit);
             let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
-            told.push(Told { verdict, count, line });
+            told.push(ReportLine { verdict, count, line });
         }
         // The sort is stable: lines of one verdict keep their order.
         told.sort_by_key(|told| told.verdict != Verdict::Page);
@@ -153,22 +153,22 @@ impl Diff {
 }
 
 /// Key of findings that share a line: verdict, part, changes, and whether they are lines.
-type Alike<'a> = (Verdict, Option<&'a str>, &'a [Change], bool);
+type FindingGroupKey<'a> = (Verdict, Option<&'a str>, &'a [Change], bool);
 
 /// A line of the report and the number of its findings.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct ReportLine {
     pub verdict: Verdict,
     pub count: usize,
     pub line: String,
 }
 
-fn rect(place: &Place) -> Rect {
+fn rect(place: &FindingBox) -> Rect {
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
 /// Common detail of several findings of one verdict.
-fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String {
+fn shared_detail(findings: &[&Finding], changes: &[Change], unit: UnitFormat) -> String {
     let largest = findings.iter().map(|f| f.largest).fold(0.0, f64::max);
     let p95 = findings.iter().map(|f| f.p95).fold(0.0, f64::max);
     let sum = |kind: ShapeKind| findings.iter().filter(|f| f.kind == kind).map(|f| f.size).sum::<f64>();
@@ -206,7 +206,7 @@ fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String 
 }
 
 /// One finding in words.
-pub(crate) fn line(finding: &Finding, unit: Written) -> String {
+pub(crate) fn line(finding: &Finding, unit: UnitFormat) -> String {
     let lines = finding.kind == ShapeKind::Line;
     let size = || if lines { format!("{} long", unit.length(finding.size)) } else { unit.area(finding.size) };
     let detail = match finding.verdict {
@@ -246,7 +246,7 @@ pub(crate) fn line(finding: &Finding, unit: Written) -> String {
 }
 
 /// Removed and added length of a reshaped line, or the growth of a region.
-fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
+fn pieces(finding: &Finding, lines: bool, unit: UnitFormat) -> Option<String> {
     let [gone, new] = finding.pieces;
     match lines {
         true if gone > 0.0 && new > 0.0 => {
@@ -257,7 +257,7 @@ fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
 }
 
 /// Growth in words; `None` if it rounds to zero.
-fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
+fn grown(growth: f64, lines: bool, unit: UnitFormat) -> Option<String> {
     let (amount, more, less) = match lines {
         true => (unit.length(growth.abs()), "longer", "shorter"),
         false => (unit.area(growth.abs()), "larger", "smaller"),
@@ -266,7 +266,7 @@ fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
 }
 
 /// A shift in words with its length and both directions.
-fn way([x, y]: [f64; 2], unit: Written) -> String {
+fn way([x, y]: [f64; 2], unit: UnitFormat) -> String {
     let side = |value: f64, plus: &str, minus: &str| match value {
         v if unit.number(v.abs()) == "0" => None,
         v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),

@@ -1,24 +1,24 @@
 //! Numbers in the unit of the drawing, rounded for reports.
 
-use crate::diff::findings::finding::{Diff, Place};
+use crate::diff::findings::finding::{Diff, FindingBox};
 use crate::diff::shapes::ink::trimmed;
 use crate::drawing::Unit;
 
 /// The unit of reported lengths.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Written {
+pub(crate) struct UnitFormat {
     unit: Unit,
     per_px: f64,
 }
 
 impl Diff {
     /// The unit for reporting this comparison.
-    pub(crate) fn unit(&self) -> Written {
-        Written { unit: self.before.unit, per_px: 1.0 / self.before.px_per_unit() }
+    pub(crate) fn unit(&self) -> UnitFormat {
+        UnitFormat { unit: self.before.unit, per_px: 1.0 / self.before.px_per_unit() }
     }
 }
 
-impl Written {
+impl UnitFormat {
     pub(crate) fn number(self, px: f64) -> String {
         rounded(px * self.per_px)
     }
@@ -32,7 +32,7 @@ impl Written {
     }
 
     /// A position in words, by the centre of its box.
-    pub(crate) fn place(self, place: &Place) -> String {
+    pub(crate) fn place(self, place: &FindingBox) -> String {
         let (x, y) = place.middle();
         format!("at ({:.0}, {:.0})", x * self.per_px, y * self.per_px)
     }

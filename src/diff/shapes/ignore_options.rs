@@ -10,7 +10,7 @@ use crate::drawing::{Cap, Join};
 use crate::error::Error;
 
 /// Properties of texts that are colours.
-const COLOURS: [&str; 6] = ["fill", "stroke", "color", "opacity", "fill-opacity", "stroke-opacity"];
+const COLOUR_PROPERTIES: [&str; 6] = ["fill", "stroke", "color", "opacity", "fill-opacity", "stroke-opacity"];
 
 /// Aspects that are left out of a comparison.
 ///
@@ -83,7 +83,7 @@ impl Ignore {
             ink.paint = Paint::Colour(Colour::BLACK);
         }
         if let Some(details) = ink.details.as_mut().filter(|_| self.colours) {
-            let is_colour = |name: &String| COLOURS.contains(&name.as_str());
+            let is_colour = |name: &String| COLOUR_PROPERTIES.contains(&name.as_str());
             if details.keys().any(is_colour) {
                 Arc::make_mut(details).retain(|name, _| !is_colour(name));
             }
@@ -104,7 +104,7 @@ impl Ignore {
         !match what {
             "part" | "class" | "layer" | "tone" | "hidden by" => self.labels,
             "colour" => self.colours,
-            _ if COLOURS.contains(&what) => self.colours,
+            _ if COLOUR_PROPERTIES.contains(&what) => self.colours,
             "width" | "dash" | "ends" | "corners" => self.widths,
             _ => false,
         }

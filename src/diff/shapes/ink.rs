@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-use super::placeholder::{Details, LINKED};
+use super::placeholder::{Details, LINKED_PICTURE_PREFIX};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Join};
-use crate::geometry::numbers::tolerance::{DASH_PX, WIDTH_PX};
+use crate::geometry::numbers::tolerance::{MAX_DASH_DIFFERENCE_PX, MAX_WIDTH_DIFFERENCE_PX};
 
 /// Paint of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -34,7 +34,7 @@ impl Paint {
     /// Target of a linked picture.
     pub(crate) fn link(&self) -> Option<&str> {
         match self {
-            Self::Other(words) => words.strip_prefix(LINKED)?.split('`').next(),
+            Self::Other(words) => words.strip_prefix(LINKED_PICTURE_PREFIX)?.split('`').next(),
             Self::Colour(_) => None,
         }
     }
@@ -114,7 +114,7 @@ impl Ink {
     /// Whether two inks look equal.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.paint.is_like(&other.paint)
-            && (self.width - other.width).abs() <= WIDTH_PX
+            && (self.width - other.width).abs() <= MAX_WIDTH_DIFFERENCE_PX
             && same_dash(&self.dash, &other.dash)
             && (self.cap, self.join, self.outlined) == (other.cap, other.join, other.outlined)
             && (self.tone, self.invisibility, self.is_crisp)
@@ -131,7 +131,7 @@ impl Ink {
             }
         };
         note("colour", !self.paint.is_like(&other.paint), &|ink| ink.paint.to_string());
-        note("width", (self.width - other.width).abs() > WIDTH_PX, &|ink| {
+        note("width", (self.width - other.width).abs() > MAX_WIDTH_DIFFERENCE_PX, &|ink| {
             format!("{} px", trimmed(ink.width))
         });
         note("dash", !same_dash(&self.dash, &other.dash), &|ink| match ink.dash.as_slice() {
@@ -167,7 +167,7 @@ impl Ink {
 
 /// Whether two dash patterns are equal within a tolerance.
 fn same_dash(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= DASH_PX)
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= MAX_DASH_DIFFERENCE_PX)
 }
 
 fn cap(cap: Cap) -> &'static str {

@@ -26,7 +26,7 @@ pub(crate) enum Likeness {
 
 /// Properties shared by all shapes of one label and one ink.
 #[derive(Debug, Clone)]
-pub(crate) struct Group {
+pub(crate) struct MarkGroup {
     pub kind: ShapeKind,
     /// Part of the model.
     part: Option<Arc<str>>,
@@ -38,13 +38,13 @@ pub(crate) struct Group {
 
 /// Groups of two pictures.
 #[derive(Debug)]
-pub(crate) struct Groups {
-    pub groups: Vec<Group>,
+pub(crate) struct MarkGroups {
+    pub groups: Vec<MarkGroup>,
     /// Group number of each shape of each picture.
     pub of_shape: [Vec<usize>; 2],
 }
 
-impl Groups {
+impl MarkGroups {
     /// Assigns group numbers to the shapes of two pictures.
     pub(crate) fn new(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Self {
         let fallback = default_px(pictures[0], pictures[1]);
@@ -65,7 +65,7 @@ impl Groups {
             *known.entry((label, shape.kind, key(&ink))).or_insert_with(|| {
                 let tolerance = tolerances.px(&shape.label, shape.ink.tone, shape.kind, fallback);
                 let part = shape.label.part.clone().filter(|_| !ignore.labels);
-                groups.push(Group { kind: shape.kind, part, label, ink, tolerance });
+                groups.push(MarkGroup { kind: shape.kind, part, label, ink, tolerance });
                 groups.len() - 1
             })
         };

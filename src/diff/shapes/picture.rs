@@ -6,7 +6,7 @@ use kurbo::BezPath;
 
 use super::ink::Ink;
 use super::label::Label;
-use crate::diff::raster_check::Drawn;
+use crate::diff::raster_check::RenderTree;
 use crate::drawing::Unit;
 
 /// Kind of a shape.
@@ -57,7 +57,7 @@ pub struct Picture {
     /// Text of the file.
     pub svg: Arc<str>,
     /// The parsed file for the renderer.
-    pub(crate) drawn: Arc<Drawn>,
+    pub(crate) drawn: Arc<RenderTree>,
     /// Contents of the file that are not compared.
     pub(crate) unread: Arc<[&'static str]>,
 }

@@ -15,7 +15,7 @@ use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::error::Error;
 
 /// Start of the description of a linked picture; the target follows in backticks.
-pub(crate) const LINKED: &str = "the picture linked as `";
+pub(crate) const LINKED_PICTURE_PREFIX: &str = "the picture linked as `";
 
 /// Properties and values that differ from the initial value.
 pub(crate) type Details = BTreeMap<String, String>;
@@ -23,7 +23,7 @@ pub(crate) type Details = BTreeMap<String, String>;
 pub(crate) type Props = BTreeMap<&'static str, String>;
 
 /// Inherited properties of texts and pictures, with initial values.
-const INHERITED: [(&str, &str); 39] = [
+const INHERITED_PROPERTIES: [(&str, &str); 39] = [
     ("font", ""),
     ("font-family", ""),
     ("font-size", "medium"),
@@ -65,7 +65,7 @@ const INHERITED: [(&str, &str); 39] = [
     ("image-rendering", "auto"),
 ];
 /// Properties and attributes that are not inherited, with initial values.
-const OWN: [(&str, &str); 23] = [
+const OWN_PROPERTIES: [(&str, &str); 23] = [
     ("text-decoration", "none"),
     ("text-decoration-line", "none"),
     ("text-decoration-style", "solid"),
@@ -91,9 +91,10 @@ const OWN: [(&str, &str); 23] = [
     ("side", "left"),
 ];
 /// Properties already set on the rectangle of a text.
-const OF_BOX: [&str; 8] = ["opacity", "filter", "clip-path", "mask", "display", "visibility", "x", "y"];
+const BOX_PROPERTIES: [&str; 8] =
+    ["opacity", "filter", "clip-path", "mask", "display", "visibility", "x", "y"];
 /// Elements that only describe their parent.
-const DESCRIPTIONS: [&str; 3] = ["title", "desc", "metadata"];
+const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 
 /// Properties of an element in order of increasing precedence: attributes, style sheets, own style, important
 /// declarations.
@@ -116,7 +117,7 @@ fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) ->
 
 /// Properties inherited by the children of an element.
 pub(crate) fn inherit(around: &Arc<Props>, node: Node, declared: &[Declaration]) -> Arc<Props> {
-    let said = said(node, declared, &INHERITED);
+    let said = said(node, declared, &INHERITED_PROPERTIES);
     if said.is_empty() {
         return Arc::clone(around);
     }
@@ -178,12 +179,12 @@ fn hash(text: impl Hash) -> u64 {
 }
 
 /// Description of a text or a picture, and the properties that change its look.
-pub(crate) struct Words {
+pub(crate) struct Placeholder {
     pub words: String,
     pub details: Details,
 }
 
-impl Words {
+impl Placeholder {
     /// Two colours derived from a hash of the description and the properties.
     pub(crate) fn colours(&self) -> [String; 2] {
         let hash = hash((&self.words, &self.details));
@@ -200,13 +201,13 @@ pub(crate) fn text(
     around: &Props,
     declared: &[Declaration],
     cascade: &mut Cascade,
-) -> Result<Words, Error> {
-    let mut text = Text::default();
+) -> Result<Placeholder, Error> {
+    let mut text = TextRuns::default();
     let mut props = around.clone();
-    props.extend(said(node, declared, &INHERITED));
-    props.extend(said(node, declared, &OWN).into_iter().filter(|(name, value)| {
+    props.extend(said(node, declared, &INHERITED_PROPERTIES));
+    props.extend(said(node, declared, &OWN_PROPERTIES).into_iter().filter(|(name, value)| {
         // The rectangle has a single position, so positions per letter are part of the properties.
-        !OF_BOX.contains(name) || matches!(*name, "x" | "y") && value.contains(' ')
+        !BOX_PROPERTIES.contains(name) || matches!(*name, "x" | "y") && value.contains(' ')
     }));
     let preserved = props.get("white-space").is_some_and(|value| value.starts_with("pre"));
     text.inside(node, &props, cascade)?;
@@ -227,17 +228,17 @@ pub(crate) fn text(
             .collect();
         details.insert("spans".to_owned(), format!("{} as {:08x}", runs.len(), hash(runs) as u32));
     }
-    Ok(Words { words: format!("the text `{words}`"), details })
+    Ok(Placeholder { words: format!("the text `{words}`"), details })
 }
 
 /// A text split into runs of equal properties.
 #[derive(Default)]
-struct Text {
+struct TextRuns {
     /// Pieces of text with equal properties.
     runs: Vec<(Props, String)>,
 }
 
-impl Text {
+impl TextRuns {
     /// Collects the runs of an element and its children.
     fn inside(&mut self, node: Node, props: &Props, cascade: &mut Cascade) -> Result<(), Error> {
         for child in node.children() {
@@ -250,16 +251,18 @@ impl Text {
                 }
                 continue;
             }
-            if !child.is_element() || DESCRIPTIONS.contains(&child.tag_name().name()) {
+            if !child.is_element() || DESCRIPTIVE_ELEMENTS.contains(&child.tag_name().name()) {
                 continue;
             }
             let declared = cascade.enter(child)?;
             let mut inner = props.clone();
             // Letter positions apply only to the piece that sets them.
             inner.retain(|name, _| !matches!(*name, "x" | "y" | "dx" | "dy" | "rotate"));
-            for (name, value) in
-                said(child, &declared, &INHERITED).into_iter().chain(said(child, &declared, &OWN))
-            {
+            for (name, value) in said(child, &declared, &INHERITED_PROPERTIES).into_iter().chain(said(
+                child,
+                &declared,
+                &OWN_PROPERTIES,
+            )) {
                 // Text decorations accumulate through nested elements.
                 match inner.get_mut(name) {
                     Some(outer) if name.starts_with("text-decoration") => {
@@ -286,8 +289,13 @@ impl Text {
 
 /// The properties that are visible and differ from their initial value.
 fn details(props: &Props) -> Details {
-    let initial =
-        |name: &str| INHERITED.iter().chain(&OWN).find(|(known, _)| *known == name).map(|(_, value)| *value);
+    let initial = |name: &str| {
+        INHERITED_PROPERTIES
+            .iter()
+            .chain(&OWN_PROPERTIES)
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| *value)
+    };
     let stroked = props.get("stroke").is_some_and(|stroke| stroke != "none");
     let shown = |(name, value): &(&&str, &String)| {
         let counts = stroked || !name.starts_with("stroke");
@@ -307,7 +315,7 @@ fn details(props: &Props) -> Details {
 }
 
 /// Description of a picture; `None` if it draws nothing.
-pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> Option<Words> {
+pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> Option<Placeholder> {
     let href = node.attributes().find(|a| a.name() == "href").map(|a| a.value().trim())?;
     if href.is_empty() {
         return None;
@@ -317,7 +325,7 @@ pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> O
         let letters: String = href.split_ascii_whitespace().collect();
         format!("the picture {:016x}", hash(letters))
     } else {
-        format!("{LINKED}{href}`")
+        format!("{LINKED_PICTURE_PREFIX}{href}`")
     };
     let mut details = Details::new();
     let fitted = node.attribute("preserveAspectRatio").unwrap_or_default();
@@ -326,9 +334,9 @@ pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> O
         details.insert("fitted".to_owned(), fitted);
     }
     let mut props = around.clone();
-    props.extend(said(node, declared, &INHERITED));
+    props.extend(said(node, declared, &INHERITED_PROPERTIES));
     if let Some(smooth) = props.get("image-rendering").filter(|value| *value != "auto") {
         details.insert("image-rendering".to_owned(), smooth.clone());
     }
-    Some(Words { words, details })
+    Some(Placeholder { words, details })
 }

@@ -7,7 +7,7 @@ use usvg::{ImageHrefResolver, Options, ShapeRendering, Tree};
 
 /// A file parsed for the renderer.
 #[derive(Debug)]
-pub(crate) struct Drawn {
+pub(crate) struct RenderTree {
     smooth: Tree,
     /// Parsed with crisp edges on first use, if that differs.
     crisp: OnceLock<Option<Tree>>,
@@ -17,13 +17,13 @@ pub(crate) struct Drawn {
 }
 
 /// Compares the markup only.
-impl PartialEq for Drawn {
+impl PartialEq for RenderTree {
     fn eq(&self, other: &Self) -> bool {
         self.markup == other.markup
     }
 }
 
-impl Drawn {
+impl RenderTree {
     /// Parses a file prepared for the renderer.
     ///
     /// # Errors

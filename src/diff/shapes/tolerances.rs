@@ -10,7 +10,7 @@ use super::label::Label;
 use super::picture::{Picture, ShapeKind};
 use crate::drawing::{Length, Unit};
 use crate::error::Error;
-use crate::geometry::numbers::tolerance::{COARSEST_STEP_PX, READ_OF_PAGE};
+use crate::geometry::numbers::tolerance::{MAX_DIFF_STEP_PX, SVG_PRECISION_OF_PAGE};
 
 /// Tolerances for all marks, and for some marks by name.
 ///
@@ -104,24 +104,24 @@ impl Tolerances {
 /// Default tolerance in px: twice the precision of the less precise drawing, or four times if only one
 /// drawing has arcs. It is at least the precision of reading.
 pub(crate) fn default_px(before: &Picture, after: &Picture) -> f64 {
-    let step = before.step_px.max(after.step_px).min(COARSEST_STEP_PX);
+    let step = before.step_px.max(after.step_px).min(MAX_DIFF_STEP_PX);
     let sides = [before.width, before.height, after.width, after.height];
     // If only one drawing has arcs, a program replaced curves by arcs. They are off by up to two and a half
     // units of the last decimal.
     let steps = if before.has_arcs == after.has_arcs { 2.0 } else { 4.0 };
-    (steps * step).max(sides.into_iter().fold(0.0, f64::max) * READ_OF_PAGE)
+    (steps * step).max(sides.into_iter().fold(0.0, f64::max) * SVG_PRECISION_OF_PAGE)
 }
 
 impl<'de> Deserialize<'de> for Tolerances {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Reader)
+        deserializer.deserialize_any(ToleranceVisitor)
     }
 }
 
 /// Deserialises `"0.1px"`, `0.1` or `{ default = "0.1px", lines = "0.05mm" }`.
-struct Reader;
+struct ToleranceVisitor;
 
-impl<'de> Visitor<'de> for Reader {
+impl<'de> Visitor<'de> for ToleranceVisitor {
     type Value = Tolerances;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

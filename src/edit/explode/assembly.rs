@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::bodies::Body;
-use super::body_axes::is_same;
+use super::body_axes::is_parallel;
 
 /// Bodies of an assembly. Each moves as a whole.
 pub(crate) struct Assembly<'a> {
@@ -19,16 +19,16 @@ pub(crate) struct Assembly<'a> {
 }
 
 /// Maximum number of distinct axes compared in a group.
-const MOST_DISTINCT: usize = 256;
+const MAX_DISTINCT_AXES: usize = 256;
 
 impl Assembly<'_> {
     /// Axes that at least two of the bodies share, most common first.
     pub fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
         let mut found: Vec<(DVec3, usize)> = Vec::new();
         for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
-            match found.iter().position(|(known, _)| is_same(*known, *axis)) {
+            match found.iter().position(|(known, _)| is_parallel(*known, *axis)) {
                 Some(known) => found[known].1 += 1,
-                None if found.len() < MOST_DISTINCT => found.push((*axis, 1)),
+                None if found.len() < MAX_DISTINCT_AXES => found.push((*axis, 1)),
                 None => {}
             }
         }

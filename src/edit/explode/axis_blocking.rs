@@ -1,4 +1,4 @@
-//! [`Level`]: blocking relations of bodies along one axis, and the groups that move as one.
+//! [`AxisBlocking`]: blocking relations of bodies along one axis, and the groups that move as one.
 
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
@@ -7,46 +7,47 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::assembly::{Assembly, frame};
-use super::axis_projection::{Meeting, Shadow};
+use super::axis_projection::{AxisProjection, PairContact};
 use super::body_axes;
-use super::stacking_order::{Meetings, Standing, Stretch, offsets, root, unite};
+use super::stacking_order::{AxisExtent, AxisRelation, PairContacts, offsets, root, unite};
 
 /// Blocking relations of some bodies along an axis.
 #[derive(Clone)]
-pub(crate) struct Level {
+pub(crate) struct AxisBlocking {
     pub axis: DVec3,
     /// Indices of the bodies, ascending.
     of: Vec<usize>,
-    stretches: Vec<Stretch>,
+    stretches: Vec<AxisExtent>,
     /// Contacts of pairs, by position in `of`.
-    meetings: Meetings,
+    meetings: PairContacts,
 }
 
-impl Level {
+impl AxisBlocking {
     /// Computes the relations of bodies along an axis.
     pub fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
-        let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: Meetings::new() };
-        Self::holding(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
+        let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: PairContacts::new() };
+        Self::with_held_limit(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
     }
 
     /// Computes the relations of bodies along an axis, if at most `most_held` pairs interlock. The limit has
     /// no effect at present, because the counter `held` is never increased.
-    pub fn holding(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
+    pub fn with_held_limit(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
         let axes = frame(axis);
-        let shadows: Vec<Shadow> = of.par_iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
-        let stretch = |(unit, shadow): (&usize, &Shadow)| Stretch {
+        let shadows: Vec<AxisProjection> =
+            of.par_iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
+        let stretch = |(unit, shadow): (&usize, &AxisProjection)| AxisExtent {
             low: shadow.low,
             high: shadow.high,
             size: shadow.area * (shadow.high - shadow.low),
             order: assembly.orders[*unit],
         };
-        let stretches: Vec<Stretch> = of.iter().zip(&shadows).map(stretch).collect();
+        let stretches: Vec<AxisExtent> = of.iter().zip(&shadows).map(stretch).collect();
         let held = AtomicUsize::new(0);
         let of_one = |a: usize| {
-            let meeting = |b: usize| ([a, b], shadows[a].meeting(&shadows[b], assembly.touch));
+            let meeting = |b: usize| ([a, b], shadows[a].contact_with(&shadows[b], assembly.touch));
             (0..a)
                 .map(meeting)
-                .filter(|(_, meeting)| meeting.standing() != Standing::Apart)
+                .filter(|(_, meeting)| meeting.standing() != AxisRelation::Apart)
                 .collect::<Vec<_>>()
         };
         let meetings = (0..of.len()).into_par_iter().with_max_len(1).flat_map_iter(of_one).collect();
@@ -57,8 +58,9 @@ impl Level {
     /// The same relations for a subset of the bodies.
     pub fn of_some(&self, of: &[usize]) -> Self {
         let place: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
-        let kept =
-            |(pair, meeting): (&[usize; 2], &Meeting)| Some(([place[pair[0]]?, place[pair[1]]?], *meeting));
+        let kept = |(pair, meeting): (&[usize; 2], &PairContact)| {
+            Some(([place[pair[0]]?, place[pair[1]]?], *meeting))
+        };
         let stretches = self.stretches.iter().zip(&place).filter(|(_, place)| place.is_some());
         Self {
             axis: self.axis,
@@ -68,9 +70,9 @@ impl Level {
         }
     }
 
-    fn standing(&self, [a, b]: [usize; 2]) -> Standing {
-        let met = self.meetings.get(&[a, b]).map_or(Standing::Apart, |meeting| meeting.standing());
-        self.stretches[a].told(&self.stretches[b]).unwrap_or(met)
+    fn standing(&self, [a, b]: [usize; 2]) -> AxisRelation {
+        let met = self.meetings.get(&[a, b]).map_or(AxisRelation::Apart, |meeting| meeting.standing());
+        self.stretches[a].given_relation(&self.stretches[b]).unwrap_or(met)
     }
 
     fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
@@ -79,11 +81,11 @@ impl Level {
 
     /// Number of pairs that interlock.
     pub fn held_pairs(&self) -> usize {
-        self.pairs().filter(|pair| self.standing(*pair) == Standing::Held).count()
+        self.pairs().filter(|pair| self.standing(*pair) == AxisRelation::Held).count()
     }
 
     /// Number of pairs in contact that can be separated.
-    pub fn parted(&self) -> usize {
+    pub fn separable_pairs(&self) -> usize {
         self.meetings.len() - self.held_pairs()
     }
 
@@ -96,7 +98,8 @@ impl Level {
     /// bodies without an axis along this one. Two of them are joined if they share another axis and are in
     /// contact along it.
     pub fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
-        let has = |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| body_axes::is_same(*own, axis));
+        let has =
+            |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| body_axes::is_parallel(*own, axis));
         let askew: Vec<usize> = self
             .of
             .iter()
@@ -117,7 +120,7 @@ impl Level {
 
     /// Joins interlocking bodies with the given groups.
     fn grouped(&self, mut group: Vec<usize>) -> Vec<Vec<usize>> {
-        for [a, b] in self.pairs().filter(|pair| self.standing(*pair) == Standing::Held) {
+        for [a, b] in self.pairs().filter(|pair| self.standing(*pair) == AxisRelation::Held) {
             unite(&mut group, a, b);
         }
         let mut groups: Vec<Vec<usize>> = vec![Vec::new(); group.len()];
@@ -135,7 +138,7 @@ impl Level {
         for (number, group) in groups.iter().enumerate() {
             group.iter().filter_map(place).for_each(|k| group_of[k] = number);
         }
-        let mut meetings = Meetings::new();
+        let mut meetings = PairContacts::new();
         for (&[a, b], meeting) in &self.meetings {
             let [one, other] = [group_of[a], group_of[b]];
             let (pair, meeting) =
@@ -144,9 +147,10 @@ impl Level {
                 meetings.entry(pair).and_modify(|known| *known = known.or(meeting)).or_insert(meeting);
             }
         }
-        let joined =
-            |group: &Vec<usize>| Stretch::joined(group.iter().filter_map(place).map(|k| self.stretches[k]));
-        let stretches: Vec<Stretch> = groups.iter().map(joined).collect();
+        let joined = |group: &Vec<usize>| {
+            AxisExtent::joined(group.iter().filter_map(place).map(|k| self.stretches[k]))
+        };
+        let stretches: Vec<AxisExtent> = groups.iter().map(joined).collect();
         offsets(&stretches, &meetings, assembly.gap)
     }
 }

@@ -1,4 +1,4 @@
-//! [`Shadow`]: body projected along an axis, as triangles in the plane with heights.
+//! [`AxisProjection`]: body projected along an axis, as triangles in the plane with heights.
 //!
 //! Blocking is computed from pairs of triangles, one of each body:
 //!
@@ -15,23 +15,23 @@ use glam::{DVec2, DVec3};
 use kurbo::Point;
 
 use super::bodies::Body;
-use super::box_tree::{Boxes, EMPTY, Rect, overlap, union};
+use super::box_tree::{EMPTY_RECT, Rect, RectTree, overlap, union};
 use super::polygon_overlap::{area, common, cut};
 use crate::geometry::numbers::portable_math::atan2;
-use crate::geometry::plane::convex_hull::hull;
+use crate::geometry::plane::convex_hull::convex_hull;
 
 /// Maximum overlap, as a share of the smaller projected area, that counts as grazing. Facets of a shaft and
 /// its bore graze each other.
-const GRAZE: f64 = 0.02;
+const MAX_GRAZE_AREA_RATIO: f64 = 0.02;
 
 /// Maximum projected area, as a share of the full area, of a face that counts as parallel to the axis.
-const UPRIGHT: f64 = 1e-9;
+const MAX_UPRIGHT_AREA_RATIO: f64 = 1e-9;
 
 /// Body projected along an axis.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Shadow {
-    triangles: Vec<Flat>,
-    tree: Boxes,
+pub(crate) struct AxisProjection {
+    triangles: Vec<ProjectedTriangle>,
+    tree: RectTree,
     /// Bounding box in the plane.
     bounds: Rect,
     /// Lowest and highest point along the axis.
@@ -43,7 +43,7 @@ pub(crate) struct Shadow {
 
 /// Projected triangle, counter-clockwise.
 #[derive(Debug, Clone, Copy)]
-struct Flat {
+struct ProjectedTriangle {
     at: [DVec2; 3],
     height: [f64; 3],
     /// Twice the area.
@@ -55,7 +55,7 @@ struct Flat {
 
 /// Contact of two bodies along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Meeting {
+pub(crate) struct PairContact {
     /// Whether the projections overlap.
     pub meets: bool,
     /// Whether the other body blocks upward movement of the first.
@@ -66,7 +66,7 @@ pub(crate) struct Meeting {
     pub is_within: bool,
 }
 
-impl Meeting {
+impl PairContact {
     /// The contact as seen from the other body.
     pub fn turned(self) -> Self {
         Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
@@ -83,11 +83,11 @@ impl Meeting {
     }
 }
 
-impl Shadow {
+impl AxisProjection {
     /// Projects a body along the third vector of a right-handed orthonormal basis.
     pub fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
         let mut shadow =
-            Self { bounds: EMPTY, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
+            Self { bounds: EMPTY_RECT, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
         let mut boxes = Vec::new();
         for corners in &body.triangles {
             let placed = corners.map(|p| axes.map(|axis| p.dot(axis)));
@@ -96,11 +96,11 @@ impl Shadow {
             for z in height {
                 (shadow.low, shadow.high) = (shadow.low.min(z), shadow.high.max(z));
             }
-            let own = at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            let own = at.iter().fold(EMPTY_RECT, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
             shadow.bounds = union(shadow.bounds, own);
             let area = (at[1] - at[0]).perp_dot(at[2] - at[0]);
             let whole = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
-            if area.abs() <= UPRIGHT * whole {
+            if area.abs() <= MAX_UPRIGHT_AREA_RATIO * whole {
                 continue;
             }
             let looks_up = area > 0.0;
@@ -109,27 +109,27 @@ impl Shadow {
                 height.swap(1, 2);
             }
             let (is_up, is_down) = (looks_up || body.is_open, !looks_up || body.is_open);
-            shadow.triangles.push(Flat { at, height, area: area.abs(), is_up, is_down });
+            shadow.triangles.push(ProjectedTriangle { at, height, area: area.abs(), is_up, is_down });
             shadow.area += area.abs() / 4.0;
             boxes.push(own);
         }
-        shadow.tree = Boxes::new(&boxes);
+        shadow.tree = RectTree::new(&boxes);
         shadow
     }
 
     /// Contact with another body. Surfaces within `touch` of each other touch.
-    pub fn meeting(&self, other: &Self, touch: f64) -> Meeting {
+    pub fn contact_with(&self, other: &Self, touch: f64) -> PairContact {
         if !overlap(&self.bounds, &other.bounds) {
-            return Meeting::default();
+            return PairContact::default();
         }
-        let graze = GRAZE * self.area.min(other.area);
+        let graze = MAX_GRAZE_AREA_RATIO * self.area.min(other.area);
         if self.triangles.len() > other.triangles.len() {
-            return other.areas(self, touch, graze).turned();
+            return other.blocked_areas(self, touch, graze).turned();
         }
-        self.areas(other, touch, graze)
+        self.blocked_areas(other, touch, graze)
     }
 
-    fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
+    fn blocked_areas(&self, other: &Self, touch: f64, graze: f64) -> PairContact {
         let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
         // A body completely above the other does not block it downward, and vice versa.
         let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
@@ -137,7 +137,7 @@ impl Shadow {
             both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
         };
         for own in &self.triangles {
-            let bounds = own.at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            let bounds = own.at.iter().fold(EMPTY_RECT, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
             let goes_on = other.tree.overlapping(&bounds, &mut |number| {
                 let its = &other.triangles[number as usize];
                 let counts = own.is_up && its.is_up;
@@ -161,10 +161,10 @@ impl Shadow {
                 if counts {
                     both += area(&common);
                     if may_be_above && above <= graze {
-                        above += self.passing([own, its], other, &cut(&common, |p| gap(p) - touch));
+                        above += self.protruding_area([own, its], other, &cut(&common, |p| gap(p) - touch));
                     }
                     if may_be_below && below <= graze {
-                        below += other.passing([its, own], self, &cut(&common, |p| -touch - gap(p)));
+                        below += other.protruding_area([its, own], self, &cut(&common, |p| -touch - gap(p)));
                     }
                 }
                 is_open(both, above, below)
@@ -177,12 +177,12 @@ impl Shadow {
         let is_within = !meets && (self.lies_within(other) || other.lies_within(self));
         let blocks_up = meets && may_be_above && above > graze;
         let blocks_down = meets && may_be_below && below > graze;
-        Meeting { meets, blocks_up, blocks_down, is_within }
+        PairContact { meets, blocks_up, blocks_down, is_within }
     }
 
     /// Area of a polygon if the other body begins inside this one there and ends above it. `tops` are the
     /// upper faces of both. It is 0 if a body is open.
-    fn passing(&self, tops: [&Flat; 2], other: &Self, polygon: &[DVec2]) -> f64 {
+    fn protruding_area(&self, tops: [&ProjectedTriangle; 2], other: &Self, polygon: &[DVec2]) -> f64 {
         if polygon.len() < 3 || tops.iter().any(|top| top.is_down) {
             return 0.0;
         }
@@ -217,7 +217,7 @@ impl Shadow {
             return false;
         }
         let corners = self.triangles.iter().flat_map(|t| t.at).map(|p| Point::new(p.x, p.y)).collect();
-        hull(corners).iter().all(|p| other.surrounds(DVec2::new(p.x, p.y)))
+        convex_hull(corners).iter().all(|p| other.surrounds(DVec2::new(p.x, p.y)))
     }
 
     /// Whether the triangles cover all directions around a point.
@@ -244,19 +244,19 @@ impl Shadow {
         let mut until = first[1];
         let end = first[0] + full;
         for [from, to] in &covered {
-            if *from > until + ANGLE {
+            if *from > until + ANGLE_ROUNDING_RAD {
                 return false;
             }
             until = until.max(*to);
         }
-        until >= end - ANGLE
+        until >= end - ANGLE_ROUNDING_RAD
     }
 }
 
 /// Rounding tolerance of angles, radians.
-const ANGLE: f64 = 1e-9;
+const ANGLE_ROUNDING_RAD: f64 = 1e-9;
 
-impl Flat {
+impl ProjectedTriangle {
     /// Whether a point lies in the triangle.
     fn holds(&self, point: DVec2) -> bool {
         (0..3).all(|k| (self.at[k] - point).perp_dot(self.at[(k + 1) % 3] - point) >= 0.0)

@@ -1,4 +1,4 @@
-//! [`axes_of`]: directions along which a body may have been assembled.
+//! [`body_axes`]: directions along which a body may have been assembled.
 //!
 //! 1. The faces of a body are grouped by their normals.
 //! 2. The three directions with the largest area are axes of the body. A box has exactly three.
@@ -11,40 +11,42 @@ use super::bodies::Body;
 
 /// Maximum sine of the angle between directions that count as equal. Single-precision rounding turns the
 /// faces of the test models by less.
-const SAME_SINE: f64 = 1e-3;
+const MAX_PARALLEL_SINE: f64 = 1e-3;
 
 /// Maximum number of face directions that are kept. The largest faces come first.
-const MOST_PLANES: usize = 64;
+const MAX_PLANE_DIRECTIONS: usize = 64;
 
 /// Maximum number of axes from face directions.
-const OF_PLANES: usize = 3;
+const MAX_FACE_AXES: usize = 3;
 
 /// Whether two unit vectors are parallel or opposite.
-pub(crate) fn is_same(a: DVec3, b: DVec3) -> bool {
-    a.cross(b).length_squared() <= SAME_SINE * SAME_SINE
+pub(crate) fn is_parallel(a: DVec3, b: DVec3) -> bool {
+    a.cross(b).length_squared() <= MAX_PARALLEL_SINE * MAX_PARALLEL_SINE
 }
 
 /// Axes of a body as unit vectors, those of the largest faces first.
-pub(crate) fn axes_of(body: &Body) -> Vec<DVec3> {
+pub(crate) fn body_axes(body: &Body) -> Vec<DVec3> {
     let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
     let mut normals: Vec<DVec3> = body.triangles.iter().map(normal).collect();
     normals.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     for normal in normals {
         let Some(direction) = normal.try_normalize() else { continue };
-        match planes.iter().position(|(known, _)| is_same(*known, direction)) {
+        match planes.iter().position(|(known, _)| is_parallel(*known, direction)) {
             Some(known) => planes[known].1 += normal.length(),
-            None if planes.len() < MOST_PLANES => planes.push((upward(direction), normal.length())),
+            None if planes.len() < MAX_PLANE_DIRECTIONS => planes.push((upward(direction), normal.length())),
             None => {}
         }
     }
     planes.sort_by(|a, b| b.1.total_cmp(&a.1));
-    planes.truncate(OF_PLANES);
+    planes.truncate(MAX_FACE_AXES);
     let mut axes: Vec<DVec3> = planes.iter().map(|(direction, _)| *direction).collect();
     for (k, (a, _)) in planes.iter().enumerate() {
         for (b, _) in &planes[..k] {
             let across = a.cross(*b).try_normalize().map(upward);
-            if let Some(across) = across.filter(|across| !axes.iter().any(|known| is_same(*known, *across))) {
+            if let Some(across) =
+                across.filter(|across| !axes.iter().any(|known| is_parallel(*known, *across)))
+            {
                 axes.push(across);
             }
         }
@@ -74,8 +76,8 @@ mod tests {
             };
             let side = |k: usize| [at(k, 0.0), at(k + 1, 0.0), at(k + 1, 5.0)];
             let body = Body { triangles: (0..sides).map(side).collect(), is_open: true };
-            let axes = axes_of(&body);
-            assert!(axes.iter().any(|axis| is_same(*axis, turn * DVec3::Z)), "{sides}: {axes:?}");
+            let axes = body_axes(&body);
+            assert!(axes.iter().any(|axis| is_parallel(*axis, turn * DVec3::Z)), "{sides}: {axes:?}");
         }
     }
 }

@@ -1,28 +1,28 @@
-//! [`Boxes`]: tree of 2-D bounding boxes, which finds the boxes that overlap a query box.
+//! [`RectTree`]: tree of 2-D bounding boxes, which finds the boxes that overlap a query box.
 
 /// Box in the plane: minimum x and y, maximum x and y.
 pub(crate) type Rect = [f64; 4];
 
 /// Maximum number of boxes in a leaf.
-const LEAF: usize = 8;
+const MAX_LEAF_BOXES: usize = 8;
 
 /// Bounding box tree in an array. Each node splits its boxes at the median along the longer side.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Boxes {
+pub(crate) struct RectTree {
     /// Boxes in tree order, with their indices.
     boxes: Vec<(Rect, u32)>,
-    nodes: Vec<Node>,
+    nodes: Vec<RectTreeNode>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct RectTreeNode {
     bounds: Rect,
     range: [u32; 2],
     /// Index of the second child; the first child follows the node. None in a leaf.
     second: Option<u32>,
 }
 
-impl Boxes {
+impl RectTree {
     /// Builds the tree.
     pub fn new(boxes: &[Rect]) -> Self {
         let mut tree = Self { boxes: boxes.iter().copied().zip(0..).collect(), nodes: Vec::new() };
@@ -34,10 +34,10 @@ impl Boxes {
 
     fn grow(&mut self, first: usize, last: usize) {
         let own = &mut self.boxes[first..last];
-        let bounds = own.iter().fold(EMPTY, |sum, (own, _)| union(sum, *own));
+        let bounds = own.iter().fold(EMPTY_RECT, |sum, (own, _)| union(sum, *own));
         let node = self.nodes.len();
-        self.nodes.push(Node { bounds, range: [first as u32, last as u32], second: None });
-        if own.len() <= LEAF {
+        self.nodes.push(RectTreeNode { bounds, range: [first as u32, last as u32], second: None });
+        if own.len() <= MAX_LEAF_BOXES {
             return;
         }
         let along = usize::from(bounds[3] - bounds[1] > bounds[2] - bounds[0]);
@@ -72,7 +72,7 @@ impl Boxes {
 }
 
 /// Empty box, neutral for [`union`].
-pub(crate) const EMPTY: Rect = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+pub(crate) const EMPTY_RECT: Rect = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 /// Smallest box around two boxes.
 pub(crate) fn union(a: Rect, b: Rect) -> Rect {
@@ -97,7 +97,7 @@ mod tests {
             [x, y, x + dice.between(0.0, size), y + dice.between(0.0, size)]
         };
         let boxes: Vec<Rect> = (0..500).map(|k| random(if k % 50 == 0 { 0.7 } else { 0.05 })).collect();
-        let tree = Boxes::new(&boxes);
+        let tree = RectTree::new(&boxes);
         for _ in 0..100 {
             let probe = random(0.2);
             let mut found = Vec::new();

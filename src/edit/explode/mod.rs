@@ -32,7 +32,7 @@ pub use trail_lines::{TRAIL, with_trails};
 
 use crate::scene::Scene;
 use assembly::{Assembly, Moves};
-use axis_blocking::Level;
+use axis_blocking::AxisBlocking;
 use bodies::{Body, joined};
 
 /// Settings of an exploded view.
@@ -53,14 +53,14 @@ impl Default for Explosion {
 }
 
 /// Gap between parts, as a share of the model's diagonal.
-const GAP: f64 = 0.04;
+const PART_GAP_RATIO: f64 = 0.04;
 
 /// Distance within which surfaces touch, as a share of the model's diagonal.
-const TOUCH: f64 = 1e-5;
+const TOUCH_DISTANCE_RATIO: f64 = 1e-5;
 
 /// Displacements of the parts of a scene, world units. Zero for parts that stay.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Ways {
+pub struct PartOffsets {
     /// Displacement of each part.
     pub offsets: Vec<DVec3>,
     /// Final part of each displacement, without the common movement with interlocking parts.
@@ -72,9 +72,9 @@ pub struct Ways {
 /// The largest part of each connected group stays. Parts that overlap along the axis end up one behind the
 /// other. Parts that interlock along all axes move as one.
 #[must_use]
-pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
+pub fn explode(scene: &Scene, explosion: &Explosion) -> PartOffsets {
     let count = scene.parts.len();
-    let mut ways = Ways { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
+    let mut ways = PartOffsets { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
     let bodies = bodies::bodies(scene);
     let Some((low, high)) = scene.bounds() else { return ways };
     let diagonal = (high - low).length();
@@ -86,17 +86,17 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
         units.iter().map(|unit| joined(unit.parts.iter().map(|part| &bodies[*part]))).collect();
     let assembly = Assembly {
         orders: units.iter().map(|unit| unit.told.order).collect(),
-        axes: unit_bodies.iter().map(body_axes::axes_of).collect(),
+        axes: unit_bodies.iter().map(body_axes::body_axes).collect(),
         bodies: &unit_bodies,
-        gap: GAP * diagonal * explosion.factor.max(0.0),
-        touch: TOUCH * diagonal,
+        gap: PART_GAP_RATIO * diagonal * explosion.factor.max(0.0),
+        touch: TOUCH_DISTANCE_RATIO * diagonal,
     };
     let mut moves = Moves { whole: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
-    let own_way = |unit: &part_rules::Unit| unit.told.direction.is_some();
+    let own_way = |unit: &part_rules::PartUnit| unit.told.direction.is_some();
     let others: Vec<usize> = (0..units.len()).filter(|k| !own_way(&units[*k])).collect();
     let first = explosion.axis.and_then(DVec3::try_normalize);
     let main = assembly.all(&others, first, &mut moves);
-    part_rules::move_told(&assembly, &units, main.or(first), &mut moves);
+    part_rules::apply_part_rules(&assembly, &units, main.or(first), &mut moves);
     for (unit, (whole, alone)) in units.iter().zip(moves.whole.iter().zip(&moves.alone)) {
         for part in &unit.parts {
             ways.offsets[*part] = *whole;
@@ -111,8 +111,8 @@ impl Assembly<'_> {
     fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
         let mut known = Vec::new();
         let level = match told {
-            Some(axis) => Level::new(self, of, axis),
-            None => self.best(of, &[], &mut known)?,
+            Some(axis) => AxisBlocking::new(self, of, axis),
+            None => self.best_axis(of, &[], &mut known)?,
         };
         let mut groups = level.groups(self);
         if groups.len() < 2 {
@@ -128,9 +128,9 @@ impl Assembly<'_> {
     /// computed.
     fn along(
         &self,
-        level: &Level,
+        level: &AxisBlocking,
         groups: &[Vec<usize>],
-        (tried, known): (&[DVec3], &[Level]),
+        (tried, known): (&[DVec3], &[AxisBlocking]),
         moves: &mut Moves,
     ) {
         for (group, offset) in groups.iter().zip(level.offsets(self, groups)) {
@@ -146,8 +146,8 @@ impl Assembly<'_> {
             }
             group.iter().for_each(|unit| moves.alone[*unit] = DVec3::ZERO);
             let tried = if groups.len() > 1 { &[level.axis] } else { tried };
-            let mut known: Vec<Level> = known.iter().map(|level| level.of_some(group)).collect();
-            if let Some(next) = self.best(group, tried, &mut known) {
+            let mut known: Vec<AxisBlocking> = known.iter().map(|level| level.of_some(group)).collect();
+            if let Some(next) = self.best_axis(group, tried, &mut known) {
                 let all: Vec<DVec3> = tried.iter().copied().chain([next.axis]).collect();
                 let held = next.held();
                 self.along(&next, &held, (&all, &known), moves);
@@ -160,28 +160,29 @@ impl Assembly<'_> {
     ///
     /// Axes of bodies are tried only if pairs interlock along all world axes. New relations are added to
     /// `known`.
-    fn best(&self, of: &[usize], but: &[DVec3], known: &mut Vec<Level>) -> Option<Level> {
+    fn best_axis(&self, of: &[usize], but: &[DVec3], known: &mut Vec<AxisBlocking>) -> Option<AxisBlocking> {
         let mut axes: Vec<DVec3> = vec![DVec3::X, DVec3::Y, DVec3::Z];
-        let mut best: Option<((usize, usize), Level)> = None;
+        let mut best: Option<((usize, usize), AxisBlocking)> = None;
         for own in [false, true] {
             if own {
                 axes = self.shared_axes(of);
-                axes.retain(|axis| !DVec3::AXES.iter().any(|known| body_axes::is_same(*known, *axis)));
-                axes.truncate(MOST_AXES);
+                axes.retain(|axis| !DVec3::AXES.iter().any(|known| body_axes::is_parallel(*known, *axis)));
+                axes.truncate(MAX_TRIED_AXES);
             }
-            for axis in axes.iter().filter(|axis| !but.iter().any(|tried| body_axes::is_same(*tried, **axis)))
+            for axis in
+                axes.iter().filter(|axis| !but.iter().any(|tried| body_axes::is_parallel(*tried, **axis)))
             {
                 let found = known.iter().find(|level| level.axis == *axis).cloned();
                 let most_held = best.as_ref().map_or(usize::MAX, |((held, _), _)| *held);
                 let search = || {
-                    let level = Level::holding(self, of, *axis, most_held)?;
+                    let level = AxisBlocking::with_held_limit(self, of, *axis, most_held)?;
                     known.push(level.clone());
                     Some(level)
                 };
                 let Some(level) = found.or_else(search) else { continue };
-                let rank = (level.held_pairs(), usize::MAX - level.parted());
+                let rank = (level.held_pairs(), usize::MAX - level.separable_pairs());
                 let is_better = best.as_ref().is_none_or(|(least, _)| rank < *least);
-                if is_better && level.parted() > 0 && level.held().len() > 1 {
+                if is_better && level.separable_pairs() > 0 && level.held().len() > 1 {
                     best = Some((rank, level));
                 }
             }
@@ -194,11 +195,11 @@ impl Assembly<'_> {
 }
 
 /// Maximum number of shared body axes tried for one group.
-const MOST_AXES: usize = 3;
+const MAX_TRIED_AXES: usize = 3;
 
 /// Moves the parts of a scene.
 #[must_use]
-pub fn moved(mut scene: Scene, ways: &Ways) -> Scene {
+pub fn moved(mut scene: Scene, ways: &PartOffsets) -> Scene {
     for (part, way) in scene.parts.iter_mut().zip(&ways.offsets) {
         part.world_from_part = DAffine3::from_translation(*way) * part.world_from_part;
     }

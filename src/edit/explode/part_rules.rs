@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::assembly::{Assembly, Moves, frame};
-use super::axis_projection::{Meeting, Shadow};
+use super::axis_projection::{AxisProjection, PairContact};
 use super::bodies::{Body, joined};
-use super::stacking_order::{Meetings, Stretch, offsets};
+use super::stacking_order::{AxisExtent, PairContacts, offsets};
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 
@@ -56,14 +56,14 @@ pub fn direction(text: &str) -> Option<DVec3> {
 }
 
 /// Parts that move as one, with their combined rule.
-pub(crate) struct Unit {
+pub(crate) struct PartUnit {
     pub parts: Vec<usize>,
     pub told: PartExplosion,
 }
 
 /// Units of a scene, in the order of their first parts. Parts without faces belong to none.
-pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> Vec<Unit> {
-    let mut units: Vec<Unit> = Vec::new();
+pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> Vec<PartUnit> {
+    let mut units: Vec<PartUnit> = Vec::new();
     for (number, part) in scene.parts.iter().enumerate().filter(|(k, _)| !bodies[*k].triangles.is_empty()) {
         let mut own = PartExplosion::new(part.name.as_str());
         for rule in told.iter().filter(|rule| rule.name.matches(&part.name)) {
@@ -74,25 +74,31 @@ pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> V
         }
         let group = units.iter_mut().find(|unit| own.group.is_some() && unit.told.group == own.group);
         match group {
-            Some(Unit { parts, told }) => {
+            Some(PartUnit { parts, told }) => {
                 parts.push(number);
                 told.direction = told.direction.or(own.direction);
                 told.distance = told.distance.or(own.distance);
                 told.order = told.order.or(own.order);
             }
-            None => units.push(Unit { parts: vec![number], told: own }),
+            None => units.push(PartUnit { parts: vec![number], told: own }),
         }
     }
     units
 }
 
 /// Moves the units with a given direction or distance. `main` is the axis of the other units.
-pub(crate) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>, moves: &mut Moves) {
+pub(crate) fn apply_part_rules(
+    assembly: &Assembly,
+    units: &[PartUnit],
+    main: Option<DVec3>,
+    moves: &mut Moves,
+) {
     let direction = |k: usize| units[k].told.direction.and_then(DVec3::try_normalize);
     let mut left: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
     while let Some(way) = left.first().and_then(|k| direction(*k)) {
-        let (own, others): (Vec<usize>, Vec<usize>) =
-            left.into_iter().partition(|k| direction(*k).is_some_and(|own| own.dot(way) > SAME_WAY));
+        let (own, others): (Vec<usize>, Vec<usize>) = left
+            .into_iter()
+            .partition(|k| direction(*k).is_some_and(|own| own.dot(way) > MIN_PARALLEL_COSINE));
         left = others;
         for (unit, offset) in own.iter().zip(offsets_along(assembly, &own, way)) {
             moves.whole[*unit] = way * offset;
@@ -109,33 +115,38 @@ pub(crate) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>
 }
 
 /// Minimum cosine of the angle between directions that count as equal: 0.1 degrees.
-const SAME_WAY: f64 = 0.999_998_5;
+const MIN_PARALLEL_COSINE: f64 = 0.999_998_5;
 
 /// Displacements of some units along a direction that move them past all others, in an order that allows
 /// disassembly.
 fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
     let axes = frame(way);
     let others = (0..assembly.bodies.len()).filter(|k| !own.contains(k)).map(|k| &assembly.bodies[k]);
-    let others = Shadow::new(&joined(others), &axes);
-    let shadows: Vec<Shadow> = own.iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
+    let others = AxisProjection::new(&joined(others), &axes);
+    let shadows: Vec<AxisProjection> =
+        own.iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
     // The other bodies form the last entry, and stay.
     let last = own.len();
-    let stretch =
-        |shadow: &Shadow, size: f64, order| Stretch { low: shadow.low, high: shadow.high, size, order };
-    let mut stretches: Vec<Stretch> =
+    let stretch = |shadow: &AxisProjection, size: f64, order| AxisExtent {
+        low: shadow.low,
+        high: shadow.high,
+        size,
+        order,
+    };
+    let mut stretches: Vec<AxisExtent> =
         shadows.iter().zip(own).map(|(shadow, k)| stretch(shadow, 0.0, assembly.orders[*k])).collect();
     stretches.push(stretch(&others, f64::INFINITY, None));
-    let mut meetings = Meetings::new();
+    let mut meetings = PairContacts::new();
     for a in 0..last {
         for b in 0..a {
-            meetings.insert([a, b], shadows[a].meeting(&shadows[b], assembly.touch));
+            meetings.insert([a, b], shadows[a].contact_with(&shadows[b], assembly.touch));
         }
-        let past = others.meeting(&shadows[a], assembly.touch);
+        let past = others.contact_with(&shadows[a], assembly.touch);
         if past.meets || past.is_within {
             // The others block the unit downward, and the unit blocks them upward.
             meetings.insert(
                 [last, a],
-                Meeting { meets: true, blocks_up: true, blocks_down: false, is_within: false },
+                PairContact { meets: true, blocks_up: true, blocks_down: false, is_within: false },
             );
         }
     }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::axis_projection::Meeting;
+use super::axis_projection::PairContact;
 
 /// Relation of a body to another one along the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Standing {
+pub(crate) enum AxisRelation {
     /// They are not in contact.
     Apart,
     /// It can only be removed upward.
@@ -19,27 +19,27 @@ pub(crate) enum Standing {
     Held,
 }
 
-impl Meeting {
+impl PairContact {
     /// Relation of the first body to the second.
-    pub fn standing(self) -> Standing {
+    pub fn standing(self) -> AxisRelation {
         match (self.meets, self.blocks_up, self.blocks_down) {
             // A surrounded body, such as a bearing in its bore, is hidden unless it moves.
-            (false, ..) if self.is_within => Standing::Free,
-            (false, ..) => Standing::Apart,
-            (true, false, false) => Standing::Free,
-            (true, false, true) => Standing::Above,
-            (true, true, false) => Standing::Below,
-            (true, true, true) => Standing::Held,
+            (false, ..) if self.is_within => AxisRelation::Free,
+            (false, ..) => AxisRelation::Apart,
+            (true, false, false) => AxisRelation::Free,
+            (true, false, true) => AxisRelation::Above,
+            (true, true, false) => AxisRelation::Below,
+            (true, true, true) => AxisRelation::Held,
         }
     }
 }
 
 /// Contact of each pair that has one. The higher index comes first.
-pub(crate) type Meetings = BTreeMap<[usize; 2], Meeting>;
+pub(crate) type PairContacts = BTreeMap<[usize; 2], PairContact>;
 
 /// Extent of a body along the axis.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretch {
+pub(crate) struct AxisExtent {
     pub low: f64,
     pub high: f64,
     /// Size of the body. The largest body stays.
@@ -48,7 +48,7 @@ pub(crate) struct Stretch {
     pub order: Option<f64>,
 }
 
-impl Stretch {
+impl AxisExtent {
     /// Combined extent of several bodies.
     pub fn joined(all: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, size: 0.0, order: None };
@@ -61,9 +61,9 @@ impl Stretch {
     }
 
     /// Relation given by the orders of both bodies, if they have different ones. It overrides blocking.
-    pub fn told(&self, other: &Self) -> Option<Standing> {
+    pub fn given_relation(&self, other: &Self) -> Option<AxisRelation> {
         let (own, its) = (self.order?, other.order?);
-        (own != its).then_some(if own > its { Standing::Above } else { Standing::Below })
+        (own != its).then_some(if own > its { AxisRelation::Above } else { AxisRelation::Below })
     }
 
     fn middle(&self) -> f64 {
@@ -73,24 +73,24 @@ impl Stretch {
 
 /// Displacement of each body along the axis, with gaps between bodies in contact. The largest body of each
 /// connected group stays.
-pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<f64> {
+pub(crate) fn offsets(bodies: &[AxisExtent], meetings: &PairContacts, gap: f64) -> Vec<f64> {
     let count = bodies.len();
     let middle = |k: usize| bodies[k].middle();
     // For each body, the bodies that must end up below and above it.
     let (mut under, mut over) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-    let mut above = Above::new(count);
+    let mut above = AboveRelation::new(count);
     let mut free: Vec<[usize; 2]> = Vec::new();
-    let mut put = |[upper, lower]: [usize; 2], above: &mut Above| {
+    let mut put = |[upper, lower]: [usize; 2], above: &mut AboveRelation| {
         above.add(upper, lower);
         under[upper].push(lower);
         over[lower].push(upper);
     };
     for (&[a, b], meeting) in meetings {
-        match bodies[a].told(&bodies[b]).unwrap_or(meeting.standing()) {
-            Standing::Apart => {}
-            Standing::Above => put([a, b], &mut above),
-            Standing::Below => put([b, a], &mut above),
-            Standing::Free | Standing::Held => {
+        match bodies[a].given_relation(&bodies[b]).unwrap_or(meeting.standing()) {
+            AxisRelation::Apart => {}
+            AxisRelation::Above => put([a, b], &mut above),
+            AxisRelation::Below => put([b, a], &mut above),
+            AxisRelation::Free | AxisRelation::Held => {
                 free.push(if middle(a) >= middle(b) { [a, b] } else { [b, a] });
             }
         }
@@ -122,12 +122,12 @@ pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<
         }
     }
     let mut offsets: Vec<f64> = offsets.into_iter().map(Option::unwrap_or_default).collect();
-    stay(bodies, &under, &mut offsets);
+    anchor_largest(bodies, &under, &mut offsets);
     offsets
 }
 
 /// Shifts each connected group so that its largest body stays.
-fn stay(bodies: &[Stretch], under: &[Vec<usize>], offsets: &mut [f64]) {
+fn anchor_largest(bodies: &[AxisExtent], under: &[Vec<usize>], offsets: &mut [f64]) {
     let mut piece: Vec<usize> = (0..bodies.len()).collect();
     for (upper, lower) in (0..bodies.len()).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
         unite(&mut piece, upper, lower);
@@ -160,12 +160,12 @@ pub(crate) fn unite(group: &mut [usize], a: usize, b: usize) {
 }
 
 /// Transitive relation: which body is above which.
-struct Above {
+struct AboveRelation {
     /// One bit set per body: the bodies below it.
     rows: Vec<Vec<u64>>,
 }
 
-impl Above {
+impl AboveRelation {
     fn new(count: usize) -> Self {
         Self { rows: vec![vec![0; count.div_ceil(64)]; count] }
     }

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::Ways;
+use super::PartOffsets;
 use super::bodies::bodies;
 use crate::colour::srgb::Colour;
 use crate::scene::{Geometry, Material, Part, Scene};
@@ -13,7 +13,7 @@ pub const TRAIL: &str = "trail";
 /// Moves the parts of a scene and adds trail lines. A line starts at the centre of a part after the common
 /// movement with interlocking parts, and ends at its final centre.
 #[must_use]
-pub fn with_trails(scene: Scene, ways: &Ways) -> Scene {
+pub fn with_trails(scene: Scene, ways: &PartOffsets) -> Scene {
     let mut wires = Geometry::default();
     let bodies = bodies(&scene);
     let both = ways.offsets.iter().zip(&ways.alone).enumerate();

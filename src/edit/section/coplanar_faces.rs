@@ -1,16 +1,16 @@
-//! [`FlatFaces`] and [`Kept`]: faces of the model that lie in the section plane and stay uncut.
+//! [`CoplanarFaces`] and [`RemainingFaces`]: faces of the model that lie in the section plane and stay uncut.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
 use spade::Triangulation as _;
 
-use super::cut_outlines::{Faces, Outlines, Owner};
-use super::outline_gaps::closed;
+use super::cut_outlines::{CutOutlines, PlaneTriangles, TriangleOwner};
+use super::outline_gaps::closed_outlines;
 use super::plane::Plane;
 use super::plane_clip::Clipped;
 
 /// Faces of a solid that lie in the plane and face forward.
-pub(crate) struct FlatFaces {
+pub(crate) struct CoplanarFaces {
     /// Triangle index and corners of each, counter-clockwise, sorted by lowest x.
     list: Vec<(usize, [DVec2; 3])>,
     /// Largest extent of a face along x.
@@ -19,7 +19,7 @@ pub(crate) struct FlatFaces {
     is_open: bool,
 }
 
-impl FlatFaces {
+impl CoplanarFaces {
     pub fn new(cut: &Clipped, plane: &Plane) -> Self {
         let place = |node: u32| plane.flat(cut.geometry.positions[cut.nodes[node as usize] as usize]);
         let faces = cut.flat.iter().map(|flat| (flat.triangle, flat.nodes.map(place)));
@@ -28,7 +28,7 @@ impl FlatFaces {
         let high = |corners: &[DVec2; 3]| corners[0].max(corners[1]).max(corners[2]).x;
         list.sort_by(|a, b| low(&a.1).total_cmp(&low(&b.1)).then(a.0.cmp(&b.0)));
         let widest = list.iter().map(|(_, corners)| high(corners) - low(corners)).fold(0.0, f64::max);
-        Self { list, widest, is_open: closed(cut).1 > 0 }
+        Self { list, widest, is_open: closed_outlines(cut).1 > 0 }
     }
 
     /// Triangle index of a face.
@@ -54,15 +54,20 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 }
 
 /// Triangles of the plane that are pieces of model faces.
-pub(crate) struct Kept {
+pub(crate) struct RemainingFaces {
     /// Solid and face of each triangle.
     of: Vec<Option<[usize; 2]>>,
     /// Whether each face of each solid is kept as a whole; `None` if it covers no triangle.
     whole: Vec<Vec<Option<bool>>>,
 }
 
-impl Kept {
-    pub fn new(faces: &Faces, outlines: &Outlines, owner: &[Option<Owner>], flats: &[FlatFaces]) -> Self {
+impl RemainingFaces {
+    pub fn new(
+        faces: &PlaneTriangles,
+        outlines: &CutOutlines,
+        owner: &[Option<TriangleOwner>],
+        flats: &[CoplanarFaces],
+    ) -> Self {
         let mut of = vec![None; owner.len()];
         let mut whole: Vec<Vec<Option<bool>>> = flats.iter().map(|own| vec![None; own.list.len()]).collect();
         for face in faces.inner_faces() {
@@ -98,8 +103,8 @@ impl Kept {
     }
 
     /// Triangle indices of the faces kept as a whole, ascending, one list per solid.
-    pub fn whole(&self, flats: &[FlatFaces]) -> Vec<Vec<usize>> {
-        let of_solid = |(solid, flats): (usize, &FlatFaces)| {
+    pub fn whole(&self, flats: &[CoplanarFaces]) -> Vec<Vec<usize>> {
+        let of_solid = |(solid, flats): (usize, &CoplanarFaces)| {
             let faces = (0..flats.list.len()).filter(|face| self.is_whole([solid, *face]));
             let mut triangles: Vec<usize> = faces.map(|face| flats.triangle(face)).collect();
             triangles.sort_unstable();

@@ -1,4 +1,4 @@
-//! [`Outlines`]: outlines of all solids in the plane, split at crossings, and the constrained Delaunay
+//! [`CutOutlines`]: outlines of all solids in the plane, split at crossings, and the constrained Delaunay
 //! triangulation between them.
 
 use glam::{DVec2, DVec3};
@@ -9,9 +9,9 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2};
 use super::plane::Plane;
 
 #[derive(Clone, Copy)]
-pub(crate) struct Corner(Point2<f64>);
+pub(crate) struct PlanePoint(Point2<f64>);
 
-impl HasPosition for Corner {
+impl HasPosition for PlanePoint {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
@@ -20,11 +20,11 @@ impl HasPosition for Corner {
 }
 
 /// Triangulation of the plane. Its vertices are the points of the outlines, with the same indices.
-pub(crate) type Faces = ConstrainedDelaunayTriangulation<Corner>;
+pub(crate) type PlaneTriangles = ConstrainedDelaunayTriangulation<PlanePoint>;
 
 /// Piece of an outline.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Edge {
+pub(crate) struct OutlineEdge {
     pub ends: [u32; 2],
     /// Net number of faces along it.
     pub times: i32,
@@ -37,7 +37,7 @@ pub(crate) struct Edge {
 
 /// Outlines of all solids in the plane.
 #[derive(Default)]
-pub(crate) struct Outlines {
+pub(crate) struct CutOutlines {
     points: Vec<DVec2>,
     /// World position of each point.
     places: Vec<DVec3>,
@@ -45,14 +45,14 @@ pub(crate) struct Outlines {
     known: FxHashMap<[i64; 2], Vec<u32>>,
     /// Distance within which points coincide, and lie on an edge.
     reach: f64,
-    pub edges: Vec<Edge>,
+    pub edges: Vec<OutlineEdge>,
 }
 
 /// Maximum number of rounds of splitting. Splitting moves edges slightly, which can cause new crossings. One
 /// round is almost always enough.
-const ROUNDS: usize = 8;
+const MAX_SPLIT_ROUNDS: usize = 8;
 
-impl Outlines {
+impl CutOutlines {
     /// Empty set with the distance within which points coincide.
     pub fn new(reach: f64) -> Self {
         Self { reach: reach.max(f64::MIN_POSITIVE), ..Self::default() }
@@ -103,7 +103,7 @@ impl Outlines {
         let is_it = |ends: [u32; 2]| ends == [a, b] || ends == [b, a];
         let mut cuts: Vec<(f64, u32)> = Vec::new();
         for k in 0..self.edges.len() {
-            let Edge { ends, .. } = self.edges[k];
+            let OutlineEdge { ends, .. } = self.edges[k];
             if is_it(ends) || !self.cross([a, b], ends) {
                 continue;
             }
@@ -132,7 +132,7 @@ impl Outlines {
         let own = self.edges[k];
         let mut from = own.ends[0];
         for (n, to) in through.into_iter().chain([own.ends[1]]).enumerate() {
-            let piece = Edge { ends: [from, to], ..own };
+            let piece = OutlineEdge { ends: [from, to], ..own };
             if n == 0 {
                 self.edges[k] = piece;
             } else {
@@ -143,7 +143,7 @@ impl Outlines {
     }
 
     /// Splits edges at the points on them.
-    fn part_at_points(&mut self) {
+    fn split_at_points(&mut self) {
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
         order.sort_by(|a, b| self.at(*a).x.total_cmp(&self.at(*b).x));
         for k in 0..self.edges.len() {
@@ -170,11 +170,11 @@ impl Outlines {
     }
 
     /// Triangulates the plane between the outlines. All outlines then consist of triangle sides.
-    pub fn triangulated(&mut self, plane: &Plane) -> Option<Faces> {
-        for round in 0..ROUNDS {
-            self.part_at_points();
-            let corners = self.points.iter().map(|p| Corner(Point2::new(p.x, p.y))).collect();
-            let sorted = |edge: &Edge| {
+    pub fn triangulate(&mut self, plane: &Plane) -> Option<PlaneTriangles> {
+        for round in 0..MAX_SPLIT_ROUNDS {
+            self.split_at_points();
+            let corners = self.points.iter().map(|p| PlanePoint(Point2::new(p.x, p.y))).collect();
+            let sorted = |edge: &OutlineEdge| {
                 let [a, b] = edge.ends;
                 [a.min(b) as usize, a.max(b) as usize]
             };
@@ -182,8 +182,8 @@ impl Outlines {
             ends.sort_unstable();
             ends.dedup();
             let mut crossing = Vec::new();
-            let faces = Faces::try_bulk_load_cdt(corners, ends, |edge| crossing.push(edge)).ok()?;
-            if crossing.is_empty() || round + 1 == ROUNDS {
+            let faces = PlaneTriangles::try_bulk_load_cdt(corners, ends, |edge| crossing.push(edge)).ok()?;
+            if crossing.is_empty() || round + 1 == MAX_SPLIT_ROUNDS {
                 return Some(faces);
             }
             crossing.sort_unstable();
@@ -197,7 +197,7 @@ impl Outlines {
 
 /// Solid that owns a triangle of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Owner {
+pub(crate) struct TriangleOwner {
     pub solid: u32,
     /// Whether material in front of it was removed.
     pub is_cut: bool,

@@ -1,4 +1,4 @@
-//! [`Reach`]: distances within which points coincide when a shape is cut.
+//! [`CutTolerances`]: distances within which points coincide when a shape is cut.
 
 use glam::{DAffine3, DVec3};
 
@@ -7,7 +7,7 @@ use crate::scene::Geometry;
 
 /// Distances within which points of a shape coincide, world units.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Reach {
+pub(crate) struct CutTolerances {
     /// Points of an outline: the distance that the mesh welds.
     pub points: f64,
     /// A vertex and the plane: surfaces closer than this have no space between them in the drawing.
@@ -16,7 +16,7 @@ pub(crate) struct Reach {
     pub gap: f64,
 }
 
-impl Reach {
+impl CutTolerances {
     /// Distances for a shape, from its size and the precision of its coordinates.
     pub fn of(geometry: &Geometry, place: &DAffine3) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -31,13 +31,16 @@ impl Reach {
             return Self::default();
         }
         let (size, largest) = (low.distance(high), low.abs().max(high.abs()).max_element());
-        let of_coordinate =
-            if geometry.single_precision { tolerance::WELD_OF_F32_COORDINATE } else { tolerance::ROUNDING };
+        let of_coordinate = if geometry.single_precision {
+            tolerance::WELD_OF_F32_COORDINATE
+        } else {
+            tolerance::F64_ROUNDING_OF_COORDINATE
+        };
         let points = (size * tolerance::WELD_OF_PART).max(largest * of_coordinate);
         Self {
             points,
             plane: points.max(size * tolerance::CONTACT_OF_PART),
-            gap: points.max(size * tolerance::SEAM_OF_PART),
+            gap: points.max(size * tolerance::MAX_SEAM_GAP_OF_PART),
         }
     }
 }

@@ -43,11 +43,11 @@ pub use plane_spec::CutPlane;
 
 use crate::geometry::names::glob::Glob;
 use crate::mesh::weld::nearby_vertices;
-use crate::mesh::{EdgeMark, Groups};
+use crate::mesh::{DisjointSets, EdgeMark};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
-use cut_tolerances::Reach;
+use cut_tolerances::CutTolerances;
 use plane_clip::Clipped;
-use section_caps::{Cap, Opened};
+use section_caps::{CutSolid, SectionCap};
 
 /// Scene that was cut open.
 #[derive(Debug, Clone, Default)]
@@ -99,7 +99,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     let plain = scene.materials.len() as u32;
     scene.materials.push(Material::default());
     let mut numbers = Vec::new();
-    let mut opened: Vec<Opened> = Vec::new();
+    let mut opened: Vec<CutSolid> = Vec::new();
     // For each solid, whether it has no vertex in front of the plane.
     let mut only_ends = Vec::new();
     let mut unclosed = 0;
@@ -108,24 +108,25 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
-        let reach = Reach::of(shape, &place);
-        let (behind, before) = plane_clip::reaches(shape, &place, plane, reach.plane);
+        let reach = CutTolerances::of(shape, &place);
+        let (behind, before) = plane_clip::sides_reached(shape, &place, plane, reach.plane);
         *keep = behind || !before;
         // A solid with a face in the plane may lie inside a solid that is cut.
         if behind && !stays && (before || plane_clip::has_flat(shape, &place, plane, reach.plane)) {
-            let shape = void_winding::wound_right(shape, &plane_clip::by_place(&shape.positions));
-            let cut = clipped(&shape, &place, (plane, reach));
+            let shape =
+                void_winding::orient_surfaces(shape, &plane_clip::first_at_position(&shape.positions));
+            let cut = clip_part(&shape, &place, (plane, reach));
             if before {
-                unclosed += outline_gaps::closed(&cut).1;
+                unclosed += outline_gaps::closed_outlines(&cut).1;
             }
             only_ends.push(!before);
             numbers.push(number);
-            opened.push(Opened { cut, volume: volume(&shape, &place), reach });
+            opened.push(CutSolid { cut, volume: volume(&shape, &place), reach });
         }
     }
-    let made = capped(&mut opened, plane);
+    let made = cap_solids(&mut opened, plane);
     let mut faces_of = Vec::new();
-    for (((number, Opened { cut, .. }), cap), only_ends) in
+    for (((number, CutSolid { cut, .. }), cap), only_ends) in
         numbers.into_iter().zip(opened).zip(made).zip(only_ends)
     {
         let Clipped { mut geometry, flat, .. } = cut;
@@ -135,7 +136,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let part = &scene.parts[number];
         let looks = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
         let count = geometry.triangles.len();
-        seam_division::sew(&mut geometry, count, &cap.seams);
+        seam_division::split_at_seams(&mut geometry, count, &cap.seams);
         if let Some(shape) = scene.geometry_of(part) {
             let turned = part.world_from_part.matrix3.determinant() < 0.0;
             for triangle in &cap.whole {
@@ -150,14 +151,14 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         if let Some(bounds) = cap.bounds {
             let material = scene.materials.len() as u32;
             scene.materials.push(cut_material(scene.materials.get(looks as usize)));
-            close(&mut geometry, &cap, material, looks);
+            append_cap(&mut geometry, &cap, material, looks);
             faces_of.push(CutFaces { part: number, material, area: cap.area, bounds, kind: 0 });
         }
         let Part { geometry: of, world_from_part, .. } = &mut scene.parts[number];
         (*of, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);
         scene.geometries.push(geometry);
     }
-    neighbour_kinds::number(&mut faces_of);
+    neighbour_kinds::assign_kinds(&mut faces_of);
     let names: Vec<usize> = scene.retain_parts(&keep);
     for faces in &mut faces_of {
         faces.part = names[faces.part];
@@ -179,9 +180,9 @@ fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
 }
 
 /// Caps of all solids, one entry per solid. Solids whose outlines may overlap are capped together.
-fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
+fn cap_solids(opened: &mut [CutSolid], plane: &Plane) -> Vec<SectionCap> {
     let bounds: Vec<_> = opened.iter().map(|own| own.bounds(plane)).collect();
-    let groups = Groups::new(opened.len(), |join| {
+    let groups = DisjointSets::new(opened.len(), |join| {
         for (a, own) in bounds.iter().enumerate() {
             for (b, other) in bounds[..a].iter().enumerate() {
                 let (Some([low, high]), Some([from, to])) = (own, other) else { continue };
@@ -191,14 +192,14 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
             }
         }
     });
-    let mut made: Vec<Cap> = opened.iter().map(|_| Cap::default()).collect();
+    let mut made: Vec<SectionCap> = opened.iter().map(|_| SectionCap::default()).collect();
     for first in 0..opened.len() as u32 {
         let is_in = |k: usize| groups.of(k as u32) == groups.of(first);
         if (0..first as usize).any(is_in) {
             continue;
         }
         let together: Vec<usize> = (0..opened.len()).filter(|k| is_in(*k)).collect();
-        let mut solids: Vec<&mut Opened> =
+        let mut solids: Vec<&mut CutSolid> =
             opened.iter_mut().enumerate().filter(|(k, _)| is_in(*k)).map(|(_, own)| own).collect();
         for (k, cap) in together.into_iter().zip(section_caps::caps(&mut solids, plane)) {
             made[k] = cap;
@@ -209,9 +210,9 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
 
 /// Clips a shape. If its outlines do not close, nearly coincident vertices are joined as in the mesh, and
 /// gaps are closed that the mesh would sew.
-fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) -> Clipped {
+fn clip_part(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, CutTolerances)) -> Clipped {
     let mut cut = plane_clip::clip(shape, place, (plane, own.plane), None);
-    let (_, unclosed) = outline_gaps::closed(&cut);
+    let (_, unclosed) = outline_gaps::closed_outlines(&cut);
     if unclosed == 0 {
         return cut;
     }
@@ -221,14 +222,14 @@ fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) ->
     used.sort_unstable();
     used.dedup();
     let reaches = vec![own.points; used.len()];
-    if let Some(joined) = nearby_vertices::near(&world, &used, &reaches) {
-        let shape = void_winding::wound_right(shape, &joined);
+    if let Some(joined) = nearby_vertices::join_nearby(&world, &used, &reaches) {
+        let shape = void_winding::orient_surfaces(shape, &joined);
         let again = plane_clip::clip(&shape, place, (plane, own.plane), Some(&joined));
-        if outline_gaps::closed(&again).1 < unclosed {
+        if outline_gaps::closed_outlines(&again).1 < unclosed {
             cut = again;
         }
     }
-    outline_gaps::close(&mut cut, own.gap);
+    outline_gaps::close_gaps(&mut cut, own.gap);
     cut
 }
 
@@ -248,7 +249,7 @@ fn cut_material(of: Option<&Material>) -> Material {
 }
 
 /// Appends the triangles of a cap to the remaining shape.
-fn close(shape: &mut Geometry, faces: &Cap, material: u32, looks: u32) {
+fn append_cap(shape: &mut Geometry, faces: &SectionCap, material: u32, looks: u32) {
     let before = shape.triangles.len();
     if shape.triangle_material.is_empty() {
         shape.triangle_material.resize(before, looks);

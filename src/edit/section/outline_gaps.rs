@@ -1,4 +1,4 @@
-//! [`closed`] and [`close`]: which outlines are closed loops, and closing of small gaps.
+//! [`closed_outlines`] and [`close_gaps`]: which outlines are closed loops, and closing of small gaps.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::plane_clip::Clipped;
 
 /// Edges of closed outlines, and the number of connected outlines that do not close.
-pub(crate) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
+pub(crate) fn closed_outlines(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
     let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
     let mut excess = vec![0_i64; cut.nodes.len()];
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -34,7 +34,7 @@ pub(crate) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
 }
 
 /// Joins ends of outlines to starts of outlines within `reach` (world units), nearest first.
-pub(crate) fn close(cut: &mut Clipped, reach: f64) {
+pub(crate) fn close_gaps(cut: &mut Clipped, reach: f64) {
     let mut excess = vec![0_i64; cut.nodes.len()];
     for ([a, b], times) in &cut.open {
         excess[*a as usize] += i64::from(*times);
@@ -56,7 +56,7 @@ pub(crate) fn close(cut: &mut Clipped, reach: f64) {
             let distance = |begin: &u32| place(*begin).distance(place(end));
             let near = near.map(|begin| (distance(begin), end, *begin)).filter(|(far, ..)| *far <= reach);
             // Limited, because many ends at one place would give too many pairs.
-            pairs.extend(near.take(MAX_PAIRS));
+            pairs.extend(near.take(MAX_PAIRS_PER_CELL));
         }
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
@@ -71,4 +71,4 @@ pub(crate) fn close(cut: &mut Clipped, reach: f64) {
 }
 
 /// Maximum number of starts per grid cell that are tried for an end.
-const MAX_PAIRS: usize = 64;
+const MAX_PAIRS_PER_CELL: usize = 64;

@@ -22,12 +22,12 @@ pub(crate) struct Clipped {
     /// Open edges as pairs of nodes, in the direction of their faces, with the net number of faces.
     pub open: Vec<([u32; 2], i32)>,
     /// Triangles in the plane.
-    pub flat: Vec<Flat>,
+    pub flat: Vec<CoplanarFace>,
 }
 
 /// Triangle in the plane.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Flat {
+pub(crate) struct CoplanarFace {
     /// Index of the triangle in the shape.
     pub triangle: usize,
     /// Corners as nodes, counter-clockwise as seen from outside in world space.
@@ -35,7 +35,12 @@ pub(crate) struct Flat {
 }
 
 /// Whether a shape has used vertices behind and in front of a plane.
-pub(crate) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> (bool, bool) {
+pub(crate) fn sides_reached(
+    geometry: &Geometry,
+    place: &DAffine3,
+    plane: &Plane,
+    reach: f64,
+) -> (bool, bool) {
     let (mut behind, mut before) = (false, false);
     for corner in geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened()) {
         let Some(p) = geometry.positions.get(*corner as usize) else { continue };
@@ -67,7 +72,7 @@ fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
 
 /// Corner of a clipped triangle: an original corner, or the cut on the side after a corner.
 #[derive(Clone, Copy)]
-enum Corner {
+enum OutlineCorner {
     Own(usize),
     Between(usize),
 }
@@ -111,7 +116,7 @@ impl<'a> Clipper<'a> {
     ) -> Self {
         let world: Vec<DVec3> =
             shape.positions.iter().map(|p| place.transform_point3(*p) + DVec3::ZERO).collect();
-        let one = joined.map_or_else(|| by_place(&world), <[u32]>::to_vec);
+        let one = joined.map_or_else(|| first_at_position(&world), <[u32]>::to_vec);
         let mut positions: Vec<DVec3> = one.iter().map(|v| world[*v as usize]).collect();
         let sides: Vec<i8> = positions.iter().map(|p| side(plane, *p, reach)).collect();
         for (p, _) in positions.iter_mut().zip(&sides).filter(|(_, side)| **side == 0) {
@@ -152,23 +157,23 @@ impl<'a> Clipper<'a> {
         let corners = self.shape.triangles[index];
         let sides = corners.map(|v| self.side(v));
         if sides == [0; 3] {
-            let nodes = [0, 1, 2].map(|k| self.node(corners, Corner::Own(k), corners[k]));
+            let nodes = [0, 1, 2].map(|k| self.node(corners, OutlineCorner::Own(k), corners[k]));
             if let [Some(a), Some(b), Some(c)] = nodes {
                 let nodes = if turned { [a, c, b] } else { [a, b, c] };
-                self.to.flat.push(Flat { triangle: index, nodes });
+                self.to.flat.push(CoplanarFace { triangle: index, nodes });
             }
             return;
         }
         if !sides.contains(&-1) {
             return;
         }
-        let mut outline: Vec<Corner> = Vec::with_capacity(4);
+        let mut outline: Vec<OutlineCorner> = Vec::with_capacity(4);
         for k in 0..3 {
             if sides[k] <= 0 {
-                outline.push(Corner::Own(k));
+                outline.push(OutlineCorner::Own(k));
             }
             if sides[k] * sides[(k + 1) % 3] < 0 {
-                outline.push(Corner::Between(k));
+                outline.push(OutlineCorner::Between(k));
             }
         }
         let vertices: Vec<u32> = outline.iter().map(|corner| self.vertex(corners, *corner)).collect();
@@ -195,7 +200,7 @@ impl<'a> Clipper<'a> {
         &mut self,
         index: usize,
         of: [usize; 3],
-        outline: &[Corner],
+        outline: &[OutlineCorner],
         vertices: &[u32],
         (normals, uvs): (&[u32], &[u32]),
         turned: bool,
@@ -219,9 +224,9 @@ impl<'a> Clipper<'a> {
             let (first, next) = if high == low + 1 { (low, high) } else { (high, low) };
             let side = match (outline[first], outline[next]) {
                 _ if !is_side => return EdgeMark::Hidden,
-                (Corner::Own(k), Corner::Own(n)) if n == (k + 1) % 3 => k,
-                (Corner::Own(k), Corner::Between(n)) if n == k => k,
-                (Corner::Between(k), Corner::Own(n)) if n == (k + 1) % 3 => k,
+                (OutlineCorner::Own(k), OutlineCorner::Own(n)) if n == (k + 1) % 3 => k,
+                (OutlineCorner::Own(k), OutlineCorner::Between(n)) if n == k => k,
+                (OutlineCorner::Between(k), OutlineCorner::Own(n)) if n == (k + 1) % 3 => k,
                 // The side along the cut.
                 _ => return EdgeMark::Unmarked,
             };
@@ -261,10 +266,10 @@ impl<'a> Clipper<'a> {
     }
 
     /// Vertex of a corner.
-    fn vertex(&mut self, corners: [u32; 3], corner: Corner) -> u32 {
+    fn vertex(&mut self, corners: [u32; 3], corner: OutlineCorner) -> u32 {
         let k = match corner {
-            Corner::Own(k) => return corners[k],
-            Corner::Between(k) => k,
+            OutlineCorner::Own(k) => return corners[k],
+            OutlineCorner::Between(k) => k,
         };
         let ends = Self::ends(corners, k);
         let [a, b] = ends.map(|v| self.one[v as usize]);
@@ -287,11 +292,11 @@ impl<'a> Clipper<'a> {
     }
 
     /// Node of a corner on the plane; none for other corners.
-    fn node(&mut self, corners: [u32; 3], corner: Corner, vertex: u32) -> Option<u32> {
+    fn node(&mut self, corners: [u32; 3], corner: OutlineCorner, vertex: u32) -> Option<u32> {
         let key = match corner {
-            Corner::Own(k) if self.side(corners[k]) == 0 => [self.one[corners[k] as usize]; 2],
-            Corner::Own(_) => return None,
-            Corner::Between(k) => {
+            OutlineCorner::Own(k) if self.side(corners[k]) == 0 => [self.one[corners[k] as usize]; 2],
+            OutlineCorner::Own(_) => return None,
+            OutlineCorner::Between(k) => {
                 let [a, b] = Self::ends(corners, k).map(|v| self.one[v as usize]);
                 [a.min(b), a.max(b)]
             }
@@ -304,18 +309,18 @@ impl<'a> Clipper<'a> {
     }
 
     /// Normals or texture coordinates of the corners of an outline, as indices.
-    fn attribute(&mut self, index: usize, outline: &[Corner], normals: bool) -> Vec<u32> {
+    fn attribute(&mut self, index: usize, outline: &[OutlineCorner], normals: bool) -> Vec<u32> {
         let stored = if normals { &self.shape.corner_normals } else { &self.shape.corner_uvs };
         let Some(own) = stored.get(index).copied() else { return vec![u32::MAX; outline.len()] };
         let corners = self.shape.triangles[index];
         let mut found = Vec::with_capacity(outline.len());
         for corner in outline {
             let k = match corner {
-                Corner::Own(k) => {
+                OutlineCorner::Own(k) => {
                     found.push(own[*k]);
                     continue;
                 }
-                Corner::Between(k) => *k,
+                OutlineCorner::Between(k) => *k,
             };
             let (_, t) = self.crossing(Self::ends(corners, k));
             let (t, [from, to]) = (t as f32, Self::ends(own, k).map(|i| i as usize));
@@ -389,7 +394,7 @@ fn push_between<const N: usize>(
 }
 
 /// First vertex at the position of each vertex.
-pub(crate) fn by_place(positions: &[DVec3]) -> Vec<u32> {
+pub(crate) fn first_at_position(positions: &[DVec3]) -> Vec<u32> {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     known.reserve(positions.len());
     // The sum turns negative zeros into positive ones.

@@ -12,12 +12,12 @@ pub struct CutPlane {
     normal: DVec3,
     /// Whether the normal defines the side to remove. Otherwise the view does.
     signed: bool,
-    at: At,
+    at: PlaneOffset,
 }
 
 /// Position of a plane along its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum At {
+enum PlaneOffset {
     /// Distance from the origin, model units.
     Units(f64),
     /// Distance from the origin, mm.
@@ -27,7 +27,7 @@ enum At {
 }
 
 /// Units of length in mm.
-const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
+const UNITS_MM: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
 
 impl CutPlane {
     /// Reads a plane.
@@ -72,19 +72,21 @@ impl CutPlane {
             }
         };
         let at = match at.map(str::trim) {
-            None => At::Share(0.5),
+            None => PlaneOffset::Share(0.5),
             Some(at) => match at.strip_suffix('%') {
-                Some(percent) => At::Share(percent.trim().parse::<f64>().map_err(|_| wrong())? / 100.0),
+                Some(percent) => {
+                    PlaneOffset::Share(percent.trim().parse::<f64>().map_err(|_| wrong())? / 100.0)
+                }
                 None if at.ends_with(|c: char| c.is_ascii_alphabetic()) => {
                     let number = at.trim_end_matches(|c: char| c.is_ascii_alphabetic());
                     let unit =
-                        UNITS.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
-                    At::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
+                        UNITS_MM.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
+                    PlaneOffset::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
                 }
-                None => At::Units(at.parse().map_err(|_| wrong())?),
+                None => PlaneOffset::Units(at.parse().map_err(|_| wrong())?),
             },
         };
-        let (At::Units(number) | At::Mm(number) | At::Share(number)) = at;
+        let (PlaneOffset::Units(number) | PlaneOffset::Mm(number) | PlaneOffset::Share(number)) = at;
         let normal = normal.try_normalize().filter(|_| number.is_finite()).ok_or_else(wrong)?;
         // The position is given along the axis, independent of the sign.
         Ok(CutPlane { normal: normal * sign.unwrap_or(1.0), signed: sign.is_some(), at: at.turned(sign) })
@@ -111,9 +113,9 @@ impl CutPlane {
         let least = places.into_iter().fold(f64::INFINITY, f64::min);
         let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let at = match self.at {
-            At::Units(at) => at,
-            At::Mm(mm) => mm / unit_mm,
-            At::Share(share) => least + (most - least) * share,
+            PlaneOffset::Units(at) => at,
+            PlaneOffset::Mm(mm) => mm / unit_mm,
+            PlaneOffset::Share(share) => least + (most - least) * share,
         };
         if !(least..=most).contains(&at) {
             return Err(Error::new(format!(
@@ -128,7 +130,7 @@ impl CutPlane {
     }
 }
 
-impl At {
+impl PlaneOffset {
     fn turned(self, sign: Option<f64>) -> Self {
         match self {
             _ if sign != Some(-1.0) => self,
@@ -146,12 +148,12 @@ mod tests {
     #[test]
     fn reads_planes() {
         let plane = |normal, signed, at| Ok(CutPlane { normal, signed, at });
-        assert_eq!(CutPlane::parse("x"), plane(DVec3::X, false, At::Share(0.5)));
-        assert_eq!(CutPlane::parse("y=12.5"), plane(DVec3::Y, false, At::Units(12.5)));
-        assert_eq!(CutPlane::parse("+z = 1cm"), plane(DVec3::Z, true, At::Mm(10.0)));
-        assert_eq!(CutPlane::parse("-x=25%"), plane(DVec3::NEG_X, true, At::Share(0.75)));
-        assert_eq!(CutPlane::parse("-x=-3"), plane(DVec3::NEG_X, true, At::Units(3.0)));
-        assert_eq!(CutPlane::parse("normal:0,0,2@4"), plane(DVec3::Z, false, At::Units(4.0)));
+        assert_eq!(CutPlane::parse("x"), plane(DVec3::X, false, PlaneOffset::Share(0.5)));
+        assert_eq!(CutPlane::parse("y=12.5"), plane(DVec3::Y, false, PlaneOffset::Units(12.5)));
+        assert_eq!(CutPlane::parse("+z = 1cm"), plane(DVec3::Z, true, PlaneOffset::Mm(10.0)));
+        assert_eq!(CutPlane::parse("-x=25%"), plane(DVec3::NEG_X, true, PlaneOffset::Share(0.75)));
+        assert_eq!(CutPlane::parse("-x=-3"), plane(DVec3::NEG_X, true, PlaneOffset::Units(3.0)));
+        assert_eq!(CutPlane::parse("normal:0,0,2@4"), plane(DVec3::Z, false, PlaneOffset::Units(4.0)));
         for wrong in
             ["", "w", "x=", "x=a", "x=5furlong", "normal:1,2", "normal:0,0,0", "x=nan", "normal:1,0,0@"]
         {

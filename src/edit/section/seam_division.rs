@@ -1,4 +1,4 @@
-//! [`sew`]: splits the clipped triangles of a solid where its caps have vertices.
+//! [`split_at_seams`]: splits the clipped triangles of a solid where its caps have vertices.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -8,7 +8,7 @@ use crate::scene::Geometry;
 
 /// Pieces of an open edge, from its first end to the second.
 #[derive(Debug, Clone)]
-pub(crate) struct Seam {
+pub(crate) struct SeamPieces {
     /// Points between the ends.
     pub through: Vec<DVec3>,
     /// Marks of the pieces, one more than there are points.
@@ -16,7 +16,7 @@ pub(crate) struct Seam {
 }
 
 /// Seams by the bits of their end positions.
-pub(crate) type Seams = FxHashMap<[[u64; 3]; 2], Seam>;
+pub(crate) type Seams = FxHashMap<[[u64; 3]; 2], SeamPieces>;
 
 /// Bits of a position, as a hash key. Negative zeros become positive.
 pub(crate) fn bits(p: DVec3) -> [u64; 3] {
@@ -24,7 +24,7 @@ pub(crate) fn bits(p: DVec3) -> [u64; 3] {
 }
 
 /// Splits the first `count` triangles of a shape at the seams, and marks their sides.
-pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
+pub(crate) fn split_at_seams(shape: &mut Geometry, count: usize, seams: &Seams) {
     if seams.is_empty() {
         return;
     }
@@ -33,14 +33,14 @@ pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
         let corners = shape.triangles[triangle];
         let seam = |side: usize| {
             let [a, b] = [corners[side], corners[(side + 1) % 3]].map(|v| bits(shape.positions[v as usize]));
-            let turned = |seam: &Seam| Seam {
+            let turned = |seam: &SeamPieces| SeamPieces {
                 through: seam.through.iter().rev().copied().collect(),
                 marks: seam.marks.iter().rev().copied().collect(),
             };
             seams.get(&[a, b]).cloned().or_else(|| seams.get(&[b, a]).map(turned))
         };
         // A triangle with several seams lies in the plane and stays unchanged.
-        let found: Vec<(usize, Seam)> = (0..3).filter_map(|side| Some((side, seam(side)?))).collect();
+        let found: Vec<(usize, SeamPieces)> = (0..3).filter_map(|side| Some((side, seam(side)?))).collect();
         if let [(side, seam)] = found.as_slice() {
             divide(shape, triangle, *side, seam);
         }
@@ -48,7 +48,7 @@ pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
 }
 
 /// Splits a triangle into a fan along one of its sides.
-fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &Seam) {
+fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &SeamPieces) {
     let [a, b, c] = [0, 1, 2].map(|k| (side + k) % 3);
     let corners = shape.triangles[triangle];
     let marks = shape.edge_marks.get(triangle).copied().unwrap_or_default();
@@ -66,9 +66,15 @@ fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &Seam) {
             let [one, other] = [corners[a], corners[b]].map(|v| shape.colours[v as usize]);
             shape.colours.push(std::array::from_fn(|k| one[k] + (other[k] - one[k]) * t));
         }
-        normals
-            .push(shape.corner_normals.get(triangle).map(|own| mixed(&mut shape.normals, own[a], own[b], t)));
-        uvs.push(shape.corner_uvs.get(triangle).map(|own| mixed(&mut shape.uvs, own[a], own[b], t)));
+        normals.push(
+            shape
+                .corner_normals
+                .get(triangle)
+                .map(|own| push_interpolated(&mut shape.normals, own[a], own[b], t)),
+        );
+        uvs.push(
+            shape.corner_uvs.get(triangle).map(|own| push_interpolated(&mut shape.uvs, own[a], own[b], t)),
+        );
     }
     chain.push(corners[b]);
     normals.push(shape.corner_normals.get(triangle).map(|own| own[b]));
@@ -103,7 +109,7 @@ fn put<T>(to: &mut Vec<T>, at: usize, value: T) {
 }
 
 /// Adds the interpolation of two entries. Returns its index, or `u32::MAX` if an entry is missing.
-fn mixed<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
+fn push_interpolated<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
     let entry = |k: u32| to.get(k as usize).copied();
     let (Some(a), Some(b)) = (entry(from), entry(next)) else { return u32::MAX };
     to.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));

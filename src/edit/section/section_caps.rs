@@ -14,18 +14,18 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 use spade::Triangulation as _;
 
-use super::coplanar_faces::{FlatFaces, Kept};
-use super::cut_outlines::{Edge, Faces, Outlines, Owner};
-use super::cut_tolerances::Reach;
-use super::outline_gaps::closed;
+use super::coplanar_faces::{CoplanarFaces, RemainingFaces};
+use super::cut_outlines::{CutOutlines, OutlineEdge, PlaneTriangles, TriangleOwner};
+use super::cut_tolerances::CutTolerances;
+use super::outline_gaps::closed_outlines;
 use super::plane::Plane;
 use super::plane_clip::Clipped;
-use super::seam_division::{Seam, Seams, bits};
+use super::seam_division::{SeamPieces, Seams, bits};
 use crate::mesh::EdgeMark;
 
 /// Cap of a solid.
 #[derive(Debug, Default)]
-pub(crate) struct Cap {
+pub(crate) struct SectionCap {
     /// Triangles of vertices of the solid's geometry, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// Marks of the triangle sides, one entry per triangle.
@@ -43,14 +43,14 @@ pub(crate) struct Cap {
 }
 
 /// Solid that was cut open.
-pub(crate) struct Opened {
+pub(crate) struct CutSolid {
     pub cut: Clipped,
     /// Volume of the uncut solid, world units cubed.
     pub volume: f64,
-    pub reach: Reach,
+    pub reach: CutTolerances,
 }
 
-impl Opened {
+impl CutSolid {
     /// Bounding box of the outlines along the axes of the plane.
     pub fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
         let place = |node: &u32| plane.flat(self.cut.geometry.positions[*node as usize]);
@@ -77,8 +77,8 @@ impl Opened {
 
 /// Caps of solids that may overlap, one entry per solid. Vertices at crossings of outlines are added to their
 /// geometry.
-pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
-    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
+pub(crate) fn caps(solids: &mut [&mut CutSolid], plane: &Plane) -> Vec<SectionCap> {
+    let mut outlines = CutOutlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
     let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
     let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
     for (number, solid) in solids.iter().enumerate() {
@@ -91,32 +91,44 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
             own.entry(point).or_insert(vertex);
             point
         };
-        let (edges, _) = closed(cut);
+        let (edges, _) = closed_outlines(cut);
         // Caps run along the open edges in the opposite direction.
         let ends: Vec<_> = edges.iter().map(|([a, b], times)| ([point(*b), point(*a)], *times)).collect();
         let flats: Vec<[u32; 3]> = cut.flat.iter().map(|flat| flat.nodes.map(&mut point)).collect();
         for (of, (ends, times)) in ends.into_iter().enumerate().filter(|(_, ([a, b], _))| a != b) {
-            outlines.edges.push(Edge { ends, times, solid: number as u32, of: of as u32, flat: false });
+            outlines.edges.push(OutlineEdge {
+                ends,
+                times,
+                solid: number as u32,
+                of: of as u32,
+                flat: false,
+            });
         }
         for corners in flats {
             for k in 0..3 {
                 let ends = [corners[k], corners[(k + 1) % 3]];
                 if ends[0] != ends[1] {
-                    outlines.edges.push(Edge { ends, times: 1, solid: number as u32, of: 0, flat: true });
+                    outlines.edges.push(OutlineEdge {
+                        ends,
+                        times: 1,
+                        solid: number as u32,
+                        of: 0,
+                        flat: true,
+                    });
                 }
             }
         }
         open.push(edges.iter().map(|(ends, _)| ends.map(|node| cut.nodes[node as usize])).collect());
     }
-    let mut made: Vec<Cap> = solids.iter().map(|_| Cap::default()).collect();
-    let Some(faces) = outlines.triangulated(plane) else { return made };
+    let mut made: Vec<SectionCap> = solids.iter().map(|_| SectionCap::default()).collect();
+    let Some(faces) = outlines.triangulate(plane) else { return made };
     let mut ranked: Vec<usize> = (0..solids.len()).collect();
     ranked.sort_by(|a, b| solids[*a].precedence(solids[*b], plane).then(a.cmp(b)));
     let mut rank = vec![0; solids.len()];
     ranked.iter().enumerate().for_each(|(k, solid)| rank[*solid] = k);
     let owner = owners(&faces, &outlines, &rank);
-    let flats: Vec<FlatFaces> = solids.iter().map(|own| FlatFaces::new(&own.cut, plane)).collect();
-    let kept = Kept::new(&faces, &outlines, &owner, &flats);
+    let flats: Vec<CoplanarFaces> = solids.iter().map(|own| CoplanarFaces::new(&own.cut, plane)).collect();
+    let kept = RemainingFaces::new(&faces, &outlines, &owner, &flats);
     for (own, flats) in made.iter_mut().zip(kept.whole(&flats)) {
         own.whole = flats;
     }
@@ -146,7 +158,7 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
             }
             continue;
         }
-        let Some(Owner { solid, .. }) = owner[index] else { continue };
+        let Some(TriangleOwner { solid, .. }) = owner[index] else { continue };
         let own = &mut made[solid as usize];
         let is_own = |beyond: usize| {
             owner[beyond].is_some_and(|owner| owner.solid == solid) && kept.of(beyond).is_none()
@@ -161,7 +173,7 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     }
     // Marks the pieces of each open edge. A piece is covered if the solid owns both sides of it or neither.
     let corners: Vec<_> = faces.fixed_vertices().collect();
-    let mut pieces: Vec<&Edge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
+    let mut pieces: Vec<&OutlineEdge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
     pieces.sort_by_key(|edge| (edge.solid, edge.of));
     for own in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
         let (solid, of) = (own[0].solid, own[0].of as usize);
@@ -180,7 +192,7 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
             let [left, right] = [edge.face().fix().index(), edge.rev().face().fix().index()];
             if is_own(left) == is_own(right) { EdgeMark::Covered } else { EdgeMark::Unmarked }
         };
-        let seam = Seam {
+        let seam = SeamPieces {
             marks: own.iter().map(mark).collect(),
             through: own.iter().skip(1).map(|[a, _]| place(*a)).collect(),
         };
@@ -194,22 +206,25 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
 /// Winding number of a solid's outlines around a triangle just behind the plane, and the decrease to the
 /// front of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Turns {
+struct WindingNumbers {
     solid: u32,
     behind: i32,
     flat: i32,
 }
 
 /// Owner of each triangle: the solid of lowest rank with a winding number other than zero.
-fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owner>> {
-    let mut along: FxHashMap<[u32; 2], Vec<Turns>> = FxHashMap::default();
+fn owners(faces: &PlaneTriangles, outlines: &CutOutlines, rank: &[usize]) -> Vec<Option<TriangleOwner>> {
+    let mut along: FxHashMap<[u32; 2], Vec<WindingNumbers>> = FxHashMap::default();
     for edge in &outlines.edges {
         let [a, b] = edge.ends;
         let times = if a < b { edge.times } else { -edge.times };
         let (behind, flat) = if edge.flat { (0, times) } else { (times, 0) };
-        add(along.entry([a.min(b), a.max(b)]).or_default(), Turns { solid: edge.solid, behind, flat });
+        add(
+            along.entry([a.min(b), a.max(b)]).or_default(),
+            WindingNumbers { solid: edge.solid, behind, flat },
+        );
     }
-    let mut turns: Vec<Option<Vec<Turns>>> = vec![None; faces.num_all_faces()];
+    let mut turns: Vec<Option<Vec<WindingNumbers>>> = vec![None; faces.num_all_faces()];
     let outer = faces.outer_face();
     turns[outer.fix().index()] = Some(Vec::new());
     let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
@@ -225,21 +240,24 @@ fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owne
         let mut found = own;
         for turns in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
             let way = if from < to { 1 } else { -1 };
-            add(&mut found, Turns { solid: turns.solid, behind: turns.behind * way, flat: turns.flat * way });
+            add(
+                &mut found,
+                WindingNumbers { solid: turns.solid, behind: turns.behind * way, flat: turns.flat * way },
+            );
         }
         waiting.extend(next.adjacent_edges().map(|edge| (edge, found.clone())));
         turns[next.fix().index()] = Some(found);
     }
-    let first = |turns: Vec<Turns>| {
+    let first = |turns: Vec<WindingNumbers>| {
         let is_cut = turns.iter().any(|turns| turns.behind != turns.flat);
         let within = turns.into_iter().filter(|turns| turns.behind != 0).map(|turns| turns.solid);
-        within.min_by_key(|solid| rank[*solid as usize]).map(|solid| Owner { solid, is_cut })
+        within.min_by_key(|solid| rank[*solid as usize]).map(|solid| TriangleOwner { solid, is_cut })
     };
     turns.into_iter().map(|turns| turns.and_then(first)).collect()
 }
 
 /// Adds winding numbers of a solid, and drops zeros.
-fn add(to: &mut Vec<Turns>, more: Turns) {
+fn add(to: &mut Vec<WindingNumbers>, more: WindingNumbers) {
     match to.iter().position(|known| known.solid == more.solid) {
         None => to.push(more),
         Some(k) => {

@@ -1,4 +1,4 @@
-//! [`wound_right`]: orients the surfaces of a shape so that winding numbers separate material from voids.
+//! [`orient_surfaces`]: orients the surfaces of a shape so that winding numbers separate material from voids.
 //!
 //! Each surface is turned outward (see `mesh::orientation`). A closed surface inside others bounds a void if
 //! the file winds it the opposite way, since nothing else distinguishes a void from an enclosed solid. It
@@ -11,25 +11,26 @@ use std::cmp::Ordering;
 use glam::{DAffine3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use super::cut_tolerances::Reach;
+use super::cut_tolerances::CutTolerances;
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::Edges;
-use crate::mesh::components::orientation::{Surfaces, Triangles};
+use crate::mesh::components::orientation::{ConnectedTriangles, OrientedSurfaces};
 use crate::scene::Geometry;
 
 /// Maximum number of box and face tests per face. If it is exceeded, the shape keeps the winding of the file.
-const PATIENCE: usize = 64;
+const MAX_TESTS_PER_FACE: usize = 64;
 
 /// Orients the surfaces of a shape. `one` maps each vertex to a representative of its position.
-pub(crate) fn wound_right<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geometry> {
+pub(crate) fn orient_surfaces<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geometry> {
     let corners = |t: &[u32; 3]| t.map(|v| one.get(v as usize).copied().unwrap_or(v));
     let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     let (faces, triangles): (Vec<usize>, Vec<[u32; 3]>) =
         shape.triangles.iter().map(corners).enumerate().filter(|(_, t)| is_sound(t)).unzip();
     let edges = Edges::build(shape.positions.len(), &triangles);
-    let mesh = Triangles { positions: &shape.positions, triangles: &triangles, parts: &[], edges: &edges };
-    let mut surfaces = Surfaces::new(&mesh);
-    let inset = Reach::of(shape, &DAffine3::IDENTITY).plane;
+    let mesh =
+        ConnectedTriangles { positions: &shape.positions, triangles: &triangles, parts: &[], edges: &edges };
+    let mut surfaces = OrientedSurfaces::new(&mesh);
+    let inset = CutTolerances::of(shape, &DAffine3::IDENTITY).plane;
     if turn_voids(&mesh, &mut surfaces, inset).is_none() || surfaces.turned.is_empty() {
         return Cow::Borrowed(shape);
     }
@@ -57,14 +58,14 @@ impl Geometry {
 
 /// Reverses closed surfaces that bound voids; none if the limit of tests is exceeded. Points are tested at a
 /// distance of `inset` behind their vertices.
-fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<()> {
-    let mut budget = PATIENCE * mesh.triangles.len();
-    let mut is_void = in_boxes(mesh, surfaces, &mut budget)?;
+fn turn_voids(mesh: &ConnectedTriangles, surfaces: &mut OrientedSurfaces, inset: f64) -> Option<()> {
+    let mut budget = MAX_TESTS_PER_FACE * mesh.triangles.len();
+    let mut is_void = closed_in_boxes(mesh, surfaces, &mut budget)?;
     if !is_void.contains(&true) {
         return Some(());
     }
-    let ways = ways(mesh, surfaces);
-    let mut rays = Rays::new(mesh, surfaces, (&is_void, inset));
+    let ways = file_winding_signs(mesh, surfaces);
+    let mut rays = VertexRays::new(mesh, surfaces, (&is_void, inset));
     rays.cross(mesh, surfaces, &ways, budget)?;
     for ray in &rays.starts {
         let surface = ray.surface as usize;
@@ -81,7 +82,7 @@ fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<(
 }
 
 /// Winding of each surface in the file: 1 if most of its area faces outward, -1 if inward.
-fn ways(mesh: &Triangles, surfaces: &Surfaces) -> Vec<i32> {
+fn file_winding_signs(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces) -> Vec<i32> {
     let mut outward = vec![0.0; surfaces.is_closed.len()];
     for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
         let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
@@ -91,12 +92,16 @@ fn ways(mesh: &Triangles, surfaces: &Surfaces) -> Vec<i32> {
     outward.into_iter().map(|area| if area < 0.0 { -1 } else { 1 }).collect()
 }
 
-fn is_turned(surfaces: &Surfaces, face: usize) -> bool {
+fn is_turned(surfaces: &OrientedSurfaces, face: usize) -> bool {
     surfaces.turned.get(face).copied().unwrap_or_default()
 }
 
 /// Whether the box of each closed surface lies in the box of another one, boundaries included.
-fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option<Vec<bool>> {
+fn closed_in_boxes(
+    mesh: &ConnectedTriangles,
+    surfaces: &OrientedSurfaces,
+    budget: &mut usize,
+) -> Option<Vec<bool>> {
     let count = surfaces.is_closed.len();
     let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
     for (corners, surface) in mesh.triangles.iter().zip(&surfaces.of_face.of_face) {
@@ -132,27 +137,27 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
 }
 
 /// Ray along x, with the winding number of other surfaces around its start, by the winding of the file.
-struct Ray {
+struct VertexRay {
     from: DVec3,
     surface: u32,
     turns: i32,
 }
 
 /// Rays in rows of equal height along y. Each row is sorted by the z of the starts.
-struct Rays {
-    starts: Vec<Ray>,
+struct VertexRays {
+    starts: Vec<VertexRay>,
     /// Start of each row, and the end of the last.
     rows: Vec<usize>,
     low: f64,
     height: f64,
 }
 
-impl Rays {
+impl VertexRays {
     /// Rays that start just behind the vertices of some surfaces.
     ///
     /// Source: Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal",
     /// 2005: the inward direction at a vertex is against its angle-weighted normal.
-    fn new(mesh: &Triangles, surfaces: &Surfaces, (wanted, inset): (&[bool], f64)) -> Self {
+    fn new(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces, (wanted, inset): (&[bool], f64)) -> Self {
         let mut corners: Vec<((u32, u32), DVec3)> = Vec::new();
         for (face, (t, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
             if !wanted[*surface as usize] {
@@ -172,10 +177,10 @@ impl Rays {
         let ray = |own: &[((u32, u32), DVec3)]| {
             let ((v, surface), _) = own[0];
             let outward = own.iter().map(|corner| corner.1).sum::<DVec3>().normalize_or_zero();
-            Ray { from: mesh.positions[v as usize] - outward * inset, surface, turns: 0 }
+            VertexRay { from: mesh.positions[v as usize] - outward * inset, surface, turns: 0 }
         };
-        let mut starts: Vec<Ray> = corners.chunk_by(|a, b| a.0 == b.0).map(ray).collect();
-        let y = |ray: &Ray| ray.from.y;
+        let mut starts: Vec<VertexRay> = corners.chunk_by(|a, b| a.0 == b.0).map(ray).collect();
+        let y = |ray: &VertexRay| ray.from.y;
         let low = starts.iter().map(y).fold(f64::INFINITY, f64::min);
         let high = starts.iter().map(y).fold(f64::NEG_INFINITY, f64::max);
         let count = starts.len().isqrt().max(1);
@@ -199,8 +204,8 @@ impl Rays {
     /// exceeded.
     fn cross(
         &mut self,
-        mesh: &Triangles,
-        surfaces: &Surfaces,
+        mesh: &ConnectedTriangles,
+        surfaces: &OrientedSurfaces,
         ways: &[i32],
         mut budget: usize,
     ) -> Option<()> {
@@ -219,7 +224,7 @@ impl Rays {
                 for ray in own[first..].iter_mut().take_while(|ray| ray.from.z <= high.z) {
                     budget = budget.checked_sub(1)?;
                     if ray.surface != *surface && ray.from.x < high.x {
-                        ray.turns += way * crosses(corners, ray.from);
+                        ray.turns += way * ray_crossing(corners, ray.from);
                     }
                 }
             }
@@ -233,7 +238,7 @@ impl Rays {
 ///
 /// Source: crossing numbers of polygons, Haines, "Point in polygon strategies", Graphics Gems IV, 1994, with
 /// exact signs.
-fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
+fn ray_crossing([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
     let flat = |p: DVec3| DVec2::new(p.y, p.z);
     let is_left = |q: DVec3, r: DVec3| {
         let (q, r) = if q.z < r.z { (flat(q), flat(r)) } else { (flat(r), flat(q)) };
@@ -282,7 +287,7 @@ mod tests {
     fn inward(of: &[(DVec3, f64, bool)]) -> Vec<bool> {
         let shape = cubes(of);
         let one: Vec<u32> = (0..shape.positions.len() as u32).collect();
-        let right = wound_right(&shape, &one);
+        let right = orient_surfaces(&shape, &one);
         let outward = cubes(&of.iter().map(|(at, half, _)| (*at, *half, false)).collect::<Vec<_>>());
         right
             .triangles
@@ -317,7 +322,7 @@ mod tests {
         let [a, b, c, d] =
             [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(2.0, y, z));
         for (p, wanted) in [(DVec3::new(0.0, 0.5, 0.5), 1), (DVec3::new(3.0, 0.5, 0.5), 0)] {
-            assert_eq!(crosses([a, b, c], p) + crosses([a, c, d], p), wanted);
+            assert_eq!(ray_crossing([a, b, c], p) + ray_crossing([a, c, d], p), wanted);
         }
     }
 }

@@ -11,44 +11,44 @@
 //! Counts and numbers are LEB128: groups of seven bits, lowest first, the eighth bit set in all but the last.
 //! Differences are zigzag encoded, with the sign in the lowest bit.
 
-use super::collapse_record::Record;
-use super::edge_collapse::{Collapser, SWEEP};
-use super::flat_surface::Flat;
+use super::collapse_record::CollapseRecord;
+use super::edge_collapse::{Collapser, DEGENERATE_STEP};
+use super::flat_surface::FlatSurface;
 use crate::error::{Error, ErrorKind};
 use crate::scene::Scene;
 
-const MAGIC: &[u8] = b"ligne-lod";
-const VERSION: u8 = 1;
+const FILE_MAGIC: &[u8] = b"ligne-lod";
+const FILE_VERSION: u8 = 1;
 
 /// Writes the collapses of a scene to the bytes of a file.
-pub(crate) fn written(record: &Record, scene: &Scene) -> Vec<u8> {
-    let mut bytes = MAGIC.to_vec();
-    bytes.push(VERSION);
-    bytes.extend(sum_of(&Flat::of(scene)).to_le_bytes());
-    let steps = || record.steps.iter().filter(|step| step.from != SWEEP);
+pub(crate) fn written(record: &CollapseRecord, scene: &Scene) -> Vec<u8> {
+    let mut bytes = FILE_MAGIC.to_vec();
+    bytes.push(FILE_VERSION);
+    bytes.extend(model_checksum(&FlatSurface::of(scene)).to_le_bytes());
+    let steps = || record.steps.iter().filter(|step| step.from != DEGENERATE_STEP);
     put(&mut bytes, steps().count() as u64);
     for step in steps() {
         put(&mut bytes, u64::from(step.from));
         let far = i64::from(step.to) - i64::from(step.from);
         put(&mut bytes, (far << 1 ^ far >> 63).cast_unsigned());
     }
-    bytes.extend(sum_of_left(record).to_le_bytes());
+    bytes.extend(record_checksum(record).to_le_bytes());
     bytes
 }
 
 /// Reads the collapses of a scene from the bytes of a file, by repeating them on the surface.
-pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
+pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<CollapseRecord, Error> {
     let rest =
-        bytes.strip_prefix(MAGIC).ok_or_else(|| Error::new("this is not a file of levels of detail"))?;
+        bytes.strip_prefix(FILE_MAGIC).ok_or_else(|| Error::new("this is not a file of levels of detail"))?;
     let (version, rest) = rest.split_first().ok_or_else(cut_off)?;
-    if *version != VERSION {
+    if *version != FILE_VERSION {
         return Err(Error::new(format!("levels of detail of version {version} cannot be read"))
             .of_kind(ErrorKind::Unsupported)
             .remedy("write them again with ligne lod"));
     }
     let (sum, mut rest) = rest.split_first_chunk().ok_or_else(cut_off)?;
-    let flat = Flat::of(scene);
-    if u64::from_le_bytes(*sum) != sum_of(&flat) {
+    let flat = FlatSurface::of(scene);
+    if u64::from_le_bytes(*sum) != model_checksum(&flat) {
         return Err(Error::new(
             "these levels of detail belong to another model, or to an older version of it",
         )
@@ -68,7 +68,7 @@ pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
         }
     }
     let sum: &[u8; 8] = rest.try_into().map_err(|_| cut_off())?;
-    if u64::from_le_bytes(*sum) != sum_of_left(&surface.record) {
+    if u64::from_le_bytes(*sum) != record_checksum(&surface.record) {
         return Err(Error::new("the collapses do not match the model; the file is damaged"));
     }
     Ok(surface.record)
@@ -101,9 +101,9 @@ fn take(bytes: &mut &[u8]) -> Result<u64, Error> {
 
 /// Checksum over a sequence of words; their order matters.
 #[derive(Default)]
-struct Sum(u64);
+struct Checksum(u64);
 
-impl Sum {
+impl Checksum {
     fn add(&mut self, word: u64) {
         self.0 = (self.0.rotate_left(29) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     }
@@ -119,8 +119,8 @@ impl Sum {
 }
 
 /// Checksum of everything that determines the order of collapses.
-fn sum_of(flat: &Flat) -> u64 {
-    let mut sum = Sum::default();
+fn model_checksum(flat: &FlatSurface) -> u64 {
+    let mut sum = Checksum::default();
     sum.add_all(flat.points.iter(), |p| {
         let [x, y, z] = p.to_array().map(f64::to_bits);
         x ^ y.rotate_left(21) ^ z.rotate_left(42)
@@ -142,8 +142,8 @@ fn sum_of(flat: &Flat) -> u64 {
 }
 
 /// Checksum of the result after all collapses.
-fn sum_of_left(record: &Record) -> u64 {
-    let mut sum = Sum::default();
+fn record_checksum(record: &CollapseRecord) -> u64 {
+    let mut sum = Checksum::default();
     for step in &record.steps {
         sum.add(u64::from(step.changes_end) << 32 | u64::from(step.removed_end));
     }

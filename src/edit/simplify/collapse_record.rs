@@ -1,9 +1,9 @@
-//! [`Record`]: collapses in their order, with everything needed to apply and undo them.
+//! [`CollapseRecord`]: collapses in their order, with everything needed to apply and undo them.
 
 use std::ops::Range;
 
 /// Index for "none": no vertex, normal, texture coordinates or point.
-pub(crate) const NONE: u32 = u32::MAX;
+pub(crate) const NO_INDEX: u32 = u32::MAX;
 
 /// Attributes of a face corner. Several wedges may share a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(crate) struct Wedge {
 
 /// One collapse. The first step may instead remove degenerate faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Step {
+pub(crate) struct Collapse {
     /// Point that is removed.
     pub from: u32,
     /// Neighbour onto which it collapses.
@@ -30,7 +30,7 @@ pub(crate) struct Step {
 
 /// A face corner that gets another wedge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Change {
+pub(crate) struct WedgeChange {
     /// Three times the face, plus the corner (0 to 2).
     pub corner: u32,
     pub before: u32,
@@ -39,9 +39,9 @@ pub(crate) struct Change {
 
 /// Collapses in their order, with everything needed to apply and undo them.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Record {
-    pub steps: Vec<Step>,
-    pub changes: Vec<Change>,
+pub(crate) struct CollapseRecord {
+    pub steps: Vec<Collapse>,
+    pub changes: Vec<WedgeChange>,
     pub removed: Vec<u32>,
     /// Attributes of the corners.
     pub wedges: Vec<Wedge>,
@@ -51,12 +51,12 @@ pub(crate) struct Record {
     pub ranges: Vec<Range<usize>>,
 }
 
-impl Record {
+impl CollapseRecord {
     /// Changes and removed faces of a step.
-    pub fn of_step(&self, step: usize) -> (&[Change], &[u32]) {
+    pub fn of_step(&self, step: usize) -> (&[WedgeChange], &[u32]) {
         let before = step.checked_sub(1).map(|before| self.steps[before]);
         let (changes, removed) = before.map_or((0, 0), |step| (step.changes_end, step.removed_end));
-        let Step { changes_end, removed_end, .. } = self.steps[step];
+        let Collapse { changes_end, removed_end, .. } = self.steps[step];
         (
             &self.changes[changes as usize..changes_end as usize],
             &self.removed[removed as usize..removed_end as usize],

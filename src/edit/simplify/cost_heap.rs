@@ -1,14 +1,14 @@
-//! [`Heap`]: a priority queue of points by cost, with costs that can change.
+//! [`CostHeap`]: a priority queue of points by cost, with costs that can change.
 
 /// Position of a point that is not in the heap.
-const OUT: u32 = u32::MAX;
+const NOT_QUEUED: u32 = u32::MAX;
 
 /// Children of a node: a 4-ary heap is flatter and has better cache locality than a binary one.
-const CHILDREN: usize = 4;
+const CHILDREN_PER_NODE: usize = 4;
 
 /// Heap of points, least cost first; of equal costs, the smaller point number first.
 #[derive(Debug)]
-pub(crate) struct Heap {
+pub(crate) struct CostHeap {
     nodes: Vec<(f64, u32)>,
     /// Position of each point in `nodes`.
     places: Vec<u32>,
@@ -21,7 +21,7 @@ fn before(a: (f64, u32), b: (f64, u32)) -> bool {
     }
 }
 
-impl Heap {
+impl CostHeap {
     /// Builds a heap of the points that have a cost.
     pub fn new(costs: &[Option<f64>]) -> Self {
         let nodes: Vec<(f64, u32)> = costs
@@ -29,11 +29,11 @@ impl Heap {
             .enumerate()
             .filter_map(|(point, cost)| cost.map(|cost| (cost, point as u32)))
             .collect();
-        let mut heap = Self { nodes, places: vec![OUT; costs.len()] };
+        let mut heap = Self { nodes, places: vec![NOT_QUEUED; costs.len()] };
         for (place, &(_, point)) in heap.nodes.iter().enumerate() {
             heap.places[point as usize] = place as u32;
         }
-        for place in (0..heap.nodes.len().div_ceil(CHILDREN)).rev() {
+        for place in (0..heap.nodes.len().div_ceil(CHILDREN_PER_NODE)).rev() {
             heap.sink(place);
         }
         heap
@@ -54,7 +54,7 @@ impl Heap {
     /// Inserts a point, or changes its cost.
     pub fn set(&mut self, point: u32, cost: f64) {
         let mut place = self.places[point as usize] as usize;
-        if place == OUT as usize {
+        if place == NOT_QUEUED as usize {
             place = self.nodes.len();
             self.nodes.push((cost, point));
             self.places[point as usize] = place as u32;
@@ -68,10 +68,10 @@ impl Heap {
     /// Removes a point if it is in the heap.
     pub fn remove(&mut self, point: u32) {
         let place = self.places[point as usize];
-        if place == OUT {
+        if place == NOT_QUEUED {
             return;
         }
-        self.places[point as usize] = OUT;
+        self.places[point as usize] = NOT_QUEUED;
         let Some(last) = self.nodes.pop() else { return };
         if last.1 != point {
             let place = place as usize;
@@ -85,7 +85,7 @@ impl Heap {
     fn rise(&mut self, mut place: usize) -> usize {
         let node = self.nodes[place];
         while place > 0 {
-            let parent = (place - 1) / CHILDREN;
+            let parent = (place - 1) / CHILDREN_PER_NODE;
             if !before(node, self.nodes[parent]) {
                 break;
             }
@@ -99,9 +99,9 @@ impl Heap {
     fn sink(&mut self, mut place: usize) {
         let Some(&node) = self.nodes.get(place) else { return };
         loop {
-            let first = place * CHILDREN + 1;
+            let first = place * CHILDREN_PER_NODE + 1;
             let mut least = (place, node);
-            for child in first..(first + CHILDREN).min(self.nodes.len()) {
+            for child in first..(first + CHILDREN_PER_NODE).min(self.nodes.len()) {
                 if before(self.nodes[child], least.1) {
                     least = (child, self.nodes[child]);
                 }
@@ -129,7 +129,7 @@ mod tests {
     fn points_come_in_order_whatever_changes() {
         let chance = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64;
         let costs: Vec<Option<f64>> = (0..500).map(|k| (k % 3 != 0).then(|| chance(k))).collect();
-        let mut heap = Heap::new(&costs);
+        let mut heap = CostHeap::new(&costs);
         let mut plain = costs.clone();
         for k in 0..2000_u64 {
             let point = chance(k * 7 + 1) as usize % 500;

@@ -1,7 +1,7 @@
 //! [`Levels`]: a scene at any number of faces, reached from the present level by applying or undoing
 //! collapses.
 
-use super::collapse_record::{NONE, Record};
+use super::collapse_record::{CollapseRecord, NO_INDEX};
 use crate::error::Error;
 use crate::scene::{Geometry, Scene};
 
@@ -11,8 +11,8 @@ use crate::scene::{Geometry, Scene};
 /// Faces come from the scene for which the levels were made; vertices may come from any pose of it.
 #[derive(Debug, Clone)]
 pub struct Levels<'a> {
-    record: &'a Record,
-    /// Wedges of each face; [`NONE`] for faces that are not drawn.
+    record: &'a CollapseRecord,
+    /// Wedges of each face; [`NO_INDEX`] for faces that are not drawn.
     faces: Vec<[u32; 3]>,
     /// Whether each face is removed.
     gone: Vec<bool>,
@@ -23,8 +23,8 @@ pub struct Levels<'a> {
 }
 
 impl<'a> Levels<'a> {
-    pub(crate) fn new(record: &'a Record) -> Self {
-        let gone = record.faces.iter().map(|face| face[0] == NONE).collect();
+    pub(crate) fn new(record: &'a CollapseRecord) -> Self {
+        let gone = record.faces.iter().map(|face| face[0] == NO_INDEX).collect();
         let left = record.ranges.iter().map(|range| range.len() as u64).collect();
         Self { record, faces: record.faces.clone(), gone, left, done: 0 }
     }
@@ -203,7 +203,7 @@ fn picked<T: Copy>(values: &[T], which: impl Iterator<Item = usize>) -> Vec<T> {
 /// Renumbers pointers into `count` items consecutively, in item order; returns the items in use.
 fn packed<'b>(count: usize, pointers: impl Iterator<Item = &'b mut u32>) -> Vec<usize> {
     let mut pointers: Vec<&mut u32> = pointers.collect();
-    let mut numbers = vec![NONE; count];
+    let mut numbers = vec![NO_INDEX; count];
     for pointer in &pointers {
         if let Some(number) = numbers.get_mut(**pointer as usize) {
             *number = 0;

@@ -6,36 +6,36 @@
 
 use glam::DVec3;
 
-use super::collapse_record::{Change, NONE, Record, Step};
-use super::flat_surface::Flat;
-use super::point_constraints::{Kind, Site, sites};
-use super::point_faces::Fans;
+use super::collapse_record::{Collapse, CollapseRecord, NO_INDEX, WedgeChange};
+use super::flat_surface::FlatSurface;
+use super::point_constraints::{PointConstraint, Site, sites};
+use super::point_faces::PointFaces;
 
 /// Number of the step that removes degenerate faces.
-pub(crate) const SWEEP: u32 = NONE;
+pub(crate) const DEGENERATE_STEP: u32 = NO_INDEX;
 
 /// Minimum cosine of the turn of a face in one collapse.
-const TURN_COSINE: f64 = 0.2;
+const MIN_TURN_COSINE: f64 = 0.2;
 
 /// A face is a sliver if its height is less than this fraction of its longest side.
-const SLIM: f64 = 0.05;
+const SLIVER_HEIGHT_RATIO: f64 = 0.05;
 
 /// Minimum fraction of its height ratio that a sliver must keep in one collapse.
-const SLIMMER: f64 = 0.3;
+const MIN_SLIVER_SHARE_KEPT: f64 = 0.3;
 
 /// A surface under simplification.
 pub(crate) struct Collapser {
-    pub flat: Flat,
-    /// Points of each face; [`NONE`] for removed faces.
+    pub flat: FlatSurface,
+    /// Points of each face; [`NO_INDEX`] for removed faces.
     pub corners: Vec<[u32; 3]>,
-    pub fans: Fans,
+    pub fans: PointFaces,
     pub sites: Vec<Site>,
-    pub record: Record,
+    pub record: CollapseRecord,
     /// For each point, the number of the query that marked it last.
     marks: Vec<u32>,
     question: u32,
     /// Changes and removed faces of the collapse that was checked last.
-    changes: Vec<Change>,
+    changes: Vec<WedgeChange>,
     removed: Vec<u32>,
     /// For each removed face, its wedges at both points and its geometry.
     carried: Vec<[u32; 3]>,
@@ -43,26 +43,31 @@ pub(crate) struct Collapser {
 
 impl Collapser {
     /// The surface before any collapse. A first step removes faces with two corners at one point.
-    pub fn new(flat: Flat) -> Self {
+    pub fn new(flat: FlatSurface) -> Self {
         let mut corners = flat.corners();
         let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
-        let fans = Fans::new(flat.points.len(), &corners, |face| is_none(corners[face]));
+        let fans = PointFaces::new(flat.points.len(), &corners, |face| is_none(corners[face]));
         let sites = sites(&flat, &corners, &fans);
-        let mut faces = vec![[NONE; 3]; flat.faces.len()];
+        let mut faces = vec![[NO_INDEX; 3]; flat.faces.len()];
         for (number, wedges) in flat.in_file.iter().zip(&flat.faces) {
             faces[*number as usize] = *wedges;
         }
         let (wedges, ranges) = (flat.wedges.clone(), flat.ranges.clone());
-        let mut record = Record { wedges, faces, ranges, ..Record::default() };
+        let mut record = CollapseRecord { wedges, faces, ranges, ..CollapseRecord::default() };
         for (face, corners) in corners.iter_mut().enumerate().filter(|(_, corners)| is_none(**corners)) {
-            if corners[0] != NONE {
+            if corners[0] != NO_INDEX {
                 record.removed.push(flat.in_file[face]);
             }
-            *corners = [NONE; 3];
+            *corners = [NO_INDEX; 3];
         }
         if !record.removed.is_empty() {
             let removed_end = record.removed.len() as u32;
-            record.steps.push(Step { from: SWEEP, to: SWEEP, changes_end: 0, removed_end });
+            record.steps.push(Collapse {
+                from: DEGENERATE_STEP,
+                to: DEGENERATE_STEP,
+                changes_end: 0,
+                removed_end,
+            });
         }
         let marks = vec![0; flat.points.len()];
         let (changes, removed, carried, question) = (Vec::new(), Vec::new(), Vec::new(), 0);
@@ -75,8 +80,8 @@ impl Collapser {
         self.question += 1;
         for &face in self.fans.about(point) {
             let corners = self.corners[face as usize];
-            for other in others(corners, point) {
-                if corners[0] != NONE && self.marks[other as usize] != self.question {
+            for other in opposite_points(corners, point) {
+                if corners[0] != NO_INDEX && self.marks[other as usize] != self.question {
                     self.marks[other as usize] = self.question;
                     into.push(other);
                 }
@@ -86,23 +91,23 @@ impl Collapser {
 
     /// Whether a point may collapse onto a neighbour: the topology stays the same, no face flips, and each
     /// corner has a matching wedge at the other point.
-    pub fn may(&mut self, from: u32, to: u32) -> bool {
-        self.is_sound(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
+    pub fn can_collapse(&mut self, from: u32, to: u32) -> bool {
+        self.satisfies_link_condition(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
     }
 
     /// Link condition: every common neighbour of the two points is opposite their edge in a face.
-    fn is_sound(&mut self, from: u32, to: u32) -> bool {
+    fn satisfies_link_condition(&mut self, from: u32, to: u32) -> bool {
         self.question += 2;
         let (common, opposite) = (self.question - 1, self.question);
         let (mut opposites, mut stays) = (0, false);
         for &face in self.fans.about(from) {
             let corners = self.corners[face as usize];
-            if corners[0] == NONE {
+            if corners[0] == NO_INDEX {
                 continue;
             }
             let with_both = corners.contains(&to);
             stays |= !with_both;
-            for other in others(corners, from).into_iter().filter(|other| *other != to) {
+            for other in opposite_points(corners, from).into_iter().filter(|other| *other != to) {
                 let mark = &mut self.marks[other as usize];
                 opposites += u32::from(with_both && *mark != opposite);
                 *mark = if with_both { opposite } else { common.max(*mark) };
@@ -110,11 +115,11 @@ impl Collapser {
         }
         for &face in self.fans.about(to) {
             let corners = self.corners[face as usize];
-            if corners[0] == NONE || corners.contains(&from) {
+            if corners[0] == NO_INDEX || corners.contains(&from) {
                 continue;
             }
             stays = true;
-            let [b, c] = others(corners, to);
+            let [b, c] = opposite_points(corners, to);
             let marks = [self.marks[b as usize], self.marks[c as usize]];
             // A common neighbour without such a face would create an edge with four faces, unless the three
             // points surround a hole, which then closes.
@@ -136,7 +141,7 @@ impl Collapser {
         let [a, b, c] = points;
         [[a, b, c], [b, c, a], [c, a, b]].into_iter().all(|[from, to, beyond]| {
             let about = self.fans.about(from).iter().map(|face| self.corners[*face as usize]);
-            let mut beside = about.filter(|corners| corners[0] != NONE && corners.contains(&to));
+            let mut beside = about.filter(|corners| corners[0] != NO_INDEX && corners.contains(&to));
             beside.next().is_some_and(|corners| !corners.contains(&beyond)) && beside.next().is_none()
         })
     }
@@ -153,10 +158,10 @@ impl Collapser {
         let (at, target) = (self.sites[from as usize].place, self.sites[to as usize].place);
         self.fans.about(from).iter().all(|face| {
             let corners = self.corners[*face as usize];
-            if corners[0] == NONE || corners.contains(&to) {
+            if corners[0] == NO_INDEX || corners.contains(&to) {
                 return true;
             }
-            let [b, c] = others(corners, from);
+            let [b, c] = opposite_points(corners, from);
             keeps_side(at, target, [self.sites[b as usize].place, self.sites[c as usize].place])
         })
     }
@@ -175,20 +180,20 @@ impl Collapser {
                     corners
                         .iter()
                         .position(|p| *p == point)
-                        .map_or(NONE, |k| self.flat.faces[face as usize][k])
+                        .map_or(NO_INDEX, |k| self.flat.faces[face as usize][k])
                 };
                 self.carried.push([wedge(from), wedge(to), self.flat.geometry[face as usize]]);
             }
         }
         for &face in self.fans.about(from) {
             let corners = self.corners[face as usize];
-            if corners[0] == NONE || corners.contains(&to) {
+            if corners[0] == NO_INDEX || corners.contains(&to) {
                 continue;
             }
             let Some(k) = corners.iter().position(|p| *p == from) else { continue };
             let before = self.flat.faces[face as usize][k];
             let Some(after) = self.wedge_for(face, before, to) else { return false };
-            self.changes.push(Change { corner: 3 * face + k as u32, before, after });
+            self.changes.push(WedgeChange { corner: 3 * face + k as u32, before, after });
         }
         true
     }
@@ -204,7 +209,7 @@ impl Collapser {
             return Some(*at_to);
         }
         let like = carried.map(|[at_from, at_to, _]| (self.likeness(wedge, *at_from), *at_to));
-        if let Some((_, wedge)) = most_alike(like.filter(|(likeness, _)| *likeness >= 0.0)) {
+        if let Some((_, wedge)) = best_match(like.filter(|(likeness, _)| *likeness >= 0.0)) {
             return Some(wedge);
         }
         let own = self.fans.about(to).iter().filter(|other| self.flat.geometry[**other as usize] == geometry);
@@ -212,7 +217,7 @@ impl Collapser {
             let k = self.corners[*other as usize].iter().position(|point| *point == to)?;
             Some(self.flat.faces[*other as usize][k])
         });
-        most_alike(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
+        best_match(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
     }
 
     /// Similarity of two wedges: 0 to 2 by their normals, negative if an attribute that must be continuous
@@ -233,7 +238,7 @@ impl Collapser {
         fits
     }
 
-    /// Applies the collapse that [`Self::may`] checked last.
+    /// Applies the collapse that [`Self::can_collapse`] checked last.
     pub fn collapse(&mut self, from: u32, to: u32) {
         for change in &self.changes {
             let (face, k) = ((change.corner / 3) as usize, (change.corner % 3) as usize);
@@ -241,41 +246,44 @@ impl Collapser {
             self.corners[face][k] = to;
         }
         for face in &self.removed {
-            self.corners[*face as usize] = [NONE; 3];
+            self.corners[*face as usize] = [NO_INDEX; 3];
         }
         let corners = &self.corners;
-        let alive = |face: u32| corners[face as usize][0] != NONE;
+        let alive = |face: u32| corners[face as usize][0] != NO_INDEX;
         self.fans.merge(from, to, alive, alive);
         let quadric = self.sites[from as usize].quadric;
         self.sites[to as usize].take(&quadric);
         self.mend_lines(from, to);
         let in_file = &self.flat.in_file;
         let corner = |corner: u32| 3 * in_file[(corner / 3) as usize] + corner % 3;
-        let changes = self.changes.iter().map(|change| Change { corner: corner(change.corner), ..*change });
+        let changes =
+            self.changes.iter().map(|change| WedgeChange { corner: corner(change.corner), ..*change });
         self.record.changes.extend(changes);
         self.record.removed.extend(self.removed.iter().map(|face| in_file[*face as usize]));
         let (changes_end, removed_end) = (self.record.changes.len() as u32, self.record.removed.len() as u32);
-        self.record.steps.push(Step { from, to, changes_end, removed_end });
+        self.record.steps.push(Collapse { from, to, changes_end, removed_end });
     }
 
     /// Reconnects the lines (borders and seams) through the removed point at the remaining point.
     fn mend_lines(&mut self, from: u32, to: u32) {
         let Site { kind, along, .. } = self.sites[from as usize];
         match kind {
-            Kind::Plain => {}
-            Kind::Line => {
+            PointConstraint::Plain => {}
+            PointConstraint::Line => {
                 let beyond = along[usize::from(along[0] == to)];
                 self.relink(to, from, beyond);
                 self.relink(beyond, from, to);
                 // Around a hole that has closed there is no line any more.
                 let ends = [to, beyond].map(|point| self.sites.get(point as usize).map(|site| site.along));
                 if ends == [Some([beyond; 2]), Some([to; 2])] {
-                    [to, beyond].iter().for_each(|point| self.sites[*point as usize].kind = Kind::Knot);
+                    [to, beyond]
+                        .iter()
+                        .for_each(|point| self.sites[*point as usize].kind = PointConstraint::Knot);
                 }
             }
-            Kind::Knot | Kind::Corner => {
+            PointConstraint::Knot | PointConstraint::Corner => {
                 let target = &mut self.sites[to as usize].kind;
-                *target = if *target == Kind::Corner { Kind::Corner } else { kind };
+                *target = if *target == PointConstraint::Corner { PointConstraint::Corner } else { kind };
                 for at in 0..self.fans.about(to).len() {
                     for point in self.corners[self.fans.about(to)[at] as usize] {
                         self.relink(point, from, to);
@@ -298,13 +306,13 @@ impl Collapser {
 }
 
 /// First choice with the greatest similarity.
-fn most_alike(choices: impl Iterator<Item = (f32, u32)>) -> Option<(f32, u32)> {
+fn best_match(choices: impl Iterator<Item = (f32, u32)>) -> Option<(f32, u32)> {
     choices.reduce(|best, other| if other.0 > best.0 { other } else { best })
 }
 
 /// The other two corners of a face, in order.
 #[inline]
-pub(crate) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
+pub(crate) fn opposite_points([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
     match point {
         _ if a == point => [b, c],
         _ if b == point => [c, a],
@@ -324,10 +332,11 @@ fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
     // Squared ratio of twice the area to the square of the longest side.
     let (old_stout, new_stout) =
         (old_squared * new_longest * new_longest, new_squared * old_longest * old_longest);
-    let is_slim = new_squared < SLIM * SLIM * new_longest * new_longest;
-    if is_slim && new_stout < SLIMMER * SLIMMER * old_stout || new_squared == 0.0 {
+    let is_slim = new_squared < SLIVER_HEIGHT_RATIO * SLIVER_HEIGHT_RATIO * new_longest * new_longest;
+    if is_slim && new_stout < MIN_SLIVER_SHARE_KEPT * MIN_SLIVER_SHARE_KEPT * old_stout || new_squared == 0.0
+    {
         return old_squared == 0.0;
     }
     let turned = old.dot(new);
-    turned >= 0.0 && turned * turned >= TURN_COSINE * TURN_COSINE * old_squared * new_squared
+    turned >= 0.0 && turned * turned >= MIN_TURN_COSINE * MIN_TURN_COSINE * old_squared * new_squared
 }

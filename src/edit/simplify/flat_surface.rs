@@ -1,17 +1,17 @@
-//! [`Flat`]: all drawn triangles of a scene, as points, wedges and faces in plain arrays.
+//! [`FlatSurface`]: all drawn triangles of a scene, as points, wedges and faces in plain arrays.
 
 use std::ops::Range;
 
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
 
-use super::collapse_record::{NONE, Wedge};
-use super::point_weld::{Weld, joined};
+use super::collapse_record::{NO_INDEX, Wedge};
+use super::point_weld::{Weld, join_near_points};
 use crate::geometry::numbers::noise::hash;
 use crate::geometry::numbers::portable_math::cbrt;
 use crate::geometry::numbers::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::mesh::EdgeMark;
-use crate::mesh::order::morton_curve::{CELLS, along_curve};
+use crate::mesh::order::morton_curve::{CELLS_PER_HALF_AXIS, along_curve};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Geometry, Material, Scene};
 
@@ -20,7 +20,7 @@ use crate::scene::{Geometry, Material, Scene};
 /// A point is a position; the wedges at a point differ in vertex, normal or texture coordinates. Geometries
 /// with a single instance are welded with each other in world space.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Flat {
+pub(crate) struct FlatSurface {
     /// Positions of the points, centred and scaled so that the scene has size 1.
     pub points: Vec<DVec3>,
     /// Attributes of each wedge.
@@ -32,13 +32,13 @@ pub(crate) struct Flat {
     pub class: Vec<u32>,
     /// Unit normal of each wedge in its geometry, zero if it has none; empty if no geometry has normals.
     pub normals: Vec<[f32; 3]>,
-    /// Wedges of each face; [`NONE`] for faces that are not drawn.
+    /// Wedges of each face; [`NO_INDEX`] for faces that are not drawn.
     pub faces: Vec<[u32; 3]>,
     /// File index of each face, counted through all geometries.
     pub in_file: Vec<u32>,
     /// Geometry of each face.
     pub geometry: Vec<u32>,
-    /// Material of each face, or [`NONE`].
+    /// Material of each face, or [`NO_INDEX`].
     pub material: Vec<u32>,
     /// Whether the sides 0-1, 1-2, 2-0 of each face are marked as lines; empty if none is.
     pub marked: Vec<[bool; 3]>,
@@ -48,11 +48,11 @@ pub(crate) struct Flat {
     pub weights: Vec<f64>,
 }
 
-impl Flat {
+impl FlatSurface {
     /// Builds the surface of a scene.
     pub fn of(scene: &Scene) -> Self {
         let shown = shown(scene);
-        let frame = Frame::of(scene, &shown);
+        let frame = SpatialFrame::of(scene, &shown);
         let textured = scene.materials.iter().any(is_textured);
         let vertices = scene.geometries.iter().map(|geometry| geometry.positions.len()).sum();
         let mut weld = Weld::with_room(vertices);
@@ -75,12 +75,12 @@ impl Flat {
                     flat.weights.push(shown.weight);
                 }
                 None => {
-                    flat.faces.resize(first + geometry.triangles.len(), [NONE; 3]);
+                    flat.faces.resize(first + geometry.triangles.len(), [NO_INDEX; 3]);
                     flat.weights.push(0.0);
                 }
             }
             let count = flat.faces.len();
-            let own = geometry.material.unwrap_or(NONE);
+            let own = geometry.material.unwrap_or(NO_INDEX);
             flat.material.extend(geometry.triangle_material.iter().take(count - first));
             flat.material.resize(count, own);
             flat.geometry.resize(count, number as u32);
@@ -104,7 +104,7 @@ impl Flat {
             flat.ranges.push(first..count);
         }
         flat.points = weld.into_points();
-        if let Some(joined) = joined(&flat.points, &flat.corners(), &reaches) {
+        if let Some(joined) = join_near_points(&flat.points, &flat.corners(), &reaches) {
             flat.point_of.iter_mut().for_each(|point| *point = joined[*point as usize]);
         }
         flat.put_in_order();
@@ -113,21 +113,21 @@ impl Flat {
 
     fn append(&mut self, number: usize, geometry: &Geometry, points: &[u32], textured: bool) {
         // Linked list of the wedges of each vertex.
-        let mut first = vec![NONE; points.len()];
+        let mut first = vec![NO_INDEX; points.len()];
         let mut next: Vec<u32> = Vec::new();
         let start = self.wedges.len() as u32;
         for (face, corners) in geometry.triangles.iter().enumerate() {
-            let normals = geometry.corner_normals.get(face).copied().unwrap_or([NONE; 3]);
-            let uvs = geometry.corner_uvs.get(face).copied().unwrap_or([NONE; 3]);
-            let mut wedges = [NONE; 3];
+            let normals = geometry.corner_normals.get(face).copied().unwrap_or([NO_INDEX; 3]);
+            let uvs = geometry.corner_uvs.get(face).copied().unwrap_or([NO_INDEX; 3]);
+            let mut wedges = [NO_INDEX; 3];
             for k in 0..3 {
                 let Some(head) = first.get_mut(corners[k] as usize) else { break };
                 let made = Wedge { vertex: corners[k], normal: normals[k], uv: uvs[k] };
                 let mut at = *head;
-                while at != NONE && self.wedges[at as usize] != made {
+                while at != NO_INDEX && self.wedges[at as usize] != made {
                     at = next[(at - start) as usize];
                 }
-                if at == NONE {
+                if at == NO_INDEX {
                     at = self.wedges.len() as u32;
                     self.wedges.push(made);
                     self.point_of.push(points[corners[k] as usize]);
@@ -138,25 +138,25 @@ impl Flat {
                 wedges[k] = at;
             }
             // A face with an invalid index is not drawn.
-            self.faces.push(if wedges.contains(&NONE) { [NONE; 3] } else { wedges });
+            self.faces.push(if wedges.contains(&NO_INDEX) { [NO_INDEX; 3] } else { wedges });
         }
     }
 
     /// Numbers points along a space-filling curve and sorts faces by their points, so that neighbours are
     /// close in memory.
     fn put_in_order(&mut self) {
-        let along = |place: DVec3| along_curve(place, 1.0 / CELLS);
+        let along = |place: DVec3| along_curve(place, 1.0 / CELLS_PER_HALF_AXIS);
         let codes = self.points.par_iter().enumerate().map(|(point, place)| (along(*place), point as u32));
         let mut order: Vec<(u64, u32)> = codes.collect();
         order.par_sort_unstable();
-        let mut numbers = vec![NONE; order.len()];
+        let mut numbers = vec![NO_INDEX; order.len()];
         for (number, (_, point)) in order.iter().enumerate() {
             numbers[*point as usize] = number as u32;
         }
         self.points = order.iter().map(|(_, point)| self.points[*point as usize]).collect();
         self.point_of.iter_mut().for_each(|point| *point = numbers[*point as usize]);
 
-        let first = |corners: &[u32; 3]| corners.iter().copied().min().unwrap_or(NONE);
+        let first = |corners: &[u32; 3]| corners.iter().copied().min().unwrap_or(NO_INDEX);
         let keys = self.corners().into_par_iter().enumerate();
         let keys = keys.map(|(face, corners)| u64::from(first(&corners)) << 32 | face as u64);
         let mut keys: Vec<u64> = keys.collect();
@@ -169,15 +169,15 @@ impl Flat {
         self.marked = in_order(&self.marked, order);
     }
 
-    /// Points of the corners of each face; [`NONE`] for faces that are not drawn.
+    /// Points of the corners of each face; [`NO_INDEX`] for faces that are not drawn.
     pub fn corners(&self) -> Vec<[u32; 3]> {
-        let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NONE);
+        let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NO_INDEX);
         self.faces.iter().map(|wedges| wedges.map(point)).collect()
     }
 }
 
 /// Instances of a geometry.
-struct Shown {
+struct DrawnGeometry {
     /// Transform of the first instance.
     place: DAffine3,
     count: usize,
@@ -185,12 +185,12 @@ struct Shown {
 }
 
 /// Instances of each geometry; `None` if it has none that can be drawn.
-fn shown(scene: &Scene) -> Vec<Option<Shown>> {
-    let mut all: Vec<Option<Shown>> = scene.geometries.iter().map(|_| None).collect();
+fn shown(scene: &Scene) -> Vec<Option<DrawnGeometry>> {
+    let mut all: Vec<Option<DrawnGeometry>> = scene.geometries.iter().map(|_| None).collect();
     for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
         let Some(shown) = all.get_mut(part.geometry) else { continue };
         let place = part.world_from_part;
-        let shown = shown.get_or_insert(Shown { place, count: 0, weight: 0.0 });
+        let shown = shown.get_or_insert(DrawnGeometry { place, count: 0, weight: 0.0 });
         // The error is a squared length times an area, so it scales with the fourth power of the cube root of
         // the volume.
         let volume = (place.matrix3.determinant() / shown.place.matrix3.determinant()).abs();
@@ -217,13 +217,13 @@ fn reach(geometry: &Geometry) -> f64 {
 }
 
 /// Coordinate frame that gives the scene about size 1.
-struct Frame {
+struct SpatialFrame {
     middle: DVec3,
     scale: f64,
 }
 
-impl Frame {
-    fn of(scene: &Scene, shown: &[Option<Shown>]) -> Self {
+impl SpatialFrame {
+    fn of(scene: &Scene, shown: &[Option<DrawnGeometry>]) -> Self {
         let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (geometry, shown) in scene.geometries.iter().zip(shown) {
             let Some(shown) = shown else { continue };

@@ -45,15 +45,15 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::scene::Scene;
-use collapse_order::{Budget, collapses};
-use collapse_record::Record;
+use collapse_order::{FaceBudget, record_collapses};
+use collapse_record::CollapseRecord;
 use detail_levels::shown;
-use flat_surface::Flat;
+use flat_surface::FlatSurface;
 
 /// The collapses that reduce a scene to its fewest faces, in the order of the error that they add.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Detail {
-    record: Record,
+    record: CollapseRecord,
 }
 
 impl Detail {
@@ -66,8 +66,8 @@ impl Detail {
     /// Finds collapses until at most `faces` remain: a prefix of those of [`Self::of`].
     #[must_use]
     pub fn down_to(scene: &Scene, faces: u64) -> Self {
-        let budget = Budget { shown: &shown(scene), most: faces };
-        Self { record: collapses(Flat::of(scene), &budget) }
+        let budget = FaceBudget { shown: &shown(scene), most: faces };
+        Self { record: record_collapses(FlatSurface::of(scene), &budget) }
     }
 
     /// Writes the collapses of `scene`, the scene for which they were found, to the bytes of a file. Reading

@@ -1,13 +1,13 @@
-//! [`Kind`]: possible collapse directions of a point, by the borders, seams and creases at it; and its
+//! [`PointConstraint`]: possible collapse directions of a point, by the borders, seams and creases at it; and its
 //! initial error quadric.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::collapse_record::NONE;
+use super::collapse_record::NO_INDEX;
 use super::error_quadric::Quadric;
-use super::flat_surface::Flat;
-use super::point_faces::Fans;
+use super::flat_surface::FlatSurface;
+use super::point_faces::PointFaces;
 
 /// Weight of a plane that holds a border in its place, relative to the area of the adjacent faces.
 const BORDER_WEIGHT: f64 = 10.0;
@@ -19,11 +19,11 @@ const SEAM_WEIGHT: f64 = 1.0;
 const CREASE_WEIGHT: f64 = 0.25;
 
 /// Edges whose face normals have a smaller cosine are creases.
-const CREASE_COSINE: f64 = 0.7;
+const MAX_CREASE_COSINE: f64 = 0.7;
 
 /// Possible collapse directions of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum PointConstraint {
     /// To any neighbour: no border or seam ends here or passes through.
     Plain,
     /// Along a border or a seam, to the next point on it.
@@ -39,7 +39,7 @@ pub(crate) enum Kind {
 /// State of a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Site {
-    pub kind: Kind,
+    pub kind: PointConstraint,
     /// Next points on its line, in both directions.
     pub along: [u32; 2],
     pub quadric: Quadric,
@@ -59,7 +59,7 @@ impl Site {
 
 /// A side of a face at a point.
 #[derive(Clone, Copy)]
-struct Side {
+struct FaceSide {
     other: u32,
     opposite: u32,
     face: u32,
@@ -69,8 +69,8 @@ struct Side {
 }
 
 /// Initial state of each point.
-pub(crate) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
-    let normal = |corners: &[u32; 3]| match corners.contains(&NONE) {
+pub(crate) fn sites(flat: &FlatSurface, corners: &[[u32; 3]], fans: &PointFaces) -> Vec<Site> {
+    let normal = |corners: &[u32; 3]| match corners.contains(&NO_INDEX) {
         true => DVec3::ZERO,
         false => doubled_area(corners.map(|point| flat.points[point as usize])),
     };
@@ -83,21 +83,22 @@ pub(crate) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site>
             if length > 0.0 { (normal / length, 0.5 * length) } else { (DVec3::ZERO, 0.0) }
         })
         .collect();
-    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, &planes, sides, point as u32);
+    let of =
+        |sides: &mut Vec<FaceSide>, point: usize| site(flat, corners, fans, &planes, sides, point as u32);
     (0..fans.len()).into_par_iter().with_min_len(1024).map_init(Vec::new, of).collect()
 }
 
 fn site(
-    flat: &Flat,
+    flat: &FlatSurface,
     corners: &[[u32; 3]],
-    fans: &Fans,
+    fans: &PointFaces,
     planes: &[(DVec3, f64)],
-    sides: &mut Vec<Side>,
+    sides: &mut Vec<FaceSide>,
     point: u32,
 ) -> Site {
     let place = flat.points[point as usize];
     let mut quadric = Quadric::default();
-    let (mut weight, mut lines, mut along) = (0.0, 0, [NONE; 2]);
+    let (mut weight, mut lines, mut along) = (0.0, 0, [NO_INDEX; 2]);
     sides.clear();
     for &face in fans.about(point) {
         let f = face as usize;
@@ -110,7 +111,7 @@ fn site(
         let marks = flat.marked.get(f).copied().unwrap_or_default();
         for (end, opposite, marked) in [(next, last, marks[k]), (last, next, marks[last])] {
             let signature = [class(k), class(end), flat.material[f]];
-            sides.push(Side {
+            sides.push(FaceSide {
                 other: corners[f][end],
                 opposite: corners[f][opposite],
                 face,
@@ -122,7 +123,7 @@ fn site(
     sides.sort_unstable_by_key(|side| (side.other, side.opposite, side.signature, side.face));
     for edge in sides.chunk_by(|a, b| a.other == b.other) {
         let way = flat.points[edge[0].other as usize] - place;
-        let normal = |side: &Side| planes[side.face as usize].0;
+        let normal = |side: &FaceSide| planes[side.face as usize].0;
         let strength = match strength(edge) {
             Some(strength) => {
                 if let Some(slot) = along.get_mut(lines) {
@@ -131,7 +132,7 @@ fn site(
                 lines += 1;
                 strength
             }
-            None if normal(&edge[0]).dot(normal(&edge[edge.len() - 1])) < CREASE_COSINE => CREASE_WEIGHT,
+            None if normal(&edge[0]).dot(normal(&edge[edge.len() - 1])) < MAX_CREASE_COSINE => CREASE_WEIGHT,
             None => continue,
         };
         for side in edge {
@@ -140,17 +141,17 @@ fn site(
         }
     }
     let kind = match lines {
-        0 => Kind::Plain,
-        2 => Kind::Line,
-        _ if sides.iter().all(|side| is_like(side, &sides[0])) => Kind::Knot,
-        _ => Kind::Corner,
+        0 => PointConstraint::Plain,
+        2 => PointConstraint::Line,
+        _ if sides.iter().all(|side| is_like(side, &sides[0])) => PointConstraint::Knot,
+        _ => PointConstraint::Corner,
     };
     let quadric = quadric.scaled(weight);
     Site { kind, along, quadric, place, error: quadric.at(place) }
 }
 
 /// Whether two faces at a point have equal attributes there.
-fn is_like(one: &Side, other: &Side) -> bool {
+fn is_like(one: &FaceSide, other: &FaceSide) -> bool {
     let [class, _, material] = one.signature;
     class == other.signature[0] && material == other.signature[2]
 }
@@ -159,7 +160,7 @@ fn is_like(one: &Side, other: &Side) -> bool {
 /// edges.
 ///
 /// Duplicate faces count as one: only the number of distinct opposite points matters.
-fn strength(edge: &[Side]) -> Option<f64> {
+fn strength(edge: &[FaceSide]) -> Option<f64> {
     let (one, other) = edge.split_at(edge.partition_point(|side| side.opposite == edge[0].opposite));
     if other.is_empty() {
         return Some(BORDER_WEIGHT);

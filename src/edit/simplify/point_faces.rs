@@ -1,8 +1,8 @@
-//! [`Fans`]: the faces around each point, in lists that can be merged when a point collapses onto another.
+//! [`PointFaces`]: the faces around each point, in lists that can be merged when a point collapses onto another.
 
 /// Faces around each point. All lists share one pool: a list grows in place or moves to the end of the pool.
 #[derive(Debug, Clone)]
-pub(crate) struct Fans {
+pub(crate) struct PointFaces {
     pool: Vec<u32>,
     lists: Vec<List>,
 }
@@ -15,7 +15,7 @@ struct List {
     room: u32,
 }
 
-impl Fans {
+impl PointFaces {
     /// Builds the lists of `count` points, in face order, without the faces for which `left` holds.
     pub fn new(count: usize, corners: &[[u32; 3]], left: impl Fn(usize) -> bool) -> Self {
         let mut lists = vec![List::default(); count];
@@ -93,7 +93,7 @@ mod tests {
     #[test]
     fn lists_grow_and_forget() {
         let corners = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [1, 2, 3]];
-        let mut fans = Fans::new(5, &corners, |face| face == 3);
+        let mut fans = PointFaces::new(5, &corners, |face| face == 3);
         assert_eq!((fans.about(0), fans.about(1), fans.about(2)), (&[0, 1, 2][..], &[0][..], &[0, 1][..]));
         // Point 0 collapses onto point 4, and the face between them is removed.
         fans.merge(0, 4, |face| face != 2, |face| face != 2);

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::collapse_record::NONE;
-use crate::mesh::weld::nearby_vertices::near;
+use super::collapse_record::NO_INDEX;
+use crate::mesh::weld::nearby_vertices::join_nearby;
 
-const FREE: u32 = u32::MAX;
+const FREE_SLOT: u32 = u32::MAX;
 
 /// Hash table of points that differ in position or group, without removal.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ impl Weld {
     pub fn with_room(count: usize) -> Self {
         let slots = (count * 2).max(4).next_power_of_two();
         Self {
-            slots: vec![FREE; slots],
+            slots: vec![FREE_SLOT; slots],
             points: Vec::with_capacity(count),
             groups: Vec::with_capacity(count),
         }
@@ -34,7 +34,7 @@ impl Weld {
         let mut slot = slot_of(group, place) as usize & mask;
         loop {
             let point = self.slots[slot];
-            if point == FREE {
+            if point == FREE_SLOT {
                 let point = self.points.len() as u32;
                 self.slots[slot] = point;
                 self.points.push(place);
@@ -71,14 +71,14 @@ fn slot_of(group: u32, place: DVec3) -> u64 {
 /// point.
 ///
 /// The corners of adjacent CAD faces often differ in their last bits. Returns `None` if nothing is joined.
-pub(crate) fn joined(points: &[DVec3], corners: &[[u32; 3]], reaches: &[f64]) -> Option<Vec<u32>> {
+pub(crate) fn join_near_points(points: &[DVec3], corners: &[[u32; 3]], reaches: &[f64]) -> Option<Vec<u32>> {
     // At a point that is surrounded by faces, each neighbour is once the next corner and once the last one.
     let mut open = vec![0_u32; points.len()];
     let mut add = |point: u32, other: u32, sign: u32| {
         let mixed = other.wrapping_add(1).wrapping_mul(0x9e37_79b1);
         open[point as usize] = open[point as usize].wrapping_add(sign.wrapping_mul(mixed ^ mixed >> 15));
     };
-    for &[a, b, c] in corners.iter().filter(|corners| corners[0] != NONE) {
+    for &[a, b, c] in corners.iter().filter(|corners| corners[0] != NO_INDEX) {
         for (point, next, last) in [(a, b, c), (b, c, a), (c, a, b)] {
             add(point, next, 1);
             add(point, last, u32::MAX);
@@ -86,7 +86,7 @@ pub(crate) fn joined(points: &[DVec3], corners: &[[u32; 3]], reaches: &[f64]) ->
     }
     let candidates: Vec<u32> = (0..points.len() as u32).filter(|point| open[*point as usize] != 0).collect();
     let reaches: Vec<f64> = candidates.iter().map(|point| reaches[*point as usize]).collect();
-    near(points, &candidates, &reaches)
+    join_nearby(points, &candidates, &reaches)
 }
 
 #[cfg(test)]
@@ -105,11 +105,11 @@ mod tests {
     fn open_edges_are_joined_where_they_nearly_meet() {
         let far = DVec3::new(1e-9, -1e-9, 0.0);
         let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + far, DVec3::Y + far, DVec3::ONE];
-        let corners = [[0, 1, 2], [4, 3, 5], [NONE; 3]];
-        assert_eq!(joined(&points, &corners, &[1e-8; 6]), Some(vec![0, 1, 2, 1, 2, 5]));
-        assert_eq!(joined(&points, &corners, &[1e-10; 6]), None);
+        let corners = [[0, 1, 2], [4, 3, 5], [NO_INDEX; 3]];
+        assert_eq!(join_near_points(&points, &corners, &[1e-8; 6]), Some(vec![0, 1, 2, 1, 2, 5]));
+        assert_eq!(join_near_points(&points, &corners, &[1e-10; 6]), None);
         // A closed surface has no open edges, so it is not joined to anything, however close.
         let closed = [[0, 2, 1], [0, 1, 5], [1, 2, 5], [2, 0, 5]];
-        assert_eq!(joined(&points, &closed, &[9.0; 6]), None);
+        assert_eq!(join_near_points(&points, &closed, &[9.0; 6]), None);
     }
 }

@@ -1,6 +1,6 @@
 //! Straight lines and arcs fitted to a path, each as long as the tolerance allows.
 //!
-//! 1. Cubics that stand for arcs become these arcs ([`Steps`]).
+//! 1. Cubics that stand for arcs become these arcs ([`PathSteps`]).
 //! 2. Other curves are flattened finely. From each point, the longest line or arc is taken whose distance to
 //!    all points and chords is within the tolerance.
 //!
@@ -9,48 +9,48 @@
 
 use kurbo::{Affine, BezPath, Point, Vec2};
 
-use super::arc_recovery::Steps;
+use super::arc_recovery::PathSteps;
 use crate::geometry::numbers::portable_math::{atan2, tan};
-use crate::geometry::plane::planar_distance::nearest_centre;
+use crate::geometry::plane::planar_distance::fit_circle_centre;
 
 /// A stroke without lifting the pen.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Curve {
+pub(crate) enum FittedCurve {
     Circle { centre: Point, radius: f64 },
-    Run { start: Point, pieces: Vec<Piece>, closed: bool },
+    Run { start: Point, pieces: Vec<FittedPiece>, closed: bool },
 }
 
 /// A straight line or an arc, by its end point and bulge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Piece {
+pub(crate) struct FittedPiece {
     pub(crate) end: Point,
     pub(crate) bulge: f64,
 }
 
 /// Share of the tolerance used by flattening.
-const FLAT_SHARE: f64 = 0.1;
+const FLATTENING_SHARE: f64 = 0.1;
 
 /// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
 /// uncertain.
-const LARGEST_TURN: f64 = 6.0;
+const MAX_ARC_RAD: f64 = 6.0;
 
 /// Largest angle between corners of a polygon that stands for a circle, in radians.
-const LARGEST_FACET: f64 = 0.27;
+const MAX_FACET_RAD: f64 = 0.27;
 /// Largest distance of its chords from the circle, in tolerances.
-const FACET_RISE: f64 = 2.5;
+const MAX_FACET_RISE_TOLERANCES: f64 = 2.5;
 
 /// Largest distance of a closed curve from a full circle, in tolerances. Curves are fitted to chains in two
 /// halves.
-const OFF_CIRCLE: f64 = 1.5;
+const MAX_CIRCLE_OFFSET_TOLERANCES: f64 = 1.5;
 
 /// Fewest points of a flattened circle.
-const LEAST_OF_CIRCLE: usize = 8;
+const MIN_CIRCLE_POINTS: usize = 8;
 
 /// Lines and arcs of a path, transformed by `place`, within `tolerance` in units after the transform.
-pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve> {
-    let within = tolerance * (1.0 - FLAT_SHARE);
+pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<FittedCurve> {
+    let within = tolerance * (1.0 - FLATTENING_SHARE);
     let moved = place * path;
-    let subpaths = Steps::of(moved.elements(), tolerance * FLAT_SHARE);
+    let subpaths = PathSteps::of(moved.elements(), tolerance * FLATTENING_SHARE);
     subpaths
         .iter()
         .filter_map(|own| {
@@ -60,14 +60,14 @@ pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve
 }
 
 /// The curve of a subpath with recovered arcs.
-fn with_arcs(own: &Steps, tolerance: f64) -> Option<Curve> {
+fn with_arcs(own: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
     if !own.points().iter().all(|point| point.is_finite()) {
         return None;
     }
     if let Some((centre, radius)) = own.circle() {
-        return Some(Curve::Circle { centre, radius });
+        return Some(FittedCurve::Circle { centre, radius });
     }
-    let mut found: Vec<Piece> = Vec::new();
+    let mut found: Vec<FittedPiece> = Vec::new();
     let mut between = vec![own.start];
     for step in &own.steps {
         let Some(arc) = step.arc else {
@@ -76,16 +76,16 @@ fn with_arcs(own: &Steps, tolerance: f64) -> Option<Curve> {
         };
         found.extend(pieces(&between, tolerance));
         let start = between.last().copied().unwrap_or(own.start);
-        let ends = Steps::bulges(start, step.end, arc).into_iter();
-        found.extend(ends.map(|(end, bulge)| Piece { end, bulge }));
+        let ends = PathSteps::bulges(start, step.end, arc).into_iter();
+        found.extend(ends.map(|(end, bulge)| FittedPiece { end, bulge }));
         between = vec![step.end];
     }
     found.extend(pieces(&between, tolerance));
-    Some(Curve::Run { start: own.start, pieces: found, closed: own.closed })
+    Some(FittedCurve::Run { start: own.start, pieces: found, closed: own.closed })
 }
 
 /// The curve through points without repeated neighbours; a closed curve returns to the first point.
-fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> {
+fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<FittedCurve> {
     if points.iter().any(|point| !point.is_finite()) {
         return None;
     }
@@ -99,10 +99,10 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> 
         return None;
     }
     if !closed {
-        return Some(Curve::Run { start, pieces: pieces(&points, tolerance), closed });
+        return Some(FittedCurve::Run { start, pieces: pieces(&points, tolerance), closed });
     }
     if let Some((centre, radius)) = circle(&points, tolerance) {
-        return Some(Curve::Circle { centre, radius });
+        return Some(FittedCurve::Circle { centre, radius });
     }
     points.push(start);
     // A closed line may start anywhere, even inside an arc. Start again at the end of the first piece.
@@ -113,18 +113,18 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> 
         points.push(first);
     }
     let start = *points.first()?;
-    Some(Curve::Run { start, pieces: pieces(&points, tolerance), closed })
+    Some(FittedCurve::Run { start, pieces: pieces(&points, tolerance), closed })
 }
 
 /// Lines and arcs through all points in order.
-fn pieces(points: &[Point], tolerance: f64) -> Vec<Piece> {
+fn pieces(points: &[Point], tolerance: f64) -> Vec<FittedPiece> {
     let mut pieces = Vec::new();
     let mut at = 0;
     while at + 1 < points.len() {
         let (straight, _) = furthest(points, at, 1, |run| is_straight(run, tolerance).then_some(0.0));
         let (round, bulge) = furthest(points, at, 2, |run| arc(run, tolerance));
         let (end, bulge) = if round > straight { (round, bulge) } else { (straight, 0.0) };
-        pieces.push(Piece { end: points[end], bulge });
+        pieces.push(FittedPiece { end: points[end], bulge });
         at = end;
     }
     pieces
@@ -183,21 +183,21 @@ fn arc(run: &[Point], tolerance: f64) -> Option<f64> {
         let through = *run.get((run.len() - 1) * quarter / 4)?;
         let centre = centre_of(first, through, last)?;
         let turn = turn_about(run, centre, (first - centre).hypot(), tolerance)?;
-        (turn.abs() < LARGEST_TURN).then(|| tan(turn / 4.0))
+        (turn.abs() < MAX_ARC_RAD).then(|| tan(turn / 4.0))
     })
 }
 
 /// Circle through all points of a closed curve that goes round it once.
 fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     let count = points.len();
-    if count < LEAST_OF_CIRCLE {
+    if count < MIN_CIRCLE_POINTS {
         return None;
     }
-    let centre = nearest_centre(points)?;
+    let centre = fit_circle_centre(points)?;
     let mean = points.iter().map(|point| (*point - centre).hypot()).sum::<f64>() / count as f64;
     let mut round: Vec<Point> = points.to_vec();
     round.push(points[0]);
-    let within = OFF_CIRCLE * tolerance;
+    let within = MAX_CIRCLE_OFFSET_TOLERANCES * tolerance;
     let turn =
         turn_about(&round, centre, mean, within).or_else(|| turn_of_facets(&round, centre, mean, within))?;
     ((turn.abs() - std::f64::consts::TAU).abs() < 1e-6).then_some((centre, mean))
@@ -222,13 +222,14 @@ fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> 
     let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
     for pair in run.windows(2) {
         let Chord { step, off, rise } = Chord::new([pair[0], pair[1]], centre, radius)?;
-        if off > tolerance || rise > FACET_RISE * tolerance || step == 0.0 || step * turn < 0.0 {
+        if off > tolerance || rise > MAX_FACET_RISE_TOLERANCES * tolerance || step == 0.0 || step * turn < 0.0
+        {
             return None;
         }
         turn += step;
         (least, most) = (least.min(step.abs()), most.max(step.abs()));
     }
-    (most <= LARGEST_FACET && most <= 2.0 * least).then_some(turn)
+    (most <= MAX_FACET_RAD && most <= 2.0 * least).then_some(turn)
 }
 
 /// A chord compared with a circle.
@@ -260,7 +261,7 @@ fn centre_of(a: Point, b: Point, c: Point) -> Option<Point> {
 }
 
 /// Centre and radius of an arc.
-pub(crate) fn circle_of(start: Point, piece: Piece) -> (Point, f64) {
+pub(crate) fn circle_of(start: Point, piece: FittedPiece) -> (Point, f64) {
     let chord = piece.end - start;
     // The height of the arc over its chord is half the chord times the bulge.
     let factor = (1.0 - piece.bulge * piece.bulge) / (4.0 * piece.bulge);
@@ -277,13 +278,13 @@ mod tests {
 
     const TOLERANCE: f64 = 0.005;
 
-    fn of(path: &BezPath) -> Vec<Curve> {
+    fn of(path: &BezPath) -> Vec<FittedCurve> {
         curves(path, Affine::IDENTITY, TOLERANCE)
     }
 
-    fn only(path: &BezPath) -> (Point, Vec<Piece>, bool) {
+    fn only(path: &BezPath) -> (Point, Vec<FittedPiece>, bool) {
         match of(path).as_slice() {
-            [Curve::Run { start, pieces, closed }] => (*start, pieces.clone(), *closed),
+            [FittedCurve::Run { start, pieces, closed }] => (*start, pieces.clone(), *closed),
             other => panic!("{other:?}"),
         }
     }
@@ -292,7 +293,7 @@ mod tests {
     fn a_circle_is_a_circle() {
         let path = kurbo::Circle::new((30.0, 40.0), 25.0).to_path(1e-6);
         let told = of(&path);
-        let [Curve::Circle { centre, radius }] = told.as_slice() else { panic!("{told:?}") };
+        let [FittedCurve::Circle { centre, radius }] = told.as_slice() else { panic!("{told:?}") };
         assert!((*centre - Point::new(30.0, 40.0)).hypot() < TOLERANCE && (radius - 25.0).abs() < TOLERANCE);
     }
 
@@ -348,9 +349,9 @@ mod tests {
             path.close_path();
             of(&path)
         };
-        assert!(matches!(polygon(72, 15.0).as_slice(), [Curve::Circle { .. }]));
-        assert!(matches!(polygon(8, 0.2).as_slice(), [Curve::Run { .. }]));
-        assert!(matches!(polygon(72, 100.0).as_slice(), [Curve::Run { .. }]));
+        assert!(matches!(polygon(72, 15.0).as_slice(), [FittedCurve::Circle { .. }]));
+        assert!(matches!(polygon(8, 0.2).as_slice(), [FittedCurve::Run { .. }]));
+        assert!(matches!(polygon(72, 100.0).as_slice(), [FittedCurve::Run { .. }]));
     }
 
     /// Every point of a curve is near its lines and arcs, and the other way round.
@@ -394,7 +395,7 @@ mod tests {
     }
 
     /// A point of a piece at parameter 0 to 1.
-    fn along(start: Point, piece: Piece, t: f64) -> Point {
+    fn along(start: Point, piece: FittedPiece, t: f64) -> Point {
         if piece.bulge == 0.0 {
             return start.lerp(piece.end, t);
         }

@@ -11,18 +11,18 @@ use kurbo::{CubicBez, PathEl, Point, Vec2};
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 
 /// Tolerance for recognising arcs, relative to the radius: rounding of double precision.
-const SAME: f64 = 1e-7;
+const ARC_FORM_TOLERANCE: f64 = 1e-7;
 
 /// Largest angle of an arc written as one cubic, in radians.
-const MAX_TURN: f64 = 1.6;
+const MAX_CUBIC_RAD: f64 = 1.6;
 
 /// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
 /// uncertain.
-const LARGEST_TURN: f64 = 6.0;
+const MAX_BULGE_RAD: f64 = 6.0;
 
 /// A straight line or an arc, by its end point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Step {
+pub(crate) struct PathStep {
     pub end: Point,
     /// Centre and angle of an arc.
     pub arc: Option<(Point, f64)>,
@@ -30,13 +30,13 @@ pub(crate) struct Step {
 
 /// One subpath.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Steps {
+pub(crate) struct PathSteps {
     pub start: Point,
-    pub steps: Vec<Step>,
+    pub steps: Vec<PathStep>,
     pub closed: bool,
 }
 
-impl Steps {
+impl PathSteps {
     /// Subpaths of a path; curves other than arcs are flattened within `tolerance`.
     pub fn of(path: &[PathEl], tolerance: f64) -> Vec<Self> {
         let mut all: Vec<Self> = Vec::new();
@@ -59,7 +59,7 @@ impl Steps {
                 }
                 PathEl::QuadTo(a, b) => own.flat([PathEl::MoveTo(from), PathEl::QuadTo(a, b)], tolerance),
                 PathEl::CurveTo(a, b, end) => match arc_of(CubicBez::new(from, a, b, end)) {
-                    Some(arc) => own.steps.push(Step { end, arc: Some(arc) }),
+                    Some(arc) => own.steps.push(PathStep { end, arc: Some(arc) }),
                     None => own.flat([PathEl::MoveTo(from), PathEl::CurveTo(a, b, end)], tolerance),
                 },
             }
@@ -85,7 +85,7 @@ impl Steps {
 
     fn line(&mut self, end: Point) {
         if self.end() != end {
-            self.steps.push(Step { end, arc: None });
+            self.steps.push(PathStep { end, arc: None });
         }
     }
 
@@ -116,7 +116,7 @@ impl Steps {
                 self.start = self.end();
             }
         }
-        let mut merged: Vec<Step> = Vec::with_capacity(self.steps.len());
+        let mut merged: Vec<PathStep> = Vec::with_capacity(self.steps.len());
         for step in self.steps {
             match merged.last_mut() {
                 Some(last) if is_one_circle(*last, step) => {
@@ -134,7 +134,9 @@ impl Steps {
     /// The full circle that the subpath is, if any.
     pub fn circle(&self) -> Option<(Point, f64)> {
         match self.steps.as_slice() {
-            [Step { arc: Some((centre, turn)), .. }] if self.closed && (turn.abs() - TAU).abs() < SAME => {
+            [PathStep { arc: Some((centre, turn)), .. }]
+                if self.closed && (turn.abs() - TAU).abs() < ARC_FORM_TOLERANCE =>
+            {
                 Some((*centre, (self.start - *centre).hypot()))
             }
             _ => None,
@@ -143,7 +145,7 @@ impl Steps {
 
     /// End points and bulges of an arc. An arc that nearly closes is split into two halves.
     pub fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
-        if turn.abs() < LARGEST_TURN {
+        if turn.abs() < MAX_BULGE_RAD {
             return vec![(end, tan(turn / 4.0))];
         }
         let (s, c) = (sin(turn / 2.0), cos(turn / 2.0));
@@ -154,11 +156,11 @@ impl Steps {
 }
 
 /// Whether two steps are arcs of one circle in the same direction.
-fn is_one_circle(a: Step, b: Step) -> bool {
+fn is_one_circle(a: PathStep, b: PathStep) -> bool {
     match (a.arc, b.arc) {
         (Some((one, turn)), Some((other, more))) => {
             let radius = (a.end - one).hypot();
-            (one - other).hypot() <= SAME * radius && turn * more > 0.0
+            (one - other).hypot() <= ARC_FORM_TOLERANCE * radius && turn * more > 0.0
         }
         _ => false,
     }
@@ -169,7 +171,11 @@ fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     let (out, back) = (curve.p1 - curve.p0, curve.p3 - curve.p2);
     let (first, last) = (out.hypot(), back.hypot());
     let turn = atan2(out.cross(back), out.dot(back));
-    if !(first > 0.0 && turn != 0.0 && turn.abs() <= MAX_TURN && (first - last).abs() <= SAME * first) {
+    if !(first > 0.0
+        && turn != 0.0
+        && turn.abs() <= MAX_CUBIC_RAD
+        && (first - last).abs() <= ARC_FORM_TOLERANCE * first)
+    {
         return None;
     }
     // The centre is to the left of the tangent if the angle is positive (from x to y).
@@ -178,5 +184,5 @@ fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     let (s, c) = (sin(turn), cos(turn));
     let from = curve.p0 - centre;
     let end = centre + Vec2::new(from.x * c - from.y * s, from.x * s + from.y * c);
-    ((end - curve.p3).hypot() <= SAME * radius.abs()).then_some((centre, turn))
+    ((end - curve.p3).hypot() <= ARC_FORM_TOLERANCE * radius.abs()).then_some((centre, turn))
 }

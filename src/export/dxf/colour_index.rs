@@ -9,7 +9,7 @@ use crate::colour::srgb::Colour;
 pub(crate) const BLACK: u8 = 7;
 
 /// Colours 1 to 9.
-const NAMED: [[u8; 3]; 9] = [
+const NAMED_COLOURS: [[u8; 3]; 9] = [
     [255, 0, 0],
     [255, 255, 0],
     [0, 255, 0],
@@ -21,22 +21,22 @@ const NAMED: [[u8; 3]; 9] = [
     [192, 192, 192],
 ];
 /// Values of the five shades of a hue, 0 to 255.
-const VALUES: [f64; 5] = [255.0, 189.0, 129.0, 104.0, 79.0];
+const HUE_VALUES: [f64; 5] = [255.0, 189.0, 129.0, 104.0, 79.0];
 /// Greys 250 to 255.
-const GREYS: [u8; 6] = [51, 80, 105, 130, 190, 255];
+const GREY_VALUES: [u8; 6] = [51, 80, 105, 130, 190, 255];
 
 /// Share of white mixed into the pale variant of a hue.
-const PALE: f64 = 2.0 / 3.0;
+const PALE_WHITE_SHARE: f64 = 2.0 / 3.0;
 
 /// The colour with a number.
 fn colour(number: u8) -> [u8; 3] {
     match number {
-        1..=9 => NAMED[usize::from(number) - 1],
+        1..=9 => NAMED_COLOURS[usize::from(number) - 1],
         10..=249 => {
             let hue = f64::from((number - 10) / 10) / 4.0;
             let shade = usize::from(number % 10);
-            let value = VALUES[shade / 2];
-            let floor = if shade % 2 == 1 { PALE } else { 0.0 };
+            let value = HUE_VALUES[shade / 2];
+            let floor = if shade % 2 == 1 { PALE_WHITE_SHARE } else { 0.0 };
             // Each channel is full over a third of the hue circle, and falls to zero over a sixth on both
             // sides.
             [0.0, 2.0, 4.0].map(|middle: f64| {
@@ -46,7 +46,7 @@ fn colour(number: u8) -> [u8; 3] {
                 (value * (floor + (1.0 - floor) * height)).round() as u8
             })
         }
-        250..=255 => [GREYS[usize::from(number) - 250]; 3],
+        250..=255 => [GREY_VALUES[usize::from(number) - 250]; 3],
         0 => [0; 3],
     }
 }

@@ -69,7 +69,7 @@ const TOLERANCE_MM: f64 = 0.008;
 const MM_PER_PX: f64 = 25.4 / 96.0;
 
 /// The marks and units of a DXF file.
-pub(crate) struct Sheet<'a> {
+pub(crate) struct DxfSource<'a> {
     pub(crate) version: DxfVersion,
     /// Transform from the drawing to the file.
     pub(crate) place: Affine,
@@ -86,7 +86,7 @@ pub(crate) struct Sheet<'a> {
     pub(crate) marks: Vec<(LayerKind, &'a Mark)>,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> DxfSource<'a> {
     pub(crate) fn new(drawing: &'a Drawing, options: &DxfOptions) -> Self {
         let page = &drawing.page;
         let mm_per_unit = match page.unit {
@@ -102,9 +102,9 @@ impl<'a> Sheet<'a> {
         let [left, bottom] =
             options.origin.filter(|at| at.iter().all(|x| x.is_finite())).unwrap_or([0.0, page.height]);
         let place = Affine::new([scale, 0.0, 0.0, -scale, -left * scale, bottom * scale]);
-        let drawn = drawing.layers.iter().filter(|layer| is_drawn(layer.kind));
+        let drawn = drawing.layers.iter().filter(|layer| is_exported_layer(layer.kind));
         let marks = drawn.flat_map(|layer| layer.marks.iter().map(|mark| (layer.kind, mark)));
-        let marks = marks.filter(|(_, mark)| is_told(mark, options.version)).collect();
+        let marks = marks.filter(|(_, mark)| is_exported(mark, options.version)).collect();
         let corners = [[0.0, page.height], [page.width, 0.0]].map(|[x, y]| {
             let corner = place * Point::new(x, y);
             [corner.x, corner.y]
@@ -115,12 +115,12 @@ impl<'a> Sheet<'a> {
 }
 
 /// Whether a layer is written. Paper and its texture are not.
-pub(crate) fn is_drawn(kind: LayerKind) -> bool {
+pub(crate) fn is_exported_layer(kind: LayerKind) -> bool {
     !matches!(kind, LayerKind::Paper | LayerKind::Tooth)
 }
 
 /// Whether a mark is written.
-pub(crate) fn is_told(mark: &Mark, version: DxfVersion) -> bool {
+pub(crate) fn is_exported(mark: &Mark, version: DxfVersion) -> bool {
     match &mark.paint {
         Paint::Stroke(_) | Paint::Outline(_) => true,
         Paint::Fill(_) | Paint::Gradient(_) => version == DxfVersion::R2000,

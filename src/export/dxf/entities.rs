@@ -4,29 +4,29 @@ use std::f64::consts::TAU;
 
 use kurbo::Point;
 
-use super::arc_fitting::{Curve, Piece, circle_of, curves};
-use super::dxf_source::{DxfVersion, Sheet};
-use super::group_codes::Tags;
-use super::layers::{Entry, Layers, Pen, pen_of};
+use super::arc_fitting::{FittedCurve, FittedPiece, circle_of, curves};
+use super::dxf_source::{DxfSource, DxfVersion};
+use super::group_codes::GroupCodes;
+use super::layers::{DxfLayer, DxfLayers, LayerPen, pen_of};
 use super::objects::MODEL_SPACE;
 use super::tables::APPLICATION;
 use crate::drawing::{Mark, Paint};
 use crate::geometry::numbers::portable_math::atan2;
 
 /// Longest text of one pair in release 12.
-const LONGEST_TEXT: usize = 250;
+const MAX_TEXT_BYTES: usize = 250;
 
 /// All entities of a drawing as group codes.
 pub(crate) struct Entities {
-    pub(crate) tags: Tags,
+    pub(crate) tags: GroupCodes,
     /// The first unused handle.
     pub(crate) next_handle: u32,
 }
 
 impl Entities {
-    pub(crate) fn of(sheet: &Sheet, layers: &Layers) -> Self {
-        let next_handle = super::objects::FIRST_FREE;
-        let mut writer = Writer { sheet, own: Self { tags: Tags::default(), next_handle } };
+    pub(crate) fn of(sheet: &DxfSource, layers: &DxfLayers) -> Self {
+        let next_handle = super::objects::FIRST_ENTITY_HANDLE;
+        let mut writer = EntityWriter { sheet, own: Self { tags: GroupCodes::default(), next_handle } };
         for (kind, mark) in &sheet.marks {
             if let Some(layer) = layers.layer(*kind, mark) {
                 writer.mark(mark, layer);
@@ -37,22 +37,23 @@ impl Entities {
 }
 
 /// Writer of entities.
-struct Writer<'a> {
-    sheet: &'a Sheet<'a>,
+struct EntityWriter<'a> {
+    sheet: &'a DxfSource<'a>,
     own: Entities,
 }
 
 /// Properties shared by all entities of a mark.
-struct Common<'a> {
-    layer: &'a Entry,
-    pen: Pen,
+struct EntityCommon<'a> {
+    layer: &'a DxfLayer,
+    pen: LayerPen,
     part: Option<&'a str>,
 }
 
-impl Writer<'_> {
-    fn mark(&mut self, mark: &Mark, layer: &Entry) {
-        let Sheet { place, tolerance, .. } = *self.sheet;
-        let common = Common { layer, pen: pen_of(self.sheet, mark), part: mark.provenance.part.as_deref() };
+impl EntityWriter<'_> {
+    fn mark(&mut self, mark: &Mark, layer: &DxfLayer) {
+        let DxfSource { place, tolerance, .. } = *self.sheet;
+        let common =
+            EntityCommon { layer, pen: pen_of(self.sheet, mark), part: mark.provenance.part.as_deref() };
         match &mark.paint {
             Paint::Stroke(_) => self.lines(&curves(&mark.path, place, tolerance), &common),
             Paint::Outline(outline) => self.lines(&curves(&outline.axis, place, tolerance), &common),
@@ -61,25 +62,25 @@ impl Writer<'_> {
         }
     }
 
-    fn lines(&mut self, curves: &[Curve], common: &Common) {
+    fn lines(&mut self, curves: &[FittedCurve], common: &EntityCommon) {
         for curve in curves {
             match curve {
-                Curve::Circle { centre, radius } => {
+                FittedCurve::Circle { centre, radius } => {
                     self.begin("CIRCLE", "AcDbCircle", common);
                     self.own.tags.point_in_space(10, [centre.x, centre.y]);
                     self.own.tags.number(40, *radius);
                     self.end(common);
                 }
-                Curve::Run { start, pieces, closed: false } if pieces.len() == 1 => {
+                FittedCurve::Run { start, pieces, closed: false } if pieces.len() == 1 => {
                     self.single(*start, pieces[0], common);
                 }
-                Curve::Run { start, pieces, closed } => self.polyline(*start, pieces, *closed, common),
+                FittedCurve::Run { start, pieces, closed } => self.polyline(*start, pieces, *closed, common),
             }
         }
     }
 
     /// A single straight line or arc.
-    fn single(&mut self, start: Point, piece: Piece, common: &Common) {
+    fn single(&mut self, start: Point, piece: FittedPiece, common: &EntityCommon) {
         if piece.bulge == 0.0 {
             self.begin("LINE", "AcDbLine", common);
             self.own.tags.point_in_space(10, [start.x, start.y]);
@@ -105,7 +106,7 @@ impl Writer<'_> {
     }
 
     /// Writes several lines and arcs as one polyline.
-    fn polyline(&mut self, start: Point, pieces: &[Piece], closed: bool, common: &Common) {
+    fn polyline(&mut self, start: Point, pieces: &[FittedPiece], closed: bool, common: &EntityCommon) {
         let vertices = vertices(start, pieces, closed);
         if self.sheet.version == DxfVersion::R2000 {
             self.begin("LWPOLYLINE", "AcDbPolyline", common);
@@ -138,7 +139,7 @@ impl Writer<'_> {
     }
 
     /// A fill with all its rings; inner rings are holes.
-    fn hatch(&mut self, curves: &[Curve], common: &Common) {
+    fn hatch(&mut self, curves: &[FittedCurve], common: &EntityCommon) {
         let rings: Vec<Vec<(Point, f64)>> = curves.iter().filter_map(ring).collect();
         if rings.is_empty() {
             return;
@@ -172,7 +173,7 @@ impl Writer<'_> {
     }
 
     /// Writes the start of an entity: type, handle, layer, and properties that differ from the layer's.
-    fn begin(&mut self, name: &str, class: &str, common: &Common) {
+    fn begin(&mut self, name: &str, class: &str, common: &EntityCommon) {
         let handle = self.own.next_handle;
         let tags = &mut self.own.tags;
         tags.text(0, name);
@@ -200,7 +201,7 @@ impl Writer<'_> {
     }
 
     /// Writes the name of the part as extended data.
-    fn end(&mut self, common: &Common) {
+    fn end(&mut self, common: &EntityCommon) {
         if let Some(part) = common.part {
             self.own.tags.text(1001, APPLICATION);
             self.own.tags.text(1000, &plain(part));
@@ -209,7 +210,7 @@ impl Writer<'_> {
 }
 
 /// Corners of a run, each with the bulge of the next piece.
-fn vertices(start: Point, pieces: &[Piece], closed: bool) -> Vec<(Point, f64)> {
+fn vertices(start: Point, pieces: &[FittedPiece], closed: bool) -> Vec<(Point, f64)> {
     let starts = std::iter::once(start).chain(pieces.iter().map(|piece| piece.end));
     let bulges = pieces.iter().map(|piece| piece.bulge).chain(std::iter::once(0.0));
     let mut vertices: Vec<(Point, f64)> = starts.zip(bulges).collect();
@@ -220,12 +221,12 @@ fn vertices(start: Point, pieces: &[Piece], closed: bool) -> Vec<(Point, f64)> {
 }
 
 /// Corners of a closed curve; a circle becomes two arcs.
-fn ring(curve: &Curve) -> Option<Vec<(Point, f64)>> {
+fn ring(curve: &FittedCurve) -> Option<Vec<(Point, f64)>> {
     match curve {
-        Curve::Circle { centre, radius } => {
+        FittedCurve::Circle { centre, radius } => {
             Some([1.0, -1.0].map(|side| (Point::new(centre.x + side * radius, centre.y), 1.0)).to_vec())
         }
-        Curve::Run { start, pieces, .. } => {
+        FittedCurve::Run { start, pieces, .. } => {
             let comes_back = pieces.last().is_some_and(|piece| piece.end == *start);
             let ring = vertices(*start, pieces, comes_back);
             (ring.len() > 1).then_some(ring)
@@ -242,7 +243,7 @@ fn plain(text: &str) -> String {
             ' '..='~' => letter.to_string(),
             _ => letter.encode_utf16(&mut units).iter().map(|unit| format!("\\U+{unit:04X}")).collect(),
         };
-        if plain.len() + told.len() > LONGEST_TEXT {
+        if plain.len() + told.len() > MAX_TEXT_BYTES {
             break;
         }
         plain += &told;

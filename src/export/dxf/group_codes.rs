@@ -1,13 +1,13 @@
 //! Pairs of group code and value, the only content of a DXF file.
 
 /// Decimals of lengths. A thousandth of a millimetre is finer than any machine, but models may be in metres.
-const DECIMALS: usize = 6;
+const LENGTH_DECIMALS: usize = 6;
 
 /// Group codes as text.
 #[derive(Default)]
-pub(crate) struct Tags(Vec<u8>);
+pub(crate) struct GroupCodes(Vec<u8>);
 
-impl Tags {
+impl GroupCodes {
     /// Writes a name or a word, which must be one line of ASCII.
     pub(crate) fn text(&mut self, code: u16, value: &str) {
         self.0.extend_from_slice(format!("{code}\r\n{value}\r\n").as_bytes());
@@ -57,7 +57,7 @@ impl Tags {
 
 /// A number with a decimal point, because some readers take numbers without one as integers.
 fn number(value: f64) -> String {
-    let text = format!("{value:.DECIMALS$}");
+    let text = format!("{value:.LENGTH_DECIMALS$}");
     let short = text.trim_end_matches('0');
     let short = if short == "-0." { "0." } else { short };
     if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }

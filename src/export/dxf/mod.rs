@@ -26,10 +26,10 @@ mod tables;
 pub use dxf_source::{DxfLength, DxfOptions, DxfVersion};
 
 use crate::drawing::Drawing;
-use dxf_source::{Sheet, is_drawn, is_told};
+use dxf_source::{DxfSource, is_exported, is_exported_layer};
 use entities::Entities;
-use group_codes::Tags;
-use layers::Layers;
+use group_codes::GroupCodes;
+use layers::DxfLayers;
 
 impl Drawing {
     /// Writes the drawing as a DXF file. Lines of varying width are written by their axis, and gradients by
@@ -51,10 +51,10 @@ impl Drawing {
     /// ```
     #[must_use]
     pub fn to_dxf(&self, options: &DxfOptions) -> Vec<u8> {
-        let sheet = Sheet::new(self, options);
-        let layers = Layers::of(&sheet);
+        let sheet = DxfSource::new(self, options);
+        let layers = DxfLayers::of(&sheet);
         let entities = Entities::of(&sheet, &layers);
-        let mut tags = Tags::default();
+        let mut tags = GroupCodes::default();
         tables::header(&mut tags, &sheet, entities.next_handle);
         tables::write(&mut tags, &sheet, &layers);
         tables::blocks(&mut tags, sheet.version);
@@ -71,7 +71,7 @@ impl Drawing {
     /// Number of marks that the file leaves out: pictures, and in release 12 fills.
     #[must_use]
     pub fn left_out_of_dxf(&self, options: &DxfOptions) -> usize {
-        let drawn = self.layers.iter().filter(|layer| is_drawn(layer.kind));
-        drawn.flat_map(|layer| &layer.marks).filter(|mark| !is_told(mark, options.version)).count()
+        let drawn = self.layers.iter().filter(|layer| is_exported_layer(layer.kind));
+        drawn.flat_map(|layer| &layer.marks).filter(|mark| !is_exported(mark, options.version)).count()
     }
 }

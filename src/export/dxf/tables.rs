@@ -1,9 +1,9 @@
 //! Header, tables and blocks of a DXF file.
 
 use super::colour_index;
-use super::dxf_source::{DxfVersion, Sheet};
-use super::group_codes::Tags;
-use super::layers::{CONTINUOUS, Layers, ZERO};
+use super::dxf_source::{DxfSource, DxfVersion};
+use super::group_codes::GroupCodes;
+use super::layers::{CONTINUOUS, DEFAULT_LAYER, DxfLayers};
 use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
 
 /// Application name of the extended data that holds part names.
@@ -15,9 +15,9 @@ const MILLIMETRES: usize = 4;
 const UNITLESS: usize = 0;
 
 /// Writes the HEADER section, and an empty CLASSES section in release 2000.
-pub(crate) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
+pub(crate) fn header(tags: &mut GroupCodes, sheet: &DxfSource, next_handle: u32) {
     let modern = sheet.version == DxfVersion::R2000;
-    let variable = |tags: &mut Tags, name: &str, code: u16, value: usize| {
+    let variable = |tags: &mut GroupCodes, name: &str, code: u16, value: usize| {
         tags.text(9, name);
         tags.whole(code, value);
     };
@@ -49,7 +49,7 @@ pub(crate) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
 
 /// Writer of tables. In release 2000, entries have handles and subclasses.
 struct Tables<'a> {
-    tags: &'a mut Tags,
+    tags: &'a mut GroupCodes,
     modern: bool,
     handle: u32,
 }
@@ -98,10 +98,10 @@ impl Tables<'_> {
 }
 
 /// Writes the tables of a drawing.
-pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
+pub(crate) fn write(tags: &mut GroupCodes, sheet: &DxfSource, layers: &DxfLayers) {
     let modern = sheet.version == DxfVersion::R2000;
     tags.section("TABLES");
-    let mut tables = Tables { tags, modern, handle: objects::FIRST_OF_TABLES };
+    let mut tables = Tables { tags, modern, handle: objects::FIRST_TABLE_HANDLE };
     tables.table("VPORT", 1, |tables, owner| active_view(tables, owner, sheet.corners));
     let patterns = patterns(layers);
     let extra = if modern { 3 } else { 1 };
@@ -115,7 +115,7 @@ pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
         }
     });
     tables.table("LAYER", layers.list.len() + 1, |tables, owner| {
-        layer(tables, owner, ZERO, CONTINUOUS, colour_index::BLACK, None);
+        layer(tables, owner, DEFAULT_LAYER, CONTINUOUS, colour_index::BLACK, None);
         for entry in &layers.list {
             layer(tables, owner, &entry.name, &entry.line_type(), entry.pen.colour, entry.pen.weight);
         }
@@ -154,7 +154,7 @@ pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
 }
 
 /// Names and dash patterns of the line types used by layers.
-fn patterns(layers: &Layers) -> Vec<(String, Vec<f64>)> {
+fn patterns(layers: &DxfLayers) -> Vec<(String, Vec<f64>)> {
     let dashed = layers.list.iter().filter(|entry| !entry.pen.dash.is_empty());
     dashed.map(|entry| (entry.line_type(), entry.pen.dash.clone())).collect()
 }
@@ -217,16 +217,16 @@ fn layer(tables: &mut Tables, owner: u32, name: &str, line_type: &str, colour: u
 }
 
 /// Writes the mandatory blocks: model space, which contains the drawing, and an empty paper space.
-pub(crate) fn blocks(tags: &mut Tags, version: DxfVersion) {
+pub(crate) fn blocks(tags: &mut GroupCodes, version: DxfVersion) {
     tags.section("BLOCKS");
     if version == DxfVersion::R2000 {
         for (space, record, name) in [(0, MODEL_SPACE, "*Model_Space"), (2, PAPER_SPACE, "*Paper_Space")] {
             for (step, kind, class) in [(0, "BLOCK", "AcDbBlockBegin"), (1, "ENDBLK", "AcDbBlockEnd")] {
                 tags.text(0, kind);
-                tags.handle(5, objects::FIRST_OF_BLOCKS + space + step);
+                tags.handle(5, objects::FIRST_BLOCK_HANDLE + space + step);
                 tags.handle(330, record);
                 tags.text(100, "AcDbEntity");
-                tags.text(8, ZERO);
+                tags.text(8, DEFAULT_LAYER);
                 tags.text(100, class);
                 if step == 0 {
                     tags.text(2, name);

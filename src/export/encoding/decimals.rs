@@ -3,7 +3,7 @@
 //! Five times as fast as the standard library, which matters for drawings with millions of numbers.
 
 /// Most decimals written.
-pub(crate) const MOST_DECIMALS: u8 = 8;
+pub(crate) const MAX_DECIMALS: u8 = 8;
 
 /// A grid of decimal numbers for rounding coordinates.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +17,7 @@ pub(crate) struct Decimals {
 impl Decimals {
     /// Grid of numbers with at most `count` decimals.
     pub fn new(count: u8) -> Self {
-        let count = count.min(MOST_DECIMALS);
+        let count = count.min(MAX_DECIMALS);
         let one = 10i64.pow(u32::from(count));
         Self { count: usize::from(count), scale: one as f64, one }
     }

@@ -9,11 +9,11 @@ use kurbo::{Affine, Rect};
 use rustc_hash::FxHashMap;
 
 use super::decimals::Decimals;
-use super::xml::Ids;
+use super::xml::UniqueIds;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
-use crate::drawing::{Drawing, ImagePaint, ImagePiece, Mark, Paint, Shows};
-use crate::geometry::numbers::tolerance::COVER_PX;
+use crate::drawing::{Drawing, ImagePaint, ImagePiece, Mark, Paint, PieceContent};
+use crate::geometry::numbers::tolerance::TRIANGLE_BORDER_PX;
 
 /// Decimals of the linear part of a transform.
 const TURN_DECIMALS: u8 = 6;
@@ -21,11 +21,11 @@ const TURN_DECIMALS: u8 = 6;
 const SHIFT_DECIMALS: u8 = 3;
 
 /// Pictures of a drawing, each once.
-pub(crate) struct Pictures<'a> {
+pub(crate) struct EmbeddedPictures<'a> {
     pub list: Vec<&'a Picture>,
     /// Number of a picture, by its address.
     numbers: FxHashMap<usize, usize>,
-    /// Ink of each picture shown through a mask; see [`Pictures::ink`].
+    /// Ink of each picture shown through a mask; see [`EmbeddedPictures::ink_length`].
     pub inks: Vec<Option<Colour>>,
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePai
     })
 }
 
-impl<'a> Pictures<'a> {
+impl<'a> EmbeddedPictures<'a> {
     /// Collects the pictures of a drawing and their inks.
     pub fn of(drawing: &'a Drawing) -> Self {
         let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default(), inks: Vec::new() };
@@ -83,17 +83,17 @@ impl<'a> Pictures<'a> {
 }
 
 /// Ids of pictures and of the marks that show them.
-pub(crate) struct Named<'a> {
-    pictures: Pictures<'a>,
+pub(crate) struct PictureIds<'a> {
+    pictures: EmbeddedPictures<'a>,
     ids: Vec<String>,
     /// Ids of marks, by their address.
     marks: FxHashMap<usize, String>,
 }
 
-impl<'a> Named<'a> {
+impl<'a> PictureIds<'a> {
     /// Assigns ids to all pictures and to the marks that show them.
-    pub fn of(drawing: &'a Drawing, ids: &mut Ids) -> Self {
-        let pictures = Pictures::of(drawing);
+    pub fn of(drawing: &'a Drawing, ids: &mut UniqueIds) -> Self {
+        let pictures = EmbeddedPictures::of(drawing);
         let numbered = |name: &str, number: usize| format!("{name}-{}", number + 1);
         let names = (0..pictures.list.len()).map(|number| ids.take(&numbered("picture", number))).collect();
         let shown = marks(drawing).enumerate();
@@ -128,7 +128,7 @@ impl<'a> Named<'a> {
     /// Writes the definitions of the pictures.
     pub fn write(&self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"<defs>\n");
-        let Pictures { list, inks, .. } = &self.pictures;
+        let EmbeddedPictures { list, inks, .. } = &self.pictures;
         let encode = |(picture, ink): (&&Picture, &Option<Colour>)| {
             STANDARD.encode(if ink.is_some() { encode_opacity(picture) } else { encode(picture) })
         };
@@ -171,8 +171,8 @@ fn half_clear_ink(picture: &Picture) -> Option<Colour> {
 /// Whether a piece shows pixels, or the ink's colour with any opacity.
 fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
     match piece.shows {
-        Shows::Pixels(_) => true,
-        Shows::Colour(colour) => Colour { a: 255, ..colour } == ink,
+        PieceContent::Pixels(_) => true,
+        PieceContent::Colour(colour) => Colour { a: 255, ..colour } == ink,
     }
 }
 
@@ -180,7 +180,7 @@ fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
 fn pieces_overlap(pieces: &[ImagePiece]) -> bool {
     let bounds: Vec<Rect> = pieces.iter().map(|piece| piece.outline.control_box()).collect();
     let sides = |common: Rect| common.width().min(common.height());
-    bounds.iter().zip(bounds.iter().skip(1)).any(|(a, b)| sides(a.intersect(*b)) > COVER_PX)
+    bounds.iter().zip(bounds.iter().skip(1)).any(|(a, b)| sides(a.intersect(*b)) > TRIANGLE_BORDER_PX)
 }
 
 /// A picture as a PNG file, without an alpha channel if it is opaque.

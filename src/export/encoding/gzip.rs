@@ -8,16 +8,16 @@ use miniz_oxide::inflate::decompress_to_vec_with_limit;
 use crate::error::Error;
 
 /// Compression level, 0 to 10.
-const LEVEL: u8 = 9;
+const DEFLATE_LEVEL: u8 = 9;
 
 /// Magic number, method, flags, time, extra flags (best compression), system (unknown).
-const HEAD: [u8; 10] = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 2, 255];
+const GZIP_HEADER: [u8; 10] = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 2, 255];
 
 /// Compresses bytes as gzip.
 #[must_use]
 pub fn packed(bytes: &[u8]) -> Vec<u8> {
-    let mut out = HEAD.to_vec();
-    out.extend_from_slice(&compress_to_vec(bytes, LEVEL));
+    let mut out = GZIP_HEADER.to_vec();
+    out.extend_from_slice(&compress_to_vec(bytes, DEFLATE_LEVEL));
     out.extend_from_slice(&crc32(bytes).to_le_bytes());
     // The format stores the length modulo 2^32.
     out.extend_from_slice(&(bytes.len() as u32).to_le_bytes());
@@ -46,7 +46,7 @@ pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
 /// Decompresses gzip; `None` if it is damaged or contains more than `most` bytes.
 #[must_use]
 pub fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
-    let (head, rest) = bytes.split_at_checked(HEAD.len())?;
+    let (head, rest) = bytes.split_at_checked(GZIP_HEADER.len())?;
     let [0x1f, 0x8b, 8, flags, ..] = *head else { return None };
     let (body, tail) = rest.split_at_checked(rest.len().checked_sub(8)?)?;
     let body = body.get(extras(body, flags)?..)?;

@@ -45,7 +45,7 @@ pub(crate) fn read_back(text: &str) -> Cow<'_, str> {
 }
 
 /// Generator of unique ids.
-pub(crate) struct Ids {
+pub(crate) struct UniqueIds {
     /// Prefix of all ids of the document.
     base: String,
     /// Prefix of the ids generated now.
@@ -53,7 +53,7 @@ pub(crate) struct Ids {
     taken: FxHashSet<String>,
 }
 
-impl Ids {
+impl UniqueIds {
     /// Creates a generator with a prefix, which may be empty.
     pub fn new(prefix: &str) -> Self {
         Self { base: safe(prefix), prefix: safe(prefix), taken: FxHashSet::default() }
@@ -109,13 +109,13 @@ mod tests {
 
     #[test]
     fn ids_are_unique_and_names() {
-        let mut ids = Ids::new("");
+        let mut ids = UniqueIds::new("");
         assert_eq!(ids.take("part-big bolt"), "part-big-bolt");
         assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-2");
         assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-3");
         assert_eq!(ids.take("1"), "_1");
-        assert_eq!(Ids::new("a<b.").take("lines"), "a-b-lines");
-        let mut ids = Ids::new("p-");
+        assert_eq!(UniqueIds::new("a<b.").take("lines"), "a-b-lines");
+        let mut ids = UniqueIds::new("p-");
         ids.within("panel 1");
         assert_eq!(ids.take("lines"), "p-panel-1-lines");
         ids.within("");

@@ -4,20 +4,20 @@ use std::io::Write;
 
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, EncodingError, Writer};
 
-use super::frame_clock::Pace;
-use super::frame_difference::Changed;
+use super::frame_clock::FrameClock;
+use super::frame_difference::ChangedRect;
 use crate::error::Error;
 use crate::export::Pixels;
 
 /// Time units per second.
-const PER_SECOND: u16 = 1000;
+const TIME_UNITS_PER_SECOND: u16 = 1000;
 
 /// Writer of an animated PNG.
 pub struct ApngFilm<W: Write> {
     /// Writer, until the first frame determines the size.
     out: Option<W>,
     writer: Option<Writer<W>>,
-    pace: Pace,
+    pace: FrameClock,
     frames: u32,
     written: u32,
     before: Option<Pixels>,
@@ -26,7 +26,7 @@ pub struct ApngFilm<W: Write> {
 impl<W: Write> ApngFilm<W> {
     /// Creates a film with `fps` ticks per second. Exactly `frames` frames must be pushed.
     pub fn new(out: W, fps: f64, frames: u32) -> Self {
-        Self { out: Some(out), writer: None, pace: Pace::new(fps), frames, written: 0, before: None }
+        Self { out: Some(out), writer: None, pace: FrameClock::new(fps), frames, written: 0, before: None }
     }
 
     /// Adds a frame that is shown for `ticks` ticks.
@@ -41,24 +41,24 @@ impl<W: Write> ApngFilm<W> {
             Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
                 return Err(Error::new("a frame has another size than the first"));
             }
-            Some(before) => Changed::between(before, pixels),
-            None => Changed::whole(pixels),
+            Some(before) => ChangedRect::between(before, pixels),
+            None => ChangedRect::whole(pixels),
         };
-        let delay = self.pace.next(ticks, f64::from(PER_SECOND)).min(u32::from(u16::MAX)) as u16;
+        let delay = self.pace.next(ticks, f64::from(TIME_UNITS_PER_SECOND)).min(u32::from(u16::MAX)) as u16;
         self.write(pixels, changed, delay).map_err(cannot_write)?;
         self.before = Some(pixels.clone());
         self.written += 1;
         Ok(())
     }
 
-    fn write(&mut self, pixels: &Pixels, changed: Changed, delay: u16) -> Result<(), EncodingError> {
+    fn write(&mut self, pixels: &Pixels, changed: ChangedRect, delay: u16) -> Result<(), EncodingError> {
         if let Some(out) = self.out.take() {
             let mut encoder = Encoder::new(out, pixels.width, pixels.height);
             encoder.set_color(ColorType::Rgba);
             encoder.set_depth(BitDepth::Eight);
             encoder.set_compression(Compression::Balanced);
             encoder.set_animated(self.frames, 0)?;
-            encoder.set_frame_delay(delay, PER_SECOND)?;
+            encoder.set_frame_delay(delay, TIME_UNITS_PER_SECOND)?;
             encoder.set_blend_op(BlendOp::Source)?;
             encoder.set_dispose_op(DisposeOp::None)?;
             self.writer = Some(encoder.write_header()?);
@@ -69,7 +69,7 @@ impl<W: Write> ApngFilm<W> {
             writer.reset_frame_position()?;
             writer.set_frame_dimension(changed.width, changed.height)?;
             writer.set_frame_position(changed.left, changed.top)?;
-            writer.set_frame_delay(delay, PER_SECOND)?;
+            writer.set_frame_delay(delay, TIME_UNITS_PER_SECOND)?;
         }
         let rows: Vec<u8> = changed.rows(pixels).flatten().copied().collect();
         writer.write_image_data(&rows)

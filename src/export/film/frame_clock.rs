@@ -2,13 +2,13 @@
 
 /// Position in time of a film.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pace {
+pub(crate) struct FrameClock {
     fps: f64,
     /// Ticks of all frames so far.
     ticks: u64,
 }
 
-impl Pace {
+impl FrameClock {
     /// Start of a film with `fps` ticks per second.
     pub fn new(fps: f64) -> Self {
         Self { fps, ticks: 0 }
@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn what_rounding_takes_does_not_add_up() {
-        let mut pace = Pace::new(24.0);
+        let mut pace = FrameClock::new(24.0);
         let delays: Vec<u32> = (0..24).map(|_| pace.next(1, 100.0)).collect();
         assert_eq!(delays.iter().sum::<u32>(), 100);
         assert!(delays.iter().all(|delay| (4..=5).contains(delay)));

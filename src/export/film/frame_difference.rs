@@ -4,14 +4,14 @@ use crate::export::Pixels;
 
 /// A rectangle of pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Changed {
+pub(crate) struct ChangedRect {
     pub left: u32,
     pub top: u32,
     pub width: u32,
     pub height: u32,
 }
 
-impl Changed {
+impl ChangedRect {
     /// The whole picture.
     pub fn whole(pixels: &Pixels) -> Self {
         Self { left: 0, top: 0, width: pixels.width, height: pixels.height }
@@ -72,13 +72,16 @@ mod tests {
     fn the_rectangle_holds_all_that_differs() {
         let before = Pixels { width: 7, height: 5, rgba: vec![9; 140], dpi: 96.0 };
         let mut after = before.clone();
-        assert_eq!(Changed::between(&before, &after), Changed { left: 0, top: 0, width: 1, height: 1 });
+        assert_eq!(
+            ChangedRect::between(&before, &after),
+            ChangedRect { left: 0, top: 0, width: 1, height: 1 }
+        );
         after.rgba[(7 + 3) * 4 + 1] = 0;
         after.rgba[(3 * 7 + 5) * 4] = 0;
-        let changed = Changed::between(&before, &after);
-        assert_eq!(changed, Changed { left: 3, top: 1, width: 3, height: 3 });
-        assert_eq!(changed.even(), Changed { left: 2, top: 0, width: 4, height: 4 });
+        let changed = ChangedRect::between(&before, &after);
+        assert_eq!(changed, ChangedRect { left: 3, top: 1, width: 3, height: 3 });
+        assert_eq!(changed.even(), ChangedRect { left: 2, top: 0, width: 4, height: 4 });
         assert_eq!(changed.rows(&after).flatten().filter(|byte| **byte == 0).count(), 2);
-        assert_eq!(Changed::whole(&after).rows(&after).flatten().count(), 140);
+        assert_eq!(ChangedRect::whole(&after).rows(&after).flatten().count(), 140);
     }
 }

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 /// A line of a frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Token {
+pub(crate) enum FrameToken {
     /// A path: its number, and its start point as written.
     Path(usize, Box<str>),
     /// Any other line, by the number of its text.
@@ -15,7 +15,7 @@ pub(crate) enum Token {
 
 /// A path without its start point.
 #[derive(Debug, Clone)]
-pub(crate) struct Shape {
+pub(crate) struct TokenPath {
     /// Text before and after the first coordinates.
     pub before: Box<str>,
     pub after: Box<str>,
@@ -29,40 +29,40 @@ pub(crate) struct Shape {
 
 /// All lines of all frames, each once.
 #[derive(Debug, Default)]
-pub(crate) struct Tokens {
-    pub shapes: Vec<Shape>,
+pub(crate) struct FrameTokens {
+    pub shapes: Vec<TokenPath>,
     pub others: Vec<Box<str>>,
     known_shapes: FxHashMap<(Box<str>, Box<str>), usize>,
     known_others: FxHashMap<Box<str>, usize>,
 }
 
-impl Tokens {
+impl FrameTokens {
     /// Numbers the lines of a frame.
-    pub fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<Token> {
+    pub fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<FrameToken> {
         lines.map(|line| self.token(line)).collect()
     }
 
     /// Numbers a line of a frame.
-    fn token(&mut self, line: &str) -> Token {
+    fn token(&mut self, line: &str) -> FrameToken {
         let Some([before, place, after]) = parts(line) else {
             let next = self.others.len();
             let number = *self.known_others.entry(line.into()).or_insert(next);
             if number == next {
                 self.others.push(line.into());
             }
-            return Token::Other(number);
+            return FrameToken::Other(number);
         };
         let next = self.shapes.len();
         let number = *self.known_shapes.entry((before.into(), after.into())).or_insert(next);
         if number == next {
             let (before, after, first) = (before.into(), after.into(), place.into());
-            self.shapes.push(Shape { before, after, first, count: 0, stays: true });
+            self.shapes.push(TokenPath { before, after, first, count: 0, stays: true });
         }
         if let Some(shape) = self.shapes.get_mut(number) {
             shape.count += 1;
             shape.stays &= *shape.first == *place;
         }
-        Token::Path(number, place.into())
+        FrameToken::Path(number, place.into())
     }
 }
 
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_path_is_known_wherever_it_begins() {
-        let mut tokens = Tokens::default();
+        let mut tokens = FrameTokens::default();
         let lines = [
             "<g>",
             "<path class=\"crease\" d=\"M1.5.25l3 4\"/>",
@@ -123,11 +123,11 @@ mod tests {
         ];
         let own = tokens.of(lines.into_iter());
         assert_eq!(own[0], own[6]);
-        assert_eq!(own[1], Token::Path(0, "1.5.25".into()));
-        assert_eq!(own[2], Token::Path(0, "-7-8".into()));
-        assert_eq!(own[3], Token::Path(1, "1.5.25".into()));
-        assert_eq!(own[4], Token::Other(1));
-        assert_eq!(own[5], Token::Path(2, "".into()));
+        assert_eq!(own[1], FrameToken::Path(0, "1.5.25".into()));
+        assert_eq!(own[2], FrameToken::Path(0, "-7-8".into()));
+        assert_eq!(own[3], FrameToken::Path(1, "1.5.25".into()));
+        assert_eq!(own[4], FrameToken::Other(1));
+        assert_eq!(own[5], FrameToken::Path(2, "".into()));
         assert_eq!((tokens.shapes[0].count, tokens.shapes[0].stays), (2, false));
         assert_eq!(coordinates("1.5.25"), Some(["1.5", ".25"]));
         assert_eq!(coordinates("-7-8"), Some(["-7", "-8"]));

@@ -13,22 +13,22 @@ use std::io::Write;
 
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
-use super::frame_difference::Changed;
+use super::frame_difference::ChangedRect;
 use super::palette::Palette;
 use crate::error::Error;
 use crate::export::Pixels;
 
 /// Time units per second.
-const PER_SECOND: f64 = 100.0;
+const TIME_UNITS_PER_SECOND: f64 = 100.0;
 
 /// Shortest frame in hundredths of a second. Browsers show shorter frames for a tenth of a second.
-const SHORTEST: u64 = 2;
+const MIN_DELAY_HUNDREDTHS: u64 = 2;
 
 /// Most pixels per side.
-const LONGEST_SIDE: u32 = u16::MAX as u32;
+const MAX_SIDE_PIXELS: u32 = u16::MAX as u32;
 
 /// Least alpha of a pixel that becomes opaque.
-const OPAQUE: u8 = 128;
+const MIN_OPAQUE_ALPHA: u8 = 128;
 
 /// Writer of an animated GIF.
 pub struct GifFilm<W: Write> {
@@ -59,14 +59,14 @@ impl<W: Write> GifFilm<W> {
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         let begin = self.now();
         self.ticks += u64::from(ticks);
-        if pixels.width.max(pixels.height) > LONGEST_SIDE {
+        if pixels.width.max(pixels.height) > MAX_SIDE_PIXELS {
             return Err(Error::new("GIF is limited to 65535 pixels per side").remedy("choose a smaller size"));
         }
         if let Some((last, at)) = self.waiting.back() {
             if [last.width, last.height] != [pixels.width, pixels.height] {
                 return Err(Error::new("a frame has another size than the first"));
             }
-            if begin < at + SHORTEST {
+            if begin < at + MIN_DELAY_HUNDREDTHS {
                 self.left_out += 1;
                 return Ok(());
             }
@@ -97,13 +97,13 @@ impl<W: Write> GifFilm<W> {
 
     /// Start of the next frame in hundredths of a second.
     fn now(&self) -> u64 {
-        (self.ticks as f64 / self.fps * PER_SECOND).round() as u64
+        (self.ticks as f64 / self.fps * TIME_UNITS_PER_SECOND).round() as u64
     }
 
     /// Whether the last waiting frame would be shown for too short a time.
     fn is_last_too_short(&self) -> bool {
         let end = self.now();
-        self.waiting.len() > 1 && self.waiting.back().is_some_and(|(_, at)| end < at + SHORTEST)
+        self.waiting.len() > 1 && self.waiting.back().is_some_and(|(_, at)| end < at + MIN_DELAY_HUNDREDTHS)
     }
 
     /// Writes the first waiting frame.
@@ -115,11 +115,11 @@ impl<W: Write> GifFilm<W> {
         // After the last frame, the first one follows on an empty canvas.
         let clears = next.map_or_else(|| is_clear_somewhere(&now), |(next, _)| becomes_clear(&now, next));
         let changed = match &self.canvas {
-            None => Changed::whole(&now),
+            None => ChangedRect::whole(&now),
             Some(canvas) if clears => {
-                Changed::between(canvas, &now).around(Changed::between(&blank(&now), &now))
+                ChangedRect::between(canvas, &now).around(ChangedRect::between(&blank(&now), &now))
             }
-            Some(canvas) => Changed::between(canvas, &now),
+            Some(canvas) => ChangedRect::between(canvas, &now),
         };
         let canvas = self.canvas.take().unwrap_or_else(|| blank(&now));
         if let Some(out) = self.out.take() {
@@ -138,7 +138,7 @@ impl<W: Write> GifFilm<W> {
             numbers.extend(pairs.map(|(a, b)| if a == b { unchanged } else { palette.number(rgb(b)) }));
         }
         let frame = Frame {
-            delay: delay.clamp(SHORTEST, u64::from(u16::MAX)) as u16,
+            delay: delay.clamp(MIN_DELAY_HUNDREDTHS, u64::from(u16::MAX)) as u16,
             dispose: if clears { DisposalMethod::Background } else { DisposalMethod::Keep },
             transparent: Some(unchanged),
             top: changed.top as u16,
@@ -161,7 +161,7 @@ impl<W: Write> GifFilm<W> {
 fn opaque_or_clear(pixels: &Pixels) -> Pixels {
     let mut rgba = pixels.rgba.clone();
     for pixel in rgba.chunks_exact_mut(4) {
-        if pixel[3] < OPAQUE {
+        if pixel[3] < MIN_OPAQUE_ALPHA {
             pixel.fill(0);
         } else {
             pixel[3] = u8::MAX;

@@ -6,10 +6,10 @@
 use rustc_hash::FxHashMap;
 
 /// Most colours of a palette. One of 256 entries marks unchanged pixels.
-const MOST: usize = 255;
+const MAX_COLOURS: usize = 255;
 
 /// Fewest exact colours.
-const EXACT: usize = 128;
+const MIN_EXACT_COLOURS: usize = 128;
 
 /// Opaque colours and their numbers.
 #[derive(Debug)]
@@ -27,9 +27,9 @@ impl Palette {
         }
         let mut counted: Vec<([u8; 3], u64)> = counts.into_iter().collect();
         counted.sort_unstable_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
-        let exact = if counted.len() <= MOST { counted.len() } else { EXACT };
+        let exact = if counted.len() <= MAX_COLOURS { counted.len() } else { MIN_EXACT_COLOURS };
         let mut colours: Vec<[u8; 3]> = counted.iter().take(exact).map(|(colour, _)| *colour).collect();
-        colours.extend(means(counted.split_off(exact), MOST - exact));
+        colours.extend(means(counted.split_off(exact), MAX_COLOURS - exact));
         let numbers = colours.iter().zip(0..).map(|(colour, number)| (*colour, number)).collect();
         Self { colours, numbers }
     }
@@ -52,7 +52,7 @@ impl Palette {
 
     /// Number that marks unchanged pixels.
     pub fn unchanged(&self) -> u8 {
-        self.colours.len().min(MOST) as u8
+        self.colours.len().min(MAX_COLOURS) as u8
     }
 
     /// All colours with three bytes each, and one entry for unchanged pixels.

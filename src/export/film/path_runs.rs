@@ -2,20 +2,20 @@
 //!
 //! A static background behind moving marks then needs one reference per frame instead of one per path.
 
-use super::frame_tokens::{Shape, Token};
+use super::frame_tokens::{FrameToken, TokenPath};
 
 /// Neighbour of a path across all frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Beside {
+enum Neighbour {
     Unknown,
     /// Always this path.
     Always(usize),
     Varies,
 }
 
-impl Beside {
+impl Neighbour {
     /// Adds an observation of the neighbour.
-    fn sees(&mut self, other: Option<usize>) {
+    fn observe(&mut self, other: Option<usize>) {
         let now = other.map_or(Self::Varies, Self::Always);
         *self = if *self == Self::Unknown || *self == now { now } else { Self::Varies };
     }
@@ -23,12 +23,12 @@ impl Beside {
 
 /// Lists of two or more shapes that occur in every frame in this order or not at all, sorted by their first
 /// shape.
-pub(crate) fn runs(frames: &[Vec<Token>], shapes: &[Shape]) -> Vec<Vec<usize>> {
-    let mut before = vec![Beside::Unknown; shapes.len()];
+pub(crate) fn runs(frames: &[Vec<FrameToken>], shapes: &[TokenPath]) -> Vec<Vec<usize>> {
+    let mut before = vec![Neighbour::Unknown; shapes.len()];
     let mut after = before.clone();
     // A shape that occurs twice in a frame or moves between frames is not part of a run.
-    let joins = |token: Option<&Token>| match token {
-        Some(Token::Path(shape, _)) => shapes
+    let joins = |token: Option<&FrameToken>| match token {
+        Some(FrameToken::Path(shape, _)) => shapes
             .get(*shape)
             .filter(|own| own.stays && own.count > 1 && own.count <= frames.len())
             .map(|_| *shape),
@@ -39,17 +39,17 @@ pub(crate) fn runs(frames: &[Vec<Token>], shapes: &[Shape]) -> Vec<Vec<usize>> {
             let Some(shape) = joins(Some(token)) else { continue };
             let previous = place.checked_sub(1).and_then(|place| joins(frame.get(place)));
             if let (Some(before), Some(after)) = (before.get_mut(shape), after.get_mut(shape)) {
-                before.sees(previous);
-                after.sees(joins(frame.get(place + 1)));
+                before.observe(previous);
+                after.observe(joins(frame.get(place + 1)));
             }
         }
     }
     let follows = |shape: usize| match after.get(shape) {
-        Some(Beside::Always(next)) if before.get(*next) == Some(&Beside::Always(shape)) => Some(*next),
+        Some(Neighbour::Always(next)) if before.get(*next) == Some(&Neighbour::Always(shape)) => Some(*next),
         _ => None,
     };
     let led = |shape: usize| match before.get(shape) {
-        Some(Beside::Always(previous)) => follows(*previous) == Some(shape),
+        Some(Neighbour::Always(previous)) => follows(*previous) == Some(shape),
         _ => false,
     };
     let mut runs = Vec::new();
@@ -64,12 +64,12 @@ pub(crate) fn runs(frames: &[Vec<Token>], shapes: &[Shape]) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame_tokens::Tokens;
+    use super::super::frame_tokens::FrameTokens;
     use super::*;
 
     #[test]
     fn what_always_follows_is_a_run() {
-        let mut tokens = Tokens::default();
+        let mut tokens = FrameTokens::default();
         let mut frame = |text: &str| {
             let lines: Vec<String> = text
                 .chars()
@@ -79,7 +79,7 @@ mod tests {
         };
         // Each letter is a path with its own class and start point.
         let frames = ["abcdx", "abcydz", "wabc", "d"].map(&mut frame);
-        let shapes: Vec<Shape> = tokens.shapes;
+        let shapes: Vec<TokenPath> = tokens.shapes;
         let letters = |run: &Vec<usize>| run.len();
         let runs = runs(&frames, &shapes);
         assert_eq!(runs.iter().map(letters).collect::<Vec<_>>(), [3]);

@@ -9,32 +9,32 @@
 
 use std::fmt::Write as _;
 
-use super::frame_clock::Pace;
-use super::frame_tokens::{Shape, Token, Tokens, coordinates};
+use super::frame_clock::FrameClock;
+use super::frame_tokens::{FrameToken, FrameTokens, TokenPath, coordinates};
 use super::path_runs::runs;
 use crate::drawing::{Drawing, Unit};
 use crate::export::SvgOptions;
 
 /// Shorter paths are repeated, because a reference would not be shorter.
-const SHORTEST_SHARED: usize = 48;
+const MIN_SHARED_BYTES: usize = 48;
 
 /// Default decimals of coordinates in px and mm. Motion hides small errors.
-const DECIMALS: [u8; 2] = [1, 2];
+const DEFAULT_DECIMALS: [u8; 2] = [1, 2];
 
 /// Attributes that make a group a layer in drawing programs. Frames cannot be opened as layers.
-const LAYER: &str = " inkscape:groupmode=\"layer\" inkscape:label=\"";
+const LAYER_ATTRIBUTES: &str = " inkscape:groupmode=\"layer\" inkscape:label=\"";
 
 /// Writer of an animated SVG.
 #[derive(Debug)]
 pub struct SvgFilm {
     options: SvgOptions,
     fps: f64,
-    pace: Pace,
+    pace: FrameClock,
     /// Root element and title of the first frame.
     head: String,
-    tokens: Tokens,
+    tokens: FrameTokens,
     /// Distinct frames.
-    frames: Vec<Vec<Token>>,
+    frames: Vec<Vec<FrameToken>>,
     /// Frames in display order with their numbers of ticks.
     shown: Vec<(usize, u32)>,
 }
@@ -47,9 +47,9 @@ impl SvgFilm {
         Self {
             options: options.clone(),
             fps,
-            pace: Pace::new(fps),
+            pace: FrameClock::new(fps),
             head: String::new(),
-            tokens: Tokens::default(),
+            tokens: FrameTokens::default(),
             frames: Vec::new(),
             shown: Vec::new(),
         }
@@ -58,8 +58,8 @@ impl SvgFilm {
     /// Adds a frame that is shown for `ticks` ticks.
     pub fn push(&mut self, drawing: &Drawing, ticks: u32) {
         let precision = self.options.precision.unwrap_or(match drawing.page.unit {
-            Unit::Px => DECIMALS[0],
-            Unit::Mm => DECIMALS[1],
+            Unit::Px => DEFAULT_DECIMALS[0],
+            Unit::Mm => DEFAULT_DECIMALS[1],
         });
         let id_prefix = format!("{}f{}-", self.options.id_prefix, self.frames.len());
         let options =
@@ -93,7 +93,7 @@ impl SvgFilm {
             return String::new();
         }
         let prefix = &self.options.id_prefix;
-        let shared = Shared::of(&self.frames, &self.tokens, prefix);
+        let shared = SharedPaths::of(&self.frames, &self.tokens, prefix);
         let mut out = self.head.clone();
         if !out.contains(" xmlns:xlink=") {
             out = out.replacen(
@@ -149,8 +149,8 @@ impl SvgFilm {
 
 /// A line without layer attributes and without the group's id, which nothing references.
 fn plain(line: &str, own_id: &str) -> String {
-    let Some(at) = line.find(LAYER) else { return line.to_owned() };
-    let after = line.get(at + LAYER.len()..).and_then(|rest| rest.split_once('"'));
+    let Some(at) = line.find(LAYER_ATTRIBUTES) else { return line.to_owned() };
+    let after = line.get(at + LAYER_ATTRIBUTES.len()..).and_then(|rest| rest.split_once('"'));
     let head = line.get(..at).unwrap_or_default();
     let layer = head.find(own_id).and_then(|at| head.get(at + own_id.len()..)).unwrap_or_default();
     let layer = layer.trim_end_matches('"');
@@ -164,16 +164,16 @@ fn short(value: f64) -> String {
 }
 
 /// Shared content and how it is referenced.
-struct Shared<'a> {
+struct SharedPaths<'a> {
     prefix: &'a str,
     runs: Vec<Vec<usize>>,
     /// One entry per shape.
-    roles: Vec<Role>,
+    roles: Vec<PathRole>,
 }
 
 /// How a shape is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Role {
+enum PathRole {
     /// As a path in each frame.
     Plain,
     /// As a reference to the shape.
@@ -184,19 +184,19 @@ enum Role {
     Within,
 }
 
-impl<'a> Shared<'a> {
-    fn of(frames: &[Vec<Token>], tokens: &Tokens, prefix: &'a str) -> Self {
+impl<'a> SharedPaths<'a> {
+    fn of(frames: &[Vec<FrameToken>], tokens: &FrameTokens, prefix: &'a str) -> Self {
         let shapes = &tokens.shapes;
-        let role = |shape: &Shape| {
-            let long = shape.before.len() + shape.after.len() >= SHORTEST_SHARED;
-            if shape.count > 1 && long { Role::Alone } else { Role::Plain }
+        let role = |shape: &TokenPath| {
+            let long = shape.before.len() + shape.after.len() >= MIN_SHARED_BYTES;
+            if shape.count > 1 && long { PathRole::Alone } else { PathRole::Plain }
         };
-        let mut roles: Vec<Role> = shapes.iter().map(role).collect();
+        let mut roles: Vec<PathRole> = shapes.iter().map(role).collect();
         let runs = runs(frames, shapes);
         for (number, run) in runs.iter().enumerate() {
             for (place, shape) in run.iter().enumerate() {
                 if let Some(role) = roles.get_mut(*shape) {
-                    *role = if place == 0 { Role::Begins(number) } else { Role::Within };
+                    *role = if place == 0 { PathRole::Begins(number) } else { PathRole::Within };
                 }
             }
         }
@@ -204,9 +204,9 @@ impl<'a> Shared<'a> {
     }
 
     /// Writes the definitions of shared content.
-    fn define(&self, out: &mut String, shapes: &[Shape]) {
+    fn define(&self, out: &mut String, shapes: &[TokenPath]) {
         for (number, (shape, role)) in shapes.iter().zip(&self.roles).enumerate() {
-            if *role != Role::Alone {
+            if *role != PathRole::Alone {
                 continue;
             }
             let (id, rest) = (format!("{}p{number}", self.prefix), shape.before.strip_prefix("<path"));
@@ -215,36 +215,36 @@ impl<'a> Shared<'a> {
         }
         for (number, run) in self.runs.iter().enumerate() {
             let _ = writeln!(out, "<g id=\"{}r{number}\">", self.prefix);
-            for Shape { before, first, after, .. } in run.iter().filter_map(|shape| shapes.get(*shape)) {
+            for TokenPath { before, first, after, .. } in run.iter().filter_map(|shape| shapes.get(*shape)) {
                 let _ = writeln!(out, "{before}{first}{after}");
             }
             out.push_str("</g>\n");
         }
     }
 
-    fn write(&self, out: &mut String, frame: &[Token], tokens: &Tokens) {
+    fn write(&self, out: &mut String, frame: &[FrameToken], tokens: &FrameTokens) {
         for token in frame {
             let (number, place) = match token {
-                Token::Other(number) => {
+                FrameToken::Other(number) => {
                     out.push_str(tokens.others.get(*number).map_or("", |text| text));
                     out.push('\n');
                     continue;
                 }
-                Token::Path(number, place) => (*number, place),
+                FrameToken::Path(number, place) => (*number, place),
             };
             let (Some(shape), Some(role)) = (tokens.shapes.get(number), self.roles.get(number)) else {
                 continue;
             };
             let prefix = self.prefix;
             let _ = match role {
-                Role::Within => Ok(()),
-                Role::Begins(run) => writeln!(out, "<use xlink:href=\"#{prefix}r{run}\"/>"),
-                Role::Alone if shape.stays => writeln!(out, "<use xlink:href=\"#{prefix}p{number}\"/>"),
-                Role::Alone => {
+                PathRole::Within => Ok(()),
+                PathRole::Begins(run) => writeln!(out, "<use xlink:href=\"#{prefix}r{run}\"/>"),
+                PathRole::Alone if shape.stays => writeln!(out, "<use xlink:href=\"#{prefix}p{number}\"/>"),
+                PathRole::Alone => {
                     let [x, y] = coordinates(place).unwrap_or(["0", "0"]);
                     writeln!(out, "<use xlink:href=\"#{prefix}p{number}\" x=\"{x}\" y=\"{y}\"/>")
                 }
-                Role::Plain => writeln!(out, "{}{place}{}", shape.before, shape.after),
+                PathRole::Plain => writeln!(out, "{}{place}{}", shape.before, shape.after),
             };
         }
     }

@@ -5,31 +5,31 @@
 
 use image_webp::{ColorType, WebPEncoder};
 
-use super::frame_clock::Pace;
-use super::frame_difference::Changed;
+use super::frame_clock::FrameClock;
+use super::frame_difference::ChangedRect;
 use crate::error::Error;
 use crate::export::Pixels;
 
 /// Time units per second.
-const PER_SECOND: f64 = 1000.0;
+const TIME_UNITS_PER_SECOND: f64 = 1000.0;
 
 /// Most pixels per side.
-const LONGEST_SIDE: u32 = 16_384;
+const MAX_SIDE_PIXELS: u32 = 16_384;
 
 /// Length of the outermost header of a still picture: `RIFF`, its length, `WEBP`.
-const HEADER: usize = 12;
+const RIFF_HEADER_BYTES: usize = 12;
 
 /// Flags of `VP8X`: animation and alpha.
-const MOVES_AND_CLEAR: u8 = 0x02 | 0x10;
+const ANIMATION_AND_ALPHA_FLAGS: u8 = 0x02 | 0x10;
 
 /// Flags of `ANMF`: pixels replace the canvas without blending, and are not disposed of.
-const REPLACES: u8 = 0x02;
+const NO_BLEND_FLAG: u8 = 0x02;
 
 /// Writer of an animated WebP.
 pub struct WebpFilm {
     /// All chunks after the outermost header.
     chunks: Vec<u8>,
-    pace: Pace,
+    pace: FrameClock,
     before: Option<Pixels>,
 }
 
@@ -37,7 +37,7 @@ impl WebpFilm {
     /// Creates a film with `fps` ticks per second.
     #[must_use]
     pub fn new(fps: f64) -> Self {
-        Self { chunks: Vec::new(), pace: Pace::new(fps), before: None }
+        Self { chunks: Vec::new(), pace: FrameClock::new(fps), before: None }
     }
 
     /// Adds a frame that is shown for `ticks` ticks.
@@ -45,7 +45,7 @@ impl WebpFilm {
     /// # Errors
     /// If it has another size than the first frame, or exceeds the size limit of WebP.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
-        if pixels.width.max(pixels.height) > LONGEST_SIDE {
+        if pixels.width.max(pixels.height) > MAX_SIDE_PIXELS {
             return Err(
                 Error::new("WebP is limited to 16384 pixels per side").remedy("choose a smaller size")
             );
@@ -54,15 +54,15 @@ impl WebpFilm {
             Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
                 return Err(Error::new("a frame has another size than the first"));
             }
-            Some(before) => Changed::between(before, pixels).even(),
+            Some(before) => ChangedRect::between(before, pixels).even(),
             None => {
-                let mut extended = vec![MOVES_AND_CLEAR, 0, 0, 0];
+                let mut extended = vec![ANIMATION_AND_ALPHA_FLAGS, 0, 0, 0];
                 extended.extend(low(pixels.width - 1));
                 extended.extend(low(pixels.height - 1));
                 self.chunk(*b"VP8X", &extended);
                 // A transparent background and infinite repetition.
                 self.chunk(*b"ANIM", &[0; 6]);
-                Changed::whole(pixels)
+                ChangedRect::whole(pixels)
             }
         };
         let rows: Vec<u8> = changed.rows(pixels).flatten().copied().collect();
@@ -74,9 +74,9 @@ impl WebpFilm {
         for number in [changed.left / 2, changed.top / 2, changed.width - 1, changed.height - 1] {
             frame.extend(low(number));
         }
-        frame.extend(low(self.pace.next(ticks, PER_SECOND).min(0x00ff_ffff)));
-        frame.push(REPLACES);
-        frame.extend_from_slice(still.get(HEADER..).unwrap_or_default());
+        frame.extend(low(self.pace.next(ticks, TIME_UNITS_PER_SECOND).min(0x00ff_ffff)));
+        frame.push(NO_BLEND_FLAG);
+        frame.extend_from_slice(still.get(RIFF_HEADER_BYTES..).unwrap_or_default());
         self.chunk(*b"ANMF", &frame);
         self.before = Some(pixels.clone());
         Ok(())

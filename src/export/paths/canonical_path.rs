@@ -8,13 +8,13 @@ use std::cmp::Ordering;
 
 use kurbo::{BezPath, PathEl, Point};
 
-use super::path_data::Writer;
-use super::path_piece::{Kind, PathPiece, Step};
+use super::path_data::PathWriter;
+use super::path_piece::{PathPiece, PathPoint, PieceKind};
 use crate::export::encoding::decimals::Decimals;
 
 /// The changes to a path that do not affect how it is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
+pub(crate) enum PathForm {
     /// None, except dropping zero-length pieces. Dashes and pen plotters depend on start and direction.
     Kept,
     /// Start and direction: a solid line.
@@ -25,25 +25,25 @@ pub(crate) enum Form {
 
 /// Writes paths in canonical form, reusing its buffers from path to path.
 #[derive(Debug)]
-pub(crate) struct Canonical {
+pub(crate) struct CanonicalWriter {
     decimals: Decimals,
-    form: Form,
+    form: PathForm,
     /// Start, current point and pieces of the current subpath.
-    begun: Option<Step>,
-    pen: Step,
+    begun: Option<PathPoint>,
+    pen: PathPoint,
     pieces: Vec<PathPiece>,
     turned: Vec<PathPiece>,
-    first: Option<Step>,
+    first: Option<PathPoint>,
     lost: bool,
 }
 
-impl Canonical {
+impl CanonicalWriter {
     pub fn new(decimals: Decimals) -> Self {
         Self {
             decimals,
-            form: Form::Kept,
+            form: PathForm::Kept,
             begun: None,
-            pen: Step::default(),
+            pen: PathPoint::default(),
             pieces: Vec::new(),
             turned: Vec::new(),
             first: None,
@@ -52,16 +52,16 @@ impl Canonical {
     }
 
     /// A point on the grid of the written precision.
-    pub fn step(&self, point: Point) -> Step {
-        Step { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
+    pub fn step(&self, point: Point) -> PathPoint {
+        PathPoint { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
     }
 
     /// Writes the `d` of a path, and returns its start point.
-    pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: Form) -> Option<Step> {
-        let mut writer = Writer::new(out, self.decimals);
+    pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: PathForm) -> Option<PathPoint> {
+        let mut writer = PathWriter::new(out, self.decimals);
         self.form = form;
-        (self.begun, self.first, self.lost, self.pen) = (None, None, false, Step::default());
-        let none = Step::default();
+        (self.begun, self.first, self.lost, self.pen) = (None, None, false, PathPoint::default());
+        let none = PathPoint::default();
         for element in path.elements() {
             match *element {
                 PathEl::MoveTo(to) => {
@@ -69,10 +69,10 @@ impl Canonical {
                     self.pen = self.step(to);
                     self.begun = Some(self.pen);
                 }
-                PathEl::LineTo(to) => self.piece(Kind::Line, none, none, self.step(to)),
-                PathEl::QuadTo(c, to) => self.piece(Kind::Quad, self.step(c), none, self.step(to)),
+                PathEl::LineTo(to) => self.piece(PieceKind::Line, none, none, self.step(to)),
+                PathEl::QuadTo(c, to) => self.piece(PieceKind::Quad, self.step(c), none, self.step(to)),
                 PathEl::CurveTo(c1, c2, to) => {
-                    self.piece(Kind::Cubic, self.step(c1), self.step(c2), self.step(to));
+                    self.piece(PieceKind::Cubic, self.step(c1), self.step(c2), self.step(to));
                 }
                 PathEl::ClosePath => self.end(&mut writer, true),
             }
@@ -88,7 +88,7 @@ impl Canonical {
     }
 
     /// Adds a piece to the current subpath unless it has no length.
-    fn piece(&mut self, kind: Kind, c1: Step, c2: Step, to: Step) {
+    fn piece(&mut self, kind: PieceKind, c1: PathPoint, c2: PathPoint, to: PathPoint) {
         // Segments after a close without a move start where the closed subpath started.
         self.begun.get_or_insert(self.pen);
         let piece = PathPiece { from: self.pen, to, kind, c1, c2 };
@@ -101,27 +101,29 @@ impl Canonical {
     }
 
     /// Ends the current subpath, if any, and writes it.
-    fn end(&mut self, writer: &mut Writer, closed: bool) {
+    fn end(&mut self, writer: &mut PathWriter, closed: bool) {
         let Some(start) = self.begun.take() else { return };
         if closed {
-            self.lost |= self.pen == start && self.pieces.last().is_some_and(|last| last.kind == Kind::Line);
+            self.lost |=
+                self.pen == start && self.pieces.last().is_some_and(|last| last.kind == PieceKind::Line);
             if self.pen != start {
-                let none = Step::default();
-                let closing = PathPiece { from: self.pen, to: start, kind: Kind::Line, c1: none, c2: none };
+                let none = PathPoint::default();
+                let closing =
+                    PathPiece { from: self.pen, to: start, kind: PieceKind::Line, c1: none, c2: none };
                 self.pieces.push(closing);
             }
         }
         match (self.form, closed) {
-            (Form::Kept, _) | (Form::Filled, false) => {}
-            (Form::Stroked, false) => {
+            (PathForm::Kept, _) | (PathForm::Filled, false) => {}
+            (PathForm::Stroked, false) => {
                 let backwards = self.pieces.iter().rev().map(PathPiece::reversed);
                 if backwards.cmp(self.pieces.iter().copied()) == Ordering::Less {
                     self.pieces.reverse();
                     self.pieces.iter_mut().for_each(|piece| *piece = piece.reversed());
                 }
             }
-            (Form::Filled, true) => rotate(&mut self.pieces),
-            (Form::Stroked, true) => {
+            (PathForm::Filled, true) => rotate(&mut self.pieces),
+            (PathForm::Stroked, true) => {
                 self.turned.clear();
                 self.turned.extend(self.pieces.iter().rev().map(PathPiece::reversed));
                 rotate(&mut self.pieces);
@@ -171,20 +173,20 @@ fn least_rotation<T: Ord>(cycle: &[T]) -> usize {
 mod tests {
     use super::*;
 
-    fn form(text: &str, form: Form) -> String {
+    fn form(text: &str, form: PathForm) -> String {
         let mut out = Vec::new();
-        Canonical::new(Decimals::new(2)).write(&mut out, &BezPath::from_svg(text).unwrap(), form);
+        CanonicalWriter::new(Decimals::new(2)).write(&mut out, &BezPath::from_svg(text).unwrap(), form);
         String::from_utf8(out).unwrap()
     }
 
     #[test]
     fn lines_begin_at_their_lesser_end() {
         for text in ["M5 5 L3 9 L1 2", "M1 2 L3 9 L5 5"] {
-            assert_eq!(form(text, Form::Stroked), "M1 2l2 7 2-4");
+            assert_eq!(form(text, PathForm::Stroked), "M1 2l2 7 2-4");
         }
-        assert_eq!(form("M9 1 C8 2 7 3 1 1", Form::Stroked), "M1 1c6 2 7 1 8 0");
-        assert_eq!(form("M5 5 L3 9 L1 2", Form::Kept), "M5 5l-2 4-2-7");
-        assert_eq!(form("M5 5 L3 9 L1 2", Form::Filled), "M5 5l-2 4-2-7");
+        assert_eq!(form("M9 1 C8 2 7 3 1 1", PathForm::Stroked), "M1 1c6 2 7 1 8 0");
+        assert_eq!(form("M5 5 L3 9 L1 2", PathForm::Kept), "M5 5l-2 4-2-7");
+        assert_eq!(form("M5 5 L3 9 L1 2", PathForm::Filled), "M5 5l-2 4-2-7");
     }
 
     #[test]
@@ -197,14 +199,14 @@ mod tests {
                 for last in ["", " L"] {
                     let last = if last.is_empty() { String::new() } else { format!("{last}{}", at(0)) };
                     let text = format!("M{} L{} L{} L{}{last} Z", at(0), at(1), at(2), at(3));
-                    assert_eq!(form(&text, Form::Stroked), "M1 1h4v3h-4z", "{text}");
+                    assert_eq!(form(&text, PathForm::Stroked), "M1 1h4v3h-4z", "{text}");
                     let filled = if step == 1 { "M1 1h4v3h-4z" } else { "M1 1v3h4v-3z" };
-                    assert_eq!(form(&text, Form::Filled), filled, "{text}");
+                    assert_eq!(form(&text, PathForm::Filled), filled, "{text}");
                 }
             }
         }
         // The order of subpaths is kept, and segments after a close start at the old start.
-        assert_eq!(form("M5 5 L1 1 L9 1 Z L7 7", Form::Filled), "M1 1h8l-4 4zm4 4 2 2");
+        assert_eq!(form("M5 5 L1 1 L9 1 Z L7 7", PathForm::Filled), "M1 1h8l-4 4zm4 4 2 2");
     }
 
     #[test]
@@ -214,7 +216,7 @@ mod tests {
         for first in 0..6 {
             for step in [1, 5] {
                 let points: Vec<&str> = (0..6).map(|index| eight[(first + index * step) % 6]).collect();
-                forms.push(form(&format!("M{}Z", points.join(" L")), Form::Stroked));
+                forms.push(form(&format!("M{}Z", points.join(" L")), PathForm::Stroked));
             }
         }
         forms.dedup();
@@ -226,10 +228,10 @@ mod tests {
 
     #[test]
     fn pieces_of_no_length_go() {
-        assert_eq!(form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", Form::Stroked), "M1 1h4");
-        assert_eq!(form("M1 1 L1.001 1 Z", Form::Stroked), "M1 1z");
-        assert_eq!(form("M1 1 L1.001 1", Form::Filled), "M1 1h0");
+        assert_eq!(form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", PathForm::Stroked), "M1 1h4");
+        assert_eq!(form("M1 1 L1.001 1 Z", PathForm::Stroked), "M1 1z");
+        assert_eq!(form("M1 1 L1.001 1", PathForm::Filled), "M1 1h0");
         // A loop has equal ends but a nonzero length.
-        assert_eq!(form("M1 1 C3 1 1 3 1 1", Form::Filled), "M1 1c2 0 0 2 0 0");
+        assert_eq!(form("M1 1 C3 1 1 3 1 1", PathForm::Filled), "M1 1c2 0 0 2 0 0");
     }
 }

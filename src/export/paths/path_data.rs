@@ -3,18 +3,18 @@
 //! Every coordinate is rounded on the page, and differences are taken of the rounded values. So rounding
 //! errors do not accumulate along a path.
 
-use super::path_piece::{Kind, PathPiece, Step};
+use super::path_piece::{PathPiece, PathPoint, PieceKind};
 use crate::export::encoding::decimals::Decimals;
 
 /// Writer of the `d` of one path, subpath by subpath.
-pub(crate) struct Writer<'a> {
+pub(crate) struct PathWriter<'a> {
     out: &'a mut Vec<u8>,
     decimals: Decimals,
     /// Current point.
-    pen: Step,
+    pen: PathPoint,
     /// The control point implied by the shorthand for cubic curves: the mirror image of the last one, or the
     /// current point after a line. `None` after a quadratic curve, where readers disagree.
-    mirrored: Option<Step>,
+    mirrored: Option<PathPoint>,
     /// Last command written, or the command implied now.
     command: u8,
     /// Whether the last number had a point; then a number with a leading point needs no blank.
@@ -23,25 +23,25 @@ pub(crate) struct Writer<'a> {
     moved: bool,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> PathWriter<'a> {
     pub fn new(out: &'a mut Vec<u8>, decimals: Decimals) -> Self {
-        let start = Step::default();
+        let start = PathPoint::default();
         Self { out, decimals, pen: start, mirrored: None, command: 0, point_before: false, moved: false }
     }
 
     /// Writes a subpath of pieces with nonzero length. Pieces of a closed subpath return to its start.
-    pub fn subpath(&mut self, start: Step, pieces: &[PathPiece], closed: bool) {
+    pub fn subpath(&mut self, start: PathPoint, pieces: &[PathPiece], closed: bool) {
         self.move_to(start);
         let drawn = match pieces {
             // Closing draws this line.
-            [before @ .., last] if closed && last.kind == Kind::Line => before,
+            [before @ .., last] if closed && last.kind == PieceKind::Line => before,
             all => all,
         };
         for piece in drawn {
             match piece.kind {
-                Kind::Line => self.line_to(piece.to),
-                Kind::Quad => self.quad_to(piece.c1, piece.to),
-                Kind::Cubic => self.curve_to(piece.c1, piece.c2, piece.to),
+                PieceKind::Line => self.line_to(piece.to),
+                PieceKind::Quad => self.quad_to(piece.c1, piece.to),
+                PieceKind::Cubic => self.curve_to(piece.c1, piece.c2, piece.to),
             }
         }
         if closed {
@@ -56,7 +56,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn move_to(&mut self, to: Step) {
+    fn move_to(&mut self, to: PathPoint) {
         if self.moved {
             self.out.push(b'm');
             self.pair_after_letter(to.x - self.pen.x, to.y - self.pen.y);
@@ -72,7 +72,7 @@ impl<'a> Writer<'a> {
         self.mirrored = Some(to);
     }
 
-    fn line_to(&mut self, to: Step) {
+    fn line_to(&mut self, to: PathPoint) {
         let (dx, dy) = (to.x - self.pen.x, to.y - self.pen.y);
         if dy == 0 {
             self.letter(b'h');
@@ -89,7 +89,7 @@ impl<'a> Writer<'a> {
         self.pen = to;
     }
 
-    fn quad_to(&mut self, c: Step, to: Step) {
+    fn quad_to(&mut self, c: PathPoint, to: PathPoint) {
         self.letter(b'q');
         self.relative(c);
         self.relative(to);
@@ -97,7 +97,7 @@ impl<'a> Writer<'a> {
         self.mirrored = None;
     }
 
-    fn curve_to(&mut self, c1: Step, c2: Step, to: Step) {
+    fn curve_to(&mut self, c1: PathPoint, c2: PathPoint, to: PathPoint) {
         if self.mirrored == Some(c1) {
             self.letter(b's');
         } else {
@@ -106,11 +106,11 @@ impl<'a> Writer<'a> {
         }
         self.relative(c2);
         self.relative(to);
-        self.mirrored = Some(Step { y: 2 * to.y - c2.y, x: 2 * to.x - c2.x });
+        self.mirrored = Some(PathPoint { y: 2 * to.y - c2.y, x: 2 * to.x - c2.x });
         self.pen = to;
     }
 
-    fn relative(&mut self, to: Step) {
+    fn relative(&mut self, to: PathPoint) {
         self.number(to.x - self.pen.x);
         self.number(to.y - self.pen.y);
     }
@@ -127,7 +127,7 @@ impl<'a> Writer<'a> {
 
     /// Marks that the first number after a command follows.
     fn fresh(&mut self) {
-        self.command |= FRESH;
+        self.command |= FIRST_NUMBER_FLAG;
     }
 
     fn pair_after_letter(&mut self, x: i64, y: i64) {
@@ -139,8 +139,8 @@ impl<'a> Writer<'a> {
     #[inline]
     fn number(&mut self, number: i64) {
         let decimals = self.decimals;
-        if self.command & FRESH != 0 {
-            self.command &= !FRESH;
+        if self.command & FIRST_NUMBER_FLAG != 0 {
+            self.command &= !FIRST_NUMBER_FLAG;
         } else if number >= 0 && !(self.point_before && decimals.starts_with_point(number)) {
             self.out.push(b' ');
         }
@@ -149,18 +149,18 @@ impl<'a> Writer<'a> {
 }
 
 /// Flag of a command whose first number follows. Letters are ASCII and leave this bit free.
-const FRESH: u8 = 0x80;
+const FIRST_NUMBER_FLAG: u8 = 0x80;
 
 #[cfg(test)]
 mod tests {
     use kurbo::BezPath;
 
-    use super::super::canonical_path::{Canonical, Form};
+    use super::super::canonical_path::{CanonicalWriter, PathForm};
     use super::*;
 
     fn write(path: &BezPath, decimals: u8) -> String {
         let mut out = Vec::new();
-        Canonical::new(Decimals::new(decimals)).write(&mut out, path, Form::Kept);
+        CanonicalWriter::new(Decimals::new(decimals)).write(&mut out, path, PathForm::Kept);
         String::from_utf8(out).unwrap()
     }
 

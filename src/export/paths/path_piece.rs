@@ -2,7 +2,7 @@
 
 /// A point in steps of the written precision. Points are ordered from top to bottom, then from left to right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) struct Step {
+pub(crate) struct PathPoint {
     /// Steps down the page.
     pub y: i64,
     /// Steps to the right.
@@ -11,7 +11,7 @@ pub(crate) struct Step {
 
 /// Kind of a path segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum PieceKind {
     Line,
     Quad,
     Cubic,
@@ -20,30 +20,30 @@ pub(crate) enum Kind {
 /// A path segment. Segments are compared by the fields in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PathPiece {
-    pub from: Step,
-    pub to: Step,
-    pub kind: Kind,
+    pub from: PathPoint,
+    pub to: PathPoint,
+    pub kind: PieceKind,
     /// The first control point of a curve.
-    pub c1: Step,
+    pub c1: PathPoint,
     /// The second control point of a cubic curve.
-    pub c2: Step,
+    pub c2: PathPoint,
 }
 
 impl PathPiece {
     /// The segment in the opposite direction.
     pub fn reversed(&self) -> Self {
-        let (c1, c2) = if self.kind == Kind::Cubic { (self.c2, self.c1) } else { (self.c1, self.c2) };
+        let (c1, c2) = if self.kind == PieceKind::Cubic { (self.c2, self.c1) } else { (self.c1, self.c2) };
         Self { from: self.to, to: self.from, kind: self.kind, c1, c2 }
     }
 
     /// Whether all its points are equal.
     pub fn has_no_length(&self) -> bool {
-        let at = |c: Step| c == self.from;
+        let at = |c: PathPoint| c == self.from;
         self.from == self.to
             && match self.kind {
-                Kind::Line => true,
-                Kind::Quad => at(self.c1),
-                Kind::Cubic => at(self.c1) && at(self.c2),
+                PieceKind::Line => true,
+                PieceKind::Quad => at(self.c1),
+                PieceKind::Cubic => at(self.c1) && at(self.c2),
             }
     }
 }

@@ -20,15 +20,15 @@ use crate::parallel::prelude::*;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Ref, TextStr};
 
-use super::content_stream::Press;
-use super::document_content::Document;
+use super::content_stream::PressSettings;
+use super::document_content::DocumentContent;
 use super::drawing_page::DEFLATE_LEVEL;
 use super::fonts::{Fonts, OBJECTS_PER_FONT};
-use super::page_boxes::Sheet;
+use super::page_boxes::PrintedPage;
 use super::paint_objects::{write_gradient, write_picture};
 use super::picture_crops::Crops;
-use super::resources::{Ids, write_resources};
-use super::soft_masks::Mask;
+use super::resources::{ResourceIds, write_resources};
+use super::soft_masks::SoftMask;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Composition, Drawing, Mark, OutlinePaint, Paint};
 use crate::error::Error;
@@ -61,8 +61,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     let plates = Plates::new(options)?;
     let screen = screen(options)?;
     let profile = intent(&plates, options)?;
-    let sheets: Vec<Sheet> =
-        pages.iter().map(|page| Sheet::new(page, options.marks)).collect::<Result<_, _>>()?;
+    let sheets: Vec<PrintedPage> =
+        pages.iter().map(|page| PrintedPage::new(page, options.marks)).collect::<Result<_, _>>()?;
     let mut fonts = Fonts::default();
     if !options.outlined {
         drawings(pages)
@@ -72,8 +72,8 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         fonts.cut();
     }
     let crops: Vec<Crops> = drawings(pages).map(Crops::of).collect();
-    let press = Press { plates: &plates, fonts: Some(&fonts), first_picture: 0, dots: None };
-    let mut document = Document::new(press, screen);
+    let press = PressSettings { plates: &plates, fonts: Some(&fonts), first_picture: 0, dots: None };
+    let mut document = DocumentContent::new(press, screen);
     for (page, sheet) in pages.iter().zip(&sheets) {
         document.page(page, sheet, &crops, options.marks);
     }
@@ -100,10 +100,10 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     let font_ids = take(fonts.list.len() * OBJECTS_PER_FONT);
     let first_pictures =
         crops.iter().scan(0, |sum, crops| Some(std::mem::replace(sum, *sum + crops.list.len())));
-    let masks: Vec<Mask> = drawings(pages)
+    let masks: Vec<SoftMask> = drawings(pages)
         .zip(&crops)
         .zip(first_pictures)
-        .flat_map(|((drawing, crops), first)| Mask::all(drawing, crops, first))
+        .flat_map(|((drawing, crops), first)| SoftMask::all(drawing, crops, first))
         .collect();
     let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
 
@@ -152,7 +152,7 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
 
     let mask_states: Vec<(&str, Ref)> =
         masks.iter().zip(&mask_state_ids).map(|(mask, id)| (mask.name.as_str(), *id)).collect();
-    let ids = Ids {
+    let ids = ResourceIds {
         groups: &group_ids,
         patterns: &pattern_ids,
         pictures: &picture_ids,

@@ -7,11 +7,13 @@ use kurbo::{Affine, PathEl, Point};
 use super::fonts::Fonts;
 use super::picture_crops::Crops;
 use crate::colour::srgb::Colour;
-use crate::drawing::{Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::drawing::{
+    Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, PieceContent, StrokePaint,
+};
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::embedded_pictures::matrix;
 use crate::export::pdf::press::halftone_screen::Screen;
-use crate::export::pdf::press::ink_plates::{Ink, Plates};
+use crate::export::pdf::press::ink_plates::{Plates, PressInk};
 
 /// Decimals of widths and dashes, as in SVG.
 const WIDTH_DECIMALS: u8 = 3;
@@ -20,19 +22,19 @@ const CHANNEL_DECIMALS: u8 = 4;
 
 /// Inks and fonts for printing marks.
 #[derive(Clone, Copy)]
-pub(crate) struct Press<'a> {
+pub(crate) struct PressSettings<'a> {
     pub plates: &'a Plates,
     /// `None` if letters are written as outlines.
     pub fonts: Option<&'a Fonts>,
     /// Number of the drawing's first picture in the document.
     pub first_picture: usize,
     /// Halftone settings for fills, if any.
-    pub dots: Option<Dots>,
+    pub dots: Option<HalftoneDots>,
 }
 
 /// Halftone settings for the fills of one drawing.
 #[derive(Clone, Copy)]
-pub(crate) struct Dots {
+pub(crate) struct HalftoneDots {
     pub screen: Screen,
     /// Transform from drawing units to page units.
     pub place: Affine,
@@ -41,7 +43,7 @@ pub(crate) struct Dots {
 }
 
 /// Writer of marks, one after another.
-pub(crate) struct Writer<'a> {
+pub(crate) struct ContentWriter<'a> {
     pub(crate) out: Vec<u8>,
     decimals: Decimals,
     /// The current stroke; unknown at the start.
@@ -52,12 +54,12 @@ pub(crate) struct Writer<'a> {
     /// Number of the next gradient.
     patterns: usize,
     /// `None` for RGB colours and letters as outlines.
-    pub(crate) press: Option<Press<'a>>,
+    pub(crate) press: Option<PressSettings<'a>>,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> ContentWriter<'a> {
     /// Creates a writer with the given decimals of coordinates. Gradients are numbered from `patterns`.
-    pub(crate) fn new(decimals: Decimals, patterns: usize, press: Option<Press<'a>>) -> Self {
+    pub(crate) fn new(decimals: Decimals, patterns: usize, press: Option<PressSettings<'a>>) -> Self {
         Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
     }
 
@@ -128,8 +130,8 @@ impl<'a> Writer<'a> {
         let first = self.press.map_or(0, |press| press.first_picture);
         for piece in &image.pieces {
             match piece.shows {
-                Shows::Pixels(_) => self.pixels(piece, pictures, first),
-                Shows::Colour(colour) => {
+                PieceContent::Pixels(_) => self.pixels(piece, pictures, first),
+                PieceContent::Colour(colour) => {
                     self.set_fill(colour);
                     self.path(piece.outline.elements());
                     self.out.extend_from_slice(b"f\n");
@@ -142,8 +144,8 @@ impl<'a> Writer<'a> {
     pub(crate) fn opacities(&mut self, image: &ImagePaint, pictures: &Crops, first: usize) {
         for piece in &image.pieces {
             match piece.shows {
-                Shows::Pixels(_) => self.pixels(piece, pictures, first),
-                Shows::Colour(Colour { a, .. }) => {
+                PieceContent::Pixels(_) => self.pixels(piece, pictures, first),
+                PieceContent::Colour(Colour { a, .. }) => {
                     let light = Decimals::new(CHANNEL_DECIMALS).text(f64::from(a) / 255.0);
                     self.out.extend_from_slice(format!("{light} g\n").as_bytes());
                     self.path(piece.outline.elements());
@@ -155,7 +157,7 @@ impl<'a> Writer<'a> {
 
     /// Paints a piece that shows pixels.
     fn pixels(&mut self, piece: &ImagePiece, pictures: &Crops, first: usize) {
-        let Shows::Pixels(transform) = piece.shows else { return };
+        let PieceContent::Pixels(transform) = piece.shows else { return };
         let Some((number, crop)) = pictures.shown(piece) else { return };
         let place = matrix(transform * crop.pixels_from_object(), " ");
         let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
@@ -255,15 +257,15 @@ impl<'a> Writer<'a> {
                 }
                 self.operator(operator);
             }
-            Some(Ink::Rgb(channels)) => {
+            Some(PressInk::Rgb(channels)) => {
                 channels.into_iter().for_each(|channel| self.value(fine, channel));
                 self.operator(operator);
             }
-            Some(Ink::Cmyk(inks)) => {
+            Some(PressInk::Cmyk(inks)) => {
                 inks.into_iter().for_each(|ink| self.value(fine, ink));
                 self.operator(if fills { b"k" } else { b"K" });
             }
-            Some(Ink::Spot(number)) => {
+            Some(PressInk::Spot(number)) => {
                 let (space, tint) = if fills { ("cs", "scn") } else { ("CS", "SCN") };
                 self.out.extend_from_slice(format!("/{} {space} 1 {tint}\n", spot_name(number)).as_bytes());
             }
@@ -360,7 +362,7 @@ mod tests {
     const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
 
     fn content(marks: &[(&str, Paint)]) -> String {
-        let mut writer = Writer::new(Decimals::new(2), 0, None);
+        let mut writer = ContentWriter::new(Decimals::new(2), 0, None);
         for (data, paint) in marks {
             let path = BezPath::from_svg(data).unwrap();
             let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };

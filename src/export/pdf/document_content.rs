@@ -4,22 +4,22 @@ use kurbo::{Affine, Rect, Shape};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Name, Ref, TextStr};
 
-use super::content_stream::{Dots, Press, Writer};
-use super::drawing_page::{CHUNK, DEFLATE_LEVEL, group_name};
-use super::page_boxes::Sheet;
+use super::content_stream::{ContentWriter, HalftoneDots, PressSettings};
+use super::drawing_page::{DEFLATE_LEVEL, MARKS_PER_STREAM, group_name};
+use super::page_boxes::PrintedPage;
 use super::picture_crops::Crops;
 use crate::colour::srgb::Colour;
-use crate::drawing::{Composition, Gradient, Item, LayerKind, Mark, Paint, Provenance, Unit};
+use crate::drawing::{Composition, Gradient, LayerKind, Mark, Paint, PlacedDrawing, Provenance, Unit};
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::embedded_pictures::matrix;
 use crate::export::pdf::press::halftone_screen::Screen;
 
 /// Decimals of matrices.
-const FINE: u8 = 6;
+const MATRIX_DECIMALS: u8 = 6;
 
 /// A layer of the document.
-pub(crate) struct Group {
+pub(crate) struct DocumentLayer {
     pub label: String,
     /// Index of the page, and index of the enclosing layer.
     page: usize,
@@ -27,10 +27,10 @@ pub(crate) struct Group {
 }
 
 /// A segment of the content of a page.
-pub(crate) enum Segment<'a> {
+pub(crate) enum ContentSegment<'a> {
     Raw(Vec<u8>),
     Marks {
-        dots: Option<Dots>,
+        dots: Option<HalftoneDots>,
         marks: &'a [Mark],
         crops: &'a Crops<'a>,
         first_picture: usize,
@@ -39,14 +39,14 @@ pub(crate) enum Segment<'a> {
     },
 }
 
-impl Segment<'_> {
+impl ContentSegment<'_> {
     /// Writes the segment as deflated content.
-    pub fn write(&self, press: Press) -> Vec<u8> {
+    pub fn write(&self, press: PressSettings) -> Vec<u8> {
         match self {
             Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
             Self::Marks { dots, marks, crops, first_picture, first_pattern, decimals } => {
-                let press = Press { first_picture: *first_picture, dots: *dots, ..press };
-                let mut writer = Writer::new(*decimals, *first_pattern, Some(press));
+                let press = PressSettings { first_picture: *first_picture, dots: *dots, ..press };
+                let mut writer = ContentWriter::new(*decimals, *first_pattern, Some(press));
                 marks.iter().for_each(|mark| writer.mark(mark, crops));
                 compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
             }
@@ -55,12 +55,12 @@ impl Segment<'_> {
 }
 
 /// Collected content of all pages.
-pub(crate) struct Document<'a> {
-    press: Press<'a>,
+pub(crate) struct DocumentContent<'a> {
+    press: PressSettings<'a>,
     screen: Option<Screen>,
-    pub groups: Vec<Group>,
+    pub groups: Vec<DocumentLayer>,
     /// Segments of each page.
-    pub segments: Vec<Vec<Segment<'a>>>,
+    pub segments: Vec<Vec<ContentSegment<'a>>>,
     titles: Vec<String>,
     /// Gradients, each with the transform from its units to the paper.
     pub gradients: Vec<(Affine, &'a Gradient)>,
@@ -68,14 +68,14 @@ pub(crate) struct Document<'a> {
     drawings: usize,
 }
 
-impl<'a> Document<'a> {
-    pub fn new(press: Press<'a>, screen: Option<Screen>) -> Self {
+impl<'a> DocumentContent<'a> {
+    pub fn new(press: PressSettings<'a>, screen: Option<Screen>) -> Self {
         let (groups, segments, titles, gradients) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { press, screen, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
     }
 
     /// Collects the content of a page; `crops` holds the pictures of all drawings of all pages.
-    pub fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
+    pub fn page(&mut self, page: &'a Composition, sheet: &PrintedPage, crops: &'a [Crops<'a>], marks: bool) {
         let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
         self.segments.push(Vec::new());
         self.titles.push(page.title.clone());
@@ -96,13 +96,13 @@ impl<'a> Document<'a> {
     }
 
     /// Halftone settings for a drawing at a place of the page.
-    fn dots(&self, place: Affine, sheet: &Sheet) -> Option<Dots> {
-        self.screen.map(|screen| Dots { screen, place, mm: sheet.mm })
+    fn dots(&self, place: Affine, sheet: &PrintedPage) -> Option<HalftoneDots> {
+        self.screen.map(|screen| HalftoneDots { screen, place, mm: sheet.mm })
     }
 
     /// Paints a rectangle of paper.
-    fn paper(&self, rect: Rect, colour: Colour, decimals: Decimals, dots: Option<Dots>) -> Vec<u8> {
-        let mut writer = Writer::new(decimals, 0, Some(Press { dots, ..self.press }));
+    fn paper(&self, rect: Rect, colour: Colour, decimals: Decimals, dots: Option<HalftoneDots>) -> Vec<u8> {
+        let mut writer = ContentWriter::new(decimals, 0, Some(PressSettings { dots, ..self.press }));
         let (path, paint) = (rect.to_path(0.0), Paint::Fill(colour));
         writer.plain(&Mark { path, paint, provenance: Provenance::default() });
         writer.out
@@ -111,19 +111,19 @@ impl<'a> Document<'a> {
     /// Adds raw content to the current page.
     fn raw(&mut self, bytes: Vec<u8>) {
         if let Some(page) = self.segments.last_mut() {
-            page.push(Segment::Raw(bytes));
+            page.push(ContentSegment::Raw(bytes));
         }
     }
 
     /// Adds a layer and returns its index.
     fn group(&mut self, label: &str, within: Option<usize>) -> usize {
         let page = self.segments.len().saturating_sub(1);
-        self.groups.push(Group { label: label.to_owned(), page, within });
+        self.groups.push(DocumentLayer { label: label.to_owned(), page, within });
         self.groups.len() - 1
     }
 
     /// Collects the content of one drawing of a page.
-    fn item(&mut self, item: &'a Item, sheet: &Sheet, crops: &'a [Crops<'a>], unit: Unit) {
+    fn item(&mut self, item: &'a PlacedDrawing, sheet: &PrintedPage, crops: &'a [Crops<'a>], unit: Unit) {
         let drawing = &item.drawing;
         let Some(crops) = crops.get(self.drawings) else { return };
         let first_picture = self.pictures;
@@ -131,7 +131,7 @@ impl<'a> Document<'a> {
         self.pictures += crops.list.len();
         let group = self.group(&item.name, None);
         let mut writer =
-            Writer::new(Decimals::new(SvgOptions::default().decimals(unit)), 0, Some(self.press));
+            ContentWriter::new(Decimals::new(SvgOptions::default().decimals(unit)), 0, Some(self.press));
         writer.out.extend_from_slice(format!("/OC /{} BDC\nq\n", group_name(group)).as_bytes());
         if let Some(clip) = &item.clip {
             // An empty clip hides everything.
@@ -149,7 +149,7 @@ impl<'a> Document<'a> {
             writer.out.extend_from_slice(format!("/OC /{} BDC\n", group_name(paper)).as_bytes());
             let dots = self.dots(item.place, sheet);
             let whole = Rect::new(0.0, 0.0, drawing.page.width, drawing.page.height);
-            writer.out.append(&mut self.paper(whole, colour, Decimals::new(FINE), dots));
+            writer.out.append(&mut self.paper(whole, colour, Decimals::new(MATRIX_DECIMALS), dots));
             writer.out.extend_from_slice(b"EMC\n");
         }
         self.raw(writer.out);
@@ -161,7 +161,7 @@ impl<'a> Document<'a> {
         for layer in &drawing.layers {
             let inner = self.group(&drawing.names(layer).1, Some(group));
             self.raw(format!("/OC /{} BDC\n", group_name(inner)).into_bytes());
-            for marks in layer.marks.chunks(CHUNK) {
+            for marks in layer.marks.chunks(MARKS_PER_STREAM) {
                 let first_pattern = self.gradients.len();
                 let graded = marks.iter().filter_map(|mark| match &mark.paint {
                     Paint::Gradient(gradient) => Some((sheet.matrix() * item.place, gradient)),
@@ -169,7 +169,14 @@ impl<'a> Document<'a> {
                 });
                 self.gradients.extend(graded);
                 if let Some(page) = self.segments.last_mut() {
-                    page.push(Segment::Marks { dots, marks, crops, first_picture, first_pattern, decimals });
+                    page.push(ContentSegment::Marks {
+                        dots,
+                        marks,
+                        crops,
+                        first_picture,
+                        first_pattern,
+                        decimals,
+                    });
                 }
             }
             self.raw(b"EMC\n".to_vec());

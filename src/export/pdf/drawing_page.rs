@@ -9,10 +9,10 @@ use crate::parallel::prelude::*;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
-use super::content_stream::{Writer, pattern_name, picture_name, state_name};
+use super::content_stream::{ContentWriter, pattern_name, picture_name, state_name};
 use super::paint_objects::{write_gradient, write_picture};
 use super::picture_crops::Crops;
-use super::soft_masks::Mask;
+use super::soft_masks::SoftMask;
 use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Unit};
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
@@ -23,10 +23,10 @@ pub(crate) const POINTS_PER_PX: f64 = 0.75;
 pub(crate) const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// Longest side of a page that all viewers show, in points.
-pub(crate) const LONGEST_SIDE: f64 = 14_400.0;
+pub(crate) const MAX_SIDE_POINTS: f64 = 14_400.0;
 
 /// Marks per stream. A fixed number, so that the bytes do not depend on the number of threads.
-pub(crate) const CHUNK: usize = 2048;
+pub(crate) const MARKS_PER_STREAM: usize = 2048;
 
 /// Fast level, whose files are at most a tenth larger than those of the slowest level.
 pub(crate) const DEFLATE_LEVEL: u8 = 4;
@@ -40,7 +40,7 @@ const INFO: Ref = Ref::new(4);
 const FIRST_FREE: i32 = 5;
 
 /// A layer of the document and its marks.
-struct Group<'a> {
+struct PageLayer<'a> {
     label: String,
     marks: &'a [Mark],
 }
@@ -57,7 +57,7 @@ impl Drawing {
             Unit::Mm => POINTS_PER_MM,
         };
         let longest = self.page.width.max(self.page.height) * per_unit;
-        let user_unit = (longest / LONGEST_SIDE).max(1.0);
+        let user_unit = (longest / MAX_SIDE_POINTS).max(1.0);
         let scale = per_unit / user_unit;
         let groups = self.groups();
         let pictures = Crops::of(self);
@@ -75,7 +75,7 @@ impl Drawing {
         let (picture_ids, mask_ids) = (take(pictures.list.len()), take(pictures.list.len()));
         let gradients = self.gradients();
         let (pattern_ids, function_ids) = (take(gradients.len()), take(gradients.len()));
-        let masks = Mask::all(self, &pictures, 0);
+        let masks = SoftMask::all(self, &pictures, 0);
         let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
 
         let mut pdf = Pdf::new();
@@ -156,24 +156,24 @@ impl Drawing {
     }
 
     /// Layers of the document, back to front, with the paper first.
-    fn groups(&self) -> Vec<Group<'_>> {
+    fn groups(&self) -> Vec<PageLayer<'_>> {
         let paper =
-            self.page.background.map(|_| Group { label: LayerKind::Paper.id().to_owned(), marks: &[] });
+            self.page.background.map(|_| PageLayer { label: LayerKind::Paper.id().to_owned(), marks: &[] });
         let layers =
-            self.layers.iter().map(|layer| Group { label: self.names(layer).1, marks: &layer.marks });
+            self.layers.iter().map(|layer| PageLayer { label: self.names(layer).1, marks: &layer.marks });
         paper.into_iter().chain(layers).collect()
     }
 
     /// Content of the page as consecutive deflated pieces.
-    fn streams(&self, groups: &[Group], pictures: &Crops, scale: f64) -> Vec<Vec<u8>> {
+    fn streams(&self, groups: &[PageLayer], pictures: &Crops, scale: f64) -> Vec<Vec<u8>> {
         let decimals = Decimals::new(SvgOptions::default().decimals(self.page.unit));
         let fine = Decimals::new(6);
         let pieces: Vec<(usize, &[Mark], bool, bool)> = groups
             .iter()
             .enumerate()
             .flat_map(|(index, group)| {
-                let count = group.marks.len().div_ceil(CHUNK).max(1);
-                let mut chunks = group.marks.chunks(CHUNK);
+                let count = group.marks.len().div_ceil(MARKS_PER_STREAM).max(1);
+                let mut chunks = group.marks.chunks(MARKS_PER_STREAM);
                 (0..count).map(move |k| (index, chunks.next().unwrap_or_default(), k == 0, k + 1 == count))
             })
             .collect();
@@ -190,7 +190,7 @@ impl Drawing {
             .zip(&before)
             .enumerate()
             .map(|(at, ((index, marks, opens, closes), before))| {
-                let mut writer = Writer::new(decimals, *before, None);
+                let mut writer = ContentWriter::new(decimals, *before, None);
                 if at == 0 {
                     let top = fine.text(self.page.height * scale);
                     let scale = fine.text(scale);

@@ -23,7 +23,8 @@ const DEFLATE_LEVEL: u8 = 8;
 pub(crate) const OBJECTS_PER_FONT: usize = 5;
 
 /// Character collection of fonts and glyphs.
-const ORDER: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
+const CID_SYSTEM: SystemInfo =
+    SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
 /// A font and its used glyphs.
 pub(crate) struct UsedFont {
@@ -155,7 +156,7 @@ impl UsedFont {
         letters.subtype(if is_cff { CidFontType::Type0 } else { CidFontType::Type2 });
         letters
             .base_font(Name(name.as_bytes()))
-            .system_info(ORDER)
+            .system_info(CID_SYSTEM)
             .font_descriptor(descriptor)
             .default_width(0.0);
         if !is_cff {
@@ -196,7 +197,7 @@ impl UsedFont {
         }
         stream.finish();
 
-        let mut map = UnicodeCmap::new(Name(b"ligne"), ORDER);
+        let mut map = UnicodeCmap::new(Name(b"ligne"), CID_SYSTEM);
         for (old, (_, shows)) in &self.glyphs {
             if let Some(new) = self.numbers.get(*old)
                 && !shows.is_empty()

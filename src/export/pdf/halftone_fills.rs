@@ -4,24 +4,24 @@ use std::collections::BTreeMap;
 
 use kurbo::{Affine, Point};
 
-use super::content_stream::Writer;
+use super::content_stream::ContentWriter;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Gradient, Mark, Paint};
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::embedded_pictures::matrix;
-use crate::export::pdf::press::halftone_screen::{Tone, diameter, dots as screen_dots, share_of, tone};
-use crate::export::pdf::press::ink_plates::Ink;
+use crate::export::pdf::press::halftone_screen::{InkTone, diameter, dots as screen_dots, share_of, tone};
+use crate::export::pdf::press::ink_plates::PressInk;
 
 /// Decimals of ink channels and of dot diameters.
-const DECIMALS: u8 = 4;
+const INK_DECIMALS: u8 = 4;
 
 /// Dots per path, because viewers are slow with long paths.
-const DOTS_OF_PATH: usize = 1000;
+const DOTS_PER_PATH: usize = 1000;
 
 /// Classes of marks drawn with a pen, although they are filled.
-const DRAWN: [&str; 3] = ["hatch", "pattern", "grain"];
+const PEN_CLASSES: [&str; 3] = ["hatch", "pattern", "grain"];
 
-impl Writer<'_> {
+impl ContentWriter<'_> {
     /// Paints a fill as dots, and returns whether it did. Fills that are not halftoned are left to the
     /// caller.
     pub(crate) fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
@@ -29,12 +29,12 @@ impl Writer<'_> {
             return false;
         };
         // Hatching strokes, pattern dots and grain are not tones.
-        if mark.provenance.classes.iter().any(|class| DRAWN.contains(class)) {
+        if mark.provenance.classes.iter().any(|class| PEN_CLASSES.contains(class)) {
             return false;
         }
         let clear = f64::from(opacity) / 255.0;
         let inks = |colour: Colour| match press.plates.ink(colour) {
-            Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
+            PressInk::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
             _ => None,
         };
         let gradient = match &mark.paint {
@@ -47,7 +47,7 @@ impl Writer<'_> {
         };
         let Some(flat) = inks(colour) else { return false };
         let is_flat = gradient.is_none();
-        if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
+        if is_flat && flat.iter().all(|ink| tone(*ink) != InkTone::Dots) && opacity == 255 {
             return false;
         }
         // An opaque fill removes the inks below it.
@@ -62,11 +62,11 @@ impl Writer<'_> {
             writer.choose((255, true));
             let mut before = Affine::IDENTITY;
             // Solid plates first, so that viewers without overprint also show the dots of the other plates.
-            let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
+            let is_solid = |ink: &f64| is_flat && tone(*ink) == InkTone::Solid;
             let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
             let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
             for (plate, ink) in solids.chain(rest) {
-                if is_flat && tone(*ink) == Tone::None {
+                if is_flat && tone(*ink) == InkTone::None {
                     continue;
                 }
                 let mut solid = [0.0; 4];
@@ -94,7 +94,7 @@ impl Writer<'_> {
                     Some(laid) => writer.lay(&laid, solid),
                     None => {
                         let tint = solid.map(|one| one * ink);
-                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(DECIMALS), ink));
+                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(INK_DECIMALS), ink));
                         writer.operator(b"k");
                         writer.path(outline.elements());
                         writer.operator(b"f");
@@ -108,13 +108,13 @@ impl Writer<'_> {
     /// Paints the dots of an ink. Neighbours in a row are one line with round caps and zero-length dashes at
     /// distance one.
     fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
-        solid.into_iter().for_each(|ink| self.value(Decimals::new(DECIMALS), ink));
+        solid.into_iter().for_each(|ink| self.value(Decimals::new(INK_DECIMALS), ink));
         self.operator(b"K");
         self.operator(b"1 J [0 1] 0 d");
         for (size, places) in dots {
-            self.value(Decimals::new(DECIMALS), diameter(share_of(*size)));
+            self.value(Decimals::new(INK_DECIMALS), diameter(share_of(*size)));
             self.operator(b"w");
-            for places in places.chunks(DOTS_OF_PATH) {
+            for places in places.chunks(DOTS_PER_PATH) {
                 for run in places.chunk_by(|a, b| b.1 == a.1 && b.0 == a.0 + 1) {
                     let ([(x, y), ..], [.., (end, _)]) = (run, run) else { continue };
                     // Half a step more, so that the last dot is included.

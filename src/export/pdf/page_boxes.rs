@@ -2,29 +2,29 @@
 
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
 
-use super::drawing_page::{LONGEST_SIDE, POINTS_PER_MM, POINTS_PER_PX};
+use super::drawing_page::{MAX_SIDE_POINTS, POINTS_PER_MM, POINTS_PER_PX};
 use crate::drawing::{Composition, Unit};
 use crate::error::Error;
 use crate::export::encoding::decimals::Decimals;
 
 /// Distance of crop marks from the trimmed page in mm, unless the bleed is wider.
-const CROP_GAP: f64 = 3.0;
+const CROP_GAP_MM: f64 = 3.0;
 /// Length of crop marks in mm.
-const CROP_LENGTH: f64 = 5.0;
+const CROP_LENGTH_MM: f64 = 5.0;
 /// Line width of all printer's marks in mm.
-const MARK_WIDTH: f64 = 0.1;
+const MARK_WIDTH_MM: f64 = 0.1;
 
 /// Radius of the circle of registration marks in mm. Their lines are four times as long.
-const REGISTER: f64 = 1.25;
+const REGISTRATION_RADIUS_MM: f64 = 1.25;
 
 /// Paper left outside the marks in mm.
-const MARGIN: f64 = 1.0;
+const PAPER_MARGIN_MM: f64 = 1.0;
 
 /// Name of the colour space of all inks.
 pub(crate) const ALL_INKS: &str = "All";
 
 /// A page on its sheet; boxes in page units, y down.
-pub(crate) struct Sheet {
+pub(crate) struct PrintedPage {
     pub media: Rect,
     pub trim: Rect,
     pub bleed: Rect,
@@ -39,7 +39,7 @@ pub(crate) struct Sheet {
     reach: f64,
 }
 
-impl Sheet {
+impl PrintedPage {
     /// Places a page on its sheet, with room for printer's marks if `marks`.
     ///
     /// # Errors
@@ -67,10 +67,10 @@ impl Sheet {
         }
         let beyond =
             (trim.x0 - bleed.x0).max(trim.y0 - bleed.y0).max(bleed.x1 - trim.x1).max(bleed.y1 - trim.y1);
-        let reach = beyond.max(CROP_GAP * mm) + CROP_LENGTH * mm;
-        let margin = reach + MARGIN * mm;
+        let reach = beyond.max(CROP_GAP_MM * mm) + CROP_LENGTH_MM * mm;
+        let margin = reach + PAPER_MARGIN_MM * mm;
         let media = if marks { whole.union(trim.inflate(margin, margin)) } else { whole };
-        let user_unit = (media.width().max(media.height()) * per_unit / LONGEST_SIDE).max(1.0);
+        let user_unit = (media.width().max(media.height()) * per_unit / MAX_SIDE_POINTS).max(1.0);
         let has_boxes = page.boxes.is_some() || marks;
         Ok(Self { media, trim, bleed, has_boxes, scale: per_unit / user_unit, user_unit, mm, reach })
     }
@@ -95,7 +95,7 @@ impl Sheet {
             decimals.write(out, decimals.round(value));
             out.push(b' ');
         };
-        value(&mut out, MARK_WIDTH * self.mm);
+        value(&mut out, MARK_WIDTH_MM * self.mm);
         out.extend_from_slice(b"w\n");
         for (x0, y0, x1, y1) in self.lines() {
             value(&mut out, x0);
@@ -106,7 +106,8 @@ impl Sheet {
             out.extend_from_slice(b"l\nS\n");
         }
         for (x, y) in self.registers() {
-            let circle: BezPath = Circle::new((x, y), REGISTER * self.mm).to_path(0.01 * self.mm);
+            let circle: BezPath =
+                Circle::new((x, y), REGISTRATION_RADIUS_MM * self.mm).to_path(0.01 * self.mm);
             for element in circle.elements() {
                 let (points, operator): (Vec<kurbo::Point>, &[u8]) = match *element {
                     kurbo::PathEl::MoveTo(p) => (vec![p], b"m\n"),
@@ -127,7 +128,7 @@ impl Sheet {
 
     /// Centres of the registration marks, next to the middles of the four sides.
     fn registers(&self) -> [(f64, f64); 4] {
-        let (middle, out) = (self.trim.center(), self.reach - 2.0 * REGISTER * self.mm);
+        let (middle, out) = (self.trim.center(), self.reach - 2.0 * REGISTRATION_RADIUS_MM * self.mm);
         let Rect { x0, y0, x1, y1 } = self.trim;
         [(middle.x, y0 - out), (x1 + out, middle.y), (middle.x, y1 + out), (x0 - out, middle.y)]
     }
@@ -135,7 +136,7 @@ impl Sheet {
     /// Lines of crop marks and registration marks.
     fn lines(&self) -> Vec<(f64, f64, f64, f64)> {
         let Rect { x0, y0, x1, y1 } = self.trim;
-        let (near, far) = (self.reach - CROP_LENGTH * self.mm, self.reach);
+        let (near, far) = (self.reach - CROP_LENGTH_MM * self.mm, self.reach);
         let mut lines = Vec::new();
         for x in [x0, x1] {
             lines.push((x, y0 - near, x, y0 - far));
@@ -145,7 +146,7 @@ impl Sheet {
             lines.push((x0 - near, y, x0 - far, y));
             lines.push((x1 + near, y, x1 + far, y));
         }
-        let arm = 2.0 * REGISTER * self.mm;
+        let arm = 2.0 * REGISTRATION_RADIUS_MM * self.mm;
         for (x, y) in self.registers() {
             lines.push((x - arm, y, x + arm, y));
             lines.push((x, y - arm, x, y + arm));

@@ -8,7 +8,7 @@ use pdf_writer::{Filter, Finish, Pdf, Ref};
 use super::picture_crops::Crop;
 use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
-use crate::export::pdf::press::ink_plates::{Ink, Plates};
+use crate::export::pdf::press::ink_plates::{Plates, PressInk};
 
 /// The same level as for page content.
 const DEFLATE_LEVEL: u8 = 4;
@@ -24,7 +24,7 @@ fn channels(press: Option<&Plates>) -> usize {
 /// Channels of a colour with eight bits each.
 fn samples(colour: Colour, press: Option<&Plates>) -> Vec<u8> {
     match press.map(|plates| plates.process(colour)) {
-        Some(Ink::Cmyk(inks)) => inks.iter().map(|ink| (ink * 255.0).round() as u8).collect(),
+        Some(PressInk::Cmyk(inks)) => inks.iter().map(|ink| (ink * 255.0).round() as u8).collect(),
         _ => vec![colour.r, colour.g, colour.b],
     }
 }
@@ -55,18 +55,18 @@ pub(crate) fn write_gradient(
     shading.function(function).extend([true, true]);
     shading.finish();
     pattern.finish();
-    let place = |k: usize| k as f64 / (SHADES - 1) as f64;
-    let shades: Vec<u8> = (0..SHADES).flat_map(|k| samples(gradient.at(place(k)), press)).collect();
+    let place = |k: usize| k as f64 / (GRADIENT_SAMPLES - 1) as f64;
+    let shades: Vec<u8> = (0..GRADIENT_SAMPLES).flat_map(|k| samples(gradient.at(place(k)), press)).collect();
     let shades = compress_to_vec_zlib(&shades, DEFLATE_LEVEL);
     let mut sampled = pdf.sampled_function(function, &shades);
     sampled.filter(Filter::FlateDecode);
     sampled.domain([0.0, 1.0]).range([0.0, 1.0].repeat(channels(press)));
-    sampled.size([SHADES as i32]).bits_per_sample(8);
+    sampled.size([GRADIENT_SAMPLES as i32]).bits_per_sample(8);
     sampled.finish();
 }
 
 /// Number of samples of a gradient.
-const SHADES: usize = 128;
+const GRADIENT_SAMPLES: usize = 128;
 
 /// Writes a part of a picture as an image object, with a soft mask if it has transparent pixels.
 pub(crate) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], press: Option<&Plates>) {

@@ -8,17 +8,17 @@ use rustc_hash::FxHashMap;
 
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
-use crate::drawing::{Drawing, ImagePaint, ImagePiece, Shows};
-use crate::export::encoding::embedded_pictures::{Pictures, marks};
+use crate::drawing::{Drawing, ImagePaint, ImagePiece, PieceContent};
+use crate::export::encoding::embedded_pictures::{EmbeddedPictures, marks};
 
 /// Largest number of pixels of a picture written as a whole.
-const SMALL: usize = 1 << 18;
+const MAX_WHOLE_PIXELS: usize = 1 << 18;
 
 /// Longest side of a part in pixels, unless a single piece shows more.
-const LONGEST: f64 = 320.0;
+const MAX_CROP_SIDE_PIXELS: f64 = 320.0;
 
 /// Margin in pixels around a piece, for interpolation with neighbours.
-const MARGIN: f64 = 2.0;
+const CROP_MARGIN_PIXELS: f64 = 2.0;
 
 /// A part of a picture.
 pub(crate) struct Crop<'a> {
@@ -46,12 +46,12 @@ pub(crate) struct Crops<'a> {
 impl<'a> Crops<'a> {
     /// Divides the pictures of a drawing into parts.
     pub fn of(drawing: &'a Drawing) -> Self {
-        let pictures = Pictures::of(drawing);
+        let pictures = EmbeddedPictures::of(drawing);
         let mut shown: Vec<Vec<(usize, Rect)>> = vec![Vec::new(); pictures.list.len()];
         for (_, image) in marks(drawing) {
             let Some(list) = shown.get_mut(pictures.number(image)) else { continue };
             for piece in &image.pieces {
-                if let Shows::Pixels(transform) = piece.shows {
+                if let PieceContent::Pixels(transform) = piece.shows {
                     list.push((address(piece), needed(piece, transform, &image.picture)));
                 }
             }
@@ -65,7 +65,7 @@ impl<'a> Crops<'a> {
         }
         for ((picture, mut pieces), ink) in pictures.list.iter().copied().zip(shown).zip(&pictures.inks) {
             let is_mask = ink.is_some();
-            if picture.width * picture.height <= SMALL {
+            if picture.width * picture.height <= MAX_WHOLE_PIXELS {
                 let whole = Rect::new(0.0, 0.0, picture.width as f64, picture.height as f64);
                 crops.add((picture, is_mask), whole, &pieces);
                 continue;
@@ -77,7 +77,8 @@ impl<'a> Crops<'a> {
                 let mut part = *first;
                 let fits = |(_, rect): &&(usize, Rect)| {
                     let wider = part.union(*rect);
-                    let is_small = wider.width() <= LONGEST && wider.height() <= LONGEST;
+                    let is_small =
+                        wider.width() <= MAX_CROP_SIDE_PIXELS && wider.height() <= MAX_CROP_SIDE_PIXELS;
                     if is_small {
                         part = wider;
                     }
@@ -143,8 +144,8 @@ fn needed(piece: &ImagePiece, transform: Affine, picture: &Picture) -> Rect {
         points.fold(none, |(x0, y0, x1, y1), p| (p.x.min(x0), p.y.min(y0), p.x.max(x1), p.y.max(y1)));
     let [width, height] = [picture.width, picture.height].map(|count| count as f64);
     let within = |low: f64, high: f64, most: f64| {
-        let low = (low - MARGIN).floor().clamp(0.0, most - 1.0);
-        (low, (high + MARGIN).ceil().clamp(low + 1.0, most))
+        let low = (low - CROP_MARGIN_PIXELS).floor().clamp(0.0, most - 1.0);
+        (low, (high + CROP_MARGIN_PIXELS).ceil().clamp(low + 1.0, most))
     };
     if [x0, y0, x1, y1].iter().any(|x| !x.is_finite()) {
         return Rect::new(0.0, 0.0, width, height);
@@ -174,7 +175,7 @@ mod tests {
         let square = |k: usize| {
             let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
             let outline = kurbo::Shape::to_path(&Rect::new(x, y, x + 10.0, y + 10.0), 0.1);
-            ImagePiece { outline, shows: Shows::Pixels(Affine::scale(1000.0 / side as f64)) }
+            ImagePiece { outline, shows: PieceContent::Pixels(Affine::scale(1000.0 / side as f64)) }
         };
         let paint = Paint::Image(ImagePaint { picture, pieces: (0..10_000).map(square).collect() });
         let mark = Mark { path: kurbo::BezPath::new(), paint, provenance: Provenance::default() };
@@ -194,7 +195,7 @@ mod tests {
         for (_, image) in marks(&large) {
             for piece in &image.pieces {
                 let (_, crop) = crops.shown(piece).unwrap();
-                let Shows::Pixels(transform) = piece.shows else { unreachable!() };
+                let PieceContent::Pixels(transform) = piece.shows else { unreachable!() };
                 let need = needed(piece, transform, &image.picture);
                 let [left, top] = [crop.left as f64, crop.top as f64];
                 let has = Rect::new(left, top, left + crop.width as f64, top + crop.height as f64);

@@ -8,10 +8,10 @@ use super::content_stream::{pattern_name, picture_name, spot_name, state_name};
 use super::drawing_page::group_name;
 use super::fonts::{OBJECTS_PER_FONT, font_name};
 use super::page_boxes::ALL_INKS;
-use crate::export::pdf::press::ink_plates::{Ink, Plates};
+use crate::export::pdf::press::ink_plates::{Plates, PressInk};
 
 /// Object numbers of the named resources.
-pub(crate) struct Ids<'a> {
+pub(crate) struct ResourceIds<'a> {
     pub groups: &'a [Ref],
     pub patterns: &'a [Ref],
     pub pictures: &'a [Ref],
@@ -26,7 +26,7 @@ pub(crate) fn write_resources(
     id: Ref,
     (plates, marks): (&Plates, bool),
     (states, state_ids): (&[(u8, bool)], &[Ref]),
-    ids: &Ids,
+    ids: &ResourceIds,
 ) {
     let mut resources = pdf.indirect(id).start::<Resources>();
     let named = |ids: &[Ref], name: fn(usize) -> String| -> Vec<(String, Ref)> {
@@ -97,7 +97,7 @@ fn write_spaces(resources: &mut Resources, plates: &Plates, marks: bool) {
             let space = spaces.insert(Name(spot_name(number).as_bytes())).start::<ColorSpace>();
             let mut ink = space.separation(Name(spot.name.as_bytes()));
             match plates.process(spot.colour) {
-                Ink::Rgb(channels) => {
+                PressInk::Rgb(channels) => {
                     ink.alternate_color_space().device_rgb();
                     ink.tint_exponential()
                         .domain([0.0, 1.0])
@@ -107,7 +107,7 @@ fn write_spaces(resources: &mut Resources, plates: &Plates, marks: bool) {
                 }
                 _ => {
                     ink.alternate_color_space().device_cmyk();
-                    let inks = plates.seen_as(spot.colour);
+                    let inks = plates.process_equivalent(spot.colour);
                     ink.tint_exponential().domain([0.0, 1.0]).c0([0.0; 4]).c1(inks.map(|x| x as f32)).n(1.0);
                 }
             }

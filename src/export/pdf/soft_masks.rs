@@ -7,7 +7,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::MaskType;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref};
 
-use super::content_stream::{Writer, mask_name, picture_name};
+use super::content_stream::{ContentWriter, mask_name, picture_name};
 use super::picture_crops::Crops;
 use crate::drawing::{Drawing, ImagePaint};
 use crate::export::SvgOptions;
@@ -17,7 +17,7 @@ use crate::export::encoding::decimals::Decimals;
 const DEFLATE_LEVEL: u8 = 4;
 
 /// One mask of a drawing.
-pub(crate) struct Mask<'a> {
+pub(crate) struct SoftMask<'a> {
     pub name: String,
     image: &'a ImagePaint,
     crops: &'a Crops<'a>,
@@ -26,7 +26,7 @@ pub(crate) struct Mask<'a> {
     decimals: Decimals,
 }
 
-impl<'a> Mask<'a> {
+impl<'a> SoftMask<'a> {
     /// Masks of a drawing in the order of their numbers.
     pub fn all(drawing: &Drawing, crops: &'a Crops<'a>, first_picture: usize) -> Vec<Self> {
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + 1);
@@ -44,7 +44,7 @@ impl<'a> Mask<'a> {
 
     /// Writes the graphics state and its form; `pictures` are the pictures of the whole document.
     pub fn write(&self, pdf: &mut Pdf, [state, form]: [Ref; 2], pictures: &[Ref]) {
-        let mut writer = Writer::new(self.decimals, 0, None);
+        let mut writer = ContentWriter::new(self.decimals, 0, None);
         writer.opacities(self.image, self.crops, self.first_picture);
         let content = compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL);
         let mut object = pdf.form_xobject(form, &content);

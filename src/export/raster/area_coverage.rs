@@ -30,7 +30,7 @@ pub(crate) enum Winding {
 
 /// Coverage added to one pixel by the edges of a path.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+struct CoverageCell {
     row: u32,
     column: u32,
     /// Signed height of the edges inside the pixel.
@@ -43,7 +43,7 @@ struct Cell {
 pub(crate) struct Coverage {
     width: f64,
     height: f64,
-    cells: Vec<Cell>,
+    cells: Vec<CoverageCell>,
 }
 
 impl Coverage {
@@ -176,7 +176,7 @@ impl Coverage {
                     cell.height += height;
                     cell.area += area;
                 }
-                _ => self.cells.push(Cell { row, column, height, area }),
+                _ => self.cells.push(CoverageCell { row, column, height, area }),
             }
         };
         if first >= end {
@@ -196,7 +196,7 @@ impl Coverage {
     }
 
     /// Paints the covered pixels. The canvas must have the size given to [`Self::new`].
-    pub fn paint(mut self, ink: Ink, winding: Winding, pixmap: &mut PixmapMut) {
+    pub fn paint(mut self, ink: CoverageInk, winding: Winding, pixmap: &mut PixmapMut) {
         self.cells.sort_by_key(|cell| (cell.row, cell.column));
         let columns = pixmap.width() as usize;
         let pixels = pixmap.pixels_mut();
@@ -233,7 +233,7 @@ impl Winding {
 
 /// A paint colour.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ink {
+pub(crate) struct CoverageInk {
     rgb: [f64; 3],
     /// Opacity, 0 to 1.
     opacity: f64,
@@ -241,7 +241,7 @@ pub(crate) struct Ink {
     is_crisp: bool,
 }
 
-impl Ink {
+impl CoverageInk {
     /// Ink with channels from 0 to 255 and an opacity from 0 to 1.
     pub fn new(rgb: [u8; 3], opacity: f64) -> Self {
         Self { rgb: rgb.map(f64::from), opacity: opacity.clamp(0.0, 1.0), is_crisp: false }

@@ -15,11 +15,11 @@ use tiny_skia::{
 
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
-use crate::drawing::{ImagePaint, Shows};
+use crate::drawing::{ImagePaint, PieceContent};
 use crate::export::encoding::embedded_pictures::address;
 
 /// Ratio of sizes of consecutive copies. A pixel of the selected copy is 0.7 to 1 px of the drawing long.
-const STEP: f64 = std::f64::consts::SQRT_2;
+const COPY_SCALE_STEP: f64 = std::f64::consts::SQRT_2;
 
 /// Most steps: the square root of two to this power exceeds the size of any picture.
 const MAX_STEPS: u32 = 30;
@@ -35,7 +35,7 @@ pub(crate) fn paint(
     outline: &BezPath,
     image: &ImagePaint,
     scale: Transform,
-    known: &mut KnownCopies,
+    known: &mut CopyCache,
 ) {
     let Some((path, bounds)) = path(outline).and_then(|path| {
         let bounds = pixels_of(&path, scale, pixmap)?;
@@ -49,13 +49,13 @@ pub(crate) fn paint(
     };
     let to_layer = scale.post_translate(-bounds.x() as f32, -bounds.y() as f32);
     mask.fill_path(&path, FillRule::Winding, true, to_layer);
-    let copies = known.entry(address(&image.picture)).or_insert_with(|| Copies::new(&image.picture));
+    let copies = known.entry(address(&image.picture)).or_insert_with(|| PictureCopies::new(&image.picture));
     for piece in &image.pieces {
         let Some(outline) = self::path(&piece.outline) else { continue };
         let mut ink = tiny_skia::Paint { blend_mode: BlendMode::Source, ..tiny_skia::Paint::default() };
         match piece.shows {
-            Shows::Colour(Colour { r, g, b, a }) => ink.set_color_rgba8(r, g, b, a),
-            Shows::Pixels(transform) => {
+            PieceContent::Colour(Colour { r, g, b, a }) => ink.set_color_rgba8(r, g, b, a),
+            PieceContent::Pixels(transform) => {
                 let Some((copy, grown)) = copies.for_pixels(page(scale) * transform) else { continue };
                 let [a, b, c, d, e, f] = (transform * grown).as_coeffs().map(|value| value as f32);
                 let to_page = Transform::from_row(a, b, c, d, e, f);
@@ -85,16 +85,16 @@ fn page(scale: Transform) -> Affine {
 }
 
 /// Copies of pictures painted so far, by the address of the picture.
-pub(crate) type KnownCopies = FxHashMap<usize, Copies>;
+pub(crate) type CopyCache = FxHashMap<usize, PictureCopies>;
 
 /// A picture with copies that are smaller along one or both axes.
-pub(crate) struct Copies {
+pub(crate) struct PictureCopies {
     whole: Option<Pixmap>,
     /// Copies by number of steps along each axis.
     smaller: FxHashMap<[u32; 2], Pixmap>,
 }
 
-impl Copies {
+impl PictureCopies {
     fn new(picture: &Picture) -> Self {
         let whole = Pixmap::new(picture.width as u32, picture.height as u32).map(|mut pixmap| {
             for (to, from) in pixmap.pixels_mut().iter_mut().zip(&picture.pixels) {
@@ -116,7 +116,7 @@ impl Copies {
         let steps = reaches.map(|mut reach| {
             let mut steps = 0;
             while reach > SCALE_ROUNDING && steps < MAX_STEPS {
-                reach /= STEP;
+                reach /= COPY_SCALE_STEP;
                 steps += 1;
             }
             steps
@@ -128,7 +128,8 @@ impl Copies {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => {
                 let size = [0, 1].map(|axis| {
-                    let long = (0..steps[axis]).fold(f64::from(sides[axis]), |long, _| long / STEP);
+                    let long =
+                        (0..steps[axis]).fold(f64::from(sides[axis]), |long, _| long / COPY_SCALE_STEP);
                     (long.round() as u32).clamp(1, sides[axis])
                 });
                 new.insert(averaged(whole, size)?)

@@ -5,7 +5,7 @@ use tiny_skia::{FillRule, Mask, Pixmap, PixmapPaint, Transform};
 
 use super::picture_painter;
 use super::png_drawing::{Pixels, PngOptions, canvas, rasterise, transform};
-use crate::drawing::{Composition, Item, Page};
+use crate::drawing::{Composition, Page, PlacedDrawing};
 use crate::error::Error;
 use crate::export::svg::svg_options::SvgOptions;
 
@@ -17,7 +17,7 @@ impl Composition {
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
         let (mut pixmap, dpi) = canvas(&self.page, options)?;
         let to = self.page.fill(&pixmap);
-        let part = |items: &[Item], background| Self {
+        let part = |items: &[PlacedDrawing], background| Self {
             items: items.to_vec(),
             ..Self::new("", Page { background, ..self.page }, Vec::new())
         };
@@ -45,7 +45,7 @@ impl Composition {
 }
 
 /// Paints one drawing inside its frame.
-fn paint(item: &Item, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
+fn paint(item: &PlacedDrawing, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
     let (width, height) = (pixmap.width(), pixmap.height());
     let (Some(mut own), Some(mut frame)) = (Pixmap::new(width, height), Mask::new(width, height)) else {
         return Err(Error::new(format!("not enough memory for {width} x {height} pixels")));

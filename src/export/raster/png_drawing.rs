@@ -15,9 +15,9 @@ const PRINT_DPI: f64 = 300.0;
 const CSS_DPI: f64 = 96.0;
 const MM_PER_INCH: f64 = 25.4;
 /// Most pixels of a picture, which take a gigabyte of memory.
-const MOST_PIXELS: f64 = 268_435_456.0;
+const MAX_PIXELS: f64 = 268_435_456.0;
 /// Most pixels per side.
-const LONGEST_SIDE: f64 = 65_535.0;
+const MAX_SIDE_PIXELS: f64 = 65_535.0;
 
 /// Resolution of a raster.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -115,7 +115,7 @@ impl Drawing {
         }
         let empty = |background| Self::new("", Page { background, ..self.page }, Vec::new());
         let mut next = empty(self.page.background);
-        let mut known = picture_painter::KnownCopies::default();
+        let mut known = picture_painter::CopyCache::default();
         for layer in &self.layers {
             for marks in layer.marks.chunk_by(|a, b| shows(a) == shows(b)) {
                 if !marks.first().is_some_and(shows) {
@@ -190,7 +190,7 @@ impl Page {
         let width = (self.width / per_inch * dpi).round();
         let height = (self.height / per_inch * dpi).round();
         let sides = width.max(height);
-        if !(width >= 1.0 && height >= 1.0 && sides <= LONGEST_SIDE && width * height <= MOST_PIXELS) {
+        if !(width >= 1.0 && height >= 1.0 && sides <= MAX_SIDE_PIXELS && width * height <= MAX_PIXELS) {
             return Err(Error::new(format!("a picture of {width} x {height} pixels is not possible"))
                 .remedy(
                     "choose 1 to 65535 pixels per side and at most 268 million in total, or another --dpi",

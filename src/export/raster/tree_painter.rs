@@ -9,20 +9,20 @@ use tiny_skia::{
 };
 use usvg::{Group, Node, Paint, PaintOrder};
 
-use super::area_coverage::{Coverage, Ink, Winding};
+use super::area_coverage::{Coverage, CoverageInk, Winding};
 
 /// Longest line, in segments, that is outlined without clipping it to the window first.
-const FEW_SEGMENTS: usize = 64;
+const MAX_UNCUT_SEGMENTS: usize = 64;
 
 /// Paints a tree over the existing pixels; `to` transforms its units to pixels.
 pub(crate) fn render(tree: &usvg::Tree, to: Transform, pixmap: &mut PixmapMut) {
-    Painter::default().nodes(tree.root(), to, pixmap);
+    TreePainter::default().nodes(tree.root(), to, pixmap);
 }
 
 /// Override of how a path is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "diff"), allow(dead_code))]
-pub(crate) enum Look {
+pub(crate) enum PaintOverride {
     /// As in the file.
     Own,
     /// Not at all.
@@ -33,20 +33,20 @@ pub(crate) enum Look {
 
 /// Options for painting a tree.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Painter<'a> {
+pub(crate) struct TreePainter<'a> {
     /// If set, only nodes that touch this rectangle are painted; in tree units.
     pub window: Option<Rect>,
     /// Whether each pixel is covered completely or not at all.
     pub crisp: bool,
     /// Override for each path.
-    pub look: Option<&'a dyn Fn(&usvg::Path) -> Look>,
+    pub look: Option<&'a dyn Fn(&usvg::Path) -> PaintOverride>,
     /// Whether opacities, masks and filters of groups are ignored.
     pub plain: bool,
     /// Whether lines are outlined with eight times the usual precision.
     pub precise: bool,
 }
 
-impl Painter<'_> {
+impl TreePainter<'_> {
     /// Paints all children of a group.
     pub fn nodes(self, parent: &Group, to: Transform, pixmap: &mut PixmapMut) {
         for node in parent.children().iter().filter(|node| self.touches(node)) {
@@ -150,15 +150,15 @@ impl Painter<'_> {
 
     /// Paints a path; `None` if it has paints other than colours, or no anti-aliasing.
     fn path(self, path: &usvg::Path, to: Transform, pixmap: &mut PixmapMut) -> Option<()> {
-        let look = self.look.map_or(Look::Own, |look| look(path));
-        if !path.is_visible() || look == Look::Absent {
+        let look = self.look.map_or(PaintOverride::Own, |look| look(path));
+        if !path.is_visible() || look == PaintOverride::Absent {
             return Some(());
         }
         if !self.crisp && !path.rendering_mode().use_shape_antialiasing() {
             return None;
         }
         let (black, thin) = match look {
-            Look::Plain { black, thin } => (black, thin),
+            PaintOverride::Plain { black, thin } => (black, thin),
             _ => (false, false),
         };
         let ink = |paint: &Paint, opacity: usvg::Opacity| match paint {
@@ -234,7 +234,8 @@ impl Painter<'_> {
     /// The segments of a long solid line that touch the window, if any; `None` if the whole line is to be
     /// used.
     fn near(self, path: &usvg::Path, stroke: &tiny_skia::Stroke) -> Option<Option<tiny_skia::Path>> {
-        let window = self.window.filter(|_| path.data().len() > FEW_SEGMENTS && stroke.dash.is_none())?;
+        let window =
+            self.window.filter(|_| path.data().len() > MAX_UNCUT_SEGMENTS && stroke.dash.is_none())?;
         let window = window.transform(path.abs_transform().invert()?)?;
         // The reach of a mitred corner or a cap.
         let reach = stroke.width * stroke.miter_limit.max(2.0);
@@ -272,8 +273,8 @@ impl Painter<'_> {
     }
 
     /// The ink of a colour.
-    fn ink(self, rgb: [u8; 3], opacity: f64) -> Ink {
-        let ink = Ink::new(rgb, opacity);
+    fn ink(self, rgb: [u8; 3], opacity: f64) -> CoverageInk {
+        let ink = CoverageInk::new(rgb, opacity);
         if self.crisp { ink.crisp() } else { ink }
     }
 }

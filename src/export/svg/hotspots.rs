@@ -4,16 +4,18 @@
 use crate::drawing::Hotspot;
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::xml::escape;
-use crate::export::paths::canonical_path::{Canonical, Form};
+use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
 
 /// Id and label of the layer.
-pub(crate) const LAYER: &str = "hotspots";
+pub(crate) const HOTSPOT_LAYER: &str = "hotspots";
 
 /// Writes the areas, and completes the start and end tags of the layer. The class of the layer is its name
 /// without an id prefix.
 pub(crate) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals, read_aloud: bool) {
-    out.extend_from_slice(format!(" class=\"{LAYER}\" fill=\"none\" pointer-events=\"all\">\n").as_bytes());
-    let mut canonical = Canonical::new(decimals);
+    out.extend_from_slice(
+        format!(" class=\"{HOTSPOT_LAYER}\" fill=\"none\" pointer-events=\"all\">\n").as_bytes(),
+    );
+    let mut canonical = CanonicalWriter::new(decimals);
     // Areas do not overlap, so they are sorted by part.
     let mut spots: Vec<&Hotspot> = spots.iter().collect();
     spots.sort_by(|a, b| a.part.cmp(&b.part));
@@ -25,7 +27,7 @@ pub(crate) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals, re
             escape(out, part);
         }
         out.extend_from_slice(b"\" d=\"");
-        canonical.write(out, outline, Form::Filled);
+        canonical.write(out, outline, PathForm::Filled);
         out.extend_from_slice(b"\"><title>");
         escape(out, part);
         out.extend_from_slice(b"</title></path>\n");

@@ -8,19 +8,19 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::paint_attributes::{Attributes, alike};
+use super::paint_attributes::{Attributes, have_equal_paint};
 use crate::drawing::{Mark, Paint, Provenance};
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::xml::read_back;
-use crate::export::paths::canonical_path::{Canonical, Form};
-use crate::export::paths::path_piece::Step;
+use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
+use crate::export::paths::path_piece::PathPoint;
 
 /// Number of marks written per task.
-pub(crate) const CHUNK: usize = 2048;
+pub(crate) const MARKS_PER_CHUNK: usize = 2048;
 
 /// Name of a mark. Marks are compared by the fields in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) struct Name<'a> {
+pub(crate) struct MarkName<'a> {
     /// Classes as written.
     pub classes: &'a str,
     /// The part of the model.
@@ -32,42 +32,43 @@ pub(crate) struct Name<'a> {
 }
 
 /// Path data of marks.
-pub(crate) struct Paths {
+pub(crate) struct MarkPaths {
     /// Text of each chunk of marks.
     texts: Vec<Vec<u8>>,
     /// Ranges of each mark.
-    places: Vec<Place>,
+    places: Vec<PathRange>,
 }
 
 /// Ranges of a mark's data in its chunk: first its axis, then its own path.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct PathRange {
     begin: usize,
     axis_end: usize,
     end: usize,
-    start: Option<Step>,
+    start: Option<PathPoint>,
 }
 
-impl Paths {
+impl MarkPaths {
     /// Writes the paths of marks. If these are ordered, each path keeps its direction.
     pub fn of(marks: &[&Mark], ordered: bool, decimals: Decimals) -> Self {
         let write = |chunk: &[&Mark]| {
             let mut text = Vec::with_capacity(chunk.len() * 64);
-            let mut canonical = Canonical::new(decimals);
+            let mut canonical = CanonicalWriter::new(decimals);
             let mut places = Vec::with_capacity(chunk.len());
             for mark in chunk {
                 let begin = text.len();
                 if let Paint::Outline(outline) = &mark.paint {
-                    let form = if ordered { Form::Kept } else { Form::Stroked };
+                    let form = if ordered { PathForm::Kept } else { PathForm::Stroked };
                     canonical.write(&mut text, &outline.axis, form);
                 }
                 let axis_end = text.len();
                 let start = canonical.write(&mut text, &mark.path, form(mark, ordered));
-                places.push(Place { begin, axis_end, end: text.len(), start });
+                places.push(PathRange { begin, axis_end, end: text.len(), start });
             }
             (text, places)
         };
-        let chunks: Vec<(Vec<u8>, Vec<Place>)> = marks.par_chunks(CHUNK).with_max_len(1).map(write).collect();
+        let chunks: Vec<(Vec<u8>, Vec<PathRange>)> =
+            marks.par_chunks(MARKS_PER_CHUNK).with_max_len(1).map(write).collect();
         let mut paths = Self { texts: Vec::new(), places: Vec::with_capacity(marks.len()) };
         for (text, places) in chunks {
             paths.texts.push(text);
@@ -86,56 +87,59 @@ impl Paths {
         self.text(mark, |place| place.begin..place.axis_end)
     }
 
-    fn text(&self, mark: usize, range: impl Fn(&Place) -> Range<usize>) -> &[u8] {
+    fn text(&self, mark: usize, range: impl Fn(&PathRange) -> Range<usize>) -> &[u8] {
         let place = self.places.get(mark).map(range);
-        place.zip(self.texts.get(mark / CHUNK)).and_then(|(range, text)| text.get(range)).unwrap_or_default()
+        place
+            .zip(self.texts.get(mark / MARKS_PER_CHUNK))
+            .and_then(|(range, text)| text.get(range))
+            .unwrap_or_default()
     }
 }
 
 /// The changes to a mark's path that do not affect how it is painted.
-fn form(mark: &Mark, ordered: bool) -> Form {
+fn form(mark: &Mark, ordered: bool) -> PathForm {
     match &mark.paint {
-        _ if ordered => Form::Kept,
-        Paint::Stroke(stroke) if stroke.dash.is_empty() => Form::Stroked,
-        Paint::Stroke(_) => Form::Kept,
-        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => Form::Filled,
+        _ if ordered => PathForm::Kept,
+        Paint::Stroke(stroke) if stroke.dash.is_empty() => PathForm::Stroked,
+        Paint::Stroke(_) => PathForm::Kept,
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => PathForm::Filled,
     }
 }
 
 /// A run of neighbours of equal paint.
-pub(crate) struct AlikeMarks {
+pub(crate) struct PaintRun {
     /// Positions of the marks in the written order.
     pub range: Range<usize>,
     pub attributes: Attributes,
 }
 
 /// Runs of marks of equal paint.
-pub(crate) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
+pub(crate) fn runs(marks: &[&Mark]) -> Vec<PaintRun> {
     let mut at = 0;
     let run = |run: &[&Mark]| {
         let range = at..at + run.len();
         at = range.end;
-        Some(AlikeMarks { range, attributes: Attributes::of(run.first()?) })
+        Some(PaintRun { range, attributes: Attributes::of(run.first()?) })
     };
-    marks.chunk_by(|a, b| alike(a, b)).filter_map(run).collect()
+    marks.chunk_by(|a, b| have_equal_paint(a, b)).filter_map(run).collect()
 }
 
 /// Sort key of a mark, apart from its path data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Key {
+struct SortKey {
     rank: Option<usize>,
-    start: Option<Step>,
+    start: Option<PathPoint>,
 }
 
 /// Written order of marks: within a run by name, start point and path.
-pub(crate) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec<usize> {
+pub(crate) fn sorted(marks: &[&Mark], runs: &[PaintRun], paths: &MarkPaths) -> Vec<usize> {
     let ranks = ranks(marks);
     let key = |mark: usize| {
         let start = paths.places.get(mark).and_then(|place| place.start);
-        (Key { rank: ranks.get(mark).copied(), start }, mark)
+        (SortKey { rank: ranks.get(mark).copied(), start }, mark)
     };
     // Keys are stored next to the mark numbers to avoid cache misses.
-    let mut order: Vec<(Key, usize)> = (0..marks.len()).into_par_iter().map(key).collect();
+    let mut order: Vec<(SortKey, usize)> = (0..marks.len()).into_par_iter().map(key).collect();
     for run in runs.iter().filter(|run| run.range.len() > 1) {
         let Some(of_run) = order.get_mut(run.range.clone()) else { continue };
         // The mark number breaks ties, so the sort need not be stable.
@@ -148,12 +152,12 @@ pub(crate) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec
 
 /// Rank of each mark's name among all names.
 fn ranks(marks: &[&Mark]) -> Vec<usize> {
-    let mut known: FxHashMap<Called, usize> = FxHashMap::default();
-    let mut names: Vec<Called> = Vec::new();
-    let mut last: Option<(Called, usize)> = None;
+    let mut known: FxHashMap<RawMarkName, usize> = FxHashMap::default();
+    let mut names: Vec<RawMarkName> = Vec::new();
+    let mut last: Option<(RawMarkName, usize)> = None;
     let mut numbers: Vec<usize> = Vec::with_capacity(marks.len());
     for mark in marks {
-        let called = Called::of(mark);
+        let called = RawMarkName::of(mark);
         let number = match last {
             // Most marks have the same name as the previous one.
             Some((same, number)) if same == called => number,
@@ -165,12 +169,12 @@ fn ranks(marks: &[&Mark]) -> Vec<usize> {
         last = Some((called, number));
         numbers.push(number);
     }
-    let texts: Vec<[Option<Cow<str>>; 3]> = names.iter().map(Called::texts).collect();
+    let texts: Vec<[Option<Cow<str>>; 3]> = names.iter().map(RawMarkName::texts).collect();
     let name = |number: usize| {
         let [classes, part, material] =
             texts.get(number).map_or([None; 3], |texts| texts.each_ref().map(Option::as_deref));
         let tone = names.get(number).and_then(|called| called.tone);
-        Name { classes: classes.unwrap_or_default(), part, material, tone }
+        MarkName { classes: classes.unwrap_or_default(), part, material, tone }
     };
     let mut order: Vec<usize> = (0..names.len()).collect();
     order.sort_by(|a, b| name(*a).cmp(&name(*b)));
@@ -191,14 +195,14 @@ fn ranks(marks: &[&Mark]) -> Vec<usize> {
 
 /// Name of a mark before it is written as text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Called<'a> {
+struct RawMarkName<'a> {
     classes: &'a [&'static str],
     tone: Option<u16>,
     part: Option<&'a str>,
     material: Option<&'a str>,
 }
 
-impl<'a> Called<'a> {
+impl<'a> RawMarkName<'a> {
     fn of(mark: &'a Mark) -> Self {
         let Provenance { classes, tone, part, material, .. } = &mark.provenance;
         let material =

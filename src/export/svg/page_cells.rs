@@ -8,39 +8,39 @@ use kurbo::{Affine, BezPath, PathEl, Point, flatten};
 use crate::drawing::{Mark, Page, Paint, Unit};
 
 /// Cells along the longer side of the page.
-const CELLS: f64 = 256.0;
+const CELLS_PER_SIDE: f64 = 256.0;
 
 /// Reach of anti-aliasing around a mark, in px at 96 per inch.
 const BLUR_PX: f64 = 1.5;
 
 /// Reach of a mitred corner, in half line widths.
-const MITER: f64 = 4.0;
+const MITER_LIMIT: f64 = 4.0;
 
 /// The page divided into square cells.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Cells {
+pub(crate) struct PageCells {
     size: f64,
     blur: f64,
     columns: i32,
     rows: i32,
 }
 
-impl Cells {
+impl PageCells {
     /// The cells of a page.
     pub fn of(page: &Page) -> Self {
         let px = match page.unit {
             Unit::Px => 1.0,
             Unit::Mm => 25.4 / 96.0,
         };
-        let size = (page.width.max(page.height) / CELLS).max(f64::MIN_POSITIVE);
-        let count = |length: f64| (length / size).ceil().clamp(1.0, CELLS) as i32;
+        let size = (page.width.max(page.height) / CELLS_PER_SIDE).max(f64::MIN_POSITIVE);
+        let count = |length: f64| (length / size).ceil().clamp(1.0, CELLS_PER_SIDE) as i32;
         Self { size, blur: BLUR_PX * px, columns: count(page.width), rows: count(page.height) }
     }
 
     /// Cells that a mark may paint, sorted and unique.
-    pub fn under(&self, mark: &Mark) -> Vec<u32> {
+    pub fn cells_of(&self, mark: &Mark) -> Vec<u32> {
         let (reach, filled) = match &mark.paint {
-            Paint::Stroke(stroke) => (MITER * stroke.width / 2.0, false),
+            Paint::Stroke(stroke) => (MITER_LIMIT * stroke.width / 2.0, false),
             Paint::Fill(_) | Paint::Gradient(_) | Paint::Outline(_) | Paint::Image(_) => (0.0, true),
         };
         let mut found = Vec::new();
@@ -91,7 +91,7 @@ impl Cells {
     fn add_side(&self, found: &mut Vec<u32>, from: Point, to: Point, margin: f64) {
         // Limit the steps of segments far off the page. On the page, a segment is at most as long as the page
         // plus a cell.
-        let steps = (to - from).hypot().ceil().clamp(1.0, 4.0 * CELLS);
+        let steps = (to - from).hypot().ceil().clamp(1.0, 4.0 * CELLS_PER_SIDE);
         // The path was flattened within a tenth of a cell.
         let margin = margin + 0.1 + 0.5 * ((to - from).hypot() / steps - 1.0).max(0.0);
         for step in 0..steps as u32 {
@@ -149,7 +149,7 @@ mod tests {
             paint: Paint::Fill(Colour::BLACK),
             provenance: Provenance::default(),
         };
-        let under = Cells::of(&page).under(&mark);
+        let under = PageCells::of(&page).cells_of(&mark);
         for y in 0..256u32 {
             for x in 0..256u32 {
                 let far =
@@ -170,7 +170,7 @@ mod tests {
         for data in ["M-1e300 0L1e300 1e300Z", "M0 0", "M1e9 1e9L2e9 1e9", ""] {
             let path = BezPath::from_svg(data).unwrap();
             let mark = Mark { path, paint: Paint::Fill(Colour::BLACK), provenance: Provenance::default() };
-            assert!(Cells::of(&page).under(&mark).len() <= 256 * 3);
+            assert!(PageCells::of(&page).cells_of(&mark).len() <= 256 * 3);
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::export::encoding::decimals::Decimals;
 
 /// Value of one attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Value {
+enum AttributeValue {
     /// Has no influence on the mark.
     Any,
     /// `none`.
@@ -27,66 +27,68 @@ enum Value {
 pub(crate) const WIDTH_DECIMALS: u8 = 3;
 
 /// Attribute names in written order.
-const NAMES: [&str; 7] =
+const ATTRIBUTE_NAMES: [&str; 7] =
     ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linecap", "stroke-linejoin"];
 
 /// Initial values of SVG.
-const INITIAL: Attributes = Attributes([
-    Value::Colour(Colour::BLACK),
-    Value::Opacity(255),
-    Value::None,
-    Value::Opacity(255),
-    Value::Width(1000),
-    Value::Cap(Cap::Butt),
-    Value::Join(Join::Miter),
+const INITIAL_ATTRIBUTES: Attributes = Attributes([
+    AttributeValue::Colour(Colour::BLACK),
+    AttributeValue::Opacity(255),
+    AttributeValue::None,
+    AttributeValue::Opacity(255),
+    AttributeValue::Width(1000),
+    AttributeValue::Cap(Cap::Butt),
+    AttributeValue::Join(Join::Miter),
 ]);
 
-/// Painting attributes of a mark except dashes: one value for each of [`NAMES`].
+/// Painting attributes of a mark except dashes: one value for each of [`ATTRIBUTE_NAMES`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Attributes([Value; 7]);
+pub(crate) struct Attributes([AttributeValue; 7]);
 
 impl Attributes {
     /// The attributes that a mark needs.
     pub fn of(mark: &Mark) -> Self {
-        use Value::Any;
+        use AttributeValue::Any;
         match &mark.paint {
             Paint::Stroke(stroke) => Self([
-                Value::None,
+                AttributeValue::None,
                 Any,
-                Value::Colour(opaque(stroke.colour)),
-                Value::Opacity(stroke.colour.a),
-                Value::Width(Decimals::new(WIDTH_DECIMALS).round(stroke.width)),
-                Value::Cap(stroke.cap),
-                Value::Join(stroke.join),
+                AttributeValue::Colour(opaque(stroke.colour)),
+                AttributeValue::Opacity(stroke.colour.a),
+                AttributeValue::Width(Decimals::new(WIDTH_DECIMALS).round(stroke.width)),
+                AttributeValue::Cap(stroke.cap),
+                AttributeValue::Join(stroke.join),
             ]),
             // Each gradient is written separately as the mark's own fill.
             Paint::Gradient(gradient) => {
                 let opacity = gradient.stops.first().map_or(255, |(_, colour)| colour.a);
-                Self([Any, Value::Opacity(opacity), Value::None, Any, Any, Any, Any])
+                Self([Any, AttributeValue::Opacity(opacity), AttributeValue::None, Any, Any, Any, Any])
             }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Self([
-                Value::Colour(opaque(*colour)),
-                Value::Opacity(colour.a),
-                Value::None,
+                AttributeValue::Colour(opaque(*colour)),
+                AttributeValue::Opacity(colour.a),
+                AttributeValue::None,
                 Any,
                 Any,
                 Any,
                 Any,
             ]),
             // Only its pieces of one colour use these attributes: opaque fills.
-            Paint::Image(_) => Self([Any, Value::Opacity(255), Value::None, Any, Any, Any, Any]),
+            Paint::Image(_) => {
+                Self([Any, AttributeValue::Opacity(255), AttributeValue::None, Any, Any, Any, Any])
+            }
         }
     }
 
     /// Best attributes for a group: for each attribute, the value of most marks, or the first of equally
     /// frequent ones. `runs` holds the attributes and the number of marks of each run.
     pub fn common(runs: &[(Self, usize)]) -> Self {
-        let mut common = INITIAL;
+        let mut common = INITIAL_ATTRIBUTES;
         for (index, best) in common.0.iter_mut().enumerate() {
-            let mut counts: FxHashMap<Value, usize> = FxHashMap::default();
+            let mut counts: FxHashMap<AttributeValue, usize> = FxHashMap::default();
             let values = || {
                 let of_run = |(set, count): &(Self, usize)| Some((*set.0.get(index)?, *count));
-                runs.iter().filter_map(of_run).filter(|(value, _)| *value != Value::Any)
+                runs.iter().filter_map(of_run).filter(|(value, _)| *value != AttributeValue::Any)
             };
             for (value, count) in values() {
                 *counts.entry(value).or_default() += count;
@@ -105,42 +107,44 @@ impl Attributes {
 
     /// Writes the attributes of an outermost group; `ink` is the colour written as `currentColor`.
     pub fn write(&self, out: &mut Vec<u8>, ink: Option<Colour>) {
-        let mut outer = INITIAL;
+        let mut outer = INITIAL_ATTRIBUTES;
         if ink == Some(Colour::BLACK)
             && let Some(fill) = outer.0.first_mut()
         {
             // Black is the initial fill, but must be written if it is `currentColor`.
-            *fill = Value::Any;
+            *fill = AttributeValue::Any;
         }
         self.write_over(&outer, out, ink);
     }
 
     /// Writes the attributes that differ from an outer group.
     pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>, ink: Option<Colour>) {
-        for ((name, value), outer) in NAMES.iter().zip(&self.0).zip(&outer.0) {
-            if value == outer || *value == Value::Any {
+        for ((name, value), outer) in ATTRIBUTE_NAMES.iter().zip(&self.0).zip(&outer.0) {
+            if value == outer || *value == AttributeValue::Any {
                 continue;
             }
             out.push(b' ');
             out.extend_from_slice(name.as_bytes());
             out.extend_from_slice(b"=\"");
             match value {
-                Value::Any => {}
-                Value::None => out.extend_from_slice(b"none"),
-                Value::Colour(colour) if ink == Some(*colour) => out.extend_from_slice(b"currentColor"),
-                Value::Colour(colour) => out.extend_from_slice(hex(*colour).as_bytes()),
-                Value::Opacity(a) => {
+                AttributeValue::Any => {}
+                AttributeValue::None => out.extend_from_slice(b"none"),
+                AttributeValue::Colour(colour) if ink == Some(*colour) => {
+                    out.extend_from_slice(b"currentColor")
+                }
+                AttributeValue::Colour(colour) => out.extend_from_slice(hex(*colour).as_bytes()),
+                AttributeValue::Opacity(a) => {
                     out.extend_from_slice(Decimals::new(3).text(f64::from(*a) / 255.0).as_bytes());
                 }
-                Value::Width(width) => {
+                AttributeValue::Width(width) => {
                     Decimals::new(WIDTH_DECIMALS).write(out, *width);
                 }
-                Value::Cap(cap) => out.extend_from_slice(match cap {
+                AttributeValue::Cap(cap) => out.extend_from_slice(match cap {
                     Cap::Butt => b"butt",
                     Cap::Round => b"round",
                     Cap::Square => b"square",
                 }),
-                Value::Join(join) => out.extend_from_slice(match join {
+                AttributeValue::Join(join) => out.extend_from_slice(match join {
                     Join::Miter => b"miter",
                     Join::Round => b"round",
                     Join::Bevel => b"bevel",
@@ -152,13 +156,13 @@ impl Attributes {
 
     /// Whether no attribute differs from an outer group.
     pub fn fits(&self, outer: &Self) -> bool {
-        self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == Value::Any)
+        self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == AttributeValue::Any)
     }
 }
 
 /// Whether two marks need the same attributes, apart from dashes.
 #[inline]
-pub(crate) fn alike(a: &Mark, b: &Mark) -> bool {
+pub(crate) fn have_equal_paint(a: &Mark, b: &Mark) -> bool {
     match (&a.paint, &b.paint) {
         (Paint::Stroke(a), Paint::Stroke(b)) => {
             let rounded = |width| Decimals::new(WIDTH_DECIMALS).round(width);

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::page_cells::Cells;
+use super::page_cells::PageCells;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Layer, Mark, OutlinePaint, Paint};
 
@@ -26,7 +26,7 @@ pub(crate) struct PartGroup<'a> {
 }
 
 /// Marks of one layer and one part that stay together.
-struct Bundle<'a> {
+struct PartBundle<'a> {
     part: usize,
     marks: Vec<&'a Mark>,
     ordered: bool,
@@ -36,7 +36,7 @@ struct Bundle<'a> {
 pub(crate) fn part_groups(drawing: &Drawing) -> Vec<PartGroup<'_>> {
     let mut names: Vec<Option<Arc<str>>> = Vec::new();
     let bundles = bundles(drawing, &mut names);
-    let after = precedence(&bundles, &Cells::of(&drawing.page));
+    let after = precedence(&bundles, &PageCells::of(&drawing.page));
     let mut groups: Vec<PartGroup> = Vec::new();
     let mut last = None;
     for index in schedule(&bundles, &after) {
@@ -55,9 +55,9 @@ pub(crate) fn part_groups(drawing: &Drawing) -> Vec<PartGroup<'_>> {
 }
 
 /// Bundles of marks in painting order; `names` receives the names of the parts by number.
-fn bundles<'a>(drawing: &'a Drawing, names: &mut Vec<Option<Arc<str>>>) -> Vec<Bundle<'a>> {
+fn bundles<'a>(drawing: &'a Drawing, names: &mut Vec<Option<Arc<str>>>) -> Vec<PartBundle<'a>> {
     let mut numbers: FxHashMap<Option<&str>, usize> = FxHashMap::default();
-    let mut bundles: Vec<Bundle> = Vec::new();
+    let mut bundles: Vec<PartBundle> = Vec::new();
     for layer in &drawing.layers {
         let begin = bundles.len();
         let exchangeable = is_of_one_colour(layer);
@@ -75,7 +75,7 @@ fn bundles<'a>(drawing: &'a Drawing, names: &mut Vec<Option<Arc<str>>>) -> Vec<B
                 }
             };
             let index = open.unwrap_or_else(|| {
-                bundles.push(Bundle { part, marks: Vec::new(), ordered: layer.ordered });
+                bundles.push(PartBundle { part, marks: Vec::new(), ordered: layer.ordered });
                 bundles.len() - 1
             });
             of_part.insert(part, index);
@@ -104,7 +104,7 @@ fn colour(mark: &Mark) -> Option<Colour> {
 }
 
 /// For each bundle, the bundles that must be painted after it.
-fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
+fn precedence(bundles: &[PartBundle], cells: &PageCells) -> Vec<Vec<usize>> {
     // Bundles painted in each cell, back to front.
     let mut painted: Vec<(u32, usize, Option<Colour>)> = bundles
         .par_iter()
@@ -113,7 +113,7 @@ fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
             let mut own: Vec<_> = bundle
                 .marks
                 .iter()
-                .flat_map(|mark| cells.under(mark).into_iter().map(|cell| (cell, index, colour(mark))))
+                .flat_map(|mark| cells.cells_of(mark).into_iter().map(|cell| (cell, index, colour(mark))))
                 .collect();
             own.dedup();
             own
@@ -140,7 +140,7 @@ fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
 }
 
 /// Topological order of the bundles that continues each part as long as possible.
-fn schedule(bundles: &[Bundle], after: &[Vec<usize>]) -> Vec<usize> {
+fn schedule(bundles: &[PartBundle], after: &[Vec<usize>]) -> Vec<usize> {
     let mut waits = vec![0_usize; bundles.len()];
     after.iter().flatten().for_each(|above| waits[*above] += 1);
     let parts = bundles.iter().map(|bundle| bundle.part + 1).max().unwrap_or(0);

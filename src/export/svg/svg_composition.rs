@@ -4,11 +4,11 @@ use kurbo::{Affine, BezPath};
 
 use super::svg_drawing::{finished, open};
 use super::svg_options::SvgOptions;
-use crate::drawing::{Composition, Drawing, Item};
+use crate::drawing::{Composition, Drawing, PlacedDrawing};
 use crate::export::encoding::decimals::Decimals;
-use crate::export::encoding::embedded_pictures::{Named, matrix};
-use crate::export::encoding::xml::{Ids, escape};
-use crate::export::paths::canonical_path::{Canonical, Form};
+use crate::export::encoding::embedded_pictures::{PictureIds, matrix};
+use crate::export::encoding::xml::{UniqueIds, escape};
+use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
 
 impl Composition {
     /// Writes the page as SVG text. Each drawing is a layer with its name, clipped to its frame and moved to
@@ -27,18 +27,18 @@ impl Composition {
     /// ```
     #[must_use]
     pub fn to_svg(&self, options: &SvgOptions) -> String {
-        let mut ids = Ids::new(&options.id_prefix);
-        let named = |item: &Item, ids: &mut Ids| {
+        let mut ids = UniqueIds::new(&options.id_prefix);
+        let named = |item: &PlacedDrawing, ids: &mut UniqueIds| {
             let id = ids.take(&item.name);
             let clip = item.clip.as_ref().map(|_| ids.take(&format!("{}-frame", item.name)));
             (id, clip)
         };
         let ids_of: Vec<(String, Option<String>)> =
             self.items.iter().map(|item| named(item, &mut ids)).collect();
-        let mut pictures: Vec<Named> = Vec::with_capacity(self.items.len());
-        for Item { name, drawing, .. } in &self.items {
+        let mut pictures: Vec<PictureIds> = Vec::with_capacity(self.items.len());
+        for PlacedDrawing { name, drawing, .. } in &self.items {
             ids.within(name);
-            pictures.push(Named::of(drawing, &mut ids));
+            pictures.push(PictureIds::of(drawing, &mut ids));
         }
         let uses = pictures.iter().any(|named| !named.is_empty());
         ids.within("");
@@ -63,7 +63,7 @@ impl Composition {
 
 fn write_clip(out: &mut Vec<u8>, id: &str, path: &BezPath, decimals: Decimals) {
     out.extend_from_slice(format!("<clipPath id=\"{id}\"><path d=\"").as_bytes());
-    Canonical::new(decimals).write(out, path, Form::Filled);
+    CanonicalWriter::new(decimals).write(out, path, PathForm::Filled);
     out.extend_from_slice(b"\"/></clipPath>\n");
 }
 

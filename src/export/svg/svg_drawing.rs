@@ -4,7 +4,7 @@ use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::hotspots;
-use super::mark_order::{self, AlikeMarks, CHUNK, Paths};
+use super::mark_order::{self, MARKS_PER_CHUNK, MarkPaths, PaintRun};
 use super::paint_attributes::{Attributes, WIDTH_DECIMALS, hex};
 use super::part_groups::{PartGroup, part_groups};
 use super::svg_images;
@@ -12,8 +12,8 @@ use super::svg_options::{Grouping, SvgOptions};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Page, Paint, Unit};
 use crate::export::encoding::decimals::Decimals;
-use crate::export::encoding::embedded_pictures::Named;
-use crate::export::encoding::xml::{Ids, escape};
+use crate::export::encoding::embedded_pictures::PictureIds;
+use crate::export::encoding::xml::{UniqueIds, escape};
 
 /// Decimals of dash lengths. Finer than coordinates, because errors accumulate along a path.
 const DASH_DECIMALS: u8 = 3;
@@ -30,8 +30,8 @@ impl Drawing {
     /// written decimal.
     #[must_use]
     pub fn to_svg(&self, options: &SvgOptions) -> String {
-        let mut ids = Ids::new(&options.id_prefix);
-        let named = &Named::of(self, &mut ids);
+        let mut ids = UniqueIds::new(&options.id_prefix);
+        let named = &PictureIds::of(self, &mut ids);
         let mut out = Vec::new();
         let has_buttons = !self.hotspots.is_empty();
         open(&mut out, (&self.title, &self.page), (!named.is_empty(), has_buttons), options, &mut ids);
@@ -43,9 +43,9 @@ impl Drawing {
     pub(crate) fn write_content(
         &self,
         out: &mut Vec<u8>,
-        named: &Named,
+        named: &PictureIds,
         options: &SvgOptions,
-        ids: &mut Ids,
+        ids: &mut UniqueIds,
     ) {
         let decimals = Decimals::new(options.decimals(self.page.unit));
         let ink = options.ink.map(|ink| Colour { a: 255, ..ink });
@@ -60,14 +60,15 @@ impl Drawing {
                     let (id, label) = self.names(layer);
                     open_layer(out, ids, &id, &label);
                     let fills = gradient_ids(&marks, ids);
-                    let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills, ink };
+                    let group =
+                        SvgGroup { marks: &marks, ordered: layer.ordered, decimals, named, fills, ink };
                     group.write(out, b"");
                 }
             }
             Grouping::Part => {
                 for PartGroup { name, marks, ordered } in part_groups(self) {
                     let fills = gradient_ids(&marks, ids);
-                    let group = Group { marks: &marks, ordered, decimals, named, fills, ink };
+                    let group = SvgGroup { marks: &marks, ordered, decimals, named, fills, ink };
                     match name {
                         Some(name) => {
                             out.extend_from_slice(b"<g id=\"");
@@ -91,13 +92,13 @@ impl Drawing {
             }
         }
         if !self.hotspots.is_empty() {
-            open_layer(out, ids, hotspots::LAYER, hotspots::LAYER);
+            open_layer(out, ids, hotspots::HOTSPOT_LAYER, hotspots::HOTSPOT_LAYER);
             hotspots::write(out, &self.hotspots, decimals, options.read_aloud);
         }
     }
 
     /// Writes the coloured paper.
-    pub(crate) fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
+    pub(crate) fn paper(&self, out: &mut Vec<u8>, ids: &mut UniqueIds) {
         let Some(colour) = self.page.background else { return };
         let number = |value: f64| Decimals::new(4).text(value);
         let kind = LayerKind::Paper;
@@ -138,7 +139,7 @@ pub(crate) fn open(
     (title, page): (&String, &Page),
     (uses, has_buttons): (bool, bool),
     options: &SvgOptions,
-    ids: &mut Ids,
+    ids: &mut UniqueIds,
 ) {
     let number = |value: f64| Decimals::new(4).text(value);
     let unit = match page.unit {
@@ -183,7 +184,7 @@ pub(crate) fn finished(mut out: Vec<u8>) -> String {
 }
 
 /// Writes the start tag of a layer, without its painting attributes and closing bracket.
-fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
+fn open_layer(out: &mut Vec<u8>, ids: &mut UniqueIds, id: &str, label: &str) {
     out.extend_from_slice(b"<g id=\"");
     out.extend_from_slice(ids.take(id).as_bytes());
     out.extend_from_slice(b"\" inkscape:groupmode=\"layer\" inkscape:label=\"");
@@ -192,12 +193,12 @@ fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
 }
 
 /// Marks written as one group.
-struct Group<'a> {
+struct SvgGroup<'a> {
     marks: &'a [&'a Mark],
     /// Whether marks keep their order, and paths their direction.
     ordered: bool,
     decimals: Decimals,
-    named: &'a Named<'a>,
+    named: &'a PictureIds<'a>,
     /// Ids of the gradients, by index of the mark.
     fills: FxHashMap<usize, String>,
     /// Colour written as `currentColor`.
@@ -205,12 +206,12 @@ struct Group<'a> {
 }
 
 /// Creates ids for the gradients of marks.
-fn gradient_ids(marks: &[&Mark], ids: &mut Ids) -> FxHashMap<usize, String> {
+fn gradient_ids(marks: &[&Mark], ids: &mut UniqueIds) -> FxHashMap<usize, String> {
     let graded = marks.iter().enumerate().filter(|(_, mark)| matches!(mark.paint, Paint::Gradient(_)));
     graded.map(|(index, _)| (index, ids.take("gradient"))).collect()
 }
 
-impl Group<'_> {
+impl SvgGroup<'_> {
     /// Writes the rest of a group whose start tag is open: shared attributes, `head`, marks and end tag.
     fn write(&self, out: &mut Vec<u8>, head: &[u8]) {
         let runs = mark_order::runs(self.marks);
@@ -224,17 +225,23 @@ impl Group<'_> {
         out.extend_from_slice(b">\n");
         out.extend_from_slice(head);
         self.write_gradients(out);
-        let paths = Paths::of(self.marks, self.ordered, self.decimals);
+        let paths = MarkPaths::of(self.marks, self.ordered, self.decimals);
         let order = match self.ordered {
             true => (0..self.marks.len()).collect(),
             false => mark_order::sorted(self.marks, &runs, &paths),
         };
         let write = |(index, chunk): (usize, &[usize])| {
             let mut out = Vec::with_capacity(chunk.len() * 96);
-            self.write_chunk(&mut out, chunk, index * CHUNK, &Shared { common, paths: &paths, runs: &runs });
+            self.write_chunk(
+                &mut out,
+                chunk,
+                index * MARKS_PER_CHUNK,
+                &ChunkContext { common, paths: &paths, runs: &runs },
+            );
             out
         };
-        let pieces: Vec<Vec<u8>> = order.par_chunks(CHUNK).with_max_len(1).enumerate().map(write).collect();
+        let pieces: Vec<Vec<u8>> =
+            order.par_chunks(MARKS_PER_CHUNK).with_max_len(1).enumerate().map(write).collect();
         out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
         for piece in pieces {
             out.extend_from_slice(&piece);
@@ -258,12 +265,11 @@ impl Group<'_> {
 
     /// Writes a chunk of marks, starting with number `from`. Neighbours of equal paint that differs from the
     /// group's paint share an inner group.
-    fn write_chunk(&self, out: &mut Vec<u8>, chunk: &[usize], from: usize, shared: &Shared) {
-        let Shared { common, paths, runs } = shared;
+    fn write_chunk(&self, out: &mut Vec<u8>, chunk: &[usize], from: usize, shared: &ChunkContext) {
+        let ChunkContext { common, paths, runs } = shared;
         let first = runs.partition_point(|run| run.range.end <= from);
         let to = from + chunk.len();
-        for AlikeMarks { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to)
-        {
+        for PaintRun { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to) {
             let grouped = range.len() > 1 && !attributes.fits(common);
             if grouped && range.start >= from {
                 out.extend_from_slice(b"<g");
@@ -294,10 +300,10 @@ impl Group<'_> {
 }
 
 /// Data shared by the chunks of a group.
-struct Shared<'a> {
+struct ChunkContext<'a> {
     common: Attributes,
-    paths: &'a Paths,
-    runs: &'a [AlikeMarks],
+    paths: &'a MarkPaths,
+    runs: &'a [PaintRun],
 }
 
 /// Writes one gradient.

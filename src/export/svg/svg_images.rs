@@ -14,11 +14,11 @@ use kurbo::BezPath;
 use super::mark_order;
 use super::paint_attributes::{Attributes, hex};
 use crate::colour::srgb::Colour;
-use crate::drawing::{ImagePaint, ImagePiece, Mark, Shows};
+use crate::drawing::{ImagePaint, ImagePiece, Mark, PieceContent};
 use crate::export::encoding::decimals::Decimals;
-use crate::export::encoding::embedded_pictures::{Named, matrix};
+use crate::export::encoding::embedded_pictures::{PictureIds, matrix};
 use crate::export::encoding::xml::escape;
-use crate::export::paths::canonical_path::{Canonical, Form};
+use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
 
 /// Writes a mark; `area` is the path data of its outline.
 pub(crate) fn write(
@@ -26,7 +26,7 @@ pub(crate) fn write(
     (mark, image): (&Mark, &ImagePaint),
     (outer, attributes): (&Attributes, &Attributes),
     area: &[u8],
-    named: &Named,
+    named: &PictureIds,
     decimals: Decimals,
 ) {
     let (id, picture) = (named.mark(mark), named.picture(image));
@@ -73,20 +73,20 @@ fn pieces(
     ink: Option<Colour>,
     decimals: Decimals,
 ) {
-    let mut canonical = Canonical::new(decimals);
+    let mut canonical = CanonicalWriter::new(decimals);
     let mut data = Vec::new();
     for (number, pieces) in image.pieces.chunk_by(of_one_colour).enumerate() {
         data.clear();
         let path: BezPath =
             pieces.iter().flat_map(|piece| piece.outline.elements().iter().copied()).collect();
         let Some(shows) = pieces.first().map(|piece| piece.shows) else { continue };
-        let form = if matches!(shows, Shows::Colour(_)) { Form::Filled } else { Form::Kept };
+        let form = if matches!(shows, PieceContent::Colour(_)) { PathForm::Filled } else { PathForm::Kept };
         canonical.write(&mut data, &path, form);
         if data.is_empty() {
             continue;
         }
         match shows {
-            Shows::Pixels(transform) => {
+            PieceContent::Pixels(transform) => {
                 let own = format!("{id}-{}", number + 1);
                 clip(out, &own, &data);
                 let used = format!(
@@ -95,7 +95,7 @@ fn pieces(
                 );
                 out.extend_from_slice(used.as_bytes());
             }
-            Shows::Colour(colour) => {
+            PieceContent::Colour(colour) => {
                 let light = Colour { r: colour.a, g: colour.a, b: colour.a, a: 255 };
                 let colour = if ink.is_some() { light } else { colour };
                 out.extend_from_slice(format!("<path fill=\"{}\" d=\"", hex(colour)).as_bytes());
@@ -110,8 +110,8 @@ fn pieces(
 fn of_one_colour(a: &ImagePiece, b: &ImagePiece) -> bool {
     let colour = |piece: &ImagePiece| -> Option<Colour> {
         match piece.shows {
-            Shows::Colour(colour) => Some(colour),
-            Shows::Pixels(_) => None,
+            PieceContent::Colour(colour) => Some(colour),
+            PieceContent::Pixels(_) => None,
         }
     };
     colour(a).is_some() && colour(a) == colour(b)

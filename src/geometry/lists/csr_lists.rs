@@ -1,4 +1,4 @@
-//! [`Grouped`]: a list of values for each group, in compressed sparse row (CSR) form, built by a counting
+//! [`CsrLists`]: a list of values for each group, in compressed sparse row (CSR) form, built by a counting
 //! sort.
 
 use std::ops::Range;
@@ -7,13 +7,13 @@ use crate::parallel::prelude::*;
 
 /// Lists of values, one per group, in CSR form. Values of a group keep their order of insertion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grouped<T> {
+pub struct CsrLists<T> {
     /// Start of each group in `values`, and the end of the last; empty without groups.
     starts: Vec<u32>,
     values: Vec<T>,
 }
 
-impl<T> Default for Grouped<T> {
+impl<T> Default for CsrLists<T> {
     fn default() -> Self {
         Self { starts: Vec::new(), values: Vec::new() }
     }
@@ -22,7 +22,7 @@ impl<T> Default for Grouped<T> {
 /// Builds the lists of `count` groups from the pairs (group, value) that `fill` passes to its argument.
 ///
 /// `fill` is called twice and must pass the same pairs both times.
-pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
+pub fn csr_lists<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> CsrLists<T> {
     // Counting sort in one array: counts are stored two places ahead and become starts one place ahead.
     // Filling a group advances its start to its end, which is the start of the next group.
     let mut starts = vec![0u32; count + 2];
@@ -41,15 +41,18 @@ pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -
         *next += 1;
     });
     starts.truncate(count + 1);
-    Grouped { starts, values }
+    CsrLists { starts, values }
 }
 
-/// Builds the lists of `count` groups from an iterator of pairs, twice as fast as [`grouped`].
-pub fn grouped_pairs<T: Copy>(count: usize, pairs: impl Iterator<Item = (usize, T)> + Clone) -> Grouped<T> {
+/// Builds the lists of `count` groups from an iterator of pairs, twice as fast as [`csr_lists`].
+pub fn csr_lists_from_pairs<T: Copy>(
+    count: usize,
+    pairs: impl Iterator<Item = (usize, T)> + Clone,
+) -> CsrLists<T> {
     let Some((_, blank)) = pairs.clone().next() else {
-        return Grouped { starts: vec![0; count + 1], values: Vec::new() };
+        return CsrLists { starts: vec![0; count + 1], values: Vec::new() };
     };
-    // Counting sort as in `grouped`.
+    // Counting sort as in `csr_lists`.
     let mut starts = vec![0u32; count + 2];
     pairs.clone().for_each(|(group, _)| starts[group + 2] += 1);
     for group in 0..count {
@@ -62,13 +65,13 @@ pub fn grouped_pairs<T: Copy>(count: usize, pairs: impl Iterator<Item = (usize, 
         *next += 1;
     }
     starts.truncate(count + 1);
-    Grouped { starts, values }
+    CsrLists { starts, values }
 }
 
 /// Groups that one task rewrites.
-const CHUNK: usize = 1 << 13;
+const LISTS_PER_TASK: usize = 1 << 13;
 
-impl<T: Copy> Grouped<T> {
+impl<T: Copy> CsrLists<T> {
     /// Number of groups.
     pub fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
@@ -114,7 +117,7 @@ impl<T: Copy> Grouped<T> {
         T: Send + Sync,
     {
         let count = self.count();
-        let chunks = (count / CHUNK).max(1);
+        let chunks = (count / LISTS_PER_TASK).max(1);
         let of_chunk = |chunk: usize| {
             let groups = chunk * count / chunks..(chunk + 1) * count / chunks;
             let mut ends = Vec::with_capacity(groups.len());
@@ -150,8 +153,8 @@ impl<T: Copy> Grouped<T> {
 mod tests {
     use super::*;
 
-    fn of_words(words: &[&'static str]) -> Grouped<&'static str> {
-        grouped(4, |put| words.iter().copied().for_each(|word| put(word.len(), word)))
+    fn of_words(words: &[&'static str]) -> CsrLists<&'static str> {
+        csr_lists(4, |put| words.iter().copied().for_each(|word| put(word.len(), word)))
     }
 
     #[test]
@@ -168,17 +171,17 @@ mod tests {
     fn groups_may_have_no_values() {
         let none = of_words(&[]);
         assert_eq!((none.count(), none.of(3).len()), (4, 0));
-        assert_eq!(Grouped::<u32>::default().count(), 0);
+        assert_eq!(CsrLists::<u32>::default().count(), 0);
     }
 
     #[test]
     fn pairs_are_sorted_as_what_is_called_for_is_and_many_groups_are_tidied_like_few() {
-        let count = 3 * CHUNK + 17;
+        let count = 3 * LISTS_PER_TASK + 17;
         let pairs =
             |items: usize| (0..items).map(move |item| (item.wrapping_mul(2_654_435_761) % count, item));
-        for items in [0, 1, 100, 5 * CHUNK] {
-            let plain = grouped(count, |put| pairs(items).for_each(|(group, value)| put(group, value)));
-            assert_eq!(grouped_pairs(count, pairs(items)), plain, "{items} items");
+        for items in [0, 1, 100, 5 * LISTS_PER_TASK] {
+            let plain = csr_lists(count, |put| pairs(items).for_each(|(group, value)| put(group, value)));
+            assert_eq!(csr_lists_from_pairs(count, pairs(items)), plain, "{items} items");
             let kept = |_: usize, own: &mut Vec<usize>| own.retain(|value| value % 7 < 3);
             let tidied = plain.clone().tidied(kept);
             for group in 0..count {

@@ -1,15 +1,15 @@
-//! [`Ranks`]: a bit set that returns the rank of a number, the count of smaller members, in constant time.
+//! [`RankBitset`]: a bit set that returns the rank of a number, the count of smaller members, in constant time.
 
 /// Set of numbers below a bound, with constant-time rank queries.
 #[derive(Debug, Clone, Default)]
-pub struct Ranks {
+pub struct RankBitset {
     /// One bit per number: whether it is a member.
     words: Vec<u64>,
     /// Number of members before each word of `words`, and in total.
     before: Vec<u32>,
 }
 
-impl Ranks {
+impl RankBitset {
     /// Builds the set of the `listed` numbers, all below `bound`. They may be in any order and repeat.
     #[must_use]
     pub fn new(bound: usize, listed: impl IntoIterator<Item = usize>) -> Self {
@@ -85,7 +85,7 @@ mod tests {
             let is_held = |number: &usize| hash(1, &[*number as u64]).is_multiple_of(of);
             let plain: Vec<usize> = (0..bound).filter(is_held).collect();
             // Reversed and doubled: order and repetition must not matter.
-            let ranks = Ranks::new(bound, plain.iter().rev().chain(&plain).copied());
+            let ranks = RankBitset::new(bound, plain.iter().rev().chain(&plain).copied());
             assert_eq!(ranks.iter().collect::<Vec<_>>(), plain);
             assert_eq!(ranks.count(), plain.len());
             for number in 0..bound {
@@ -97,6 +97,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(Ranks::default().count(), 0);
+        assert_eq!(RankBitset::default().count(), 0);
     }
 }

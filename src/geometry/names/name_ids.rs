@@ -7,7 +7,7 @@ use crate::geometry::numbers::noise::hash;
 /// Returns a number for each name, in their order: a hash of the name and its occurrence count among equal
 /// names.
 #[must_use]
-pub fn identities<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
+pub fn stable_ids<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
     let mut counts: FxHashMap<&str, u64> = FxHashMap::default();
     let of = |name: &'a str| {
         let count = counts.entry(name).or_default();
@@ -29,11 +29,11 @@ mod tests {
 
     #[test]
     fn what_comes_and_goes_changes_no_other() {
-        let all = identities(["bolt", "bolt", "wheel", "", "a name of many letters"]);
+        let all = stable_ids(["bolt", "bolt", "wheel", "", "a name of many letters"]);
         let mut different = all.clone();
         different.sort_unstable();
         different.dedup();
         assert_eq!(different.len(), 5);
-        assert_eq!(identities(["wheel", "a name of many letters"]), [all[2], all[4]]);
+        assert_eq!(stable_ids(["wheel", "a name of many letters"]), [all[2], all[4]]);
     }
 }

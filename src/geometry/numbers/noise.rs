@@ -3,14 +3,14 @@
 //! The results depend on a seed and on integers only, never on a clock.
 
 /// Odd number near 2^64 divided by the golden ratio. Its successive multiples are far apart.
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+const GOLDEN_RATIO_BITS: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Mixes a seed and a list of words into one number. Order and number of the words matter.
 #[must_use]
 pub fn hash(seed: u64, words: &[u64]) -> u64 {
-    let mut state = mix(seed ^ GOLDEN);
+    let mut state = mix(seed ^ GOLDEN_RATIO_BITS);
     for word in words {
-        state = mix(state.wrapping_add(GOLDEN) ^ mix(word.wrapping_add(GOLDEN)));
+        state = mix(state.wrapping_add(GOLDEN_RATIO_BITS) ^ mix(word.wrapping_add(GOLDEN_RATIO_BITS)));
     }
     state
 }
@@ -24,7 +24,7 @@ const fn mix(mut z: u64) -> u64 {
 
 /// Converts a hash to a number in [0, 1), using 53 bits.
 #[must_use]
-pub const fn unit(hash: u64) -> f64 {
+pub const fn unit_interval(hash: u64) -> f64 {
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 
@@ -32,12 +32,12 @@ pub const fn unit(hash: u64) -> f64 {
 ///
 /// The first derivative is continuous and the noise never repeats. Returns 0 for NaN and infinity.
 #[must_use]
-pub fn smooth(seed: u64, x: f64) -> f64 {
+pub fn value_noise(seed: u64, x: f64) -> f64 {
     if !x.is_finite() {
         return 0.0;
     }
     let floor = x.floor();
-    let at = |lattice: f64| 2.0 * unit(hash(seed, &[(lattice as i64).cast_unsigned()])) - 1.0;
+    let at = |lattice: f64| 2.0 * unit_interval(hash(seed, &[(lattice as i64).cast_unsigned()])) - 1.0;
     let (here, next) = (at(floor), at(floor + 1.0));
     let t = x - floor;
     here + (next - here) * (t * t * (3.0 - 2.0 * t))
@@ -47,7 +47,7 @@ pub fn smooth(seed: u64, x: f64) -> f64 {
 ///
 /// Returns 0 for NaN and infinity.
 #[must_use]
-pub fn solid(seed: u64, place: [f64; 3]) -> f64 {
+pub fn value_noise_3d(seed: u64, place: [f64; 3]) -> f64 {
     if !place.iter().all(|x| x.is_finite()) {
         return 0.0;
     }
@@ -57,7 +57,7 @@ pub fn solid(seed: u64, place: [f64; 3]) -> f64 {
     let at = |corner: usize| {
         let word =
             |axis: usize| ((floor[axis] as i64).wrapping_add((corner >> axis & 1) as i64)).cast_unsigned();
-        2.0 * unit(hash(seed, &[word(0), word(1), word(2)])) - 1.0
+        2.0 * unit_interval(hash(seed, &[word(0), word(1), word(2)])) - 1.0
     };
     let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
     let along = |corner: usize| mix(at(corner), at(corner + 1), t[0]);
@@ -94,12 +94,12 @@ mod tests {
     fn units_are_spread_evenly() {
         let mut tenths = [0usize; 10];
         for word in 0..10_000 {
-            let unit = unit(hash(3, &[word]));
+            let unit = unit_interval(hash(3, &[word]));
             assert!((0.0..1.0).contains(&unit));
             tenths[(unit * 10.0) as usize] += 1;
         }
         assert!(tenths.iter().all(|count| (900..1100).contains(count)), "{tenths:?}");
-        assert!((unit(u64::MAX) - 1.0).abs() < 1e-15 && unit(u64::MAX) < 1.0);
+        assert!((unit_interval(u64::MAX) - 1.0).abs() < 1e-15 && unit_interval(u64::MAX) < 1.0);
     }
 
     #[test]
@@ -108,11 +108,11 @@ mod tests {
         let (mut low, mut high) = (0.0_f64, 0.0_f64);
         for i in -200_000..200_000 {
             let x = f64::from(i) * 1e-3 + 0.000_05;
-            let slopes = [x - step, x].map(|x| (smooth(5, x + step) - smooth(5, x)) / step);
+            let slopes = [x - step, x].map(|x| (value_noise(5, x + step) - value_noise(5, x)) / step);
             // A cubic between levels 2 apart is nowhere steeper than 3 and bends by at most 12.
             assert!(slopes[0].abs() < 3.001 && (slopes[1] - slopes[0]).abs() < 13.0 * step, "{x}");
-            low = low.min(smooth(5, x));
-            high = high.max(smooth(5, x));
+            low = low.min(value_noise(5, x));
+            high = high.max(value_noise(5, x));
         }
         assert!((-1.0..-0.95).contains(&low) && (0.95..=1.0).contains(&high), "{low} {high}");
     }
@@ -122,23 +122,23 @@ mod tests {
         let (mut least, mut most, mut last) = (1.0_f64, -1.0_f64, None);
         for step in 0..100_000 {
             let x = f64::from(step) * 0.01;
-            let value = solid(7, [x, 0.3 * x, -0.7 * x]);
+            let value = value_noise_3d(7, [x, 0.3 * x, -0.7 * x]);
             (least, most) = (least.min(value), most.max(value));
             assert!(last.is_none_or(|last: f64| (last - value).abs() < 0.06), "{x}");
             last = Some(value);
         }
         assert!(least > -1.0 && least < -0.8 && most < 1.0 && most > 0.8, "{least} {most}");
-        assert_eq!(solid(7, [f64::NAN, 0.0, 0.0]), 0.0);
-        assert_ne!(solid(7, [0.5; 3]), solid(8, [0.5; 3]));
+        assert_eq!(value_noise_3d(7, [f64::NAN, 0.0, 0.0]), 0.0);
+        assert_ne!(value_noise_3d(7, [0.5; 3]), value_noise_3d(8, [0.5; 3]));
     }
 
     #[test]
     fn noise_passes_its_lattice_and_bears_any_number() {
-        assert_eq!(smooth(9, 4.0), 2.0 * unit(hash(9, &[4])) - 1.0);
-        assert_ne!(smooth(9, -3.0), smooth(9, 3.0));
+        assert_eq!(value_noise(9, 4.0), 2.0 * unit_interval(hash(9, &[4])) - 1.0);
+        assert_ne!(value_noise(9, -3.0), value_noise(9, 3.0));
         for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert_eq!(smooth(1, x), 0.0);
+            assert_eq!(value_noise(1, x), 0.0);
         }
-        assert!(smooth(1, 1e300).abs() <= 1.0 && smooth(1, -1e300).abs() <= 1.0);
+        assert!(value_noise(1, 1e300).abs() <= 1.0 && value_noise(1, -1e300).abs() <= 1.0);
     }
 }

@@ -1,9 +1,9 @@
-//! [`hull`]: the convex hull of points in the plane.
+//! [`convex_hull`]: the convex hull of points in the plane.
 
 use kurbo::Point;
 
 /// Convex hull of points, clockwise where y points down (Andrew's monotone chain).
-pub(crate) fn hull(mut points: Vec<Point>) -> Vec<Point> {
+pub(crate) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();
     if points.len() < 3 {
@@ -36,7 +36,7 @@ mod tests {
     #[test]
     fn hulls_hold_their_points() {
         let points = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 2.0), (1.0, 0.0)];
-        let found = hull(points.iter().map(|p| Point::new(p.0, p.1)).collect());
+        let found = convex_hull(points.iter().map(|p| Point::new(p.0, p.1)).collect());
         assert_eq!(found.len(), 4, "{found:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! [`level_lines`]: zero lines of a bilinear function on a square grid (marching squares).
+//! [`marching_squares`]: zero lines of a bilinear function on a square grid (marching squares).
 //!
 //! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions. Cells with four crossings
 //! are resolved as in Nielson and Hamann, "The asymptotic decider", 1991.
@@ -7,21 +7,21 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Edge between neighbouring grid points: column and row of the first, and whether the second is below it.
-type Side = (u32, u32, bool);
+type GridEdge = (u32, u32, bool);
 
 /// Traces the zero lines of `value` in a grid of `columns` by `rows` cells, linked end to end.
 ///
 /// Positive values are on the left of a line (x to the right, y upwards). Where a line is curved it gets
 /// extra points, until the deviation from the exact hyperbola is at most `straight` times the length of a
 /// segment. Returns `None` if the grid has more than `most` crossings.
-pub fn level_lines(
+pub fn marching_squares(
     value: &impl Fn(i64, i64) -> f64,
     [columns, rows]: [usize; 2],
     straight: f64,
     most: usize,
 ) -> Option<Vec<Vec<DVec2>>> {
-    let mut next: FxHashMap<Side, Side> = FxHashMap::default();
-    let mut starts: Vec<Side> = Vec::new();
+    let mut next: FxHashMap<GridEdge, GridEdge> = FxHashMap::default();
+    let mut starts: Vec<GridEdge> = Vec::new();
     let mut above: Vec<f64> = (0..=columns as i64).map(|i| value(i, 0)).collect();
     for j in 0..rows as u32 {
         let below: Vec<f64> = (0..=columns as i64).map(|i| value(i, i64::from(j) + 1)).collect();
@@ -56,22 +56,23 @@ pub fn level_lines(
             return None;
         }
     }
-    let point = |(i, j, down): Side| {
+    let point = |(i, j, down): GridEdge| {
         let (a, b) =
             (value(i.into(), j.into()), value((i + u32::from(!down)).into(), (j + u32::from(down)).into()));
         let part = a / (a - b);
         DVec2::new(f64::from(i), f64::from(j)) + if down { DVec2::Y } else { DVec2::X } * part
     };
     // Open lines begin at an edge that no other edge leads to.
-    let led_to: FxHashSet<Side> = next.values().copied().collect();
-    let (open, closed): (Vec<Side>, Vec<Side>) = starts.into_iter().partition(|side| !led_to.contains(side));
+    let led_to: FxHashSet<GridEdge> = next.values().copied().collect();
+    let (open, closed): (Vec<GridEdge>, Vec<GridEdge>) =
+        starts.into_iter().partition(|side| !led_to.contains(side));
     let mut lines = Vec::new();
     for start in open.into_iter().chain(closed) {
         let mut line = Vec::new();
         let mut at = start;
         while let Some(to) = next.remove(&at) {
             line.push(point(at));
-            curve(value, point(at), point(to), straight, &mut line);
+            flatten_hyperbola(value, point(at), point(to), straight, &mut line);
             at = to;
         }
         if !line.is_empty() {
@@ -83,7 +84,13 @@ pub fn level_lines(
 }
 
 /// Adds points of the hyperbola arc between two crossings of a cell.
-fn curve(value: &impl Fn(i64, i64) -> f64, from: DVec2, to: DVec2, straight: f64, line: &mut Vec<DVec2>) {
+fn flatten_hyperbola(
+    value: &impl Fn(i64, i64) -> f64,
+    from: DVec2,
+    to: DVec2,
+    straight: f64,
+    line: &mut Vec<DVec2>,
+) {
     let low = ((from + to) / 2.0).floor();
     let (i, j) = (low.x as i64, low.y as i64);
     let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| value(i + x, j + y));

@@ -1,4 +1,4 @@
-//! [`Cut`]: a disc clipped to a domain.
+//! [`ClippedDisc`]: a disc clipped to a domain.
 //!
 //! Source: Weiler and Atherton, Hidden surface removal using polygon area sorting, 1977, for one circle. The
 //! outline of the result follows border pieces inside the circle and arcs of the circle inside the domain in
@@ -17,7 +17,7 @@ use crate::geometry::numbers::tolerance;
 
 /// Result of clipping a disc to a domain.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Cut {
+pub(crate) enum ClippedDisc {
     /// The whole disc is inside.
     Whole,
     /// Nothing is left.
@@ -32,24 +32,24 @@ impl Disc {
     ///
     /// Pieces that do not touch the disc have no effect. If no piece touches it, `inside` says whether the
     /// centre is in the domain. `px` is the length of a px in user units.
-    pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> Cut {
-        for attempt in 0..ATTEMPTS {
-            let radius = self.radius * (1.0 - f64::from(attempt) * tolerance::DOT_NUDGE);
+    pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> ClippedDisc {
+        for attempt in 0..MAX_ATTEMPTS {
+            let radius = self.radius * (1.0 - f64::from(attempt) * tolerance::DOT_SHRINK_OF_RADIUS);
             let disc = Self { radius, ..self };
-            if let Some(cut) = Tracer::new(disc, border).and_then(|mut tracer| tracer.cut(inside, px)) {
+            if let Some(cut) = DiscTracer::new(disc, border).and_then(|mut tracer| tracer.cut(inside, px)) {
                 return cut;
             }
         }
-        Cut::Nothing
+        ClippedDisc::Nothing
     }
 }
 
 /// Number of circles that are tried before the dot is dropped.
-const ATTEMPTS: u32 = 8;
+const MAX_ATTEMPTS: u32 = 8;
 
 /// Part of a border piece inside the circle. Points are relative to the centre.
 #[derive(Debug, Clone, Copy)]
-struct Step {
+struct BorderSpan {
     ends: [Vec2; 2],
     /// Whether each end lies on the circle.
     rim: [bool; 2],
@@ -58,22 +58,22 @@ struct Step {
 
 /// Crossing of the border with the circle.
 #[derive(Debug, Clone, Copy)]
-struct Gate {
+struct CircleCrossing {
     angle: f64,
     /// Whether the border enters the circle here.
     enters: bool,
     step: usize,
 }
 
-struct Tracer {
+struct DiscTracer {
     disc: Disc,
     /// Parts of the border, sorted by their start points.
-    steps: Vec<Step>,
+    steps: Vec<BorderSpan>,
     /// Crossings sorted by angle. Entering and leaving ones alternate.
-    gates: Vec<Gate>,
+    gates: Vec<CircleCrossing>,
 }
 
-impl Tracer {
+impl DiscTracer {
     /// `None` if rounding leaves the order around the circle ambiguous.
     fn new(disc: Disc, border: &[[Point; 2]]) -> Option<Self> {
         let r2 = disc.radius * disc.radius;
@@ -92,22 +92,28 @@ impl Tracer {
             let at = |t: f64| a + way * t.clamp(0.0, 1.0);
             let step = match is_in {
                 _ if a == b => continue,
-                [true, true] => Step { ends: [a, b], rim: [false, false], used: false },
-                [true, false] => Step { ends: [a, at(middle + half)], rim: [false, true], used: false },
-                [false, true] => Step { ends: [at(middle - half), b], rim: [true, false], used: false },
-                [false, false] if half2 > 0.0 && middle > 0.0 && middle < 1.0 => {
-                    Step { ends: [at(middle - half), at(middle + half)], rim: [true, true], used: false }
-                }
+                [true, true] => BorderSpan { ends: [a, b], rim: [false, false], used: false },
+                [true, false] => BorderSpan { ends: [a, at(middle + half)], rim: [false, true], used: false },
+                [false, true] => BorderSpan { ends: [at(middle - half), b], rim: [true, false], used: false },
+                [false, false] if half2 > 0.0 && middle > 0.0 && middle < 1.0 => BorderSpan {
+                    ends: [at(middle - half), at(middle + half)],
+                    rim: [true, true],
+                    used: false,
+                },
                 [false, false] => continue,
             };
             steps.push(step);
         }
         steps.sort_by(|s, t| order(s.ends[0], t.ends[0]).then_with(|| order(s.ends[1], t.ends[1])));
         let mut gates = Vec::new();
-        for (step, Step { ends, rim, .. }) in steps.iter().enumerate() {
+        for (step, BorderSpan { ends, rim, .. }) in steps.iter().enumerate() {
             for end in [0, 1] {
                 if rim[end] {
-                    gates.push(Gate { angle: atan2(ends[end].y, ends[end].x), enters: end == 0, step });
+                    gates.push(CircleCrossing {
+                        angle: atan2(ends[end].y, ends[end].x),
+                        enters: end == 0,
+                        step,
+                    });
                 }
             }
         }
@@ -117,7 +123,7 @@ impl Tracer {
         take_turns.then_some(Self { disc, steps, gates })
     }
 
-    fn cut(&mut self, inside: bool, px: f64) -> Option<Cut> {
+    fn cut(&mut self, inside: bool, px: f64) -> Option<ClippedDisc> {
         let (mut path, mut area2) = (BezPath::new(), 0.0);
         for first in 0..self.gates.len() {
             if self.gates[first].enters && !self.steps[self.gates[first].step].used {
@@ -141,16 +147,16 @@ impl Tracer {
         }
         if self.gates.is_empty() {
             if self.steps.is_empty() {
-                return Some(if inside { Cut::Whole } else { Cut::Nothing });
+                return Some(if inside { ClippedDisc::Whole } else { ClippedDisc::Nothing });
             }
             if largest < 0.0 {
                 area2 += TAU * self.disc.radius * self.disc.radius;
                 self.disc.draw(&mut path, px);
             }
         }
-        let crumb = tolerance::DOT_CRUMB_PX * px;
+        let crumb = tolerance::MIN_DOT_PIECE_PX * px;
         let area = area2 / 2.0;
-        Some(if area < crumb * crumb { Cut::Nothing } else { Cut::Part(path, area) })
+        Some(if area < crumb * crumb { ClippedDisc::Nothing } else { ClippedDisc::Part(path, area) })
     }
 
     /// Traces the loop that enters the circle at a crossing, adds it to the path, and returns twice its area.
@@ -159,7 +165,7 @@ impl Tracer {
         loop {
             let (points, last) = self.chain(self.gates[gate].step)?;
             area2 += points.windows(2).map(|pair| pair[0].cross(pair[1])).sum::<f64>();
-            let thin = thinned(&points, tolerance::DOT_PX * px);
+            let thin = thinned(&points, tolerance::MAX_DOT_OUTLINE_ERROR_PX * px);
             for (k, point) in thin.iter().enumerate() {
                 match (gate == first, k) {
                     (true, 0) => path.move_to(self.disc.centre + *point),
@@ -193,7 +199,7 @@ impl Tracer {
         let (mut points, mut at) = (vec![start], first);
         loop {
             self.steps[at].used = true;
-            let Step { ends, rim, .. } = self.steps[at];
+            let BorderSpan { ends, rim, .. } = self.steps[at];
             points.push(ends[1]);
             if rim[1] || (closes && ends[1] == start) {
                 return Some((points, at));
@@ -216,9 +222,9 @@ impl Tracer {
         else {
             return;
         };
-        let mut thin = thinned(&points[..=middle], tolerance::DOT_PX * px);
+        let mut thin = thinned(&points[..=middle], tolerance::MAX_DOT_OUTLINE_ERROR_PX * px);
         thin.pop();
-        thin.extend(thinned(&points[middle..], tolerance::DOT_PX * px));
+        thin.extend(thinned(&points[middle..], tolerance::MAX_DOT_OUTLINE_ERROR_PX * px));
         thin.pop();
         for (k, point) in thin.iter().enumerate() {
             let point = self.disc.centre + *point;
@@ -266,7 +272,7 @@ mod tests {
     use kurbo::Shape;
 
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     const DISC: Disc = Disc { centre: Point::new(30.0, 20.0), radius: 4.0 };
@@ -274,9 +280,9 @@ mod tests {
     /// The area of the clipped disc, checked against the path.
     fn cut(border: &[[Point; 2]], inside: bool) -> f64 {
         match DISC.cut(border, inside, 1.0) {
-            Cut::Whole => PI * 16.0,
-            Cut::Nothing => 0.0,
-            Cut::Part(path, area) => {
+            ClippedDisc::Whole => PI * 16.0,
+            ClippedDisc::Nothing => 0.0,
+            ClippedDisc::Part(path, area) => {
                 assert!((path.area() - area).abs() < 0.01 * 25.0, "{area} {}", path.to_svg());
                 for p in path.segments().map(|s| kurbo::ParamCurve::eval(&s, 0.5)) {
                     assert!((p - DISC.centre).hypot2().sqrt() < 4.01);
@@ -345,7 +351,7 @@ mod tests {
     #[test]
     fn stars_are_cut_as_samples_say() {
         for seed in 0..200_u64 {
-            let chance = |k: u64, n: u64| unit(hash(seed, &[k, n]));
+            let chance = |k: u64, n: u64| unit_interval(hash(seed, &[k, n]));
             let corners = 3 + (chance(0, 0) * 40.0) as u64;
             let middle = at(chance(1, 0) * 8.0 - 4.0, chance(2, 0) * 8.0 - 4.0);
             let star: Vec<Point> = (0..corners)

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use kurbo::Point;
 
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::BorderPiece;
 
 /// Stands for no domain: paper, and cells that stay blank.
-pub(crate) const BLANK: u32 = u32::MAX;
+pub(crate) const NO_DOMAIN: u32 = u32::MAX;
 
 /// The domain of each cell.
 #[derive(Debug, Clone, Default)]
@@ -18,33 +18,38 @@ pub(crate) struct Domains {
 
 impl Domains {
     /// Joins the inked cells of each facet.
-    pub fn of_facets(ground: &Ground, inked: &[bool]) -> Self {
-        let of = |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { BLANK };
+    pub fn of_facets(ground: &HatchRegions, inked: &[bool]) -> Self {
+        let of =
+            |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { NO_DOMAIN };
         Self { of: (0u32..).zip(inked).map(of).collect() }
     }
 
     /// Makes each inked cell its own domain.
     pub fn of_cells(inked: &[bool]) -> Self {
-        Self { of: (0u32..).zip(inked).map(|(cell, inked)| if *inked { cell } else { BLANK }).collect() }
+        Self { of: (0u32..).zip(inked).map(|(cell, inked)| if *inked { cell } else { NO_DOMAIN }).collect() }
     }
 
     /// Joins the inked cells of one part, material and tone.
-    pub fn of_looks(ground: &Ground, inked: &[bool]) -> Self {
+    pub fn of_looks(ground: &HatchRegions, inked: &[bool]) -> Self {
         let mut numbers = BTreeMap::new();
         let of = |(cell, inked): (u32, &bool)| {
             let look = ground.cells[cell as usize].look;
-            if *inked { *numbers.entry((look.part, look.material, look.tone)).or_insert(cell) } else { BLANK }
+            if *inked {
+                *numbers.entry((look.part, look.material, look.tone)).or_insert(cell)
+            } else {
+                NO_DOMAIN
+            }
         };
         Self { of: (0u32..).zip(inked).map(of).collect() }
     }
 
-    /// The domain of a cell, or [`BLANK`].
+    /// The domain of a cell, or [`NO_DOMAIN`].
     pub fn of(&self, cell: u32) -> u32 {
-        self.of.get(cell as usize).copied().unwrap_or(BLANK)
+        self.of.get(cell as usize).copied().unwrap_or(NO_DOMAIN)
     }
 
     /// The domains on the two sides of a border piece, if they differ.
-    pub fn parted(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
+    pub fn differing_domains(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
         let sides = piece.sides.map(|cell| self.of(cell));
         (sides[0] != sides[1]).then_some(sides)
     }
@@ -52,7 +57,10 @@ impl Domains {
 
 /// A border piece of the cells that are `within`, and the cell on that side. The piece is directed so that
 /// the cell lies to its right on the page (y down). `None` if both sides or neither are within.
-pub(crate) fn border(piece: &BorderPiece, within: impl Fn(u32) -> bool) -> Option<([Point; 2], u32)> {
+pub(crate) fn directed_border(
+    piece: &BorderPiece,
+    within: impl Fn(u32) -> bool,
+) -> Option<([Point; 2], u32)> {
     let [right, left] = piece.sides.map(within);
     let [a, b] = piece.ends;
     match (right, left) {

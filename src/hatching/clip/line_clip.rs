@@ -4,18 +4,18 @@
 
 use kurbo::{Point, Vec2};
 
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 
 /// Position on a polyline: the number of a segment plus the fraction of that segment already passed.
-pub type Place = f64;
+pub type LinePosition = f64;
 
 /// Span of a polyline that may be drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct LineSpan {
     /// Start of the span.
-    pub from: Place,
+    pub from: LinePosition,
     /// End of the span.
-    pub to: Place,
+    pub to: LinePosition,
     /// The cell where the span starts.
     pub cell: u32,
     /// Whether the start and the end lie on a border, rather than at the ends of the line.
@@ -24,9 +24,9 @@ pub struct Stretch {
 
 /// The spans of a polyline in wanted cells. No span crosses the border of a surface.
 #[must_use]
-pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<Stretch> {
+pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<LineSpan> {
     let mut crossings: Vec<(f64, u32, bool)> = Vec::new();
-    let mut places: Vec<(Place, u32, bool)> = Vec::new();
+    let mut places: Vec<(LinePosition, u32, bool)> = Vec::new();
     for (k, pair) in line.windows(2).enumerate() {
         crossings.clear();
         ground.crossings(pair[0], pair[1], &mut crossings);
@@ -41,19 +41,19 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
     // Where borders meet in a corner, several pieces are crossed at one position and their order is
     // unreliable. There the cell is looked up at a point of the span.
     let is_corner = |k: usize| {
-        let near = |other: Option<&(Place, u32, bool)>| {
-            other.is_some_and(|(place, ..)| (place - places[k].0).abs() < SAME_PLACE)
+        let near = |other: Option<&(LinePosition, u32, bool)>| {
+            other.is_some_and(|(place, ..)| (place - places[k].0).abs() < POSITION_TOLERANCE)
         };
         near(places.get(k + 1)) || near(k.checked_sub(1).and_then(|before| places.get(before)))
     };
-    let mut out: Vec<Stretch> = Vec::new();
-    let (mut from, mut behind): (Place, Option<u32>) = (0.0, None);
+    let mut out: Vec<LineSpan> = Vec::new();
+    let (mut from, mut behind): (LinePosition, Option<u32>) = (0.0, None);
     let mut parts = true;
     for k in 0..=places.len() {
         let next = places.get(k);
         let to = next.map_or(last, |(place, ..)| *place);
         let ahead = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
-        if to - from > SAME_PLACE {
+        if to - from > POSITION_TOLERANCE {
             let cell = match (behind, ahead) {
                 (Some(a), Some(b)) if a == b => a,
                 (Some(a), None) | (None, Some(a)) => a,
@@ -61,8 +61,10 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
             };
             if wanted(cell) {
                 match out.last_mut() {
-                    Some(before) if from - before.to < SAME_PLACE && !parts && from > 0.0 => before.to = to,
-                    _ => out.push(Stretch { from, to, cell, cut: [from > 0.0, true] }),
+                    Some(before) if from - before.to < POSITION_TOLERANCE && !parts && from > 0.0 => {
+                        before.to = to
+                    }
+                    _ => out.push(LineSpan { from, to, cell, cut: [from > 0.0, true] }),
                 }
             }
             parts = false;
@@ -80,11 +82,11 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
 }
 
 /// Positions that differ by less than this are the same.
-const SAME_PLACE: f64 = 1e-9;
+const POSITION_TOLERANCE: f64 = 1e-9;
 
 /// The point at a position of a polyline. The position is clamped to the line.
 #[must_use]
-pub fn point_at(line: &[Point], place: Place) -> Point {
+pub fn point_at(line: &[Point], place: LinePosition) -> Point {
     let k = (place.max(0.0) as usize).min(line.len().saturating_sub(2));
     match (line.get(k), line.get(k + 1)) {
         (Some(a), Some(b)) => a.lerp(*b, (place - k as f64).clamp(0.0, 1.0)),
@@ -95,7 +97,7 @@ pub fn point_at(line: &[Point], place: Place) -> Point {
 
 /// The part of a polyline between two positions.
 #[must_use]
-pub fn between(line: &[Point], from: Place, to: Place) -> Vec<Point> {
+pub fn sub_polyline(line: &[Point], from: LinePosition, to: LinePosition) -> Vec<Point> {
     let mut points = vec![point_at(line, from)];
     let first = from.floor() as usize + 1;
     points.extend((first..line.len()).take_while(|k| (*k as f64) < to).map(|k| line[k]));
@@ -119,12 +121,12 @@ pub(crate) fn norm(v: Vec2) -> f64 {
 pub(crate) mod tests {
     use super::*;
     use crate::mesh::{MaterialId, PaintId, PartId};
-    use crate::regions::Look;
-    use crate::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+    use crate::regions::SurfaceLabel;
+    use crate::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
 
     /// Two squares of side 10 side by side from (0, 0), in bins 0 and 1, on one facet or on two.
-    pub fn two_squares(parts_surfaces: bool) -> Ground {
-        let look = |bin: u16| Look {
+    pub fn two_squares(parts_surfaces: bool) -> HatchRegions {
+        let look = |bin: u16| SurfaceLabel {
             part: PartId(0),
             material: MaterialId(0),
             paint: PaintId(0),
@@ -132,7 +134,7 @@ pub(crate) mod tests {
             bin,
             cast: false,
         };
-        let cell = |bin: u16, facet: u32| Cell { look: look(bin), facet, area: 100.0 };
+        let cell = |bin: u16, facet: u32| HatchCell { look: look(bin), facet, area: 100.0 };
         let cells = vec![cell(0, 0), cell(0, 1), cell(1, if parts_surfaces { 2 } else { 1 })];
         let piece = |a: [f64; 2], b: [f64; 2], sides: [u32; 2], parts_surfaces: bool| BorderPiece {
             ends: [Point::new(a[0], a[1]), Point::new(b[0], b[1])],
@@ -148,7 +150,7 @@ pub(crate) mod tests {
             piece([0.0, 10.0], [0.0, 0.0], [1, 0], true),
             piece([10.0, 0.0], [10.0, 10.0], [1, 2], parts_surfaces),
         ];
-        Ground::of_pieces(cells, pieces)
+        HatchRegions::of_pieces(cells, pieces)
     }
 
     #[test]
@@ -163,7 +165,7 @@ pub(crate) mod tests {
     fn lines_end_at_borders_of_surfaces() {
         let line = [Point::new(-5.0, 4.0), Point::new(30.0, 4.0)];
         let found = |parts: bool, wanted: fn(u32) -> bool| {
-            let stretches = stretches(&two_squares(parts), &line, wanted);
+            let stretches = clip_to_cells(&two_squares(parts), &line, wanted);
             let at = |place: f64| (point_at(&line, place).x * 1e9).round() / 1e9;
             stretches.iter().map(|s| (at(s.from), at(s.to), s.cut)).collect::<Vec<_>>()
         };
@@ -177,12 +179,12 @@ pub(crate) mod tests {
     fn lines_through_corners_and_inside() {
         let ground = two_squares(false);
         let diagonal = [Point::new(-3.0, -3.0), Point::new(13.0, 13.0)];
-        let found = stretches(&ground, &diagonal, |cell| cell > 0);
+        let found = clip_to_cells(&ground, &diagonal, |cell| cell > 0);
         let total: f64 =
             found.iter().map(|s| norm(point_at(&diagonal, s.to) - point_at(&diagonal, s.from))).sum();
         assert!((total - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
         let inside = [Point::new(2.0, 2.0), Point::new(3.0, 5.0), Point::new(6.0, 6.0)];
-        let found = stretches(&ground, &inside, |cell| cell == 1);
-        assert_eq!(found, [Stretch { from: 0.0, to: 2.0, cell: 1, cut: [false, false] }]);
+        let found = clip_to_cells(&ground, &inside, |cell| cell == 1);
+        assert_eq!(found, [LineSpan { from: 0.0, to: 2.0, cell: 1, cut: [false, false] }]);
     }
 }

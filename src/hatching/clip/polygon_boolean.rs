@@ -1,4 +1,4 @@
-//! [`Edges`]: the borders of two areas on an integer grid, and the border of their intersection.
+//! [`BoundaryEdges`]: the borders of two areas on an integer grid, and the border of their intersection.
 //!
 //! Edges are split where they cross. New points are rounded to the grid, and all tests are exact in integers.
 //!
@@ -9,16 +9,16 @@
 use std::collections::BTreeMap;
 
 /// Point of the integer grid.
-pub(crate) type At = [i64; 2];
+pub(crate) type ClipGridPoint = [i64; 2];
 
 /// Greatest number of splitting rounds. Rounding can create new crossings, but rarely does.
-const MOST_ROUNDS: usize = 12;
+const MAX_ROUNDS: usize = 12;
 
 /// Edge between two grid points, the smaller point first. `winding` counts how often the shape's border runs
 /// along it. Opposite runs count negative. `parts` says whether the domain's border runs along it.
 #[derive(Debug, Clone, Copy)]
-struct Edge {
-    ends: [At; 2],
+struct BoundaryEdge {
+    ends: [ClipGridPoint; 2],
     winding: i64,
     parts: bool,
 }
@@ -26,30 +26,32 @@ struct Edge {
 /// The borders of two areas: a shape, filled by winding number, and a domain, which lies on one side of its
 /// border.
 #[derive(Debug, Default)]
-pub(crate) struct Edges(Vec<Edge>);
+pub(crate) struct BoundaryEdges(Vec<BoundaryEdge>);
 
-impl Edges {
+impl BoundaryEdges {
     /// Adds an edge of the shape with a winding, or an edge of the domain.
-    pub fn add(&mut self, [a, b]: [At; 2], winding: i64, parts: bool) {
+    pub fn add(&mut self, [a, b]: [ClipGridPoint; 2], winding: i64, parts: bool) {
         if a != b {
             let (ends, winding) = if a < b { ([a, b], winding) } else { ([b, a], -winding) };
-            self.0.push(Edge { ends, winding, parts });
+            self.0.push(BoundaryEdge { ends, winding, parts });
         }
     }
 
     /// Splits the edges until they meet at their ends only and are all distinct. `None` if that takes too
     /// many rounds.
     pub fn cut(mut self) -> Option<Self> {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             self.merge();
-            let mut cuts: Vec<Vec<At>> = vec![Vec::new(); self.0.len()];
+            let mut cuts: Vec<Vec<ClipGridPoint>> = vec![Vec::new(); self.0.len()];
             // Edges are sorted by x, so only those with overlapping x ranges are compared.
             for i in 0..self.0.len() {
                 for j in i + 1..self.0.len() {
                     if self.0[j].ends[0][0] > self.0[i].ends[1][0] + 1 {
                         break;
                     }
-                    meet(self.0[i].ends, self.0[j].ends, |first, p| cuts[if first { i } else { j }].push(p));
+                    add_crossings(self.0[i].ends, self.0[j].ends, |first, p| {
+                        cuts[if first { i } else { j }].push(p)
+                    });
                 }
             }
             if cuts.iter().all(Vec::is_empty) {
@@ -58,7 +60,7 @@ impl Edges {
             let mut next = Self::default();
             for (edge, mut cuts) in self.0.into_iter().zip(cuts) {
                 let [a, b] = edge.ends;
-                let way = |p: &At| dot(minus(*p, a), minus(b, a));
+                let way = |p: &ClipGridPoint| dot(minus(*p, a), minus(b, a));
                 cuts.sort_by_key(|p| (way(p), *p));
                 let mut here = a;
                 for p in cuts.into_iter().chain([b]) {
@@ -73,21 +75,21 @@ impl Edges {
 
     /// Merges coincident edges and drops those that separate nothing.
     fn merge(&mut self) {
-        let mut all: BTreeMap<[At; 2], (i64, bool)> = BTreeMap::new();
+        let mut all: BTreeMap<[ClipGridPoint; 2], (i64, bool)> = BTreeMap::new();
         for edge in &self.0 {
             let found = all.entry(edge.ends).or_default();
             found.0 += edge.winding;
             found.1 ^= edge.parts;
         }
-        let of = |(ends, (winding, parts))| Edge { ends, winding, parts };
+        let of = |(ends, (winding, parts))| BoundaryEdge { ends, winding, parts };
         self.0 = all.into_iter().map(of).filter(|edge| edge.winding != 0 || edge.parts).collect();
     }
 
     /// The closed rings around the intersection of shape and domain.
-    pub fn common(&self) -> Vec<Vec<At>> {
-        let mut leads: BTreeMap<At, Vec<At>> = BTreeMap::new();
+    pub fn intersection_rings(&self) -> Vec<Vec<ClipGridPoint>> {
+        let mut leads: BTreeMap<ClipGridPoint, Vec<ClipGridPoint>> = BTreeMap::new();
         for edge in &self.0 {
-            let (winding, within) = self.beside(edge);
+            let (winding, within) = self.winding_right_of(edge);
             let right = winding != 0 && within;
             let left = winding + edge.winding != 0 && within != edge.parts;
             let [a, b] = edge.ends;
@@ -97,7 +99,7 @@ impl Edges {
                 _ => {}
             }
         }
-        let mut rings: Vec<Vec<At>> = Vec::new();
+        let mut rings: Vec<Vec<ClipGridPoint>> = Vec::new();
         while let Some((first, _)) = leads.first_key_value() {
             let first = *first;
             let mut here = first;
@@ -121,7 +123,7 @@ impl Edges {
 
     /// The winding number of the shape to the right of an edge (y upwards), and whether that side is in the
     /// domain.
-    fn beside(&self, edge: &Edge) -> (i64, bool) {
+    fn winding_right_of(&self, edge: &BoundaryEdge) -> (i64, bool) {
         let [a, b] = edge.ends;
         // The ray runs along x, or along y for a horizontal edge.
         let [u, v] = if a[1] == b[1] { [1, 0] } else { [0, 1] };
@@ -150,23 +152,27 @@ impl Edges {
     }
 }
 
-fn minus(a: At, b: At) -> At {
+fn minus(a: ClipGridPoint, b: ClipGridPoint) -> ClipGridPoint {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn dot(a: At, b: At) -> i64 {
+fn dot(a: ClipGridPoint, b: ClipGridPoint) -> i64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn cross(a: At, b: At) -> i64 {
+fn cross(a: ClipGridPoint, b: ClipGridPoint) -> i64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
 /// Calls `cut` for each point where a segment has to be split: whether it is the first segment, and the
 /// point.
-fn meet(first: [At; 2], second: [At; 2], mut cut: impl FnMut(bool, At)) {
-    let low = |s: [At; 2], k: usize| s[0][k].min(s[1][k]);
-    let high = |s: [At; 2], k: usize| s[0][k].max(s[1][k]);
+fn add_crossings(
+    first: [ClipGridPoint; 2],
+    second: [ClipGridPoint; 2],
+    mut cut: impl FnMut(bool, ClipGridPoint),
+) {
+    let low = |s: [ClipGridPoint; 2], k: usize| s[0][k].min(s[1][k]);
+    let high = |s: [ClipGridPoint; 2], k: usize| s[0][k].max(s[1][k]);
     if (0..2).any(|k| low(first, k) > high(second, k) + 1 || low(second, k) > high(first, k) + 1) {
         return;
     }
@@ -199,7 +205,7 @@ fn meet(first: [At; 2], second: [At; 2], mut cut: impl FnMut(bool, At)) {
 }
 
 /// Whether a point lies within half a grid step of a segment, strictly between its ends.
-fn is_on(p: At, [a, b]: [At; 2]) -> bool {
+fn is_on(p: ClipGridPoint, [a, b]: [ClipGridPoint; 2]) -> bool {
     let (way, from) = (minus(b, a), minus(p, a));
     let (along, whole) = (dot(way, from), dot(way, way));
     if along <= 0 || along >= whole {

@@ -1,4 +1,4 @@
-//! [`snip`]: a filled shape clipped to a part of the page.
+//! [`clip_polygon`]: a filled shape clipped to a part of the page.
 //!
 //! The borders near the shape are closed along a box around it. Shape and borders are rounded to a fine grid
 //! and split where they cross. All tests are exact in integers ([`super::polygon_boolean`]), so the result is always
@@ -6,40 +6,40 @@
 
 use kurbo::{BezPath, Point, Rect};
 
-use super::polygon_boolean::{At, Edges};
+use super::polygon_boolean::{BoundaryEdges, ClipGridPoint};
 
 /// Grid steps along the longer side of the box.
-const STEPS: f64 = 4_194_304.0;
+const GRID_STEPS: f64 = 4_194_304.0;
 
 /// Margins of the box as shares of the shape's size. If a border runs into a corner of the box, the next one
 /// is tried.
-const MARGINS: [f64; 4] = [0.017, 0.031, 0.053, 0.097];
+const BOX_MARGINS_OF_SIZE: [f64; 4] = [0.017, 0.031, 0.053, 0.097];
 
 /// Share of the margin on the left, top, right and bottom. They differ because borders may run along
 /// diagonals.
-const UNEVEN: [f64; 4] = [0.83, 0.62, 0.71, 1.0];
+const MARGIN_SHARES_BY_SIDE: [f64; 4] = [0.83, 0.62, 0.71, 1.0];
 
 /// The part of a shape, filled by the nonzero rule, inside the domain bounded by `border`. `None` if nothing
 /// is left.
 ///
 /// `border` has at least all pieces that enter the shape's box or come near it. `is_in` returns whether a
 /// point away from the border lies in the domain.
-pub(crate) fn snip(
+pub(crate) fn clip_polygon(
     rings: &[Vec<Point>],
     border: &[[Point; 2]],
     is_in: impl Fn(Point) -> bool,
 ) -> Option<BezPath> {
-    let bounds = box_of(rings)?;
-    let tried = MARGINS.iter().find_map(|margin| {
-        let grid = Grid::around(bounds, *margin)?;
-        let mut edges = Edges::default();
+    let bounds = rings_bounds(rings)?;
+    let tried = BOX_MARGINS_OF_SIZE.iter().find_map(|margin| {
+        let grid = ClipGrid::around(bounds, *margin)?;
+        let mut edges = BoundaryEdges::default();
         for ring in rings {
             for k in 0..ring.len() {
                 edges.add([ring[k], ring[(k + 1) % ring.len()]].map(|p| grid.at(p)), 1, false);
             }
         }
         grid.add_domain(border, &is_in, &mut edges)?;
-        let rings = edges.cut()?.common();
+        let rings = edges.cut()?.intersection_rings();
         let mut path = BezPath::new();
         for ring in rings {
             for (k, p) in ring.into_iter().enumerate() {
@@ -55,7 +55,7 @@ pub(crate) fn snip(
 
 /// Fill rule of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Filling {
+pub enum WindingRule {
     /// Nonzero: inside where the winding number is not 0.
     NonZero,
     /// Even-odd: inside where the winding number is odd.
@@ -63,66 +63,67 @@ pub enum Filling {
 }
 
 /// The border of the union of several shapes, with a consistent orientation. `None` if it is empty.
-pub(crate) fn united(shapes: &[(Vec<Vec<Point>>, Filling)]) -> Option<Vec<Vec<Point>>> {
+pub(crate) fn unite_shapes(shapes: &[(Vec<Vec<Point>>, WindingRule)]) -> Option<Vec<Vec<Point>>> {
     let whole: Vec<Vec<Point>> = shapes.iter().flat_map(|(rings, _)| rings).cloned().collect();
-    let grid = Grid::around(box_of(&whole)?, MARGINS[0])?;
+    let grid = ClipGrid::around(rings_bounds(&whole)?, BOX_MARGINS_OF_SIZE[0])?;
     let [right, bottom] = grid.far;
     let frame = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
-    let mut all = Edges::default();
+    let mut all = BoundaryEdges::default();
     for (rings, filling) in shapes {
-        let mut edges = Edges::default();
+        let mut edges = BoundaryEdges::default();
         for ring in rings {
             for k in 0..ring.len() {
                 let ends = [ring[k], ring[(k + 1) % ring.len()]].map(|p| grid.at(p));
                 match filling {
-                    Filling::NonZero => edges.add(ends, 1, false),
-                    Filling::EvenOdd => edges.add(ends, 0, true),
+                    WindingRule::NonZero => edges.add(ends, 1, false),
+                    WindingRule::EvenOdd => edges.add(ends, 0, true),
                 }
             }
         }
         for k in 0..4 {
             let ends = [frame[k], frame[(k + 1) % 4]];
             match filling {
-                Filling::NonZero => edges.add(ends, 0, true),
-                Filling::EvenOdd => edges.add(ends, 1, false),
+                WindingRule::NonZero => edges.add(ends, 0, true),
+                WindingRule::EvenOdd => edges.add(ends, 1, false),
             }
         }
-        for ring in edges.cut()?.common() {
+        for ring in edges.cut()?.intersection_rings() {
             (0..ring.len()).for_each(|k| all.add([ring[k], ring[(k + 1) % ring.len()]], 1, false));
         }
     }
     (0..4).for_each(|k| all.add([frame[k], frame[(k + 1) % 4]], 0, true));
-    let rings = all.cut()?.common();
+    let rings = all.cut()?.intersection_rings();
     Some(rings.iter().map(|ring| ring.iter().map(|p| grid.point(*p)).collect()).collect())
 }
 
 /// The area around a shape's bounding box where borders have to be known.
-pub(crate) fn reach(bounds: Rect) -> Rect {
-    let most = bounds.width().max(bounds.height()) * (MARGINS[MARGINS.len() - 1] + 0.01);
+pub(crate) fn clip_reach(bounds: Rect) -> Rect {
+    let most =
+        bounds.width().max(bounds.height()) * (BOX_MARGINS_OF_SIZE[BOX_MARGINS_OF_SIZE.len() - 1] + 0.01);
     bounds.inflate(most, most)
 }
 
 /// The bounding box of rings.
-pub(crate) fn box_of(rings: &[Vec<Point>]) -> Option<Rect> {
+pub(crate) fn rings_bounds(rings: &[Vec<Point>]) -> Option<Rect> {
     let mut points = rings.iter().flatten();
     let first = points.next()?;
     Some(points.fold(Rect::from_points(*first, *first), |found, p| found.union_pt(*p)))
 }
 
 /// Integer grid over a box around a shape.
-struct Grid {
+struct ClipGrid {
     origin: Point,
     step: f64,
     /// Far corner of the box. The near corner is 0.
-    far: At,
+    far: ClipGridPoint,
 }
 
-impl Grid {
+impl ClipGrid {
     fn around(bounds: Rect, margin: f64) -> Option<Self> {
         let size = bounds.width().max(bounds.height());
-        let [left, top, right, bottom] = UNEVEN.map(|part| size * margin * part);
+        let [left, top, right, bottom] = MARGIN_SHARES_BY_SIDE.map(|part| size * margin * part);
         let bounds = bounds + kurbo::Insets::new(left, top, right, bottom);
-        let step = bounds.width().max(bounds.height()) / STEPS;
+        let step = bounds.width().max(bounds.height()) / GRID_STEPS;
         (step > 0.0 && step.is_finite()).then(|| Self {
             origin: bounds.origin(),
             step,
@@ -130,12 +131,12 @@ impl Grid {
         })
     }
 
-    fn at(&self, p: Point) -> At {
+    fn at(&self, p: Point) -> ClipGridPoint {
         let from = (p - self.origin) / self.step;
         [from.x.round() as i64, from.y.round() as i64]
     }
 
-    fn point(&self, [x, y]: At) -> Point {
+    fn point(&self, [x, y]: ClipGridPoint) -> Point {
         self.origin + kurbo::Vec2::new(x as f64, y as f64) * self.step
     }
 
@@ -144,7 +145,7 @@ impl Grid {
         &self,
         border: &[[Point; 2]],
         is_in: &impl Fn(Point) -> bool,
-        edges: &mut Edges,
+        edges: &mut BoundaryEdges,
     ) -> Option<()> {
         let [right, bottom] = self.far;
         // Crossings with the box, as distances around its border, clockwise.
@@ -171,7 +172,7 @@ impl Grid {
         // The middle of the widest stretch of the box between crossings is tested. Stretches alternate from
         // there.
         let round = corners[4];
-        let around = |way: i64| -> At {
+        let around = |way: i64| -> ClipGridPoint {
             let way = way.rem_euclid(round);
             if way < right {
                 [way, 0]
@@ -208,7 +209,7 @@ impl Grid {
     }
 
     /// The part of a segment inside the box, and whether each end was cut off.
-    fn within(&self, [a, b]: [Point; 2]) -> Option<[(At, bool); 2]> {
+    fn within(&self, [a, b]: [Point; 2]) -> Option<[(ClipGridPoint, bool); 2]> {
         let [a, b] = [a, b].map(|p| (p - self.origin) / self.step);
         let way = b - a;
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
@@ -249,14 +250,14 @@ mod tests {
     use kurbo::Shape;
 
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     /// Star with the given number of corners, some of them on whole numbers.
     fn star(case: u64, corners: u64, middle: Point, size: f64) -> Vec<Point> {
         let corner = |k: u64| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
-            let far = size * (0.2 + 0.8 * unit(hash(case, &[corners, k])));
+            let far = size * (0.2 + 0.8 * unit_interval(hash(case, &[corners, k])));
             let p = middle + kurbo::Vec2::new(cos(angle), sin(angle)) * far;
             if hash(case, &[k, 7]).is_multiple_of(3) { p.round() } else { p }
         };
@@ -274,8 +275,12 @@ mod tests {
     fn what_is_left_of_stars_is_what_lies_in_both() {
         let mut inside = 0;
         for case in 0..60 {
-            let middle =
-                |k: u64| Point::new(20.0 * unit(hash(case, &[1, k])), 20.0 * unit(hash(case, &[2, k])));
+            let middle = |k: u64| {
+                Point::new(
+                    20.0 * unit_interval(hash(case, &[1, k])),
+                    20.0 * unit_interval(hash(case, &[2, k])),
+                )
+            };
             // A star with a smaller one cut out of it, or with an overlapping one of the same orientation.
             let mut rings = vec![star(case, 9, middle(0), 12.0), star(case, 5, middle(0), 4.0)];
             if case % 2 == 0 {
@@ -290,11 +295,11 @@ mod tests {
             let domains: Vec<BezPath> = domain.iter().map(|ring| path_of(ring)).collect();
             let is_in = |p: Point| domains.iter().filter(|path| path.contains(p)).count() % 2 == 1;
             let wanted = |p: Point| shapes.iter().map(|path| path.winding(p)).sum::<i32>() != 0 && is_in(p);
-            let found = snip(&rings, &border, is_in).unwrap_or_default();
+            let found = clip_polygon(&rings, &border, is_in).unwrap_or_default();
             let near = |p: Point| {
                 let sides = rings.iter().chain(&domain).flat_map(|ring| {
                     (0..ring.len()).map(|k| {
-                        crate::geometry::plane::planar_distance::distance2(
+                        crate::geometry::plane::planar_distance::segment_distance_squared(
                             p,
                             ring[k],
                             ring[(k + 1) % ring.len()],
@@ -322,15 +327,16 @@ mod tests {
         let square: Vec<Point> = square.map(Point::from).to_vec();
         let left = |x: f64| {
             let border = [[Point::new(x, -9.0), Point::new(x, 9.0)]];
-            snip(std::slice::from_ref(&square), &border, |p| p.x < x).map_or(0.0, |path| path.area().abs())
+            clip_polygon(std::slice::from_ref(&square), &border, |p| p.x < x)
+                .map_or(0.0, |path| path.area().abs())
         };
         for (x, area) in [(-1.0, 0.0), (0.0, 0.0), (1.0, 4.0), (4.0, 16.0), (4.0 + 1e-9, 16.0), (5.0, 16.0)] {
             assert!((left(x) - area).abs() < 1e-4, "{x}: {}", left(x));
         }
         let border = [[Point::new(-9.0, -9.0), Point::new(9.0, 9.0)]];
-        let half = snip(std::slice::from_ref(&square), &border, |p| p.x < p.y).unwrap();
+        let half = clip_polygon(std::slice::from_ref(&square), &border, |p| p.x < p.y).unwrap();
         assert!((half.area().abs() - 8.0).abs() < 1e-4);
-        let all = snip(std::slice::from_ref(&square), &[], |_| true).unwrap();
-        assert!((all.area().abs() - 16.0).abs() < 1e-4 && snip(&[square], &[], |_| false).is_none());
+        let all = clip_polygon(std::slice::from_ref(&square), &[], |_| true).unwrap();
+        assert!((all.area().abs() - 16.0).abs() < 1e-4 && clip_polygon(&[square], &[], |_| false).is_none());
     }
 }

@@ -10,13 +10,13 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
-use super::lattice_scan::{Lattice, Scan};
+use super::lattice_scan::{Lattice, LatticeScan};
 use crate::geometry::numbers::portable_math::acos;
 use crate::geometry::numbers::tolerance;
-use crate::hatching::clip::circle_clip::Cut;
+use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
-use crate::hatching::clip::domain::{BLANK, Domains, border, nearest};
-use crate::regions::Ground;
+use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border, nearest};
+use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
 /// Half-tone screen of dots. Lengths are in user units.
@@ -60,19 +60,19 @@ pub struct CellDots {
 /// border. A cell whose samples are all 0 stays blank.
 #[must_use]
 pub fn dots(
-    ground: &Ground,
+    ground: &HatchRegions,
     screen: &DotScreen,
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
 ) -> Vec<CellDots> {
     let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
-    let pitch = screen.pitch.max((area / MOST_DOTS).sqrt());
+    let pitch = screen.pitch.max((area / MAX_DOTS).sqrt());
     let grid = Lattice::new(screen.origin, screen.angle, pitch);
-    let scan = Scan::new(ground, &grid);
-    let least = tolerance::DOT_PX * screen.px / pitch;
-    let size = Size { coverage, least };
+    let scan = LatticeScan::new(ground, &grid);
+    let least = tolerance::MAX_DOT_OUTLINE_ERROR_PX * screen.px / pitch;
+    let size = DotSizes { coverage, least };
 
     // The size at each lattice point in its own cell, row by row.
-    let rows: Vec<Vec<Spot>> =
+    let rows: Vec<Vec<LatticeDot>> =
         (0..scan.rows()).into_par_iter().map(|row| spots(&scan, row, &grid, &size)).collect();
     let mut inked = vec![false; ground.cells.len()];
     rows.iter().flatten().for_each(|spot| inked[spot.cell as usize] |= spot.radius > 0.0);
@@ -87,53 +87,53 @@ pub fn dots(
         ToneBorders::Cut => Domains::of_cells(&inked),
     };
 
-    let meetings = meetings(ground, &grid, &domains);
-    let cutter = Cutter { ground, grid, domains: &domains, size, px: screen.px };
+    let meetings = border_contacts(ground, &grid, &domains);
+    let cutter = DotClipper { ground, grid, domains: &domains, size, px: screen.px };
     let first = |row: i64| meetings.partition_point(|m| m.row < row);
     let numbers = meetings.first().map_or(scan.first, |m| m.row.min(scan.first))
         ..=meetings.last().map_or(scan.first, |m| m.row).max(scan.first + scan.rows() as i64 - 1);
     let numbers: Vec<i64> = numbers.collect();
-    let marks: Vec<Vec<Dot>> = numbers
+    let marks: Vec<Vec<ClippedDot>> = numbers
         .into_par_iter()
         .map(|row| {
             let own = usize::try_from(row - scan.first).ok().and_then(|k| rows.get(k));
             cutter.row(row, own.map_or(&[], Vec::as_slice), &meetings[first(row)..first(row + 1)])
         })
         .collect();
-    gathered(ground.cells.len(), &marks, screen.px)
+    join_by_cell(ground.cells.len(), &marks, screen.px)
 }
 
 /// Greatest number of dots on a page. Finer screens could not be seen; they are made coarser.
-pub(crate) const MOST_DOTS: f64 = 4e6;
+pub(crate) const MAX_DOTS: f64 = 4e6;
 
 /// Lattice point inside a cell.
 #[derive(Debug, Clone, Copy)]
-struct Spot {
+struct LatticeDot {
     column: i64,
     cell: u32,
     /// Radius in lattice steps; 0 for no dot.
     radius: f64,
 }
 
-fn spots(scan: &Scan, row: usize, grid: &Lattice, size: &Size) -> Vec<Spot> {
+fn spots(scan: &LatticeScan, row: usize, grid: &Lattice, size: &DotSizes) -> Vec<LatticeDot> {
     let y = (scan.first + row as i64) as f64;
     let mut spots = Vec::new();
     for (from, to, cell) in scan.stretches(row) {
         spots.extend((from.floor() as i64 + 1..=to.floor() as i64).map(|column| {
             let radius = size.radius(cell, grid.point(column as f64, y));
-            Spot { column, cell, radius }
+            LatticeDot { column, cell, radius }
         }));
     }
     spots
 }
 
 /// Dot sizes by coverage.
-struct Size<'a> {
+struct DotSizes<'a> {
     coverage: &'a (dyn Fn(u32, Point) -> f64 + Sync),
     least: f64,
 }
 
-impl Size<'_> {
+impl DotSizes<'_> {
     /// Radius in lattice steps; 0 for no dot.
     fn radius(&self, cell: u32, p: Point) -> f64 {
         let radius = radius((self.coverage)(cell, p));
@@ -150,12 +150,12 @@ fn radius(coverage: f64) -> f64 {
         return (coverage / PI).sqrt();
     }
     if coverage >= 1.0 {
-        return LARGEST;
+        return FULL_COVER_RADIUS_STEPS;
     }
     // The covered area is the disc minus the four segments that its neighbours cover too.
     let covered = |r: f64| PI * r * r - 4.0 * (r * r * acos(0.5 / r) - 0.5 * (r * r - 0.25).sqrt());
     let (mut low, mut high) = (0.5, FRAC_1_SQRT_2);
-    for _ in 0..RADIUS_STEPS {
+    for _ in 0..RADIUS_BISECTIONS {
         let middle = f64::midpoint(low, high);
         if covered(middle) < coverage { low = middle } else { high = middle }
     }
@@ -163,69 +163,75 @@ fn radius(coverage: f64) -> f64 {
 }
 
 /// Bisections that narrow the radius interval to a millionth.
-const RADIUS_STEPS: u32 = 20;
+const RADIUS_BISECTIONS: u32 = 20;
 
 /// Radius that covers everything, slightly more than half the diagonal of a unit square.
-const LARGEST: f64 = FRAC_1_SQRT_2 + 1e-4;
+const FULL_COVER_RADIUS_STEPS: f64 = FRAC_1_SQRT_2 + 1e-4;
 
 /// Lattice point whose dot may reach across a border piece of a domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Meeting {
+struct BorderContact {
     row: i64,
     column: i64,
     domain: u32,
     piece: u32,
 }
 
-fn meetings(ground: &Ground, grid: &Lattice, domains: &Domains) -> Vec<Meeting> {
+fn border_contacts(ground: &HatchRegions, grid: &Lattice, domains: &Domains) -> Vec<BorderContact> {
     let of_piece = |(piece, parted): (usize, [u32; 2])| {
         let [a, b] = ground.pieces[piece].ends.map(|p| grid.place(p));
         let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
         let way = high - low;
         let mut found = Vec::new();
-        for row in (low.y - LARGEST).ceil() as i64..=(high.y + LARGEST).floor() as i64 {
+        for row in (low.y - FULL_COVER_RADIUS_STEPS).ceil() as i64
+            ..=(high.y + FULL_COVER_RADIUS_STEPS).floor() as i64
+        {
             // The stretch of the piece within reach of this row.
             let at = |y: f64| low.x + way.x * ((y - low.y) / way.y).clamp(0.0, 1.0);
             let (from, to) = if way.y > 0.0 {
-                (at(row as f64 - LARGEST), at(row as f64 + LARGEST))
+                (at(row as f64 - FULL_COVER_RADIUS_STEPS), at(row as f64 + FULL_COVER_RADIUS_STEPS))
             } else {
                 (low.x, high.x)
             };
-            for column in (from.min(to) - LARGEST).ceil() as i64..=(from.max(to) + LARGEST).floor() as i64 {
+            for column in (from.min(to) - FULL_COVER_RADIUS_STEPS).ceil() as i64
+                ..=(from.max(to) + FULL_COVER_RADIUS_STEPS).floor() as i64
+            {
                 let spot = Point::new(column as f64, row as f64);
-                if (nearest([a, b], spot) - spot).hypot2() < LARGEST * LARGEST {
-                    let of_domain = |domain| Meeting { row, column, domain, piece: piece as u32 };
-                    found.extend(parted.into_iter().filter(|domain| *domain != BLANK).map(of_domain));
+                if (nearest([a, b], spot) - spot).hypot2() < FULL_COVER_RADIUS_STEPS * FULL_COVER_RADIUS_STEPS
+                {
+                    let of_domain = |domain| BorderContact { row, column, domain, piece: piece as u32 };
+                    found.extend(parted.into_iter().filter(|domain| *domain != NO_DOMAIN).map(of_domain));
                 }
             }
         }
         found
     };
     let parting: Vec<(usize, [u32; 2])> = (ground.pieces.iter().enumerate())
-        .filter_map(|(k, piece)| domains.parted(piece).map(|parted| (k, parted)))
+        .filter_map(|(k, piece)| domains.differing_domains(piece).map(|parted| (k, parted)))
         .collect();
-    let mut all: Vec<Meeting> = parting.into_par_iter().with_min_len(64).flat_map_iter(of_piece).collect();
+    let mut all: Vec<BorderContact> =
+        parting.into_par_iter().with_min_len(64).flat_map_iter(of_piece).collect();
     all.par_sort_unstable();
     all
 }
 
 /// Dot, whole or clipped.
-enum Dot {
+enum ClippedDot {
     Whole(u32, Disc),
     Part(u32, BezPath),
 }
 
-struct Cutter<'a> {
-    ground: &'a Ground,
+struct DotClipper<'a> {
+    ground: &'a HatchRegions,
     grid: Lattice,
     domains: &'a Domains,
-    size: Size<'a>,
+    size: DotSizes<'a>,
     px: f64,
 }
 
-impl Cutter<'_> {
+impl DotClipper<'_> {
     /// The dots around the lattice points of a row: those inside cells and those that reach in from outside.
-    fn row(&self, row: i64, spots: &[Spot], meetings: &[Meeting]) -> Vec<Dot> {
+    fn row(&self, row: i64, spots: &[LatticeDot], meetings: &[BorderContact]) -> Vec<ClippedDot> {
         let mut dots = Vec::new();
         let mut spots = spots.iter().peekable();
         for at_column in meetings.chunk_by(|a, b| a.column == b.column) {
@@ -248,22 +254,22 @@ impl Cutter<'_> {
         dots
     }
 
-    fn whole(&self, row: i64, spot: &Spot, dots: &mut Vec<Dot>) {
+    fn whole(&self, row: i64, spot: &LatticeDot, dots: &mut Vec<ClippedDot>) {
         if spot.radius > 0.0 {
             let centre = self.grid.point(spot.column as f64, row as f64);
-            dots.push(Dot::Whole(spot.cell, Disc { centre, radius: spot.radius * self.grid.step }));
+            dots.push(ClippedDot::Whole(spot.cell, Disc { centre, radius: spot.radius * self.grid.step }));
         }
     }
 
     /// The dot of a lattice point in a domain whose border it touches. `own` is set if the point lies in that
     /// domain.
-    fn cut(&self, met: &[Meeting], own: Option<&Spot>) -> Option<Dot> {
-        let Meeting { row, column, domain, .. } = met[0];
+    fn cut(&self, met: &[BorderContact], own: Option<&LatticeDot>) -> Option<ClippedDot> {
+        let BorderContact { row, column, domain, .. } = met[0];
         let centre = self.grid.point(column as f64, row as f64);
         let pieces: Vec<([Point; 2], u32)> = met
             .iter()
             .filter_map(|m| {
-                border(&self.ground.pieces[m.piece as usize], |cell| self.domains.of(cell) == domain)
+                directed_border(&self.ground.pieces[m.piece as usize], |cell| self.domains.of(cell) == domain)
             })
             .collect();
         let (cell, radius) = match own {
@@ -279,26 +285,26 @@ impl Cutter<'_> {
         let ends: Vec<[Point; 2]> = pieces.into_iter().map(|(ends, _)| ends).collect();
         match disc.cut(&ends, own.is_some(), self.px) {
             _ if radius <= 0.0 => None,
-            Cut::Whole => Some(Dot::Whole(cell, disc)),
-            Cut::Part(path, _) => Some(Dot::Part(cell, path)),
-            Cut::Nothing => None,
+            ClippedDisc::Whole => Some(ClippedDot::Whole(cell, disc)),
+            ClippedDisc::Part(path, _) => Some(ClippedDot::Part(cell, path)),
+            ClippedDisc::Nothing => None,
         }
     }
 }
 
 /// Joins dots to one path per cell.
-fn gathered(cells: usize, rows: &[Vec<Dot>], px: f64) -> Vec<CellDots> {
-    let mut of_cell: Vec<Vec<&Dot>> = vec![Vec::new(); cells];
+fn join_by_cell(cells: usize, rows: &[Vec<ClippedDot>], px: f64) -> Vec<CellDots> {
+    let mut of_cell: Vec<Vec<&ClippedDot>> = vec![Vec::new(); cells];
     for dot in rows.iter().flatten() {
-        let (Dot::Whole(cell, _) | Dot::Part(cell, _)) = dot;
+        let (ClippedDot::Whole(cell, _) | ClippedDot::Part(cell, _)) = dot;
         of_cell[*cell as usize].push(dot);
     }
-    let drawn = |(cell, dots): (usize, Vec<&Dot>)| {
+    let drawn = |(cell, dots): (usize, Vec<&ClippedDot>)| {
         let mut path = BezPath::new();
         for dot in dots {
             match dot {
-                Dot::Whole(_, disc) => disc.draw(&mut path, px),
-                Dot::Part(_, part) => path.extend(part.iter()),
+                ClippedDot::Whole(_, disc) => disc.draw(&mut path, px),
+                ClippedDot::Part(_, part) => path.extend(part.iter()),
             }
         }
         CellDots { cell: cell as u32, path }

@@ -1,4 +1,4 @@
-//! [`Scan`]: the cells that the rows of a rotated lattice pass through.
+//! [`LatticeScan`]: the cells that the rows of a rotated lattice pass through.
 //!
 //! Each row is intersected with the border pieces that cross it. The cost of finding the cells of all lattice
 //! points therefore depends on the borders, not on the number of points.
@@ -6,10 +6,10 @@
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::geometry::numbers::tolerance;
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
 /// Square lattice, rotated and placed on the page.
@@ -43,7 +43,7 @@ impl Lattice {
 
 /// Crossing of a row from one cell into the next.
 #[derive(Debug, Clone, Copy)]
-struct Crossing {
+struct RowCrossing {
     x: f64,
     /// Change of x with y. It orders crossings at the same position.
     slope: f64,
@@ -53,15 +53,15 @@ struct Crossing {
 
 /// The rows of a lattice, and the cells that they pass through.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Scan {
+pub(crate) struct LatticeScan {
     /// Number of the first row.
     pub first: i64,
-    crossings: Grouped<Crossing>,
+    crossings: CsrLists<RowCrossing>,
 }
 
-impl Scan {
+impl LatticeScan {
     /// Scans a ground along the rows of a lattice.
-    pub fn new(ground: &Ground, grid: &Lattice) -> Self {
+    pub fn new(ground: &HatchRegions, grid: &Lattice) -> Self {
         let placed: Vec<[Point; 2]> = ground
             .pieces
             .par_iter()
@@ -71,7 +71,7 @@ impl Scan {
         let heights = || placed.iter().flatten().map(|p| p.y);
         let low = heights().fold(f64::INFINITY, f64::min).ceil();
         let high = heights().fold(f64::NEG_INFINITY, f64::max).floor();
-        if !(low <= high && high - low < MOST_ROWS) {
+        if !(low <= high && high - low < MAX_ROWS) {
             return Self::default();
         }
         let first = low as i64;
@@ -80,7 +80,7 @@ impl Scan {
             let (low, high) = (a.y.min(b.y).ceil() as i64, a.y.max(b.y).ceil() as i64);
             (low - first) as usize..(high - first) as usize
         };
-        let mut crossings = grouped((high as i64 - first) as usize + 1, |put| {
+        let mut crossings = csr_lists((high as i64 - first) as usize + 1, |put| {
             for (piece, ends) in ground.pieces.iter().zip(&placed) {
                 // A piece that runs towards greater y has its first side at smaller x.
                 let [a, b] = *ends;
@@ -89,7 +89,7 @@ impl Scan {
                 let slope = (high.x - low.x) / (high.y - low.y);
                 for row in rows(*ends) {
                     let y = (first + row as i64) as f64;
-                    put(row, Crossing { x: low.x + (y - low.y) * slope, slope, before, after });
+                    put(row, RowCrossing { x: low.x + (y - low.y) * slope, slope, before, after });
                 }
             }
         });
@@ -113,12 +113,12 @@ impl Scan {
 }
 
 /// Sorts the crossings of a row. Where rounding leaves the order ambiguous, matching cells decide it.
-fn order(row: &mut [Crossing]) {
+fn order(row: &mut [RowCrossing]) {
     row.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.slope.total_cmp(&b.slope)).then(a.after.cmp(&b.after)));
     let mut cell = PAPER;
     for k in 0..row.len() {
         if row[k].before != cell {
-            let near = |c: &Crossing| c.x - row[k].x < tolerance::SCAN_OF_STEP;
+            let near = |c: &RowCrossing| c.x - row[k].x < tolerance::CROSSING_MERGE_OF_STEP;
             let fits = row[k..].iter().take_while(|c| near(c)).position(|c| c.before == cell);
             if let Some(ahead) = fits {
                 row[k..=k + ahead].rotate_right(1);
@@ -129,18 +129,18 @@ fn order(row: &mut [Crossing]) {
 }
 
 /// Greatest number of rows. A finer lattice gives an empty scan.
-const MOST_ROWS: f64 = 65_536.0;
+const MAX_ROWS: f64 = 65_536.0;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
     use crate::mesh::{MaterialId, PaintId, PartId};
-    use crate::regions::Look;
-    use crate::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+    use crate::regions::SurfaceLabel;
+    use crate::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
 
-    const CELL: Cell = Cell {
-        look: Look {
+    const CELL: HatchCell = HatchCell {
+        look: SurfaceLabel {
             part: PartId(0),
             material: MaterialId(0),
             paint: PaintId(0),
@@ -153,11 +153,11 @@ mod tests {
     };
 
     /// Sectors around a point: cell k lies between corners k - 1 and k, with paper outside.
-    fn sectors(corners: u64) -> Ground {
+    fn sectors(corners: u64) -> HatchRegions {
         let middle = Point::new(50.0, 40.0);
         let corner = |k: u64| {
             let angle = std::f64::consts::TAU * (k % corners) as f64 / corners as f64;
-            let far = 10.0 + 25.0 * unit(hash(corners, &[k % corners]));
+            let far = 10.0 + 25.0 * unit_interval(hash(corners, &[k % corners]));
             middle + Vec2::new(cos(angle), sin(angle)) * far
         };
         let cell = |k: u64| ((k + corners - 1) % corners + 1) as u32;
@@ -174,7 +174,7 @@ mod tests {
             };
             [spoke, rim]
         });
-        Ground::of_pieces(vec![CELL; corners as usize + 1], pieces.collect())
+        HatchRegions::of_pieces(vec![CELL; corners as usize + 1], pieces.collect())
     }
 
     #[test]
@@ -184,7 +184,7 @@ mod tests {
             for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {
                 // Rows of the first lattice pass exactly through the centre.
                 let grid = Lattice::new(Point::new(0.0, 0.0), angle, step);
-                let scan = Scan::new(&ground, &grid);
+                let scan = LatticeScan::new(&ground, &grid);
                 let mut inside = 0;
                 for row in 0..scan.rows() {
                     let y = (scan.first + row as i64) as f64;

@@ -15,15 +15,15 @@ use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 use rustc_hash::FxHashMap;
 
-use super::halftone::MOST_DOTS;
-use super::lattice_scan::{Lattice, Scan};
-use super::weighted_voronoi::{BLACK, NOBODY, Patch};
-use crate::geometry::numbers::noise::{hash, unit};
+use super::halftone::MAX_DOTS;
+use super::lattice_scan::{Lattice, LatticeScan};
+use super::weighted_voronoi::{FULL_INK, InkGrid, NO_OWNER};
+use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::hatching::CellDots;
-use crate::hatching::clip::circle_clip::Cut;
+use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
-use crate::hatching::clip::domain::{border, nearest};
-use crate::regions::Ground;
+use crate::hatching::clip::domain::{directed_border, nearest};
+use crate::regions::HatchRegions;
 
 /// Options of stippling. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,34 +46,34 @@ pub struct Stipple {
 /// inked where it is 0.
 #[must_use]
 pub fn stipple(
-    ground: &Ground,
+    ground: &HatchRegions,
     options: &Stipple,
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
 ) -> Vec<CellDots> {
     let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
-    let least = (area / (PI * MOST_DOTS)).sqrt();
+    let least = (area / (PI * MAX_DOTS)).sqrt();
     let options = &Stipple { radius: options.radius.max(least), ..*options };
-    let side = (options.radius * SQUARE_OF_RADIUS).max((area / MOST_SQUARES).sqrt());
+    let side = (options.radius * SQUARE_SIDE_OF_RADIUS).max((area / MAX_SQUARES).sqrt());
     if side.is_nan() || side <= 0.0 {
         return Vec::new();
     }
     let grid = Lattice::new(Point::new(side / 2.0, side / 2.0), 0.0, side);
-    let scan = Scan::new(ground, &grid);
+    let scan = LatticeScan::new(ground, &grid);
     let mut runs: Vec<RowSpan> = (0..scan.rows()).flat_map(|row| runs(ground, &scan, row)).collect();
     runs.par_sort_by_key(|run| run.facet);
     let facets: Vec<&[RowSpan]> = runs.chunk_by(|a, b| a.facet == b.facet).collect();
-    let found: Vec<Vec<(u32, Disc, Cut)>> = facets
+    let found: Vec<Vec<(u32, Disc, ClippedDisc)>> = facets
         .par_iter()
-        .map(|runs| Facet::new(runs, &grid, coverage).stippled(ground, &grid, options))
+        .map(|runs| FacetStipple::new(runs, &grid, coverage).stippled(ground, &grid, options))
         .collect();
 
     let mut paths: Vec<BezPath> = vec![BezPath::new(); ground.cells.len()];
     for (cell, disc, cut) in found.into_iter().flatten() {
         let path = &mut paths[cell as usize];
         match cut {
-            Cut::Whole => disc.draw(path, options.px),
-            Cut::Part(part, _) => path.extend(part.iter()),
-            Cut::Nothing => {}
+            ClippedDisc::Whole => disc.draw(path, options.px),
+            ClippedDisc::Part(part, _) => path.extend(part.iter()),
+            ClippedDisc::Nothing => {}
         }
     }
     let cells = (0u32..).zip(paths).filter(|(_, path)| !path.elements().is_empty());
@@ -81,10 +81,10 @@ pub fn stipple(
 }
 
 /// Side of the squares that hold the wanted ink, as a share of the mean dot radius.
-const SQUARE_OF_RADIUS: f64 = 0.45;
+const SQUARE_SIDE_OF_RADIUS: f64 = 0.45;
 
 /// Greatest number of squares on a page. Larger pages use larger squares.
-const MOST_SQUARES: f64 = 1.6e7;
+const MAX_SQUARES: f64 = 1.6e7;
 
 /// Consecutive squares of one cell in a row.
 #[derive(Debug, Clone, Copy)]
@@ -97,7 +97,11 @@ struct RowSpan {
     cell: u32,
 }
 
-fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Item = RowSpan> + 'a {
+fn runs<'a>(
+    ground: &'a HatchRegions,
+    scan: &'a LatticeScan,
+    row: usize,
+) -> impl Iterator<Item = RowSpan> + 'a {
     let of = move |(from, to, cell): (f64, f64, u32)| RowSpan {
         facet: ground.cells[cell as usize].facet,
         row: scan.first + row as i64,
@@ -109,16 +113,16 @@ fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Ite
 }
 
 /// One facet, a stretch of surface to be stippled.
-struct Facet<'a> {
+struct FacetStipple<'a> {
     runs: &'a [RowSpan],
     /// Column and row of the first square of the patch.
     corner: [i64; 2],
-    patch: Patch,
+    patch: InkGrid,
     /// Cells where ink is wanted.
     inked: Vec<u32>,
 }
 
-impl<'a> Facet<'a> {
+impl<'a> FacetStipple<'a> {
     fn new(runs: &'a [RowSpan], grid: &Lattice, coverage: &(dyn Fn(u32, Point) -> f64 + Sync)) -> Self {
         let left = runs.iter().map(|run| run.from).min().unwrap_or_default();
         let right = runs.iter().map(|run| run.to).max().unwrap_or_default();
@@ -128,7 +132,7 @@ impl<'a> Facet<'a> {
         let mut ink = vec![0u16; width * height];
         let mut inked: Vec<u32> = Vec::new();
         // The tone is sampled once per block of squares and cell, at the first square met.
-        let band = |run: &RowSpan| run.row.div_euclid(ASKED_APART);
+        let band = |run: &RowSpan| run.row.div_euclid(TONE_BLOCK_SQUARES);
         let bands: Vec<&[RowSpan]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
         let asked: Vec<Vec<(usize, u16)>> = bands
             .into_par_iter()
@@ -137,10 +141,11 @@ impl<'a> Facet<'a> {
                 let squares = runs.iter().flat_map(|run| (run.from..run.to).map(move |column| (run, column)));
                 squares
                     .map(|(run, column)| {
-                        let ink =
-                            known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
+                        let ink = known
+                            .entry((column.div_euclid(TONE_BLOCK_SQUARES), run.cell))
+                            .or_insert_with(|| {
                                 let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
-                                (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
+                                (wanted.clamp(0.0, 1.0) * f64::from(FULL_INK)).round() as u16
                             });
                         ((run.row - top) as usize * width + (column - left) as usize, *ink)
                     })
@@ -158,34 +163,40 @@ impl<'a> Facet<'a> {
         }
         inked.sort_unstable();
         inked.dedup();
-        Self { runs, corner: [left, top], patch: Patch { width, height, ink }, inked }
+        Self { runs, corner: [left, top], patch: InkGrid { width, height, ink }, inked }
     }
 
     /// The dots: cell, disc and clipped shape of each.
-    fn stippled(&self, ground: &Ground, grid: &Lattice, options: &Stipple) -> Vec<(u32, Disc, Cut)> {
+    fn stippled(
+        &self,
+        ground: &HatchRegions,
+        grid: &Lattice,
+        options: &Stipple,
+    ) -> Vec<(u32, Disc, ClippedDisc)> {
         let dot = PI * options.radius * options.radius / (grid.step * grid.step);
         let [left, top] = self.corner.map(i64::cast_unsigned);
         let words = [left, top, self.patch.width as u64, self.patch.height as u64];
         let seed = hash(options.seed, &words);
-        let chance = |word: u64| unit(hash(seed, &[word]));
+        let chance = |word: u64| unit_interval(hash(seed, &[word]));
         let count = (self.patch.total() / dot + chance(u64::MAX)) as usize;
         if count == 0 {
             return Vec::new();
         }
-        let mut sites =
-            self.patch.strewn(count, |k| [0, 1, 2].map(|word| unit(hash(seed, &[k as u64, word]))));
+        let mut sites = self
+            .patch
+            .place_sites(count, |k| [0, 1, 2].map(|word| unit_interval(hash(seed, &[k as u64, word]))));
         self.patch.relax(&mut sites, options.rounds);
 
         let differs = |k: usize| 1.0 + options.uneven * (2.0 * chance(k as u64) - 1.0);
-        let radii = Shares::new(&self.patch, &sites).radii(&sites, differs);
-        let fence = Fence { ground, inked: &self.inked };
+        let radii = SiteShares::new(&self.patch, &sites).radii(&sites, differs);
+        let fence = InkedBorder { ground, inked: &self.inked };
         let drawn = |(k, site): (usize, &[f64; 2])| {
             let (radius, is_dense) = radii[k];
             let [x, y] = [0, 1].map(|axis| site[axis] - 0.5 + self.corner[axis] as f64);
             let cell = self.cell(x.round() as i64, y.round() as i64);
             let disc = Disc { centre: grid.point(x, y), radius: radius * grid.step };
             let (disc, cut) = fence.fitted(disc, is_dense, options.px);
-            (cut != Cut::Nothing).then_some((cell, disc, cut))
+            (cut != ClippedDisc::Nothing).then_some((cell, disc, cut))
         };
         sites.par_iter().enumerate().with_min_len(64).filter_map(drawn).collect()
     }
@@ -199,22 +210,22 @@ impl<'a> Facet<'a> {
 }
 
 /// Side of the blocks where the tone is sampled once, squares.
-const ASKED_APART: i64 = 4;
+const TONE_BLOCK_SQUARES: i64 = 4;
 
 /// Voronoi cells of the sites, with the ink and area of each.
-struct Shares<'a> {
-    patch: &'a Patch,
+struct SiteShares<'a> {
+    patch: &'a InkGrid,
     owners: Vec<u32>,
     inks: Vec<f64>,
     areas: Vec<f64>,
 }
 
-impl<'a> Shares<'a> {
-    fn new(patch: &'a Patch, sites: &[[f64; 2]]) -> Self {
+impl<'a> SiteShares<'a> {
+    fn new(patch: &'a InkGrid, sites: &[[f64; 2]]) -> Self {
         let owners = patch.owners(sites);
         let inks = patch.inks(&owners, sites.len());
         let mut areas = vec![0.0; sites.len()];
-        for owner in owners.iter().filter(|owner| **owner != NOBODY) {
+        for owner in owners.iter().filter(|owner| **owner != NO_OWNER) {
             areas[*owner as usize] += 1.0;
         }
         Self { patch, owners, inks, areas }
@@ -225,7 +236,7 @@ impl<'a> Shares<'a> {
         let of = |wanted: &[f64]| -> Vec<(f64, bool)> {
             let one = |(k, site): (usize, &[f64; 2])| {
                 let alone = (self.inks[k] * differs(k) / PI).sqrt();
-                let is_dense = self.inks[k] > DENSE * self.areas[k];
+                let is_dense = self.inks[k] > MIN_OVERLAP_COVERAGE * self.areas[k];
                 (if is_dense { self.grown(k, *site, alone, wanted[k]) } else { alone }, is_dense)
             };
             sites.par_iter().enumerate().with_min_len(64).map(one).collect()
@@ -240,7 +251,7 @@ impl<'a> Shares<'a> {
             });
         }
         let mut wanted: Vec<f64> = self.inks.iter().map(|ink| 2.0 * ink).collect();
-        for (owner, inked) in self.owners.iter().zip(inked).filter(|(owner, _)| **owner != NOBODY) {
+        for (owner, inked) in self.owners.iter().zip(inked).filter(|(owner, _)| **owner != NO_OWNER) {
             wanted[*owner as usize] -= inked;
         }
         of(&wanted)
@@ -263,7 +274,7 @@ impl<'a> Shares<'a> {
     /// The radius where a dot supplies the `wanted` ink inside its Voronoi cell, not counting ink in other
     /// cells.
     fn grown(&self, site: usize, at: [f64; 2], alone: f64, wanted: f64) -> f64 {
-        let (least, most) = (alone / MOST_GROWTH, alone * MOST_GROWTH);
+        let (least, most) = (alone / MAX_RADIUS_GROWTH, alone * MAX_RADIUS_GROWTH);
         let mut foreign = Vec::new();
         self.each_square(at, most, |square, distance| {
             if self.owners[square] != site as u32 {
@@ -276,7 +287,7 @@ impl<'a> Shares<'a> {
             PI * r * r - lost
         };
         let (mut low, mut high) = (least, most);
-        for _ in 0..GROWTH_STEPS {
+        for _ in 0..GROWTH_BISECTIONS {
             let middle = f64::midpoint(low, high);
             if inked(middle) < wanted { low = middle } else { high = middle }
         }
@@ -285,37 +296,39 @@ impl<'a> Shares<'a> {
 }
 
 /// Coverage above which dots overlap.
-const DENSE: f64 = 0.5;
+const MIN_OVERLAP_COVERAGE: f64 = 0.5;
 
 /// Greatest radius of an overlapping dot relative to an isolated one.
-const MOST_GROWTH: f64 = 1.6;
+const MAX_RADIUS_GROWTH: f64 = 1.6;
 
 /// Bisections that narrow the radius to a thousandth.
-const GROWTH_STEPS: u32 = 10;
+const GROWTH_BISECTIONS: u32 = 10;
 
 /// Border of the inked cells of a facet, which dots do not cross.
-struct Fence<'a> {
-    ground: &'a Ground,
+struct InkedBorder<'a> {
+    ground: &'a HatchRegions,
     /// The inked cells, ascending.
     inked: &'a [u32],
 }
 
-impl Fence<'_> {
+impl InkedBorder<'_> {
     fn is_within(&self, cell: u32) -> bool {
         self.inked.binary_search(&cell).is_ok()
     }
 
     /// Fits a dot inside the border: moved inward if there is room, and clipped otherwise. Dense dots are
     /// only clipped.
-    fn fitted(&self, disc: Disc, is_dense: bool, px: f64) -> (Disc, Cut) {
+    fn fitted(&self, disc: Disc, is_dense: bool, px: f64) -> (Disc, ClippedDisc) {
         let near = |disc: Disc| -> Vec<[Point; 2]> {
             let pieces = self.ground.pieces_near(disc.centre, disc.radius);
-            let fence = |piece: u32| border(&self.ground.pieces[piece as usize], |cell| self.is_within(cell));
+            let fence = |piece: u32| {
+                directed_border(&self.ground.pieces[piece as usize], |cell| self.is_within(cell))
+            };
             pieces.into_iter().filter_map(|piece| Some(fence(piece)?.0)).collect()
         };
         let mut moved = disc;
         let mut border = near(disc);
-        for _ in 0..if is_dense { 0 } else { MOVES } {
+        for _ in 0..if is_dense { 0 } else { MAX_MOVES } {
             let offs = border.iter().map(|ends| (nearest(*ends, moved.centre), ends));
             let distance = |p: Point| (p - moved.centre).hypot2();
             let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else {
@@ -327,24 +340,26 @@ impl Fence<'_> {
                 break;
             }
             let outward = (p - moved.centre) / off * if is_within { 1.0 } else { -1.0 };
-            moved.centre = p - outward * moved.radius * (1.0 + HAIR);
+            moved.centre = p - outward * moved.radius * (1.0 + BORDER_GAP_OF_RADIUS);
             border = near(moved);
         }
         let inside = self.is_within(self.ground.cell_at(moved.centre));
         let cut = moved.cut(&border, inside, px);
-        let is_scrap = |cut: &Cut| match cut {
-            Cut::Part(_, area) => !is_dense && *area < SCRAP * PI * moved.radius * moved.radius,
+        let is_scrap = |cut: &ClippedDisc| match cut {
+            ClippedDisc::Part(_, area) => {
+                !is_dense && *area < MIN_DOT_AREA_SHARE * PI * moved.radius * moved.radius
+            }
             _ => false,
         };
-        if is_scrap(&cut) { (moved, Cut::Nothing) } else { (moved, cut) }
+        if is_scrap(&cut) { (moved, ClippedDisc::Nothing) } else { (moved, cut) }
     }
 }
 
 /// Greatest number of moves before a dot is clipped.
-const MOVES: u32 = 4;
+const MAX_MOVES: u32 = 4;
 
 /// Distance of a moved dot from the border, as a share of its radius.
-const HAIR: f64 = 1e-3;
+const BORDER_GAP_OF_RADIUS: f64 = 1e-3;
 
 /// Least remaining share of a dot's area. Smaller remainders are not drawn.
-const SCRAP: f64 = 0.4;
+const MIN_DOT_AREA_SHARE: f64 = 0.4;

@@ -1,4 +1,4 @@
-//! [`Patch`]: a grid of wanted ink, its Voronoi partition among sites, and Lloyd relaxation of the sites.
+//! [`InkGrid`]: a grid of wanted ink, its Voronoi partition among sites, and Lloyd relaxation of the sites.
 //!
 //! Source: Secord, Weighted Voronoi stippling, NPAR 2002: Lloyd's method with weighted centroids of Voronoi
 //! cells.
@@ -11,42 +11,42 @@
 
 use crate::parallel::prelude::*;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Ink value of a fully black square.
-pub(crate) const BLACK: u16 = 16_384;
+pub(crate) const FULL_INK: u16 = 16_384;
 
 /// Box of squares. Positions are in squares, from the corner of the box.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Patch {
+pub(crate) struct InkGrid {
     pub width: usize,
     pub height: usize,
-    /// Ink wanted in each square, row by row, 0 to [`BLACK`]. It is 0 outside the patch.
+    /// Ink wanted in each square, row by row, 0 to [`FULL_INK`]. It is 0 outside the patch.
     pub ink: Vec<u16>,
 }
 
-/// Marks squares without an owner in [`Patch::owners`].
-pub(crate) const NOBODY: u32 = u32::MAX;
+/// Marks squares without an owner in [`InkGrid::owners`].
+pub(crate) const NO_OWNER: u32 = u32::MAX;
 
 /// Weighted sums over the Voronoi cell of a site.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sum {
+struct CentroidSum {
     weight: u64,
     x: u64,
     y: u64,
 }
 
-impl Patch {
+impl InkGrid {
     /// All wanted ink, in fully black squares.
     pub fn total(&self) -> f64 {
-        self.ink.iter().map(|ink| u64::from(*ink)).sum::<u64>() as f64 / f64::from(BLACK)
+        self.ink.iter().map(|ink| u64::from(*ink)).sum::<u64>() as f64 / f64::from(FULL_INK)
     }
 
     /// `count` initial positions, each in the middle of about the same amount of ink.
     ///
     /// The squares are ordered along a Hilbert curve, which keeps neighbours together. `chance` (0 to 1)
     /// places each position inside its stretch of ink and inside its square.
-    pub fn strewn(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
+    pub fn place_sites(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
         let levels = self.width.max(self.height).next_power_of_two().trailing_zeros();
         let mut squares: Vec<(u64, u32)> = (0..self.ink.len())
             .into_par_iter()
@@ -86,7 +86,7 @@ impl Patch {
                 if sum.weight > 0 {
                     let middle = [sum.x, sum.y].map(|of| of as f64 / sum.weight as f64 + 0.5);
                     // Over-relaxation reaches equilibrium in fewer rounds.
-                    *site = [0, 1].map(|axis| site[axis] + (middle[axis] - site[axis]) * OVERSHOOT);
+                    *site = [0, 1].map(|axis| site[axis] + (middle[axis] - site[axis]) * RELAXATION_FACTOR);
                 }
             }
         }
@@ -96,20 +96,20 @@ impl Patch {
     pub fn inks(&self, owners: &[u32], sites: usize) -> Vec<f64> {
         let mut inks = vec![0u64; sites];
         for (owner, ink) in owners.iter().zip(&self.ink) {
-            if *owner != NOBODY {
+            if *owner != NO_OWNER {
                 inks[*owner as usize] += u64::from(*ink);
             }
         }
-        inks.into_iter().map(|ink| ink as f64 / f64::from(BLACK)).collect()
+        inks.into_iter().map(|ink| ink as f64 / f64::from(FULL_INK)).collect()
     }
 
-    fn sums(&self, owners: &[u32], sites: usize) -> Vec<Sum> {
-        let rows = self.height.div_ceil(SUMMED_APART).max(1);
+    fn sums(&self, owners: &[u32], sites: usize) -> Vec<CentroidSum> {
+        let rows = self.height.div_ceil(SUM_BANDS).max(1);
         let width = self.width.max(1);
         let bands = owners.par_chunks(rows * width).zip(self.ink.par_chunks(rows * width)).enumerate();
-        let apart: Vec<Vec<Sum>> = bands
+        let apart: Vec<Vec<CentroidSum>> = bands
             .map(|(band, (owners, ink))| {
-                let mut sums = vec![Sum::default(); sites];
+                let mut sums = vec![CentroidSum::default(); sites];
                 for (row, (owners, ink)) in owners.chunks(width).zip(ink.chunks(width)).enumerate() {
                     let y = (band * rows + row) as u64;
                     for (x, (owner, ink)) in owners.iter().zip(ink).enumerate() {
@@ -124,7 +124,7 @@ impl Patch {
                 sums
             })
             .collect();
-        let mut all = vec![Sum::default(); sites];
+        let mut all = vec![CentroidSum::default(); sites];
         for sums in &apart {
             for (all, sum) in all.iter_mut().zip(sums) {
                 all.weight += sum.weight;
@@ -137,28 +137,29 @@ impl Patch {
 
     /// The site closest to the centre of each square where ink is wanted.
     pub fn owners(&self, sites: &[[f64; 2]]) -> Vec<u32> {
-        let mut owners = vec![NOBODY; self.ink.len()];
+        let mut owners = vec![NO_OWNER; self.ink.len()];
         if sites.is_empty() || self.width == 0 {
             return owners;
         }
         let width = self.width;
-        let buckets = Buckets::new(self, sites);
-        let bands = owners.par_chunks_mut(BLOCK * width).zip(self.ink.par_chunks(BLOCK * width));
+        let buckets = SiteGrid::new(self, sites);
+        let bands =
+            owners.par_chunks_mut(BLOCK_SQUARES * width).zip(self.ink.par_chunks(BLOCK_SQUARES * width));
         bands.enumerate().for_each_init(Vec::new, |near, (band, (owners, ink))| {
-            let (rows, top) = (owners.len() / width, band * BLOCK);
-            for left in (0..width).step_by(BLOCK) {
-                let right = (left + BLOCK).min(width);
+            let (rows, top) = (owners.len() / width, band * BLOCK_SQUARES);
+            for left in (0..width).step_by(BLOCK_SQUARES) {
+                let right = (left + BLOCK_SQUARES).min(width);
                 let of_row = |row: usize| row * width + left..row * width + right;
                 if (0..rows).all(|row| ink[of_row(row)].iter().all(|ink| *ink == 0)) {
                     continue;
                 }
-                let centre = [left, top].map(|low| low as f64 + BLOCK as f64 / 2.0);
+                let centre = [left, top].map(|low| low as f64 + BLOCK_SQUARES as f64 / 2.0);
                 buckets.near(centre, near);
                 let nearest = nearest(near, centre);
                 for (row, nearest) in nearest.iter().enumerate().take(rows) {
                     let squares = owners[of_row(row)].iter_mut().zip(&ink[of_row(row)]);
                     for ((owner, ink), nearest) in squares.zip(nearest) {
-                        *owner = if *ink > 0 { *nearest } else { NOBODY };
+                        *owner = if *ink > 0 { *nearest } else { NO_OWNER };
                     }
                 }
             }
@@ -168,16 +169,17 @@ impl Patch {
 }
 
 /// The closest of these sites for each square of a block, row by row.
-fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK]; BLOCK] {
+fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK_SQUARES]; BLOCK_SQUARES] {
     // Coordinates are relative to the middle of the block, so single precision is enough.
-    let at: [f32; BLOCK] = std::array::from_fn(|k| k as f32 + 0.5 - BLOCK as f32 / 2.0);
-    let (mut best, mut owners) = ([[f32::INFINITY; BLOCK]; BLOCK], [[NOBODY; BLOCK]; BLOCK]);
+    let at: [f32; BLOCK_SQUARES] = std::array::from_fn(|k| k as f32 + 0.5 - BLOCK_SQUARES as f32 / 2.0);
+    let (mut best, mut owners) =
+        ([[f32::INFINITY; BLOCK_SQUARES]; BLOCK_SQUARES], [[NO_OWNER; BLOCK_SQUARES]; BLOCK_SQUARES]);
     for (site, number) in sites {
         let [x, y] = [0, 1].map(|axis| (site[axis] - centre[axis]) as f32);
         let across = at.map(|at| (at - x) * (at - x));
-        for row in 0..BLOCK {
+        for row in 0..BLOCK_SQUARES {
             let down = (at[row] - y) * (at[row] - y);
-            for column in 0..BLOCK {
+            for column in 0..BLOCK_SQUARES {
                 let distance2 = across[column] + down;
                 let is_nearer = distance2 < best[row][column];
                 best[row][column] = if is_nearer { distance2 } else { best[row][column] };
@@ -189,35 +191,35 @@ fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK]; BLOCK]
 }
 
 /// Side of a block of squares whose closest sites are searched together.
-const BLOCK: usize = 4;
+const BLOCK_SQUARES: usize = 4;
 
 /// Over-relaxation factor: step length as a multiple of the distance to the centroid.
-const OVERSHOOT: f64 = 1.6;
+const RELAXATION_FACTOR: f64 = 1.6;
 
 /// Number of bands of rows that are summed in parallel.
-const SUMMED_APART: usize = 4;
+const SUM_BANDS: usize = 4;
 
 fn distance2(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
 }
 
 /// Sites in buckets over the box.
-struct Buckets {
+struct SiteGrid {
     side: f64,
     across: [usize; 2],
-    sites: Grouped<([f64; 2], u32)>,
+    sites: CsrLists<([f64; 2], u32)>,
 }
 
-impl Buckets {
-    fn new(patch: &Patch, sites: &[[f64; 2]]) -> Self {
+impl SiteGrid {
+    fn new(patch: &InkGrid, sites: &[[f64; 2]]) -> Self {
         let size = [patch.width as f64, patch.height as f64];
         // About two sites per bucket if the box is full.
         let side =
             (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
         let across = size.map(|size| (size / side) as usize + 1);
-        let mut buckets = Self { side, across, sites: Grouped::default() };
+        let mut buckets = Self { side, across, sites: CsrLists::default() };
         let of: Vec<usize> = sites.iter().map(|site| buckets.bucket(*site)).collect();
-        buckets.sites = grouped(across[0] * across[1], |put| {
+        buckets.sites = csr_lists(across[0] * across[1], |put| {
             sites
                 .iter()
                 .zip(&of)
@@ -242,7 +244,7 @@ impl Buckets {
 
     /// All sites that may be closest to the centre of a square of the block around a centre.
     fn near(&self, centre: [f64; 2], near: &mut Vec<([f64; 2], u32)>) {
-        let reach = (BLOCK as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
+        let reach = (BLOCK_SQUARES as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
         // The site closest to such a point is at most this far from the centre, by the triangle inequality.
         let limit = self.nearest(centre) + 2.0 * reach + 1e-3;
         let [left, top] = self.column_and_row(centre.map(|c| c - limit));
@@ -311,29 +313,29 @@ mod tests {
     use super::*;
 
     /// Wanted ink that increases to the right, with a hole.
-    fn patch(width: usize, height: usize) -> Patch {
+    fn patch(width: usize, height: usize) -> InkGrid {
         let ink = |k: usize| {
             let (x, y) = (k % width, k / width);
             let is_hole = x.abs_diff(width / 3) < 9 && y.abs_diff(height / 2) < 7;
-            if is_hole { 0 } else { (x * usize::from(BLACK) / width) as u16 }
+            if is_hole { 0 } else { (x * usize::from(FULL_INK) / width) as u16 }
         };
-        Patch { width, height, ink: (0..width * height).map(ink).collect() }
+        InkGrid { width, height, ink: (0..width * height).map(ink).collect() }
     }
 
     fn chance(k: usize) -> [f64; 3] {
-        use crate::geometry::numbers::noise::{hash, unit};
-        [0, 1, 2].map(|word| unit(hash(7, &[k as u64, word])))
+        use crate::geometry::numbers::noise::{hash, unit_interval};
+        [0, 1, 2].map(|word| unit_interval(hash(7, &[k as u64, word])))
     }
 
     #[test]
     fn squares_belong_to_the_nearest_site() {
         let patch = patch(97, 61);
         for count in [1, 2, 40, 700] {
-            let sites = patch.strewn(count, chance);
+            let sites = patch.place_sites(count, chance);
             assert_eq!(sites.len(), count);
             for (k, owner) in patch.owners(&sites).into_iter().enumerate() {
                 if patch.ink[k] == 0 {
-                    assert_eq!(owner, NOBODY);
+                    assert_eq!(owner, NO_OWNER);
                     continue;
                 }
                 let at = [(k % 97) as f64 + 0.5, (k / 97) as f64 + 0.5];
@@ -347,7 +349,7 @@ mod tests {
     fn shares_at_rest_hold_the_same_ink() {
         let patch = patch(240, 200);
         let count = 600;
-        let mut sites = patch.strewn(count, chance);
+        let mut sites = patch.place_sites(count, chance);
         let spread = |sites: &[[f64; 2]]| {
             let inks = patch.inks(&patch.owners(sites), count);
             let mean = patch.total() / count as f64;

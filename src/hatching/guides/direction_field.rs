@@ -1,4 +1,4 @@
-//! [`Flow`]: the direction field of strokes over a page, smoothed where the surface gives no clear direction.
+//! [`GuideDirections`]: the direction field of strokes over a page, smoothed where the surface gives no clear direction.
 //!
 //! A direction has no sense, so its angle is stored doubled and opposite directions agree. Curved surfaces
 //! keep their directions, and so do wide flat faces, whose directions are level. Over spherical areas and
@@ -9,36 +9,36 @@
 
 use kurbo::{Point, Vec2};
 
-use crate::regions::Samples;
-use crate::regions::lattice::direction_field::{Axes, Axis};
+use crate::regions::LightLattice;
+use crate::regions::lattice::direction_field::{DirectionField, LineDirection};
 
 /// Direction field of strokes over a page.
 #[derive(Debug, Clone)]
-pub struct Flow<'a> {
-    samples: &'a Samples,
-    axes: Vec<Axis>,
+pub struct GuideDirections<'a> {
+    samples: &'a LightLattice,
+    axes: Vec<LineDirection>,
 }
 
 /// Number of smoothing rounds.
-const ROUNDS: usize = 60;
+const SPREAD_ROUNDS: usize = 60;
 
 /// Weight of a neighbour relative to a point with a certain direction.
-const NEIGHBOUR: f32 = 3.0;
+const NEIGHBOUR_WEIGHT: f32 = 3.0;
 
-impl<'a> Flow<'a> {
+impl<'a> GuideDirections<'a> {
     /// The field that smooths the axes given at the points of a lattice.
     #[must_use]
-    pub fn new(samples: &'a Samples, axes: &Axes) -> Self {
+    pub fn new(samples: &'a LightLattice, axes: &DirectionField) -> Self {
         let given = &axes.of;
-        let axes = samples.spread(given.clone(), ROUNDS, |k, own, around| {
+        let axes = samples.spread(given.clone(), SPREAD_ROUNDS, |k, own, around| {
             if samples.facets[k] == 0 || axes.hold[k] {
                 return own;
             }
             let sure = (given[k][0] * given[k][0] + given[k][1] * given[k][1]).sqrt();
             let (mut sum, mut whole) = (given[k], sure);
             for axis in around.into_iter().flatten() {
-                sum = [sum[0] + NEIGHBOUR * axis[0], sum[1] + NEIGHBOUR * axis[1]];
-                whole += NEIGHBOUR;
+                sum = [sum[0] + NEIGHBOUR_WEIGHT * axis[0], sum[1] + NEIGHBOUR_WEIGHT * axis[1]];
+                whole += NEIGHBOUR_WEIGHT;
             }
             if whole > 0.0 { sum.map(|x| x / whole) } else { sum }
         });
@@ -47,7 +47,7 @@ impl<'a> Flow<'a> {
 
     /// The lattice of the field.
     #[must_use]
-    pub const fn samples(&self) -> &Samples {
+    pub const fn samples(&self) -> &LightLattice {
         self.samples
     }
 
@@ -61,7 +61,7 @@ impl<'a> Flow<'a> {
                 let [x, y] = self.axes[k].map(f64::from);
                 let length = (x * x + y * y).sqrt();
                 if length > 0.0 {
-                    let weight = (weight + FAINT) / length;
+                    let weight = (weight + MIN_SAMPLE_WEIGHT) / length;
                     sum = [sum[0] + x * weight, sum[1] + y * weight];
                 }
             }
@@ -79,4 +79,4 @@ impl<'a> Flow<'a> {
 }
 
 /// Least weight of a lattice point, so that weights of zero still count a little.
-const FAINT: f64 = 1e-9;
+const MIN_SAMPLE_WEIGHT: f64 = 1e-9;

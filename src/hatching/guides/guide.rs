@@ -8,14 +8,14 @@
 
 use kurbo::{Point, Vec2};
 
-use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::mesh::PartId;
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 
 /// The cells that a guide may ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scope {
+pub enum GuideScope {
     /// All cells of one part.
     Part(PartId),
     /// One connected stretch of visible surface.
@@ -32,7 +32,7 @@ pub struct Guide {
     /// Identity of the guide: the same in all drawings of the same model with the same seed.
     pub id: u64,
     /// The cells that it may ink.
-    pub scope: Scope,
+    pub scope: GuideScope,
     /// Crowding at each point of the line: 1 where guides lie at their spacing, 2 where they lie twice as
     /// close. Empty: 1 everywhere.
     pub crowding: Vec<f64>,
@@ -58,7 +58,7 @@ pub fn axes(angle: f64) -> [Vec2; 2] {
 /// number for each part.
 #[must_use]
 pub fn straight(
-    ground: &Ground,
+    ground: &HatchRegions,
     wanted: impl Fn(u32) -> bool,
     identities: &[u64],
     angle: f64,
@@ -68,7 +68,9 @@ pub fn straight(
 ) -> Vec<Guide> {
     let count = ground.cells.iter().map(|cell| cell.look.part.index() + 1).max().unwrap_or(0);
     let identity = |part: usize| identities.get(part).copied().unwrap_or(part as u64);
-    let angle_of = |part: usize| angle + turn_parts * (2.0 * unit(hash(seed, &[TURN, identity(part)])) - 1.0);
+    let angle_of = |part: usize| {
+        angle + turn_parts * (2.0 * unit_interval(hash(seed, &[TURN_SEED, identity(part)])) - 1.0)
+    };
     let axes: Vec<[Vec2; 2]> = (0..count).map(|part| axes(angle_of(part))).collect();
     let mut boxes = vec![[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY]; count];
     for piece in &ground.pieces {
@@ -88,7 +90,7 @@ pub fn straight(
         }
         let [along, across] = axes[part];
         let part_seed = hash(seed, &[identity(part)]);
-        let shift = unit(part_seed) * spacing;
+        let shift = unit_interval(part_seed) * spacing;
         let first = ((low - shift) / spacing).floor() as i64;
         let last = ((high - shift) / spacing).ceil() as i64;
         guides.extend((first..=last).map(|number| {
@@ -98,7 +100,7 @@ pub fn straight(
                 line: vec![end(left - spacing), end(right + spacing)],
                 rank: rank(number),
                 id: hash(part_seed, &[number.cast_unsigned()]),
-                scope: Scope::Part(PartId(part as u32)),
+                scope: GuideScope::Part(PartId(part as u32)),
                 crowding: Vec::new(),
             }
         }));
@@ -107,7 +109,7 @@ pub fn straight(
 }
 
 /// Separates the random seeds of turns from those of lines.
-const TURN: u64 = 0x7475_726e;
+const TURN_SEED: u64 = 0x7475_726e;
 
 #[cfg(test)]
 mod tests {

@@ -12,11 +12,11 @@ use glam::DVec3;
 use kurbo::Point;
 use rustc_hash::FxHashMap;
 
-use super::guide::{Guide, Scope, rank};
+use super::guide::{Guide, GuideScope, rank};
 use crate::geometry::numbers::noise::hash;
-use crate::hatching::clip::line_clip::{between, stretches};
+use crate::hatching::clip::line_clip::{clip_to_cells, sub_polyline};
 use crate::mesh::PartId;
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 use crate::regions::surface_curves::level_curves::LevelCurve;
 
 /// Guides along the visible parts of level curves, `pitch` page units apart where they are densest.
@@ -24,8 +24,8 @@ use crate::regions::surface_curves::level_curves::LevelCurve;
 /// `are_seen` takes page points, each with a nearness. For each it returns whether nothing is in front.
 /// `place_of` returns a number for a part and a rough position in it.
 #[must_use]
-pub fn guides(
-    ground: &Ground,
+pub fn guides_along_curves(
+    ground: &HatchRegions,
     curves: &[LevelCurve],
     are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,
     place_of: impl Fn(PartId, DVec3) -> u64,
@@ -38,7 +38,7 @@ pub fn guides(
             let cell = &ground.cells[cell as usize];
             cell.facet != 0 && cell.look.part == curve.part
         };
-        for stretch in stretches(ground, &curve.line, on_part) {
+        for stretch in clip_to_cells(ground, &curve.line, on_part) {
             pieces.push((number as u32, stretch.from, stretch.to, ground.cells[stretch.cell as usize].facet));
         }
     }
@@ -55,7 +55,7 @@ pub fn guides(
     let mut guides = Vec::new();
     for ((number, from, to, facet), _) in pieces.into_iter().zip(seen).filter(|(_, seen)| *seen) {
         let curve = &curves[number as usize];
-        let line = between(&curve.line, from, to);
+        let line = sub_polyline(&curve.line, from, to);
         if line.len() < 2 {
             continue;
         }
@@ -71,7 +71,7 @@ pub fn guides(
         let count = counts.entry(name).or_default();
         let id = hash(name, &[*count]);
         *count += 1;
-        guides.push(Guide { line, rank: rank(curve.level), id, scope: Scope::Facet(facet), crowding });
+        guides.push(Guide { line, rank: rank(curve.level), id, scope: GuideScope::Facet(facet), crowding });
     }
     guides
 }

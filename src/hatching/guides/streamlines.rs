@@ -15,12 +15,12 @@ use std::collections::VecDeque;
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
 
-use super::direction_field::Flow;
-use super::guide::{Guide, Scope};
+use super::direction_field::GuideDirections;
+use super::guide::{Guide, GuideScope};
 use super::stroke_layout::arcs;
 use crate::geometry::numbers::noise::hash;
 use crate::hatching::clip::line_clip::norm;
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 
 /// Spacing of streamlines. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
@@ -36,25 +36,25 @@ pub struct Spacing {
 }
 
 /// A line ends where another one is closer than this share of the spacing.
-const NEAREST: f64 = 0.62;
+const MIN_GAP_OF_SPACING: f64 = 0.62;
 
 /// Length of a growth step, px.
-const STEP_PX: f64 = 1.5;
+const GROWTH_STEP_PX: f64 = 1.5;
 
 /// Least cosine of the turn per step (60 degrees). A sharper turn ends the line.
-const TURN: f64 = 0.5;
+const MIN_TURN_COSINE: f64 = 0.5;
 
 /// Least length of a line in pitches. Shorter lines are dropped.
-const SHORTEST: f64 = 1.5;
+const MIN_LENGTH_PITCHES: f64 = 1.5;
 
 /// Greatest number of points in half of a line.
-const LONGEST: usize = 20_000;
+const MAX_LINE_POINTS: usize = 20_000;
 
 /// Guides along a direction field on all facets with wanted cells.
 #[must_use]
 pub fn streamlines(
-    ground: &Ground,
-    flow: &Flow,
+    ground: &HatchRegions,
+    flow: &GuideDirections,
     wanted: impl Fn(u32) -> bool,
     is_inked: &(impl Fn(u32, Point) -> bool + Sync),
     spacing: &Spacing,
@@ -91,7 +91,7 @@ pub fn streamlines(
 }
 
 struct Grower<'a, F> {
-    flow: &'a Flow<'a>,
+    flow: &'a GuideDirections<'a>,
     facet: u32,
     is_inked: &'a F,
     spacing: &'a Spacing,
@@ -104,7 +104,13 @@ struct Grower<'a, F> {
 }
 
 impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
-    fn new(flow: &'a Flow, facet: u32, points: &[u32], is_inked: &'a F, spacing: &'a Spacing) -> Self {
+    fn new(
+        flow: &'a GuideDirections,
+        facet: u32,
+        points: &[u32],
+        is_inked: &'a F,
+        spacing: &'a Spacing,
+    ) -> Self {
         let samples = flow.samples();
         let at = |k: &u32| samples.point(*k as usize);
         let first = at(&points[0]);
@@ -159,7 +165,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         let mut scanned = 0;
         loop {
             while let Some(line) = queue.pop_front() {
-                let every = (distance / 2.0 / (STEP_PX * self.spacing.px)).max(1.0) as usize;
+                let every = (distance / 2.0 / (GROWTH_STEP_PX * self.spacing.px)).max(1.0) as usize;
                 let along = self.lines[line].0.clone();
                 for k in (0..along.len()).step_by(every) {
                     let way = along[(k + 1).min(along.len() - 1)] - along[k.saturating_sub(1)];
@@ -187,7 +193,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
 
     /// Grows a line from a point, if there is room for it.
     fn seed(&mut self, p: Point, distance: f64, doubling: u32, queue: &mut VecDeque<usize>) {
-        if !self.is_ground(p) || !self.is_free(p, distance * SEEDS) {
+        if !self.is_ground(p) || !self.is_free(p, distance * MIN_SEED_GAP_OF_SPACING) {
             return;
         }
         let Some(way) = self.flow.at(self.facet, p) else { return };
@@ -196,8 +202,8 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         line.push(p);
         let ahead = self.half(p, way, distance, &line);
         line.extend(ahead);
-        let step = STEP_PX * self.spacing.px;
-        if (line.len() as f64 - 1.0) * step < (SHORTEST * self.spacing.pitch).max(2.0 * step) {
+        let step = GROWTH_STEP_PX * self.spacing.px;
+        if (line.len() as f64 - 1.0) * step < (MIN_LENGTH_PITCHES * self.spacing.pitch).max(2.0 * step) {
             return;
         }
         self.put(&line);
@@ -207,16 +213,16 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
 
     /// One half of a line: the points after its seed. `behind` is the other half.
     fn half(&self, seed: Point, way: Vec2, distance: f64, behind: &[Point]) -> Vec<Point> {
-        let step = STEP_PX * self.spacing.px;
-        let nearest = distance * NEAREST;
+        let step = GROWTH_STEP_PX * self.spacing.px;
+        let nearest = distance * MIN_GAP_OF_SPACING;
         let (mut p, mut way) = (seed, way);
         let mut line: Vec<Point> = Vec::new();
         // A line must not run into itself. Points nearby along the line are exempt from the test.
         let far = (distance * 2.0 / step).ceil() as usize;
-        while line.len() < LONGEST {
+        while line.len() < MAX_LINE_POINTS {
             let Some(middle) = self.flow.at(self.facet, p + way * (step / 2.0)) else { break };
             let middle = if middle.dot(way) < 0.0 { -middle } else { middle };
-            if middle.dot(way) < TURN {
+            if middle.dot(way) < MIN_TURN_COSINE {
                 break;
             }
             let next = p + middle * step;
@@ -250,7 +256,8 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
                 let steps = [place.x, place.y].map(|x| ((x / spacing.px).round() as i64).cast_unsigned());
                 let id = hash(spacing.seed, &[u64::from(facet), steps[0], steps[1]]);
                 let length = arcs(&line).last().copied().unwrap_or_default();
-                let guide = Guide { line, rank: 0.0, id, scope: Scope::Facet(facet), crowding: Vec::new() };
+                let guide =
+                    Guide { line, rank: 0.0, id, scope: GuideScope::Facet(facet), crowding: Vec::new() };
                 (doubling, hash(id, &[1]), guide, length)
             })
             .collect();
@@ -269,4 +276,4 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
 }
 
 /// Least distance of a seed from lines as a share of the spacing. Slightly below 1, against rounding.
-const SEEDS: f64 = 0.98;
+const MIN_SEED_GAP_OF_SPACING: f64 = 0.98;

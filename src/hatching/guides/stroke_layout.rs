@@ -2,11 +2,11 @@
 
 use kurbo::{Point, Vec2};
 
-use super::guide::{Guide, Scope};
-use crate::geometry::numbers::noise::{hash, smooth, unit};
+use super::guide::{Guide, GuideScope};
+use crate::geometry::numbers::noise::{hash, unit_interval, value_noise};
 use crate::geometry::numbers::portable_math::tan;
-use crate::hatching::clip::line_clip::{between, norm, stretches};
-use crate::regions::Ground;
+use crate::hatching::clip::line_clip::{clip_to_cells, norm, sub_polyline};
+use crate::regions::HatchRegions;
 
 /// Stroke of a hatching.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct HatchStroke {
 
 /// Parameters of laying strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Hand {
+pub struct StrokeLayout {
     /// Length of a stroke; 0 means unbroken.
     pub length: f64,
     /// Gap between consecutive strokes of one line.
@@ -58,12 +58,12 @@ pub struct Hand {
 }
 
 /// Wavelength of tremor, px.
-const TREMOR_PX: f64 = 24.0;
+const TREMOR_WAVE_PX: f64 = 24.0;
 
 /// Distance between points of a stroke that is not straight, px.
-const STEP_PX: f64 = 4.0;
+const POINT_STEP_PX: f64 = 4.0;
 
-impl Hand {
+impl StrokeLayout {
     /// Whether each stroke is the unbroken guide itself.
     fn is_plain(&self) -> bool {
         self.length <= 0.0 && self.is_straight()
@@ -81,24 +81,24 @@ impl Hand {
     /// Lays strokes along a guide where the `density` of a cell, the share of all guides wanted there,
     /// exceeds the guide's rank.
     #[must_use]
-    pub fn lay(&self, guide: &Guide, ground: &Ground, density: &[f64]) -> Vec<HatchStroke> {
+    pub fn lay(&self, guide: &Guide, ground: &HatchRegions, density: &[f64]) -> Vec<HatchStroke> {
         let in_scope = |cell: u32| match guide.scope {
-            Scope::Part(part) => {
+            GuideScope::Part(part) => {
                 let own = &ground.cells[cell as usize];
                 own.facet != 0 && own.look.part == part
             }
-            Scope::Facet(facet) => ground.cells[cell as usize].facet == facet,
+            GuideScope::Facet(facet) => ground.cells[cell as usize].facet == facet,
         };
         let asked = |cell: u32| if in_scope(cell) { density[cell as usize] } else { 0.0 };
         let wanted = |cell: u32| asked(cell) > guide.rank;
-        let on_guide = stretches(ground, &guide.line, wanted);
+        let on_guide = clip_to_cells(ground, &guide.line, wanted);
         if on_guide.is_empty() {
             return Vec::new();
         }
         let mut out = Vec::new();
         if self.is_plain() && guide.crowding.is_empty() {
             for (piece, stretch) in on_guide.into_iter().enumerate() {
-                let points = between(&guide.line, stretch.from, stretch.to);
+                let points = sub_polyline(&guide.line, stretch.from, stretch.to);
                 let id = hash(guide.id, &[0, piece as u64]);
                 out.extend(self.ended(points, stretch.cut, HatchStroke { id, ..blank(guide, stretch.cell) }));
             }
@@ -119,16 +119,16 @@ impl Hand {
                 continue;
             }
             let mut piece = 0;
-            for stretch in stretches(ground, &points, wanted) {
+            for stretch in clip_to_cells(ground, &points, wanted) {
                 for (from, to) in
-                    uncrowded(guide, &arcs, &points, (start, end), stretch.from, stretch.to, |c| {
+                    uncrowded_spans(guide, &arcs, &points, (start, end), stretch.from, stretch.to, |c| {
                         asked(stretch.cell) > guide.rank * c
                     })
                 {
                     let cut = [stretch.cut[0] && from == stretch.from, stretch.cut[1] && to == stretch.to];
                     let own = HatchStroke { id: hash(id, &[piece]), ..blank(guide, stretch.cell) };
                     piece += 1;
-                    out.extend(self.ended(between(&points, from, to), cut, own));
+                    out.extend(self.ended(sub_polyline(&points, from, to), cut, own));
                 }
             }
         }
@@ -141,14 +141,17 @@ impl Hand {
             return vec![(0, (0.0, total))];
         }
         let period = self.length + self.gap;
-        let shift = unit(hash(guide.id, &[START])) * period;
+        let shift = unit_interval(hash(guide.id, &[START_SEED])) * period;
         let first = (-shift / period).floor() as i64 - 1;
         let last = ((total - shift) / period).ceil() as i64 + 1;
         let mut strokes = Vec::new();
         for number in first..=last {
             // The two ends of a stroke vary independently.
             let end = |side: u64, n: i64| {
-                self.uneven * period * 0.5 * (unit(hash(guide.id, &[ENDS, side, n.cast_unsigned()])) - 0.5)
+                self.uneven
+                    * period
+                    * 0.5
+                    * (unit_interval(hash(guide.id, &[ENDS_SEED, side, n.cast_unsigned()])) - 0.5)
             };
             let middle = shift + number as f64 * period;
             let start = (middle + end(0, number)).max(0.0);
@@ -162,14 +165,14 @@ impl Hand {
 
     /// The centre line of a stroke between two arc lengths of its guide.
     fn drawn(&self, guide: &Guide, arcs: &[f64], start: f64, end: f64, id: u64) -> Vec<Point> {
-        let chance = |what: u64| 2.0 * unit(hash(self.seed, &[id, what])) - 1.0;
+        let chance = |what: u64| 2.0 * unit_interval(hash(self.seed, &[id, what])) - 1.0;
         let (aside, turn) = (self.stray * chance(1), tan(self.turn.min(1.0)) * chance(2));
         let bow = self.bow * chance(3);
         let tremor = hash(self.seed, &[id, 4]);
         let total = end - start;
         let straight = guide.line.len() == 2 && self.is_straight();
         let count =
-            if straight { 1 } else { (total / (STEP_PX * self.px)).ceil().clamp(2.0, 4000.0) as usize };
+            if straight { 1 } else { (total / (POINT_STEP_PX * self.px)).ceil().clamp(2.0, 4000.0) as usize };
         let mut k = 0;
         (0..=count)
             .map(|i| {
@@ -183,7 +186,7 @@ impl Hand {
                 let long = arcs[k + 1] - arcs[k];
                 let p = a + way * if long > 0.0 { (s - arcs[k]) / long } else { 0.0 };
                 let across = if long > 0.0 { Vec2::new(-way.y, way.x) / long } else { Vec2::ZERO };
-                let waver = self.tremor * smooth(tremor, s / (TREMOR_PX * self.px));
+                let waver = self.tremor * value_noise(tremor, s / (TREMOR_WAVE_PX * self.px));
                 let off = aside + turn * (s - start - total / 2.0) + bow * 4.0 * t * (1.0 - t) + waver;
                 p + across * off
             })
@@ -193,7 +196,7 @@ impl Hand {
     /// A stroke through these points, lengthened or shortened at ends that were cut at a border. `None` if
     /// too little is left.
     fn ended(&self, mut points: Vec<Point>, cut: [bool; 2], stroke: HatchStroke) -> Option<HatchStroke> {
-        let chance = |what: u64| unit(hash(self.seed, &[stroke.id, what]));
+        let chance = |what: u64| unit_interval(hash(self.seed, &[stroke.id, what]));
         for (end, is_cut) in cut.into_iter().enumerate() {
             if is_cut {
                 lengthen(
@@ -203,8 +206,8 @@ impl Hand {
                 );
             }
         }
-        let is_long =
-            points.len() >= 2 && crate::hatching::clip::line_clip::length(&points) >= self.least.max(LEAST);
+        let is_long = points.len() >= 2
+            && crate::hatching::clip::line_clip::length(&points) >= self.least.max(MIN_STROKE_LENGTH);
         let pressure = 1.0 - self.pressure * chance(7);
         is_long.then_some(HatchStroke { points, pressure, ..stroke })
     }
@@ -216,11 +219,11 @@ const fn blank(guide: &Guide, cell: u32) -> HatchStroke {
 }
 
 /// Shorter strokes are dropped, page units.
-const LEAST: f64 = 1e-6;
+const MIN_STROKE_LENGTH: f64 = 1e-6;
 
 /// Separate the random seeds of a guide's first stroke and of stroke ends.
-const START: u64 = 0x5354_4152;
-const ENDS: u64 = 0x454e_4453;
+const START_SEED: u64 = 0x5354_4152;
+const ENDS_SEED: u64 = 0x454e_4453;
 
 /// Arc length at each point of a polyline.
 pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
@@ -234,7 +237,7 @@ pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
 }
 
 /// The parts of a span where its guide is wanted in spite of crowding.
-fn uncrowded(
+fn uncrowded_spans(
     guide: &Guide,
     arcs: &[f64],
     points: &[Point],
@@ -266,7 +269,7 @@ fn uncrowded(
             (true, true) => {}
             (starts, _) => {
                 let (mut low, mut high) = (a, b);
-                for _ in 0..HALVINGS {
+                for _ in 0..CROWDING_BISECTIONS {
                     let middle = f64::midpoint(low, high);
                     if is_wanted(crowding(middle)) == starts { low = middle } else { high = middle }
                 }
@@ -282,7 +285,7 @@ fn uncrowded(
 }
 
 /// Bisections that find the end of a stroke in a crowd.
-const HALVINGS: usize = 12;
+const CROWDING_BISECTIONS: usize = 12;
 
 /// Extends an end of a polyline along its last direction, or shortens it.
 fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
@@ -329,14 +332,14 @@ mod tests {
             line: vec![Point::new(-5.0, 4.0), Point::new(30.0, 4.0)],
             rank,
             id: 7,
-            scope: Scope::Part(PartId(0)),
+            scope: GuideScope::Part(PartId(0)),
             crowding: Vec::new(),
         }
     }
 
     #[test]
     fn darker_tones_keep_the_strokes_of_lighter_ones() {
-        let hand = Hand { px: 1.0, ..Hand::default() };
+        let hand = StrokeLayout { px: 1.0, ..StrokeLayout::default() };
         let ground = two_squares(false);
         let ends = |rank: f64| {
             let strokes = hand.lay(&guide(rank), &ground, &[0.0, 0.6, 0.3]);
@@ -350,10 +353,10 @@ mod tests {
     #[test]
     fn ends_fall_short_and_run_over() {
         let ground = two_squares(true);
-        let hand = Hand { px: 1.0, overrun: 2.0, ..Hand::default() };
+        let hand = StrokeLayout { px: 1.0, overrun: 2.0, ..StrokeLayout::default() };
         let strokes = hand.lay(&guide(0.0), &ground, &[0.0, 1.0, 0.0]);
         assert_eq!((strokes[0].points[0].x, strokes[0].points[1].x), (-2.0, 12.0));
-        let hand = Hand { px: 1.0, short: 1.0, ..Hand::default() };
+        let hand = StrokeLayout { px: 1.0, short: 1.0, ..StrokeLayout::default() };
         let strokes = hand.lay(&guide(0.0), &ground, &[0.0, 1.0, 0.0]);
         assert_eq!((strokes[0].points[0].x, strokes[0].points[1].x), (1.0, 9.0));
     }
@@ -361,7 +364,7 @@ mod tests {
     #[test]
     fn crowded_guides_make_room() {
         let ground = two_squares(false);
-        let hand = Hand { px: 1.0, ..Hand::default() };
+        let hand = StrokeLayout { px: 1.0, ..StrokeLayout::default() };
         let crowded = Guide { crowding: vec![1.0, 8.0], ..guide(0.2) };
         let strokes = hand.lay(&crowded, &ground, &[0.0, 0.6, 0.6]);
         // Wanted while 0.2 times the crowding is below 0.6. Crowding reaches 3 at two sevenths of the length.

@@ -5,25 +5,25 @@ use std::collections::BTreeMap;
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point, Rect};
 
-use super::stroke_path::{self, Nib};
+use super::stroke_path::{self, HatchNib};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Join, Length, Mark, OutlinePaint, Paint, StrokePaint};
 use crate::geometry::numbers::noise::hash;
-use crate::geometry::numbers::tolerance::{REGION_SNAP, REGION_STEPS};
+use crate::geometry::numbers::tolerance::{REGION_GRID_STEPS, REGION_SNAP_STEPS};
 use crate::hatching::guides::stroke_layout::HatchStroke;
 use crate::hatching::layer_shares::fullest;
 use crate::hatching::options::{HatchLayer, HatchOptions};
-use crate::hatching::{HatchContext, Hatched, Tooth, colour, covered_at, provenance, speckle, tone};
-use crate::regions::{Ground, Look};
+use crate::hatching::{HatchContext, LayerStrokes, Tooth, colour, covered_at, provenance, speckle, tone};
+use crate::regions::{HatchRegions, SurfaceLabel};
 
 /// The marks of a layer of lines: one for each facet, pressure step and colour.
 pub(crate) fn lines(
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,
     number: usize,
     layer: &HatchLayer,
-    hatched: &Hatched,
+    hatched: &LayerStrokes,
 ) -> Vec<Mark> {
     let mut sets: BTreeMap<(u32, usize, Colour), Vec<&HatchStroke>> = BTreeMap::new();
     for stroke in &hatched.strokes {
@@ -44,7 +44,7 @@ pub(crate) fn lines(
                 tone::shares(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
             };
             let pressure = if layer.pressure > 0.0 { stroke_path::pressure(*degree) } else { 1.0 };
-            let nib = Nib { width: width * pressure, taper: layer.taper, px };
+            let nib = HatchNib { width: width * pressure, taper: layer.taper, px };
             let mut axis = BezPath::new();
             strokes.iter().for_each(|stroke| stroke_path::add_line(stroke, px, &mut axis));
             let mut colour = *ink;
@@ -86,9 +86,9 @@ pub(crate) fn lines(
 /// Whether a point lies on the border of the frame, within the rounding of the grid that clips regions.
 fn is_on_border(p: Point, frame: Option<Rect>) -> bool {
     frame.is_some_and(|frame| {
-        let step = frame.width().max(frame.height()) / REGION_STEPS;
+        let step = frame.width().max(frame.height()) / REGION_GRID_STEPS;
         let ways = [p.x - frame.x0, p.x - frame.x1, p.y - frame.y0, p.y - frame.y1];
-        ways.iter().any(|way| way.abs() <= REGION_SNAP * step)
+        ways.iter().any(|way| way.abs() <= REGION_SNAP_STEPS * step)
     })
 }
 
@@ -99,7 +99,7 @@ fn tooth(
     number: usize,
     strokes: &[&HatchStroke],
     width: f64,
-    look: Look,
+    look: SurfaceLabel,
 ) -> Option<Mark> {
     if layer.grain <= 0.0 {
         return None;
@@ -113,11 +113,11 @@ fn tooth(
             (line, width)
         })
         .collect();
-    let seed = hash(context.seed, &[number as u64, TOOTH]);
+    let seed = hash(context.seed, &[number as u64, TOOTH_SEED]);
     let path = speckle(&lines, &Tooth { amount: layer.grain / 2.0, seed, px });
     let paint = Paint::Fill(context.paper);
     (!path.elements().is_empty()).then(|| Mark { path, paint, provenance: provenance(look, context) })
 }
 
 /// Separates the random seed of paper tooth from those of strokes.
-const TOOTH: u64 = 0x746f_6f74;
+const TOOTH_SEED: u64 = 0x746f_6f74;

@@ -13,7 +13,7 @@ use crate::hatching::options::HatchLayer;
 
 /// Pen of hatching strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
-pub struct Nib {
+pub struct HatchNib {
     /// Width of a stroke at full pressure.
     pub width: f64,
     /// Share of the width lost at the ends, 0 to 1.
@@ -23,23 +23,23 @@ pub struct Nib {
 }
 
 /// Number of pressure steps. Finer steps would not be visible.
-pub const PRESSURES: usize = 4;
+pub const PRESSURE_STEPS: usize = 4;
 
 /// Length of a taper in stroke widths. Shorter strokes taper to their middle.
-const TAPER_WIDTHS: f64 = 24.0;
+const TAPER_LENGTH_WIDTHS: f64 = 24.0;
 
 /// Mean width of a layer's strokes as a share of the width at full pressure.
 #[must_use]
 pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
     let [length, width] = [layer.length, layer.width].map(|length| length.in_unit(unit));
-    let tapered = if length > 0.0 { (2.0 * TAPER_WIDTHS * width / length).min(1.0) } else { 0.0 };
+    let tapered = if length > 0.0 { (2.0 * TAPER_LENGTH_WIDTHS * width / length).min(1.0) } else { 0.0 };
     // Mean of 1 - taper (1 - x (2 - x)) over the taper, and mean over the pressure steps.
     let pressed = if layer.pressure > 0.0 {
         let share = |degree: usize| {
-            let (low, high) = (degree as f64 / PRESSURES as f64, pressure(degree));
+            let (low, high) = (degree as f64 / PRESSURE_STEPS as f64, pressure(degree));
             (high.min(1.0) - low.max(1.0 - layer.pressure)).max(0.0) / layer.pressure
         };
-        (0..PRESSURES).map(|degree| share(degree) * pressure(degree)).sum()
+        (0..PRESSURE_STEPS).map(|degree| share(degree) * pressure(degree)).sum()
     } else {
         1.0
     };
@@ -47,18 +47,18 @@ pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
 }
 
 /// Greatest distance of fitted curves from the stroke points, px.
-const TOLERANCE_PX: f64 = 0.05;
+const FIT_TOLERANCE_PX: f64 = 0.05;
 
-/// The step of a pressure, 0 to [`PRESSURES`] - 1.
+/// The step of a pressure, 0 to [`PRESSURE_STEPS`] - 1.
 #[must_use]
 pub fn degree(pressure: f64) -> usize {
-    ((pressure * PRESSURES as f64) as usize).min(PRESSURES - 1)
+    ((pressure * PRESSURE_STEPS as f64) as usize).min(PRESSURE_STEPS - 1)
 }
 
 /// The pressure that a step stands for.
 #[must_use]
 pub fn pressure(degree: usize) -> f64 {
-    (degree as f64 + 1.0) / PRESSURES as f64
+    (degree as f64 + 1.0) / PRESSURE_STEPS as f64
 }
 
 /// Adds the centre line of a stroke to a path.
@@ -77,7 +77,7 @@ fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
     }
     let start = end_tangent(|i| points[i], n);
     let end = -end_tangent(|i| points[n - 1 - i], n);
-    fit(points, start, end, TOLERANCE_PX * px, path);
+    fit(points, start, end, FIT_TOLERANCE_PX * px, path);
 }
 
 /// Adds the outline of a stroke of varying width.
@@ -85,7 +85,7 @@ fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
 /// The width is that of the nib, or the value of `width` at each point. `tapers` selects the ends that taper.
 pub fn add_outline(
     stroke: &HatchStroke,
-    nib: &Nib,
+    nib: &HatchNib,
     tapers: [bool; 2],
     width: Option<&dyn Fn(Point) -> f64>,
     path: &mut BezPath,
@@ -95,7 +95,7 @@ pub fn add_outline(
     let n = points.len();
     let total = arcs[n - 1];
     let count = tapers.iter().filter(|tapers| **tapers).count();
-    let taper = (TAPER_WIDTHS * nib.width).min(total / count.max(1) as f64);
+    let taper = (TAPER_LENGTH_WIDTHS * nib.width).min(total / count.max(1) as f64);
     let from_end = |arc: f64| {
         let ways = [arc, total - arc].into_iter().zip(tapers).filter(|(_, tapers)| *tapers);
         ways.map(|(way, _)| way).fold(f64::INFINITY, f64::min)
@@ -128,9 +128,12 @@ pub fn add_outline(
 }
 
 /// The points of a stroke, subdivided so that the width can vary along it.
-fn dense(points: &[Point], nib: &Nib, swells: bool) -> Vec<Point> {
-    let step =
-        if swells { SWELL_PX * nib.px } else { crate::hatching::clip::line_clip::length(points) / 6.0 };
+fn dense(points: &[Point], nib: &HatchNib, swells: bool) -> Vec<Point> {
+    let step = if swells {
+        WIDTH_SAMPLE_STEP_PX * nib.px
+    } else {
+        crate::hatching::clip::line_clip::length(points) / 6.0
+    };
     let mut out = vec![points[0]];
     for pair in points.windows(2) {
         let count = (norm(pair[1] - pair[0]) / step.max(nib.px * 0.5)).ceil().clamp(1.0, 1e5) as usize;
@@ -140,4 +143,4 @@ fn dense(points: &[Point], nib: &Nib, swells: bool) -> Vec<Point> {
 }
 
 /// Distance between width samples of a swelling stroke, px.
-const SWELL_PX: f64 = 3.0;
+const WIDTH_SAMPLE_STEP_PX: f64 = 3.0;

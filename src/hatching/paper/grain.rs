@@ -7,7 +7,7 @@ use kurbo::{BezPath, PathEl, Point, Vec2};
 
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Length, Mark, Page, Paint, Provenance};
-use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::geometry::numbers::portable_math::{cos, sin};
 
 /// Specks on the paper.
@@ -48,7 +48,7 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
 pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
     let px = Length::px(1.0).in_unit(page.unit);
     let area = page.width * page.height / (px * px);
-    let count = (area * options.density / 1e4).min(MOST_SPECKS);
+    let count = (area * options.density / 1e4).min(MAX_SPECKS);
     if count.is_nan() || count < 1.0 {
         return None;
     }
@@ -59,11 +59,11 @@ pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
         for k in 0..columns {
             // Rows alternate in direction, so that consecutive specks are close.
             let column = if row % 2 == 0 { k } else { columns - 1 - k };
-            let chance = Chance::new(options.seed, column, row);
+            let chance = SquareNoise::new(options.seed, column, row);
             let corner = Vec2::new(column as f64, row as f64);
             let at = Point::ORIGIN + (corner + Vec2::new(chance.of(0), chance.of(1))) * side;
             if at.x < page.width && at.y < page.height {
-                let size = (SMALLEST_PX + (LARGEST_PX - SMALLEST_PX) * chance.of(2)) * px;
+                let size = (MIN_SPECK_PX + (MAX_SPECK_PX - MIN_SPECK_PX) * chance.of(2)) * px;
                 let corners = 3 + (chance.of(4) * 4.0) as u64;
                 speck(&mut paths[(chance.of(3) * 3.0) as usize % 3], at, size / 2.0, corners, &chance);
             }
@@ -73,11 +73,11 @@ pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
 }
 
 /// Greatest number of specks on a page. Denser grain is thinned to it.
-const MOST_SPECKS: f64 = 8000.0;
+const MAX_SPECKS: f64 = 8000.0;
 
 /// Range of speck widths.
-const SMALLEST_PX: f64 = 0.4;
-const LARGEST_PX: f64 = 1.8;
+const MIN_SPECK_PX: f64 = 0.4;
+const MAX_SPECK_PX: f64 = 1.8;
 
 /// Gaps in pencil strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,14 +94,14 @@ pub struct Tooth {
 /// strokes.
 #[must_use]
 pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
-    let side = TOOTH_PX * tooth.px;
+    let side = TOOTH_SQUARE_PX * tooth.px;
     let mut path = BezPath::new();
     if side.is_nan() || side <= 0.0 || tooth.amount <= 0.0 {
         return path;
     }
     // Larger amounts use wider specks.
-    let mean = NARROW_OF_SQUARE + WIDER * tooth.amount;
-    let wanted = tooth.amount / (SPECK_OF_WIDTH * mean * mean);
+    let mean = SPECK_WIDTH_OF_SQUARE + SPECK_WIDTH_PER_AMOUNT * tooth.amount;
+    let wanted = tooth.amount / (SPECK_AREA_OF_WIDTH_SQUARED * mean * mean);
     let mut places: Vec<[i64; 2]> = Vec::new();
     for (stroke, width) in strokes {
         let reach = width / 2.0;
@@ -109,7 +109,7 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
             let [low, high] = [-reach, reach].map(|by| (at.to_vec2() + Vec2::new(by, by)) / side);
             for row in low.y.floor() as i64..=high.y.floor() as i64 {
                 for column in low.x.floor() as i64..=high.x.floor() as i64 {
-                    let chance = Chance::new(tooth.seed, column, row);
+                    let chance = SquareNoise::new(tooth.seed, column, row);
                     let is_wanted = chance.of(0) < wanted * chance.rough(tooth.seed);
                     if is_wanted && (chance.place(side) - at).hypot2() <= reach * reach {
                         places.push([row, column]);
@@ -121,7 +121,7 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     places.sort_unstable();
     places.dedup();
     for [row, column] in places {
-        let chance = Chance::new(tooth.seed, column, row);
+        let chance = SquareNoise::new(tooth.seed, column, row);
         let size = mean * side * (0.75 + 0.5 * chance.of(2));
         speck(&mut path, chance.place(side), size / 2.0, 3 + (chance.of(5) * 2.0) as u64, &chance);
     }
@@ -129,15 +129,15 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
 }
 
 /// The side of the squares that hold one speck each.
-const TOOTH_PX: f64 = 1.5;
+const TOOTH_SQUARE_PX: f64 = 1.5;
 
 /// Mean speck width as a share of its square, and its increase per unit of amount.
-const NARROW_OF_SQUARE: f64 = 0.8;
-const WIDER: f64 = 0.6;
+const SPECK_WIDTH_OF_SQUARE: f64 = 0.8;
+const SPECK_WIDTH_PER_AMOUNT: f64 = 0.6;
 
 /// Mean visible area of a speck as a share of its width squared, without the area outside the stroke.
 /// Measured value.
-const SPECK_OF_WIDTH: f64 = 0.27;
+const SPECK_AREA_OF_WIDTH_SQUARED: f64 = 0.27;
 
 /// Calls `call` for points along a path, at most `step` apart.
 fn along(path: &BezPath, step: f64, mut call: impl FnMut(Point)) {
@@ -161,20 +161,20 @@ fn along(path: &BezPath, step: f64, mut call: impl FnMut(Point)) {
 }
 
 /// Random numbers of one square of the grid.
-struct Chance {
+struct SquareNoise {
     column: i64,
     row: i64,
     seed: u64,
 }
 
-impl Chance {
+impl SquareNoise {
     fn new(seed: u64, column: i64, row: i64) -> Self {
         Self { column, row, seed: hash(seed, &[column, row].map(i64::cast_unsigned)) }
     }
 
     /// A random number from 0 to 1, different for each word.
     fn of(&self, word: u64) -> f64 {
-        unit(hash(self.seed, &[word]))
+        unit_interval(hash(self.seed, &[word]))
     }
 
     /// Position of the square's speck.
@@ -184,16 +184,16 @@ impl Chance {
 
     /// Local roughness of the paper: 0 to 2, 1 on average.
     fn rough(&self, seed: u64) -> f64 {
-        let patch = [self.column, self.row].map(|k| k.div_euclid(PATCH).cast_unsigned());
-        2.0 * unit(hash(seed, &[patch[0], patch[1], 1]))
+        let patch = [self.column, self.row].map(|k| k.div_euclid(ROUGHNESS_PATCH_SQUARES).cast_unsigned());
+        2.0 * unit_interval(hash(seed, &[patch[0], patch[1], 1]))
     }
 }
 
 /// Side of a patch of equal roughness, squares.
-const PATCH: i64 = 3;
+const ROUGHNESS_PATCH_SQUARES: i64 = 3;
 
 /// Adds a polygon, stretched and turned at random.
-fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &Chance) {
+fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &SquareNoise) {
     let turn = std::f64::consts::TAU * chance.of(6);
     let (along, flat) = (Vec2::new(cos(turn), sin(turn)), 0.5 + 0.5 * chance.of(7));
     for k in 0..corners {
@@ -227,7 +227,7 @@ mod tests {
         assert!((all.len() as f64 - 24.0 * 24.0).abs() < 20.0, "{}", all.len());
         for speck in &all {
             let around = speck.bounding_box();
-            assert!(around.width() <= LARGEST_PX && around.height() <= LARGEST_PX);
+            assert!(around.width() <= MAX_SPECK_PX && around.height() <= MAX_SPECK_PX);
             assert!((4..=7).contains(&speck.elements().len()));
         }
         assert_eq!(grain(&PAGE, &Grain { density: 0.0, ..Grain::default() }), None);

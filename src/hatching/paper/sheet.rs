@@ -14,7 +14,7 @@ use super::grain::{Grain, grain, specks};
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::drawing::{
-    ImagePaint, ImagePiece, Layer, LayerKind, Length, Mark, Page, Paint, Provenance, Shows,
+    ImagePaint, ImagePiece, Layer, LayerKind, Length, Mark, Page, Paint, PieceContent, Provenance,
 };
 
 /// Sheet of paper.
@@ -36,7 +36,7 @@ pub fn paper(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     let mut marks = Vec::new();
     if let Some(picture) = &sheet.picture {
         // A plain fill below the tiles hides the seams between them.
-        marks.push(mark(whole(page), Paint::Fill(Tally::of(picture).colour)));
+        marks.push(mark(whole(page), Paint::Fill(SheetStatistics::of(picture).colour)));
         marks.push(mark(whole(page), Paint::Image(tiled(Arc::clone(picture), page, sheet.width))));
     }
     if sheet.grain > 0.0 {
@@ -60,7 +60,7 @@ pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
         }
         None => {
             // A different seed from the grain behind, so that the specks differ.
-            let options = Grain { density: TOOTH_DENSITY, ..grains(sheet.grain, !seed) };
+            let options = Grain { density: TOOTH_SPECKS_PER_100_PX_SQUARE, ..grains(sheet.grain, !seed) };
             let path: BezPath = specks(page, &options)?.into_iter().flatten().collect();
             let colour = page.background.unwrap_or(Colour::WHITE);
             mark(path, Paint::Fill(Colour { a: (sheet.tooth.min(1.0) * 255.0).round() as u8, ..colour }))
@@ -70,10 +70,10 @@ pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
 }
 
 /// Number of specks of bare paper over the ink in a square of 100 px.
-const TOOTH_DENSITY: f64 = 90.0;
+const TOOTH_SPECKS_PER_100_PX_SQUARE: f64 = 90.0;
 
 /// Approximate greatest number of tiles on a page. Smaller tiles are enlarged.
-const MOST_TILES: f64 = 1024.0;
+const MAX_TILES: f64 = 1024.0;
 
 /// The grain of a sheet at a given visibility, 0 to 1.
 fn grains(shows: f64, seed: u64) -> Grain {
@@ -94,16 +94,16 @@ fn whole(page: &Page) -> BezPath {
 fn tiled(picture: Arc<Picture>, page: &Page, width: Option<Length>) -> ImagePaint {
     let asked = width.unwrap_or(Length::px(picture.width as f64)).in_unit(page.unit);
     let shape = picture.height as f64 / picture.width as f64;
-    let least = (page.width * page.height / (MOST_TILES * shape)).sqrt();
-    let least = least.max(page.width / MOST_TILES).max(page.height / (MOST_TILES * shape));
+    let least = (page.width * page.height / (MAX_TILES * shape)).sqrt();
+    let least = least.max(page.width / MAX_TILES).max(page.height / (MAX_TILES * shape));
     let width = if asked > least { asked } else { least };
     let (scale, height) = (width / picture.width as f64, width * shape);
     let [columns, rows] =
-        [page.width / width, page.height / height].map(|count| count.ceil().clamp(1.0, MOST_TILES) as u32);
+        [page.width / width, page.height / height].map(|count| count.ceil().clamp(1.0, MAX_TILES) as u32);
     let piece = |number: u32| {
         let (x, y) = (f64::from(number % columns) * width, f64::from(number / columns) * height);
         let tile = Rect::new(x, y, (x + width).min(page.width), (y + height).min(page.height));
-        let shows = Shows::Pixels(Affine::translate((x, y)) * Affine::scale(scale));
+        let shows = PieceContent::Pixels(Affine::translate((x, y)) * Affine::scale(scale));
         ImagePiece { outline: tile.to_path(0.1), shows }
     };
     ImagePaint { pieces: (0..columns * rows).map(piece).collect(), picture }
@@ -115,7 +115,7 @@ fn lightness(colour: Colour) -> f64 {
 }
 
 /// Statistics of the pixels of a sheet.
-struct Tally {
+struct SheetStatistics {
     /// The mean colour.
     colour: Colour,
     /// Mean luminance and its standard deviation.
@@ -123,7 +123,7 @@ struct Tally {
     deviation: f64,
 }
 
-impl Tally {
+impl SheetStatistics {
     fn of(picture: &Picture) -> Self {
         let count = picture.pixels.len().max(1) as f64;
         let mean = |value: &dyn Fn(&Colour) -> f64| picture.pixels.iter().map(value).sum::<f64>() / count;
@@ -137,7 +137,7 @@ impl Tally {
 
 /// The picture of a sheet, transparent except where it is darker than the mean. `None` if it has one colour.
 fn hollows(picture: &Picture, tooth: f64) -> Option<Picture> {
-    let Tally { mean, deviation, .. } = Tally::of(picture);
+    let SheetStatistics { mean, deviation, .. } = SheetStatistics::of(picture);
     let depth = |colour: &Colour| ((mean - lightness(*colour)) / (2.0 * deviation)).clamp(0.0, 1.0);
     let pixel =
         |colour: &Colour| Colour { a: (depth(colour) * tooth.min(1.0) * 255.0).round() as u8, ..*colour };

@@ -10,28 +10,28 @@ use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point, Vec2};
 
 use super::pattern_options::{Pattern, PatternKind};
-use super::pattern_shapes::{Shape, shown};
+use super::pattern_shapes::{FilledShape, clip_to_domains};
 use super::tile::Tile;
 use crate::drawing::{Cap, Join, Length, Mark, Paint, Provenance, StrokePaint};
 use crate::hatching::clip::domain::Domains;
-use crate::hatching::clip::line_clip::{between, stretches};
+use crate::hatching::clip::line_clip::{clip_to_cells, sub_polyline};
 use crate::hatching::dots::halftone::{DotScreen, ToneBorders, dots};
 use crate::hatching::guides::guide::{Guide, axes};
 use crate::hatching::{HatchContext, colour, provenance};
 use crate::mesh::{MaterialId, PartId};
 use crate::regions::surface_curves::decals::Decal;
-use crate::regions::{Ground, Look};
+use crate::regions::{HatchRegions, SurfaceLabel};
 
 /// Greatest number of lines, crosses or tiles of a pattern. Finer patterns could not be seen; they are made
 /// coarser.
-const MOST: f64 = 2e5;
+const MAX_PATTERN_SQUARES: f64 = 2e5;
 
 /// Length of an arm of a cross as a share of its square.
-const ARM: f64 = 0.3;
+const CROSS_ARM_OF_SQUARE: f64 = 0.3;
 
 /// Content of a pattern that is fixed to the surface.
 #[derive(Debug, Clone)]
-pub enum OnSurface {
+pub enum SurfacePattern {
     /// Lines and crosses.
     Guides(Vec<Guide>),
     /// Dots and tiles as they appear on the page, and whether each figure is filled.
@@ -44,11 +44,11 @@ pub enum OnSurface {
 /// to the surface.
 #[must_use]
 pub fn pattern(
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     own: &Pattern,
-    tones: impl Fn(&Look) -> u16,
-    fixed: Option<&OnSurface>,
+    tones: impl Fn(&SurfaceLabel) -> u16,
+    fixed: Option<&SurfacePattern>,
 ) -> Vec<Mark> {
     let wanted: Vec<bool> = ground
         .cells
@@ -60,10 +60,10 @@ pub fn pattern(
         .collect();
     let Some([low, high]) = extent(ground, &wanted) else { return Vec::new() };
     let long = |length: Length| length.in_unit(context.unit);
-    let size = long(own.size).max(((high.x - low.x) * (high.y - low.y) / MOST).sqrt());
+    let size = long(own.size).max(((high.x - low.x) * (high.y - low.y) / MAX_PATTERN_SQUARES).sqrt());
     let angle = own.angle.to_radians();
-    if let Some(OnSurface::Decals(decals, filled)) = fixed {
-        return on_surface(ground, context, own, &wanted, decals, filled);
+    if let Some(SurfacePattern::Decals(decals, filled)) = fixed {
+        return surface_marks(ground, context, own, &wanted, decals, filled);
     }
     if own.kind == PatternKind::Dots {
         let radius = long(own.width) / 2.0 / size;
@@ -77,34 +77,36 @@ pub fn pattern(
         };
         let coverage = |cell: u32, _: Point| if wanted[cell as usize] { covered } else { 0.0 };
         let found = dots(ground, &screen, &coverage).into_iter();
-        return gathered(found.map(|dots| (dots.cell, dots.path)), ground, context, own, None);
+        return marks_by_look(found.map(|dots| (dots.cell, dots.path)), ground, context, own, None);
     }
     let lines: Vec<Vec<Point>> = match fixed {
-        Some(OnSurface::Guides(guides)) => guides.iter().map(|guide| guide.line.clone()).collect(),
-        _ => on_page(own, size, angle, [low, high]),
+        Some(SurfacePattern::Guides(guides)) => guides.iter().map(|guide| guide.line.clone()).collect(),
+        _ => page_lines(own, size, angle, [low, high]),
     };
     let cut = |line: &Vec<Point>| cut_line(ground, line, |cell| wanted[cell as usize]);
     let cut: Vec<Vec<(u32, BezPath)>> = lines.par_iter().with_min_len(16).map(cut).collect();
-    let mut marks = gathered(cut.into_iter().flatten(), ground, context, own, Some(long(own.width)));
+    let mut marks = marks_by_look(cut.into_iter().flatten(), ground, context, own, Some(long(own.width)));
     if own.kind == PatternKind::Tile && !own.tile.shapes.is_empty() {
         let domains = Domains::of_looks(ground, &wanted);
-        let shapes = Placing::new(size, angle, own.tile.height, [low, high]).shapes(&own.tile);
-        let cut = |rings: Vec<Vec<Point>>| shown(ground, &domains, |_| true, Shape { rings, whole: None });
+        let shapes = TilePlacement::new(size, angle, own.tile.height, [low, high]).shapes(&own.tile);
+        let cut = |rings: Vec<Vec<Point>>| {
+            clip_to_domains(ground, &domains, |_| true, FilledShape { rings, whole: None })
+        };
         let cut: Vec<Vec<(u32, BezPath)>> = shapes.into_par_iter().with_min_len(16).map(cut).collect();
-        marks.extend(gathered(cut.into_iter().flatten(), ground, context, own, None));
+        marks.extend(marks_by_look(cut.into_iter().flatten(), ground, context, own, None));
     }
     marks
 }
 
 /// The parts of a line that lie in wanted cells, each with its cell.
-fn cut_line(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<(u32, BezPath)> {
-    let seen = stretches(ground, line, wanted);
-    seen.into_iter().map(|s| (s.cell, polyline(&between(line, s.from, s.to)))).collect()
+fn cut_line(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<(u32, BezPath)> {
+    let seen = clip_to_cells(ground, line, wanted);
+    seen.into_iter().map(|s| (s.cell, polyline(&sub_polyline(line, s.from, s.to)))).collect()
 }
 
 /// The marks of figures on the surface, each clipped to the facets that show it.
-fn on_surface(
-    ground: &Ground,
+fn surface_marks(
+    ground: &HatchRegions,
     context: &HatchContext,
     own: &Pattern,
     wanted: &[bool],
@@ -122,10 +124,10 @@ fn on_surface(
         .with_min_len(16)
         .filter(is_filled)
         .map(|decal| {
-            let whole = (own.kind == PatternKind::Dots).then(|| rounded(decal)).flatten();
-            let shape = Shape { rings: decal.lines.clone(), whole };
+            let whole = (own.kind == PatternKind::Dots).then(|| closed_curve(decal)).flatten();
+            let shape = FilledShape { rings: decal.lines.clone(), whole };
             let seen = |facet: u32| decal.facets.binary_search(&facet).is_ok();
-            let shown = shown(ground, &domains, seen, shape);
+            let shown = clip_to_domains(ground, &domains, seen, shape);
             shown.into_iter().map(|(facet, path)| (first[facet as usize], path)).collect()
         })
         .collect();
@@ -142,13 +144,13 @@ fn on_surface(
         })
         .collect();
     let width = own.width.in_unit(context.unit);
-    let mut marks = gathered(lines.into_iter().flatten(), ground, context, own, Some(width));
-    marks.extend(gathered(shapes.into_iter().flatten(), ground, context, own, None));
+    let mut marks = marks_by_look(lines.into_iter().flatten(), ground, context, own, Some(width));
+    marks.extend(marks_by_look(shapes.into_iter().flatten(), ground, context, own, None));
     marks
 }
 
 /// A closed curve through the points of a dot.
-fn rounded(decal: &Decal) -> Option<BezPath> {
+fn closed_curve(decal: &Decal) -> Option<BezPath> {
     let [ring] = &decal.lines[..] else { return None };
     let n = ring.len();
     let at = |k: usize| ring[k % n];
@@ -158,7 +160,8 @@ fn rounded(decal: &Decal) -> Option<BezPath> {
     for k in 0..4 {
         let (a, b, c) = (at(k * n / 4), at((2 * k + 1) * n / 8), at((k + 1) * n / 4));
         let bulge = (b - a.midpoint(c)) * (4.0 / 3.0);
-        let (from, to) = (a.lerp(c, QUARTER), c.lerp(a, QUARTER));
+        let (from, to) =
+            (a.lerp(c, QUARTER_CIRCLE_HANDLE_OF_CHORD), c.lerp(a, QUARTER_CIRCLE_HANDLE_OF_CHORD));
         path.curve_to(from + bulge, to + bulge, c);
     }
     path.close_path();
@@ -166,10 +169,10 @@ fn rounded(decal: &Decal) -> Option<BezPath> {
 }
 
 /// Position of the Bézier handles along the chord of a quarter circle.
-const QUARTER: f64 = 0.276_142_374_915_397;
+const QUARTER_CIRCLE_HANDLE_OF_CHORD: f64 = 0.276_142_374_915_397;
 
 /// The bounding box of the wanted cells.
-fn extent(ground: &Ground, wanted: &[bool]) -> Option<[Point; 2]> {
+fn extent(ground: &HatchRegions, wanted: &[bool]) -> Option<[Point; 2]> {
     let pieces = ground.pieces.iter().filter(|piece| piece.sides.iter().any(|cell| wanted[*cell as usize]));
     let ends = pieces.flat_map(|piece| piece.ends);
     ends.fold(None, |found: Option<[Point; 2]>, p| {
@@ -179,7 +182,7 @@ fn extent(ground: &Ground, wanted: &[bool]) -> Option<[Point; 2]> {
 }
 
 /// Squares of a pattern that is fixed to the page, over a box of it.
-struct Placing {
+struct TilePlacement {
     size: f64,
     along: Vec2,
     across: Vec2,
@@ -188,7 +191,7 @@ struct Placing {
     rows: std::ops::RangeInclusive<i64>,
 }
 
-impl Placing {
+impl TilePlacement {
     fn new(size: f64, angle: f64, height: f64, [low, high]: [Point; 2]) -> Self {
         let [along, across] = axes(angle);
         let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)].map(Point::to_vec2);
@@ -226,12 +229,12 @@ impl Placing {
 }
 
 /// The lines of a pattern that is fixed to the page, over a box of it.
-fn on_page(own: &Pattern, size: f64, angle: f64, corners: [Point; 2]) -> Vec<Vec<Point>> {
+fn page_lines(own: &Pattern, size: f64, angle: f64, corners: [Point; 2]) -> Vec<Vec<Point>> {
     let height = if own.kind == PatternKind::Tile { own.tile.height } else { 1.0 };
     if height <= 0.0 {
         return Vec::new();
     }
-    let placing = Placing::new(size, angle, height, corners);
+    let placing = TilePlacement::new(size, angle, height, corners);
     let at = |x: f64, y: f64| placing.at(x, y);
     let tile: Vec<Vec<Point>> = match own.kind {
         PatternKind::Lines | PatternKind::Dots => {
@@ -241,7 +244,7 @@ fn on_page(own: &Pattern, size: f64, angle: f64, corners: [Point; 2]) -> Vec<Vec
         }
         PatternKind::Crosses => {
             let arm = |x: f64, y: f64| vec![Point::new(0.5 - x, 0.5 - y), Point::new(0.5 + x, 0.5 + y)];
-            vec![arm(ARM, 0.0), arm(0.0, ARM)]
+            vec![arm(CROSS_ARM_OF_SQUARE, 0.0), arm(0.0, CROSS_ARM_OF_SQUARE)]
         }
         PatternKind::Tile => own.tile.lines.clone(),
     };
@@ -262,20 +265,20 @@ fn polyline(points: &[Point]) -> BezPath {
 }
 
 /// Collects paths in cells into marks. They are filled unless they have a width.
-fn gathered(
+fn marks_by_look(
     paths: impl Iterator<Item = (u32, BezPath)>,
-    ground: &Ground,
+    ground: &HatchRegions,
     context: &HatchContext,
     own: &Pattern,
     width: Option<f64>,
 ) -> Vec<Mark> {
-    let mut sets: BTreeMap<(PartId, MaterialId, u16), (Look, BezPath)> = BTreeMap::new();
+    let mut sets: BTreeMap<(PartId, MaterialId, u16), (SurfaceLabel, BezPath)> = BTreeMap::new();
     for (cell, path) in paths {
         let look = ground.cells[cell as usize].look;
         let set = sets.entry((look.part, look.material, look.tone)).or_insert_with(|| (look, BezPath::new()));
         set.1.extend(path);
     }
-    let mark = |(look, path): (Look, BezPath)| {
+    let mark = |(look, path): (SurfaceLabel, BezPath)| {
         let mut ink = colour(own.colour, look, context);
         ink.a = (f64::from(ink.a) * own.opacity).round() as u8;
         let paint = match width {

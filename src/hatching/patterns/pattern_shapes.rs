@@ -2,20 +2,20 @@
 
 use kurbo::{BezPath, Point, Shape as _};
 
-use crate::hatching::clip::domain::{BLANK, Domains, border};
-use crate::hatching::clip::polygon_clip::{box_of, reach, snip};
-use crate::regions::Ground;
+use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border};
+use crate::hatching::clip::polygon_clip::{clip_polygon, clip_reach, rings_bounds};
+use crate::regions::HatchRegions;
 
 /// Filled shape on the page.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Shape {
+pub(crate) struct FilledShape {
     /// Outlines as polygons, filled by the nonzero rule.
     pub rings: Vec<Vec<Point>>,
     /// Path that is drawn if nothing clips the shape, in place of the polygons.
     pub whole: Option<BezPath>,
 }
 
-impl Shape {
+impl FilledShape {
     fn uncut(self) -> BezPath {
         self.whole.unwrap_or_else(|| {
             let mut path = BezPath::new();
@@ -31,15 +31,15 @@ impl Shape {
 }
 
 /// The parts of a shape in wanted domains, each with its domain.
-pub(crate) fn shown(
-    ground: &Ground,
+pub(crate) fn clip_to_domains(
+    ground: &HatchRegions,
     domains: &Domains,
     wanted: impl Fn(u32) -> bool,
-    shape: Shape,
+    shape: FilledShape,
 ) -> Vec<(u32, BezPath)> {
-    let Some(bounds) = box_of(&shape.rings) else { return Vec::new() };
-    let around = reach(bounds);
-    let own = |cell: u32| Some(domains.of(cell)).filter(|domain| *domain != BLANK && wanted(*domain));
+    let Some(bounds) = rings_bounds(&shape.rings) else { return Vec::new() };
+    let around = clip_reach(bounds);
+    let own = |cell: u32| Some(domains.of(cell)).filter(|domain| *domain != NO_DOMAIN && wanted(*domain));
     let near: Vec<u32> = ground
         .pieces_near(around.center(), around.width().max(around.height()) / 2.0)
         .into_iter()
@@ -67,9 +67,9 @@ pub(crate) fn shown(
         let is_own = |cell: u32| own(cell) == Some(domain);
         let edges: Vec<[Point; 2]> = near
             .iter()
-            .filter_map(|number| Some(border(&ground.pieces[*number as usize], is_own)?.0))
+            .filter_map(|number| Some(directed_border(&ground.pieces[*number as usize], is_own)?.0))
             .collect();
-        let path = snip(&shape.rings, &edges, |p| is_own(ground.cell_at(p)))?;
+        let path = clip_polygon(&shape.rings, &edges, |p| is_own(ground.cell_at(p)))?;
         // Overlapping shapes of opposite orientation would cancel under the nonzero rule.
         let is_turned = path.area() * turn < 0.0;
         Some((domain, if is_turned { path.reverse_subpaths() } else { path }))

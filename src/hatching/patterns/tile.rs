@@ -2,9 +2,9 @@
 
 use kurbo::{BezPath, Point, Shape};
 
-use crate::colour::darkness_map::{Shades, Tracing};
+use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
-use crate::hatching::clip::polygon_clip::{Filling, united};
+use crate::hatching::clip::polygon_clip::{WindingRule, unite_shapes};
 
 /// Tile of a pattern. Its width is 1; y points down.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,36 +18,39 @@ pub struct Tile {
 }
 
 /// Side of the square for the path data of a tile.
-const SIDE: f64 = 10.0;
+const PATH_SQUARE_SIDE: f64 = 10.0;
 
 /// Flattening tolerance of lines and of filled shapes as a share of the side. Shapes are larger and need a
 /// finer one.
-const FLAT: f64 = 0.002;
-const FLAT_SHAPE: f64 = 0.0005;
+const LINE_FLATNESS_OF_SIDE: f64 = 0.002;
+const SHAPE_FLATNESS_OF_SIDE: f64 = 0.0005;
 
 /// Greatest number of points in all lines and shapes of a tile.
-const MOST_POINTS: usize = 10_000;
+const MAX_POINTS: usize = 10_000;
 
 /// Greatest number of pixels of a traced picture.
-const MOST_PIXELS: usize = 1 << 18;
+const MAX_PIXELS: usize = 1 << 18;
 
 /// Initial tolerance of traced outlines, pixels. It doubles until the outlines have few enough points.
-const TOLERANCE: f64 = 0.1;
+const TRACE_TOLERANCE_PIXELS: f64 = 0.1;
 
 /// Least area of traced islands and holes, pixels. Smaller ones are dropped.
-const SPECK: f64 = 1.5;
+const MIN_ISLAND_AREA_PIXELS: f64 = 1.5;
 
 impl Tile {
     /// A tile of SVG path data in a square of side 10: lines, or filled shapes if `filling` is set.
     ///
     /// # Errors
     /// Describes the fault of the path.
-    pub fn of_path(path: &BezPath, filling: Option<Filling>) -> Result<Self, String> {
+    pub fn of_path(path: &BezPath, filling: Option<WindingRule>) -> Result<Self, String> {
         if let Some(filling) = filling {
-            return Self::of_shapes(&[(path.clone(), filling)], [SIDE; 2]);
+            return Self::of_shapes(&[(path.clone(), filling)], [PATH_SQUARE_SIDE; 2]);
         }
-        let mut lines = flattened(path, FLAT * SIDE, SIDE)?;
-        lines.iter_mut().flatten().for_each(|p| *p = Point::new(p.x / SIDE, p.y / SIDE));
+        let mut lines = flattened(path, LINE_FLATNESS_OF_SIDE * PATH_SQUARE_SIDE, PATH_SQUARE_SIDE)?;
+        lines
+            .iter_mut()
+            .flatten()
+            .for_each(|p| *p = Point::new(p.x / PATH_SQUARE_SIDE, p.y / PATH_SQUARE_SIDE));
         Self { lines, shapes: Vec::new(), height: 1.0 }.checked()
     }
 
@@ -55,12 +58,12 @@ impl Tile {
     ///
     /// # Errors
     /// Describes the fault of the shapes.
-    pub fn of_shapes(shapes: &[(BezPath, Filling)], [width, height]: [f64; 2]) -> Result<Self, String> {
+    pub fn of_shapes(shapes: &[(BezPath, WindingRule)], [width, height]: [f64; 2]) -> Result<Self, String> {
         if !(width > 0.0 && height > 0.0 && (1e-3..=1e3).contains(&(height / width))) {
             return Err("has no size to repeat".to_owned());
         }
-        let rings = |(path, filling): &(BezPath, Filling)| {
-            let mut rings = flattened(path, FLAT_SHAPE * width.min(height), width.max(height))?;
+        let rings = |(path, filling): &(BezPath, WindingRule)| {
+            let mut rings = flattened(path, SHAPE_FLATNESS_OF_SIDE * width.min(height), width.max(height))?;
             for ring in &mut rings {
                 ring.iter_mut().for_each(|p| *p = Point::new(p.x / width, p.y / width));
                 if ring.len() > 1 && ring.first() == ring.last() {
@@ -69,16 +72,16 @@ impl Tile {
             }
             Ok((rings, *filling))
         };
-        let shapes: Vec<(Vec<Vec<Point>>, Filling)> =
+        let shapes: Vec<(Vec<Vec<Point>>, WindingRule)> =
             shapes.iter().map(rings).collect::<Result<_, String>>()?;
         let count: usize = shapes.iter().flat_map(|(rings, _)| rings).map(Vec::len).sum();
-        if count > MOST_POINTS {
+        if count > MAX_POINTS {
             return Err("has too many curves".to_owned());
         }
         if shapes.iter().flat_map(|(rings, _)| rings).flatten().any(|p| !is_near(*p)) {
-            return Err(FAR.to_owned());
+            return Err(OUTSIDE_TILE_ERROR.to_owned());
         }
-        let rings = united(&shapes).unwrap_or_default();
+        let rings = unite_shapes(&shapes).unwrap_or_default();
         if rings.is_empty() {
             return Err("has no dark area".to_owned());
         }
@@ -90,20 +93,25 @@ impl Tile {
     /// # Errors
     /// Describes the fault of the picture.
     pub fn of_picture(picture: &Picture, level: f64) -> Result<Self, String> {
-        let whole = Shades::of(picture);
-        let times = (MOST_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
+        let whole = DarknessMap::of(picture);
+        let times = (MAX_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
         let [width, height] =
             [whole.width, whole.height].map(|count| (count as f64 * times).floor() as usize);
         let shades = whole.at_most(width, height);
         let wide = shades.width as f64;
-        let mut tracing =
-            Tracing { level, scale: [1.0; 2], tolerance: TOLERANCE, speck: SPECK, repeats: true };
+        let mut tracing = OutlineTracing {
+            level,
+            scale: [1.0; 2],
+            tolerance: TRACE_TOLERANCE_PIXELS,
+            speck: MIN_ISLAND_AREA_PIXELS,
+            repeats: true,
+        };
         while tracing.tolerance < wide {
             let rings = shades.outlines(&tracing).ok_or("has an outline with too many corners")?;
             if rings.is_empty() {
                 return Err(format!("has nothing darker than {level}"));
             }
-            if rings.iter().map(Vec::len).sum::<usize>() <= MOST_POINTS {
+            if rings.iter().map(Vec::len).sum::<usize>() <= MAX_POINTS {
                 let place = |p: &Point| Point::new(p.x / wide, p.y / wide);
                 let rings = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
                 let height = shades.height as f64 / wide;
@@ -117,28 +125,28 @@ impl Tile {
     fn checked(self) -> Result<Self, String> {
         let points = || self.lines.iter().chain(self.shapes.iter().flatten()).flatten();
         match points().count() {
-            1..=MOST_POINTS if points().all(|p| is_near(*p)) => Ok(self),
-            1..=MOST_POINTS => Err(FAR.to_owned()),
+            1..=MAX_POINTS if points().all(|p| is_near(*p)) => Ok(self),
+            1..=MAX_POINTS => Err(OUTSIDE_TILE_ERROR.to_owned()),
             _ => Err("has no lines, or too many".to_owned()),
         }
     }
 }
 
 /// Greatest distance of control points from the origin, in tile sizes.
-const FARTHEST: f64 = 100.0;
+const MAX_CONTROL_POINT_TILES: f64 = 100.0;
 
-const FAR: &str = "extends far outside its square";
+const OUTSIDE_TILE_ERROR: &str = "extends far outside its square";
 
 fn is_near(p: Point) -> bool {
-    p.is_finite() && p.x.abs() <= SIDE && p.y.abs() <= SIDE
+    p.is_finite() && p.x.abs() <= PATH_SQUARE_SIDE && p.y.abs() <= PATH_SQUARE_SIDE
 }
 
 /// The polylines of a path, each of at least two points. Fails if the path is far larger than the tile.
 fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>>, String> {
     let extent = path.control_box();
     let far = [extent.x0, extent.y0, extent.x1, extent.y1].map(f64::abs).into_iter().fold(0.0, f64::max);
-    if !(path.is_finite() && far <= FARTHEST * size) {
-        return Err(FAR.to_owned());
+    if !(path.is_finite() && far <= MAX_CONTROL_POINT_TILES * size) {
+        return Err(OUTSIDE_TILE_ERROR.to_owned());
     }
     let mut lines: Vec<Vec<Point>> = Vec::new();
     kurbo::flatten(path, tolerance, |element| match element {
@@ -206,9 +214,9 @@ mod tests {
         let path = |text: &str| BezPath::from_svg(text).unwrap();
         // Two overlapping squares of opposite orientation, and a frame with a square in it.
         let shapes = [
-            (path("M0 0H4V4H0Z"), Filling::NonZero),
-            (path("M2 2V6H6V2Z"), Filling::NonZero),
-            (path("M10 10H18V18H10ZM12 12H16V16H12ZM13 13H15V15H13Z"), Filling::EvenOdd),
+            (path("M0 0H4V4H0Z"), WindingRule::NonZero),
+            (path("M2 2V6H6V2Z"), WindingRule::NonZero),
+            (path("M10 10H18V18H10ZM12 12H16V16H12ZM13 13H15V15H13Z"), WindingRule::EvenOdd),
         ];
         let tile = Tile::of_shapes(&shapes, [20.0, 40.0]).unwrap();
         let mut rings: Vec<usize> = tile.shapes.iter().map(Vec::len).collect();

@@ -1,19 +1,19 @@
-//! [`Affinity`]: the affine map from the page to a picture that fits a set of points best.
+//! [`AffineFit`]: the affine map from the page to a picture that fits a set of points best.
 
 use glam::{DMat2, DVec2};
 
-use crate::images::facets::facet::Corner;
+use crate::images::facets::facet::FacetCorner;
 
 /// Affine map from the page to the plane of a picture's texels, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Affinity {
+pub(crate) struct AffineFit {
     /// Centre of the points on the page, and the place in the picture shown there.
     centre: [DVec2; 2],
     place_from_page: DMat2,
     page_from_place: DMat2,
 }
 
-impl Affinity {
+impl AffineFit {
     /// Place in the picture shown at a point of the page.
     pub fn place(&self, page: DVec2) -> DVec2 {
         self.centre[1] + self.place_from_page * (page - self.centre[0])
@@ -25,7 +25,7 @@ impl Affinity {
     }
 
     /// Error of the map at a corner: on the page, and in texels.
-    pub fn miss(&self, corner: &Corner) -> (f64, f64) {
+    pub fn miss(&self, corner: &FacetCorner) -> (f64, f64) {
         let off = corner.place - self.place(corner.image.truncate());
         ((self.page_from_place * off).length(), off.length())
     }
@@ -33,7 +33,7 @@ impl Affinity {
 
 /// Sums over points, for the least-squares solution of the map.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sums {
+pub(crate) struct AffineSums {
     origin: [DVec2; 2],
     count: f64,
     page: DVec2,
@@ -46,15 +46,15 @@ pub(crate) struct Sums {
 
 /// Smallest extent of the points in the picture, texels. Narrower extents are widened, because they show one
 /// colour in that direction.
-const NARROW_TEXELS: f64 = 0.25;
+const MIN_SPAN_TEXELS: f64 = 0.25;
 
-impl Sums {
+impl AffineSums {
     /// Sums relative to a point, which keeps precision.
-    pub fn about(corner: &Corner) -> Self {
+    pub fn about(corner: &FacetCorner) -> Self {
         Self { origin: [corner.image.truncate(), corner.place], ..Self::default() }
     }
 
-    pub fn add(&mut self, corner: &Corner) {
+    pub fn add(&mut self, corner: &FacetCorner) {
         let (p, t) = (corner.image.truncate() - self.origin[0], corner.place - self.origin[1]);
         self.count += 1.0;
         self.page += p;
@@ -64,7 +64,7 @@ impl Sums {
     }
 
     /// The map, if the points span an area on the page.
-    pub fn solved(&self) -> Option<Affinity> {
+    pub fn solved(&self) -> Option<AffineFit> {
         let (page, place) = (self.page / self.count, self.place / self.count);
         let n = self.count;
         let (xx, xy, yy) = (
@@ -79,10 +79,10 @@ impl Sums {
         let [x, y] = [self.products[0] - place * (n * page.x), self.products[1] - place * (n * page.y)];
         let found = DMat2::from_cols((x * yy - y * xy) / whole, (y * xx - x * xy) / whole);
         let extent = ((xx + yy) / n).sqrt() * 2.0;
-        let place_from_page = widened(found, NARROW_TEXELS / extent);
+        let place_from_page = widened(found, MIN_SPAN_TEXELS / extent);
         let inverse = place_from_page.inverse();
         let centre = [page + self.origin[0], place + self.origin[1]];
-        inverse.is_finite().then_some(Affinity { centre, place_from_page, page_from_place: inverse })
+        inverse.is_finite().then_some(AffineFit { centre, place_from_page, page_from_place: inverse })
     }
 }
 
@@ -113,12 +113,12 @@ fn widened(matrix: DMat2, least: f64) -> DMat2 {
 mod tests {
     use super::*;
 
-    fn corner(x: f64, y: f64, u: f64, v: f64) -> Corner {
-        Corner { image: DVec2::new(x, y).extend(1.0), place: DVec2::new(u, v) }
+    fn corner(x: f64, y: f64, u: f64, v: f64) -> FacetCorner {
+        FacetCorner { image: DVec2::new(x, y).extend(1.0), place: DVec2::new(u, v) }
     }
 
-    fn solved(corners: &[Corner]) -> Option<Affinity> {
-        let mut sums = Sums::about(&corners[0]);
+    fn solved(corners: &[FacetCorner]) -> Option<AffineFit> {
+        let mut sums = AffineSums::about(&corners[0]);
         corners.iter().for_each(|corner| sums.add(corner));
         sums.solved()
     }

@@ -1,12 +1,12 @@
-//! [`Order`]: the order of painting clusters, so that each covers those behind it.
+//! [`ClusterOrder`]: the order of painting clusters, so that each covers those behind it.
 
-use super::facet_cluster::Cluster;
+use super::facet_cluster::FacetCluster;
 use crate::images::facets::facet::Facet;
-use crate::images::facets::visible_faces::{SAME_NEARNESS, inside, pixel_of};
-use crate::view::raster::{Screen, painter_order};
+use crate::images::facets::visible_faces::{MIN_NEARNESS_GAP, pixel_of, sample_points};
+use crate::view::raster::{PixelGrid, painter_order};
 
 /// Order of painting clusters.
-pub(crate) struct Order {
+pub(crate) struct ClusterOrder {
     /// Indices of all clusters, the farthest first where the order is free.
     pub numbers: Vec<u32>,
     /// Indices of the clusters that cover each other cyclically, so that no order is correct for them.
@@ -14,9 +14,9 @@ pub(crate) struct Order {
 }
 
 /// Sorts clusters from back to front.
-pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Cluster]) -> Order {
-    const NOTHING: (f32, u32) = (f32::NEG_INFINITY, u32::MAX);
-    let mut front: Vec<(f32, u32)> = vec![NOTHING; screen.columns * screen.rows];
+pub(crate) fn back_to_front(screen: &PixelGrid, facets: &[Facet], clusters: &[FacetCluster]) -> ClusterOrder {
+    const NO_CLUSTER: (f32, u32) = (f32::NEG_INFINITY, u32::MAX);
+    let mut front: Vec<(f32, u32)> = vec![NO_CLUSTER; screen.columns * screen.rows];
     let corners = |facet: u32| facets[facet as usize].corners.map(|corner| screen.point(corner.image));
     let each = |call: &mut dyn FnMut(u32, usize, f32)| {
         for (number, cluster) in clusters.iter().enumerate() {
@@ -33,16 +33,16 @@ pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Clust
     let mut over: Vec<[u32; 2]> = Vec::new();
     each(&mut |cluster, pixel, near| {
         let (nearest, other) = front[pixel];
-        if other != cluster && nearest - near > SAME_NEARNESS && over.last() != Some(&[cluster, other]) {
+        if other != cluster && nearest - near > MIN_NEARNESS_GAP && over.last() != Some(&[cluster, other]) {
             over.push([cluster, other]);
         }
     });
     for (number, cluster) in clusters.iter().enumerate() {
         // Pieces of cut faces may fall between pixel centres.
         let cut = cluster.facets.iter().filter(|facet| facets[**facet as usize].is_cut());
-        for point in cut.flat_map(|facet| inside(corners(*facet))) {
-            let (nearest, other) = pixel_of(screen, point).map_or(NOTHING, |pixel| front[pixel]);
-            if other as usize != number && nearest - point[2] > SAME_NEARNESS {
+        for point in cut.flat_map(|facet| sample_points(corners(*facet))) {
+            let (nearest, other) = pixel_of(screen, point).map_or(NO_CLUSTER, |pixel| front[pixel]);
+            if other as usize != number && nearest - point[2] > MIN_NEARNESS_GAP {
                 over.push([number as u32, other]);
             }
         }
@@ -62,5 +62,5 @@ pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Clust
     let mut in_turn: Vec<u32> = against.flatten().copied().collect();
     in_turn.sort_unstable();
     in_turn.dedup();
-    Order { numbers, in_turn }
+    ClusterOrder { numbers, in_turn }
 }

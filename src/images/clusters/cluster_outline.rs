@@ -3,31 +3,31 @@
 use kurbo::{BezPath, Point, Vec2};
 use rustc_hash::FxHashMap;
 
-use super::facet_cluster::{Cluster, Neighbours};
+use super::facet_cluster::{FacetCluster, FacetNeighbours};
 use crate::geometry::numbers::portable_math::atan2;
 use crate::images::facets::facet::Facet;
 
 /// Distance from the straight line past a point within which the point is removed from a loop, px.
-const STRAIGHT_PX: f64 = 0.02;
+const MAX_DEVIATION_PX: f64 = 0.02;
 
 /// Largest offset of a corner, as a multiple of the offset of the sides (mitre limit).
-const MOST_MITRE: f64 = 2.0;
+const MAX_MITRE: f64 = 2.0;
 
 /// Loop of points, each with a flag: whether another face passes through at the side after it.
-type Ring = Vec<(Point, bool)>;
+type OutlineRing = Vec<(Point, bool)>;
 
 /// Outline of a cluster, moved by `offset`; `None` if it is empty. It is widened by `reach`, except at sides
 /// where another face passes through.
 pub(crate) fn outline(
-    cluster: &Cluster,
+    cluster: &FacetCluster,
     facets: &[Facet],
-    neighbours: &Neighbours,
+    neighbours: &FacetNeighbours,
     (reach, px): (f64, f64),
     offset: Vec2,
 ) -> Option<BezPath> {
     let mut path = BezPath::new();
     for ring in rings(cluster, facets, neighbours) {
-        let ring = straightened(&ring, STRAIGHT_PX * px);
+        let ring = straightened(&ring, MAX_DEVIATION_PX * px);
         if ring.len() < 3 {
             continue;
         }
@@ -40,7 +40,7 @@ pub(crate) fn outline(
 }
 
 /// Loops around a cluster and around its holes, with the inside on the side of a turn from x to y.
-fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ring> {
+fn rings(cluster: &FacetCluster, facets: &[Facet], neighbours: &FacetNeighbours) -> Vec<OutlineRing> {
     let mut own = cluster.facets.clone();
     own.sort_unstable();
     // Sides between the cluster and others, by their start.
@@ -96,8 +96,8 @@ fn turned(from: Vec2, to: Vec2) -> f64 {
 }
 
 /// Loop without the points that lie on the straight line past them.
-fn straightened(ring: &[(Point, bool)], tolerance: f64) -> Ring {
-    let mut kept: Ring = Vec::with_capacity(ring.len());
+fn straightened(ring: &[(Point, bool)], tolerance: f64) -> OutlineRing {
+    let mut kept: OutlineRing = Vec::with_capacity(ring.len());
     for k in 0..ring.len() {
         let (before, (at, wall), after) =
             (*kept.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()].0);
@@ -132,7 +132,7 @@ fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
             [false, false] => {
                 let middle = unit(first + second);
                 let cosine = middle.dot(second);
-                let far = if cosine > 1.0 / MOST_MITRE { 1.0 / cosine } else { MOST_MITRE };
+                let far = if cosine > 1.0 / MAX_MITRE { 1.0 / cosine } else { MAX_MITRE };
                 wide.push(at + if middle == Vec2::ZERO { second } else { middle * far } * reach);
             }
             // Outward from the end of the wall and not along it, so nothing crosses the wall.

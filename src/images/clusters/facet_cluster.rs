@@ -1,23 +1,23 @@
-//! [`Cluster`]: adjacent facets that share one affine map or one colour.
+//! [`FacetCluster`]: adjacent facets that share one affine map or one colour.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::affine_fit::{Affinity, Sums};
+use super::affine_fit::{AffineFit, AffineSums};
 use crate::colour::srgb::Colour;
-use crate::images::facets::facet::{Corner, Facet};
+use crate::images::facets::facet::{Facet, FacetCorner};
 use crate::mesh::PartId;
 
 /// Adjacent facets that share one affine map or one colour.
 #[derive(Debug, Clone)]
-pub(crate) struct Cluster {
+pub(crate) struct FacetCluster {
     /// Indices of its facets.
     pub facets: Vec<u32>,
-    pub shows: Painted,
+    pub shows: ClusterPaint,
     pub part: PartId,
 }
 
-impl Cluster {
+impl FacetCluster {
     /// Area on the page.
     pub fn area(&self, facets: &[Facet]) -> f64 {
         self.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
@@ -26,22 +26,22 @@ impl Cluster {
 
 /// Contents of a cluster.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Painted {
+pub(crate) enum ClusterPaint {
     /// The picture.
-    Picture(Affinity),
+    Picture(AffineFit),
     /// One colour.
     Colour(Colour),
 }
 
 /// Error in texels that always counts as correct, however large the texels appear.
-const RIGHT_TEXELS: f64 = 0.02;
+const MAX_ERROR_TEXELS: f64 = 0.02;
 
 /// Largest number of corners of a cluster, which bounds the cost of checking all of them again.
-const MOST_CORNERS: usize = 160;
+const MAX_CORNERS: usize = 160;
 
 /// Which of its neighbours a facet may be gathered with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Company {
+pub(crate) enum MergeRule {
     /// All, unless another face passes between them.
     All,
     /// Only those that the line of another face does not separate from it.
@@ -51,17 +51,17 @@ pub(crate) enum Company {
 }
 
 /// Facets that share a side.
-pub(crate) struct Neighbours {
-    /// Facets across the three sides of each facet; [`NONE`] where there are none.
+pub(crate) struct FacetNeighbours {
+    /// Facets across the three sides of each facet; [`NO_FACET`] where there are none.
     across: Vec<[u32; 3]>,
     /// Number of each corner; equal for corners at the same image-space point.
     pub corners: Vec<[u32; 3]>,
 }
 
 /// Stands for the absence of a facet.
-const NONE: u32 = u32::MAX;
+const NO_FACET: u32 = u32::MAX;
 
-impl Neighbours {
+impl FacetNeighbours {
     /// Two facets of one part are neighbours if they share two corners and no other face passes between them.
     pub fn of(facets: &[Facet]) -> Self {
         let mut points: FxHashMap<[u64; 3], u32> = FxHashMap::default();
@@ -71,7 +71,7 @@ impl Neighbours {
         };
         let corners: Vec<[u32; 3]> =
             facets.iter().map(|facet| facet.corners.map(|corner| point(corner.image))).collect();
-        let mut across = vec![[NONE; 3]; facets.len()];
+        let mut across = vec![[NO_FACET; 3]; facets.len()];
         let mut open: FxHashMap<(PartId, [u32; 2]), (u32, usize)> = FxHashMap::default();
         for (number, own) in corners.iter().enumerate() {
             for side in (0..3).filter(|side| !facets[number].is_wall(*side)) {
@@ -94,7 +94,7 @@ impl Neighbours {
 
     /// The facet across a side.
     pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
-        Some(self.across[facet as usize][side]).filter(|other| *other != NONE)
+        Some(self.across[facet as usize][side]).filter(|other| *other != NO_FACET)
     }
 
     /// Neighbours that a facet may be gathered with.
@@ -102,15 +102,15 @@ impl Neighbours {
         &'a self,
         facet: u32,
         facets: &'a [Facet],
-        company: &'a [Company],
+        company: &'a [MergeRule],
     ) -> impl Iterator<Item = u32> + 'a {
         let own = company[facet as usize];
         (0..3).filter_map(move |side| {
             let other = self.beyond(facet, side)?;
             match own.max(company[other as usize]) {
-                Company::All => Some(other),
-                Company::Unparted => Some(other).filter(|_| !facets[facet as usize].is_parted(side)),
-                Company::Alone => None,
+                MergeRule::All => Some(other),
+                MergeRule::Unparted => Some(other).filter(|_| !facets[facet as usize].is_parted(side)),
+                MergeRule::Alone => None,
             }
         })
     }
@@ -118,7 +118,7 @@ impl Neighbours {
 
 /// Requirements on a cluster.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fit {
+pub(crate) struct ClusterFit {
     /// Largest displacement of the picture on the page, user units.
     pub tolerance: f64,
     /// Largest extent of its places in x and y, texels.
@@ -133,10 +133,10 @@ pub(crate) struct Fit {
 /// have.
 pub(crate) fn clusters(
     facets: &[Facet],
-    neighbours: &Neighbours,
-    company: &[Company],
-    fit: &Fit,
-) -> Vec<Cluster> {
+    neighbours: &FacetNeighbours,
+    company: &[MergeRule],
+    fit: &ClusterFit,
+) -> Vec<FacetCluster> {
     let beside = |facet: u32| neighbours.company(facet, facets, company);
     let mut taken = vec![false; facets.len()];
     let mut found = Vec::new();
@@ -166,13 +166,13 @@ fn of_colour<I: Iterator<Item = u32>>(
     seed: u32,
     colour: Colour,
     taken: &mut [bool],
-) -> Option<Cluster> {
+) -> Option<FacetCluster> {
     let turn = facets[seed as usize].area2() > 0.0;
     let part = facets[seed as usize].part;
     taken[seed as usize] = true;
     let mut own = vec![seed];
     let mut next = 0;
-    while let Some(facet) = own.get(next).copied().filter(|_| own.len() < MOST_OF_COLOUR) {
+    while let Some(facet) = own.get(next).copied().filter(|_| own.len() < MAX_COLOUR_FACETS) {
         next += 1;
         for other in beside(facet) {
             let there = &facets[other as usize];
@@ -182,24 +182,24 @@ fn of_colour<I: Iterator<Item = u32>>(
             }
         }
     }
-    Some(Cluster { facets: own, shows: Painted::Colour(colour), part })
+    Some(FacetCluster { facets: own, shows: ClusterPaint::Colour(colour), part })
 }
 
 /// Largest number of facets in a cluster of one colour, so that clusters can be sorted by depth.
-const MOST_OF_COLOUR: usize = 2000;
+const MAX_COLOUR_FACETS: usize = 2000;
 
 /// Cluster of one affine map around a facet; `None` if it cannot be seen.
 fn of_picture<I: Iterator<Item = u32>>(
     facets: &[Facet],
-    (neighbours, beside): (&Neighbours, &impl Fn(u32) -> I),
+    (neighbours, beside): (&FacetNeighbours, &impl Fn(u32) -> I),
     seed: u32,
-    fit: &Fit,
+    fit: &ClusterFit,
     taken: &mut [bool],
-) -> Option<Cluster> {
+) -> Option<FacetCluster> {
     taken[seed as usize] = true;
     let first = &facets[seed as usize];
     let turn = first.area2() > 0.0;
-    let mut grown = Grown::new(first, neighbours.corners[seed as usize], fit);
+    let mut grown = ClusterGrowth::new(first, neighbours.corners[seed as usize], fit);
     let mut map = grown.sums.solved()?;
     let mut own = vec![seed];
     let mut asked: FxHashSet<u32> = FxHashSet::default();
@@ -209,7 +209,7 @@ fn of_picture<I: Iterator<Item = u32>>(
         for other in beside(facet) {
             let there = &facets[other as usize];
             let fits = !taken[other as usize] && there.colour.is_none() && (there.area2() > 0.0) == turn;
-            if !fits || grown.corners.len() >= MOST_CORNERS || !asked.insert(other) {
+            if !fits || grown.corners.len() >= MAX_CORNERS || !asked.insert(other) {
                 continue;
             }
             let numbers = neighbours.corners[other as usize];
@@ -220,21 +220,21 @@ fn of_picture<I: Iterator<Item = u32>>(
             }
         }
     }
-    Some(Cluster { facets: own, shows: Painted::Picture(map), part: first.part })
+    Some(FacetCluster { facets: own, shows: ClusterPaint::Picture(map), part: first.part })
 }
 
 /// Corners of a growing cluster.
 #[derive(Clone)]
-struct Grown {
-    sums: Sums,
-    corners: Vec<(u32, Corner)>,
+struct ClusterGrowth {
+    sums: AffineSums,
+    corners: Vec<(u32, FacetCorner)>,
     low: DVec2,
     high: DVec2,
 }
 
-impl Grown {
-    fn new(facet: &Facet, numbers: [u32; 3], fit: &Fit) -> Self {
-        let mut sums = Sums::about(&facet.corners[0]);
+impl ClusterGrowth {
+    fn new(facet: &Facet, numbers: [u32; 3], fit: &ClusterFit) -> Self {
+        let mut sums = AffineSums::about(&facet.corners[0]);
         let around = facet.around(fit.reach, fit.perspective);
         facet.corners.iter().chain(around.iter().flatten()).for_each(|corner| sums.add(corner));
         let [low, high] = facet.places();
@@ -243,7 +243,7 @@ impl Grown {
 
     /// Cluster with one more facet. `None` if common corners show different places, or if no map is correct
     /// for all corners.
-    fn with(&self, facet: &Facet, numbers: [u32; 3], fit: &Fit) -> Option<(Self, Affinity)> {
+    fn with(&self, facet: &Facet, numbers: [u32; 3], fit: &ClusterFit) -> Option<(Self, AffineFit)> {
         let mut wider = self.clone();
         for (number, corner) in numbers.into_iter().zip(facet.corners) {
             match self.corners.iter().find(|(known, _)| *known == number) {
@@ -268,9 +268,9 @@ impl Grown {
             return None;
         }
         let map = wider.sums.solved()?;
-        let is_right = |(_, corner): &(u32, Corner)| {
+        let is_right = |(_, corner): &(u32, FacetCorner)| {
             let (page, texels) = map.miss(corner);
-            page <= fit.tolerance || texels <= RIGHT_TEXELS
+            page <= fit.tolerance || texels <= MAX_ERROR_TEXELS
         };
         wider.corners.iter().all(is_right).then_some((wider, map))
     }

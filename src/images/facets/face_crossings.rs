@@ -1,4 +1,4 @@
-//! [`Crossings`]: lines where faces pass through others, and facets cut along them.
+//! [`FaceCrossings`]: lines where faces pass through others, and facets cut along them.
 //!
 //! Of two facets that pass through each other, neither covers the other. Cut where they meet, each half is
 //! entirely in front or behind, and a painting order exists.
@@ -12,21 +12,21 @@ use crate::mesh::Mesh;
 use crate::view::{Frame, View};
 
 /// Distance within which a corner lies on a line, px.
-const ON_LINE_PX: f64 = 1e-4;
+const MAX_LINE_DISTANCE_PX: f64 = 1e-4;
 
 /// Shortest cut through a facet, px.
-const LEAST_CUT_PX: f64 = 0.05;
+const MIN_CUT_PX: f64 = 0.05;
 
 /// Largest number of cuts of a face. A face with more crossings has no useful painting order.
-const MOST_CUTS: usize = 256;
+const MAX_CUTS_PER_FACE: usize = 256;
 
 /// Lines on the page where faces pass through others.
 #[derive(Debug, Default)]
-pub(crate) struct Crossings {
+pub(crate) struct FaceCrossings {
     of_face: FxHashMap<u32, Vec<[DVec2; 2]>>,
 }
 
-impl Crossings {
+impl FaceCrossings {
     /// Collects the crossings among the lines of a view.
     pub fn of(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Self {
         let mut of_face: FxHashMap<u32, Vec<[DVec2; 2]>> = FxHashMap::default();
@@ -44,7 +44,7 @@ impl Crossings {
     /// Cuts a facet of a face at the crossings of the face.
     pub(crate) fn cut(&self, face: u32, facet: Facet, frame: &Frame, px: f64) -> Vec<Facet> {
         let mut pieces = vec![facet];
-        for ends in self.of_face.get(&face).into_iter().flatten().take(MOST_CUTS) {
+        for ends in self.of_face.get(&face).into_iter().flatten().take(MAX_CUTS_PER_FACE) {
             pieces = pieces.into_iter().flat_map(|piece| cut_along(piece, *ends, frame, px)).collect();
         }
         pieces
@@ -56,7 +56,7 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
     let length = (to - from).length();
     let way = (to - from) / length;
     // Position of the corners along the line (x) and across it (y).
-    let line = Line { from, way, length, px };
+    let line = CrossingLine { from, way, length, px };
     let at = facet.corners.map(|corner| line.at(corner.image.truncate()));
     if length.is_nan() || length <= 0.0 || !line.passes(at) {
         return vec![facet];
@@ -90,7 +90,7 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
 
 /// Line with a segment on it.
 #[derive(Debug, Clone, Copy)]
-struct Line {
+struct CrossingLine {
     from: DVec2,
     /// Unit vector along the line.
     way: DVec2,
@@ -99,11 +99,11 @@ struct Line {
     px: f64,
 }
 
-impl Line {
+impl CrossingLine {
     /// Position of a point along the line (x) and across it (y).
     fn at(&self, p: DVec2) -> DVec2 {
         let beside = self.way.perp_dot(p - self.from);
-        let beside = if beside.abs() <= ON_LINE_PX * self.px { 0.0 } else { beside };
+        let beside = if beside.abs() <= MAX_LINE_DISTANCE_PX * self.px { 0.0 } else { beside };
         DVec2::new(self.way.dot(p - self.from), beside)
     }
 
@@ -121,7 +121,7 @@ impl Line {
                 (low, high) = (low.min(at), high.max(at));
             }
         }
-        high.min(self.length) - low.max(0.0) > LEAST_CUT_PX * self.px
+        high.min(self.length) - low.max(0.0) > MIN_CUT_PX * self.px
     }
 
     /// Marks a side of a facet that lies on the line as cut. The facet is divided so that each piece lies on
@@ -129,7 +129,7 @@ impl Line {
     fn walled(&self, facet: &Facet, side: usize, frame: &Frame) -> Vec<Facet> {
         let [a, b] =
             [side, (side + 1) % 3].map(|k| self.way.dot(facet.corners[k].image.truncate() - self.from));
-        let least = LEAST_CUT_PX * self.px;
+        let least = MIN_CUT_PX * self.px;
         let mut cuts: Vec<f64> = [0.0, self.length]
             .into_iter()
             .filter(|end| end - a.min(b) > least && a.max(b) - end > least)

@@ -2,21 +2,21 @@
 
 use glam::{DVec2, DVec3};
 
-use super::facet::{Corner, Facet};
-use super::image_context::Stage;
+use super::facet::{Facet, FacetCorner};
+use super::image_context::ImageContext;
 use crate::mesh::FaceId;
-use crate::scene::textures::Imaged;
+use crate::scene::textures::EmbeddedTexture;
 use crate::view::Frame;
 
 /// Largest error of an affine map in a facet, px. Facets are joined again where the tolerance allows it.
-const FLAT_PX: f64 = 0.1;
+const MAX_AFFINE_ERROR_PX: f64 = 0.1;
 
 /// Largest number of times a facet is halved.
-const MOST_HALVINGS: u32 = 20;
+const MAX_HALVINGS: u32 = 20;
 
 /// Facets of the faces that show a picture and may be visible.
-pub(crate) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
-    let Stage { mesh, view, screen, in_front, crossings, px, .. } = *stage;
+pub(crate) fn visible_facets(stage: &ImageContext, imaged: &EmbeddedTexture) -> Vec<Facet> {
+    let ImageContext { mesh, view, screen, in_front, crossings, px, .. } = *stage;
     let frame = &view.frame;
     let mut facets = Vec::new();
     let texels = imaged.texels();
@@ -26,7 +26,7 @@ pub(crate) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
         Some([a?, b?, c?])
     };
     let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
-        let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
+        let corners = [0, 1, 2].map(|k| FacetCorner { image: image[k], place: places[k] });
         let part = mesh.face_part[face as usize];
         let facet = Facet::new(corners, part);
         let pieces = crossings.cut(face, facet, frame, px);
@@ -66,7 +66,7 @@ fn halve(facet: Facet, frame: &Frame, px: f64, depth: u32, facets: &mut Vec<Face
         return;
     }
     let (side, miss) = facet.miss();
-    if !frame.perspective || miss <= FLAT_PX * px || depth == MOST_HALVINGS {
+    if !frame.perspective || miss <= MAX_AFFINE_ERROR_PX * px || depth == MAX_HALVINGS {
         facets.push(facet);
         return;
     }

@@ -8,7 +8,7 @@ use crate::view::Frame;
 
 /// Corner of a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Corner {
+pub(crate) struct FacetCorner {
     /// Position in image space.
     pub image: DVec3,
     /// Place that it shows, in the plane of the texels.
@@ -18,7 +18,7 @@ pub(crate) struct Corner {
 /// Triangle that shows a part of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Facet {
-    pub corners: [Corner; 3],
+    pub corners: [FacetCorner; 3],
     /// Part of the model it belongs to.
     pub part: PartId,
     /// Its colour, if it shows a single one.
@@ -31,7 +31,7 @@ pub(crate) struct Facet {
 
 impl Facet {
     /// Facet that is separated from nothing.
-    pub const fn new(corners: [Corner; 3], part: PartId) -> Self {
+    pub const fn new(corners: [FacetCorner; 3], part: PartId) -> Self {
         Self { corners, part, colour: None, parted: 0, walls: 0 }
     }
 }
@@ -46,9 +46,9 @@ impl Facet {
     /// Four points at distance `reach` around its centre, with the places they would show.
     ///
     /// The corners of a narrow facet alone determine the map poorly across the facet.
-    pub fn around(&self, reach: f64, perspective: bool) -> Option<[Corner; 4]> {
+    pub fn around(&self, reach: f64, perspective: bool) -> Option<[FacetCorner; 4]> {
         let [a, b, c] = self.corners;
-        let weight = |corner: &Corner| if perspective { corner.image.z } else { 1.0 };
+        let weight = |corner: &FacetCorner| if perspective { corner.image.z } else { 1.0 };
         let (qa, qb, qc) = (weight(&a), weight(&b), weight(&c));
         // The place is a quotient of two functions that are linear on the page.
         let (nb, nc) = ((b.place - a.place) * qb, (c.place - a.place) * qc);
@@ -61,7 +61,7 @@ impl Facet {
             let q = qa + (qb - qa) * share[0] + (qc - qa) * share[1];
             let n = nb * share[0] + nc * share[1];
             let image = (a.image.truncate() + at).extend(q);
-            Corner { image, place: a.place + n / q }
+            FacetCorner { image, place: a.place + n / q }
         };
         let beside = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| seen(middle + way * reach));
         beside.iter().all(|corner| corner.place.is_finite()).then_some(beside)
@@ -147,18 +147,18 @@ impl Facet {
 }
 
 /// Image of a point of a side in space.
-fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
+fn between(a: FacetCorner, b: FacetCorner, share: f64, frame: &Frame) -> FacetCorner {
     // Measured from the same end in both facets that have the side.
     let order =
         |p: DVec3, q: DVec3| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z)).is_gt();
     let (a, b, share) = if order(a.image, b.image) { (b, a, 1.0 - share) } else { (a, b, share) };
     let place = a.place.lerp(b.place, share);
     if !frame.perspective {
-        return Corner { image: a.image.lerp(b.image, share), place };
+        return FacetCorner { image: a.image.lerp(b.image, share), place };
     }
     let (wa, wb) = ((1.0 - share) / a.image.z, share / b.image.z);
     let at = (a.image.truncate() * wa + b.image.truncate() * wb) / (wa + wb);
-    Corner { image: at.extend(1.0 / (wa + wb)), place }
+    FacetCorner { image: at.extend(1.0 / (wa + wb)), place }
 }
 
 /// Cuts facets so that none shows more than `spans` texels along x or y.
@@ -205,7 +205,7 @@ pub(crate) fn cut_to_spans(
         };
         let (a, b) = (facet.corners[side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
         open.extend(facet.cut(side, ((at - a) / (b - a)).clamp(0.01, 0.99), frame));
-        if done.len() + open.len() > MOST_FACETS {
+        if done.len() + open.len() > MAX_FACETS {
             break;
         }
     }
@@ -213,7 +213,7 @@ pub(crate) fn cut_to_spans(
 }
 
 /// Largest number of facets of a picture.
-const MOST_FACETS: usize = 1 << 19;
+const MAX_FACETS: usize = 1 << 19;
 
 /// Whether a repetition of the picture is narrower than `least` on a facet.
 fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {

@@ -6,10 +6,10 @@
 use glam::DVec3;
 
 use crate::geometry::numbers::tolerance;
-use crate::light::Cones;
-use crate::light::contour_field::culling::edge_on_margin::Turned;
+use crate::light::NormalCones;
+use crate::light::contour_field::culling::edge_on_margin::EdgeOnMargin;
 use crate::mesh::Mesh;
-use crate::surface::refine::mesh_splice::Cuts;
+use crate::surface::refine::mesh_splice::MeshCuts;
 use crate::surface::refine::subdivision;
 use crate::surface::{EdgeArc, SmoothNormals};
 use crate::view::Frame;
@@ -17,19 +17,19 @@ use crate::view::Frame;
 /// Largest fall of the field between two ends of one sign, as a share of their turn. To vanish in between,
 /// the field must fall from both ends, so each end accounts for half the turn. Arcs longer than their chords
 /// add a little.
-const REACH: f64 = 0.55;
-const REACH_AND_ROUNDING: f64 = REACH * (1.0 + 1e-9);
+const MAX_FALL_PER_TURN: f64 = 0.55;
+const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + 1e-9);
 
 /// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
-/// [`tolerance::ARC_PX`]. `None` where edges are short enough. [`Cones`] save time and do not change the
+/// [`tolerance::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the
 /// result.
 #[must_use]
 pub fn cuts_near_contours(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    cones: Option<&Cones>,
+    cones: Option<&NormalCones>,
     frame: &Frame,
-) -> Option<Cuts> {
+) -> Option<MeshCuts> {
     let px = frame.width.max(frame.height) / 1000.0;
     // Length on the page of a unit length at the end nearer to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {
@@ -37,13 +37,13 @@ pub fn cuts_near_contours(
         if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
     };
     // Squares instead of quotients, because this runs for every edge of the model.
-    let short = (tolerance::SHORT_EDGE_PX * px / frame.scale).powi(2);
+    let short = (tolerance::MIN_SPLIT_EDGE_PX * px / frame.scale).powi(2);
     let is_long = |a: DVec3, b: DVec3| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         depth > 0.0 && a.distance_squared(b) > short * depth * depth
     };
     let want = |ends: [DVec3; 2], normals: [DVec3; 2]| {
-        if frame.perspective && surely_turned(frame.eye, ends, normals) {
+        if frame.perspective && is_surely_turned(frame.eye, ends, normals) {
             return 0.0;
         }
         let to_eye = ends.map(|p| frame.to_eye(p));
@@ -51,23 +51,25 @@ pub fn cuts_near_contours(
         // Between the ends, the field varies by at most the turn of normal and line of sight.
         let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
         let nearest = facing[0].abs().min(facing[1].abs());
-        if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
+        if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > MAX_FALL_PER_TURN * turn {
             return 0.0;
         }
-        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
+        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::MAX_ARC_ERROR_PX
     };
-    let is_asked = |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, REACH, short));
+    let is_asked =
+        |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, MAX_FALL_PER_TURN, short));
     // Cones settle almost all runs as well, and exist from the second view on.
-    let turned = cones.is_none().then(|| Turned::of(mesh, smooth, frame, REACH_AND_ROUNDING));
-    let may =
-        |ends: [u32; 2], squared: f64| turned.as_ref().is_none_or(|turned| !turned.all_along(ends, squared));
+    let turned = cones.is_none().then(|| EdgeOnMargin::of(mesh, smooth, frame, MAX_FALL_PER_TURN_ROUNDED));
+    let may = |ends: [u32; 2], squared: f64| {
+        turned.as_ref().is_none_or(|turned| !turned.cannot_vanish(ends, squared))
+    };
     subdivision::cuts(mesh, smooth, is_asked, is_long, may, want)
 }
 
 /// Whether the field is certainly too far from zero at both ends of an edge to vanish in between. It runs for
 /// almost all edges, so it uses no root and no quotient.
 #[inline]
-fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2]) -> bool {
+fn is_surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2]) -> bool {
     let (to_eye_a, to_eye_b) = (eye - a, eye - b);
     let (facing_a, facing_b) = (normal_a.dot(to_eye_a), normal_b.dot(to_eye_b));
     let (far_a, far_b) = (to_eye_a.length_squared(), to_eye_b.length_squared());
@@ -76,7 +78,7 @@ fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2
     // that to the nearer one. The square of a sum is at most 5/4 of one square plus five times the other.
     // Everything is squared and multiplied by the square of the nearer distance.
     let most = 1.25 * normal_a.distance_squared(normal_b) * nearer + 5.0 * a.distance_squared(b);
-    let most = REACH_AND_ROUNDING * REACH_AND_ROUNDING * most;
+    let most = MAX_FALL_PER_TURN_ROUNDED * MAX_FALL_PER_TURN_ROUNDED * most;
     (facing_a > 0.0) == (facing_b > 0.0)
         && facing_a * facing_a * nearer > most * far_a
         && facing_b * facing_b * nearer > most * far_b
@@ -103,9 +105,9 @@ mod tests {
             let to_eye = ends.map(|p| (eye - p).normalize());
             let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
             let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
-            let is_turned =
-                facing[0] * facing[1] > 0.0 && facing[0].abs().min(facing[1].abs()) > REACH * turn;
-            let is_told = surely_turned(eye, ends, normals);
+            let is_turned = facing[0] * facing[1] > 0.0
+                && facing[0].abs().min(facing[1].abs()) > MAX_FALL_PER_TURN * turn;
+            let is_told = is_surely_turned(eye, ends, normals);
             assert!(is_turned || !is_told, "{ends:?} {normals:?} from {eye}");
             told += u32::from(is_told);
             turned += u32::from(is_turned);

@@ -6,7 +6,7 @@
 use crate::parallel::prelude::*;
 
 use crate::mesh::Mesh;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 use crate::view::Frame;
 
@@ -16,5 +16,5 @@ use crate::view::Frame;
 pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
     let at =
         |(normal, vertex): (&glam::DVec3, &u32)| normal.dot(frame.to_eye(mesh.positions[*vertex as usize]));
-    smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(GRAIN).map(at).collect()
+    smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(MIN_TASK_ITEMS).map(at).collect()
 }

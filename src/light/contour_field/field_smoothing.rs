@@ -7,18 +7,18 @@
 use crate::parallel::prelude::*;
 
 use crate::mesh::{FaceId, Mesh, PartId};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 use crate::view::Frame;
 
 /// Radius of the averaging (standard deviation), px.
-const RADIUS_PX: f64 = 2.5;
+const SMOOTHING_RADIUS_PX: f64 = 2.5;
 /// Square of the radius of one round of averaging over neighbours, in squared edge lengths.
-const ROUND: f64 = 0.8;
+const VARIANCE_PER_ROUND: f64 = 0.8;
 /// Largest number of rounds, however fine the mesh.
-const MOST_ROUNDS: u32 = 12;
+const MAX_ROUNDS: u32 = 12;
 /// Faces are averaged only if a corner has a value below this: about 20 degrees of turn.
-const NEAR_ZERO: f64 = 0.35;
+const MAX_SMOOTHED_VALUE: f64 = 0.35;
 
 /// Averages `values`, one per smooth vertex, near their zero set.
 pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, values: &mut [f64]) {
@@ -27,11 +27,11 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     if most == 0 {
         return;
     }
-    let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < NEAR_ZERO);
+    let near = |corners: &[u32; 3]| corners.iter().any(|v| values[*v as usize].abs() < MAX_SMOOTHED_VALUE);
     let rounds = |face: u32| rounds_of[mesh.body(face).index()];
     let mut faces: Vec<(u32, [u32; 3])> = (0..mesh.triangles.len() as u32)
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
         .filter(|(rounds, _)| *rounds > 0)
         .collect();
@@ -126,8 +126,9 @@ fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
         let extent = mesh.extents.of(PartId::from(part));
         let depth = frame.depth(extent.middle()).max(extent.scale * 1e-3);
         let edge = median.sqrt() / frame.px_at(depth);
-        let rounds = RADIUS_PX * RADIUS_PX / (ROUND * edge * edge).max(f64::MIN_POSITIVE);
-        rounds.round().min(f64::from(MOST_ROUNDS)) as u32
+        let rounds = SMOOTHING_RADIUS_PX * SMOOTHING_RADIUS_PX
+            / (VARIANCE_PER_ROUND * edge * edge).max(f64::MIN_POSITIVE);
+        rounds.round().min(f64::from(MAX_ROUNDS)) as u32
     };
     faces_of.into_iter().enumerate().map(of_part).collect()
 }

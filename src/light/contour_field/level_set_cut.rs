@@ -22,7 +22,7 @@ use crate::mesh::Mesh;
 use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Faces per task. Fixed, so the result does not depend on the number of threads.
-const CHUNK: usize = 1 << 13;
+const FACES_PER_TASK: usize = 1 << 13;
 
 /// Piece of a face between two neighbouring levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,13 +52,13 @@ pub struct SurfaceCut {
 
 /// Corner of a piece: a smooth vertex, or the crossing of a level with the edge between two.
 #[derive(Debug, Clone, Copy)]
-enum Corner {
+enum CutCorner {
     Vertex(u32),
-    Crossing(Crossing),
+    Crossing(LevelCrossing),
 }
 
 /// Smooth vertices of an edge, the smaller id first, and the index of a level.
-type Crossing = ([u32; 2], u16);
+type LevelCrossing = ([u32; 2], u16);
 
 /// Cuts all rounded faces where `values`, one per smooth vertex, reach one of the ascending `levels`.
 ///
@@ -67,12 +67,12 @@ type Crossing = ([u32; 2], u16);
 #[must_use]
 pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) -> SurfaceCut {
     let faces = smooth.corners.len();
-    let chunks: Vec<Vec<(u32, u16, Vec<Corner>)>> = (0..faces.div_ceil(CHUNK))
+    let chunks: Vec<Vec<(u32, u16, Vec<CutCorner>)>> = (0..faces.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|k| {
             let mut found = Vec::new();
-            for face in (k * CHUNK..((k + 1) * CHUNK).min(faces)).map(|face| face as u32) {
+            for face in (k * FACES_PER_TASK..((k + 1) * FACES_PER_TASK).min(faces)).map(|face| face as u32) {
                 if let Some(corners) = smooth.corners_of(face) {
                     let bands = corners.map(|v| band(values[v as usize], levels));
                     let all = bands[0].min(bands[1]).min(bands[2])..=bands[0].max(bands[1]).max(bands[2]);
@@ -83,7 +83,7 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
         })
         .collect();
     let crossings = crossings(chunks.iter().flatten().flat_map(|(_, _, corners)| corners));
-    let point = |(between, level): &Crossing| {
+    let point = |(between, level): &LevelCrossing| {
         let [a, b] = between.map(|v| values[v as usize]);
         let t = (levels[usize::from(*level)] - a) / (b - a);
         let t = t.clamp(tolerance::ZERO_SET_OF_EDGE, 1.0 - tolerance::ZERO_SET_OF_EDGE);
@@ -98,8 +98,8 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
     for (face, band, corners) in chunks.into_iter().flatten() {
         let first = cut.corners.len() as u32;
         cut.corners.extend(corners.iter().map(|corner| match corner {
-            Corner::Vertex(v) => smooth.vertices[*v as usize],
-            Corner::Crossing(c) => (cut.vertices + crossings.partition_point(|known| known < c)) as u32,
+            CutCorner::Vertex(v) => smooth.vertices[*v as usize],
+            CutCorner::Crossing(c) => (cut.vertices + crossings.partition_point(|known| known < c)) as u32,
         }));
         cut.pieces.push(FacePiece { face, band, corners: first..cut.corners.len() as u32 });
     }
@@ -112,19 +112,19 @@ fn band(value: f64, levels: &[f64]) -> u16 {
 }
 
 /// Corners of a face's piece in one band, in the winding of the face.
-fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<Corner> {
+fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<CutCorner> {
     let mut out = Vec::with_capacity(5);
     for k in 0..3 {
         let next = (k + 1) % 3;
         if bands[k] == band {
-            out.push(Corner::Vertex(corners[k]));
+            out.push(CutCorner::Vertex(corners[k]));
         }
         let between = [corners[k].min(corners[next]), corners[k].max(corners[next])];
         // Level j separates band j from the next. Of the levels crossed along the edge, the piece uses the
         // two at its borders.
         let borders = [band.checked_sub(1), Some(band)].map(|level| {
             let low = bands[k].min(bands[next])..bands[k].max(bands[next]);
-            level.filter(|level| low.contains(level)).map(|level| Corner::Crossing((between, level)))
+            level.filter(|level| low.contains(level)).map(|level| CutCorner::Crossing((between, level)))
         });
         let rising = bands[k] < bands[next];
         out.extend(borders[usize::from(!rising)]);
@@ -134,12 +134,12 @@ fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<Corner> {
 }
 
 /// All crossings, sorted, each once.
-fn crossings<'a>(corners: impl Iterator<Item = &'a Corner>) -> Vec<Crossing> {
-    let of = |corner: &Corner| match corner {
-        Corner::Vertex(_) => None,
-        Corner::Crossing(crossing) => Some(*crossing),
+fn crossings<'a>(corners: impl Iterator<Item = &'a CutCorner>) -> Vec<LevelCrossing> {
+    let of = |corner: &CutCorner| match corner {
+        CutCorner::Vertex(_) => None,
+        CutCorner::Crossing(crossing) => Some(*crossing),
     };
-    let mut all: Vec<Crossing> = corners.filter_map(of).collect();
+    let mut all: Vec<LevelCrossing> = corners.filter_map(of).collect();
     all.par_sort_unstable();
     all.dedup();
     all

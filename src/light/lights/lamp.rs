@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::colour::srgb::Colour;
 use crate::geometry::numbers::portable_math::{cos, pow};
-use crate::geometry::numbers::tolerance::{LAMP_OF_FRAME, LEAST_CONE};
+use crate::geometry::numbers::tolerance::{MIN_CONE_SOFTNESS_COSINE, MIN_LAMP_DISTANCE_OF_FRAME};
 use crate::scene::{Light, LightKind};
 use crate::view::Frame;
 
@@ -12,7 +12,7 @@ use crate::view::Frame;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Lamp {
     /// Direction or position of the light.
-    pub reach: Reach,
+    pub reach: LampSource,
     /// Brightness factor.
     pub brightness: f64,
     /// Light at the centre of the model, for weighting lights against each other.
@@ -29,7 +29,7 @@ pub(crate) struct Lamp {
 
 /// Light near a point, with bounds for the surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Near {
+pub(crate) struct LocalLight {
     /// Unit vector to the light.
     pub towards: DVec3,
     /// Amount that reaches the point.
@@ -41,18 +41,18 @@ pub(crate) struct Near {
 }
 
 /// Largest extent, as a share of the distance, for a bound.
-pub(crate) const LARGEST_EXTENT: f64 = 0.4;
+pub(crate) const MAX_EXTENT_SHARE: f64 = 0.4;
 
-/// Turn of the direction per unit of that share, radians, up to [`LARGEST_EXTENT`].
-pub(crate) const EXTENT_TO_TURN: f64 = 1.1;
+/// Turn of the direction per unit of that share, radians, up to [`MAX_EXTENT_SHARE`].
+pub(crate) const TURN_PER_EXTENT: f64 = 1.1;
 
 /// Direction or position of a lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Reach {
+pub(crate) enum LampSource {
     /// Parallel light.
     Parallel { towards: DVec3 },
     /// Light from a point.
-    Point { position: DVec3, falloff: FallOff, cone: Option<Cone> },
+    Point { position: DVec3, falloff: FallOff, cone: Option<SpotCone> },
 }
 
 /// Fall-off of light with the distance d.
@@ -68,7 +68,7 @@ pub(crate) enum FallOff {
 
 /// Cone of a spot light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Cone {
+pub(crate) struct SpotCone {
     /// Axis, away from the light.
     axis: DVec3,
     /// Cosine of the angle outside which there is no light.
@@ -80,14 +80,14 @@ pub(crate) struct Cone {
 impl Lamp {
     /// Parallel light.
     pub fn parallel(towards: DVec3, brightness: f64, colour: [f64; 3]) -> Self {
-        let reach = Reach::Parallel { towards };
+        let reach = LampSource::Parallel { towards };
         Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
     /// Light from a point that halves at a distance.
     pub fn point(position: DVec3, half_at: Option<f64>, brightness: f64, colour: [f64; 3]) -> Self {
         let falloff = half_at.map_or(FallOff::None, FallOff::Half);
-        let reach = Reach::Point { position, falloff, cone: None };
+        let reach = LampSource::Point { position, falloff, cone: None };
         Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
@@ -118,18 +118,18 @@ impl Lamp {
 
     /// Light at a point, with bounds within `extent` of it. `None` where the light is too near, has a cone,
     /// or ends at a range.
-    pub fn near(&self, point: DVec3, extent: f64) -> Option<Near> {
+    pub fn near(&self, point: DVec3, extent: f64) -> Option<LocalLight> {
         let (towards, amount) = self.at(point);
         match &self.reach {
-            Reach::Parallel { .. } => Some(Near { towards, amount, turn: 0.0, factor: 1.0 }),
-            Reach::Point { cone: Some(_), .. }
-            | Reach::Point { falloff: FallOff::Square { range: Some(_), .. }, .. } => None,
-            Reach::Point { position, .. } => {
+            LampSource::Parallel { .. } => Some(LocalLight { towards, amount, turn: 0.0, factor: 1.0 }),
+            LampSource::Point { cone: Some(_), .. }
+            | LampSource::Point { falloff: FallOff::Square { range: Some(_), .. }, .. } => None,
+            LampSource::Point { position, .. } => {
                 let part = extent / position.distance(point);
-                (part <= LARGEST_EXTENT).then(|| Near {
+                (part <= MAX_EXTENT_SHARE).then(|| LocalLight {
                     towards,
                     amount,
-                    turn: EXTENT_TO_TURN * part,
+                    turn: TURN_PER_EXTENT * part,
                     // Light falls off with the square of the distance at most.
                     factor: pow(1.0 - part, -2.0),
                 })
@@ -140,8 +140,8 @@ impl Lamp {
     /// Unit vector from a point to the light, and the amount that reaches the point.
     pub fn at(&self, point: DVec3) -> (DVec3, f64) {
         match &self.reach {
-            Reach::Parallel { towards } => (*towards, self.brightness),
-            Reach::Point { position, falloff, cone } => {
+            LampSource::Parallel { towards } => (*towards, self.brightness),
+            LampSource::Point { position, falloff, cone } => {
                 let way = *position - point;
                 let towards = way.normalize_or_zero();
                 let cone = cone.as_ref().map_or(1.0, |cone| cone.at(-towards));
@@ -168,7 +168,7 @@ impl FallOff {
     }
 }
 
-impl Cone {
+impl SpotCone {
     /// Share of the light in a direction away from the lamp.
     fn at(&self, away: DVec3) -> f64 {
         let share = ((away.dot(self.axis) - self.outer) * self.slope).clamp(0.0, 1.0);
@@ -189,18 +189,18 @@ fn of_light(light: &Light, origin: DVec3, frame: &Frame) -> Option<Lamp> {
         LightKind::Point { position } | LightKind::Spot { position, .. } => {
             let position = position - origin;
             let range = light.range.filter(|range| range.is_finite() && *range > 0.0);
-            let falloff = FallOff::Square { nearest: size * LAMP_OF_FRAME, range };
+            let falloff = FallOff::Square { nearest: size * MIN_LAMP_DISTANCE_OF_FRAME, range };
             let cone = match light.kind {
                 LightKind::Spot { direction, inner_angle, outer_angle, .. } => {
                     let outer = cos(outer_angle);
-                    let width = (cos(inner_angle) - outer).max(LEAST_CONE);
-                    Some(Cone { axis: direction.try_normalize()?, outer, slope: 1.0 / width })
+                    let width = (cos(inner_angle) - outer).max(MIN_CONE_SOFTNESS_COSINE);
+                    Some(SpotCone { axis: direction.try_normalize()?, outer, slope: 1.0 / width })
                 }
                 _ => None,
             };
             let away = position.distance(frame.target()).max(size / 4.0);
             Lamp {
-                reach: Reach::Point { position, falloff, cone },
+                reach: LampSource::Point { position, falloff, cone },
                 weight: light.intensity / (away * away),
                 ..Lamp::parallel(DVec3::ZERO, light.intensity, colour)
             }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use crate::colour::colour_factor::Factor;
+use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 
 /// Lights of a drawing.
@@ -19,7 +19,7 @@ pub struct LightOptions {
     /// Further lights. Default: none.
     pub sources: Vec<LightSource>,
     /// Light from all directions, a_g of Lake et al. 2000, eq. 1. Default: 0.
-    pub ambient: Factor,
+    pub ambient: ColourFactor,
     /// Wrap of light round a surface, 0 to 1: the diffuse light is (L·n + wrap)/(1 + wrap), at least 0.
     /// Default: 0.
     #[serde(deserialize_with = "fraction")]
@@ -31,7 +31,7 @@ pub struct LightOptions {
 
 impl Default for LightOptions {
     fn default() -> Self {
-        Self { from_model: true, sources: Vec::new(), ambient: Factor::NONE, wrap: 0.0, occlusion: 0.0 }
+        Self { from_model: true, sources: Vec::new(), ambient: ColourFactor::NONE, wrap: 0.0, occlusion: 0.0 }
     }
 }
 
@@ -96,7 +96,7 @@ impl Default for LightSource {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SourceTable {
-    kind: Kind,
+    kind: SourceTag,
     direction: Option<[f64; 3]>,
     position: Option<[f64; 3]>,
     #[serde(default)]
@@ -110,7 +110,7 @@ struct SourceTable {
 
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
-enum Kind {
+enum SourceTag {
     Directional,
     Point,
 }
@@ -120,20 +120,20 @@ impl TryFrom<SourceTable> for LightSource {
 
     fn try_from(table: SourceTable) -> Result<Self, String> {
         let kind = match (table.kind, table.direction, table.position, table.falloff) {
-            (Kind::Directional, Some(direction), None, None) => {
+            (SourceTag::Directional, Some(direction), None, None) => {
                 let direction = DVec3::from(direction);
                 if direction.try_normalize().is_none() {
                     return Err("the direction of a light has no length; write [x, y, z] towards it".into());
                 }
                 SourceKind::Directional { direction }
             }
-            (Kind::Directional, None, ..) => {
+            (SourceTag::Directional, None, ..) => {
                 return Err("a directional light needs a `direction`; write [x, y, z] towards it".into());
             }
-            (Kind::Directional, ..) => {
+            (SourceTag::Directional, ..) => {
                 return Err("a directional light has no `position` and no `falloff`; leave them out".into());
             }
-            (Kind::Point, None, Some(position), falloff) => {
+            (SourceTag::Point, None, Some(position), falloff) => {
                 if falloff.is_some_and(|d| !(d.is_finite() && d > 0.0)) {
                     return Err("`falloff` is the distance at which half the light is left; \
                                 write a number above 0"
@@ -145,10 +145,12 @@ impl TryFrom<SourceTable> for LightSource {
                 }
                 SourceKind::Point { position, falloff }
             }
-            (Kind::Point, _, None, _) => {
+            (SourceTag::Point, _, None, _) => {
                 return Err("a point light needs a `position`; write [x, y, z]".into());
             }
-            (Kind::Point, Some(_), ..) => return Err("a point light has no `direction`; leave it out".into()),
+            (SourceTag::Point, Some(_), ..) => {
+                return Err("a point light has no `direction`; leave it out".into());
+            }
         };
         let brightness = table.brightness.unwrap_or(1.0);
         if !(brightness.is_finite() && brightness >= 0.0) {

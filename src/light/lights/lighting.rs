@@ -4,18 +4,18 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::lamp::{EXTENT_TO_TURN, LARGEST_EXTENT, Lamp, Reach};
+use super::lamp::{Lamp, LampSource, MAX_EXTENT_SHARE, TURN_PER_EXTENT};
 use super::light_options::{LightOptions, LightSource, SourceKind, Space};
 use super::specular;
 use crate::geometry::numbers::portable_math::{acos, cos, pow};
 use crate::geometry::numbers::tolerance::HIGHLIGHT_FADE_COSINE;
-use crate::light::Slope;
+use crate::light::LightSlope;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::view::Frame;
 
 /// Largest number of lights that cast shadows.
-pub const GREATEST_CASTERS: usize = 8;
+pub const MAX_SHADOW_LIGHTS: usize = 8;
 
 /// A light that casts shadows, in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ pub struct SurfacePoint {
 
 /// Selection of lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Of {
+pub(crate) enum LampFilter {
     All,
     /// The light with this index.
     Lamp(usize),
@@ -54,14 +54,15 @@ pub(crate) enum Of {
 }
 
 /// Largest difference per channel between tints that count as one.
-const ONE_HUE: f64 = 0.125;
+const MAX_HUE_DIFFERENCE: f64 = 0.125;
 
 /// Assigns each light the index of its tint, and returns the tints. Similar tints give their mean by weight.
 fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
     let mut firsts: Vec<[f64; 3]> = Vec::new();
     let mut sums: Vec<([f64; 3], f64)> = Vec::new();
     for lamp in lamps.iter_mut() {
-        let is_like = |first: &[f64; 3]| first.iter().zip(lamp.colour).all(|(a, b)| (a - b).abs() < ONE_HUE);
+        let is_like =
+            |first: &[f64; 3]| first.iter().zip(lamp.colour).all(|(a, b)| (a - b).abs() < MAX_HUE_DIFFERENCE);
         lamp.hue = firsts.iter().position(is_like).unwrap_or(firsts.len());
         if lamp.hue == firsts.len() {
             firsts.push(lamp.colour);
@@ -120,18 +121,19 @@ impl Lighting {
 
         let mut casters = Vec::new();
         for lamp in lamps.iter_mut().filter(|lamp| cast_shadows && lamp.shadows) {
-            if casters.len() < GREATEST_CASTERS {
+            if casters.len() < MAX_SHADOW_LIGHTS {
                 lamp.caster = Some(casters.len() as u32);
             }
             casters.push(match lamp.reach {
-                Reach::Parallel { towards } => Caster::Directional { towards },
-                Reach::Point { position, .. } => Caster::Point { position },
+                LampSource::Parallel { towards } => Caster::Directional { towards },
+                LampSource::Point { position, .. } => Caster::Point { position },
             });
         }
-        if casters.len() > GREATEST_CASTERS {
+        if casters.len() > MAX_SHADOW_LIGHTS {
             let count = casters.len();
-            warnings.push(format!("{count} lights would cast shadows; only the first {GREATEST_CASTERS} do"));
-            casters.truncate(GREATEST_CASTERS);
+            warnings
+                .push(format!("{count} lights would cast shadows; only the first {MAX_SHADOW_LIGHTS} do"));
+            casters.truncate(MAX_SHADOW_LIGHTS);
         }
         let hues = part_by_hue(&mut lamps);
         let (wrap, occlusion) = (options.wrap, options.occlusion);
@@ -178,14 +180,15 @@ impl Lighting {
     /// Whether light varies over a flat surface.
     #[must_use]
     pub fn is_local(&self) -> bool {
-        self.occlusion > 0.0 || self.lamps.iter().any(|lamp| !matches!(lamp.reach, Reach::Parallel { .. }))
+        self.occlusion > 0.0
+            || self.lamps.iter().any(|lamp| !matches!(lamp.reach, LampSource::Parallel { .. }))
     }
 
     /// Bounds for the change of parallel light with the normal.
     #[must_use]
-    pub fn slope(&self) -> Slope {
+    pub fn slope(&self) -> LightSlope {
         let most = self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum();
-        Slope { most, dips: self.lamps.len() > 1 }
+        LightSlope { most, dips: self.lamps.len() > 1 }
     }
 
     /// Tint of all lights together: their colours weighted by brightness; white without light.
@@ -210,7 +213,7 @@ impl Lighting {
     /// Diffuse light of the selected lights that are not `shadowed`: the sum of brightness · fall-off ·
     /// max(L·n, 0).
     #[must_use]
-    pub(crate) fn diffuse(&self, of: Of, point: &SurfacePoint, shadowed: u32) -> f64 {
+    pub(crate) fn diffuse(&self, of: LampFilter, point: &SurfacePoint, shadowed: u32) -> f64 {
         let normal = self.normal(point);
         let lamps = self.chosen(of, shadowed);
         let light: f64 = lamps.map(|lamp| self.diffuse_of(lamp, point.position, normal)).sum();
@@ -218,11 +221,11 @@ impl Lighting {
     }
 
     /// Selected lights that are not `shadowed`.
-    fn chosen(&self, of: Of, shadowed: u32) -> impl Iterator<Item = &Lamp> {
+    fn chosen(&self, of: LampFilter, shadowed: u32) -> impl Iterator<Item = &Lamp> {
         let is_chosen = move |(k, lamp): &(usize, &Lamp)| match of {
-            Of::All => true,
-            Of::Lamp(own) => own == *k,
-            Of::Hue(hue) => hue == lamp.hue,
+            LampFilter::All => true,
+            LampFilter::Lamp(own) => own == *k,
+            LampFilter::Hue(hue) => hue == lamp.hue,
         };
         let chosen = self.lamps.iter().enumerate().filter(is_chosen).map(|(_, lamp)| lamp);
         chosen.filter(move |lamp| !lamp.is_shadowed(shadowed))
@@ -245,10 +248,10 @@ impl Lighting {
         self.lit(shadowed).map(of).sum()
     }
 
-    /// Bounds of the diffuse light of the selected lights; see [`crate::light::Shading::range`].
+    /// Bounds of the diffuse light of the selected lights; see [`crate::interpolated_light::Shading::range`].
     pub(crate) fn diffuse_range(
         &self,
-        of: Of,
+        of: LampFilter,
         point: &SurfacePoint,
         shadowed: u32,
         turn: f64,
@@ -258,7 +261,7 @@ impl Lighting {
         let lambert = |angle: f64| ((cos(angle) + self.wrap) / (1.0 + self.wrap)).max(0.0);
         let (mut low, mut high) = (0.0, 0.0);
         for own in self.chosen(of, shadowed) {
-            let Some(near) = own.near(point.position, extent) else { return ANYTHING };
+            let Some(near) = own.near(point.position, extent) else { return UNBOUNDED };
             let angle = acos(near.towards.dot(normal).clamp(-1.0, 1.0));
             let turn = turn + near.turn;
             low += near.amount / near.factor * lambert((angle + turn).min(PI));
@@ -267,7 +270,7 @@ impl Lighting {
         (low * (1.0 - self.occlusion.clamp(0.0, 1.0)), high)
     }
 
-    /// Bounds of the highlight; see [`crate::light::Shading::range`].
+    /// Bounds of the highlight; see [`crate::interpolated_light::Shading::range`].
     pub(crate) fn specular_range(
         &self,
         point: &SurfacePoint,
@@ -278,25 +281,25 @@ impl Lighting {
     ) -> (f64, f64) {
         let Some(frame) = &self.frame else { return (0.0, 0.0) };
         let (to_eye, way) = self.eye_of_highlights(frame, point.position);
-        if extent > LARGEST_EXTENT * way {
-            return ANYTHING;
+        if extent > MAX_EXTENT_SHARE * way {
+            return UNBOUNDED;
         }
-        let eye_turn = EXTENT_TO_TURN * extent / way;
+        let eye_turn = TURN_PER_EXTENT * extent / way;
         let normal = self.normal(point);
         let mut high = 0.0;
         for lamp in self.lit(shadowed) {
-            let Some(mut near) = lamp.near(point.position, extent) else { return ANYTHING };
+            let Some(mut near) = lamp.near(point.position, extent) else { return UNBOUNDED };
             if let Some((towards, way)) = self.towards_for_highlights(frame, lamp, point.position) {
-                if extent > LARGEST_EXTENT * way {
-                    return ANYTHING;
+                if extent > MAX_EXTENT_SHARE * way {
+                    return UNBOUNDED;
                 }
-                (near.towards, near.turn) = (towards, EXTENT_TO_TURN * extent / way);
+                (near.towards, near.turn) = (towards, TURN_PER_EXTENT * extent / way);
             }
             let half = (near.towards + to_eye).normalize_or_zero();
             // The half vector turns by at most the sum of both turns, while the two directions are within a
             // right angle. Otherwise there is no bound.
             if near.towards.dot(to_eye) < 0.0 {
-                return ANYTHING;
+                return UNBOUNDED;
             }
             let angle = acos(normal.dot(half).clamp(-1.0, 1.0)) - turn - near.turn - eye_turn;
             high += near.amount * near.factor * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
@@ -318,7 +321,7 @@ impl Lighting {
 
     /// Direction and distance to a parallel light moved near for highlights; `None` for other lights.
     fn towards_for_highlights(&self, frame: &Frame, lamp: &Lamp, position: DVec3) -> Option<(DVec3, f64)> {
-        let Reach::Parallel { towards } = lamp.reach else { return None };
+        let LampSource::Parallel { towards } = lamp.reach else { return None };
         let way = frame.target() + towards * self.near? - position;
         Some((way.normalize_or_zero(), way.length()))
     }
@@ -349,7 +352,7 @@ impl Lighting {
 }
 
 /// Bounds that exclude nothing.
-const ANYTHING: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const UNBOUNDED: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// Light of the style sheet in local space.
 fn of_source(source: &LightSource, origin: DVec3, frame: &Frame) -> Lamp {

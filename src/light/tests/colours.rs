@@ -3,10 +3,12 @@
 use glam::DVec3;
 
 use super::{frame, mesh, near, point, shading};
-use crate::colour::colour_factor::Factor;
+use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
-use crate::light::tones::tone_options::{Colours, Gooch, Highlight, HighlightChange, MaterialChange, Scale};
+use crate::light::tones::tone_options::{
+    Colours, Gooch, Highlight, HighlightChange, MaterialChange, ToneScale,
+};
 use crate::light::tones::tone_ramps::{Strip, Table};
 use crate::light::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::mesh::{MaterialId, PaintId};
@@ -47,14 +49,14 @@ fn unchanged(name: &str) -> MaterialChange {
     }
 }
 
-fn grey(shadow: f64, scale: Scale) -> ToneOptions {
-    ToneOptions { scale, shadow: Factor([shadow; 3]), ..ToneOptions::default() }
+fn grey(shadow: f64, scale: ToneScale) -> ToneOptions {
+    ToneOptions { scale, shadow: ColourFactor([shadow; 3]), ..ToneOptions::default() }
 }
 
 #[test]
 fn two_tones_are_those_of_equation_one() {
-    let light = LightOptions { ambient: Factor([0.1; 3]), ..LightOptions::default() };
-    let options = grey(0.4, Scale::Thresholds(vec![0.5]));
+    let light = LightOptions { ambient: ColourFactor([0.1; 3]), ..LightOptions::default() };
+    let options = grey(0.4, ToneScale::Thresholds(vec![0.5]));
     let (lake, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
     // a_g a_m + a_l a_m, and the same + d_l d_m.
     assert_eq!(lake.colour(FIRST, 0), Colour::rgb(100, 60, 20));
@@ -66,31 +68,31 @@ fn two_tones_are_those_of_equation_one() {
 
 #[test]
 fn n_tones_go_in_even_steps() {
-    let shading = toned(&grey(0.5, Scale::Thresholds(vec![0.2, 0.3, 0.9])));
+    let shading = toned(&grey(0.5, ToneScale::Thresholds(vec![0.2, 0.3, 0.9])));
     let wanted = [0.5, 2.0 / 3.0, 5.0 / 6.0, 1.0].map(|part: f64| (200.0 * part).round() as u8);
     assert_eq!(colours(&shading, FIRST, 4).iter().map(|c| c.r).collect::<Vec<_>>(), wanted);
 
-    let steps = toned(&grey(0.0, Scale::Steps(128)));
+    let steps = toned(&grey(0.0, ToneScale::Steps(128)));
     assert_eq!(steps.levels(FIRST, 0).len(), 127);
     assert_eq!(steps.levels(FIRST, 0)[63], 0.5);
     assert_eq!((steps.colour(FIRST, 0), steps.colour(FIRST, 127)), (Colour::BLACK, ORANGE));
 
     // The default material, which has no name, has the most shades: 103, from 102 to 204. The others get the
     // same number of steps.
-    let shades = toned(&grey(0.5, Scale::Steps(256)));
+    let shades = toned(&grey(0.5, ToneScale::Steps(256)));
     assert_eq!(shades.levels(FIRST, 0).len(), 102);
     let reds = colours(&shades, FIRST, 103).iter().map(|c| c.r).collect::<Vec<_>>();
     assert_eq!((reds[0], reds[102]), (100, 200));
     assert!(reds.windows(2).all(|pair| pair[1] - pair[0] <= 1), "{reds:?}");
 
     // A single tone is the material itself.
-    let flat = toned(&grey(0.5, Scale::Thresholds(Vec::new())));
+    let flat = toned(&grey(0.5, ToneScale::Thresholds(Vec::new())));
     assert_eq!((flat.colour(FIRST, 0), flat.tone(FIRST, &[0])), (ORANGE, 0));
 }
 
 #[test]
 fn shares_of_light_can_be_told_tone_by_tone() {
-    let mut options = grey(0.5, Scale::Thresholds(vec![0.1, 0.6]));
+    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.1, 0.6]));
     options.tones = vec![1.0, 0.0, 1.0];
     assert_eq!(colours(&toned(&options), FIRST, 3), [ORANGE, Colour::rgb(100, 60, 20), ORANGE]);
     options.tones = vec![0.0, 1.0, 1.25];
@@ -100,7 +102,7 @@ fn shares_of_light_can_be_told_tone_by_tone() {
 #[test]
 fn palettes_are_spread_over_the_tones() {
     let (a, b, c) = (Colour::rgb(0, 0, 100), Colour::rgb(0, 0, 200), Colour::rgb(100, 0, 200));
-    let mut options = grey(0.5, Scale::Thresholds(vec![0.3, 0.6]));
+    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.3, 0.6]));
     options.colours = Colours::Palette(vec![a, b, c]);
     assert_eq!(colours(&toned(&options), FIRST, 3), [a, b, c]);
     options.colours = Colours::Palette(vec![a, c]);
@@ -116,7 +118,7 @@ fn palettes_are_spread_over_the_tones() {
 fn coloured_light_tints_what_is_lit() {
     let source = LightSource { colour: Colour::rgb(255, 0, 0), ..LightSource::default() };
     let light = LightOptions { sources: vec![source], ..LightOptions::default() };
-    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let (tinted, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
     assert_eq!(colours(&tinted, FIRST, 2), [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]);
 }
@@ -138,7 +140,7 @@ fn from_both_sides(colours: [Colour; 2]) -> LightOptions {
 #[test]
 fn lights_of_two_colours_show_as_two_and_mix() {
     let light = from_both_sides([Colour::rgb(255, 0, 0), Colour::rgb(0, 0, 255)]);
-    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let (mixed, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
     let seen = |normal: DVec3| {
         let at = point(DVec3::ZERO, normal);
@@ -164,14 +166,14 @@ fn lights_of_two_colours_show_as_two_and_mix() {
 #[test]
 fn lights_that_look_alike_are_one_light() {
     let cream = Colour::rgb(255, 240, 230);
-    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let scene = scene(&[("", Colour::rgb(200, 200, 200))]);
     let channels = |light: &LightOptions, options: &ToneOptions| shading(&scene, light, options).0.channels();
     assert_eq!(channels(&from_both_sides([Colour::WHITE, cream]), &options), 1);
     let red = from_both_sides([Colour::WHITE, Colour::rgb(255, 0, 0)]);
     assert_eq!(channels(&red, &options), 3);
     // A gradient uses the mean of their tints.
-    let (gradient, _) = shading(&scene, &red, &grey(0.5, Scale::Steps(128)));
+    let (gradient, _) = shading(&scene, &red, &grey(0.5, ToneScale::Steps(128)));
     assert!(gradient.levels(FIRST, 1).is_empty() && gradient.levels(FIRST, 0).len() > 64);
 }
 
@@ -289,7 +291,7 @@ fn a_table_is_looked_up_by_two_lights() {
         LightOptions { sources: vec![of(DVec3::X, 1.0), of(DVec3::Z, 0.5)], ..LightOptions::default() };
     let (dark, half, full) = (Colour::rgb(51, 51, 51), Colour::rgb(102, 102, 102), Colour::WHITE);
     let table = Table::of_rows(&[vec![dark, half], vec![half, full]]).unwrap();
-    let options = ToneOptions { scale: Scale::Table(table), ..ToneOptions::default() };
+    let options = ToneOptions { scale: ToneScale::Table(table), ..ToneOptions::default() };
     let (shading_, warnings) = shading(&scene(&[("body", ORANGE)]), &light, &options);
     assert!(warnings.is_empty() && shading_.channels() == 3);
     assert!(shading_.levels(FIRST, 0).is_empty());
@@ -311,17 +313,17 @@ fn a_table_is_looked_up_by_two_lights() {
 fn a_strip_brings_levels_and_colours() {
     let columns = [Colour::BLACK, ORANGE, ORANGE, Colour::WHITE];
     let strip = Strip::of_columns(&columns).unwrap();
-    let shading = toned(&ToneOptions { scale: Scale::Ramp(strip), ..ToneOptions::default() });
+    let shading = toned(&ToneOptions { scale: ToneScale::Ramp(strip), ..ToneOptions::default() });
     assert_eq!(shading.levels(FIRST, 0), [0.25, 0.75]);
     assert_eq!(colours(&shading, FIRST, 3), [Colour::BLACK, ORANGE, Colour::WHITE]);
 }
 
 #[test]
 fn materials_are_changed_by_name() {
-    let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     options.materials = vec![
         MaterialChange {
-            scale: Some(Scale::Steps(4)),
+            scale: Some(ToneScale::Steps(4)),
             highlight: HighlightChange { enabled: Some(true), ..HighlightChange::default() },
             ..unchanged("glass*")
         },
@@ -344,7 +346,7 @@ fn paints_of_a_material_have_its_tones_in_their_colours() {
     let scene = scene(&[("body", Colour::WHITE)]);
     let paint = |colour| Paint { material: MaterialId(0), colour };
     let paints = [paint(Colour::WHITE), paint(Colour::BLACK), paint(ORANGE)];
-    let mut options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let painted = |options: &ToneOptions| {
         let (light, frame) = (LightOptions::default(), frame(DVec3::X));
         Shading::new(&scene, &paints, &mesh(), &frame, &light, options, &mut Vec::new())
@@ -357,7 +359,7 @@ fn paints_of_a_material_have_its_tones_in_their_colours() {
 #[test]
 fn colours_from_cool_to_warm() {
     let gooch = Gooch { enabled: true, ..Gooch::default() };
-    let options = ToneOptions { colours: Colours::Gooch(gooch), ..grey(0.5, Scale::Steps(3)) };
+    let options = ToneOptions { colours: Colours::Gooch(gooch), ..grey(0.5, ToneScale::Steps(3)) };
     let shading = toned(&options);
     let (cool, warm) = (Colour::rgb(50, 30, 150), Colour::rgb(177, 137, 20));
     assert_eq!((shading.colour(FIRST, 0), shading.colour(FIRST, 2)), (cool, warm));
@@ -368,11 +370,11 @@ fn colours_from_cool_to_warm() {
 fn black_and_shining_materials_keep_their_tones_apart() {
     let mut scene = scene(&[("tyre", Colour::BLACK), ("lamp", ORANGE)]);
     scene.materials[1].emissive = Colour::rgb(180, 20, 0);
-    let options = grey(0.5, Scale::Thresholds(vec![0.5]));
+    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
     assert_eq!(colours(&shading_, FIRST, 2), [Colour::rgb(24, 24, 24), Colour::rgb(48, 48, 48)]);
     assert_eq!(shading_.colour(PaintId(1), 0), Colour::rgb(180, 60, 20));
-    let flat = grey(0.5, Scale::Thresholds(Vec::new()));
+    let flat = grey(0.5, ToneScale::Thresholds(Vec::new()));
     assert_eq!(shading(&scene, &LightOptions::default(), &flat).0.colour(FIRST, 0), Colour::BLACK);
 }
 

@@ -7,19 +7,19 @@
 //! ambient coefficient of the light is a colour, slightly cooler than white by default, so that shadows are
 //! cooler than lit surfaces.
 
-use super::tone_options::{Colours, Gooch, Highlight, Scale, ToneOptions};
+use super::tone_options::{Colours, Gooch, Highlight, ToneOptions, ToneScale};
 use super::tone_ramps::Table;
-use crate::colour::colour_factor::Factor;
+use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::scene::material::Gloss;
 
 /// Smallest value of the largest channel of a material in toned colours. On darker ones, neither tones nor
 /// lines could be distinguished.
-const LEAST_LIT: f64 = 0.19;
+const MIN_LIT_CHANNEL: f64 = 0.19;
 
 /// Quantity in a channel of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Channel {
+pub(crate) enum ToneChannel {
     /// Diffuse light of all lights.
     Diffuse,
     /// Diffuse light of one light, by its index.
@@ -34,13 +34,13 @@ pub(crate) enum Channel {
 
 /// Properties of a surface and its light that determine the colours of tones.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Look<'a> {
+pub(crate) struct ToneSurface<'a> {
     /// Base colour.
     pub colour: Colour,
     /// Emitted light; no tone is darker.
     pub emissive: Colour,
     /// Light from all directions.
-    pub ambient: Factor,
+    pub ambient: ColourFactor,
     /// Tint of all lights together.
     pub tint: [f64; 3],
     /// Gloss of the material, if the file has one.
@@ -63,13 +63,13 @@ pub(crate) struct Tones {
     /// Table of tones, indexed by two channels.
     table: Option<Table>,
     /// Mixture of lights, where they have several tints.
-    mixture: Option<Mixture>,
+    mixture: Option<HueMixture>,
 }
 
 impl Tones {
     /// Tones of a material, with levels for these channels.
-    pub fn new(options: &ToneOptions, look: &Look, channels: &[Channel]) -> Self {
-        let mixture = Mixture::of(options, look.hues);
+    pub fn new(options: &ToneOptions, look: &ToneSurface, channels: &[ToneChannel]) -> Self {
+        let mixture = HueMixture::of(options, look.hues);
         let mut colours = match &mixture {
             Some(mixture) => mixture.shares.iter().map(|shares| lake(options, look, *shares, true)).collect(),
             None => plain_colours(options, look),
@@ -80,15 +80,15 @@ impl Tones {
             colours.extend(highlight_colours(highlight, brightest));
         }
         let table = match &options.scale {
-            Scale::Table(table) => Some(table.clone()),
+            ToneScale::Table(table) => Some(table.clone()),
             _ => None,
         };
         let levels = channels.iter().map(|channel| match (channel, &table) {
-            (Channel::Diffuse, None) if mixture.is_none() => diffuse_levels(&options.scale),
-            (Channel::Hue(_), None) if mixture.is_some() => diffuse_levels(&options.scale),
-            (Channel::Light(0), Some(table)) => table.columns.clone(),
-            (Channel::Light(1), Some(table)) => table.rows.clone(),
-            (Channel::Highlight, _) => highlight.as_ref().map_or(Vec::new(), highlight_levels),
+            (ToneChannel::Diffuse, None) if mixture.is_none() => diffuse_levels(&options.scale),
+            (ToneChannel::Hue(_), None) if mixture.is_some() => diffuse_levels(&options.scale),
+            (ToneChannel::Light(0), Some(table)) => table.columns.clone(),
+            (ToneChannel::Light(1), Some(table)) => table.rows.clone(),
+            (ToneChannel::Highlight, _) => highlight.as_ref().map_or(Vec::new(), highlight_levels),
             _ => Vec::new(),
         });
         let levels = levels.collect();
@@ -107,17 +107,17 @@ impl Tones {
     }
 
     /// Tone of a point, from the number of levels that it reaches in each channel.
-    pub fn tone(&self, channels: &[Channel], bands: &[u16]) -> u16 {
-        let band = |wanted: Channel| {
+    pub fn tone(&self, channels: &[ToneChannel], bands: &[u16]) -> u16 {
+        let band = |wanted: ToneChannel| {
             let index = channels.iter().position(|channel| *channel == wanted);
             index.and_then(|index| bands.get(index)).copied().unwrap_or_default()
         };
         let last = |count: usize| count.saturating_sub(1) as u16;
-        match (band(Channel::Highlight), &self.table) {
-            (0, Some(table)) => table.tone(band(Channel::Light(0)), band(Channel::Light(1))),
+        match (band(ToneChannel::Highlight), &self.table) {
+            (0, Some(table)) => table.tone(band(ToneChannel::Light(0)), band(ToneChannel::Light(1))),
             (0, None) => match &self.mixture {
-                Some(mixture) => mixture.tone(|hue| band(Channel::Hue(hue))),
-                None => band(Channel::Diffuse).min(last(self.plain)),
+                Some(mixture) => mixture.tone(|hue| band(ToneChannel::Hue(hue))),
+                None => band(ToneChannel::Diffuse).min(last(self.plain)),
             },
             (highlight, _) => last(self.plain).saturating_add(highlight).min(last(self.colours.len())),
         }
@@ -145,17 +145,17 @@ impl Tones {
     }
 }
 
-fn diffuse_levels(scale: &Scale) -> Vec<f64> {
+fn diffuse_levels(scale: &ToneScale) -> Vec<f64> {
     match scale {
-        Scale::Thresholds(thresholds) => thresholds.clone(),
-        Scale::Steps(steps) => (1..*steps).map(|k| k as f64 / *steps as f64).collect(),
-        Scale::Ramp(strip) => strip.levels.clone(),
-        Scale::Table(_) => Vec::new(),
+        ToneScale::Thresholds(thresholds) => thresholds.clone(),
+        ToneScale::Steps(steps) => (1..*steps).map(|k| k as f64 / *steps as f64).collect(),
+        ToneScale::Ramp(strip) => strip.levels.clone(),
+        ToneScale::Table(_) => Vec::new(),
     }
 }
 
 /// Colours of the tones that are not highlights, darkest first.
-fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
+fn plain_colours(options: &ToneOptions, look: &ToneSurface) -> Vec<Colour> {
     let standing = |colours: &[Colour], modulate: f64| -> Vec<Colour> {
         colours
             .iter()
@@ -163,8 +163,8 @@ fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
             .collect()
     };
     let count = match &options.scale {
-        Scale::Ramp(strip) => return standing(&strip.colours, options.modulate.unwrap_or(0.0)),
-        Scale::Table(table) => return standing(&table.colours, options.modulate.unwrap_or(1.5)),
+        ToneScale::Ramp(strip) => return standing(&strip.colours, options.modulate.unwrap_or(0.0)),
+        ToneScale::Table(table) => return standing(&table.colours, options.modulate.unwrap_or(1.5)),
         scale => diffuse_levels(scale).len() + 1,
     };
     let even = [0.0, 1.0];
@@ -186,11 +186,11 @@ fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
 
 /// Lake's eq. 1 with tinted shares in place of max(L·n, 0). It adds the ambient light of the scene and of the
 /// light to the diffuse share of the light, all times the material.
-fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Colour {
+fn lake(options: &ToneOptions, look: &ToneSurface, shares: [f64; 3], toned: bool) -> Colour {
     let mut material = look.colour.channels();
     let greatest = material.into_iter().fold(0.0, f64::max);
-    if toned && greatest < LEAST_LIT {
-        material = material.map(|channel| channel + LEAST_LIT - greatest);
+    if toned && greatest < MIN_LIT_CHANNEL {
+        material = material.map(|channel| channel + MIN_LIT_CHANNEL - greatest);
     }
     let (a_g, a_l, lit) = (look.ambient.0, options.shadow.0, options.lit.0);
     let own = look.emissive.channels();
@@ -203,7 +203,7 @@ fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Co
 ///
 /// Source: Ishaya 2003, the table of two lights, here for any number of tints.
 #[derive(Debug, Clone)]
-struct Mixture {
+struct HueMixture {
     /// Number of tones of each tint.
     count: usize,
     /// Tinted light of each tone, the darkest first.
@@ -213,19 +213,19 @@ struct Mixture {
 }
 
 /// Largest number of tones from mixed lights. A gradient uses the mean tint instead.
-const MOST_MIXED: usize = 64;
+const MAX_MIXED_TONES: usize = 64;
 
-impl Mixture {
+impl HueMixture {
     /// Mixture of lights of these tints; `None` where their mean is used.
     fn of(options: &ToneOptions, hues: &[[f64; 3]]) -> Option<Self> {
         if hues.len() < 2 || !matches!(options.colours, Colours::Material) {
             return None;
         }
         let count = match &options.scale {
-            Scale::Thresholds(_) | Scale::Steps(_) => diffuse_levels(&options.scale).len() + 1,
-            Scale::Ramp(_) | Scale::Table(_) => return None,
+            ToneScale::Thresholds(_) | ToneScale::Steps(_) => diffuse_levels(&options.scale).len() + 1,
+            ToneScale::Ramp(_) | ToneScale::Table(_) => return None,
         };
-        let all = count.checked_pow(hues.len() as u32).filter(|all| (2..=MOST_MIXED).contains(all))?;
+        let all = count.checked_pow(hues.len() as u32).filter(|all| (2..=MAX_MIXED_TONES).contains(all))?;
         let even = [0.0, 1.0];
         let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
         let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
@@ -261,7 +261,7 @@ impl Mixture {
 }
 
 /// Gooch's blend of k_cool = k_blue + α k_d and k_warm = k_yellow + β k_d.
-fn cool_to_warm(gooch: &Gooch, look: &Look, share: f64) -> Colour {
+fn cool_to_warm(gooch: &Gooch, look: &ToneSurface, share: f64) -> Colour {
     let (cool, warm, material) = (gooch.cool.channels(), gooch.warm.channels(), look.colour.channels());
     let channel = |c: usize| {
         let k_cool = (cool[c] + gooch.cool_share * material[c]).min(1.0);
@@ -272,7 +272,7 @@ fn cool_to_warm(gooch: &Gooch, look: &Look, share: f64) -> Colour {
 }
 
 /// Colour of a ramp times the material and the lights' tint, multiplied by a factor and cut off at 1.
-fn modulated(colour: Colour, factor: f64, look: &Look) -> Colour {
+fn modulated(colour: Colour, factor: f64, look: &ToneSurface) -> Colour {
     let (shade, material) = (colour.channels(), look.colour.channels());
     let channels = [0, 1, 2].map(|c| factor * shade[c] * material[c] * look.tint[c]);
     Colour { a: look.colour.a.min(colour.a), ..Colour::from_channels(channels) }

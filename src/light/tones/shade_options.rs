@@ -35,9 +35,9 @@ impl ShadeOptions {
         let [r, g, b] = colour.channels();
         let lightness = 0.2126 * r + 0.7152 * g + 0.0722 * b;
         let counts = 1.0 - self.materials_count * (1.0 - lightness);
-        edges.iter().map(|edge| edge / counts.max(LEAST_LIGHT)).collect()
+        edges.iter().map(|edge| edge / counts.max(MIN_MATERIAL_LIGHT)).collect()
     }
 }
 
 /// Smallest share of the light on the blackest material, so that its shape is visible.
-const LEAST_LIGHT: f64 = 0.05;
+const MIN_MATERIAL_LIGHT: f64 = 0.05;

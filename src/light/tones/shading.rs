@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use super::material_tones::{Channel, Look, Tones};
-use super::tone_options::{Scale, ToneOptions};
+use super::material_tones::{ToneChannel, ToneSurface, Tones};
+use super::tone_options::{ToneOptions, ToneScale};
 use crate::colour::srgb::Colour;
 use crate::light::lights::light_options::LightOptions;
-use crate::light::lights::lighting::{Caster, Lighting, Of, SurfacePoint};
-use crate::light::{ShadeOptions, Slope};
+use crate::light::lights::lighting::{Caster, LampFilter, Lighting, SurfacePoint};
+use crate::light::{LightSlope, ShadeOptions};
 use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, Paint, Scene};
 use crate::view::Frame;
@@ -26,7 +26,7 @@ use crate::view::Frame;
 #[derive(Debug, Clone)]
 pub struct Shading {
     lighting: Lighting,
-    channels: Vec<Channel>,
+    channels: Vec<ToneChannel>,
     /// Tones of each paint.
     // The last entry stands for unknown paints.
     tones: Vec<Tones>,
@@ -57,17 +57,17 @@ impl Shading {
             })
             .collect();
 
-        let mut channels = vec![Channel::Diffuse];
-        if materials.iter().any(|(own, ..)| matches!(own.scale, Scale::Table(_))) {
-            channels.extend([Channel::Light(0), Channel::Light(1)]);
+        let mut channels = vec![ToneChannel::Diffuse];
+        if materials.iter().any(|(own, ..)| matches!(own.scale, ToneScale::Table(_))) {
+            channels.extend([ToneChannel::Light(0), ToneChannel::Light(1)]);
             if lighting.count() < 2 {
                 warnings.push("a table of tones is for two lights, but there is one".to_owned());
             }
         }
-        let hues = if (2..=MOST_HUES).contains(&lighting.hues().len()) { lighting.hues() } else { &[] };
-        channels.extend((0..hues.len()).map(Channel::Hue));
+        let hues = if (2..=MAX_HUES).contains(&lighting.hues().len()) { lighting.hues() } else { &[] };
+        channels.extend((0..hues.len()).map(ToneChannel::Hue));
         if materials.iter().any(|(own, ..)| own.highlight.enabled) {
-            channels.push(Channel::Highlight);
+            channels.push(ToneChannel::Highlight);
         }
         let tint = lighting.tint();
         let tones_of = |materials: &[(ToneOptions, &Material, Option<Colour>)]| -> Vec<Tones> {
@@ -75,7 +75,7 @@ impl Shading {
                 let (own, material, instead) = materials.get(index).or(materials.last())?;
                 let colour = instead.or(colour).unwrap_or(material.colour);
                 let Material { emissive, gloss, .. } = **material;
-                let look = Look { colour, emissive, ambient: light.ambient, tint, gloss, hues };
+                let look = ToneSurface { colour, emissive, ambient: light.ambient, tint, gloss, hues };
                 Some(Tones::new(own, &look, &channels))
             };
             if paints.is_empty() {
@@ -103,7 +103,7 @@ impl Shading {
     /// Adds the bins of hatching. `paints` are the same as in [`Shading::new`].
     #[must_use]
     pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
-        self.channels.push(Channel::Shade);
+        self.channels.push(ToneChannel::Shade);
         let without = Material::default();
         for (k, tones) in self.tones.iter_mut().enumerate() {
             let paint = paints.get(k);
@@ -118,7 +118,7 @@ impl Shading {
     /// Channel whose levels are the bins of hatching, if there is one.
     #[must_use]
     pub fn bins(&self) -> Option<usize> {
-        self.channels.iter().position(|channel| *channel == Channel::Shade)
+        self.channels.iter().position(|channel| *channel == ToneChannel::Shade)
     }
 
     /// Largest number of levels of a surface in any channel except the bins of hatching; 0 where no surface
@@ -134,11 +134,11 @@ impl Shading {
     #[must_use]
     pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
         let lighting = Lighting::from_direction(towards_light);
-        let channels = vec![Channel::Diffuse];
-        let options = ToneOptions { scale: Scale::Thresholds(levels), ..ToneOptions::default() };
+        let channels = vec![ToneChannel::Diffuse];
+        let options = ToneOptions { scale: ToneScale::Thresholds(levels), ..ToneOptions::default() };
         let Material { colour, emissive, .. } = Material::default();
         let ambient = LightOptions::default().ambient;
-        let look = Look { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
+        let look = ToneSurface { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
         let tones = vec![Tones::new(&options, &look, &channels)];
         Self { lighting, channels, tones }
     }
@@ -160,7 +160,7 @@ impl Shading {
     /// or the visible share of the sky. Other channels depend on the normal alone.
     #[must_use]
     pub fn is_local(&self, channel: usize) -> bool {
-        matches!(self.channels.get(channel), Some(Channel::Highlight)) || self.lighting.is_local()
+        matches!(self.channels.get(channel), Some(ToneChannel::Highlight)) || self.lighting.is_local()
     }
 
     /// Smallest and largest value that a channel may have within `extent` of a point, where the normal turns
@@ -177,12 +177,16 @@ impl Shading {
     ) -> (f64, f64) {
         let lighting = &self.lighting;
         match self.channels.get(channel) {
-            Some(Channel::Diffuse | Channel::Shade) => {
-                lighting.diffuse_range(Of::All, point, shadowed, turn, extent)
+            Some(ToneChannel::Diffuse | ToneChannel::Shade) => {
+                lighting.diffuse_range(LampFilter::All, point, shadowed, turn, extent)
             }
-            Some(Channel::Light(k)) => lighting.diffuse_range(Of::Lamp(*k), point, shadowed, turn, extent),
-            Some(Channel::Hue(k)) => lighting.diffuse_range(Of::Hue(*k), point, shadowed, turn, extent),
-            Some(Channel::Highlight) => {
+            Some(ToneChannel::Light(k)) => {
+                lighting.diffuse_range(LampFilter::Lamp(*k), point, shadowed, turn, extent)
+            }
+            Some(ToneChannel::Hue(k)) => {
+                lighting.diffuse_range(LampFilter::Hue(*k), point, shadowed, turn, extent)
+            }
+            Some(ToneChannel::Highlight) => {
                 lighting.specular_range(point, self.exponent(paint), shadowed, turn, extent)
             }
             None => (0.0, 0.0),
@@ -191,7 +195,7 @@ impl Shading {
 
     /// Bounds for the change with the normal of a channel that is not local.
     #[must_use]
-    pub fn slope(&self) -> Slope {
+    pub fn slope(&self) -> LightSlope {
         self.lighting.slope()
     }
 
@@ -205,10 +209,12 @@ impl Shading {
     #[must_use]
     pub fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
-            Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(Of::All, point, shadowed),
-            Some(Channel::Light(k)) => self.lighting.diffuse(Of::Lamp(*k), point, shadowed),
-            Some(Channel::Hue(k)) => self.lighting.diffuse(Of::Hue(*k), point, shadowed),
-            Some(Channel::Highlight) => self.lighting.specular(point, self.exponent(paint), shadowed),
+            Some(ToneChannel::Diffuse | ToneChannel::Shade) => {
+                self.lighting.diffuse(LampFilter::All, point, shadowed)
+            }
+            Some(ToneChannel::Light(k)) => self.lighting.diffuse(LampFilter::Lamp(*k), point, shadowed),
+            Some(ToneChannel::Hue(k)) => self.lighting.diffuse(LampFilter::Hue(*k), point, shadowed),
+            Some(ToneChannel::Highlight) => self.lighting.specular(point, self.exponent(paint), shadowed),
             None => 0.0,
         }
     }
@@ -242,4 +248,4 @@ impl Shading {
 }
 
 /// Largest number of tints for which tones are computed separately.
-const MOST_HUES: usize = 3;
+const MAX_HUES: usize = 3;

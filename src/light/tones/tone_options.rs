@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::tone_ramps::{GREATEST_TONES, Strip, Table};
-use crate::colour::colour_factor::Factor;
+use super::tone_ramps::{MAX_TONES, Strip, Table};
+use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
 use crate::geometry::numbers::tolerance;
@@ -14,7 +14,7 @@ use crate::scene::material::Gloss;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneOptions {
     /// Where tones change. Default: one threshold at 0.5.
-    pub scale: Scale,
+    pub scale: ToneScale,
     /// Source of the colours of tones. Default: the material.
     pub colours: Colours,
     /// Share of light in each tone, darkest first: 0 = as in shadow, 1 = lit. Spread over the tones; empty =
@@ -22,9 +22,9 @@ pub struct ToneOptions {
     pub tones: Vec<f64>,
     /// Factor on the material's colour in shadow, a_l of Lake et al. 2000, eq. 1. Default: (0.7, 0.66, 0.78),
     /// slightly cooler than the material.
-    pub shadow: Factor,
+    pub shadow: ColourFactor,
     /// Factor on the material's colour where it is lit; d_l of eq. 1 is this minus `shadow`. Default: 1.
-    pub lit: Factor,
+    pub lit: ColourFactor,
     /// Brightness factor of the colours of a palette, ramp or table, which then multiply the material's; 0 =
     /// used unchanged. Default: 0, and 1.5 for a table (Ishaya 2003).
     pub modulate: Option<f64>,
@@ -38,7 +38,7 @@ pub struct ToneOptions {
 
 /// Where tones change.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Scale {
+pub enum ToneScale {
     /// At rising thresholds of the diffuse light.
     Thresholds(Vec<f64>),
     /// At this many even steps of the diffuse light from 0 to 1. A gradient gets fewer if its colours have
@@ -51,14 +51,14 @@ pub enum Scale {
     Table(Table),
 }
 
-impl Scale {
+impl ToneScale {
     /// Scale for colours that run through this many shades. A scale of more than a few steps needs no more of
     /// them than there are distinct 8-bit colours.
     #[must_use]
     pub fn for_shades(self, shades: usize) -> Self {
         match self {
-            Self::Steps(steps) if steps > tolerance::FEW_LEVELS + 2 => {
-                Self::Steps(steps.min((shades + 1).max(tolerance::FEW_LEVELS + 2)))
+            Self::Steps(steps) if steps > tolerance::MAX_SEPARATE_LEVELS + 2 => {
+                Self::Steps(steps.min((shades + 1).max(tolerance::MAX_SEPARATE_LEVELS + 2)))
             }
             other => other,
         }
@@ -160,15 +160,15 @@ impl Highlight {
     pub fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
         let mut own = self.clone();
         if let Some(gloss) = gloss.filter(|_| self.material) {
-            own.exponent = f64::from(gloss.exponent).clamp(LEAST_EXPONENT, GREATEST_EXPONENT);
+            own.exponent = f64::from(gloss.exponent).clamp(MIN_EXPONENT, MAX_EXPONENT);
             own.strength *= f64::from(gloss.strength).clamp(0.0, 1.0);
         }
         (own.enabled && (own.strength > 0.0 || own.ramp.is_some())).then_some(own)
     }
 }
 
-const LEAST_EXPONENT: f64 = 1.0;
-const GREATEST_EXPONENT: f64 = 10_000.0;
+const MIN_EXPONENT: f64 = 1.0;
+const MAX_EXPONENT: f64 = 10_000.0;
 
 /// Changes for the materials whose name matches a pattern: `[[fills.material]]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -178,15 +178,15 @@ pub struct MaterialChange {
     /// Colour that replaces the material's.
     pub colour: Option<Colour>,
     /// Where tones change.
-    pub scale: Option<Scale>,
+    pub scale: Option<ToneScale>,
     /// Source of the colours of tones.
     pub colours: Option<Colours>,
     /// Share of light in each tone.
     pub tones: Option<Vec<f64>>,
     /// Factor on the colour in shadow.
-    pub shadow: Option<Factor>,
+    pub shadow: Option<ColourFactor>,
     /// Factor on the colour where it is lit.
-    pub lit: Option<Factor>,
+    pub lit: Option<ColourFactor>,
     /// Brightness factor of a palette, ramp or table on the material.
     pub modulate: Option<f64>,
     /// Changes of the highlights.
@@ -196,11 +196,11 @@ pub struct MaterialChange {
 impl Default for ToneOptions {
     fn default() -> Self {
         Self {
-            scale: Scale::Thresholds(vec![0.5]),
+            scale: ToneScale::Thresholds(vec![0.5]),
             colours: Colours::Material,
             tones: Vec::new(),
-            shadow: Factor([0.7, 0.66, 0.78]),
-            lit: Factor::ALL,
+            shadow: ColourFactor([0.7, 0.66, 0.78]),
+            lit: ColourFactor::ALL,
             modulate: None,
             highlight: Highlight::default(),
             cast_shadows: false,
@@ -247,7 +247,7 @@ impl ToneOptions {
             colour = change.colour.or(colour);
             own.scale = change.scale.unwrap_or(own.scale);
             // Explicit colours replace those of a ramp or table.
-            if let (Some(_), Scale::Ramp(_) | Scale::Table(_)) = (&change.colours, &own.scale) {
+            if let (Some(_), ToneScale::Ramp(_) | ToneScale::Table(_)) = (&change.colours, &own.scale) {
                 own.scale = Self::default().scale;
             }
             own.colours = change.colours.unwrap_or(own.colours);
@@ -268,7 +268,7 @@ impl ToneOptions {
 pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
     let rising = list.windows(2).all(|pair| pair[0] < pair[1]);
-    if list.iter().all(|t| t.is_finite() && *t > 0.0) && rising && list.len() < GREATEST_TONES {
+    if list.iter().all(|t| t.is_finite() && *t > 0.0) && rising && list.len() < MAX_TONES {
         return Ok(list);
     }
     Err(serde::de::Error::custom("thresholds are rising numbers above 0; write such as [0.3, 0.7]"))
@@ -280,7 +280,7 @@ pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>
 /// Describes valid exponents.
 pub fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
-    if (LEAST_EXPONENT..=GREATEST_EXPONENT).contains(&value) {
+    if (MIN_EXPONENT..=MAX_EXPONENT).contains(&value) {
         return Ok(value);
     }
     Err(serde::de::Error::custom(format!(

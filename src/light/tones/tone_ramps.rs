@@ -8,7 +8,7 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
 /// Largest number of tones of a scale. Lists in style sheets are no longer either.
-pub const GREATEST_TONES: usize = 1024;
+pub const MAX_TONES: usize = 1024;
 
 /// Colours over the light from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ impl Strip {
     /// Strip of columns of equal width; equal neighbours are merged.
     ///
     /// # Errors
-    /// Returns an error if there is no colour, or more colours than [`GREATEST_TONES`].
+    /// Returns an error if there is no colour, or more colours than [`MAX_TONES`].
     pub fn of_columns(columns: &[Colour]) -> Result<Self, String> {
         let (Some(first), count) = (columns.first(), columns.len()) else {
             return Err("has no colour".to_owned());
@@ -48,8 +48,8 @@ impl Strip {
                 colours.push(pair[1]);
             }
         }
-        if colours.len() > GREATEST_TONES {
-            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
+        if colours.len() > MAX_TONES {
+            return Err(format!("has {} colours; at most {MAX_TONES} are possible", colours.len()));
         }
         Ok(Self { levels, colours })
     }
@@ -86,8 +86,8 @@ impl Table {
         let mut colours = used.clone();
         colours.sort_by(|a, b| a.luma().total_cmp(&b.luma()).then(a.cmp(b)));
         colours.dedup();
-        if colours.len() > GREATEST_TONES {
-            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
+        if colours.len() > MAX_TONES {
+            return Err(format!("has {} colours; at most {MAX_TONES} are possible", colours.len()));
         }
         let index = |colour: &Colour| colours.iter().position(|c| c == colour).unwrap_or(0) as u16;
         let levels = |kept: &[usize], count: usize| -> Vec<f64> {

@@ -18,45 +18,45 @@ use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::view::View;
 
 /// Distance of the test lines next to an edge, in contact distances.
-const BESIDE: f64 = 4.0;
+const PROBE_OFFSET_CONTACTS: f64 = 4.0;
 
 /// Minimum length of a piece, in test distances. Shorter pieces are artefacts of the test.
-const SHORTEST: f64 = 8.0;
+const MIN_PIECE_OFFSETS: f64 = 8.0;
 
 /// Pieces of edges in overlapping planes, with their new kinds.
 #[derive(Default)]
-pub(crate) struct Overlaid {
+pub(crate) struct OverlapLines {
     /// Pieces. Ends above the number of mesh vertices are indices into `points`.
     pieces: Vec<FeatureSegment>,
     points: Vec<DVec3>,
 }
 
 /// Whether the mesh has overlapping surfaces. Borders are then needed even if they are not drawn.
-pub(crate) fn is_asked(mesh: &Mesh) -> bool {
+pub(crate) fn has_overlaps(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
 }
 
 /// Removes the edges in planes where surfaces overlap, and returns their pieces with new kinds. Only segments
 /// of the kinds in `options` remain.
-pub(crate) fn settle(
+pub(crate) fn classify_overlaps(
     mesh: &Mesh,
     view: &View,
     segments: &mut Vec<FeatureSegment>,
     options: &LineOptions,
-) -> Overlaid {
+) -> OverlapLines {
     let is_overlaid: Vec<bool> = mesh.overlays.iter().map(|overlay| overlay.plane != 0).collect();
     let half = DVec3::splat(mesh.extents.diagonal / 2.0);
     let (low, high) = (mesh.extents.middle - half, mesh.extents.middle + half);
     let faces = &BoxTree::new(&mesh.positions, &mesh.triangles, &is_overlaid, low, high);
     let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
-    let settled: Vec<Option<Vec<Piece>>> = segments
+    let settled: Vec<Option<Vec<OverlapPiece>>> = segments
         .par_iter()
         .map(|segment| {
             let [host, other] = hosts_in_planes(mesh, view, segment);
-            let pieces_in = |host: u32| Some(Rim::new(mesh, segment, host)?.pieces(faces));
+            let pieces_in = |host: u32| Some(EdgeProbe::new(mesh, segment, host)?.pieces(faces));
             let mut pieces = pieces_in(host?)?;
             if let Some(more) = other.and_then(pieces_in) {
-                pieces = of_both_planes(&pieces, &more);
+                pieces = merge_planes(&pieces, &more);
             }
             // An edge that keeps its kind throughout stays unchanged.
             let is_one =
@@ -64,7 +64,7 @@ pub(crate) fn settle(
             (!is_one).then_some(pieces)
         })
         .collect();
-    let mut overlaid = Overlaid::default();
+    let mut overlaid = OverlapLines::default();
     for (segment, pieces) in segments.iter().zip(&settled) {
         let pieces = pieces.iter().flatten().filter(|piece| is_wanted(piece.kind));
         overlaid.add(mesh, segment, pieces);
@@ -108,26 +108,31 @@ fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Optio
 }
 
 /// Merges the pieces of an edge in two planes: it is a material boundary where it is one in either plane.
-fn of_both_planes(one: &[Piece], two: &[Piece]) -> Vec<Piece> {
+fn merge_planes(one: &[OverlapPiece], two: &[OverlapPiece]) -> Vec<OverlapPiece> {
     let mut cuts: Vec<f64> = one.iter().chain(two).flat_map(|piece| [piece.start, piece.end]).collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<OverlapPiece> = Vec::new();
     for pair in cuts.windows(2) {
         let (start, end) = (pair[0], pair[1]);
         let there = || one.iter().chain(two).filter(|piece| piece.start <= start && piece.end >= end);
         let parted = there().find(|piece| piece.kind == LineKind::Material);
-        let Some(&Piece { kind, beyond, .. }) = parted.or_else(|| there().next()) else { continue };
+        let Some(&OverlapPiece { kind, beyond, .. }) = parted.or_else(|| there().next()) else { continue };
         match pieces.last_mut().filter(|last| last.end == start && last.kind == kind) {
             Some(last) => last.end = end,
-            None => pieces.push(Piece { start, end, kind, beyond }),
+            None => pieces.push(OverlapPiece { start, end, kind, beyond }),
         }
     }
     pieces
 }
 
-impl Overlaid {
-    fn add<'a>(&mut self, mesh: &Mesh, segment: &FeatureSegment, pieces: impl Iterator<Item = &'a Piece>) {
+impl OverlapLines {
+    fn add<'a>(
+        &mut self,
+        mesh: &Mesh,
+        segment: &FeatureSegment,
+        pieces: impl Iterator<Item = &'a OverlapPiece>,
+    ) {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
         let mut last: Option<(f64, u32)> = None;
         for piece in pieces {
@@ -170,7 +175,7 @@ impl Overlaid {
 }
 
 /// Piece of an edge that is a line.
-struct Piece {
+struct OverlapPiece {
     start: f64,
     end: f64,
     kind: LineKind,
@@ -178,14 +183,14 @@ struct Piece {
     beyond: u32,
 }
 
-impl Piece {
+impl OverlapPiece {
     fn is_whole(&self) -> bool {
         self.start <= 0.0 && self.end >= 1.0
     }
 }
 
 /// Edge in a plane, with the test lines next to it.
-struct Rim<'a> {
+struct EdgeProbe<'a> {
     mesh: &'a Mesh,
     /// Face on its inner side.
     host: u32,
@@ -200,7 +205,7 @@ struct Rim<'a> {
     beside: f64,
 }
 
-impl<'a> Rim<'a> {
+impl<'a> EdgeProbe<'a> {
     fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
         let along = (b - a).try_normalize()?;
@@ -208,7 +213,7 @@ impl<'a> Rim<'a> {
         let over = mesh.corners(FaceId(host)).map(|corner| (corner - a) - along * (corner - a).dot(along));
         let inward = over.into_iter().max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?;
         let inward = inward.try_normalize()?;
-        let beside = BESIDE * mesh.extent(FaceId(host)).contact;
+        let beside = PROBE_OFFSET_CONTACTS * mesh.extent(FaceId(host)).contact;
         let [first, second] = segment.hosts;
         let is_flat = second == NO_FACE || mesh.share_plane(first, second);
         let (kind, length) = (segment.kind, a.distance(b));
@@ -216,7 +221,7 @@ impl<'a> Rim<'a> {
     }
 
     /// Pieces that are lines, from end to end. `faces` is a tree of the overlapping faces.
-    fn pieces(&self, faces: &BoxTree) -> Vec<Piece> {
+    fn pieces(&self, faces: &BoxTree) -> Vec<OverlapPiece> {
         // Ranges of the two test lines that each face covers.
         let mut covers = [Vec::new(), Vec::new()];
         let to = self.from + self.along * self.length;
@@ -232,12 +237,12 @@ impl<'a> Rim<'a> {
         });
         let mut cuts: Vec<f64> =
             covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
-        let least = SHORTEST * self.beside / self.length;
+        let least = MIN_PIECE_OFFSETS * self.beside / self.length;
         cuts.retain(|t| *t > least && *t < 1.0 - least);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a < least);
         let ends: Vec<f64> = [0.0].into_iter().chain(cuts).chain([1.0]).collect();
-        let mut pieces: Vec<(Piece, [u32; 2])> = Vec::new();
+        let mut pieces: Vec<(OverlapPiece, [u32; 2])> = Vec::new();
         for pair in ends.windows(2) {
             let (start, end) = (pair[0], pair[1]);
             let at = f64::midpoint(start, end);
@@ -251,7 +256,7 @@ impl<'a> Rim<'a> {
                 .filter(|(last, own)| last.end == start && last.kind == kind && *own == sides)
             {
                 Some((last, _)) => last.end = end,
-                None => pieces.push((Piece { start, end, kind, beyond }, sides)),
+                None => pieces.push((OverlapPiece { start, end, kind, beyond }, sides)),
             }
         }
         pieces.into_iter().map(|(piece, _)| piece).collect()

@@ -7,12 +7,12 @@
 //!    crease.
 //! 3. Of the lines of all bodies the strongest is kept; among equals that of the smaller part.
 
-use super::edge_lines::Finder;
+use super::edge_lines::EdgeClassifier;
 use crate::lines::{FeatureSegment, LineKind};
 use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark, runs_up};
 use crate::mesh::{Dihedral, FaceId, MaterialId};
 
-impl Finder<'_> {
+impl EdgeClassifier<'_> {
     /// Classifies an edge with three or more faces.
     ///
     /// Each body has the line that it would have alone, whether the bodies share the vertices of the edge or

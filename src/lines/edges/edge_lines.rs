@@ -14,21 +14,21 @@ use crate::parallel::prelude::*;
 
 use crate::lines::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
 use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::normals::degenerate_faces::{Beyond, seen_from};
+use crate::mesh::normals::degenerate_faces::{OppositeFace, opposite_face};
 use crate::mesh::normals::dihedral::mark;
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
-use crate::parallel::concatenation::joined;
-use crate::parallel::task_size::GRAIN;
-use crate::surface::{HardEdges, Origin, SmoothNormals};
+use crate::parallel::concatenation::concatenate;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::{HardEdges, MeshSource, SmoothNormals};
 use crate::view::View;
 
 /// All mesh edges that are feature lines of the wanted kinds, in edge order.
 ///
 /// On rounded surfaces these are the hard edges, and the mesh contours that decide on visibility
-/// ([`Role::Witness`]).
+/// ([`Role::MeshContour`]).
 #[must_use]
 pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
-    let finder = Finder::new(surface, view, options);
+    let finder = EdgeClassifier::new(surface, view, options);
     finder.find(surface.mesh.edges.len(), |k| k)
 }
 
@@ -40,11 +40,11 @@ pub fn find_among(
     view: &View,
     options: &LineOptions,
 ) -> Vec<FeatureSegment> {
-    let finder = Finder::new(surface, view, options);
+    let finder = EdgeClassifier::new(surface, view, options);
     finder.find(edges.len(), |k| edges[k] as usize)
 }
 
-pub(crate) struct Finder<'a> {
+pub(crate) struct EdgeClassifier<'a> {
     pub(crate) mesh: &'a Mesh,
     hard: &'a HardEdges,
     wrinkles: &'a EdgeSet,
@@ -57,7 +57,7 @@ pub(crate) struct Finder<'a> {
     all_real: bool,
 }
 
-impl<'a> Finder<'a> {
+impl<'a> EdgeClassifier<'a> {
     fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
         let Surface { mesh, hard, wrinkles, roundings, smooth, .. } = surface;
         Self {
@@ -69,22 +69,26 @@ impl<'a> Finder<'a> {
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
             crease_deg: options.crease_deg as f32,
-            all_real: mesh.face_normals.par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]),
+            all_real: mesh
+                .face_normals
+                .par_iter()
+                .with_min_len(MIN_TASK_ITEMS)
+                .all(|normal| *normal != [0.0; 3]),
         }
     }
 
     /// Classifies the edges `edge(0)` to `edge(count - 1)`.
     fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> Vec<FeatureSegment> {
-        const CHUNK: usize = 1 << 12;
-        let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
+        const EDGES_PER_TASK: usize = 1 << 12;
+        let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(EDGES_PER_TASK))
             .into_par_iter()
             .with_max_len(1)
             .map(|chunk| {
-                let edges = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
+                let edges = chunk * EDGES_PER_TASK..((chunk + 1) * EDGES_PER_TASK).min(count);
                 edges.filter_map(|k| self.classify(edge(k))).collect()
             })
             .collect();
-        joined(&found)
+        concatenate(&found)
     }
 
     pub(crate) fn wants(&self, kind: LineKind) -> bool {
@@ -101,7 +105,7 @@ impl<'a> Finder<'a> {
             return Some(FeatureSegment {
                 both_seen: false,
                 smooth: true,
-                role: Role::Witness { convex: self.is_convex(edge, [first, second]), fold: false },
+                role: Role::MeshContour { convex: self.is_convex(edge, [first, second]), fold: false },
                 strength: Dihedral::of(self.mesh, [first, second], false).turn(),
                 ..self.segment(edge, LineKind::Contour, nearer, [first, second])
             });
@@ -169,15 +173,15 @@ impl<'a> Finder<'a> {
     fn classify_by_shape(&self, edge: usize) -> Option<FeatureSegment> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces: [first, second], same_way } => {
-                if self.all_real && !same_way && self.is_nothing(edge, first, second) {
+                if self.all_real && !same_way && self.is_smooth_interior(edge, first, second) {
                     return None;
                 }
                 if self.degenerate(first) || self.degenerate(second) {
-                    return self.classify_beside_needle(edge, &[first, second]);
+                    return self.classify_beside_degenerate(edge, &[first, second]);
                 }
                 self.classify_pair(edge, first, second, same_way)
             }
-            EdgeFaces::One(face) if self.degenerate(face) => self.classify_beside_needle(edge, &[face]),
+            EdgeFaces::One(face) if self.degenerate(face) => self.classify_beside_degenerate(edge, &[face]),
             EdgeFaces::One(face) => self.classify_single(edge, face),
             EdgeFaces::Many(faces) => self.classify_fan(edge, faces),
         }
@@ -186,7 +190,7 @@ impl<'a> Finder<'a> {
     /// Whether the surface continues smoothly across an edge between faces with area. This holds for most
     /// edges.
     #[inline]
-    fn is_nothing(&self, edge: usize, first: u32, second: u32) -> bool {
+    fn is_smooth_interior(&self, edge: usize, first: u32, second: u32) -> bool {
         let (first, second) = (first as usize, second as usize);
         self.view.facing[first] == self.view.facing[second]
             && self.mesh.face_material[first] == self.mesh.face_material[second]
@@ -289,13 +293,13 @@ impl<'a> Finder<'a> {
     }
 
     /// Classifies an edge next to faces without area. The faces on their other sides take their place.
-    fn classify_beside_needle(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+    fn classify_beside_degenerate(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let mut seen = Vec::with_capacity(faces.len());
         for face in faces {
-            match seen_from(self.mesh, *face, self.mesh.edges.vertices[edge]) {
-                Beyond::Face(face) => seen.push(face),
-                Beyond::LongEdge => return None,
-                Beyond::Nothing => {}
+            match opposite_face(self.mesh, *face, self.mesh.edges.vertices[edge]) {
+                OppositeFace::Face(face) => seen.push(face),
+                OppositeFace::LongEdge => return None,
+                OppositeFace::Nothing => {}
             }
         }
         match *seen.as_slice() {
@@ -318,7 +322,7 @@ impl<'a> Finder<'a> {
             kind,
             both_seen: true,
             smooth: false,
-            origin: Origin::default(),
+            origin: MeshSource::default(),
             role: Role::Line,
             strength: 180.0,
             part: self.mesh.face_part[nearer as usize],

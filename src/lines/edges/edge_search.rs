@@ -6,7 +6,7 @@
 //! exploiting graphics hardware", IVCNZ 2001, section 4.
 
 use crate::lines::Surface;
-use crate::mesh::bvh::{DualFound, DualTree};
+use crate::mesh::bvh::{DualCandidates, DualTree};
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::view::View;
 
@@ -23,8 +23,8 @@ pub struct EdgeSearch {
 
 /// Kinds of line that an edge may be.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Chance {
-    OnlyContour,
+enum EdgePotential {
+    ContourOnly,
     Other,
 }
 
@@ -34,8 +34,9 @@ impl EdgeSearch {
     pub fn new(surface: &Surface) -> Self {
         let mesh = &surface.mesh;
         let edges = mesh.edges.len();
-        let fixed = (0..edges).filter(|e| chance(surface, *e) == Chance::Other).map(|e| e as u32).collect();
-        let tree = DualTree::new(mesh, |edge| chance(surface, edge) == Chance::OnlyContour);
+        let fixed =
+            (0..edges).filter(|e| chance(surface, *e) == EdgePotential::Other).map(|e| e as u32).collect();
+        let tree = DualTree::new(mesh, |edge| chance(surface, edge) == EdgePotential::ContourOnly);
         Self { fixed, tree, faces: mesh.triangles.len(), edges }
     }
 
@@ -59,7 +60,7 @@ impl EdgeSearch {
 
     /// All edges that may be lines in a view, ascending, and the number of boxes that were visited.
     #[must_use]
-    pub fn candidates(&self, mesh: &Mesh, view: &View) -> DualFound {
+    pub fn candidates(&self, mesh: &Mesh, view: &View) -> DualCandidates {
         let mut found = self.tree.candidates(view.frame.homogeneous_eye());
         if !view.unsure.is_empty() {
             // For these faces the angles in the tree are not reliable.
@@ -90,18 +91,18 @@ impl EdgeSearch {
 }
 
 /// Kinds of line that an edge may be; mirrors the cases of `edge_lines`.
-fn chance(surface: &Surface, edge: usize) -> Chance {
+fn chance(surface: &Surface, edge: usize) -> EdgePotential {
     let Surface { mesh, hard, roundings, smooth, .. } = surface;
-    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return Chance::Other };
+    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return EdgePotential::Other };
     let is_drawn = hard.is_hard(edge) || roundings.contains(edge);
     if is_drawn || faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
-        return Chance::Other;
+        return EdgePotential::Other;
     }
     let [first, second] = faces.map(|f| mesh.face_material[f as usize]);
     if first != second {
-        return Chance::Other;
+        return EdgePotential::Other;
     }
     let is_inner =
         faces.iter().all(|f| smooth.corners_of(*f).is_none()) || smooth.across(mesh, edge).is_some();
-    if is_inner { Chance::OnlyContour } else { Chance::Other }
+    if is_inner { EdgePotential::ContourOnly } else { EdgePotential::Other }
 }

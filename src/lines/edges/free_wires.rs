@@ -13,22 +13,22 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
-use crate::geometry::numbers::tolerance::SEAM_OF_PART;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::geometry::numbers::tolerance::MAX_SEAM_GAP_OF_PART;
 use crate::lines::feature_line::{FeatureSegment, Role};
 use crate::mesh::{Mesh, Wire};
 
 /// Cosine of the largest turn (45 degrees) between chords of one curve. A larger turn is a corner.
-const ALONG: f64 = 0.7;
+const MIN_CHORD_COSINE: f64 = 0.7;
 
 /// Factor on the sagitta, since the chords of a curve may differ in length.
-const UNEVEN: f64 = 2.0;
+const MAX_SAGITTA_RATIO: f64 = 2.0;
 
 /// Ratio of a curve's sagitta to its distance from its plane.
-const TWIST: f64 = 4.0;
+const SAGITTA_PER_TWIST: f64 = 4.0;
 
 /// Children per box of the hierarchy.
-const FAN: usize = 8;
+const TREE_FANOUT: usize = 8;
 
 /// Wires of a mesh that do not run along a line on its edges.
 pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
@@ -39,14 +39,14 @@ pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
     }
     let wires =
         Chords::new(mesh, mesh.wires.iter().map(|wire| (wire.vertices, mesh.extents.of(wire.part).scale)));
-    let tree = Tree::new(&drawn.list);
-    let is_free = |wire: &Chord| !is_covered(wire, &drawn.list, &tree);
+    let tree = ChordTree::new(&drawn.list);
+    let is_free = |wire: &WireChord| !is_covered(wire, &drawn.list, &tree);
     let free: Vec<bool> = wires.list.par_iter().with_min_len(256).map(is_free).collect();
     mesh.wires.iter().zip(free).filter_map(|(wire, free)| free.then_some(*wire)).collect()
 }
 
 /// Whether lines cover a wire from end to end.
-fn is_covered(wire: &Chord, lines: &[Chord], tree: &Tree) -> bool {
+fn is_covered(wire: &WireChord, lines: &[WireChord], tree: &ChordTree) -> bool {
     let mut ranges: Vec<(f64, f64)> = Vec::new();
     let (low, high) = wire.reach();
     tree.near(low, high, |line| ranges.extend(lines.get(line as usize).and_then(|line| wire.along(line))));
@@ -63,7 +63,7 @@ fn is_covered(wire: &Chord, lines: &[Chord], tree: &Tree) -> bool {
 
 /// Straight piece that may be a chord of a curve.
 #[derive(Debug, Clone, Copy)]
-struct Chord {
+struct WireChord {
     start: DVec3,
     along: DVec3,
     length: f64,
@@ -73,7 +73,7 @@ struct Chord {
     slack: f64,
 }
 
-impl Chord {
+impl WireChord {
     fn end(&self) -> DVec3 {
         self.start + self.along * self.length
     }
@@ -87,7 +87,7 @@ impl Chord {
     /// Range of lengths along this chord where another chord runs next to it.
     fn along(&self, other: &Self) -> Option<(f64, f64)> {
         let cosine = self.along.dot(other.along);
-        if cosine.abs() < ALONG {
+        if cosine.abs() < MIN_CHORD_COSINE {
             return None;
         }
         let place = |p: DVec3| (p - self.start).dot(self.along);
@@ -112,13 +112,13 @@ impl Chord {
         let (rise, height) = (offset.dot(way), self.sagitta.length());
         rise >= -slack - other.sagitta.length()
             && rise <= height + slack
-            && (offset - way * rise).length() <= slack + height / TWIST
+            && (offset - way * rise).length() <= slack + height / SAGITTA_PER_TWIST
     }
 }
 
 /// Chords with their sagittas.
 struct Chords {
-    list: Vec<Chord>,
+    list: Vec<WireChord>,
 }
 
 impl Chords {
@@ -129,12 +129,18 @@ impl Chords {
             let way = position(b) - position(a);
             let length = way.length();
             let along = way.normalize_or_zero();
-            Chord { start: position(a), along, length, sagitta: DVec3::ZERO, slack: SEAM_OF_PART * scale }
+            WireChord {
+                start: position(a),
+                along,
+                length,
+                sagitta: DVec3::ZERO,
+                slack: MAX_SEAM_GAP_OF_PART * scale,
+            }
         };
-        let mut list: Vec<Chord> = pieces.iter().map(chord).collect();
+        let mut list: Vec<WireChord> = pieces.iter().map(chord).collect();
         let ends = pieces.iter().zip(0..).flat_map(|((ends, _), k)| ends.map(|v| (v as usize, k)));
-        let at: Grouped<u32> = grouped_pairs(mesh.positions.len(), ends);
-        let graph = Graph { pieces: &pieces, list: &list, at };
+        let at: CsrLists<u32> = csr_lists_from_pairs(mesh.positions.len(), ends);
+        let graph = ChordGraph { pieces: &pieces, list: &list, at };
         let sagittas: Vec<DVec3> = (0..pieces.len()).into_par_iter().map(|k| graph.sagitta(k)).collect();
         for (chord, sagitta) in list.iter_mut().zip(sagittas) {
             chord.sagitta = sagitta;
@@ -144,16 +150,16 @@ impl Chords {
 }
 
 /// Chords, connected at their ends.
-struct Graph<'a> {
+struct ChordGraph<'a> {
     pieces: &'a [([u32; 2], f64)],
-    list: &'a [Chord],
+    list: &'a [WireChord],
     /// Chords that end at each vertex.
-    at: Grouped<u32>,
+    at: CsrLists<u32>,
 }
 
 /// A chord with a direction: towards its end `to`, which is 1 forward and 0 backward.
 #[derive(Clone, Copy)]
-struct Walk {
+struct DirectedChord {
     chord: usize,
     to: usize,
 }
@@ -161,19 +167,19 @@ struct Walk {
 /// Maximum number of chords at a vertex that are compared, to bound the work.
 const MAX_CHORDS_AT_VERTEX: usize = 32;
 
-impl Graph<'_> {
-    fn direction(&self, walk: Walk) -> DVec3 {
+impl ChordGraph<'_> {
+    fn direction(&self, walk: DirectedChord) -> DVec3 {
         let along = self.list[walk.chord].along;
         if walk.to == 1 { along } else { -along }
     }
 
     /// Straightest continuation of a chord, and the cosine of the turn.
-    fn next(&self, walk: Walk) -> Option<(Walk, f64)> {
+    fn next(&self, walk: DirectedChord) -> Option<(DirectedChord, f64)> {
         let corner = self.pieces[walk.chord].0[walk.to];
         let way = self.direction(walk);
         let others = self.at.of(corner as usize).iter().take(MAX_CHORDS_AT_VERTEX).map(|k| *k as usize);
         let others = others.filter(|k| *k != walk.chord).map(|chord| {
-            let other = Walk { chord, to: usize::from(self.pieces[chord].0[0] == corner) };
+            let other = DirectedChord { chord, to: usize::from(self.pieces[chord].0[0] == corner) };
             (other, self.direction(other).dot(way))
         });
         others.max_by(|a, b| a.1.total_cmp(&b.1))
@@ -186,11 +192,13 @@ impl Graph<'_> {
     fn sagitta(&self, chord: usize) -> DVec3 {
         let own = &self.list[chord];
         let ends = [0, 1].into_iter().filter_map(|to| {
-            let walk = Walk { chord, to };
+            let walk = DirectedChord { chord, to };
             Some((walk, self.next(walk)?))
         });
         let straighter = ends.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let Some((walk, (beside, cosine))) = straighter.filter(|(_, (_, cosine))| *cosine >= ALONG) else {
+        let Some((walk, (beside, cosine))) =
+            straighter.filter(|(_, (_, cosine))| *cosine >= MIN_CHORD_COSINE)
+        else {
             return DVec3::ZERO;
         };
         // Tangent of half the turn. Equal chords share a turn evenly.
@@ -198,23 +206,23 @@ impl Graph<'_> {
         let turn = half_turn(cosine);
         let share = self.next(beside).map_or(0.0, |(beyond, cosine)| {
             let (near, far) = (self.list[beside.chord].length, self.list[beyond.chord].length);
-            if cosine < ALONG { 0.0 } else { half_turn(cosine) * near / (near + far) }
+            if cosine < MIN_CHORD_COSINE { 0.0 } else { half_turn(cosine) * near / (near + far) }
         });
         let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
         let bend = self.direction(walk) * cosine - self.direction(beside);
-        bend.normalize_or_zero() * (UNEVEN * own.length * own_turn / 2.0)
+        bend.normalize_or_zero() * (MAX_SAGITTA_RATIO * own.length * own_turn / 2.0)
     }
 }
 
 /// Bounding volume hierarchy of chords.
-struct Tree {
+struct ChordTree {
     order: Vec<u32>,
     /// Boxes of the leaves first, the root last.
     levels: Vec<Vec<(DVec3, DVec3)>>,
 }
 
-impl Tree {
-    fn new(chords: &[Chord]) -> Self {
+impl ChordTree {
+    fn new(chords: &[WireChord]) -> Self {
         let mut items: Vec<(DVec3, u32)> =
             chords.iter().zip(0..).map(|(chord, k)| ((chord.start + chord.end()) / 2.0, k)).collect();
         part(&mut items);
@@ -222,9 +230,9 @@ impl Tree {
         let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let around = |run: &[u32]| run.iter().map(|k| chords[*k as usize].reach()).fold(nothing, join);
-        let mut levels: Vec<Vec<(DVec3, DVec3)>> = vec![order.chunks(FAN).map(around).collect()];
+        let mut levels: Vec<Vec<(DVec3, DVec3)>> = vec![order.chunks(TREE_FANOUT).map(around).collect()];
         while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let above = last.chunks(FAN).map(|run| run.iter().copied().fold(nothing, join)).collect();
+            let above = last.chunks(TREE_FANOUT).map(|run| run.iter().copied().fold(nothing, join)).collect();
             levels.push(above);
         }
         Self { order, levels }
@@ -238,7 +246,7 @@ impl Tree {
             if own_low.cmpgt(high).any() || own_high.cmplt(low).any() {
                 continue;
             }
-            let below = k * FAN..(k + 1) * FAN;
+            let below = k * TREE_FANOUT..(k + 1) * TREE_FANOUT;
             if level == 0 {
                 self.order[below.start..below.end.min(self.order.len())].iter().for_each(|k| visit(*k));
             } else {
@@ -251,7 +259,7 @@ impl Tree {
 
 /// Sorts the items so that nearby ones form runs.
 fn part(items: &mut [(DVec3, u32)]) {
-    if items.len() <= FAN {
+    if items.len() <= TREE_FANOUT {
         return;
     }
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -259,7 +267,7 @@ fn part(items: &mut [(DVec3, u32)]) {
     let size = high - low;
     let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
     // Runs stay whole, so that no box spans two places.
-    let middle = (items.len() / 2).next_multiple_of(FAN).min(items.len() - 1);
+    let middle = (items.len() / 2).next_multiple_of(TREE_FANOUT).min(items.len() - 1);
     items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
     let (near, far) = items.split_at_mut(middle);
     crate::parallel::join(|| part(near), || part(far));

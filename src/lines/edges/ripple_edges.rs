@@ -13,20 +13,20 @@ use crate::surface::SmoothNormals;
 use crate::view::View;
 
 /// Maximum number of faces in a ripple.
-const MOST_FACES: usize = 32;
+const MAX_RIPPLE_FACES: usize = 32;
 
 /// Marks the ripple edges among the mesh contours. `facing` is n·v, one per smooth vertex.
-pub(crate) fn tell(
+pub(crate) fn mark_ripples(
     mesh: &Mesh,
     view: &View,
     smooth: &SmoothNormals,
     facing: &[f64],
     segments: &mut [FeatureSegment],
 ) {
-    let surface = FoldedSurface { mesh, view, smooth, facing };
+    let surface = RippleTest { mesh, view, smooth, facing };
     segments.par_iter_mut().with_min_len(1 << 7).with_max_len(1 << 8).for_each(|segment| {
         let hosts = segment.hosts;
-        if let Role::Witness { convex, fold } = &mut segment.role {
+        if let Role::MeshContour { convex, fold } = &mut segment.role {
             // On a convex edge the camera sees the outside of the facing face; on a concave one the inside of
             // the averted face. The surface turns away in the other face.
             let beyond = hosts.into_iter().find(|face| view.facing[*face as usize] != *convex);
@@ -35,14 +35,14 @@ pub(crate) fn tell(
     });
 }
 
-struct FoldedSurface<'a> {
+struct RippleTest<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     smooth: &'a SmoothNormals,
     facing: &'a [f64],
 }
 
-impl FoldedSurface<'_> {
+impl RippleTest<'_> {
     /// Whether the connected faces with the same orientation end before the smooth surface turns.
     fn is_ripple(&self, first: u32) -> bool {
         let side = self.view.facing[first as usize];
@@ -51,7 +51,7 @@ impl FoldedSurface<'_> {
         while let Some(&face) = faces.get(done) {
             done += 1;
             let Some(corners) = self.smooth.corners_of(face) else { return false };
-            if corners.iter().any(|v| (self.facing[*v as usize] >= 0.0) == side) || done > MOST_FACES {
+            if corners.iter().any(|v| (self.facing[*v as usize] >= 0.0) == side) || done > MAX_RIPPLE_FACES {
                 return false;
             }
             let triangle = self.mesh.triangles[face as usize];

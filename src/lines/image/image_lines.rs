@@ -5,16 +5,16 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::ImageOptions;
-use crate::lines::image::cracks::crack_lattice::{Crack, Lattice};
-use crate::lines::image::cracks::crack_paths::{Path, paths};
-use crate::lines::image::cracks::crack_repair::{close_gaps, take_off_spurs};
-use crate::lines::image::cracks::crack_sides::{Owner, Side, sides};
-use crate::lines::image::cracks::crest_test::NO_ECHO;
-use crate::lines::image::cracks::jump_tiles::JumpMap;
-use crate::lines::image::cracks::pixel_jumps::Jumps;
-use crate::lines::image::cracks::taut_path::{Bend, Gate, crossings, taut};
+use crate::lines::image::cracks::crack_lattice::{Crack, CrackLattice};
+use crate::lines::image::cracks::crack_paths::{CrackPath, paths};
+use crate::lines::image::cracks::crack_repair::{close_gaps, remove_spurs};
+use crate::lines::image::cracks::crack_sides::{CrackOwner, CrackSides, sides};
+use crate::lines::image::cracks::crest_test::MIN_INDEPENDENT_JUMP;
+use crate::lines::image::cracks::jump_tiles::JumpTiles;
+use crate::lines::image::cracks::pixel_jumps::PixelJumps;
+use crate::lines::image::cracks::taut_path::{Gate, TautBend, crossings, shortest_path};
 use crate::mesh::{MaterialId, Mesh, PartId};
-use crate::view::raster::Maps;
+use crate::view::raster::NormalDepthMaps;
 
 /// Point of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,48 +55,54 @@ pub struct ImageLines {
 
 /// Traces lines through the edge pixels, along the cracks with the largest jumps.
 #[must_use]
-pub fn trace(mesh: &Mesh, maps: &Maps, edges: &[bool], options: &ImageOptions) -> ImageLines {
-    let jumps = Jumps::new(mesh, maps, options);
+pub fn trace(mesh: &Mesh, maps: &NormalDepthMaps, edges: &[bool], options: &ImageOptions) -> ImageLines {
+    let jumps = PixelJumps::new(mesh, maps, options);
     let jump_map = jumps.map(edges);
-    let mut lattice = Lattice::crests(&jump_map);
+    let mut lattice = CrackLattice::crests(&jump_map);
     close_gaps(&mut lattice, &jump_map);
-    take_off_spurs(&mut lattice);
+    remove_spurs(&mut lattice);
     let mut paths = paths(&lattice);
     paths.retain(|path| is_line(&lattice, &jump_map, path));
-    let pulled: Vec<Pulled> =
-        paths.into_par_iter().map(|path| pull(mesh, maps, &jumps, &lattice, path)).collect();
+    let pulled: Vec<TautLine> =
+        paths.into_par_iter().map(|path| pull_taut(mesh, maps, &jumps, &lattice, path)).collect();
     assemble(&lattice, maps, &pulled)
 }
 
 /// Minimum length in cracks, except for strong lines that touch another line.
-const SHORTEST: usize = 12;
+const MIN_LINE_CRACKS: usize = 12;
 
 /// Minimum length of weak isolated lines, in cracks.
-const SHORTEST_LOOSE: usize = 40;
+const MIN_FREE_LINE_CRACKS: usize = 40;
 
 /// Whether a path is more than noise.
-fn is_line(lattice: &Lattice, jumps: &JumpMap, path: &Path) -> bool {
+fn is_line(lattice: &CrackLattice, jumps: &JumpTiles, path: &CrackPath) -> bool {
     let count = path.cracks.len();
     let jump: f32 = path.cracks.iter().map(|crack| lattice.jump(jumps, *crack)).sum();
     let hangs = [0, count].iter().any(|after| lattice.degree(path.corner(lattice, *after)) > 2);
-    let is_strong = jump >= NO_ECHO * count as f32;
+    let is_strong = jump >= MIN_INDEPENDENT_JUMP * count as f32;
     match (is_strong, hangs) {
         (true, true) => true,
-        (true, false) => count >= SHORTEST,
-        (false, true) => count >= SHORTEST && jump >= count as f32,
-        (false, false) => count >= SHORTEST_LOOSE && jump >= count as f32,
+        (true, false) => count >= MIN_LINE_CRACKS,
+        (false, true) => count >= MIN_LINE_CRACKS && jump >= count as f32,
+        (false, false) => count >= MIN_FREE_LINE_CRACKS && jump >= count as f32,
     }
 }
 
 /// Path with its taut line.
-struct Pulled {
-    path: Path,
-    bends: Vec<Bend>,
+struct TautLine {
+    path: CrackPath,
+    bends: Vec<TautBend>,
     crossings: Vec<DVec2>,
-    sides: Vec<Side>,
+    sides: Vec<CrackSides>,
 }
 
-fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Path) -> Pulled {
+fn pull_taut(
+    mesh: &Mesh,
+    maps: &NormalDepthMaps,
+    jumps: &PixelJumps,
+    lattice: &CrackLattice,
+    mut path: CrackPath,
+) -> TautLine {
     let centre = |[column, row]: [i32; 2]| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
     let gates_of = |cracks: &[Crack]| -> Vec<Gate> {
         cracks.iter().map(|crack| lattice.pixels(*crack).map(centre)).collect()
@@ -107,7 +113,7 @@ fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Pa
     };
     let mut gates = gates_of(&path.cracks);
     let (mut start, mut end) = (corner(0), corner(path.cracks.len()));
-    let mut bends = taut(start, &gates, end);
+    let mut bends = shortest_path(start, &gates, end);
     // A ring starts at one of its bends.
     let half = gates.len() / 2;
     let bend = bends.iter().skip(1).take(bends.len().saturating_sub(2));
@@ -115,14 +121,14 @@ fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Pa
         path.cracks.rotate_left(bend.gate);
         gates = gates_of(&path.cracks);
         (start, end) = (bend.at, bend.at);
-        bends = taut(start, &gates, end);
+        bends = shortest_path(start, &gates, end);
     }
     let crossings = crossings(&bends, &gates);
     let sides = sides(mesh, maps, jumps, lattice, &path.cracks);
-    Pulled { path, bends, crossings, sides }
+    TautLine { path, bends, crossings, sides }
 }
 
-impl Pulled {
+impl TautLine {
     /// Position of the line after the given number of cracks.
     fn at(&self, after: usize) -> DVec2 {
         let last = self.crossings.len().saturating_sub(1);
@@ -131,22 +137,22 @@ impl Pulled {
     }
 
     /// Points of the line with their positions in half cracks: bends lie on cracks, all others between them.
-    fn stops(&self, junctions: &FxHashMap<usize, u32>, lattice: &Lattice) -> Vec<(usize, Stop)> {
+    fn stops(&self, junctions: &FxHashMap<usize, u32>, lattice: &CrackLattice) -> Vec<(usize, LinePoint)> {
         let n = self.path.cracks.len();
-        let mut stops: Vec<(usize, Stop)> = Vec::with_capacity(self.bends.len());
+        let mut stops: Vec<(usize, LinePoint)> = Vec::with_capacity(self.bends.len());
         let inner = self.bends.len().saturating_sub(2);
         stops.extend(
-            self.bends.iter().skip(1).take(inner).map(|bend| (2 * bend.gate + 1, Stop::Bend(bend.at))),
+            self.bends.iter().skip(1).take(inner).map(|bend| (2 * bend.gate + 1, LinePoint::Bend(bend.at))),
         );
         for after in 0..=n {
             let corner = self.path.corner(lattice, after);
             if let Some(point) = junctions.get(&corner) {
-                stops.push((2 * after, Stop::Junction(*point)));
+                stops.push((2 * after, LinePoint::Junction(*point)));
             } else if after == 0 || after == n {
                 let bend = if after == 0 { self.bends.first() } else { self.bends.last() };
-                stops.extend(bend.map(|bend| (2 * after, Stop::Bend(bend.at))));
+                stops.extend(bend.map(|bend| (2 * after, LinePoint::Bend(bend.at))));
             } else if self.sides[after - 1].owner != self.sides[after].owner {
-                stops.push((2 * after, Stop::Bend(self.at(after))));
+                stops.push((2 * after, LinePoint::Bend(self.at(after))));
             }
         }
         stops.sort_by_key(|(at, _)| *at);
@@ -156,12 +162,12 @@ impl Pulled {
 
 /// Future point of a line.
 #[derive(Debug, Clone, Copy)]
-enum Stop {
+enum LinePoint {
     Bend(DVec2),
     Junction(u32),
 }
 
-fn assemble(lattice: &Lattice, maps: &Maps, pulled: &[Pulled]) -> ImageLines {
+fn assemble(lattice: &CrackLattice, maps: &NormalDepthMaps, pulled: &[TautLine]) -> ImageLines {
     let mut lines = ImageLines { lines: pulled.len() as u32, ..ImageLines::default() };
     let point = |at: DVec2, depth: f64| ImagePoint { position: at / maps.scale, depth };
     // Lines that pass through a junction determine its position; the others end there.
@@ -190,9 +196,9 @@ fn assemble(lattice: &Lattice, maps: &Maps, pulled: &[Pulled]) -> ImageLines {
         let mut ends: Vec<u32> = Vec::with_capacity(stops.len());
         for (at, stop) in &stops {
             ends.push(match stop {
-                Stop::Junction(id) => *id,
-                Stop::Bend(_) if own.path.closed && *at == 2 * n => ends[0],
-                Stop::Bend(position) => {
+                LinePoint::Junction(id) => *id,
+                LinePoint::Bend(_) if own.path.closed && *at == 2 * n => ends[0],
+                LinePoint::Bend(position) => {
                     lines.points.push(point(*position, own.sides[(at / 2).min(n - 1)].depth));
                     (lines.points.len() - 1) as u32
                 }
@@ -204,7 +210,7 @@ fn assemble(lattice: &Lattice, maps: &Maps, pulled: &[Pulled]) -> ImageLines {
             if from != to && a != b {
                 let middle = (stops[0].0 + stops[1].0) / 4;
                 let side = own.sides[middle.min(n - 1)];
-                let Owner { part, material, both_seen } = side.owner;
+                let CrackOwner { part, material, both_seen } = side.owner;
                 let silhouette = side.silhouette;
                 lines.pieces.push(ImagePiece {
                     ends: [from, to],

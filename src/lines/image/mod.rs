@@ -17,13 +17,13 @@ pub mod soup_normals;
 
 pub use image_lines::{ImageLines, ImagePiece, ImagePoint, trace};
 pub use image_options::{Dilation, EdgeTest, ImageOptions, Source};
-pub use soup_normals::Loose;
+pub use soup_normals::SoupNormals;
 
-use crate::view::raster::Maps;
+use crate::view::raster::NormalDepthMaps;
 
 /// Edge flags of the maps' pixels by the test in the options, row by row.
 #[must_use]
-pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
+pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     match options.test {
         EdgeTest::Gradient => edge_tests::gradient_test::edges(maps, options),
         EdgeTest::Opposite => edge_tests::opposite_test::edges(maps, options),

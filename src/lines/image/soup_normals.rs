@@ -1,4 +1,4 @@
-//! [`Loose`]: normals of polygon soups, whose faces are not connected.
+//! [`SoupNormals`]: normals of polygon soups, whose faces are not connected.
 //!
 //! Lines in the image need no connectivity, but they need the normals of the surface. Faces with corners
 //! within a px of each other, which turn by less than a crease, count as one surface there. Closed surfaces
@@ -11,25 +11,25 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::view::View;
 
 /// Largest distance of corners that count as one, px.
-const REACH_PX: f64 = 1.0;
+const MERGE_RADIUS_PX: f64 = 1.0;
 
 /// Maximum number of corners that are used in each of the 27 cells around a corner. Where more meet within a
 /// px, no single face is visible.
-const MOST: usize = 16;
+const MAX_CORNERS_PER_CELL: usize = 16;
 
 /// Faces with corners at open edges, and the normals at their corners.
 #[derive(Debug, Clone, Default)]
-pub struct Loose {
-    /// Index of each face into `normals`, or [`NONE`]; empty if there is no such face.
+pub struct SoupNormals {
+    /// Index of each face into `normals`, or [`NO_NORMALS`]; empty if there is no such face.
     number: Vec<u32>,
     normals: Vec<[DVec3; 3]>,
 }
 
-const NONE: u32 = u32::MAX;
+const NO_NORMALS: u32 = u32::MAX;
 
 /// Corner of a face at an open vertex.
 #[derive(Clone, Copy)]
-struct Corner {
+struct LooseCorner {
     cell: IVec3,
     face: u32,
     position: DVec3,
@@ -37,7 +37,7 @@ struct Corner {
     normal: DVec3,
 }
 
-impl Loose {
+impl SoupNormals {
     /// Normals of the loose faces in a view. Faces that differ by more than `crease_deg` stay separate.
     ///
     /// `normals` returns a face's own corner normals on its outer side, which are kept at corners that are
@@ -61,19 +61,22 @@ impl Loose {
         let loose: Vec<u32> = (0..mesh.triangles.len() as u32)
             .filter(|face| mesh.triangles[*face as usize].iter().any(|v| open[*v as usize]))
             .collect();
-        let reach = (REACH_PX * view.frame.px_at(view.frame.focus)).max(f64::MIN_POSITIVE);
+        let reach = (MERGE_RADIUS_PX * view.frame.px_at(view.frame.focus)).max(f64::MIN_POSITIVE);
         let corners_of = |face: u32| {
             let normal = seen_normal(mesh, view, face);
             mesh.triangles[face as usize].iter().filter(|v| open[**v as usize]).map(move |v| {
                 let position = mesh.positions[*v as usize];
-                Corner { cell: (position / reach).floor().as_ivec3(), face, position, normal }
+                LooseCorner { cell: (position / reach).floor().as_ivec3(), face, position, normal }
             })
         };
-        let mut corners: Vec<Corner> = loose.iter().copied().flat_map(corners_of).collect();
+        let mut corners: Vec<LooseCorner> = loose.iter().copied().flat_map(corners_of).collect();
         corners.par_sort_unstable_by_key(|corner| (corner.cell.to_array(), corner.face));
         let least = crease_deg.to_radians();
-        let near =
-            Near { corners: &corners, reach, cosine: crate::geometry::numbers::portable_math::cos(least) };
+        let near = CornerGrid {
+            corners: &corners,
+            reach,
+            cosine: crate::geometry::numbers::portable_math::cos(least),
+        };
         let normals_of = |face: &u32| {
             let mut own = normals(*face);
             let side = if view.facing[*face as usize] { 1.0 } else { -1.0 };
@@ -87,7 +90,7 @@ impl Loose {
             own
         };
         let found: Vec<[DVec3; 3]> = loose.par_iter().map(normals_of).collect();
-        let mut number = vec![NONE; mesh.triangles.len()];
+        let mut number = vec![NO_NORMALS; mesh.triangles.len()];
         for (i, face) in loose.iter().enumerate() {
             number[*face as usize] = i as u32;
         }
@@ -106,7 +109,7 @@ impl Loose {
     #[inline]
     #[must_use]
     pub fn is_loose(&self, face: u32) -> bool {
-        self.number.get(face as usize).is_some_and(|number| *number != NONE)
+        self.number.get(face as usize).is_some_and(|number| *number != NO_NORMALS)
     }
 
     /// Whether no face is loose.
@@ -117,13 +120,13 @@ impl Loose {
 }
 
 /// Corners, sorted by grid cell.
-struct Near<'a> {
-    corners: &'a [Corner],
+struct CornerGrid<'a> {
+    corners: &'a [LooseCorner],
     reach: f64,
     cosine: f64,
 }
 
-impl Near<'_> {
+impl CornerGrid<'_> {
     /// Normal at a position of the surface that a face belongs to.
     fn normal(&self, position: DVec3, own: DVec3) -> Option<DVec3> {
         let cell = (position / self.reach).floor().as_ivec3();
@@ -135,7 +138,7 @@ impl Near<'_> {
                 let cell = cell.saturating_add(IVec3::new(dx, dy, dz));
                 let first = self.corners.partition_point(|corner| corner.cell.to_array() < cell.to_array());
                 let in_cell = self.corners[first..].iter().take_while(|corner| corner.cell == cell);
-                for corner in in_cell.take(MOST) {
+                for corner in in_cell.take(MAX_CORNERS_PER_CELL) {
                     let is_near = corner.position.distance_squared(position) <= self.reach * self.reach;
                     if is_near && corner.normal.dot(unit) >= self.cosine * corner.normal.length() {
                         sum += corner.normal;

@@ -11,13 +11,13 @@
 //!    truly cross do so at a small angle in some places. A curve ends at a branch, and where it passes over a
 //!    crease onto another surface.
 
-use crate::geometry::numbers::tolerance::{CONTACT_OF_CURVE, MAX_FACET_DEG};
+use crate::geometry::numbers::tolerance::{MAX_FACET_DEG, MIN_CONTACT_OF_CURVE};
 use crate::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionSegment};
 use crate::mesh::{Dihedral, FaceId, Mesh};
 
 /// The intersection curves of a mesh, without contacts.
 #[must_use]
-pub fn without(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
+pub fn remove_contacts(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
     let is_flat: Vec<bool> = curves.segments.iter().map(|segment| is_flat(mesh, segment)).collect();
     if !is_flat.contains(&true) {
         return curves;
@@ -32,7 +32,7 @@ pub fn without(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
             let counted = curve.iter().map(|s| *s as usize).filter(|s| !flat_only || is_flat[*s]);
             counted.map(|s| length(&curves.segments[s])).sum()
         };
-        if of(true) >= CONTACT_OF_CURVE * of(false) {
+        if of(true) >= MIN_CONTACT_OF_CURVE * of(false) {
             curve.iter().for_each(|s| touches[*s as usize] = true);
         }
     }
@@ -67,7 +67,7 @@ fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
 
 /// Segments of each curve, between the points where curves end.
 fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
-    let mut at_point: Vec<[u32; 2]> = vec![[NONE; 2]; curves.points.len()];
+    let mut at_point: Vec<[u32; 2]> = vec![[NO_INDEX; 2]; curves.points.len()];
     let mut count: Vec<u8> = vec![0; curves.points.len()];
     for (number, segment) in curves.segments.iter().enumerate() {
         for end in segment.ends.map(|end| end as usize) {
@@ -114,16 +114,16 @@ fn is_over_crease(mesh: &Mesh, [before, after]: [[u32; 2]; 2]) -> bool {
 }
 
 /// No segment, or no point.
-const NONE: u32 = u32::MAX;
+const NO_INDEX: u32 = u32::MAX;
 
 /// Curves of the given segments. Unused points are dropped, and the rest are in order of first use.
 fn renumbered(points: &[glam::DVec3], mut segments: Vec<IntersectionSegment>) -> IntersectionCurves {
-    let mut numbers = vec![NONE; points.len()];
+    let mut numbers = vec![NO_INDEX; points.len()];
     let mut used = Vec::new();
     for segment in &mut segments {
         segment.ends = segment.ends.map(|end| {
             let number = &mut numbers[end as usize];
-            if *number == NONE {
+            if *number == NO_INDEX {
                 *number = used.len() as u32;
                 used.push(points[end as usize]);
             }

@@ -13,19 +13,19 @@ use super::facet_contacts;
 use crate::lines::prepared_surface::Finer;
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
 use crate::mesh::intersect::curve_tracer::Tracer;
-use crate::mesh::intersect::intersection_cache::{Hosts, PairSearch};
+use crate::mesh::intersect::intersection_cache::{FaceHosts, IntersectionCache};
 use crate::mesh::intersect::intersection_curves::{
     IntersectionCurves, IntersectionInput, IntersectionSegment, intersections_of_parts,
 };
 use crate::mesh::intersect::triangle_pair::PairTolerance;
 use crate::mesh::{FaceId, Mesh, PartId};
-use crate::parallel::task_size::GRAIN;
-use crate::surface::Origin;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::MeshSource;
 use crate::view::View;
-use crate::view::raster::{FaceBuffer, Screen, intersecting_candidates};
+use crate::view::raster::{FaceBuffer, PixelGrid, intersecting_candidates};
 
 /// Maximum number of triangles for the full search, which is fast enough for these.
-pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
+pub const MAX_FULL_SEARCH_TRIANGLES: usize = 300_000;
 
 /// Intersection curves of all faces with area; without hidden lines, at least those visible in the view.
 #[must_use]
@@ -36,7 +36,7 @@ pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines) -> IntersectionCurves
 /// Whether [`all_curves`] is used, and not only the curves visible in a view.
 #[must_use]
 pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
-    hidden != HiddenLines::None || mesh.triangles.len() <= FULL_SEARCH_TRIANGLES
+    hidden != HiddenLines::None || mesh.triangles.len() <= MAX_FULL_SEARCH_TRIANGLES
 }
 
 /// Adds curves to the lines of a view. The direction and order of their segments do not depend on the order
@@ -47,7 +47,7 @@ pub(crate) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
     let ranks = mesh.extents.ranks();
     let rank = |face: u32| ranks[mesh.face_part[face as usize].index()];
     let mut segments: Vec<IntersectionSegment> = curves.segments.clone();
-    segments.par_iter_mut().with_min_len(GRAIN).for_each(|segment| {
+    segments.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|segment| {
         let [a, b] = segment.faces;
         if (rank(b), b) < (rank(a), a) {
             segment.faces.reverse();
@@ -63,7 +63,7 @@ pub(crate) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
             kind: LineKind::Intersection,
             both_seen: true,
             smooth: false,
-            origin: Origin::default(),
+            origin: MeshSource::default(),
             role: Role::Line,
             strength: 180.0,
             part: mesh.face_part[owner],
@@ -83,7 +83,7 @@ fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::without(
+    facet_contacts::remove_contacts(
         intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance),
         mesh,
     )
@@ -92,22 +92,22 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
 /// Intersection curves between faces that are not `out_of_sight`: every visible segment of [`all_curves`].
 #[must_use]
 pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
-    out_of_sight.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, out)| {
+    out_of_sight.par_iter_mut().enumerate().with_min_len(MIN_TASK_ITEMS).for_each(|(face, out)| {
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
     let active = out_of_sight;
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::without(
+    facet_contacts::remove_contacts(
         intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance),
         mesh,
     )
 }
 
-/// Search of all curves of a mesh, to be reused for refined meshes in [`curves_of_finer`].
+/// Search of all curves of a mesh, to be reused for refined meshes in [`refined_curves`].
 #[must_use]
-pub fn search(mesh: &Mesh) -> PairSearch {
+pub fn search(mesh: &Mesh) -> IntersectionCache {
     let active = active(mesh);
-    PairSearch::new(&input(mesh, &active, &mesh.face_bodies()), |face| {
+    IntersectionCache::new(&input(mesh, &active, &mesh.face_bodies()), |face| {
         PairTolerance::of_part(mesh.extent(FaceId(face)))
     })
 }
@@ -115,13 +115,13 @@ pub fn search(mesh: &Mesh) -> PairSearch {
 /// All curves of a refined surface, from a [`search`] of the original mesh. The result is that of
 /// [`all_curves`].
 #[must_use]
-pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves {
+pub fn curves_of_finer(search: &IntersectionCache, finer: &Finer) -> IntersectionCurves {
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
-    let hosts = Hosts { faces: &finer.hosts, kept: finer.kept };
+    let hosts = FaceHosts { faces: &finer.hosts, kept: finer.kept };
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::without(
-        search.curves_of_finer(&input(mesh, &active, &mesh.face_bodies()), hosts, tolerance),
+    facet_contacts::remove_contacts(
+        search.refined_curves(&input(mesh, &active, &mesh.face_bodies()), hosts, tolerance),
         mesh,
     )
 }
@@ -141,8 +141,8 @@ fn input<'a>(mesh: &'a Mesh, active: &'a [bool], bodies: &'a [PartId]) -> Inters
 /// All curves with a visible part, complete, and possibly others.
 #[must_use]
 pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
-    let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+    let buffer = FaceBuffer::new(&PixelGrid::new(mesh, view));
     let active = intersecting_candidates::find(mesh, &buffer);
     let tracer = Tracer::new(mesh);
-    facet_contacts::without(tracer.curves(&tracer.pairs_among(&active)), mesh)
+    facet_contacts::remove_contacts(tracer.curves(&tracer.pairs_among(&active)), mesh)
 }

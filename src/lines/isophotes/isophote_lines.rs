@@ -9,30 +9,30 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::level_tracer::{Band, Found, Measures, Node};
-use super::tone_changes::Traced;
-use super::visible_faces::in_sight;
+use super::level_tracer::{FaceExtents, FaceSample, LevelSegment, LevelTracer};
+use super::tone_changes::TraceReason;
+use super::visible_faces::visible_faces_of;
 use crate::geometry::numbers::tolerance;
-use crate::light::{Slope, SurfacePoint};
+use crate::light::{LightSlope, SurfacePoint};
 use crate::lines::feature_line::segment;
 use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Adds the isophotes of a lit surface, for each of the given sets of shadowed lights.
 ///
 /// With `sees_through` gradients get steps on covered faces too. Returns the reason for each added segment,
 /// in order.
-pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<Traced> {
-    const CHUNK: usize = 1 << 9;
+pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<TraceReason> {
+    const FACES_PER_TASK: usize = 1 << 9;
     let count = lit.mesh.triangles.len();
-    let ready = Ready::new(lit, shadowed, sees_through);
-    let found: Vec<(Vec<Found>, Vec<Traced>)> = (0..count.div_ceil(CHUNK))
+    let ready = ShadingTables::new(lit, shadowed, sees_through);
+    let found: Vec<(Vec<LevelSegment>, Vec<TraceReason>)> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
-            let mut tracer = Tracer::new(lit, &ready);
-            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+            let mut tracer = IsophoteTracer::new(lit, &ready);
+            for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(count) {
                 if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     tracer.trace(face as u32, shadowed);
                 }
@@ -40,24 +40,24 @@ pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut Feature
             (tracer.found, tracer.traced)
         })
         .collect();
-    let (found, traced): (Vec<Vec<Found>>, Vec<Vec<Traced>>) = found.into_iter().unzip();
-    let piece = |(face, ends): Found| (face, LineKind::Isophote, ends);
+    let (found, traced): (Vec<Vec<LevelSegment>>, Vec<Vec<TraceReason>>) = found.into_iter().unzip();
+    let piece = |(face, ends): LevelSegment| (face, LineKind::Isophote, ends);
     lines.append_in_faces(lit.mesh, &found, piece, |face, kind, ends| {
         segment(lit.mesh, face, [face, NO_FACE], kind, ends)
     });
     traced.concat()
 }
 
-struct Tracer<'a> {
+struct IsophoteTracer<'a> {
     lit: &'a Lit<'a>,
-    ready: &'a Ready,
-    found: Vec<Found>,
+    ready: &'a ShadingTables,
+    found: Vec<LevelSegment>,
     /// Reason for each piece in `found`.
-    traced: Vec<Traced>,
+    traced: Vec<TraceReason>,
 }
 
 /// Tables that are the same for all faces.
-struct Ready {
+struct ShadingTables {
     /// A CSS px in user units.
     px: f64,
     /// For each channel and set of shadowed lights, the light at every normal, with the outside and with the
@@ -66,17 +66,17 @@ struct Ready {
     /// For each channel, whether light depends on position.
     is_local: Vec<bool>,
     /// Bound on the change of the other channels with the normal.
-    slope: Slope,
+    slope: LightSlope,
     /// Whether each face may be visible; used for gradients, empty if unknown.
     in_sight: Vec<bool>,
 }
 
 /// A CSS px in user units, on a page of nominal size.
 pub(crate) fn page_px(lit: &Lit) -> f64 {
-    lit.view.frame.width.max(lit.view.frame.height) / PAGE_PX
+    lit.view.frame.width.max(lit.view.frame.height) / NOMINAL_PAGE_PX
 }
 
-impl Ready {
+impl ShadingTables {
     fn new(lit: &Lit, shadowed: &[u32], sees_through: bool) -> Self {
         // The light does not depend on the paint.
         let paint = PaintId(0);
@@ -89,7 +89,7 @@ impl Ready {
                 return [Vec::new(), Vec::new()];
             }
             [1.0, -1.0].map(|side| {
-                let normals = lit.normals.normals.par_iter().with_min_len(GRAIN);
+                let normals = lit.normals.normals.par_iter().with_min_len(MIN_TASK_ITEMS);
                 normals.map(|normal| value(channel, *normal * side, shadowed)).collect()
             })
         };
@@ -99,8 +99,8 @@ impl Ready {
             is_local: channels.clone().map(|channel| lit.shading.is_local(channel)).collect(),
             slope: lit.shading.slope(),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
-            in_sight: if lit.shading.most_levels() > tolerance::FEW_LEVELS && !sees_through {
-                in_sight(lit.mesh, lit.view)
+            in_sight: if lit.shading.most_levels() > tolerance::MAX_SEPARATE_LEVELS && !sees_through {
+                visible_faces_of(lit.mesh, lit.view)
             } else {
                 Vec::new()
             },
@@ -108,8 +108,8 @@ impl Ready {
     }
 }
 
-impl<'a> Tracer<'a> {
-    fn new(lit: &'a Lit<'a>, ready: &'a Ready) -> Self {
+impl<'a> IsophoteTracer<'a> {
+    fn new(lit: &'a Lit<'a>, ready: &'a ShadingTables) -> Self {
         Self { lit, ready, found: Vec::new(), traced: Vec::new() }
     }
 
@@ -164,14 +164,14 @@ impl<'a> Tracer<'a> {
                     let band = self.band((face, &n), measures, channel, levels, *shadowed);
                     let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
                     band.trace(nodes, &mut self.found);
-                    self.traced.resize(self.found.len(), Traced { channel, shadowed: *shadowed });
+                    self.traced.resize(self.found.len(), TraceReason { channel, shadowed: *shadowed });
                 }
             }
         }
     }
 
     /// Lengths and turns along the sides of a face.
-    fn measures(&self, face: u32, n: &[DVec3; 3]) -> Measures {
+    fn measures(&self, face: u32, n: &[DVec3; 3]) -> FaceExtents {
         let Lit { mesh, view, .. } = self.lit;
         let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let length = |i: usize, j: usize| {
@@ -184,7 +184,7 @@ impl<'a> Tracer<'a> {
             }
         };
         let p = mesh.corners(FaceId(face));
-        Measures {
+        FaceExtents {
             sides: [length(1, 2), length(2, 0), length(0, 1)],
             spans: [p[1].distance(p[2]), p[2].distance(p[0]), p[0].distance(p[1])],
             turns: [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])],
@@ -194,20 +194,20 @@ impl<'a> Tracer<'a> {
     fn band(
         &self,
         (face, normals): (u32, &[DVec3; 3]),
-        measures: Measures,
+        measures: FaceExtents,
         channel: usize,
         levels: &'a [f64],
         shadowed: u32,
-    ) -> Band<'a> {
+    ) -> LevelTracer<'a> {
         // Hatching strokes end there one by one, so lower accuracy is enough.
         let (near, exact) = if self.lit.shading.bins() == Some(channel) {
-            (tolerance::BIN_PX, tolerance::BIN_VALUE)
+            (tolerance::MAX_BIN_BORDER_ERROR_PX, tolerance::MAX_BIN_BORDER_ERROR_TONE)
         } else if self.lit.is_gradient(channel, levels) {
-            (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
+            (tolerance::MAX_BIN_BORDER_ERROR_PX, tolerance::MAX_GRADIENT_BORDER_ERROR_TONE)
         } else {
-            (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
+            (tolerance::MAX_ISOPHOTE_ERROR_PX, tolerance::MAX_ISOPHOTE_ERROR_TONE)
         };
-        Band {
+        LevelTracer {
             lit: self.lit,
             px: self.ready.px,
             face,
@@ -219,7 +219,7 @@ impl<'a> Tracer<'a> {
             shadowed,
             levels,
             stride: self.lit.stride(face, channel, levels, shadowed),
-            alike: alike(levels),
+            alike: max_value_error(levels),
             near,
             exact,
             measures,
@@ -237,32 +237,34 @@ impl<'a> Tracer<'a> {
     }
 
     /// Corner of a face, from the tables where possible.
-    fn corner(&self, band: &Band, k: usize, shadow: usize) -> Node {
+    fn corner(&self, band: &LevelTracer, k: usize, shadow: usize) -> FaceSample {
         let [outside, inside] = &self.ready.values[band.channel][shadow];
         let values = if self.lit.view.facing[band.face as usize] { outside } else { inside };
         match values.get(self.lit.normals.corners[band.face as usize][k] as usize) {
-            Some(value) => Node { weights: UNIT[k], value: *value },
-            None => band.node(UNIT[k]),
+            Some(value) => FaceSample { weights: CORNER_WEIGHTS[k], value: *value },
+            None => band.node(CORNER_WEIGHTS[k]),
         }
     }
 }
 
 /// Barycentric weights of the corners of a face.
-const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const CORNER_WEIGHTS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Nominal width of a page, px.
-const PAGE_PX: f64 = 1000.0;
+const NOMINAL_PAGE_PX: f64 = 1000.0;
 
 /// Minimum number of levels that lie close together, so that their borders need less accuracy.
-const FEW_LEVELS: usize = 16;
+const MIN_DENSE_LEVELS: usize = 16;
 
 /// Largest invisible error for such levels, as a share of one step.
-const ALIKE: f64 = 0.05;
+const MAX_VALUE_ERROR_OF_STEP: f64 = 0.05;
 
 /// Largest invisible error of light; 0 for few levels.
-fn alike(levels: &[f64]) -> f64 {
+fn max_value_error(levels: &[f64]) -> f64 {
     match levels {
-        [first, .., last] if levels.len() >= FEW_LEVELS => ALIKE * (last - first) / (levels.len() - 1) as f64,
+        [first, .., last] if levels.len() >= MIN_DENSE_LEVELS => {
+            MAX_VALUE_ERROR_OF_STEP * (last - first) / (levels.len() - 1) as f64
+        }
         _ => 0.0,
     }
 }

@@ -15,7 +15,7 @@ use crate::mesh::PaintId;
 impl Lit<'_> {
     /// Whether the levels of a channel are too close for single steps to be seen.
     pub(crate) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
-        levels.len() > tolerance::FEW_LEVELS && self.shading.bins() != Some(channel)
+        levels.len() > tolerance::MAX_SEPARATE_LEVELS && self.shading.bins() != Some(channel)
     }
 
     /// Number of steps of a channel that a face shows as one: a power of two, 1 unless it is a gradient.
@@ -31,7 +31,8 @@ impl Lit<'_> {
         let turn = n.distance(m).max(m.distance(o)).max(o.distance(n));
         let px = page_px(self);
         // Light that is not almost linear is steep in a part of the face only.
-        let is_bent = turn > MOST_TURN || (self.shading.is_local(channel) && longest > MOST_PX * px);
+        let is_bent = turn > MAX_LINEAR_TURN_RAD
+            || (self.shading.is_local(channel) && longest > MAX_LINEAR_FACE_PX * px);
         if is_bent || points.iter().any(|p| p.is_nan()) {
             return 1;
         }
@@ -40,8 +41,8 @@ impl Lit<'_> {
         let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(value);
         let step = (last - first) / (levels.len() - 1) as f64;
         let narrow = |stride: usize| {
-            let steep = steepness([a, b, c], values) * tolerance::STEP_PX * px;
-            stride < MOST_STRIDE && steep > step * stride as f64
+            let steep = steepness([a, b, c], values) * tolerance::MIN_GRADIENT_STEP_PX * px;
+            stride < MAX_STRIDE && steep > step * stride as f64
         };
         let mut stride = 1;
         while narrow(stride) {
@@ -76,13 +77,13 @@ fn steepness([a, b, c]: [DVec2; 3], [at_a, at_b, at_c]: [f64; 3]) -> f64 {
 }
 
 /// Largest turn of normals for which light is almost linear, radians.
-const MOST_TURN: f64 = 0.25;
+const MAX_LINEAR_TURN_RAD: f64 = 0.25;
 
 /// Largest face on which light that depends on position is almost linear, px.
-const MOST_PX: f64 = 40.0;
+const MAX_LINEAR_FACE_PX: f64 = 40.0;
 
 /// Maximum number of merged steps.
-const MOST_STRIDE: usize = 16;
+const MAX_STRIDE: usize = 16;
 
 #[cfg(test)]
 mod tests {

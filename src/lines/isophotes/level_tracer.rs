@@ -1,4 +1,4 @@
-//! [`Band`]: traces the levels of one channel of light on one face.
+//! [`LevelTracer`]: traces the levels of one channel of light on one face.
 //!
 //! 1. The face is subdivided until light is almost linear on each piece.
 //! 2. On a piece each level is a straight segment.
@@ -6,22 +6,22 @@
 
 use glam::DVec3;
 
-use crate::light::{Slope, SurfacePoint, TURN_OF_CHORD};
+use crate::light::{LightSlope, SurfacePoint, TURN_PER_CHORD};
 use crate::lines::Lit;
 use crate::mesh::PaintId;
 
 /// Segment of a level, and the face it lies on. The brighter side is on its left.
-pub(crate) type Found = (u32, [DVec3; 2]);
+pub(crate) type LevelSegment = (u32, [DVec3; 2]);
 
 /// Corner of a piece of a face: barycentric weights and light.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Node {
+pub(crate) struct FaceSample {
     pub weights: [f64; 3],
     pub value: f64,
 }
 
 /// Tracer of one channel of light on one face.
-pub(crate) struct Band<'a> {
+pub(crate) struct LevelTracer<'a> {
     pub lit: &'a Lit<'a>,
     /// A CSS px in user units.
     pub px: f64,
@@ -33,7 +33,7 @@ pub(crate) struct Band<'a> {
     /// Whether the light depends on position, and not on the normal alone.
     pub is_local: bool,
     /// Bound on the change of light with the normal, if it is not local.
-    pub slope: Slope,
+    pub slope: LightSlope,
     pub shadowed: u32,
     pub levels: &'a [f64],
     /// Only each `stride`-th level is traced, since the others are too close to be seen.
@@ -44,12 +44,12 @@ pub(crate) struct Band<'a> {
     pub near: f64,
     /// Largest error of light at a point of the curve.
     pub exact: f64,
-    pub measures: Measures,
+    pub measures: FaceExtents,
 }
 
 /// Measures along the sides of a face; entry k is for the side opposite corner k.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Measures {
+pub(crate) struct FaceExtents {
     /// Lengths in the image.
     pub sides: [f64; 3],
     /// Lengths in space.
@@ -60,7 +60,7 @@ pub(crate) struct Measures {
 
 /// Side of a piece of a face.
 #[derive(Clone, Copy)]
-struct Side {
+struct PieceSide {
     /// Turn of the normal along it, radians.
     turn: f64,
     /// Length in the image.
@@ -69,10 +69,10 @@ struct Side {
     is_straight: bool,
 }
 
-impl Band<'_> {
+impl LevelTracer<'_> {
     /// Light at the point with the given weights.
-    pub fn node(&self, weights: [f64; 3]) -> Node {
-        Node {
+    pub fn node(&self, weights: [f64; 3]) -> FaceSample {
+        FaceSample {
             weights,
             value: self.lit.shading.value(self.channel, self.paint, &self.point(weights), self.shadowed),
         }
@@ -91,36 +91,36 @@ impl Band<'_> {
     }
 
     /// Traces the levels through the face, given its corners.
-    pub fn trace(&self, corners: [Node; 3], found: &mut Vec<Found>) {
+    pub fn trace(&self, corners: [FaceSample; 3], found: &mut Vec<LevelSegment>) {
         self.cut(corners, 0, found);
     }
 
     /// Subdivides a piece until light is almost linear on it, then draws the levels.
     ///
     /// Whether a side is split depends on the side alone, so that neighbouring pieces share their points.
-    fn cut(&self, nodes: [Node; 3], depth: u32, found: &mut Vec<Found>) {
+    fn cut(&self, nodes: [FaceSample; 3], depth: u32, found: &mut Vec<LevelSegment>) {
         let turns = [self.turn(&nodes, 0), self.turn(&nodes, 1), self.turn(&nodes, 2)];
         if self.is_out_of_reach(&nodes, turns) {
             return;
         }
-        if depth >= DEEPEST {
+        if depth >= MAX_SPLITS {
             self.draw(nodes, found);
             return;
         }
-        let mut sides = [Side { turn: 0.0, length: 0.0, is_straight: true }; 3];
+        let mut sides = [PieceSide { turn: 0.0, length: 0.0, is_straight: true }; 3];
         let mut middles = [None; 3];
         for k in 0..3 {
             let (a, b) = (nodes[(k + 1) % 3], nodes[(k + 2) % 3]);
             sides[k] = self.side(a, b, turns[k]);
             if !sides[k].is_straight {
-                let middle = self.node(mean(a.weights, b.weights));
+                let middle = self.node(midpoint_weights(a.weights, b.weights));
                 if self.is_bent(a, middle, b, sides[k]) {
                     middles[k] = Some(middle);
                 }
             }
         }
         if middles.iter().any(Option::is_some) {
-            for piece in pieces(nodes, middles).iter().flatten() {
+            for piece in split_triangle(nodes, middles).iter().flatten() {
                 self.cut(*piece, depth + 1, found);
             }
             return;
@@ -143,18 +143,19 @@ impl Band<'_> {
     }
 
     /// Bound on the turn of the normal along the side opposite a corner, radians.
-    fn turn(&self, nodes: &[Node; 3], opposite: usize) -> f64 {
-        extent(&self.measures.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
+    fn turn(&self, nodes: &[FaceSample; 3], opposite: usize) -> f64 {
+        max_extent(&self.measures.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
     }
 
     /// Whether no level can cross a piece, by the turn of normals along its sides.
-    fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
+    fn is_out_of_reach(&self, nodes: &[FaceSample; 3], turns: [f64; 3]) -> bool {
         let turn = turns[0].max(turns[1]).max(turns[2]);
         let (low, high) = if self.is_local {
-            let span = |a: usize, b: usize| extent(&self.measures.spans, nodes[a].weights, nodes[b].weights);
+            let span =
+                |a: usize, b: usize| max_extent(&self.measures.spans, nodes[a].weights, nodes[b].weights);
             let longest = span(0, 1).max(span(1, 2)).max(span(2, 0));
             let point = self.lit.point(self.face, nodes[0].weights);
-            let turn = turn * TURN_OF_CHORD;
+            let turn = turn * TURN_PER_CHORD;
             self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
         } else {
             let [a, b, c] = [nodes[0].value, nodes[1].value, nodes[2].value];
@@ -165,28 +166,28 @@ impl Band<'_> {
     }
 
     /// A side of a piece, given the turn of the normal along it.
-    fn side(&self, a: Node, b: Node, turn: f64) -> Side {
-        let length = extent(&self.measures.sides, a.weights, b.weights);
+    fn side(&self, a: FaceSample, b: FaceSample, turn: f64) -> PieceSide {
+        let length = max_extent(&self.measures.sides, a.weights, b.weights);
         // Largest deviation of a cosine from its chord.
         let off = turn * turn / 8.0 * self.slope.most;
         let is_straight = !self.is_local
-            && turn <= MOST_TURN
+            && turn <= MAX_TURN_RAD
             && off * length <= self.near * self.px * (a.value - b.value).abs();
-        Side { turn, length, is_straight }
+        PieceSide { turn, length, is_straight }
     }
 
     /// Whether light along a side is so far from linear that a level would move.
-    fn is_bent(&self, a: Node, middle: Node, b: Node, side: Side) -> bool {
-        let Side { turn, length, .. } = side;
-        let far_reaching = length > LONGEST_PX * self.px && self.is_local;
-        ((far_reaching || turn > MOST_TURN) && length > SHORTEST_PX * self.px)
+    fn is_bent(&self, a: FaceSample, middle: FaceSample, b: FaceSample, side: PieceSide) -> bool {
+        let PieceSide { turn, length, .. } = side;
+        let far_reaching = length > MAX_LOCAL_SIDE_PX * self.px && self.is_local;
+        ((far_reaching || turn > MAX_TURN_RAD) && length > MIN_SIDE_PX * self.px)
             || self.is_off(&[a, b], middle.value, f64::midpoint(a.value, b.value), length)
     }
 
     /// Whether the difference between a value and the linear one would move a level.
-    fn is_off(&self, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
+    fn is_off(&self, nodes: &[FaceSample], value: f64, linear: f64, length: f64) -> bool {
         let off = (value - linear).abs();
-        if length <= SHORTEST_PX * self.px || off <= self.alike {
+        if length <= MIN_SIDE_PX * self.px || off <= self.alike {
             return false;
         }
         let (mut low, mut high) = (value, value);
@@ -199,7 +200,7 @@ impl Band<'_> {
         crossed && off * length > self.near * self.px * (high - low)
     }
 
-    fn draw(&self, nodes: [Node; 3], found: &mut Vec<Found>) {
+    fn draw(&self, nodes: [FaceSample; 3], found: &mut Vec<LevelSegment>) {
         let values = nodes.map(|node| node.value);
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -226,7 +227,7 @@ impl Band<'_> {
     }
 
     /// Point where a level crosses a side.
-    fn crossing(&self, a: Node, b: Node, level: f64) -> DVec3 {
+    fn crossing(&self, a: FaceSample, b: FaceSample, level: f64) -> DVec3 {
         let (low, high) = if a.value < level { (a, b) } else { (b, a) };
         let at = |t: f64| {
             let weight = |k: usize| low.weights[k] + (high.weights[k] - low.weights[k]) * t;
@@ -237,7 +238,7 @@ impl Band<'_> {
         let mut t = 0.0;
         let mut stays = 0;
         // Illinois variant of regula falsi: the weight of an end that stays twice is halved.
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROOT_STEPS {
             t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
             let f = self.node(at(t)).value - level;
             if f.abs() <= self.exact || t_high - t_low <= f64::EPSILON {
@@ -258,28 +259,28 @@ impl Band<'_> {
 }
 
 /// Maximum depth of subdivision.
-const DEEPEST: u32 = 9;
+const MAX_SPLITS: u32 = 9;
 
 /// Maximum number of root-finding steps.
-const MOST_ROUNDS: u32 = 30;
+const MAX_ROOT_STEPS: u32 = 30;
 
 /// Largest turn of the normal along a side, radians, so that no peak is missed between corners.
-const MOST_TURN: f64 = 0.25;
+const MAX_TURN_RAD: f64 = 0.25;
 
 /// Largest side of a piece where light depends on position, px.
-const LONGEST_PX: f64 = 40.0;
+const MAX_LOCAL_SIDE_PX: f64 = 40.0;
 
 /// Sides shorter than this are not split, px.
-const SHORTEST_PX: f64 = 0.5;
+const MIN_SIDE_PX: f64 = 0.5;
 
 /// Midpoint of two points of a face.
-fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn midpoint_weights(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1]), f64::midpoint(a[2], b[2])]
 }
 
 /// Upper bound on a measure between two points of a face, from the measures of its sides. Exact along a side.
 #[inline]
-pub(crate) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn max_extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let change = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs(), (a[2] - b[2]).abs()];
     let mut sum = 0.0;
     for k in 0..3 {
@@ -293,7 +294,7 @@ pub(crate) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Splits a triangle at the midpoints of some of its sides. Midpoint k is on the side opposite corner k.
-pub(crate) fn pieces<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N; 3]>; 4] {
+pub(crate) fn split_triangle<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N; 3]>; 4] {
     // Rotated so that the cases below are complete.
     let turned = |k: usize| {
         ([n[k], n[(k + 1) % 3], n[(k + 2) % 3]], [middles[k], middles[(k + 1) % 3], middles[(k + 2) % 3]])

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::numbers::tolerance;
-use crate::light::{ShadedNormals, Shading, SurfacePoint};
+use crate::light::{Shading, ShadingNormals, SurfacePoint};
 use crate::lines::Textures;
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::view::View;
@@ -16,7 +16,7 @@ pub struct Lit<'a> {
     /// Camera view.
     pub view: &'a View,
     /// Shading normals.
-    pub normals: &'a ShadedNormals,
+    pub normals: &'a ShadingNormals,
     /// Lights and levels of tone.
     pub shading: &'a Shading,
     /// Ambient visibility per vertex, 0 to 1; empty if not used.
@@ -74,7 +74,7 @@ impl Lit<'_> {
         let lift = -(DVec3::ZERO + onto(0) + onto(1) + onto(2)) / 2.0;
         let frame = &self.view.frame;
         let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
-        let way = lift.length() / (per_px * tolerance::LIFT_PX);
+        let way = lift.length() / (per_px * tolerance::MAX_SURFACE_LIFT_PX);
         // The full shift up to half of the limit, then less, down to none.
         p + lift * (2.0 - 2.0 * way).clamp(0.0, 1.0)
     }
@@ -121,16 +121,16 @@ impl Lit<'_> {
         shown: impl Fn(usize, &[f64], usize) -> usize,
     ) -> (u16, u16) {
         let channels = self.shading.channels();
-        let mut bands = [0u16; MOST_CHANNELS];
+        let mut bands = [0u16; MAX_CHANNELS];
         for (channel, band) in bands.iter_mut().enumerate().take(channels) {
             let value = self.shading.value(channel, paint, point, shadowed);
             let levels = self.shading.levels(paint, channel);
             *band = shown(channel, levels, levels.partition_point(|level| *level <= value)) as u16;
         }
         let bin = self.shading.bins().and_then(|channel| bands.get(channel)).copied().unwrap_or_default();
-        (self.shading.tone(paint, &bands[..channels.min(MOST_CHANNELS)]), bin)
+        (self.shading.tone(paint, &bands[..channels.min(MAX_CHANNELS)]), bin)
     }
 }
 
 /// Maximum number of channels.
-const MOST_CHANNELS: usize = 8;
+const MAX_CHANNELS: usize = 8;

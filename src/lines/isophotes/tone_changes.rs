@@ -21,7 +21,7 @@ use crate::mesh::{FaceId, PaintId};
 
 /// Reason why an isophote was traced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Traced {
+pub struct TraceReason {
     /// Channel of the shading.
     pub channel: usize,
     /// Mask of the shadowed lights.
@@ -36,7 +36,7 @@ pub struct ToneBorders {
     /// Isophotes.
     pub isophotes: Range<usize>,
     /// Reason for each isophote.
-    pub traced: Vec<Traced>,
+    pub traced: Vec<TraceReason>,
     /// Shadow borders.
     pub shadows: Range<usize>,
     /// Light that casts each shadow border.
@@ -45,7 +45,7 @@ pub struct ToneBorders {
 
 /// Effects of cast shadows.
 #[derive(Debug, Clone, Copy)]
-pub struct Darkens {
+pub struct ShadowEffects {
     /// Tones of fills.
     pub tones: bool,
     /// Hatching bins.
@@ -54,9 +54,9 @@ pub struct Darkens {
 
 /// Type of a border.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Class {
+enum ToneBorderClass {
     Edge,
-    Isophote(Traced),
+    Isophote(TraceReason),
     Shadow(u32),
 }
 
@@ -68,18 +68,19 @@ enum Class {
 pub fn unchanged(
     lit: &Lit,
     borders: &ToneBorders,
-    darkens: Darkens,
+    darkens: ShadowEffects,
     shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
     lines: &mut FeatureLines,
 ) -> Vec<u32> {
-    let finder = Finder { lit, borders, darkens, lines };
+    let finder = ToneChangeFinder { lit, borders, darkens, lines };
     let mut cuts = finder.cuts_on_faces();
     cuts.extend(finder.cuts_on_edges());
     cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.at.total_cmp(&b.at)));
-    cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < SAME_PLACE);
+    cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < MIN_CUT_FRACTION);
 
     let pieces = finder.pieces(&cuts);
-    let asked: Vec<[Option<(u32, DVec3)>; 2]> = pieces.par_iter().map(|piece| finder.asked(piece)).collect();
+    let asked: Vec<[Option<(u32, DVec3)>; 2]> =
+        pieces.par_iter().map(|piece| finder.shadow_points(piece)).collect();
     let points: Vec<(u32, DVec3)> = asked.iter().flatten().flatten().copied().collect();
     let mut masks = shadowed(&points).into_iter();
     let masks: Vec<[u32; 2]> = asked
@@ -92,15 +93,15 @@ pub fn unchanged(
 }
 
 /// Minimum distance of cuts, as a fraction of the segment.
-const SAME_PLACE: f64 = 1e-9;
+const MIN_CUT_FRACTION: f64 = 1e-9;
 
 /// Shift of the shadow test point from an edge towards the middle of the face, as a fraction of the distance.
 /// An adjacent surface may shade the edge itself.
-const INWARD: f64 = 1e-4;
+const INWARD_SHIFT_FRACTION: f64 = 1e-4;
 
 /// Position where a segment is cut.
 #[derive(Clone, Copy)]
-struct Cut {
+struct SegmentCut {
     segment: usize,
     at: f64,
     point: DVec3,
@@ -108,28 +109,32 @@ struct Cut {
 
 /// Piece of a segment between two cuts or ends.
 #[derive(Clone, Copy)]
-struct Piece {
+struct ToneBorderPiece {
     segment: usize,
     ends: [Option<DVec3>; 2],
     middle: DVec3,
 }
 
-struct Finder<'a> {
+struct ToneChangeFinder<'a> {
     lit: &'a Lit<'a>,
     borders: &'a ToneBorders,
-    darkens: Darkens,
+    darkens: ShadowEffects,
     lines: &'a FeatureLines,
 }
 
-impl Finder<'_> {
-    fn class(&self, segment: usize) -> Class {
+impl ToneChangeFinder<'_> {
+    fn class(&self, segment: usize) -> ToneBorderClass {
         let ToneBorders { isophotes, traced, shadows, casters, .. } = self.borders;
         if isophotes.contains(&segment) {
-            return traced.get(segment - isophotes.start).map_or(Class::Edge, |own| Class::Isophote(*own));
+            return traced
+                .get(segment - isophotes.start)
+                .map_or(ToneBorderClass::Edge, |own| ToneBorderClass::Isophote(*own));
         }
         match shadows.contains(&segment) {
-            true => casters.get(segment - shadows.start).map_or(Class::Edge, |own| Class::Shadow(*own)),
-            false => Class::Edge,
+            true => casters
+                .get(segment - shadows.start)
+                .map_or(ToneBorderClass::Edge, |own| ToneBorderClass::Shadow(*own)),
+            false => ToneBorderClass::Edge,
         }
     }
 
@@ -148,19 +153,19 @@ impl Finder<'_> {
     }
 
     /// Crossings of borders on a face.
-    fn cuts_on_faces(&self) -> Vec<Cut> {
+    fn cuts_on_faces(&self) -> Vec<SegmentCut> {
         let on_faces = self.on_faces();
         let faces: Vec<&[(u32, usize)]> =
             on_faces.chunk_by(|a, b| a.0 == b.0).filter(|own| own.len() > 1).collect();
         faces.into_par_iter().flat_map_iter(|own| self.crossings(own)).collect()
     }
 
-    fn crossings(&self, own: &[(u32, usize)]) -> Vec<Cut> {
+    fn crossings(&self, own: &[(u32, usize)]) -> Vec<SegmentCut> {
         let [a, b, c] = self.lit.mesh.corners(FaceId(own[0].0));
         let right = (b - a).normalize_or_zero();
         let up = (b - a).cross(c - a).cross(right).normalize_or_zero();
         let flat = |p: DVec3| DVec2::new((p - a).dot(right), (p - a).dot(up));
-        let mut flattened: Vec<(usize, Class, [DVec2; 2])> = own
+        let mut flattened: Vec<(usize, ToneBorderClass, [DVec2; 2])> = own
             .iter()
             .map(|(_, segment)| (*segment, self.class(*segment), self.ends(*segment).map(flat)))
             .collect();
@@ -182,20 +187,23 @@ impl Finder<'_> {
                     continue;
                 }
                 // Shadow borders lie exactly on the face.
-                let (on, t) =
-                    if matches!(its_class, Class::Shadow(_)) { (*other, its) } else { (*first, at) };
+                let (on, t) = if matches!(its_class, ToneBorderClass::Shadow(_)) {
+                    (*other, its)
+                } else {
+                    (*first, at)
+                };
                 let [from, to] = self.ends(on);
                 let point = from.lerp(to, t);
-                cuts.push(Cut { segment: *first, at, point });
-                cuts.push(Cut { segment: *other, at: its, point });
+                cuts.push(SegmentCut { segment: *first, at, point });
+                cuts.push(SegmentCut { segment: *other, at: its, point });
             }
         }
-        cuts.retain(|cut| cut.at > SAME_PLACE && cut.at < 1.0 - SAME_PLACE);
+        cuts.retain(|cut| cut.at > MIN_CUT_FRACTION && cut.at < 1.0 - MIN_CUT_FRACTION);
         cuts
     }
 
     /// Ends of borders at an edge of their face.
-    fn cuts_on_edges(&self) -> Vec<Cut> {
+    fn cuts_on_edges(&self) -> Vec<SegmentCut> {
         let on_faces = self.on_faces();
         let frame = &self.lit.view.frame;
         let px = frame.width.max(frame.height) / 1000.0;
@@ -203,7 +211,7 @@ impl Finder<'_> {
             let [from, to] = self.ends(segment);
             let (way, hosts) = (to - from, self.lines.segments[segment].hosts);
             let per_px = if frame.perspective { frame.depth(from).abs() } else { 1.0 } * px / frame.scale;
-            let near = tolerance::LIFT_PX * per_px;
+            let near = tolerance::MAX_SURFACE_LIFT_PX * per_px;
             let own = hosts.into_iter().flat_map(|face| {
                 let first = on_faces.partition_point(|own| own.0 < face);
                 on_faces[first..].iter().take_while(move |own| own.0 == face)
@@ -212,8 +220,8 @@ impl Finder<'_> {
             for p in own.flat_map(|(_, border)| self.ends(*border)) {
                 let at = (p - from).dot(way) / way.length_squared();
                 let point = from + way * at;
-                if at > SAME_PLACE && at < 1.0 - SAME_PLACE && point.distance(p) <= near {
-                    cuts.push(Cut { segment, at, point });
+                if at > MIN_CUT_FRACTION && at < 1.0 - MIN_CUT_FRACTION && point.distance(p) <= near {
+                    cuts.push(SegmentCut { segment, at, point });
                 }
             }
             cuts
@@ -222,7 +230,7 @@ impl Finder<'_> {
     }
 
     /// Pieces of all tone borders, in order.
-    fn pieces(&self, cuts: &[Cut]) -> Vec<Piece> {
+    fn pieces(&self, cuts: &[SegmentCut]) -> Vec<ToneBorderPiece> {
         let ToneBorders { edges, isophotes, shadows, .. } = self.borders;
         let mut pieces = Vec::new();
         let mut next = cuts.iter().peekable();
@@ -234,7 +242,7 @@ impl Finder<'_> {
                 let to = cut.map_or(1.0, |cut| cut.at);
                 let end = cut.map(|cut| cut.point);
                 let middle = a.lerp(b, f64::midpoint(from, to));
-                pieces.push(Piece { segment, ends: [start, end], middle });
+                pieces.push(ToneBorderPiece { segment, ends: [start, end], middle });
                 (from, start) = (to, end);
                 if cut.is_none() {
                     break;
@@ -245,14 +253,14 @@ impl Finder<'_> {
     }
 
     /// For both faces of a piece, the point where the shadowed lights are tested.
-    fn asked(&self, piece: &Piece) -> [Option<(u32, DVec3)>; 2] {
+    fn shadow_points(&self, piece: &ToneBorderPiece) -> [Option<(u32, DVec3)>; 2] {
         let mesh = self.lit.mesh;
         let hosts = self.lines.segments[piece.segment].hosts;
-        let on_edge = self.class(piece.segment) == Class::Edge;
+        let on_edge = self.class(piece.segment) == ToneBorderClass::Edge;
         hosts.map(|face| {
             let corners = (face != NO_FACE).then(|| mesh.corners(FaceId(face)))?;
             let middle = corners.into_iter().sum::<DVec3>() / 3.0;
-            let inward = if on_edge { (middle - piece.middle) * INWARD } else { DVec3::ZERO };
+            let inward = if on_edge { (middle - piece.middle) * INWARD_SHIFT_FRACTION } else { DVec3::ZERO };
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
             let p = piece.middle + inward;
             Some((face, p - normal * (p - corners[0]).dot(normal)))
@@ -260,11 +268,11 @@ impl Finder<'_> {
     }
 
     /// Whether a piece changes the tone, given the shadowed lights on both faces.
-    fn changes(&self, piece: &Piece, masks: [u32; 2]) -> bool {
+    fn changes(&self, piece: &ToneBorderPiece, masks: [u32; 2]) -> bool {
         let FeatureSegment { hosts, .. } = self.lines.segments[piece.segment];
         let sides = |face: u32| self.point(face, piece.middle);
         match self.class(piece.segment) {
-            Class::Edge => {
+            ToneBorderClass::Edge => {
                 let (Some(first), Some(second)) = (sides(hosts[0]), sides(hosts[1])) else { return true };
                 let mesh = self.lit.mesh;
                 let paint = |face: u32| mesh.paint(FaceId(face));
@@ -273,11 +281,11 @@ impl Finder<'_> {
                     || !hosts.into_iter().all(is_plain)
                     || self.look(first.0, &first.1, masks[0]) != self.look(second.0, &second.1, masks[1])
             }
-            Class::Shadow(caster) => sides(hosts[0]).is_none_or(|(paint, point)| {
+            ToneBorderClass::Shadow(caster) => sides(hosts[0]).is_none_or(|(paint, point)| {
                 let bit = 1 << caster;
                 self.look(paint, &point, masks[0] | bit) != self.look(paint, &point, masks[0] & !bit)
             }),
-            Class::Isophote(traced) => {
+            ToneBorderClass::Isophote(traced) => {
                 sides(hosts[0]).is_none_or(|(paint, point)| self.is_level(paint, &point, traced, masks[0]))
             }
         }
@@ -325,12 +333,12 @@ impl Finder<'_> {
     }
 
     /// Whether a traced level exists under the lights that reach the point, and separates two tones.
-    fn is_level(&self, paint: PaintId, point: &SurfacePoint, traced: Traced, shadowed: u32) -> bool {
+    fn is_level(&self, paint: PaintId, point: &SurfacePoint, traced: TraceReason, shadowed: u32) -> bool {
         let shading = self.lit.shading;
-        let Traced { channel, shadowed: assumed } = traced;
+        let TraceReason { channel, shadowed: assumed } = traced;
         let value = |shadowed: u32| shading.value(channel, paint, point, shadowed);
         let own = value(self.mask(channel, shadowed));
-        if (own - value(assumed)).abs() > tolerance::ISOPHOTE_VALUE {
+        if (own - value(assumed)).abs() > tolerance::MAX_ISOPHOTE_ERROR_TONE {
             return false;
         }
         let levels = shading.levels(paint, channel);
@@ -349,7 +357,7 @@ impl Finder<'_> {
 }
 
 /// Replaces segments by their pieces. Returns the indices of those without effect, ascending.
-fn rewrite(lit: &Lit, pieces: &[Piece], changes: &[bool], lines: &mut FeatureLines) -> Vec<u32> {
+fn rewrite(lit: &Lit, pieces: &[ToneBorderPiece], changes: &[bool], lines: &mut FeatureLines) -> Vec<u32> {
     let mut unchanged = Vec::new();
     let first = lit.mesh.positions.len() as u32;
     let mut ids = PointIds::default();

@@ -8,11 +8,11 @@ use crate::parallel::prelude::*;
 use crate::lines::Lit;
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::view::raster::{FaceBuffer, Screen};
+use crate::view::raster::{FaceBuffer, PixelGrid};
 
 /// Whether any of each face may be visible.
-pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
-    let screen = Screen::new(mesh, view);
+pub(crate) fn visible_faces_of(mesh: &Mesh, view: &View) -> Vec<bool> {
+    let screen = PixelGrid::new(mesh, view);
     let buffer = FaceBuffer::new(&screen);
     // Pixels that an extent touches, plus one on each side.
     let pixels = |low: f32, high: f32, count: usize| {
@@ -27,9 +27,9 @@ pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
         let high = |axis: usize| corners[0][axis].max(corners[1][axis]).max(corners[2][axis]);
         let columns = pixels(low(0), high(0), buffer.columns);
         let rows = pixels(low(1), high(1), buffer.rows);
-        let nearest = high(2) + SLACK;
+        let nearest = high(2) + NEARNESS_ERROR;
         let in_front = |pixel: usize| buffer.nearness(pixel).is_none_or(|nearness| nearness <= nearest);
-        columns.len() * rows.len() > MOST_PIXELS
+        columns.len() * rows.len() > MAX_TESTED_PIXELS
             || rows
                 .into_iter()
                 .any(|row| columns.clone().any(|column| in_front(row * buffer.columns + column)))
@@ -53,7 +53,7 @@ pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
     }
     let mut shows = vec![false; count];
     if (0..mesh.triangles.len()).any(|face| !view.facing[face] && lit.may_be_seen(face)) {
-        let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+        let buffer = FaceBuffer::new(&PixelGrid::new(mesh, view));
         let fronts = (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel));
         let insides =
             fronts.map(|face| face as usize).filter(|face| !view.facing[*face] && lit.may_be_seen(*face));
@@ -63,10 +63,10 @@ pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
 }
 
 /// Largest error of nearness (0 to 1) in single precision.
-const SLACK: f32 = 1e-5;
+const NEARNESS_ERROR: f32 = 1e-5;
 
 /// Faces whose bounding box has more pixels than this are not tested, and count as visible.
-const MOST_PIXELS: usize = 1 << 14;
+const MAX_TESTED_PIXELS: usize = 1 << 14;
 
 #[cfg(test)]
 mod tests {
@@ -92,7 +92,7 @@ mod tests {
         let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
         let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.1);
         let view = View::new(&mesh, &camera);
-        for (face, is_in_sight) in in_sight(&mesh, &view).into_iter().enumerate() {
+        for (face, is_in_sight) in visible_faces_of(&mesh, &view).into_iter().enumerate() {
             let middle = mesh.corners(FaceId(face as u32)).into_iter().sum::<DVec3>() / 3.0;
             let middle = middle + mesh.origin;
             let is_under = middle.z < -0.1 && middle.x.abs() < 1.0;

@@ -1,20 +1,20 @@
-//! [`Faces`]: the faces that reach a line, and the pieces of it that are joints.
+//! [`JointFaces`]: the faces that reach a line, and the pieces of it that are joints.
 
 use glam::{DVec2, DVec3};
 
-use super::ray_fan::{Around, Ray, doubt};
+use super::ray_fan::{FaceRay, RayFan, angle_error_sine};
 use crate::mesh::bvh::box_tree::BoxTree;
 use crate::mesh::normals::normal_carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
 
 /// Distance of the test lines on both sides of a line, in contact distances.
-const BESIDE: f64 = 4.0;
+const PROBE_OFFSET_CONTACTS: f64 = 4.0;
 
 /// Minimum length of a piece, in test distances. Shorter pieces are artefacts of the test.
-const SHORTEST: f64 = 8.0;
+const MIN_PIECE_OFFSETS: f64 = 8.0;
 
 /// Faces of a mesh in a tree of boxes, with their kinds.
-pub(crate) struct Faces<'a> {
+pub(crate) struct JointFaces<'a> {
     mesh: &'a Mesh,
     kinds: &'a [u32],
     tree: BoxTree,
@@ -24,7 +24,7 @@ pub(crate) struct Faces<'a> {
 
 /// Piece of a line, and whether it is a joint.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct JointPiece {
     /// End of the piece, as a fraction of the line's length.
     pub end: f64,
     /// Mesh vertex at its end, if there is one.
@@ -33,7 +33,7 @@ pub(crate) struct Piece {
 }
 
 /// Straight line between two points.
-struct Way {
+struct LineSpan {
     from: DVec3,
     to: DVec3,
     along: DVec3,
@@ -41,7 +41,7 @@ struct Way {
 }
 
 /// Face that reaches a line.
-struct Reached {
+struct ReachingFace {
     face: u32,
     normal: DVec3,
     /// Smallest height of the triangle that defines the face's plane.
@@ -51,7 +51,7 @@ struct Reached {
     covers: [Option<[f64; 2]>; 2],
 }
 
-impl<'a> Faces<'a> {
+impl<'a> JointFaces<'a> {
     /// Builds the tree; none if no kind has two parts, so that there are no joints.
     pub fn new(mesh: &'a Mesh, kinds: &'a [u32]) -> Option<Self> {
         let of = |face: u32| kind(mesh, kinds, face);
@@ -73,9 +73,9 @@ impl<'a> Faces<'a> {
 
     /// Pieces of a line of a part, in order; `None` if none is a joint, or if more than `most` faces are
     /// near.
-    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<Piece>> {
+    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<JointPiece>> {
         let along = (to - from).try_normalize()?;
-        let way = Way { from, to, along, length: from.distance(to) };
+        let way = LineSpan { from, to, along, length: from.distance(to) };
         let mut near = self.near(&way, most)?;
         let own = self.mesh.extents.of(part).contact;
         let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own);
@@ -90,15 +90,15 @@ impl<'a> Faces<'a> {
             return None;
         }
         let contact = near.iter().map(|face| contact_of(*face)).fold(own, f64::max);
-        let reached: Vec<Reached> =
+        let reached: Vec<ReachingFace> =
             near.iter().filter_map(|face| self.reached(&way, *face, contact)).collect();
         let pieces = self.cut(&way, &reached, contact);
         pieces.iter().any(|piece| piece.is_joint).then_some(pieces)
     }
 
     /// Faces whose boxes are near that of the line, ascending.
-    fn near(&self, way: &Way, most: usize) -> Option<Vec<u32>> {
-        let around = 2.0 * BESIDE * self.contact;
+    fn near(&self, way: &LineSpan, most: usize) -> Option<Vec<u32>> {
+        let around = 2.0 * PROBE_OFFSET_CONTACTS * self.contact;
         let (low, high) = (way.from.min(way.to) - around, way.from.max(way.to) + around);
         let mut near = Vec::new();
         self.tree.near_box(low, high, |face| near.push(face));
@@ -107,7 +107,7 @@ impl<'a> Faces<'a> {
     }
 
     /// Ranges that a face covers on both sides of a line, if its plane holds the line.
-    fn reached(&self, way: &Way, face: u32, contact: f64) -> Option<Reached> {
+    fn reached(&self, way: &LineSpan, face: u32, contact: f64) -> Option<ReachingFace> {
         let mesh = self.mesh;
         let corners = mesh.corners(FaceId(face));
         let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
@@ -118,13 +118,13 @@ impl<'a> Faces<'a> {
             let from = corner - way.from;
             DVec2::new(from.dot(way.along) / way.length, from.dot(side))
         });
-        let beside = BESIDE * contact;
+        let beside = PROBE_OFFSET_CONTACTS * contact;
         // Range where the plane holds the line, within rounding.
         let heights = [way.from, way.to].map(|end| normal.dot(end - corners[0]));
-        let held = held(heights, contact)?;
-        let least = SHORTEST * beside / way.length;
+        let held = range_near_plane(heights, contact)?;
+        let least = MIN_PIECE_OFFSETS * beside / way.length;
         let covers = [beside, -beside].map(|at| {
-            let [start, end] = covered(&flat, at)?;
+            let [start, end] = range_covered(&flat, at)?;
             let own = [start.max(held[0]), end.min(held[1])];
             // A plane that crosses the line holds only a short range.
             (own[1] - own[0] > least.min(0.5 * (end - start).min(1.0)) && own[1] > 0.0 && own[0] < 1.0)
@@ -133,12 +133,12 @@ impl<'a> Faces<'a> {
         if covers == [None; 2] {
             return None;
         }
-        Some(Reached { face, normal, height: height(&known), covers })
+        Some(ReachingFace { face, normal, height: height(&known), covers })
     }
 
     /// Pieces of a line, given the faces that reach it.
-    fn cut(&self, way: &Way, reached: &[Reached], contact: f64) -> Vec<Piece> {
-        let least = SHORTEST * BESIDE * contact / way.length;
+    fn cut(&self, way: &LineSpan, reached: &[ReachingFace], contact: f64) -> Vec<JointPiece> {
+        let least = MIN_PIECE_OFFSETS * PROBE_OFFSET_CONTACTS * contact / way.length;
         let mut cuts: Vec<f64> =
             reached.iter().flat_map(|own| own.covers.into_iter().flatten().flatten()).collect();
         cuts.retain(|t| *t > least && *t < 1.0 - least);
@@ -146,35 +146,36 @@ impl<'a> Faces<'a> {
         cuts.dedup_by(|b, a| *b - *a < least);
         let right = way.along.any_orthonormal_vector();
         let up = way.along.cross(right);
-        let mut pieces: Vec<Piece> = Vec::with_capacity(cuts.len() + 1);
+        let mut pieces: Vec<JointPiece> = Vec::with_capacity(cuts.len() + 1);
         let mut start = 0.0;
         for end in cuts.into_iter().chain([1.0]) {
             let rays = self.rays(way, reached, f64::midpoint(start, end), contact);
-            let is_joint = Around::new(rays, right, up).is_joint();
+            let is_joint = RayFan::new(rays, right, up).is_joint();
             match pieces.last_mut().filter(|last| last.is_joint == is_joint) {
                 Some(last) => last.end = end,
-                None => pieces.push(Piece { end, vertex: None, is_joint }),
+                None => pieces.push(JointPiece { end, vertex: None, is_joint }),
             }
             start = end;
         }
         for piece in &mut pieces {
-            piece.vertex = self.vertex_at(way.from.lerp(way.to, piece.end), reached, BESIDE * contact);
+            piece.vertex =
+                self.vertex_at(way.from.lerp(way.to, piece.end), reached, PROBE_OFFSET_CONTACTS * contact);
         }
         pieces
     }
 
     /// Faces at a position on the line, as rays.
-    fn rays(&self, way: &Way, reached: &[Reached], at: f64, contact: f64) -> Vec<Ray> {
+    fn rays(&self, way: &LineSpan, reached: &[ReachingFace], at: f64, contact: f64) -> Vec<FaceRay> {
         let mesh = self.mesh;
         let mut rays = Vec::new();
         for own in reached {
             let side = own.normal.cross(way.along).normalize_or_zero();
             for (cover, (side, begins)) in own.covers.iter().zip([(side, false), (-side, true)]) {
                 if cover.is_some_and(|[start, end]| (start..=end).contains(&at)) {
-                    rays.push(Ray {
+                    rays.push(FaceRay {
                         way: side,
                         begins,
-                        doubt: doubt(contact, own.height, way.length),
+                        doubt: angle_error_sine(contact, own.height, way.length),
                         kind: kind(mesh, self.kinds, own.face),
                         part: mesh.face_part[own.face as usize],
                         body: mesh.body(own.face),
@@ -186,7 +187,7 @@ impl<'a> Faces<'a> {
     }
 
     /// Nearest vertex of the given faces, within `reach`.
-    fn vertex_at(&self, point: DVec3, reached: &[Reached], reach: f64) -> Option<u32> {
+    fn vertex_at(&self, point: DVec3, reached: &[ReachingFace], reach: f64) -> Option<u32> {
         let vertices = reached.iter().flat_map(|own| self.mesh.triangles[own.face as usize]);
         let distance = |v: u32| self.mesh.positions[v as usize].distance(point);
         let near = vertices.map(|v| (distance(v), v)).filter(|(distance, _)| *distance <= reach);
@@ -202,7 +203,7 @@ fn kind(mesh: &Mesh, kinds: &[u32], face: u32) -> u32 {
 
 /// Range of a line, in fractions of its length, within `contact` of a plane. Given are the heights of both
 /// ends.
-fn held([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
+fn range_near_plane([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
     let rise = to - from;
     if rise == 0.0 {
         return (from.abs() <= contact).then_some([f64::NEG_INFINITY, f64::INFINITY]);
@@ -213,7 +214,7 @@ fn held([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
 }
 
 /// Range of a line, in fractions of its length, where a triangle covers the parallel at offset `at`.
-fn covered(corners: &[DVec2; 3], at: f64) -> Option<[f64; 2]> {
+fn range_covered(corners: &[DVec2; 3], at: f64) -> Option<[f64; 2]> {
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
     for k in 0..3 {
         let (p, q) = (corners[k], corners[(k + 1) % 3]);

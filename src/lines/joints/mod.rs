@@ -22,24 +22,24 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use self::joint_pieces::{Faces, Piece};
+use self::joint_pieces::{JointFaces, JointPiece};
 use super::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 
 /// Maximum number of face tests in total, and the minimum budget per line. A line with more faces nearby is
 /// kept.
-const MAX_TESTS: usize = 100_000_000;
-const LEAST_TESTS: usize = 1000;
+const MAX_FACE_TESTS: usize = 100_000_000;
+const MIN_TESTS_PER_LINE: usize = 1000;
 
 /// Removes the joints from the lines of a view. `kinds` holds a number per paint; parts of one kind look the
 /// same.
 ///
 /// With `keep` joints stay as borders between regions, of kind [`LineKind::Isophote`]. Their indices are
 /// returned, ascending.
-pub fn take_out(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
-    let Some(faces) = Faces::new(mesh, kinds) else { return Vec::new() };
-    let most = (MAX_TESTS / lines.segments.len().max(1)).max(LEAST_TESTS);
-    let pieces: Vec<Option<Vec<Piece>>> = lines
+pub fn remove_joints(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
+    let Some(faces) = JointFaces::new(mesh, kinds) else { return Vec::new() };
+    let most = (MAX_FACE_TESTS / lines.segments.len().max(1)).max(MIN_TESTS_PER_LINE);
+    let pieces: Vec<Option<Vec<JointPiece>>> = lines
         .segments
         .par_iter()
         .map(|segment| {
@@ -99,7 +99,7 @@ struct Split {
 }
 
 impl Split {
-    fn add(&mut self, segment: &FeatureSegment, [a, b]: [DVec3; 2], pieces: &[Piece]) {
+    fn add(&mut self, segment: &FeatureSegment, [a, b]: [DVec3; 2], pieces: &[JointPiece]) {
         let mut from = segment.ends[0];
         for (number, piece) in pieces.iter().enumerate() {
             let to = if number + 1 == pieces.len() {

@@ -1,4 +1,4 @@
-//! [`Around`]: the faces around a stretch of a line, seen along the line, and whether surfaces continue
+//! [`RayFan`]: the faces around a stretch of a line, seen along the line, and whether surfaces continue
 //! across it.
 //!
 //! In the plane across the line, each face that reaches it is a ray. The two rays of a solid's corner enclose
@@ -8,12 +8,12 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::UNSURE_SINE;
+use crate::geometry::numbers::tolerance::MAX_NORMAL_ERROR_SINE;
 use crate::mesh::PartId;
 
 /// Face at a line, seen along the line.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ray {
+pub(crate) struct FaceRay {
     /// Direction away from the line, a unit vector across it.
     pub way: DVec3,
     /// Whether material starts behind the ray, when turning from `right` to `up`.
@@ -26,21 +26,22 @@ pub(crate) struct Ray {
 }
 
 /// Rays around a line, sorted by angle.
-pub(crate) struct Around {
+pub(crate) struct RayFan {
     /// Each ray with the index of its direction.
-    rays: Vec<(Ray, usize)>,
+    rays: Vec<(FaceRay, usize)>,
     /// The most accurate ray of each direction.
-    directions: Vec<Ray>,
+    directions: Vec<FaceRay>,
 }
 
-impl Around {
+impl RayFan {
     /// Sorts rays in the plane of `right` and `up`, and groups those that coincide.
-    pub fn new(mut rays: Vec<Ray>, right: DVec3, up: DVec3) -> Self {
+    pub fn new(mut rays: Vec<FaceRay>, right: DVec3, up: DVec3) -> Self {
         rays.sort_by(|a, b| turn(a.way, right, up).total_cmp(&turn(b.way, right, up)));
-        let is_one =
-            |a: &Ray, b: &Ray| a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) > 0.0;
+        let is_one = |a: &FaceRay, b: &FaceRay| {
+            a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) > 0.0
+        };
         let mut count = 0;
-        let mut numbered: Vec<(Ray, usize)> = Vec::with_capacity(rays.len());
+        let mut numbered: Vec<(FaceRay, usize)> = Vec::with_capacity(rays.len());
         for ray in rays {
             count += usize::from(numbered.last().is_none_or(|(last, _)| !is_one(last, &ray)));
             numbered.push((ray, count - 1));
@@ -143,8 +144,8 @@ fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
 /// `contact`.
 ///
 /// `height` is the smallest height of the triangle, and `length` that of the line.
-pub(crate) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
-    (contact / height + contact / length).min(UNSURE_SINE)
+pub(crate) fn angle_error_sine(contact: f64, height: f64, length: f64) -> f64 {
+    (contact / height + contact / length).min(MAX_NORMAL_ERROR_SINE)
 }
 
 #[cfg(test)]
@@ -152,7 +153,7 @@ mod tests {
     use super::*;
 
     /// Rays about z in degrees: where material starts, and where it ends.
-    fn around(corners: &[(u32, u32, [f64; 2])]) -> Around {
+    fn around(corners: &[(u32, u32, [f64; 2])]) -> RayFan {
         let ray = |degrees: f64, begins: bool, kind: u32, part: u32| {
             let angle = degrees.to_radians();
             let way = DVec3::new(
@@ -160,12 +161,12 @@ mod tests {
                 crate::geometry::numbers::portable_math::sin(angle),
                 0.0,
             );
-            Ray { way, begins, doubt: 1e-6, kind, part: PartId(part), body: PartId(part) }
+            FaceRay { way, begins, doubt: 1e-6, kind, part: PartId(part), body: PartId(part) }
         };
         let rays = corners.iter().flat_map(|(kind, part, [from, to])| {
             [ray(*from, true, *kind, *part), ray(*to, false, *kind, *part)]
         });
-        Around::new(rays.collect(), DVec3::X, DVec3::Y)
+        RayFan::new(rays.collect(), DVec3::X, DVec3::Y)
     }
 
     #[test]

@@ -7,10 +7,10 @@
 use crate::colour::oklab::Oklab;
 
 /// Border: its ends in barycentric weights of the triangle, and the indices of the colours on its sides.
-pub(crate) type Border = ([[f64; 3]; 2], [u8; 2]);
+pub(crate) type ColourBorder = ([[f64; 3]; 2], [u8; 2]);
 
 /// Borders in a triangle with the given corner colours. Sides run from the earlier corner to the later one.
-pub(crate) fn borders(corners: [Oklab; 3], palette: &[Oklab]) -> Vec<Border> {
+pub(crate) fn borders(corners: [Oklab; 3], palette: &[Oklab]) -> Vec<ColourBorder> {
     // Squared distance of each colour from a corner's colour, without the common term. It is linear between
     // corners.
     let far = |colour: &Oklab| {
@@ -159,7 +159,7 @@ mod tests {
         assert!(ends.iter().any(|end| ends.iter().filter(|other| *other == end).count() == 3));
         // The same side in a triangle with another third corner.
         let other = borders([corners[0], corners[1], [0.1, 0.9, 0.4]], &palette);
-        let on_side = |found: &[Border]| {
+        let on_side = |found: &[ColourBorder]| {
             let all = found.iter().flat_map(|(ends, _)| *ends).filter(|end| end[2] == 0.0);
             all.map(|end| end.map(f64::to_bits)).collect::<Vec<_>>()
         };

@@ -5,13 +5,13 @@ use glam::DVec2;
 use super::vertex_colour_borders::TintedFace;
 use crate::lines::Lit;
 use crate::lines::isophotes::isophote_lines::page_px;
-use crate::lines::textures::picture_levels::OnPicture;
-use crate::lines::textures::textured_face::Textured;
+use crate::lines::textures::picture_levels::PictureFace;
+use crate::lines::textures::textured_face::TexturedFace;
 use crate::mesh::PaintId;
-use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, doubled_area};
 
 /// Piece of a border on a face.
-pub(crate) struct Piece {
+pub(crate) struct PaintBorder {
     /// Ends in barycentric weights.
     pub ends: [[f64; 3]; 2],
     /// Paints on both sides; equal where only the level of a picture changes.
@@ -19,31 +19,31 @@ pub(crate) struct Piece {
 }
 
 /// Colour borders on a face.
-pub(crate) fn borders(lit: &Lit, face: u32, textured: &Textured) -> Vec<Piece> {
+pub(crate) fn borders(lit: &Lit, face: u32, textured: &TexturedFace) -> Vec<PaintBorder> {
     let mut pieces = Vec::new();
     let middle = |[a, b]: [[f64; 3]; 2]| [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]));
     if let Some(on) = textured.picture {
-        of_picture(lit, face, &on, |ends, colours| {
+        picture_borders(lit, face, &on, |ends, colours| {
             let paints = textured.parted(colours, middle(ends));
-            pieces.extend(paints.map(|paints| Piece { ends, paints }));
+            pieces.extend(paints.map(|paints| PaintBorder { ends, paints }));
         });
         let own = lit.mesh.paint(crate::mesh::FaceId(face));
         let sides = side_ends(lit, face);
         let lines = on.level_lines(&sides).into_iter();
         let lines = lines.map(|line| line.map(|(side, part)| on_side(sides[side], part)));
-        pieces.extend(lines.map(|ends| Piece { ends, paints: [own; 2] }));
+        pieces.extend(lines.map(|ends| PaintBorder { ends, paints: [own; 2] }));
     }
     if let Some((tints, light)) = textured.tints {
         for (ends, parted) in TintedFace::new(lit, face, tints, light, page_px(lit)).borders() {
             let paints = textured.parted_tints(parted, middle(ends)).filter(|[a, b]| a != b);
-            pieces.extend(paints.map(|paints| Piece { ends, paints }));
+            pieces.extend(paints.map(|paints| PaintBorder { ends, paints }));
         }
     }
     pieces
 }
 
 /// Points on a side of a face where colours change, from one end to the other, in barycentric weights.
-pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &Textured, ends: [u32; 2]) -> Vec<[f64; 3]> {
+pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &TexturedFace, ends: [u32; 2]) -> Vec<[f64; 3]> {
     let vertices = lit.mesh.triangles[face as usize];
     let Some([from, to]) = corners_of(vertices, ends) else { return Vec::new() };
     let mut found = Vec::new();
@@ -85,7 +85,7 @@ fn on_side([from, to]: [usize; 2], part: f64) -> [f64; 3] {
 
 /// Side of a face in texel coordinates.
 fn side(corners: [DVec2; 3], [from, to]: [usize; 2]) -> TexelSide {
-    let inside = turn(corners[from], corners[to], corners[3 - from - to]) >= 0.0;
+    let inside = doubled_area(corners[from], corners[to], corners[3 - from - to]) >= 0.0;
     TexelSide { from: corners[from], to: corners[to], inside }
 }
 
@@ -99,11 +99,11 @@ fn side_ends(lit: &Lit, face: u32) -> [[usize; 2]; 3] {
 }
 
 /// Borders of the picture, clipped to the face.
-fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3]; 2], [u8; 2])) {
+fn picture_borders(lit: &Lit, face: u32, on: &PictureFace, mut put: impl FnMut([[f64; 3]; 2], [u8; 2])) {
     let ends = side_ends(lit, face);
     for level in on.levels() {
         let Some(corners) = on.corners(level) else { continue };
-        let whole = turn(corners[0], corners[1], corners[2]);
+        let whole = doubled_area(corners[0], corners[1], corners[2]);
         let sides = ends.map(|ends| side(corners, ends));
         let mut met: Vec<(f64, [f64; 3])> = Vec::new();
         for (border, parted) in on.borders(level) {
@@ -123,14 +123,16 @@ fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3
             }
             met.sort_by(|a, b| a.0.total_cmp(&b.0));
             for pair in met.chunks_exact(2) {
-                within(on, [pair[0].1, pair[1].1], level).into_iter().for_each(|ends| put(ends, parted));
+                parts_on_level(on, [pair[0].1, pair[1].1], level)
+                    .into_iter()
+                    .for_each(|ends| put(ends, parted));
             }
         }
     }
 }
 
 /// Parts of a border piece where the given level applies.
-fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
+fn parts_on_level(on: &PictureFace, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
     let cuts = on.level_ends(ends);
     let at = |part: f64| [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part);
     let mut places: Vec<(f64, [f64; 3])> = vec![(0.0, ends[0])];
@@ -142,7 +144,7 @@ fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2
 
 /// Barycentric weights of a point in texel coordinates.
 fn weights(corners: &[DVec2; 3], at: DVec2) -> [f64; 3] {
-    let shares = [0, 1, 2].map(|k| turn(at, corners[(k + 1) % 3], corners[(k + 2) % 3]));
+    let shares = [0, 1, 2].map(|k| doubled_area(at, corners[(k + 1) % 3], corners[(k + 2) % 3]));
     let whole: f64 = shares.iter().sum();
     shares.map(|share| share / whole)
 }

@@ -3,8 +3,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::face_borders::{Piece, borders};
-use super::tone_edges::Seam;
+use super::face_borders::{PaintBorder, borders};
+use super::tone_edges::ToneEdge;
 use crate::lines::feature_line::segment;
 use crate::lines::isophotes::isophote_lines::page_px;
 use crate::lines::shared_points::PointIds;
@@ -12,19 +12,19 @@ use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
 use crate::mesh::FaceId;
 
 /// Adds the borders on faces, and the edges that separate two colours along a part only.
-pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
+pub fn find(lit: &Lit, seams: Vec<ToneEdge>, lines: &mut FeatureLines) {
     if lit.textures.is_empty() {
         return;
     }
-    const CHUNK: usize = 1 << 11;
+    const FACES_PER_TASK: usize = 1 << 11;
     let px = page_px(lit);
     let count = lit.mesh.triangles.len();
-    let found: Vec<Vec<(u32, LineKind, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
+    let found: Vec<Vec<(u32, LineKind, [DVec3; 2])>> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
             let mut pieces = Vec::new();
-            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+            for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(count) {
                 let face = face as u32;
                 let is_seen = lit.may_be_seen(face as usize) && !lit.mesh.is_degenerate(FaceId(face));
                 if !is_seen {
@@ -37,12 +37,12 @@ pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
                     }
                 };
                 if let Some(textured) = lit.textures.on(lit.mesh, face) {
-                    for Piece { ends, paints: [a, b] } in borders(lit, face, &textured) {
+                    for PaintBorder { ends, paints: [a, b] } in borders(lit, face, &textured) {
                         put(lit.textures.parting(a, b), ends);
                     }
                 }
                 if let Some(ink) = lit.textures.ink_on(lit.mesh, face) {
-                    for Piece { ends, paints } in borders(lit, face, &ink) {
+                    for PaintBorder { ends, paints } in borders(lit, face, &ink) {
                         let kind = lit.textures.parting_ink(lit.mesh, face, paints);
                         if kind == LineKind::Artist {
                             put(kind, ends);
@@ -65,7 +65,7 @@ pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
     }
     let first = lit.mesh.positions.len() as u32;
     let mut ids = PointIds::new(&lines.points[own..], first + own as u32);
-    for Seam { segment, pieces } in seams {
+    for ToneEdge { segment, pieces } in seams {
         for (places, kind) in pieces {
             let ends = [0, 1].map(|k| match places[k] {
                 None => segment.ends[k],

@@ -4,22 +4,22 @@ use crate::parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::face_borders;
-use crate::light::ShadedNormals;
+use crate::light::ShadingNormals;
 use crate::lines::feature_line::segment;
-use crate::lines::textures::textured_face::Textured;
+use crate::lines::textures::textured_face::TexturedFace;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit};
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 use crate::scene::Paints;
 
 /// Parameters along an edge where both sides are compared. If they differ at any of them, the whole edge is a
 /// border.
-const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+const SAMPLE_PARAMETERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Edges that may separate two looks in some light. The same for all views.
 ///
 /// These are edges where parts, materials, normals, texture coordinates or vertex colours differ.
 #[must_use]
-pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> EdgeSet {
+pub fn candidates(mesh: &Mesh, normals: &ShadingNormals, paints: &Paints) -> EdgeSet {
     let mut varies = vec![false; paints.list.len()];
     for (paint, _) in &paints.varied {
         if let Some(varies) = varies.get_mut(paint.index()) {
@@ -60,7 +60,7 @@ pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> Edge
 
 /// Edge that has different kinds along its length.
 #[derive(Debug, Clone)]
-pub struct Seam {
+pub struct ToneEdge {
     /// The whole edge.
     pub(crate) segment: FeatureSegment,
     /// Pieces from end to end: start and end in barycentric weights of the first face (none at the ends of
@@ -70,25 +70,26 @@ pub struct Seam {
 
 /// Adds the candidates that separate two looks, under any of the given sets of shadowed lights, unless they
 /// are lines already. Returns the edges with several kinds, which are not added.
-pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<Seam> {
+pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<ToneEdge> {
     let edges: Vec<usize> = candidates.iter().collect();
-    let mut found: Vec<Seam> = edges
+    let mut found: Vec<ToneEdge> = edges
         .par_iter()
         .with_min_len(1 << 9)
         .with_max_len(1 << 10)
-        .filter_map(|edge| parting(lit, *edge, shadowed))
+        .filter_map(|edge| classify_edge(lit, *edge, shadowed))
         .collect();
     if found.is_empty() {
         return found;
     }
     let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
     found.retain(|seam| !known.contains(&seam.segment.ends));
-    let (cut, whole): (Vec<Seam>, Vec<Seam>) = found.into_iter().partition(|seam| !seam.pieces.is_empty());
+    let (cut, whole): (Vec<ToneEdge>, Vec<ToneEdge>) =
+        found.into_iter().partition(|seam| !seam.pieces.is_empty());
     lines.segments.extend(whole.into_iter().map(|seam| seam.segment));
     cut
 }
 
-fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
+fn classify_edge(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<ToneEdge> {
     let mesh = lit.mesh;
     let ends = mesh.edges.vertices[edge];
     let is_real = |face: &u32| !mesh.is_degenerate(FaceId(*face));
@@ -123,7 +124,7 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
         return None;
     }
     pieces.retain(|(places, _)| places.iter().any(Option::is_some));
-    Some(Seam { segment: segment(mesh, first, faces, kind, ends), pieces })
+    Some(ToneEdge { segment: segment(mesh, first, faces, kind, ends), pieces })
 }
 
 /// Kinds of line along an edge between two faces, piece by piece.
@@ -179,7 +180,7 @@ fn stretches<'a>(
     lit: &Lit,
     ends: [u32; 2],
     faces: [u32; 2],
-    shown: impl Fn(u32) -> Option<Textured<'a>>,
+    shown: impl Fn(u32) -> Option<TexturedFace<'a>>,
 ) -> Vec<[Option<[f64; 3]>; 2]> {
     let corners = faces.map(|face| {
         let corner = |v: u32| lit.mesh.triangles[face as usize].iter().position(|own| *own == v);
@@ -197,14 +198,14 @@ fn stretches<'a>(
     }
     let to = corners[0][1];
     places.sort_by(|a, b| a[to].total_cmp(&b[to]));
-    places.dedup_by(|b, a| b[to] - a[to] < SAME_PLACE);
+    places.dedup_by(|b, a| b[to] - a[to] < MIN_CUT_FRACTION);
     let ends = [None].into_iter().chain(places.into_iter().map(Some)).chain([None]);
     let ends: Vec<Option<[f64; 3]>> = ends.collect();
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
 /// Minimum distance of cuts, as a fraction of the edge.
-const SAME_PLACE: f64 = 1e-9;
+const MIN_CUT_FRACTION: f64 = 1e-9;
 
 /// Part, material and paint of a face.
 fn owner(mesh: &Mesh, face: u32) -> (PartId, MaterialId, PaintId) {
@@ -219,7 +220,7 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
         return true;
     }
     let corner = |face: u32, v: u32| mesh.triangles[face as usize].iter().position(|t| *t == v);
-    if show_different(lit, ends, faces) {
+    if shown_colours_differ(lit, ends, faces) {
         return true;
     }
     let place = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
@@ -236,11 +237,11 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
         lit.tone(mesh.paint(FaceId(face)), &lit.point(face, weights), shadowed)
     };
     let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
-    shadowed.iter().any(|shadowed| PLACES.iter().any(|t| differs(*t, *shadowed)))
+    shadowed.iter().any(|shadowed| SAMPLE_PARAMETERS.iter().any(|t| differs(*t, *shadowed)))
 }
 
 /// Whether two faces show different colours anywhere along their edge.
-fn show_different(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
+fn shown_colours_differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
     if faces.iter().any(|face| lit.textures.on(lit.mesh, *face).is_none()) {
         return false;
     }

@@ -1,4 +1,4 @@
-//! [`Drawn`]: a picture as a view shows it, reduced to a few colours, at one scale or at several.
+//! [`PictureLevels`]: a picture as a view shows it, reduced to a few colours, at one scale or at several.
 
 use std::sync::Arc;
 
@@ -6,14 +6,14 @@ use crate::parallel::prelude::*;
 use glam::DVec2;
 
 use super::texel_scale::{Density, Scale, density_of};
-use crate::scene::textures::texel_plane::texel_borders::{Outline, Segment};
-use crate::scene::textures::{ColourMap, Painted};
+use crate::scene::textures::texel_plane::texel_borders::{BorderIndex, BorderSegment};
+use crate::scene::textures::{ColourMap, PaintedTexture};
 
 /// Picture as a view shows it.
 #[derive(Debug)]
-pub(crate) struct Drawn {
+pub(crate) struct PictureLevels {
     /// Levels, the finest first.
-    levels: Vec<Level>,
+    levels: Vec<PictureLevel>,
     /// Texel densities where the next level starts.
     ends: Vec<Density>,
     /// Texel densities at the corners of each face; empty if there is one level.
@@ -22,29 +22,30 @@ pub(crate) struct Drawn {
 
 /// Picture at one scale.
 #[derive(Debug)]
-struct Level {
+struct PictureLevel {
     map: Arc<ColourMap>,
-    borders: Outline,
+    borders: BorderIndex,
 }
 
 /// Largest error of borders, px.
-const NEAR_PX: f64 = 0.15;
+const MAX_BORDER_ERROR_PX: f64 = 0.15;
 
-impl Drawn {
+impl PictureLevels {
     /// Reduces a picture at the given scale; `smooth` makes its detail coarser by that factor. None if there
     /// is too much detail.
     ///
     /// With several levels, `densities` is evaluated.
     pub fn new(
-        painted: &Painted,
+        painted: &PaintedTexture,
         scale: &Scale,
         smooth: f64,
         densities: impl FnOnce() -> Vec<[Density; 3]>,
     ) -> Option<Self> {
         let of_one = |map: Arc<ColourMap>, texels_per_px: f64| {
             let per_px = texels_per_px * map.labels.texels.size[0] as f64 / painted.texels().size[0] as f64;
-            let near = if per_px.is_finite() { (NEAR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
-            Some(Level { borders: Outline::new(map.borders()?, near), map })
+            let near =
+                if per_px.is_finite() { (MAX_BORDER_ERROR_PX * per_px).clamp(0.005, 0.5) } else { 0.1 };
+            Some(PictureLevel { borders: BorderIndex::new(map.borders()?, near), map })
         };
         let Some([first, last]) = scale.range.filter(|[first, last]| first < last) else {
             let level = of_one(painted.map(scale.mean * smooth), scale.mean)?;
@@ -52,7 +53,7 @@ impl Drawn {
         };
         let texels_per_px = |power: i32| if power < 0 { 0.5_f64.powi(-power) } else { 2.0_f64.powi(power) };
         let powers: Vec<i32> = (first..=last).collect();
-        let levels: Option<Vec<Level>> = powers
+        let levels: Option<Vec<PictureLevel>> = powers
             .into_par_iter()
             .map(|power| {
                 let texels_per_px = texels_per_px(power);
@@ -64,23 +65,23 @@ impl Drawn {
     }
 
     /// A face on the picture, with the given texture coordinates; none if these are invalid.
-    pub fn on(&self, face: u32, uvs: [[f32; 2]; 3]) -> Option<OnPicture<'_>> {
+    pub fn on(&self, face: u32, uvs: [[f32; 2]; 3]) -> Option<PictureFace<'_>> {
         let densities = self.densities.get(face as usize).copied().unwrap_or_default();
-        let on = OnPicture { drawn: self, uvs, densities };
+        let on = PictureFace { drawn: self, uvs, densities };
         self.levels.iter().enumerate().all(|(level, _)| on.corners(level).is_some()).then_some(on)
     }
 }
 
 /// Position of a face on its picture.
 #[derive(Clone, Copy)]
-pub(crate) struct OnPicture<'a> {
-    drawn: &'a Drawn,
+pub(crate) struct PictureFace<'a> {
+    drawn: &'a PictureLevels,
     uvs: [[f32; 2]; 3],
     /// Texel densities at its corners.
     densities: [Density; 3],
 }
 
-impl OnPicture<'_> {
+impl PictureFace<'_> {
     /// Corners of the face in texel coordinates of a level.
     pub fn corners(&self, level: usize) -> Option<[DVec2; 3]> {
         let [a, b, c] = self.uvs.map(|uv| self.drawn.levels[level].map.labels.texels.place(uv));
@@ -158,10 +159,10 @@ impl OnPicture<'_> {
     }
 
     /// Colour borders of a level that may lie on the face, and the palette indices on both sides.
-    pub fn borders(&self, level: usize) -> Vec<(Segment, [u8; 2])> {
+    pub fn borders(&self, level: usize) -> Vec<(BorderSegment, [u8; 2])> {
         let Some([a, b, c]) = self.corners(level) else { return Vec::new() };
-        let make = |segment: Segment, parted: [u8; 2]| (segment, parted);
+        let make = |segment: BorderSegment, parted: [u8; 2]| (segment, parted);
         let borders = &self.drawn.levels[level].borders;
-        borders.near_as(a.min(b).min(c), a.max(b).max(c), make).unwrap_or_default()
+        borders.map_segments_in_box(a.min(b).min(c), a.max(b).max(c), make).unwrap_or_default()
     }
 }

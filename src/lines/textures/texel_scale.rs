@@ -5,11 +5,11 @@ use rustc_hash::FxHashMap;
 
 use crate::geometry::numbers::portable_math;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
-use crate::scene::textures::texel_plane::Texels;
+use crate::scene::textures::texel_plane::TexelPlane;
 use crate::view::View;
 
 /// Pictures on a mesh in a view.
-pub(crate) struct Seen<'a, N> {
+pub(crate) struct PictureView<'a, N> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
     /// A px in user units.
@@ -17,7 +17,7 @@ pub(crate) struct Seen<'a, N> {
     /// Returns the index of the picture that a face shows.
     pub number: N,
     /// Texels of each picture.
-    pub texels: &'a [Option<Texels>],
+    pub texels: &'a [Option<TexelPlane>],
 }
 
 /// Scale of a picture in a view.
@@ -34,11 +34,11 @@ pub(crate) struct Scale {
 pub(crate) type Density = [f64; 2];
 
 /// Largest foreshortening of details that are still drawn.
-const SLANT: f64 = 3.0;
+const MAX_SLANT_RATIO: f64 = 3.0;
 
 /// Areas of a face that is turned to the camera.
 #[derive(Debug, Clone, Copy, Default)]
-struct Share {
+struct TexelAreas {
     /// Twice its area in texels.
     texels: f64,
     /// Twice its area in space.
@@ -48,28 +48,28 @@ struct Share {
 }
 
 /// Ratio of largest to smallest depth above which a picture may have several scales.
-const DEEP: f64 = 4.0;
+const MIN_DEPTH_RATIO: f64 = 4.0;
 
-/// Share of the visible area that must differ from the mean scale by more than [`FAR`] for several scales.
-const SHARE: f64 = 0.04;
+/// Share of the visible area that must differ from the mean scale by more than [`MAX_SCALE_OFFSET_LOG2`] for several scales.
+const MIN_OFF_SCALE_SHARE: f64 = 0.04;
 
-/// Difference from the mean scale that counts for [`SHARE`], in powers of two.
-const FAR: f64 = 2.0;
+/// Difference from the mean scale that counts for [`MIN_OFF_SCALE_SHARE`], in powers of two.
+const MAX_SCALE_OFFSET_LOG2: f64 = 2.0;
 
 /// Share of the visible area that is ignored at both ends of the scale range.
-const LITTLE: f64 = 0.005;
+const IGNORED_TAIL_SHARE: f64 = 0.005;
 
 /// Lower end of the scale range, as a power of two. Texels larger than a px are all drawn alike.
-const LARGEST: i32 = -1;
+const MIN_SCALE_LOG2: i32 = -1;
 
 /// Upper end of the scale range, as a power of two.
-const SMALLEST: i32 = 14;
+const MAX_SCALE_LOG2: i32 = 14;
 
 /// Approximate side length of the pieces of a sampled face, px.
-const PIECE_PX: f64 = 24.0;
+const SAMPLE_SIDE_PX: f64 = 24.0;
 
 /// Maximum number of pieces along a side.
-const MOST_PIECES: f64 = 48.0;
+const MAX_SAMPLES_PER_SIDE: f64 = 48.0;
 
 /// Corners of a face in texel coordinates.
 pub(crate) fn texels(
@@ -82,7 +82,7 @@ pub(crate) fn texels(
     Some([a?, b?, c?])
 }
 
-impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
+impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
     /// Scale of each picture in the view.
     pub fn scales(&self) -> Vec<Scale> {
         let means = self.means();
@@ -96,7 +96,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             if let Some((number, share)) = self.share(face) {
                 self.each_piece(face, share, |density, depth, area| {
                     let step = (power_of_two(density) * 4.0).round();
-                    let step = step.clamp(4.0 * f64::from(LARGEST), 4.0 * f64::from(SMALLEST));
+                    let step = step.clamp(4.0 * f64::from(MIN_SCALE_LOG2), 4.0 * f64::from(MAX_SCALE_LOG2));
                     *sums[number].entry(step as i32).or_default() += area;
                     let [near, far] = &mut depths[number];
                     (*near, *far) = (near.min(depth), far.max(depth));
@@ -107,21 +107,21 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             let mut steps: Vec<(i32, f64)> = sums.into_iter().collect();
             steps.sort_unstable_by_key(|(step, _)| *step);
             let all: f64 = steps.iter().map(|(_, area)| area).sum();
-            let mean = power_of_two(*mean).max(f64::from(LARGEST));
-            let is_far = |step: i32| (f64::from(step) / 4.0 - mean).abs() > FAR;
+            let mean = power_of_two(*mean).max(f64::from(MIN_SCALE_LOG2));
+            let is_far = |step: i32| (f64::from(step) / 4.0 - mean).abs() > MAX_SCALE_OFFSET_LOG2;
             let far: f64 = steps.iter().filter(|(step, _)| is_far(*step)).map(|(_, area)| area).sum();
-            if far <= SHARE * all {
+            if far <= MIN_OFF_SCALE_SHARE * all {
                 return None;
             }
-            let low = end(steps.iter().copied(), LITTLE * all)?;
-            let high = end(steps.iter().rev().copied(), LITTLE * all)?;
+            let low = tail_start(steps.iter().copied(), IGNORED_TAIL_SHARE * all)?;
+            let high = tail_start(steps.iter().rev().copied(), IGNORED_TAIL_SHARE * all)?;
             Some([low.round() as i32, high.round() as i32])
         };
         let ranges = sums.into_iter().zip(&means).map(range);
         let ranges: Vec<Option<[i32; 2]>> = ranges.collect();
         let scale = |((mean, range), [near, far]): ((f64, Option<[i32; 2]>), [f64; 2])| Scale {
             mean,
-            range: range.filter(|_| far > DEEP * near),
+            range: range.filter(|_| far > MIN_DEPTH_RATIO * near),
         };
         means.into_iter().zip(ranges).zip(depths).map(scale).collect()
     }
@@ -154,7 +154,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
     }
 
     /// Picture and areas of a face that is turned to the camera.
-    fn share(&self, face: u32) -> Option<(usize, Share)> {
+    fn share(&self, face: u32) -> Option<(usize, TexelAreas)> {
         let number = (self.number)(face)?;
         if !self.view.facing[face as usize] {
             return None;
@@ -169,7 +169,8 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         // camera. That cosine is the distance of the face's plane from the camera, divided by the depth.
         let page = across.dot(to_eye).abs() * self.scale().powi(2);
         let texels = (b - a).perp_dot(c - a).abs();
-        (page > 0.0 && texels.is_finite()).then_some((number, Share { texels, world: across.length(), page }))
+        (page > 0.0 && texels.is_finite())
+            .then_some((number, TexelAreas { texels, world: across.length(), page }))
     }
 
     /// Px per unit of length at depth 1.
@@ -179,9 +180,9 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
 
     /// Texels per px at depth 1: the square root of the area ratio, and the number along the direction of
     /// foreshortening.
-    fn texels_per_px(&self, share: &Share) -> [f64; 2] {
-        let Share { texels, world, page } = share;
-        [(texels / page).sqrt(), (texels * world).sqrt() / page * self.scale() / SLANT]
+    fn texels_per_px(&self, share: &TexelAreas) -> [f64; 2] {
+        let TexelAreas { texels, world, page } = share;
+        [(texels / page).sqrt(), (texels * world).sqrt() / page * self.scale() / MAX_SLANT_RATIO]
     }
 
     /// Reduction of the image by depth: lengths are divided by this.
@@ -190,13 +191,17 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
     }
 
     /// Visits a face piece by piece: texels per px, depth, and area of the piece on the page.
-    fn each_piece(&self, face: u32, share: Share, mut call: impl FnMut(f64, f64, f64)) {
+    fn each_piece(&self, face: u32, share: TexelAreas, mut call: impl FnMut(f64, f64, f64)) {
         let frame = &self.view.frame;
         let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);
         let [p, q, r] = points.map(DVec3::truncate);
         let longest = p.distance(q).max(q.distance(r)).max(r.distance(p)) / self.px;
         let is_whole = longest.is_finite() && points.iter().all(|p| p.z.is_finite());
-        let count = if is_whole { (longest / PIECE_PX).ceil().clamp(1.0, MOST_PIECES) } else { MOST_PIECES };
+        let count = if is_whole {
+            (longest / SAMPLE_SIDE_PX).ceil().clamp(1.0, MAX_SAMPLES_PER_SIDE)
+        } else {
+            MAX_SAMPLES_PER_SIDE
+        };
         let [a, b, c] = self.mesh.corners(FaceId(face));
         let least = frame.near.unwrap_or_default();
         let [on_px, slanted] = self.texels_per_px(&share);
@@ -230,10 +235,10 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
     pub fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[Density; 3]> {
         let mesh = self.mesh;
         let count = mesh.triangles.len();
-        let shares: Vec<Option<Share>> = (0..count as u32)
+        let shares: Vec<Option<TexelAreas>> = (0..count as u32)
             .map(|face| self.share(face).filter(|(number, _)| *number == picture).map(|(_, share)| share))
             .collect();
-        let mut joined = Joined((0..3 * count as u32).collect());
+        let mut joined = CornerSets((0..3 * count as u32).collect());
         let normal = |face: u32| DVec3::from_array(mesh.face_normals[face as usize].map(f64::from));
         let least = portable_math::cos(crease_deg.to_radians());
         for edge in 0..mesh.edges.len() {
@@ -249,7 +254,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
                 }
             }
         }
-        let mut sums = vec![Share::default(); 3 * count];
+        let mut sums = vec![TexelAreas::default(); 3 * count];
         for (face, share) in shares.iter().enumerate() {
             let Some(share) = share else { continue };
             for corner in 3 * face..3 * face + 3 {
@@ -259,7 +264,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
                 sum.page += share.page;
             }
         }
-        let of_corner = |face: usize, k: usize, joined: &mut Joined| {
+        let of_corner = |face: usize, k: usize, joined: &mut CornerSets| {
             let share = &sums[joined.root((3 * face + k) as u32) as usize];
             if share.page <= 0.0 {
                 return [0.0; 2];
@@ -274,7 +279,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
 }
 
 /// First scale whose accumulated area exceeds `little`, as a power of two.
-fn end(mut steps: impl Iterator<Item = (i32, f64)>, little: f64) -> Option<f64> {
+fn tail_start(mut steps: impl Iterator<Item = (i32, f64)>, little: f64) -> Option<f64> {
     let mut sum = 0.0;
     let (step, _) = steps.find(|(_, area)| {
         sum += area;
@@ -296,9 +301,9 @@ pub(crate) fn density_of(texels_per_px: f64) -> Density {
 }
 
 /// Union-find; the root is the smallest member.
-struct Joined(Vec<u32>);
+struct CornerSets(Vec<u32>);
 
-impl Joined {
+impl CornerSets {
     fn root(&mut self, of: u32) -> u32 {
         let mut at = of;
         while self.0[at as usize] != at {

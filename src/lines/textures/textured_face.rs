@@ -1,20 +1,20 @@
-//! [`Textured`]: a face with varying colours, evaluated point by point.
+//! [`TexturedFace`]: a face with varying colours, evaluated point by point.
 
-use super::picture_levels::OnPicture;
+use super::picture_levels::PictureFace;
 use crate::mesh::PaintId;
 use crate::scene::paints::varying_surface::PaintTable;
-use crate::scene::paints::vertex_colours::Tints;
+use crate::scene::paints::vertex_colours::VertexColourPalette;
 
 /// Face with varying colours.
-pub(crate) struct Textured<'a> {
+pub(crate) struct TexturedFace<'a> {
     pub paints: &'a PaintTable,
     /// Position on a picture.
-    pub picture: Option<OnPicture<'a>>,
+    pub picture: Option<PictureFace<'a>>,
     /// Light at its corners.
-    pub tints: Option<(&'a Tints, [[f32; 3]; 3])>,
+    pub tints: Option<(&'a VertexColourPalette, [[f32; 3]; 3])>,
 }
 
-impl Textured<'_> {
+impl TexturedFace<'_> {
     /// Paint at a point of the face.
     pub fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
         self.paints.paint(self.colour(weights), self.tint(weights))

@@ -4,48 +4,48 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::picture_levels::Drawn;
-use super::texel_scale::Seen;
-use super::textured_face::Textured;
+use super::picture_levels::PictureLevels;
+use super::texel_scale::PictureView;
+use super::textured_face::TexturedFace;
 use crate::colour::oklab::{self, Oklab, distance2};
 use crate::lines::{LineKind, LineOptions};
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::scene::Paints;
-use crate::scene::paints::varying_surface::{PaintTable, Varied};
-use crate::scene::paints::vertex_colours::Tints;
+use crate::scene::paints::varying_surface::{PaintTable, VaryingSurface};
+use crate::scene::paints::vertex_colours::VertexColourPalette;
 use crate::view::View;
 
 /// Pictures and vertex colours that a view shows, reduced to the few colours that are painted.
 #[derive(Debug, Default)]
 pub struct Textures {
     /// Indexed by the paint that shows them.
-    of_paint: Vec<Option<Shown>>,
+    of_paint: Vec<Option<ShownPaint>>,
     /// Criteria for artist lines, if these are drawn.
-    artist: Option<Artist>,
+    artist: Option<ArtistLines>,
     warnings: Vec<String>,
 }
 
 /// Criteria for artist lines.
 #[derive(Debug)]
-struct Artist {
+struct ArtistLines {
     /// Colour of each paint; none on materials whose lines follow another picture.
     looks: Vec<Option<Oklab>>,
     /// Smallest colour distance with a line.
     tolerance: f32,
     /// Indexed by material: the picture that lines follow although it is not painted, and its palette.
-    inked: Vec<Option<(Shown, Vec<Oklab>)>>,
+    inked: Vec<Option<(ShownPaint, Vec<Oklab>)>>,
 }
 
 /// Varying colours of one paint or one material.
 #[derive(Debug)]
-struct Shown {
-    picture: Option<Drawn>,
-    tints: Option<Tints>,
+struct ShownPaint {
+    picture: Option<PictureLevels>,
+    tints: Option<VertexColourPalette>,
     paints: PaintTable,
 }
 
 /// Default smoothing of pictures, px.
-const SMOOTH_PX: f64 = 0.7;
+const DEFAULT_SMOOTHING_PX: f64 = 0.7;
 
 impl Textures {
     /// The textures as seen on a mesh; `px` is a px in user units.
@@ -53,24 +53,24 @@ impl Textures {
     pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
         let mut textures = Self::default();
         let has_artist = options.enabled && options.kinds.contains(&LineKind::Artist);
-        let smooth = if has_artist { options.artist_smooth / SMOOTH_PX } else { 1.0 };
-        let sight = Sight { mesh, view, px, smooth, crease_deg: options.crease_deg };
+        let smooth = if has_artist { options.artist_smooth / DEFAULT_SMOOTHING_PX } else { 1.0 };
+        let sight = TextureContext { mesh, view, px, smooth, crease_deg: options.crease_deg };
         let number = |paint: PaintId| paints.varied.iter().position(|(own, _)| *own == paint);
         let numbers: Vec<Option<usize>> = (0..paints.list.len()).map(|k| number(k.into())).collect();
         let of_face = |face: u32| *numbers.get(mesh.paint(FaceId(face)).index())?;
-        let varied: Vec<&Varied> = paints.varied.iter().map(|(_, varied)| varied).collect();
+        let varied: Vec<&VaryingSurface> = paints.varied.iter().map(|(_, varied)| varied).collect();
         let shown = sight.shown(&varied, of_face, &mut textures.warnings);
         for ((paint, _), shown) in paints.varied.iter().zip(shown) {
             textures.of_paint.resize_with(textures.of_paint.len().max(paint.index() + 1), || None);
             textures.of_paint[paint.index()] = shown;
         }
         if has_artist {
-            let mut inked: Vec<Option<(Shown, Vec<Oklab>)>> = Vec::new();
+            let mut inked: Vec<Option<(ShownPaint, Vec<Oklab>)>> = Vec::new();
             let number = |face: u32| {
                 let material = mesh.face_material[face as usize];
                 paints.inked.iter().position(|(own, _)| *own == material)
             };
-            let varied: Vec<&Varied> = paints.inked.iter().map(|(_, varied)| varied).collect();
+            let varied: Vec<&VaryingSurface> = paints.inked.iter().map(|(_, varied)| varied).collect();
             let shown = sight.shown(&varied, number, &mut textures.warnings);
             for ((material, varied), shown) in paints.inked.iter().zip(shown) {
                 inked.resize_with(inked.len().max(material.index() + 1), || None);
@@ -83,7 +83,7 @@ impl Textures {
             };
             let looks = paints.list.iter().map(look).collect();
             let tolerance = options.artist_tolerance as f32;
-            textures.artist = Some(Artist { looks, tolerance, inked });
+            textures.artist = Some(ArtistLines { looks, tolerance, inked });
         }
         textures
     }
@@ -136,34 +136,38 @@ impl Textures {
     }
 
     /// Varying colours of a face; none if it has a single paint.
-    pub(crate) fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+    pub(crate) fn on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
         self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?.on(mesh, face)
     }
 
     /// The picture that lines follow on a face. Its colours are paints with the same numbers.
-    pub(crate) fn ink_on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+    pub(crate) fn ink_on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
         self.inked(mesh, face)?.0.on(mesh, face)
     }
 
-    fn inked(&self, mesh: &Mesh, face: u32) -> Option<&(Shown, Vec<Oklab>)> {
+    fn inked(&self, mesh: &Mesh, face: u32) -> Option<&(ShownPaint, Vec<Oklab>)> {
         self.artist.as_ref()?.inked.get(mesh.face_material[face as usize].index())?.as_ref()
     }
 }
 
-impl Shown {
+impl ShownPaint {
     /// Varying colours on a face.
-    fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
+    fn on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
         let picture = self.picture.as_ref().and_then(|drawn| {
             let [a, b, c] = mesh.corner_uvs.get(face as usize)?.map(|uv| mesh.uvs.get(uv as usize).copied());
             drawn.on(face, [a?, b?, c?])
         });
         let tints = self.tints.as_ref().zip(mesh.corner_colours.get(face as usize).copied());
-        (picture.is_some() || tints.is_some()).then_some(Textured { paints: &self.paints, picture, tints })
+        (picture.is_some() || tints.is_some()).then_some(TexturedFace {
+            paints: &self.paints,
+            picture,
+            tints,
+        })
     }
 }
 
 /// How pictures are evaluated.
-struct Sight<'a> {
+struct TextureContext<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     px: f64,
@@ -173,35 +177,35 @@ struct Sight<'a> {
     crease_deg: f64,
 }
 
-impl Sight<'_> {
+impl TextureContext<'_> {
     /// Reduces the given textures for the view. `number` returns the index of the texture that a face shows.
     /// None where a picture has too much detail.
     fn shown(
         &self,
-        varied: &[&Varied],
+        varied: &[&VaryingSurface],
         number: impl Fn(u32) -> Option<usize> + Sync,
         warnings: &mut Vec<String>,
-    ) -> Vec<Option<Shown>> {
+    ) -> Vec<Option<ShownPaint>> {
         if varied.is_empty() {
             return Vec::new();
         }
         let texels: Vec<_> =
             varied.iter().map(|own| own.picture.as_ref().map(|painted| *painted.texels())).collect();
         let Self { mesh, view, px, .. } = *self;
-        let seen = Seen { mesh, view, px, number, texels: &texels };
+        let seen = PictureView { mesh, view, px, number, texels: &texels };
         let scales = seen.scales();
-        let shown: Vec<Option<Shown>> = varied
+        let shown: Vec<Option<ShownPaint>> = varied
             .par_iter()
             .zip(scales)
             .enumerate()
             .map(|(picture, (varied, scale))| {
                 let (tints, paints) = (varied.tints.clone(), varied.paints().clone());
                 let Some(painted) = &varied.picture else {
-                    return Some(Shown { picture: None, tints, paints });
+                    return Some(ShownPaint { picture: None, tints, paints });
                 };
                 let densities = || seen.densities(picture, self.crease_deg);
-                let drawn = Drawn::new(painted, &scale, self.smooth, densities)?;
-                Some(Shown { picture: Some(drawn), tints, paints })
+                let drawn = PictureLevels::new(painted, &scale, self.smooth, densities)?;
+                Some(ShownPaint { picture: Some(drawn), tints, paints })
             })
             .collect();
         for _ in shown.iter().filter(|shown| shown.is_none()) {

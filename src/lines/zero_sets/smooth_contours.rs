@@ -2,7 +2,7 @@
 //!
 //! On a mesh that approximates a rounded surface, the contour of the polyhedron zigzags along edges. The zero
 //! set of the interpolated n·v crosses the faces as a smooth curve. This curve gives the shape; its
-//! visibility follows from the mesh contour ([`crate::lines::Role::Witness`]).
+//! visibility follows from the mesh contour ([`crate::lines::PathRole::Witness`]).
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, sections 4.1 and
 //! 4.2. Deviation: points lie on arcs over the edges, and not on the edges themselves.
@@ -13,13 +13,13 @@ use glam::DVec3;
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use crate::lines::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
-use crate::surface::{EdgeArc, Origin, SmoothNormals};
+use crate::surface::{EdgeArc, MeshSource, SmoothNormals};
 use crate::view::View;
 
-const NONE: u32 = u32::MAX;
+const NO_PIECE: u32 = u32::MAX;
 
 /// Minimum number of points or pieces per task.
-const GRAIN: usize = 1 << 7;
+const MIN_ITEMS_PER_TASK: usize = 1 << 7;
 
 /// Piece of a contour, with the facing side of the surface on its left, seen from outside.
 #[derive(Debug, Clone, Copy)]
@@ -36,13 +36,13 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) ->
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = mesh.positions.len() as u32;
     let point = |p: &EdgePoint| EdgeArc::over(mesh, smooth, p.between).at(p.t);
-    let points: Vec<DVec3> = set.points.par_iter().with_min_len(GRAIN).map(point).collect();
+    let points: Vec<DVec3> = set.points.par_iter().with_min_len(MIN_ITEMS_PER_TASK).map(point).collect();
     let mut lines = FeatureLines { points, ..FeatureLines::default() };
     let position = |end: u32| lines.position(mesh, end);
     let pieces: Vec<ContourPiece> = set
         .segments
         .par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_ITEMS_PER_TASK)
         .map(|s| {
             let ends = s.ends.map(|end| first + end);
             let advance = advance(view, smooth, &set, s.ends, ends.map(position));
@@ -82,8 +82,8 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
         kind: LineKind::Contour,
         both_seen: false,
         smooth: true,
-        origin: Origin::default(),
-        role: Role::Curve,
+        origin: MeshSource::default(),
+        role: Role::SmoothContour,
         strength: 0.0,
         part: mesh.face_part[face as usize],
         material: mesh.face_material[face as usize],
@@ -95,8 +95,8 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
 fn curves(pieces: &[ContourPiece], first: u32) -> Vec<(Vec<u32>, bool)> {
     let ends = |piece: &ContourPiece| piece.segment.ends.map(|end| (end - first) as usize);
     let count = pieces.iter().flat_map(ends).max().map_or(0, |last| last + 1);
-    let mut leaving = vec![NONE; count];
-    let mut next_leaving = vec![NONE; pieces.len()];
+    let mut leaving = vec![NO_PIECE; count];
+    let mut next_leaving = vec![NO_PIECE; pieces.len()];
     let mut is_reached = vec![false; count];
     for (p, piece) in pieces.iter().enumerate().rev() {
         let [from, to] = ends(piece);
@@ -114,11 +114,11 @@ fn curves(pieces: &[ContourPiece], first: u32) -> Vec<(Vec<u32>, bool)> {
             }
             let mut order = Vec::new();
             let mut at = start;
-            while at != NONE {
+            while at != NO_PIECE {
                 used[at as usize] = true;
                 order.push(at);
                 let mut next = leaving[ends(&pieces[at as usize])[1]];
-                while next != NONE && used[next as usize] {
+                while next != NO_PIECE && used[next as usize] {
                     next = next_leaving[next as usize];
                 }
                 at = next;

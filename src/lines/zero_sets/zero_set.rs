@@ -15,7 +15,7 @@ use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
 /// Faces per task. Fixed, so that the result does not depend on the number of threads.
-const CHUNK: usize = 1 << 12;
+const FACES_PER_TASK: usize = 1 << 12;
 
 /// Point on an edge of the mesh, between two smooth vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,10 +128,14 @@ pub fn trace_crossings(
         }
     };
     let faces = smooth.corners.len();
-    let found: Vec<Vec<(u32, [EdgePoint; 2])>> = (0..faces.div_ceil(CHUNK))
+    let found: Vec<Vec<(u32, [EdgePoint; 2])>> = (0..faces.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
-        .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(faces)).filter_map(|f| piece(f as u32)).collect())
+        .map(|k| {
+            (k * FACES_PER_TASK..((k + 1) * FACES_PER_TASK).min(faces))
+                .filter_map(|f| piece(f as u32))
+                .collect()
+        })
         .collect();
     joined(&found.concat(), mesh.positions.len())
 }

@@ -4,28 +4,28 @@ use std::sync::Arc;
 
 use super::json;
 use super::uri;
-use crate::animation::material_factors::{AlphaMode, Factors};
-use crate::load::gltf::json::lenient_index::Shown;
+use crate::animation::material_factors::{AlphaMode, MaterialFactors};
+use crate::load::gltf::json::lenient_index::DisplayIndex;
 use crate::load::gltf::storage::buffers::{Buffers, Fetch};
-use crate::scene::model_folder::Neighbours;
+use crate::scene::model_folder::ModelFolder;
 use crate::scene::{Filter, Material, Warnings, Wrap};
 
 /// Path of a texture next to the model, or its bytes.
-type TextureSource = (Option<String>, Option<Arc<[u8]>>);
+type TextureOrigin = (Option<String>, Option<Arc<[u8]>>);
 
 /// Number of bytes that are tested for an image format.
-const HEAD: usize = 32;
+const IMAGE_HEAD_BYTES: usize = 32;
 
 /// Access to the files next to a model.
 #[derive(Clone, Copy)]
-pub struct Files<'a> {
+pub struct ModelFiles<'a> {
     /// Reads the beginning of a file.
     pub fetch: &'a Fetch<'a>,
     /// Index of all files; `None` if the model is not a file.
-    pub all: Option<&'a Neighbours>,
+    pub all: Option<&'a ModelFolder>,
 }
 
-impl Files<'_> {
+impl ModelFiles<'_> {
     /// Beginning of the file of a relative URI, its path, and whether that is the path in the URI. If no file
     /// is there, a file of a similar name is used.
     fn head(&self, uri: &str) -> Result<(Vec<u8>, String, bool), String> {
@@ -34,19 +34,19 @@ impl Files<'_> {
             Ok(path) if self.all.is_some_and(|all| !all.has(&path)) => {
                 format!("`{path}` is not a file in the model's folder")
             }
-            Ok(path) => match (self.fetch)(&path, HEAD) {
+            Ok(path) => match (self.fetch)(&path, IMAGE_HEAD_BYTES) {
                 Ok(bytes) => return Ok((bytes, path, true)),
                 Err(error) => format!("`{path}` cannot be read ({error})"),
             },
         };
         let found = self.all.and_then(|all| all.find("", &uri::decoded(uri)));
-        let read = found.and_then(|path| Some(((self.fetch)(&path, HEAD).ok()?, path, false)));
+        let read = found.and_then(|path| Some(((self.fetch)(&path, IMAGE_HEAD_BYTES).ok()?, path, false)));
         read.ok_or(message)
     }
 }
 
 /// Reads all materials of a file; problems with textures are only warnings.
-pub fn materials(buffers: &Buffers, files: Files, warnings: &mut Warnings) -> Vec<Material> {
+pub fn materials(buffers: &Buffers, files: ModelFiles, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
         let texture =
             base_texture(material).and_then(|texture| image(texture, material, buffers, files, warnings));
@@ -60,16 +60,16 @@ pub fn materials(buffers: &Buffers, files: Files, warnings: &mut Warnings) -> Ve
             wrap: base_texture(material).map_or([Wrap::Repeat; 2], |texture| wrap(buffers.root, texture)),
             ..Material::default()
         };
-        factors(material).give(&mut made);
+        factors(material).apply_to(&mut made);
         made
     };
     buffers.root.materials.iter().map(read).collect()
 }
 
 /// Values of a material as stored in the file.
-pub fn factors(material: &json::Material) -> Factors {
+pub fn factors(material: &json::Material) -> MaterialFactors {
     let transmission = material.extensions.transmission.as_ref();
-    Factors {
+    MaterialFactors {
         base: base_colour(material),
         emissive: material.emissive_texture.is_none().then_some(material.emissive_factor),
         mode: match material.alpha_mode.as_deref() {
@@ -131,13 +131,13 @@ fn image(
     texture: &json::TextureUse,
     material: &json::Material,
     buffers: &Buffers,
-    files: Files,
+    files: ModelFiles,
     warnings: &mut Warnings,
-) -> Option<TextureSource> {
+) -> Option<TextureOrigin> {
     let root = buffers.root;
     let mut other_file = None;
     let mut broken = |number: usize, what: String| {
-        let number = Shown(number);
+        let number = DisplayIndex(number);
         warnings.note(format!("texture {number}{}: {what}; the plain colour is drawn instead", of(material)));
         None
     };
@@ -152,7 +152,7 @@ fn image(
     let Some(image) = root.images.get(source) else {
         return broken(
             number,
-            format!("it shows image {}, but the file has {}", Shown(source), root.images.len()),
+            format!("it shows image {}, but the file has {}", DisplayIndex(source), root.images.len()),
         );
     };
     let (bytes, path) = match (&image.uri, image.buffer_view) {
@@ -162,8 +162,8 @@ fn image(
             None => match files.head(text) {
                 Err(message) => return broken(number, message),
                 Ok((bytes, path, is_named)) => {
-                    other_file =
-                        (!is_named).then(|| format!("`{}` is not there; {path} is used", uri::shown(text)));
+                    other_file = (!is_named)
+                        .then(|| format!("`{}` is not there; {path} is used", uri::shortened(text)));
                     (bytes, Some(path))
                 }
             },
@@ -214,7 +214,7 @@ mod tests {
         };
         let buffers = Buffers::gather(&root, None, &fetch).unwrap();
         let mut warnings = Warnings::default();
-        (materials(&buffers, Files { fetch: &fetch, all: None }, &mut warnings), warnings)
+        (materials(&buffers, ModelFiles { fetch: &fetch, all: None }, &mut warnings), warnings)
     }
 
     #[test]

@@ -1,22 +1,22 @@
-//! [`Missing`]: counts references to things that the file lacks and that can be left out.
+//! [`MissingReferences`]: counts references to things that the file lacks and that can be left out.
 
 use crate::scene::Warnings;
-use crate::scene::warnings::Spots;
+use crate::scene::warnings::WarningExamples;
 
 /// Missing things by kind: the first location, and the number of others.
 #[derive(Debug, Clone, Default)]
-pub struct Missing {
+pub struct MissingReferences {
     /// Meshes of nodes; their parts are left out.
-    pub meshes: Spots,
+    pub meshes: WarningExamples,
     /// Skins of nodes; their meshes are drawn without a skin.
-    pub skins: Spots,
+    pub skins: WarningExamples,
     /// Materials of primitives.
-    pub materials: Spots,
+    pub materials: WarningExamples,
     /// Texture coordinates required by the texture of a primitive.
-    pub uvs: Spots,
+    pub uvs: WarningExamples,
 }
 
-impl Missing {
+impl MissingReferences {
     /// Adds one warning for each kind.
     pub fn warn(self, warnings: &mut Warnings) {
         for spots in [self.meshes, self.skins, self.materials, self.uvs] {

@@ -32,12 +32,12 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use self::json::Root;
-use self::material_reader::Files;
+use self::material_reader::ModelFiles;
 use self::storage::buffers::{Buffers, Fetch};
 use crate::animation::{Rig, Rigged};
 use crate::error::Error;
 use crate::scene::extent::precision_warning;
-use crate::scene::model_folder::Neighbours;
+use crate::scene::model_folder::ModelFolder;
 use crate::scene::{Scene, UpAxis, Warnings};
 
 /// Reads a `.gltf` or `.glb` file, and buffers in its folder.
@@ -60,8 +60,8 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
     let bytes = fs::read(path).map_err(|error| Error::io("cannot be read", error).in_file(path))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let fetch = |name: &str, most: usize| head_of(&folder.join(name), most);
-    let all = Neighbours::of(path);
-    let files = Files { fetch: &fetch, all: Some(&all) };
+    let all = ModelFolder::of(path);
+    let files = ModelFiles { fetch: &fetch, all: Some(&all) };
     let mut read = read_all(&bytes, files, rigged).map_err(|error| error.in_file(path))?;
     read.scene.file = Some(path.to_path_buf());
     Ok(read)
@@ -75,7 +75,7 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
 /// # Errors
 /// As [`read`], without the name of the file.
 pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
-    Ok(read_all(bytes, Files { fetch, all: None }, false)?.scene)
+    Ok(read_all(bytes, ModelFiles { fetch, all: None }, false)?.scene)
 }
 
 /// Reads bytes like [`read_bytes`], with the animations and the rig that they move.
@@ -83,11 +83,11 @@ pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
 /// # Errors
 /// As [`read_bytes`].
 pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
-    read_all(bytes, Files { fetch, all: None }, true)
+    read_all(bytes, ModelFiles { fetch, all: None }, true)
 }
 
 /// Reads the scene, and the rig if `rigged`.
-fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
+fn read_all(bytes: &[u8], files: ModelFiles, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
     let container = storage::container::split(bytes, &mut warnings)?;
     let mut root = root(container.json, &mut warnings)?;
@@ -100,7 +100,7 @@ fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
     } else {
         Vec::new()
     };
-    nodes.wake(&root, &clips)?;
+    nodes.add_animated_visibility(&root, &clips)?;
     let materials = material_reader::materials(&buffers, files, &mut warnings);
     let (cameras, of_cameras) = nodes::cameras_and_lights::cameras(&root, &nodes, &mut warnings);
     let (lights, of_lights) = nodes::cameras_and_lights::lights(&root, &nodes, &mut warnings);
@@ -114,7 +114,7 @@ fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
         (rig.nodes, rig.order) = (nodes.rest, nodes.order);
         rig.materials = root.materials.iter().map(material_reader::factors).collect();
     }
-    precision_warning::warn(&mut scene);
+    precision_warning::warn_of_coarse_steps(&mut scene);
     Ok(Rigged { scene, rig })
 }
 
@@ -143,7 +143,7 @@ fn root(json: &[u8], warnings: &mut Warnings) -> Result<Root, Error> {
         Some("2") => Ok(root),
         Some(_) => {
             let version = version.map_or("", String::as_str);
-            Err(Error::new(format!("glTF version {}; only 2.0 can be read", uri::shown(version)))
+            Err(Error::new(format!("glTF version {}; only 2.0 can be read", uri::shortened(version)))
                 .at("asset")
                 .remedy("export the model again as glTF 2.0"))
         }

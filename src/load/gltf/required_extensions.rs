@@ -3,7 +3,7 @@
 use crate::error::{Error, ErrorKind};
 
 /// Supported extensions.
-const READ: [&str; 11] = [
+const READ_EXTENSIONS: [&str; 11] = [
     "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -18,7 +18,7 @@ const READ: [&str; 11] = [
 ];
 
 /// Extensions that do not affect shape or position; a trailing `*` matches any ending.
-const HARMLESS: [&str; 14] = [
+const IGNORED_EXTENSIONS: [&str; 14] = [
     "KHR_materials_*",
     "KHR_texture_*",
     "EXT_texture_*",
@@ -38,12 +38,12 @@ const HARMLESS: [&str; 14] = [
 /// Returns an error for a file that requires an unsupported extension, naming it.
 pub fn check(required: &[String]) -> Result<(), Error> {
     let harmless = |name: &str| {
-        HARMLESS.iter().any(|known| match known.strip_suffix('*') {
+        IGNORED_EXTENSIONS.iter().any(|known| match known.strip_suffix('*') {
             Some(start) => name.starts_with(start),
             None => name == *known,
         })
     };
-    match required.iter().find(|name| !READ.contains(&name.as_str()) && !harmless(name)) {
+    match required.iter().find(|name| !READ_EXTENSIONS.contains(&name.as_str()) && !harmless(name)) {
         Some(name) => {
             Err(Error::new(format!("the file requires the extension {name}, which ligne cannot read"))
                 .of_kind(ErrorKind::Unsupported)

@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
 
-const LENIENT: GeneralPurpose = GeneralPurpose::new(
+const LENIENT_BASE64: GeneralPurpose = GeneralPurpose::new(
     &base64::alphabet::STANDARD,
     GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
@@ -23,10 +23,10 @@ pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
     if !head.ends_with(";base64") {
         return Some(Ok(body.into_owned()));
     }
-    let decoded = LENIENT.decode(&body).or_else(|error| {
+    let decoded = LENIENT_BASE64.decode(&body).or_else(|error| {
         // Hand-made files often have line breaks inside.
         let packed: Vec<u8> = body.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect();
-        if packed.len() < body.len() { LENIENT.decode(packed) } else { Err(error) }
+        if packed.len() < body.len() { LENIENT_BASE64.decode(packed) } else { Err(error) }
     });
     Some(decoded.map_err(|error| format!("the data URI is not valid base64 ({error})")))
 }
@@ -36,10 +36,10 @@ pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
 pub fn inside_folder(uri: &str) -> Result<String, String> {
     let decoded = percent_decoded(uri);
     let Ok(path) = std::str::from_utf8(&decoded) else {
-        return Err(format!("`{}` is not UTF-8", shown(uri)));
+        return Err(format!("`{}` is not UTF-8", shortened(uri)));
     };
     if path.contains("://") || path.starts_with(['/', '\\']) || path.as_bytes().get(1) == Some(&b':') {
-        return Err(format!("`{}` is not a path relative to the model", shown(uri)));
+        return Err(format!("`{}` is not a path relative to the model", shortened(uri)));
     }
     let mut parts = Vec::new();
     for part in path.split(['/', '\\']) {
@@ -47,14 +47,14 @@ pub fn inside_folder(uri: &str) -> Result<String, String> {
             "" | "." => {}
             ".." => {
                 if parts.pop().is_none() {
-                    return Err(format!("`{}` leads out of the model's folder", shown(uri)));
+                    return Err(format!("`{}` leads out of the model's folder", shortened(uri)));
                 }
             }
             _ => parts.push(part),
         }
     }
     if parts.is_empty() {
-        return Err(format!("`{}` names no file", shown(uri)));
+        return Err(format!("`{}` names no file", shortened(uri)));
     }
     Ok(parts.join("/"))
 }
@@ -65,7 +65,7 @@ pub fn decoded(uri: &str) -> String {
 }
 
 /// A URI shortened for messages.
-pub fn shown(uri: &str) -> Cow<'_, str> {
+pub fn shortened(uri: &str) -> Cow<'_, str> {
     match uri.char_indices().nth(80) {
         Some((end, _)) => Cow::Owned(format!("{}...", uri.get(..end).unwrap_or_default())),
         None => Cow::Borrowed(uri),

@@ -19,16 +19,16 @@ use super::text_cursor::utf8;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::extent::precision_warning;
-use crate::scene::model_folder::{Neighbours, read_beside};
+use crate::scene::model_folder::{ModelFolder, read_from_model_folder};
 
 /// Reads an OBJ file and the libraries next to it.
 ///
 /// # Errors
 /// Names the file and the line if an index is out of range, or reports that nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
-    let files = Neighbours::of(path);
+    let files = ModelFolder::of(path);
     super::read_with(path, |bytes, stem| {
-        read_with_files(bytes, stem, |name| read_beside(path, name).ok(), Some(&files))
+        read_with_files(bytes, stem, |name| read_from_model_folder(path, name).ok(), Some(&files))
     })
 }
 
@@ -51,7 +51,7 @@ fn read_with_files(
     bytes: &[u8],
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,
-    files: Option<&Neighbours>,
+    files: Option<&ModelFolder>,
 ) -> Result<Scene, Error> {
     let bytes = &*utf8(bytes);
     let statements = statements::Statements::parse(bytes)?;
@@ -61,7 +61,7 @@ fn read_with_files(
             Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")
         });
     }
-    crate::scene::drawable(scene).map(precision_warning::checked)
+    crate::scene::drawable(scene).map(precision_warning::with_precision_warning)
 }
 
 #[cfg(test)]

@@ -5,23 +5,28 @@ use crate::load::text_cursor::{Cursor, decode, utf8};
 use crate::scene::Material;
 use crate::scene::Wrap;
 use crate::scene::material::{Gloss, Placing};
-use crate::scene::model_folder::{Neighbours, stays_inside};
+use crate::scene::model_folder::{ModelFolder, stays_inside};
 use crate::scene::warnings::Warnings;
 
 /// Gloss exponent of a material that has `Ks` but no `Ns`.
-const DEFAULT_EXPONENT: f32 = 40.0;
+const DEFAULT_GLOSS_EXPONENT: f32 = 40.0;
 
 /// Location of a library, and the files around it.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
+pub(crate) struct LibraryLocation<'a> {
     /// Folder relative to the model, empty or ending with a slash.
     pub folder: &'a str,
     /// Files in the model's folder; `None` if the model is not a file.
-    pub files: Option<&'a Neighbours>,
+    pub files: Option<&'a ModelFolder>,
 }
 
 /// Adds the materials of a library. Colours are interpreted as sRGB, as most programs do.
-pub(crate) fn parse(bytes: &[u8], place: Place, materials: &mut Vec<Material>, warnings: &mut Warnings) {
+pub(crate) fn parse(
+    bytes: &[u8],
+    place: LibraryLocation,
+    materials: &mut Vec<Material>,
+    warnings: &mut Warnings,
+) {
     let text = utf8(bytes);
     let mut cursor = Cursor::new(&text);
     let mut current: Option<Material> = None;
@@ -51,7 +56,7 @@ pub(crate) fn parse(bytes: &[u8], place: Place, materials: &mut Vec<Material>, w
             b"Ks" => {
                 if let Some(of) = channels(&mut cursor) {
                     let strength = f32::from(of.into_iter().max().unwrap_or_default()) / 255.0;
-                    let exponent = material.gloss.map_or(DEFAULT_EXPONENT, |gloss| gloss.exponent);
+                    let exponent = material.gloss.map_or(DEFAULT_GLOSS_EXPONENT, |gloss| gloss.exponent);
                     material.gloss = Some(Gloss { exponent, strength });
                 }
             }
@@ -122,7 +127,12 @@ fn byte(channel: f64) -> u8 {
 ///
 /// Many libraries contain absolute paths of another machine, or names in another letter case. A file of that
 /// name next to the model is used instead.
-fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut Warnings) -> Option<String> {
+fn texture_path(
+    statement: &[u8],
+    place: LibraryLocation,
+    material: &str,
+    warnings: &mut Warnings,
+) -> Option<String> {
     let name = texture(statement).name;
     if name.is_empty() {
         return None;
@@ -145,7 +155,7 @@ fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut W
 }
 
 /// A texture statement.
-struct Texture {
+struct TextureStatement {
     /// File name, which may contain blanks.
     name: String,
     placing: Placing,
@@ -153,10 +163,11 @@ struct Texture {
 }
 
 /// Parses the options of a texture statement and the file name after them.
-fn texture(statement: &[u8]) -> Texture {
+fn texture(statement: &[u8]) -> TextureStatement {
     let text = decode(statement);
     let mut rest = text.trim();
-    let mut own = Texture { name: String::new(), placing: Placing::default(), wrap: [Wrap::Repeat; 2] };
+    let mut own =
+        TextureStatement { name: String::new(), placing: Placing::default(), wrap: [Wrap::Repeat; 2] };
     while let Some((option, after)) = rest.split_once(char::is_whitespace).filter(|(o, _)| o.starts_with('-'))
     {
         rest = after.trim_start();
@@ -166,7 +177,7 @@ fn texture(statement: &[u8]) -> Texture {
             "-mm" => (0, 2),
             "-o" | "-s" | "-t" => (0, 3),
             // A file whose name begins with a dash.
-            _ => return Texture { name: format!("{option} {rest}"), ..own },
+            _ => return TextureStatement { name: format!("{option} {rest}"), ..own },
         };
         let mut values = Vec::new();
         for i in 0..words + numbers {
@@ -196,7 +207,7 @@ mod tests {
 
     fn read(text: &str) -> (Vec<Material>, Warnings) {
         let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
-        let place = Place { folder: "maps/", files: None };
+        let place = LibraryLocation { folder: "maps/", files: None };
         parse(text.as_bytes(), place, &mut materials, &mut warnings);
         (materials, warnings)
     }
@@ -221,7 +232,7 @@ mod tests {
             read("newmtl a\nNs 250\nKs 0.5 0.2 0.1\nnewmtl b\nKs 0 0 0\nnewmtl c\nKd 1 1 1\n");
         let gloss: Vec<_> = materials.iter().map(|material| material.gloss).collect();
         let first = Gloss { exponent: 250.0, strength: 128.0 / 255.0 };
-        let second = Gloss { exponent: DEFAULT_EXPONENT, strength: 0.0 };
+        let second = Gloss { exponent: DEFAULT_GLOSS_EXPONENT, strength: 0.0 };
         assert_eq!(gloss, [Some(first), Some(second), None]);
     }
 
@@ -232,7 +243,7 @@ mod tests {
         let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
         for bytes in [text.as_bytes().to_vec(), little.collect(), big.collect()] {
             let (mut materials, mut warnings) = (Vec::new(), Warnings::default());
-            parse(&bytes, Place { folder: "", files: None }, &mut materials, &mut warnings);
+            parse(&bytes, LibraryLocation { folder: "", files: None }, &mut materials, &mut warnings);
             assert_eq!((materials[0].name.as_str(), materials[0].colour), ("é", Colour::rgb(255, 0, 0)));
         }
     }

@@ -3,12 +3,12 @@
 use glam::DAffine3;
 use rustc_hash::FxHashMap;
 
-use super::mtl_library::{self, Place};
-use super::statements::{FaceGroup, NONE, Object, Statements};
+use super::mtl_library::{self, LibraryLocation};
+use super::statements::{ElementRun, NO_INDEX, Object, Statements};
 use crate::colour::srgb::linear;
 use crate::load::text_cursor::decode;
 use crate::mesh::EdgeMark;
-use crate::scene::model_folder::{Neighbours, stays_inside};
+use crate::scene::model_folder::{ModelFolder, stays_inside};
 use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
 
 /// Makes one geometry per part, with only the vertices that it uses.
@@ -18,13 +18,13 @@ pub(crate) fn scene(
     mut statements: Statements,
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,
-    files: Option<&Neighbours>,
+    files: Option<&ModelFolder>,
 ) -> Scene {
     let mut warnings = std::mem::take(&mut statements.warnings);
     let materials = materials(&statements, library, files, &mut warnings);
     let mut scene = Scene { format: "OBJ", up: UpAxis::Y, materials, warnings, ..Scene::default() };
 
-    let mut runs: Vec<Vec<FaceGroup>> = vec![Vec::new(); statements.objects.len()];
+    let mut runs: Vec<Vec<ElementRun>> = vec![Vec::new(); statements.objects.len()];
     // Parts are in the order of their first face.
     let mut order = Vec::new();
     for run in std::mem::take(&mut statements.runs) {
@@ -52,13 +52,13 @@ pub(crate) fn scene(
     fill_white(&mut statements);
     if let ([object], false) = (&order[..], statements.has_bad_positions) {
         let own = runs.get(*object).map(Vec::as_slice).unwrap_or_default();
-        let mut geometry = whole(statements);
+        let mut geometry = single_geometry(statements);
         assign_materials(&mut geometry, own, unnamed);
         scene.geometries.push(geometry);
         return scene;
     }
-    scene.unused_vertices = unused(&statements);
-    let mut split = Split::new(&statements);
+    scene.unused_vertices = count_unused_vertices(&statements);
+    let mut split = PartSplitter::new(&statements);
     for &object in &order {
         let own = runs.get(object).map(Vec::as_slice).unwrap_or_default();
         let mut geometry = split.geometry(own);
@@ -72,7 +72,7 @@ pub(crate) fn scene(
 fn materials(
     statements: &Statements,
     mut library: impl FnMut(&str) -> Option<Vec<u8>>,
-    files: Option<&Neighbours>,
+    files: Option<&ModelFolder>,
     warnings: &mut Warnings,
 ) -> Vec<Material> {
     let mut defined = Vec::new();
@@ -94,7 +94,7 @@ fn materials(
             return !is_inside;
         };
         let folder = path.rfind('/').map_or("", |slash| path.get(..=slash).unwrap_or_default());
-        mtl_library::parse(&bytes, Place { folder, files }, &mut defined, warnings);
+        mtl_library::parse(&bytes, LibraryLocation { folder, files }, &mut defined, warnings);
         true
     };
     for name in &statements.libraries {
@@ -144,8 +144,8 @@ fn rgba([r, g, b]: [f32; 3]) -> [f32; 4] {
     [linear(r), linear(g), linear(b), 1.0]
 }
 
-fn assign_materials(geometry: &mut Geometry, runs: &[FaceGroup], unnamed: u32) {
-    let id = |run: &FaceGroup| run.material.map_or(unnamed, |m| m as u32);
+fn assign_materials(geometry: &mut Geometry, runs: &[ElementRun], unnamed: u32) {
+    let id = |run: &ElementRun| run.material.map_or(unnamed, |m| m as u32);
     let first = runs.first().and_then(|run| run.material);
     if runs.iter().all(|run| run.material == first) && first.is_none() {
         return;
@@ -158,13 +158,13 @@ fn assign_materials(geometry: &mut Geometry, runs: &[FaceGroup], unnamed: u32) {
 }
 
 /// Geometry of a file with a single part, without copying.
-fn whole(statements: Statements) -> Geometry {
+fn single_geometry(statements: Statements) -> Geometry {
     let Statements { positions, triangles, wires, normals, uvs, colours, .. } = statements;
     let pad = |mut corners: Vec<[u32; 3]>, count: usize| {
         if !corners.is_empty() {
-            corners.resize(triangles.len(), [NONE; 3]);
+            corners.resize(triangles.len(), [NO_INDEX; 3]);
             for corner in corners.iter_mut().flatten() {
-                *corner = if (*corner as usize) < count { *corner } else { NONE };
+                *corner = if (*corner as usize) < count { *corner } else { NO_INDEX };
             }
         }
         corners
@@ -191,7 +191,7 @@ fn whole(statements: Statements) -> Geometry {
 }
 
 /// Number of vertices without a triangle or wire.
-fn unused(statements: &Statements) -> u64 {
+fn count_unused_vertices(statements: &Statements) -> u64 {
     let mut unused = vec![true; statements.positions.len()];
     let corners = statements.triangles.as_flattened().iter().chain(statements.wires.as_flattened());
     for corner in corners {
@@ -203,14 +203,14 @@ fn unused(statements: &Statements) -> u64 {
 }
 
 /// Splits the arrays of a file into those of its parts.
-struct Split<'a> {
+struct PartSplitter<'a> {
     statements: &'a Statements<'a>,
     positions: Renumber,
     normals: Renumber,
     uvs: Renumber,
 }
 
-impl<'a> Split<'a> {
+impl<'a> PartSplitter<'a> {
     fn new(statements: &'a Statements<'a>) -> Self {
         Self {
             statements,
@@ -220,18 +220,18 @@ impl<'a> Split<'a> {
         }
     }
 
-    fn geometry(&mut self, runs: &[FaceGroup]) -> Geometry {
+    fn geometry(&mut self, runs: &[ElementRun]) -> Geometry {
         let from = self.statements;
-        let mut triangles = gather(&from.triangles, runs, [NONE; 3]);
+        let mut triangles = gather(&from.triangles, runs, [NO_INDEX; 3]);
         let mut wires: Vec<[u32; 2]> =
             runs.iter().filter_map(|run| from.wires.get(run.wires.clone())).flatten().copied().collect();
         let kept = self.positions.renumber(&mut [triangles.as_flattened_mut(), wires.as_flattened_mut()]);
         let positions = pick(&from.positions, &kept);
         let colours = pick(&from.colours, &kept).into_iter().map(rgba).collect();
 
-        let mut corner_normals = gather(&from.corner_normals, runs, [NONE; 3]);
+        let mut corner_normals = gather(&from.corner_normals, runs, [NO_INDEX; 3]);
         let normals = pick(&from.normals, &self.normals.renumber(&mut [corner_normals.as_flattened_mut()]));
-        let mut corner_uvs = gather(&from.corner_uvs, runs, [NONE; 3]);
+        let mut corner_uvs = gather(&from.corner_uvs, runs, [NO_INDEX; 3]);
         let uvs = pick(&from.uvs, &self.uvs.renumber(&mut [corner_uvs.as_flattened_mut()]));
         let edge_marks = gather(&from.edge_marks, runs, [EdgeMark::Unmarked; 3]);
         if normals.is_empty() {
@@ -257,7 +257,7 @@ impl<'a> Split<'a> {
 
 /// Per-triangle data of some runs, filled up with `nothing` if `all` is too short; empty if the file has
 /// none.
-fn gather<T: Copy>(all: &[T], runs: &[FaceGroup], nothing: T) -> Vec<T> {
+fn gather<T: Copy>(all: &[T], runs: &[ElementRun], nothing: T) -> Vec<T> {
     let count = runs.iter().map(|run| run.triangles.len()).sum();
     let mut corners = Vec::with_capacity(if all.is_empty() { 0 } else { count });
     if all.is_empty() {
@@ -278,20 +278,20 @@ fn pick<T: Copy>(from: &[T], kept: &[u32]) -> Vec<T> {
 
 /// Renumbers the elements that a part uses from 0, in file order.
 struct Renumber {
-    /// New number of each old one; [`NONE`] outside the present part.
+    /// New number of each old one; [`NO_INDEX`] outside the present part.
     new_from_old: Vec<u32>,
 }
 
 impl Renumber {
     fn new(count: usize) -> Self {
-        Self { new_from_old: vec![NONE; count] }
+        Self { new_from_old: vec![NO_INDEX; count] }
     }
 
-    /// Renumbers indices and returns the old numbers in use. Indices out of range become [`NONE`].
+    /// Renumbers indices and returns the old numbers in use. Indices out of range become [`NO_INDEX`].
     fn renumber(&mut self, indices: &mut [&mut [u32]]) -> Vec<u32> {
         let mut kept = Vec::new();
         for &old in indices.iter().flat_map(|part| part.iter()) {
-            if let Some(new) = self.new_from_old.get_mut(old as usize).filter(|new| **new == NONE) {
+            if let Some(new) = self.new_from_old.get_mut(old as usize).filter(|new| **new == NO_INDEX) {
                 *new = 0;
                 kept.push(old);
             }
@@ -303,11 +303,11 @@ impl Renumber {
             }
         }
         for index in indices.iter_mut().flat_map(|part| part.iter_mut()) {
-            *index = self.new_from_old.get(*index as usize).copied().unwrap_or(NONE);
+            *index = self.new_from_old.get(*index as usize).copied().unwrap_or(NO_INDEX);
         }
         for &old in &kept {
             if let Some(slot) = self.new_from_old.get_mut(old as usize) {
-                *slot = NONE;
+                *slot = NO_INDEX;
             }
         }
         kept

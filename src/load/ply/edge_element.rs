@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::element_rows::{Body, Row, place};
+use super::element_rows::{ElementReader, RowValues, place};
 use super::face_elements::{index_of, no_vertex, skip};
 use super::header::{Element, Encoding};
 use crate::error::Error;
@@ -10,11 +10,11 @@ use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
 /// Property names of the two ends: those of Turk's paper, and those of VCGlib and CGAL.
-const ENDS: [[&str; 2]; 3] = [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]];
+const END_NAMES: [[&str; 2]; 3] = [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]];
 
 /// Content of the element `edge`.
 #[derive(Default)]
-pub(crate) struct Edges {
+pub(crate) struct EdgeWires {
     /// Ends of each edge.
     pub wires: Vec<[u32; 2]>,
     /// Number of edges left out because of their coordinates.
@@ -23,10 +23,14 @@ pub(crate) struct Edges {
 }
 
 /// Reads the element `edge`.
-pub(crate) fn read(body: &mut Body, element: &Element, positions: &[DVec3]) -> Result<Edges, Error> {
+pub(crate) fn read(
+    body: &mut ElementReader,
+    element: &Element,
+    positions: &[DVec3],
+) -> Result<EdgeWires, Error> {
     let count = body.check_count(element)?;
-    let mut edges = Edges::default();
-    let ends = ENDS.iter().find_map(|[from, to]| Some([element.find(&[*from])?, element.find(&[*to])?]));
+    let mut edges = EdgeWires::default();
+    let ends = END_NAMES.iter().find_map(|[from, to]| Some([element.find(&[*from])?, element.find(&[*to])?]));
     let Some(ends) = ends else {
         edges.warnings.note("edges without vertex1 and vertex2 left out");
         skip(body, element)?;
@@ -36,7 +40,7 @@ pub(crate) fn read(body: &mut Body, element: &Element, positions: &[DVec3]) -> R
         edges.warnings.note("colours of edges left out: lines have the colours of their pens");
     }
     edges.wires.reserve(count);
-    let mut row = Row::default();
+    let mut row = RowValues::default();
     for number in 0..count {
         let mut start = body.cursor.clone();
         body.row(element, number, &mut row)?;

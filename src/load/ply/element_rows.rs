@@ -2,18 +2,18 @@
 
 use super::header::{Element, Encoding};
 use crate::error::Error;
-use crate::load::shown;
+use crate::load::quoted_start;
 use crate::load::text_cursor::Cursor;
 
 /// Values of one row, property by property.
 #[derive(Default)]
-pub(crate) struct Row {
+pub(crate) struct RowValues {
     values: Vec<f64>,
     /// End of each property in `values`.
     ends: Vec<usize>,
 }
 
-impl Row {
+impl RowValues {
     /// Values of a property.
     pub fn list(&self, property: usize) -> &[f64] {
         let start = property.checked_sub(1).and_then(|p| self.ends.get(p)).copied().unwrap_or(0);
@@ -28,12 +28,12 @@ impl Row {
 }
 
 /// Reading position in a body.
-pub(crate) struct Body<'a> {
+pub(crate) struct ElementReader<'a> {
     pub cursor: Cursor<'a>,
     pub encoding: Encoding,
 }
 
-impl<'a> Body<'a> {
+impl<'a> ElementReader<'a> {
     /// Bytes not yet read.
     pub fn rest(&self) -> &'a [u8] {
         self.cursor.bytes.get(self.cursor.at..).unwrap_or_default()
@@ -55,7 +55,7 @@ impl<'a> Body<'a> {
     }
 
     /// Reads the next row; `number` counts from 0 and is used in errors.
-    pub fn row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+    pub fn row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
         row.values.clear();
         row.ends.clear();
         if self.encoding == Encoding::Text {
@@ -65,7 +65,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn binary_row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+    fn binary_row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
         for property in &element.properties {
             let mut length = 1;
             if let Some(kind) = property.list {
@@ -96,7 +96,7 @@ impl<'a> Body<'a> {
     }
 
     /// Reads a row of text, one line; the rest of the line is ignored.
-    fn text_row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+    fn text_row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
         self.cursor.skip_space();
         if self.cursor.at_end() {
             return Err(cut_off(element, number));
@@ -128,7 +128,7 @@ impl<'a> Body<'a> {
             self.at_line(if word.is_empty() {
                 "the line has too few values".into()
             } else {
-                format!("`{}` is not a number", shown(word))
+                format!("`{}` is not a number", quoted_start(word))
             })
         })
     }

@@ -3,9 +3,9 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::element_rows::{Body, Row, place};
-use super::header::{Element, Encoding, Scalar};
-use super::vertex_element::{COLOURS, find};
+use super::element_rows::{ElementReader, RowValues, place};
+use super::header::{Element, Encoding, ScalarType};
+use super::vertex_element::{COLOUR_NAMES, find};
 use crate::colour::srgb::Colour;
 use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
@@ -15,12 +15,12 @@ use crate::scene::extent::coordinate_limits::is_drawable;
 use crate::scene::warnings::Warnings;
 
 /// Minimum rows per parallel task.
-const ROWS: usize = 1 << 13;
+const MIN_TASK_ROWS: usize = 1 << 13;
 
-const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
+const LIST_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Collects triangles over the positions of the file.
-pub(crate) struct Faces<'a> {
+pub(crate) struct FaceReader<'a> {
     positions: &'a [DVec3],
     has_bad_positions: bool,
     corners: Vec<u32>,
@@ -38,12 +38,12 @@ pub(crate) struct Faces<'a> {
     pub warnings: Warnings,
 }
 
-impl<'a> Faces<'a> {
+impl<'a> FaceReader<'a> {
     /// Starts without faces.
     pub fn new(positions: &'a [DVec3]) -> Self {
         Self {
             positions,
-            has_bad_positions: !positions.par_iter().with_min_len(ROWS).all(|&p| is_drawable(p)),
+            has_bad_positions: !positions.par_iter().with_min_len(MIN_TASK_ROWS).all(|&p| is_drawable(p)),
             corners: Vec::new(),
             points: Vec::new(),
             cut: Vec::new(),
@@ -57,9 +57,9 @@ impl<'a> Faces<'a> {
     }
 
     /// Reads the element `face`.
-    pub fn polygons(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+    pub fn polygons(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
         let count = body.check_count(element)?;
-        let Some(list) = element.find(&LISTS).filter(|&p| is_list(element, p)) else {
+        let Some(list) = element.find(&LIST_NAMES).filter(|&p| is_list(element, p)) else {
             self.warnings.note("faces without a list of vertices left out");
             return skip(body, element);
         };
@@ -67,7 +67,7 @@ impl<'a> Faces<'a> {
         let colour = ColourColumns::new(element);
         let packed = Packed::new(body, element, list).filter(|_| colour.is_none());
         let mut too_short = 0;
-        let mut row = Row::default();
+        let mut row = RowValues::default();
         let first = packed.as_ref().map_or(0, |packed| self.first_triangles(packed, body, count));
         for number in first..count {
             if let Some((triangle, size)) = packed.as_ref().and_then(|p| p.triangle(body.rest())) {
@@ -104,7 +104,7 @@ impl<'a> Faces<'a> {
 
     /// Reads the leading rows that are triangles, in parallel, and returns their number. In most files these
     /// are all rows, and all have the same size.
-    fn first_triangles(&mut self, packed: &Packed, body: &mut Body, count: usize) -> usize {
+    fn first_triangles(&mut self, packed: &Packed, body: &mut ElementReader, count: usize) -> usize {
         if self.has_bad_positions {
             return 0;
         }
@@ -116,11 +116,11 @@ impl<'a> Faces<'a> {
             triangle.iter().all(|&i| (i as usize) < vertices).then_some(triangle)
         };
         let before = self.triangles.len();
-        let chunks = rows.par_chunks(size * ROWS);
+        let chunks = rows.par_chunks(size * MIN_TASK_ROWS);
         let read: Vec<Vec<[u32; 3]>> =
             chunks.map(|rows| rows.chunks_exact(size).map_while(triangle).collect()).collect();
         self.triangles.reserve(read.iter().map(Vec::len).sum());
-        for (triangles, rows) in read.into_iter().zip(rows.chunks(size * ROWS)) {
+        for (triangles, rows) in read.into_iter().zip(rows.chunks(size * MIN_TASK_ROWS)) {
             let is_whole = triangles.len() * size == rows.len();
             self.triangles.extend(triangles);
             if !is_whole {
@@ -133,12 +133,12 @@ impl<'a> Faces<'a> {
     }
 
     /// Reads the element `tristrips`; −1 starts a new strip.
-    pub fn strips(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+    pub fn strips(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
         let count = body.check_count(element)?;
-        let Some(list) = element.find(&LISTS).filter(|&p| is_list(element, p)) else {
+        let Some(list) = element.find(&LIST_NAMES).filter(|&p| is_list(element, p)) else {
             return skip(body, element);
         };
-        let mut row = Row::default();
+        let mut row = RowValues::default();
         for number in 0..count {
             body.row(element, number, &mut row)?;
             let values = row.list(list);
@@ -198,14 +198,14 @@ pub(crate) fn no_vertex(index: f64, positions: &[DVec3]) -> Error {
 
 /// Properties with the colour of a face.
 struct ColourColumns {
-    channels: [(usize, Scalar); 3],
-    alpha: Option<(usize, Scalar)>,
+    channels: [(usize, ScalarType); 3],
+    alpha: Option<(usize, ScalarType)>,
 }
 
 impl ColourColumns {
     fn new(element: &Element) -> Option<Self> {
-        let kind = |property: usize| element.properties.get(property).map_or(Scalar::U8, |p| p.kind);
-        let channels = COLOURS.iter().find_map(|names| find(element, *names))?;
+        let kind = |property: usize| element.properties.get(property).map_or(ScalarType::U8, |p| p.kind);
+        let channels = COLOUR_NAMES.iter().find_map(|names| find(element, *names))?;
         let is_number = |property: &usize| !is_list(element, *property);
         let alpha = element.find(&["alpha", "diffuse_alpha", "a"]).filter(is_number);
         channels.iter().all(is_number).then(|| Self {
@@ -214,8 +214,8 @@ impl ColourColumns {
         })
     }
 
-    fn of(&self, row: &Row) -> Colour {
-        let byte = |(property, kind): (usize, Scalar)| {
+    fn of(&self, row: &RowValues) -> Colour {
+        let byte = |(property, kind): (usize, ScalarType)| {
             (row.value(property) / kind.full() * 255.0).round().clamp(0.0, 255.0) as u8
         };
         let [r, g, b] = self.channels.map(byte);
@@ -228,9 +228,9 @@ fn is_list(element: &Element, property: usize) -> bool {
 }
 
 /// Skips an element.
-pub(crate) fn skip(body: &mut Body, element: &Element) -> Result<(), Error> {
+pub(crate) fn skip(body: &mut ElementReader, element: &Element) -> Result<(), Error> {
     let count = body.check_count(element)?;
-    let mut row = Row::default();
+    let mut row = RowValues::default();
     (0..count).try_for_each(|number| body.row(element, number, &mut row))
 }
 
@@ -242,10 +242,10 @@ struct Packed {
 }
 
 impl Packed {
-    fn new(body: &Body, element: &Element, list: usize) -> Option<Self> {
+    fn new(body: &ElementReader, element: &Element, list: usize) -> Option<Self> {
         let property = element.properties.get(list)?;
-        let usual = property.list == Some(Scalar::U8)
-            && matches!(property.kind, Scalar::I32 | Scalar::U32)
+        let usual = property.list == Some(ScalarType::U8)
+            && matches!(property.kind, ScalarType::I32 | ScalarType::U32)
             && body.encoding == Encoding::Little;
         let others = element.properties.iter().skip(list + 1);
         let after: Option<usize> = others.map(|p| p.list.is_none().then(|| p.kind.size())).sum();

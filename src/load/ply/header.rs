@@ -1,12 +1,12 @@
 //! Parses the header of a PLY file: its encoding and the elements of its body.
 
 use crate::error::Error;
-use crate::load::shown;
+use crate::load::quoted_start;
 use crate::load::text_cursor::{Cursor, decode};
-use crate::scene::warnings::{Spots, Warnings};
+use crate::scene::warnings::{WarningExamples, Warnings};
 
 /// Maximum words of a statement that are read; further words are ignored.
-const MOST_WORDS: usize = 6;
+const MAX_STATEMENT_WORDS: usize = 6;
 
 /// Encoding of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(crate) enum Encoding {
 
 /// Type of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scalar {
+pub(crate) enum ScalarType {
     I8,
     U8,
     I16,
@@ -29,7 +29,7 @@ pub(crate) enum Scalar {
     F64,
 }
 
-impl Scalar {
+impl ScalarType {
     fn parse(word: &[u8]) -> Option<Self> {
         Some(match word {
             b"char" | b"int8" => Self::I8,
@@ -99,8 +99,8 @@ impl Scalar {
 pub(crate) struct Property {
     pub name: String,
     /// Type of the length, if it is a list.
-    pub list: Option<Scalar>,
-    pub kind: Scalar,
+    pub list: Option<ScalarType>,
+    pub kind: ScalarType,
 }
 
 /// Rows with the same properties.
@@ -161,7 +161,7 @@ impl Header {
         };
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
-        let mut strange = Spots::default();
+        let mut strange = WarningExamples::default();
         // Set after a line that is an element only if properties follow.
         let mut doubt: Option<(Cursor, &[u8])> = None;
         loop {
@@ -173,11 +173,11 @@ impl Header {
             let fail = |message: String| Err(Error::new(message).at(format!("line {}", place.line())));
             let line = cursor.rest_of_line();
             let words = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
-            let words: Vec<&[u8]> = words.take(MOST_WORDS).collect();
+            let words: Vec<&[u8]> = words.take(MAX_STATEMENT_WORDS).collect();
             // Text after a statement does not describe the data.
             let (statement, remark) = words.split_at(words.len().min(length(&words)));
             if let [word, ..] = remark {
-                strange.add(|| format!("line {}: `{}` is ignored", place.line(), shown(word)));
+                strange.add(|| format!("line {}: `{}` is ignored", place.line(), quoted_start(word)));
             }
             if let (Some((place, line)), [b"property", ..]) = (&doubt, statement) {
                 return Err(does_not_belong(place, line));
@@ -189,21 +189,24 @@ impl Header {
                         b"ascii" => Encoding::Text,
                         b"binary_little_endian" => Encoding::Little,
                         b"binary_big_endian" => Encoding::Big,
-                        _ => return fail(format!("`{}` is not a PLY format", shown(name))),
+                        _ => return fail(format!("`{}` is not a PLY format", quoted_start(name))),
                     });
                     if version != b"1.0" {
-                        return fail(format!("version {} of PLY is not known; 1.0 is", shown(version)));
+                        return fail(format!(
+                            "version {} of PLY is not known; 1.0 is",
+                            quoted_start(version)
+                        ));
                     }
                 }
                 [b"element", name, count] => {
                     let Some(count) = std::str::from_utf8(count).ok().and_then(|c| c.parse().ok()) else {
-                        return fail(format!("`{}` is not a number of rows", shown(count)));
+                        return fail(format!("`{}` is not a number of rows", quoted_start(count)));
                     };
                     elements.push(Element { name: decode(name).into_owned(), count, properties: Vec::new() });
                     doubt = None;
                 }
                 [b"property", b"list", length, kind, name] => {
-                    match (Scalar::parse(length), Scalar::parse(kind)) {
+                    match (ScalarType::parse(length), ScalarType::parse(kind)) {
                         (Some(list), Some(kind)) => {
                             let property =
                                 Property { name: decode(name).into_owned(), list: Some(list), kind };
@@ -212,12 +215,12 @@ impl Header {
                             };
                             element.properties.push(property);
                         }
-                        _ => return fail(format!("`{}` has an unknown type", shown(line))),
+                        _ => return fail(format!("`{}` has an unknown type", quoted_start(line))),
                     }
                 }
                 [b"property", kind, name] => {
-                    let Some(kind) = Scalar::parse(kind) else {
-                        return fail(format!("`{}` is not a type", shown(kind)));
+                    let Some(kind) = ScalarType::parse(kind) else {
+                        return fail(format!("`{}` is not a type", quoted_start(kind)));
                     };
                     let property = Property { name: decode(name).into_owned(), list: None, kind };
                     let Some(element) = elements.last_mut() else {
@@ -232,7 +235,7 @@ impl Header {
                     if is_like_element(&words) {
                         doubt = Some((place.clone(), line));
                     }
-                    strange.add(|| format!("line {}: `{}` is ignored", place.line(), shown(line)));
+                    strange.add(|| format!("line {}: `{}` is ignored", place.line(), quoted_start(line)));
                 }
             }
         }
@@ -245,7 +248,7 @@ impl Header {
 }
 
 fn does_not_belong(place: &Cursor, line: &[u8]) -> Error {
-    Error::new(format!("`{}` is not a header line", shown(line))).at(format!("line {}", place.line()))
+    Error::new(format!("`{}` is not a header line", quoted_start(line))).at(format!("line {}", place.line()))
 }
 
 /// Number of words of a statement; all words of any other line.
@@ -264,7 +267,7 @@ fn length(words: &[&[u8]]) -> usize {
 fn is_statement(words: &[&[u8]]) -> bool {
     match *words {
         [b"format" | b"element" | b"property", ..] | [_, b"list", _, _, _] => true,
-        [_, kind, _] => Scalar::parse(kind).is_some(),
+        [_, kind, _] => ScalarType::parse(kind).is_some(),
         _ => false,
     }
 }

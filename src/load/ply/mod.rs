@@ -20,8 +20,8 @@ use std::path::Path;
 
 use glam::DAffine3;
 
-use self::element_rows::Body;
-use self::face_elements::Faces;
+use self::element_rows::ElementReader;
+use self::face_elements::FaceReader;
 use self::header::{Element, Header};
 use super::read_with;
 use super::text_cursor::Cursor;
@@ -30,7 +30,7 @@ use crate::colour::srgb::Colour;
 use crate::error::Error;
 use crate::mesh::EdgeMark;
 use crate::scene::drawable;
-use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE, is_drawable};
+use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE_WARNING, is_drawable};
 use crate::scene::extent::precision_warning;
 use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings};
 
@@ -49,7 +49,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 /// As [`read`].
 pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let header = Header::parse(bytes)?;
-    let mut body = Body { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
+    let mut body = ElementReader { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
     let mut model = Model { warnings: header.warnings, ..Model::default() };
     let mut has_vertices = false;
     // Elements that need the vertices, with the start of their rows.
@@ -93,7 +93,7 @@ struct Model {
 
 impl Model {
     /// Reads the rows of an element that refers to vertices.
-    fn connect(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
+    fn connect(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
         if element.name == "edge" {
             let edges = edge_element::read(body, element, &self.geometry.positions)?;
             self.warnings.extend(&edges.warnings);
@@ -101,7 +101,7 @@ impl Model {
             self.geometry.wires.extend(edges.wires);
             return Ok(());
         }
-        let mut faces = Faces::new(&self.geometry.positions);
+        let mut faces = FaceReader::new(&self.geometry.positions);
         if element.name == "face" {
             faces.polygons(body, element)?;
         } else {
@@ -130,7 +130,7 @@ impl Model {
     fn into_scene(self, stem: &str) -> Result<Scene, Error> {
         let Self { mut geometry, colours, warnings, unusable } = self;
         let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings, ..Scene::default() };
-        scene.warnings.count(NOT_DRAWABLE, unusable);
+        scene.warnings.count(NOT_DRAWABLE_WARNING, unusable);
         if !geometry.edge_marks.is_empty() {
             geometry.edge_marks.resize(geometry.triangles.len(), [EdgeMark::Unmarked; 3]);
         }
@@ -156,7 +156,7 @@ impl Model {
         }
         scene.geometries.push(geometry);
         scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
-        drawable(scene).map(precision_warning::checked)
+        drawable(scene).map(precision_warning::with_precision_warning)
     }
 }
 

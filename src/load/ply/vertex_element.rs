@@ -3,14 +3,14 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::element_rows::{Body, Row};
-use super::header::{Element, Encoding, Scalar};
+use super::element_rows::{ElementReader, RowValues};
+use super::header::{Element, Encoding, ScalarType};
 use crate::colour::srgb::linear;
 use crate::error::Error;
 use crate::scene::Geometry;
 
 /// Minimum rows per parallel task.
-const ROWS: usize = 1 << 13;
+const MIN_TASK_ROWS: usize = 1 << 13;
 
 /// Property indices of the vertex attributes.
 struct Columns {
@@ -22,7 +22,7 @@ struct Columns {
 }
 
 /// Names of the channels of a colour.
-pub(crate) const COLOURS: [[&str; 3]; 3] =
+pub(crate) const COLOUR_NAMES: [[&str; 3]; 3] =
     [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
 
 /// Indices of a set of properties, if all are present.
@@ -36,7 +36,7 @@ pub(crate) fn find<const N: usize>(element: &Element, names: [&str; N]) -> Optio
 
 impl Columns {
     fn new(element: &Element) -> Option<Self> {
-        let colour = COLOURS.iter().find_map(|names| find(element, *names));
+        let colour = COLOUR_NAMES.iter().find_map(|names| find(element, *names));
         let uv = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
         Some(Self {
             position: find(element, ["x", "y", "z"])?,
@@ -49,13 +49,13 @@ impl Columns {
 }
 
 /// Reads the rows of the element `vertex`.
-pub(crate) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error> {
+pub(crate) fn read(body: &mut ElementReader, element: &Element) -> Result<Geometry, Error> {
     let count = body.check_count(element)?;
     let Some(columns) = Columns::new(element) else {
         return Err(Error::new("the vertices have no x, y and z").at("element vertex"));
     };
-    let kind = |property: usize| element.properties.get(property).map_or(Scalar::F64, |p| p.kind);
-    let single_precision = columns.position.iter().all(|&p| kind(p) == Scalar::F32);
+    let kind = |property: usize| element.properties.get(property).map_or(ScalarType::F64, |p| p.kind);
+    let single_precision = columns.position.iter().all(|&p| kind(p) == ScalarType::F32);
     let mut geometry = Geometry { single_precision, ..Geometry::default() };
     geometry.positions.reserve_exact(count);
     let fixed = element.properties.iter().all(|p| p.list.is_none()) && body.encoding != Encoding::Text;
@@ -67,14 +67,15 @@ pub(crate) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
             let follow = element.offset(y) == Some(o + 4) && element.offset(z) == Some(o + 8);
             follow && single_precision && body.encoding == Encoding::Little
         });
-        let each = rows.par_chunks(stride).with_min_len(ROWS);
+        let each = rows.par_chunks(stride).with_min_len(MIN_TASK_ROWS);
         if let Some(start) = packed {
             geometry.positions.par_extend(each.map(|row| packed_position(row, start)));
         } else {
             let places = [x, y, z].map(|p| (kind(p), element.offset(p).unwrap_or(0)));
             geometry.positions.par_extend(each.map(|row| {
-                let value =
-                    |(kind, at): (Scalar, usize)| kind.read(row.get(at..).unwrap_or_default(), body.encoding);
+                let value = |(kind, at): (ScalarType, usize)| {
+                    kind.read(row.get(at..).unwrap_or_default(), body.encoding)
+                };
                 DVec3::from_array(places.map(value))
             }));
         }
@@ -83,11 +84,11 @@ pub(crate) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
     }
     // Table for byte channels, which are the usual case; converting each channel would be slow.
     let bytes: Vec<f32> = (0..=255_u8).map(|c| linear(f32::from(c) / 255.0)).collect();
-    let channel = |row: &Row, property: usize| match kind(property) {
-        Scalar::U8 => bytes.get(row.value(property) as usize).copied().unwrap_or(1.0),
+    let channel = |row: &RowValues, property: usize| match kind(property) {
+        ScalarType::U8 => bytes.get(row.value(property) as usize).copied().unwrap_or(1.0),
         kind => linear((row.value(property) / kind.full()) as f32),
     };
-    let mut row = Row::default();
+    let mut row = RowValues::default();
     for number in 0..count {
         body.row(element, number, &mut row)?;
         geometry.positions.push(DVec3::from_array(columns.position.map(|p| row.value(p))));

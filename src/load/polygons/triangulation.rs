@@ -6,18 +6,18 @@
 use glam::{DVec2, DVec3};
 
 /// Maximum corners of a concave polygon for ear clipping; larger ones are fanned.
-const MOST_CORNERS: usize = 4096;
+const MAX_CONCAVE_CORNERS: usize = 4096;
 
 /// Maximum corner tests of ear clipping; then the rest of the polygon is fanned.
-const MOST_TESTS: usize = 100_000_000;
+const MAX_CORNER_TESTS: usize = 100_000_000;
 
 /// Maximum corners of a convex polygon for the search for a good apex; larger ones are fanned from the first
 /// corner.
-const MOST_APEXES: usize = 512;
+const MAX_APEX_CORNERS: usize = 512;
 
 /// Maximum sine of the angle between collinear points: a hundred times the error of single precision on a
 /// straight side.
-const IN_LINE: f64 = 1e-5;
+const MAX_COLLINEAR_SINE: f64 = 1e-5;
 
 /// Quality of a triangulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,8 @@ pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     // The two halves face opposite ways if the diagonal 0-2 is outside.
     let runs_outside = u.cross(v).dot(v.cross(w)) < 0.0;
     let is_flat = |u: DVec3, v: DVec3| {
-        u.cross(v).length_squared() <= IN_LINE * IN_LINE * u.length_squared() * v.length_squared()
+        u.cross(v).length_squared()
+            <= MAX_COLLINEAR_SINE * MAX_COLLINEAR_SINE * u.length_squared() * v.length_squared()
     };
     let is_in_line = (is_flat(u, v) || is_flat(v, w)) && !(is_flat(u, w) || is_flat(c - b, d - b));
     if runs_outside || is_in_line { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] }
@@ -77,7 +78,7 @@ fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
             return CutOutcome::Sound;
         }
     }
-    if points.len() <= MOST_CORNERS {
+    if points.len() <= MAX_CONCAVE_CORNERS {
         return Ears::new(&flat).clip(triangles);
     }
     let mut kept: Vec<u32> = Vec::with_capacity(points.len());
@@ -86,7 +87,7 @@ fn polygon(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
             kept.push(i as u32);
         }
     }
-    if kept.len() > MOST_CORNERS {
+    if kept.len() > MAX_CONCAVE_CORNERS {
         fan(kept, triangles);
         return CutOutcome::TooLarge;
     }
@@ -153,17 +154,18 @@ fn is_convex(points: &[DVec2]) -> bool {
 #[inline]
 fn has_area(a: DVec2, b: DVec2, c: DVec2) -> bool {
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-    cross(a, b, c) > IN_LINE * longest
+    cross(a, b, c) > MAX_COLLINEAR_SINE * longest
 }
 
 /// First corner of a convex polygon whose fan has only triangles with area; corner 0 of a large polygon.
 fn apex(points: &[DVec2]) -> Option<u32> {
     let count = points.len();
-    if count > MOST_APEXES {
+    if count > MAX_APEX_CORNERS {
         return Some(0);
     }
-    let has_area =
-        |a: DVec2, b: DVec2, c: DVec2| cross(a, b, c) > IN_LINE * (b - a).length() * (c - a).length();
+    let has_area = |a: DVec2, b: DVec2, c: DVec2| {
+        cross(a, b, c) > MAX_COLLINEAR_SINE * (b - a).length() * (c - a).length()
+    };
     let is_apex = |apex: &usize| {
         let at = |k: usize| points[(apex + k) % count];
         (1..count - 1).all(|k| has_area(points[*apex], at(k), at(k + 1)))
@@ -173,7 +175,7 @@ fn apex(points: &[DVec2]) -> Option<u32> {
 
 /// Cached state of a corner.
 #[derive(Clone, Copy, PartialEq)]
-enum Known {
+enum EarState {
     Nothing,
     /// Reflex, or collinear with its neighbours: no ear while the neighbours stay.
     Reflex,
@@ -182,16 +184,16 @@ enum Known {
 }
 
 #[derive(Clone, Copy)]
-struct Corner {
+struct PolygonCorner {
     point: DVec2,
     before: u32,
     after: u32,
-    known: Known,
+    known: EarState,
 }
 
 /// Remaining corners as a linked ring, in polygon order.
 struct Ears {
-    corners: Vec<Corner>,
+    corners: Vec<PolygonCorner>,
     first: u32,
     left: usize,
     tests: usize,
@@ -203,18 +205,18 @@ impl Ears {
         let corners = points
             .iter()
             .zip(0_u32..)
-            .map(|(&point, i)| Corner {
+            .map(|(&point, i)| PolygonCorner {
                 point,
                 before: if i == 0 { n.saturating_sub(1) } else { i - 1 },
                 after: if i + 1 == n { 0 } else { i + 1 },
-                known: Known::Nothing,
+                known: EarState::Nothing,
             })
             .collect();
         Self { corners, first: 0, left: points.len(), tests: 0 }
     }
 
-    fn corner(&self, i: u32) -> Corner {
-        let nowhere = Corner { point: DVec2::ZERO, before: 0, after: 0, known: Known::Reflex };
+    fn corner(&self, i: u32) -> PolygonCorner {
+        let nowhere = PolygonCorner { point: DVec2::ZERO, before: 0, after: 0, known: EarState::Reflex };
         self.corners.get(i as usize).copied().unwrap_or(nowhere)
     }
 
@@ -224,14 +226,14 @@ impl Ears {
 
     fn clip(mut self, triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
         while self.left > 3 {
-            if self.tests > MOST_TESTS {
+            if self.tests > MAX_CORNER_TESTS {
                 let rest: Vec<u32> = self.ring().collect();
                 fan(rest, triangles);
                 return CutOutcome::TooLarge;
             }
             // A self-intersecting polygon may have no ear; clip any corner.
             let ear = self.first_ear().unwrap_or(self.first);
-            let Corner { before, after, .. } = self.corner(ear);
+            let PolygonCorner { before, after, .. } = self.corner(ear);
             triangles.push([before, ear, after]);
             self.remove(ear);
         }
@@ -245,9 +247,9 @@ impl Ears {
         let mut i = self.first;
         for _ in 0..self.left {
             let corner = self.corner(i);
-            if corner.known == Known::Nothing {
+            if corner.known == EarState::Nothing {
                 match self.look(i) {
-                    Known::Nothing => return Some(i),
+                    EarState::Nothing => return Some(i),
                     known => self.learn(i, known),
                 }
             }
@@ -258,11 +260,11 @@ impl Ears {
     }
 
     /// Tests a corner; `Nothing` means that it is an ear.
-    fn look(&mut self, i: u32) -> Known {
+    fn look(&mut self, i: u32) -> EarState {
         let ear = self.corner(i);
         let (a, b, c) = (self.corner(ear.before).point, ear.point, self.corner(ear.after).point);
         if !has_area(a, b, c) {
-            return Known::Reflex;
+            return EarState::Reflex;
         }
         let mut tests = 0;
         let blocker = self.ring().find(|&m| {
@@ -273,23 +275,23 @@ impl Ears {
                 && m != ear.after
                 && cross(a, b, p) >= 0.0
                 && cross(b, c, p) >= 0.0
-                && cross(c, a, p) >= -IN_LINE * (a - c).length() * (p - c).length()
+                && cross(c, a, p) >= -MAX_COLLINEAR_SINE * (a - c).length() * (p - c).length()
                 && p != a
                 && p != b
                 && p != c
         });
         self.tests += tests;
-        blocker.map_or(Known::Nothing, Known::Blocked)
+        blocker.map_or(EarState::Nothing, EarState::Blocked)
     }
 
-    fn learn(&mut self, i: u32, known: Known) {
+    fn learn(&mut self, i: u32, known: EarState) {
         if let Some(corner) = self.corners.get_mut(i as usize) {
             corner.known = known;
         }
     }
 
     fn remove(&mut self, i: u32) {
-        let Corner { before, after, .. } = self.corner(i);
+        let PolygonCorner { before, after, .. } = self.corner(i);
         if let Some(corner) = self.corners.get_mut(before as usize) {
             corner.after = after;
         }
@@ -301,13 +303,13 @@ impl Ears {
         }
         self.left -= 1;
         for corner in &mut self.corners {
-            if corner.known == Known::Blocked(i) {
-                corner.known = Known::Nothing;
+            if corner.known == EarState::Blocked(i) {
+                corner.known = EarState::Nothing;
             }
         }
         self.tests += self.corners.len() / 8;
-        self.learn(before, Known::Nothing);
-        self.learn(after, Known::Nothing);
+        self.learn(before, EarState::Nothing);
+        self.learn(after, EarState::Nothing);
     }
 }
 

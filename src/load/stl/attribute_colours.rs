@@ -22,7 +22,7 @@ use crate::load::triangle_colours;
 use crate::scene::{Geometry, Scene};
 
 /// Start of the header that `MeshLab` writes.
-const MESHLAB: &[u8] = b"COLOR=\x7f\x7f\x7f MATERIAL=\x7f\x7f\x7f \x7f\x7f\x7f \x7f\x7f\x7f";
+const MESHLAB_HEADER: &[u8] = b"COLOR=\x7f\x7f\x7f MATERIAL=\x7f\x7f\x7f \x7f\x7f\x7f \x7f\x7f\x7f";
 
 const BIT_15: u16 = 1 << 15;
 
@@ -42,7 +42,7 @@ pub(crate) fn paint(header: &[u8], attributes: &[u16], geometry: &mut Geometry, 
     let viscam = |attribute: &u16| is_marked(attribute).then(|| own(*attribute, [10, 5, 0]));
     let magics = |attribute: u16| own(attribute, [0, 5, 10]);
     let colours: Vec<Option<Colour>> = match part_colour(header) {
-        Some(part) if header.starts_with(MESHLAB) => {
+        Some(part) if header.starts_with(MESHLAB_HEADER) => {
             attributes.iter().map(|a| Some(if is_marked(a) { magics(*a) } else { part })).collect()
         }
         // Some programs leave all attributes 0, which would make every triangle black.
@@ -75,7 +75,7 @@ fn part_colour(header: &[u8]) -> Option<Colour> {
     };
     let [r, g, b, a] = *after(b"COLOR=")?.first_chunk::<4>()?;
     // Programs without transparency write 0, and MeshLab a blank.
-    let a = if a == 0 || header.starts_with(MESHLAB) { 255 } else { a };
+    let a = if a == 0 || header.starts_with(MESHLAB_HEADER) { 255 } else { a };
     let diffuse = after(b"MATERIAL=").and_then(|rest| rest.first_chunk::<12>());
     // Twelve blanks or zeros are padding of the header, not a material.
     match diffuse.filter(|colours| **colours != [b' '; 12] && **colours != [0; 12]) {
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn meshlab_sets_bit_15_on_triangles_with_a_colour() {
-        let meshlab = header(MESHLAB);
+        let meshlab = header(MESHLAB_HEADER);
         assert_eq!(colours(&meshlab, &[0x801f, 0xfc00, 0]).0, ["#ff0000", "#0000ff", "#7f7f7f"]);
     }
 }

@@ -20,13 +20,13 @@ use super::read_with;
 use super::text_cursor::{Cursor, decode};
 use crate::error::Error;
 use crate::scene::drawable;
-use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE, is_drawable};
+use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE_WARNING, is_drawable};
 use crate::scene::extent::precision_warning;
-use crate::scene::warnings::Spots;
+use crate::scene::warnings::WarningExamples;
 use crate::scene::{Geometry, Part, Scene, UpAxis};
 
-const HEADER: usize = 84;
-const RECORD: usize = 50;
+const HEADER_BYTES: usize = 84;
+const RECORD_BYTES: usize = 50;
 
 /// Reads an STL file.
 ///
@@ -47,19 +47,19 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     } else {
         read_binary(bytes, stem, &mut scene)?
     }
-    drawable(scene).map(precision_warning::checked)
+    drawable(scene).map(precision_warning::with_precision_warning)
 }
 
 /// Number of triangles in the header of a binary file.
 fn binary_count(bytes: &[u8]) -> Option<u32> {
-    bytes.get(80..HEADER).and_then(|count| <[u8; 4]>::try_from(count).ok()).map(u32::from_le_bytes)
+    bytes.get(80..HEADER_BYTES).and_then(|count| <[u8; 4]>::try_from(count).ok()).map(u32::from_le_bytes)
 }
 
 /// Whether a file is text. Binary files may begin with `solid` too, so their length and zero bytes are tested
 /// as well.
 fn is_text(bytes: &[u8]) -> bool {
     let fits = binary_count(bytes)
-        .is_some_and(|n| HEADER as u64 + RECORD as u64 * u64::from(n) == bytes.len() as u64);
+        .is_some_and(|n| HEADER_BYTES as u64 + RECORD_BYTES as u64 * u64::from(n) == bytes.len() as u64);
     let mut cursor = Cursor::new(bytes);
     cursor.skip_space();
     let keyword = cursor.word();
@@ -73,31 +73,32 @@ fn add_part(scene: &mut Scene, name: String, geometry: Geometry) {
 }
 
 fn read_binary(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error> {
-    let Some((count, body)) = binary_count(bytes).zip(bytes.get(HEADER..)) else {
+    let Some((count, body)) = binary_count(bytes).zip(bytes.get(HEADER_BYTES..)) else {
         let message = format!(
             "{} bytes are too few for a binary STL file and no text begins with `solid`",
             bytes.len()
         );
         return Err(Error::new(message).at("header"));
     };
-    let whole = body.len() / RECORD;
+    let whole = body.len() / RECORD_BYTES;
     if (count as usize) > whole {
         let message = format!("the file says it has {count} triangles, but ends after {whole}");
         return Err(Error::new(message).at("byte 80").remedy("it is cut off or not an STL file"));
     }
-    if body.len() > count as usize * RECORD {
-        scene
-            .warnings
-            .count("bytes after the last triangle left out", (body.len() - count as usize * RECORD) as u64);
+    if body.len() > count as usize * RECORD_BYTES {
+        scene.warnings.count(
+            "bytes after the last triangle left out",
+            (body.len() - count as usize * RECORD_BYTES) as u64,
+        );
     }
     let mut geometry = Geometry { single_precision: true, ..Geometry::default() };
     geometry.triangles.reserve_exact(count as usize);
     // A closed mesh has half as many vertices as triangles.
     geometry.positions.reserve(count as usize / 2 + 3);
-    let mut recent = Recent::new();
+    let mut recent = RecentVertices::new();
     let mut unusable = 0;
     let mut attributes = 0;
-    for record in body.chunks_exact(RECORD).take(count as usize) {
+    for record in body.chunks_exact(RECORD_BYTES).take(count as usize) {
         attributes |= attribute(record);
         let corners = corner_bits(record);
         if is_odd(&corners) {
@@ -106,10 +107,11 @@ fn read_binary(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error>
         }
         geometry.triangles.push(corners.map(|bits| recent.vertex(bits, &mut geometry.positions)));
     }
-    scene.warnings.count(NOT_DRAWABLE, unusable);
+    scene.warnings.count(NOT_DRAWABLE_WARNING, unusable);
     let header = bytes.get(..80).unwrap_or_default();
     if attributes != 0 || attribute_colours::has_part_colour(header) {
-        let sound = body.chunks_exact(RECORD).take(count as usize).filter(|record| !has_odd_corner(record));
+        let sound =
+            body.chunks_exact(RECORD_BYTES).take(count as usize).filter(|record| !has_odd_corner(record));
         let attributes: Vec<u16> = sound.map(attribute).collect();
         attribute_colours::paint(header, &attributes, &mut geometry, scene);
     }
@@ -145,22 +147,22 @@ fn has_odd_corner(record: &[u8]) -> bool {
 ///
 /// Adjacent triangles are mostly close to each other in the file, so a small cache finds most shared
 /// vertices. Welding finds the others.
-struct Recent {
+struct RecentVertices {
     slots: Vec<([u32; 3], u32)>,
 }
 
-impl Recent {
-    const BITS: u32 = 15;
+impl RecentVertices {
+    const SLOT_BITS: u32 = 15;
 
     fn new() -> Self {
-        Self { slots: vec![([u32::MAX; 3], u32::MAX); 1 << Self::BITS] }
+        Self { slots: vec![([u32::MAX; 3], u32::MAX); 1 << Self::SLOT_BITS] }
     }
 
     #[inline]
     fn vertex(&mut self, bits: [u32; 3], positions: &mut Vec<DVec3>) -> u32 {
         let [x, y, z] = bits.map(u64::from);
         let mixed = x ^ y.rotate_left(23) ^ z.rotate_left(43);
-        let slot = mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - Self::BITS);
+        let slot = mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - Self::SLOT_BITS);
         let id = positions.len() as u32;
         let point = || DVec3::from_array(bits.map(|b| f64::from(f32::from_bits(b))));
         match self.slots.get_mut(slot as usize) {
@@ -177,7 +179,8 @@ impl Recent {
 }
 
 fn read_text(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error> {
-    let mut text = Text { cursor: Cursor::new(bytes), word_at: 0, lacks_end: Spots::default() };
+    let mut text =
+        TextParser { cursor: Cursor::new(bytes), word_at: 0, lacks_end: WarningExamples::default() };
     let mut unusable = 0;
     loop {
         let keyword = text.word();
@@ -195,19 +198,19 @@ fn read_text(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error> {
             add_part(scene, name, geometry);
         }
     }
-    scene.warnings.count(NOT_DRAWABLE, unusable);
+    scene.warnings.count(NOT_DRAWABLE_WARNING, unusable);
     text.lacks_end.warn(&mut scene.warnings);
     Ok(())
 }
 
-struct Text<'a> {
+struct TextParser<'a> {
     cursor: Cursor<'a>,
     word_at: usize,
     /// Solids without `endsolid`.
-    lacks_end: Spots,
+    lacks_end: WarningExamples,
 }
 
-impl<'a> Text<'a> {
+impl<'a> TextParser<'a> {
     fn word(&mut self) -> &'a [u8] {
         self.cursor.skip_space();
         self.word_at = self.cursor.at;
@@ -240,7 +243,7 @@ impl<'a> Text<'a> {
                 .at(place)
                 .remedy("it is cut off");
         }
-        Error::new(format!("`{}` stands where {wanted} should", super::shown(found))).at(place)
+        Error::new(format!("`{}` stands where {wanted} should", super::quoted_start(found))).at(place)
     }
 
     /// Reads the facets up to `endsolid`. The end of the file or another `solid` between two facets ends the

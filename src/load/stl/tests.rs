@@ -80,7 +80,7 @@ fn triangles_keep_their_colours_beside_those_left_out() {
     bad[2][1] = f32::INFINITY;
     let mut bytes = binary("", &[bad, CORNER, CORNER]);
     for (k, colour) in [0x83e0_u16, 0xfc00, 0x801f].into_iter().enumerate() {
-        let at = HEADER + RECORD * (k + 1) - 2;
+        let at = HEADER_BYTES + RECORD_BYTES * (k + 1) - 2;
         bytes[at..at + 2].copy_from_slice(&colour.to_le_bytes());
     }
     let scene = read_bytes(&bytes, "").unwrap();

@@ -13,14 +13,14 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::packed_boxes::{EightBoxes, GridBox, Places, Probe, WIDTH};
-use super::quantized_box::{FINE_FIELD, FineBox, LAST_FINE};
+use super::packed_boxes::{BOXES_PER_NODE, ChildMask, EightBoxes, GridBox, ReplicatedBox};
+use super::quantized_box::{BITS_PER_FIELD, FineBox, LAST_FINE_CELL};
 use crate::mesh::PartId;
 
 /// Eight-fold tree of bounding boxes over triangles of a mesh.
 #[derive(Debug, Clone)]
 pub struct BoxTree {
-    cells: Cells,
+    cells: QuantizationGrid,
     /// Face at each rank along the Morton curve.
     faces: Vec<u32>,
     fine: Vec<FineBox>,
@@ -42,7 +42,7 @@ impl BoxTree {
         low: DVec3,
         high: DVec3,
     ) -> Self {
-        let cells = Cells::new(low, high);
+        let cells = QuantizationGrid::new(low, high);
         let vertex_cells: Vec<u64> = positions.par_iter().map(|p| cells.of(*p)).collect();
         let box_of = |[a, b, c]: [u32; 3]| {
             FineBox::of_cells([vertex_cells[a as usize], vertex_cells[b as usize], vertex_cells[c as usize]])
@@ -68,12 +68,15 @@ impl BoxTree {
         drop(entries);
         let fine: Vec<FineBox> = faces.par_iter().map(|&face| box_of(triangles[face as usize])).collect();
         drop(vertex_cells);
-        let mut level: Vec<EightBoxes> =
-            fine.par_chunks(WIDTH).with_min_len(FACES_PER_TASK / WIDTH).map(of_leaf).collect();
+        let mut level: Vec<EightBoxes> = fine
+            .par_chunks(BOXES_PER_NODE)
+            .with_min_len(FACES_PER_TASK / BOXES_PER_NODE)
+            .map(of_leaf)
+            .collect();
         let mut levels = Vec::new();
         loop {
             let boxes: Vec<GridBox> = level.iter().map(EightBoxes::union).collect();
-            let above: Vec<EightBoxes> = boxes.chunks(WIDTH).map(EightBoxes::new).collect();
+            let above: Vec<EightBoxes> = boxes.chunks(BOXES_PER_NODE).map(EightBoxes::new).collect();
             levels.push(level);
             level = above;
             // The search works on groups of 64, so their level always exists.
@@ -90,7 +93,7 @@ impl BoxTree {
     /// was built from.
     ///
     /// Runs in parallel; the order of the result does not depend on the number of threads.
-    pub fn overlaps<T, F>(&self, faces: Faces, visit: F) -> Vec<T>
+    pub fn overlaps<T, F>(&self, faces: TreeFaces, visit: F) -> Vec<T>
     where
         T: Send,
         F: Fn(u32, &[u32], &mut Vec<T>) + Sync,
@@ -102,7 +105,7 @@ impl BoxTree {
             .with_max_len(1)
             .map(|task| {
                 let mut found = Vec::new();
-                let mut search = Search::default();
+                let mut search = OverlapSearch::default();
                 for group in task * GROUPS_PER_TASK..((task + 1) * GROUPS_PER_TASK).min(groups) {
                     self.search_group(faces, group, &mut search, &visit, &mut found);
                 }
@@ -135,20 +138,22 @@ impl BoxTree {
         for (rank, fine) in changed {
             tree.fine[*rank as usize] = *fine;
         }
-        let mut blocks: Vec<usize> = changed.iter().map(|(rank, _)| *rank as usize / WIDTH).collect();
+        let mut blocks: Vec<usize> =
+            changed.iter().map(|(rank, _)| *rank as usize / BOXES_PER_NODE).collect();
         blocks.dedup();
         for block in &blocks {
-            let first = block * WIDTH;
-            tree.levels[0][*block] = of_leaf(&tree.fine[first..(first + WIDTH).min(tree.fine.len())]);
+            let first = block * BOXES_PER_NODE;
+            tree.levels[0][*block] =
+                of_leaf(&tree.fine[first..(first + BOXES_PER_NODE).min(tree.fine.len())]);
         }
         for level in 1..tree.levels.len() {
             let (below, above) = tree.levels.split_at_mut(level);
-            blocks.iter_mut().for_each(|block| *block /= WIDTH);
+            blocks.iter_mut().for_each(|block| *block /= BOXES_PER_NODE);
             blocks.dedup();
             for block in &blocks {
-                let first = block * WIDTH;
-                let children = &below[level - 1][first..(first + WIDTH).min(below[level - 1].len())];
-                let mut boxes = [GridBox::EMPTY; WIDTH];
+                let first = block * BOXES_PER_NODE;
+                let children = &below[level - 1][first..(first + BOXES_PER_NODE).min(below[level - 1].len())];
+                let mut boxes = [GridBox::EMPTY; BOXES_PER_NODE];
                 boxes.iter_mut().zip(children).for_each(|(one, child)| *one = child.union());
                 above[0][*block] = EightBoxes::new(&boxes);
             }
@@ -167,7 +172,7 @@ impl BoxTree {
         stack.push((self.levels.len() - 1, 0));
         while let Some((level, block)) = stack.pop() {
             let Some(boxes) = self.levels[level].get(block) else { continue };
-            for node in boxes.overlapping(wanted).map(|place| block * WIDTH + place) {
+            for node in boxes.overlapping(wanted).map(|place| block * BOXES_PER_NODE + place) {
                 if level > 0 {
                     stack.push((level - 1, node));
                 } else if own.overlaps(self.fine[node]) {
@@ -180,21 +185,21 @@ impl BoxTree {
     /// Visits the triangles of one group with all later triangles on the curve that overlap them.
     fn search_group<T>(
         &self,
-        all: Faces,
+        all: TreeFaces,
         group: usize,
-        search: &mut Search,
+        search: &mut OverlapSearch,
         visit: &impl Fn(u32, &[u32], &mut Vec<T>),
         found: &mut Vec<T>,
     ) {
         let (triangles, leaves) = (&self.levels[0], &self.levels[1]);
         search.groups.clear();
         self.overlapping_groups(group, search);
-        for leaf in group * WIDTH..((group + 1) * WIDTH).min(triangles.len()) {
-            let of_leaf = &leaves[group].get(leaf % WIDTH).into();
-            let mut own = [Probe { low: [0; 3], high: [0; 3] }; WIDTH];
+        for leaf in group * BOXES_PER_NODE..((group + 1) * BOXES_PER_NODE).min(triangles.len()) {
+            let of_leaf = &leaves[group].get(leaf % BOXES_PER_NODE).into();
+            let mut own = [ReplicatedBox { low: [0; 3], high: [0; 3] }; BOXES_PER_NODE];
             own.iter_mut().enumerate().for_each(|(place, own)| *own = triangles[leaf].get(place).into());
             for &other_group in &search.groups {
-                let first = other_group * WIDTH;
+                let first = other_group * BOXES_PER_NODE;
                 let others = leaves[other_group].overlapping(of_leaf);
                 for other in others.from(leaf.saturating_sub(first)).map(|place| first + place) {
                     let of_other = &leaves[other_group].get(other - first).into();
@@ -202,24 +207,32 @@ impl BoxTree {
                         let near = triangles[other].overlapping(&own[place]);
                         // Within the same leaf, only later triangles.
                         let near = if other == leaf { near.from(place + 1) } else { near };
-                        self.add_strangers(all, leaf * WIDTH + place, other, near, &mut search.near[place]);
+                        self.add_overlapping_faces(
+                            all,
+                            leaf * BOXES_PER_NODE + place,
+                            other,
+                            near,
+                            &mut search.near[place],
+                        );
                     }
                 }
             }
             for (place, near) in search.near.iter_mut().enumerate().filter(|(_, near)| !near.is_empty()) {
-                visit(self.faces[leaf * WIDTH + place], near, found);
+                visit(self.faces[leaf * BOXES_PER_NODE + place], near, found);
                 near.clear();
             }
         }
     }
 
     /// Collects the groups, from `group` on, whose boxes overlap its own.
-    fn overlapping_groups(&self, group: usize, search: &mut Search) {
-        let wanted = &self.levels[2][group / WIDTH].get(group % WIDTH).into();
+    fn overlapping_groups(&self, group: usize, search: &mut OverlapSearch) {
+        let wanted = &self.levels[2][group / BOXES_PER_NODE].get(group % BOXES_PER_NODE).into();
         search.stack.clear();
         search.stack.push((self.levels.len() - 1, 0));
         while let Some((level, block)) = search.stack.pop() {
-            for node in self.levels[level][block].overlapping(wanted).map(|place| block * WIDTH + place) {
+            for node in
+                self.levels[level][block].overlapping(wanted).map(|place| block * BOXES_PER_NODE + place)
+            {
                 if level == 2 {
                     // Pairs with earlier groups are found from the other group.
                     search.groups.extend((node >= group).then_some(node));
@@ -233,13 +246,20 @@ impl BoxTree {
     /// Adds the faces of a leaf, selected by `places`, that overlap the triangle at `rank` on the fine grid
     /// and are not its neighbours.
     #[inline]
-    fn add_strangers(&self, all: Faces, rank: usize, leaf: usize, places: Places, near: &mut Vec<u32>) {
-        if places == Places(0) {
+    fn add_overlapping_faces(
+        &self,
+        all: TreeFaces,
+        rank: usize,
+        leaf: usize,
+        places: ChildMask,
+        near: &mut Vec<u32>,
+    ) {
+        if places == ChildMask(0) {
             return;
         }
         let (own_face, own_box) = (self.faces[rank], self.fine[rank]);
         let own = all.triangles[own_face as usize];
-        for other in places.map(|place| leaf * WIDTH + place) {
+        for other in places.map(|place| leaf * BOXES_PER_NODE + place) {
             let face = self.faces[other];
             if !own_box.overlaps(self.fine[other]) {
                 continue;
@@ -254,14 +274,14 @@ impl BoxTree {
 
 /// Triangles, and their bodies.
 #[derive(Debug, Clone, Copy)]
-pub struct Faces<'a> {
+pub struct TreeFaces<'a> {
     /// Vertices of each triangle.
     pub triangles: &'a [[u32; 3]],
     /// Body of each triangle, or empty if there is only one.
     pub bodies: &'a [PartId],
 }
 
-impl Faces<'_> {
+impl TreeFaces<'_> {
     /// Whether two faces with a common vertex are neighbours: in the same body, or with a common edge. Bodies
     /// that touch at a vertex may still intersect.
     #[inline]
@@ -275,22 +295,22 @@ impl Faces<'_> {
 
 /// The boxes of a leaf.
 fn of_leaf(fine: &[FineBox]) -> EightBoxes {
-    let mut boxes = [GridBox::EMPTY; WIDTH];
+    let mut boxes = [GridBox::EMPTY; BOXES_PER_NODE];
     boxes.iter_mut().zip(fine).for_each(|(one, fine)| *one = fine.coarse());
     EightBoxes::new(&boxes)
 }
 
 /// Fine grid over a box. Points outside are clamped to the outermost cells.
 #[derive(Debug, Clone, Copy)]
-struct Cells {
+struct QuantizationGrid {
     low: DVec3,
     per_length: DVec3,
 }
 
-impl Cells {
+impl QuantizationGrid {
     fn new(low: DVec3, high: DVec3) -> Self {
         let extent = high - low;
-        let cells_of = |length: f64| if length > 0.0 { f64::from(LAST_FINE - 1) / length } else { 0.0 };
+        let cells_of = |length: f64| if length > 0.0 { f64::from(LAST_FINE_CELL - 1) / length } else { 0.0 };
         Self { low, per_length: DVec3::new(cells_of(extent.x), cells_of(extent.y), cells_of(extent.z)) }
     }
 
@@ -298,8 +318,8 @@ impl Cells {
     #[inline]
     fn of(&self, p: DVec3) -> u64 {
         let c = (p - self.low) * self.per_length;
-        let cell = |x: f64| u64::from(1 + (x as u32).min(LAST_FINE - 1));
-        cell(c.x) | cell(c.y) << FINE_FIELD | cell(c.z) << (2 * FINE_FIELD)
+        let cell = |x: f64| u64::from(1 + (x as u32).min(LAST_FINE_CELL - 1));
+        cell(c.x) | cell(c.y) << BITS_PER_FIELD | cell(c.z) << (2 * BITS_PER_FIELD)
     }
 }
 
@@ -316,20 +336,20 @@ const GROUPS_PER_TASK: usize = 16;
 
 /// Buffers of one task, reused between groups.
 #[derive(Default)]
-struct Search {
+struct OverlapSearch {
     stack: Vec<(usize, usize)>,
     groups: Vec<usize>,
     /// Nearby faces of each triangle of a leaf.
-    near: [Vec<u32>; WIDTH],
+    near: [Vec<u32>; BOXES_PER_NODE],
 }
 
 /// Stable radix sort by the upper half of each entry, ten bits per pass.
 fn sort_by_key(entries: &mut Vec<u64>) {
-    const DIGIT: u32 = 10;
+    const RADIX_BITS: u32 = 10;
     let mut sorted = vec![0; entries.len()];
-    for shift in [32, 32 + DIGIT, 32 + 2 * DIGIT] {
-        let mut places = [0_usize; 1 << DIGIT];
-        let digit = |entry: u64| (entry >> shift) as usize & ((1 << DIGIT) - 1);
+    for shift in [32, 32 + RADIX_BITS, 32 + 2 * RADIX_BITS] {
+        let mut places = [0_usize; 1 << RADIX_BITS];
+        let digit = |entry: u64| (entry >> shift) as usize & ((1 << RADIX_BITS) - 1);
         for &entry in entries.iter() {
             places[digit(entry)] += 1;
         }

@@ -17,5 +17,5 @@ mod packed_boxes;
 pub(crate) mod quantized_box;
 pub mod rays;
 
-pub use dual::dual_boxes::DualFound;
+pub use dual::dual_boxes::DualCandidates;
 pub use dual::dual_tree::{DualTree, ToneTree};

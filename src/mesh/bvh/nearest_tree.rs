@@ -3,19 +3,19 @@
 use glam::DVec3;
 
 /// Maximum number of triangles in a leaf.
-const LEAF: usize = 4;
+const MAX_TRIANGLES_PER_LEAF: usize = 4;
 
 /// Binary tree of bounding boxes over triangles, for nearest-point queries.
 #[derive(Debug, Clone, Default)]
 pub struct NearestTree {
-    nodes: Vec<Node>,
+    nodes: Vec<NearestNode>,
     /// Triangles in leaf order, and the original number of each.
     corners: Vec<[DVec3; 3]>,
     numbers: Vec<u32>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct NearestNode {
     low: DVec3,
     high: DVec3,
     /// Range of the triangles in this node.
@@ -27,7 +27,7 @@ struct Node {
 
 /// Point on a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
+pub struct NearestPoint {
     /// Number of the triangle.
     pub triangle: u32,
     /// Barycentric weights; the sum is 1.
@@ -54,7 +54,7 @@ impl NearestTree {
     /// The nearest point on any triangle; at equal distance, on the triangle of lowest number. `None` without
     /// triangles.
     #[must_use]
-    pub fn nearest(&self, point: DVec3) -> Option<Nearest> {
+    pub fn nearest(&self, point: DVec3) -> Option<NearestPoint> {
         let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO);
         let mut open: Vec<(f64, usize)> =
             self.nodes.first().map(|root| (root.away(point), 0)).into_iter().collect();
@@ -82,7 +82,7 @@ impl NearestTree {
             }
             open.extend(children);
         }
-        (best.1 != u32::MAX).then_some(Nearest { triangle: best.1, weights: best.2 })
+        (best.1 != u32::MAX).then_some(NearestPoint { triangle: best.1, weights: best.2 })
     }
 
     /// Adds a node over some triangles, and all nodes below it. Reorders the triangles.
@@ -93,8 +93,8 @@ impl NearestTree {
             order.iter().flat_map(own).fold(none, |(low, high), corner| (low.min(corner), high.max(corner)));
         let at = self.nodes.len();
         let to = from + order.len() as u32;
-        self.nodes.push(Node { low, high, from, to, second: 0 });
-        if order.len() <= LEAF {
+        self.nodes.push(NearestNode { low, high, from, to, second: 0 });
+        if order.len() <= MAX_TRIANGLES_PER_LEAF {
             return;
         }
         let size = high - low;
@@ -112,7 +112,7 @@ impl NearestTree {
     }
 }
 
-impl Node {
+impl NearestNode {
     /// Squared distance from a point to the box.
     fn away(&self, point: DVec3) -> f64 {
         (point.clamp(self.low, self.high) - point).length_squared()
@@ -165,10 +165,10 @@ fn nearest_weights(point: DVec3, [a, b, c]: &[DVec3; 3]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
 
     fn point(seed: u64, number: u64) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|axis| unit(hash(seed, &[number, axis]))))
+        DVec3::from_array([0, 1, 2].map(|axis| unit_interval(hash(seed, &[number, axis]))))
     }
 
     #[test]

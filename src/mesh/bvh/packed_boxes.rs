@@ -6,13 +6,13 @@
 /// Bits of a cell along one axis; the next bit is the guard bit.
 pub(crate) const CELL_BITS: u32 = 15;
 /// The lowest bit of each field in a word.
-const ONES: u64 = 0x0001_0001_0001_0001;
+const LOWEST_BITS: u64 = 0x0001_0001_0001_0001;
 /// The guard bit of each field.
-const SPARE: u64 = ONES << CELL_BITS;
+const GUARD_BITS: u64 = LOWEST_BITS << CELL_BITS;
 /// Unused outermost cell, so that the empty box overlaps nothing.
-pub(crate) const OUTSIDE: u16 = (1 << CELL_BITS) - 1;
+pub(crate) const CELL_OUTSIDE: u16 = (1 << CELL_BITS) - 1;
 /// Children of a node, and triangles of a leaf.
-pub(crate) const WIDTH: usize = 8;
+pub(crate) const BOXES_PER_NODE: usize = 8;
 
 /// Box on the grid: lowest and highest cell along each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub(crate) struct GridBox {
 
 impl GridBox {
     /// Box that overlaps nothing and adds nothing to a union.
-    pub(crate) const EMPTY: Self = Self { low: [OUTSIDE; 3], high: [0; 3] };
+    pub(crate) const EMPTY: Self = Self { low: [CELL_OUTSIDE; 3], high: [0; 3] };
 
     #[inline]
     fn union(mut self, other: Self) -> Self {
@@ -37,19 +37,19 @@ impl GridBox {
 
 /// Box replicated into every field of a word, for comparison with several boxes at once.
 #[derive(Clone, Copy)]
-pub(crate) struct Probe {
+pub(crate) struct ReplicatedBox {
     pub(crate) low: [u64; 3],
     /// Highest cells, with all guard bits set.
     pub(crate) high: [u64; 3],
 }
 
-impl From<GridBox> for Probe {
+impl From<GridBox> for ReplicatedBox {
     #[inline]
     fn from(one: GridBox) -> Self {
         let mut made = Self { low: [0; 3], high: [0; 3] };
         for axis in 0..3 {
-            made.low[axis] = u64::from(one.low[axis]) * ONES;
-            made.high[axis] = (u64::from(one.high[axis]) * ONES) | SPARE;
+            made.low[axis] = u64::from(one.low[axis]) * LOWEST_BITS;
+            made.high[axis] = (u64::from(one.high[axis]) * LOWEST_BITS) | GUARD_BITS;
         }
         made
     }
@@ -65,8 +65,8 @@ pub(crate) struct EightBoxes {
 
 impl EightBoxes {
     pub(crate) fn new(boxes: &[GridBox]) -> Self {
-        let mut eight = Self { low: [[0; 2]; 3], high: [[SPARE; 2]; 3] };
-        for place in 0..WIDTH {
+        let mut eight = Self { low: [[0; 2]; 3], high: [[GUARD_BITS; 2]; 3] };
+        for place in 0..BOXES_PER_NODE {
             let one = boxes.get(place).copied().unwrap_or(GridBox::EMPTY);
             let (word, shift) = (place & 1, 16 * (place >> 1));
             for axis in 0..3 {
@@ -82,20 +82,20 @@ impl EightBoxes {
         let (word, shift) = (place & 1, 16 * (place >> 1));
         let mut one = GridBox::EMPTY;
         for axis in 0..3 {
-            one.low[axis] = (self.low[axis][word] >> shift) as u16 & OUTSIDE;
-            one.high[axis] = (self.high[axis][word] >> shift) as u16 & OUTSIDE;
+            one.low[axis] = (self.low[axis][word] >> shift) as u16 & CELL_OUTSIDE;
+            one.high[axis] = (self.high[axis][word] >> shift) as u16 & CELL_OUTSIDE;
         }
         one
     }
 
     pub(crate) fn union(&self) -> GridBox {
-        (0..WIDTH).fold(GridBox::EMPTY, |sum, place| sum.union(self.get(place)))
+        (0..BOXES_PER_NODE).fold(GridBox::EMPTY, |sum, place| sum.union(self.get(place)))
     }
 
     /// The boxes that overlap another box.
     #[inline]
-    pub(crate) fn overlapping(&self, other: &Probe) -> Places {
-        let mut both = [SPARE; 2];
+    pub(crate) fn overlapping(&self, other: &ReplicatedBox) -> ChildMask {
+        let mut both = [GUARD_BITS; 2];
         for axis in 0..3 {
             for (word, both) in both.iter_mut().enumerate() {
                 // A guard bit survives where the cell of `high` is at least that of `low`.
@@ -103,19 +103,19 @@ impl EightBoxes {
                     (other.high[axis] - self.low[axis][word]) & (self.high[axis][word] - other.low[axis]);
             }
         }
-        Places(both[0] >> CELL_BITS | both[1] >> (CELL_BITS - 1))
+        ChildMask(both[0] >> CELL_BITS | both[1] >> (CELL_BITS - 1))
     }
 }
 
 /// Subset of eight positions, iterated in ascending order: two bits at the bottom of each field.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Places(pub(crate) u64);
+pub(crate) struct ChildMask(pub(crate) u64);
 
-impl Places {
+impl ChildMask {
     /// The positions from `place` on.
     #[inline]
     pub(crate) fn from(self, place: usize) -> Self {
-        if place >= WIDTH { Self(0) } else { Self(self.0 & (u64::MAX << Self::bit(place))) }
+        if place >= BOXES_PER_NODE { Self(0) } else { Self(self.0 & (u64::MAX << Self::bit(place))) }
     }
 
     #[inline]
@@ -124,7 +124,7 @@ impl Places {
     }
 }
 
-impl Iterator for Places {
+impl Iterator for ChildMask {
     type Item = usize;
 
     #[inline]
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn eight_boxes_overlap_as_their_axes_do() {
-        let cells = [0, 1, 2, OUTSIDE - 2, OUTSIDE - 1];
+        let cells = [0, 1, 2, CELL_OUTSIDE - 2, CELL_OUTSIDE - 1];
         let spans: Vec<[u16; 2]> = cells
             .iter()
             .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
@@ -161,10 +161,10 @@ mod tests {
                 assert_eq!((0..some.len()).map(|place| eight.get(place)).collect::<Vec<_>>(), some);
                 assert_eq!(eight.get(7), GridBox::EMPTY);
                 for (other, &[low, high]) in boxes.iter().zip(&spans) {
-                    let met: Vec<usize> = eight.overlapping(&Probe::from(*other)).collect();
+                    let met: Vec<usize> = eight.overlapping(&ReplicatedBox::from(*other)).collect();
                     let expected = own.iter().enumerate().filter(|(_, s)| s[0] <= high && low <= s[1]);
                     assert_eq!(met, expected.map(|(place, _)| place).collect::<Vec<_>>());
-                    let from = eight.overlapping(&Probe::from(*other)).from(2);
+                    let from = eight.overlapping(&ReplicatedBox::from(*other)).from(2);
                     assert_eq!(
                         from.collect::<Vec<_>>(),
                         met.iter().copied().filter(|p| *p >= 2).collect::<Vec<_>>()

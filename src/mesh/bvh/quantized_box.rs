@@ -1,17 +1,17 @@
 //! [`FineBox`]: bounding box of a triangle on a fine grid, packed so that a few subtractions compare two
 //! boxes.
 
-use super::packed_boxes::{CELL_BITS, GridBox, OUTSIDE};
+use super::packed_boxes::{CELL_BITS, CELL_OUTSIDE, GridBox};
 use crate::mesh::order::morton_curve::spread;
 
 /// Bits of a fine cell along one axis; the next bit is a guard bit.
-const FINE_BITS: u32 = 20;
+const BITS_PER_FINE_CELL: u32 = 20;
 /// Distance between the three fields of a word, in bits.
-pub(crate) const FINE_FIELD: u32 = FINE_BITS + 1;
+pub(crate) const BITS_PER_FIELD: u32 = BITS_PER_FINE_CELL + 1;
 /// The guard bit of each field.
-const FINE_SPARE: u64 = (1 | 1 << FINE_FIELD | 1 << (2 * FINE_FIELD)) << FINE_BITS;
+const FIELD_GUARD_BITS: u64 = (1 | 1 << BITS_PER_FIELD | 1 << (2 * BITS_PER_FIELD)) << BITS_PER_FINE_CELL;
 /// The last fine cell.
-pub(crate) const LAST_FINE: u32 = (1 << FINE_BITS) - 2;
+pub(crate) const LAST_FINE_CELL: u32 = (1 << BITS_PER_FINE_CELL) - 2;
 
 /// Bounding box on the fine grid: packed lowest and highest cell along each axis. All guard bits of `high`
 /// are set.
@@ -24,20 +24,20 @@ pub(crate) struct FineBox {
 impl FineBox {
     #[inline]
     pub(crate) fn of_cells([a, b, c]: [u64; 3]) -> Self {
-        Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) | FINE_SPARE }
+        Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) | FIELD_GUARD_BITS }
     }
 
     /// The box around both.
     #[inline]
     pub(crate) fn union(self, other: Self) -> Self {
-        let high = greater(self.high & !FINE_SPARE, other.high & !FINE_SPARE);
-        Self { low: lesser(self.low, other.low), high: high | FINE_SPARE }
+        let high = greater(self.high & !FIELD_GUARD_BITS, other.high & !FIELD_GUARD_BITS);
+        Self { low: lesser(self.low, other.low), high: high | FIELD_GUARD_BITS }
     }
 
     #[inline]
     pub(crate) fn overlaps(self, other: Self) -> bool {
         // A guard bit survives where the cell of `high` is at least that of `low`.
-        (self.high - other.low) & (other.high - self.low) & FINE_SPARE == FINE_SPARE
+        (self.high - other.low) & (other.high - self.low) & FIELD_GUARD_BITS == FIELD_GUARD_BITS
     }
 
     /// The enclosing box on the coarse grid.
@@ -46,8 +46,8 @@ impl FineBox {
         let mut made = GridBox::EMPTY;
         for axis in 0..3 {
             let cell = |cells: u64| {
-                let fine = (cells >> (axis as u32 * FINE_FIELD)) as u32 & ((1 << FINE_BITS) - 1);
-                ((fine >> (FINE_BITS - CELL_BITS)) as u16).min(OUTSIDE - 1)
+                let fine = (cells >> (axis as u32 * BITS_PER_FIELD)) as u32 & ((1 << BITS_PER_FINE_CELL) - 1);
+                ((fine >> (BITS_PER_FINE_CELL - CELL_BITS)) as u16).min(CELL_OUTSIDE - 1)
             };
             made.low[axis] = cell(self.low);
             made.high[axis] = cell(self.high);
@@ -59,9 +59,9 @@ impl FineBox {
     #[inline]
     pub(crate) fn curve_key(self) -> u32 {
         // The sum of two cells may reach the guard bit, but never the next field.
-        let twice_centre = self.low + (self.high & !FINE_SPARE);
+        let twice_centre = self.low + (self.high & !FIELD_GUARD_BITS);
         let axis = |n: u32| {
-            let top = (twice_centre >> (n * FINE_FIELD + FINE_FIELD - 10)) as u32 & 0x3ff;
+            let top = (twice_centre >> (n * BITS_PER_FIELD + BITS_PER_FIELD - 10)) as u32 & 0x3ff;
             (spread(u64::from(top)) as u32) << n
         };
         axis(0) | axis(1) | axis(2)
@@ -71,8 +71,8 @@ impl FineBox {
 /// All value bits of the fields where the cell of `a` is at least that of `b`.
 #[inline]
 fn not_less_mask(a: u64, b: u64) -> u64 {
-    let spare = ((a | FINE_SPARE) - b) & FINE_SPARE;
-    spare - (spare >> FINE_BITS)
+    let spare = ((a | FIELD_GUARD_BITS) - b) & FIELD_GUARD_BITS;
+    spare - (spare >> BITS_PER_FINE_CELL)
 }
 
 #[inline]
@@ -92,12 +92,12 @@ mod tests {
     use super::*;
 
     fn pack([x, y, z]: [u64; 3]) -> u64 {
-        x | y << FINE_FIELD | z << (2 * FINE_FIELD)
+        x | y << BITS_PER_FIELD | z << (2 * BITS_PER_FIELD)
     }
 
     #[test]
     fn packed_boxes_overlap_as_their_axes_do() {
-        let cells = [0, 1, 2, u64::from(LAST_FINE) - 1, u64::from(LAST_FINE)];
+        let cells = [0, 1, 2, u64::from(LAST_FINE_CELL) - 1, u64::from(LAST_FINE_CELL)];
         let spans: Vec<[u64; 2]> = cells
             .iter()
             .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
@@ -113,8 +113,8 @@ mod tests {
                     let a = FineBox::of_cells([place(a0), place(a1), place(a0)]);
                     let b = FineBox::of_cells([place(b1), place(b0), place(b0)]);
                     assert_eq!(a.overlaps(b), a0 <= b1 && b0 <= a1);
-                    assert_eq!((a.low, a.high), (place(a0), place(a1) | FINE_SPARE));
-                    let cell = |cell: u64| ((cell >> 5) as u16).min(OUTSIDE - 1);
+                    assert_eq!((a.low, a.high), (place(a0), place(a1) | FIELD_GUARD_BITS));
+                    let cell = |cell: u64| ((cell >> 5) as u16).min(CELL_OUTSIDE - 1);
                     assert_eq!((a.coarse().low[axis], a.coarse().high[axis]), (cell(a0), cell(a1)));
                 }
             }

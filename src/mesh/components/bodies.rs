@@ -12,16 +12,16 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::atan2;
-use crate::mesh::{EdgeFaces, Edges, Groups, Mesh, PartId, Soup};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{DisjointSets, EdgeFaces, Edges, Mesh, PartId, Soup};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Maximum angle at an edge between coplanar faces, radians. It covers the rounding of moved models.
-const IN_PLANE: f64 = 1e-6;
+const MAX_COPLANAR_ANGLE_RAD: f64 = 1e-6;
 
 /// For each part, the first part of its body; empty if every part is a separate body.
 pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
     let parts = &soup.triangle_part;
-    let count = parts.par_iter().with_min_len(GRAIN).map(|part| part.index() + 1).max().unwrap_or(0);
+    let count = parts.par_iter().with_min_len(MIN_TASK_ITEMS).map(|part| part.index() + 1).max().unwrap_or(0);
     let part = |face: u32| parts.get(face as usize).copied().unwrap_or_default();
     let joints = |edge: usize| {
         let pairs = match edges.faces(edge) {
@@ -41,11 +41,11 @@ pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
         return Vec::new();
     }
     let joints: Vec<[PartId; 2]> =
-        (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(joints).collect();
+        (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).flat_map_iter(joints).collect();
     if joints.is_empty() {
         return Vec::new();
     }
-    let groups = Groups::new(count, |join| joints.iter().for_each(|[a, b]| join(a.0, b.0)));
+    let groups = DisjointSets::new(count, |join| joints.iter().for_each(|[a, b]| join(a.0, b.0)));
     (0..count as u32).map(|part| PartId(groups.of(part))).collect()
 }
 
@@ -71,13 +71,17 @@ fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
     let mut round: Vec<(f64, bool, u32)> = Vec::with_capacity(spokes.len());
     for (face, out, up) in &spokes {
         let angle = atan2(out.dot(quarter), out.dot(zero));
-        round.push((if angle > half - IN_PLANE { angle - 2.0 * half } else { angle }, *up, *face));
+        round.push((
+            if angle > half - MAX_COPLANAR_ANGLE_RAD { angle - 2.0 * half } else { angle },
+            *up,
+            *face,
+        ));
     }
     round.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Among coplanar faces, wedges end before others begin. Of coincident faces, the one of the first part is
     // the nearest to the enclosed material at every edge.
     let part = |face: u32| soup.triangle_part.get(face as usize).map_or(0, |part| part.0);
-    for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= IN_PLANE) {
+    for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= MAX_COPLANAR_ANGLE_RAD) {
         own.sort_by_key(|(_, up, face)| {
             (!*up, if *up { part(*face) } else { u32::MAX - part(*face) }, *face)
         });
@@ -119,7 +123,7 @@ impl Mesh {
     pub fn face_bodies(&self) -> Vec<PartId> {
         let body = |part: &PartId| body_of(&self.bodies, *part);
         let first = self.face_part.first().map(body);
-        let parts = self.face_part.par_iter().with_min_len(GRAIN);
+        let parts = self.face_part.par_iter().with_min_len(MIN_TASK_ITEMS);
         if parts.clone().all(|part| Some(body(part)) == first) {
             Vec::new()
         } else {

@@ -1,4 +1,4 @@
-//! [`Groups`]: concurrent union-find over faces.
+//! [`DisjointSets`]: concurrent union-find over faces.
 //!
 //! Any thread may join pairs. Faces form trees, and a join links the greater root below the smaller one. The
 //! root of a set is therefore always its smallest face, in any order of joins.
@@ -9,26 +9,26 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::geometry::lists::rank_bitset::Ranks;
+use crate::geometry::lists::rank_bitset::RankBitset;
 use crate::parallel::prelude::*;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Disjoint sets of faces, each identified by its smallest face.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Groups {
+pub struct DisjointSets {
     first: Vec<u32>,
 }
 
-impl Groups {
+impl DisjointSets {
     /// The sets of `count` faces. `joins` calls its argument with pairs, on any threads and in any order.
     #[must_use]
     pub fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
         let parents: Vec<AtomicU32> =
-            (0..count as u32).into_par_iter().with_min_len(GRAIN).map(AtomicU32::new).collect();
+            (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(AtomicU32::new).collect();
         joins(&|a, b| join(&parents, a, b));
         // A separate list, because path halving on another thread may overwrite an entry with an older value.
         let root = |face| root(&parents, face);
-        Self { first: (0..count as u32).into_par_iter().with_min_len(GRAIN).map(root).collect() }
+        Self { first: (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(root).collect() }
     }
 
     /// The smallest face in the set of a face.
@@ -41,25 +41,25 @@ impl Groups {
     /// Numbers the sets in the order of their first faces. Where `instead` returns a value for the first face
     /// of a set, that value is stored and the set gets no number.
     #[must_use]
-    pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> Numbered {
+    pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> NumberedSets {
         let Self { first: mut of_face } = self;
         let counted = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
-            let faces = (chunk * GRAIN) as u32..;
+            let faces = (chunk * MIN_TASK_ITEMS) as u32..;
             let is_first = |(face, first): &(u32, &u32)| face == *first && instead(*face).is_none();
             faces.zip(of).filter(is_first).map(|(face, _)| face).collect()
         };
-        let first = of_face.par_chunks(GRAIN).enumerate().map(counted).collect::<Vec<_>>().concat();
-        let ranks = Ranks::new(of_face.len(), first.iter().map(|face| *face as usize));
-        of_face.par_iter_mut().with_min_len(GRAIN).for_each(|first| {
+        let first = of_face.par_chunks(MIN_TASK_ITEMS).enumerate().map(counted).collect::<Vec<_>>().concat();
+        let ranks = RankBitset::new(of_face.len(), first.iter().map(|face| *face as usize));
+        of_face.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|first| {
             *first = instead(*first).unwrap_or_else(|| ranks.of(*first as usize));
         });
-        Numbered { of_face, first }
+        NumberedSets { of_face, first }
     }
 }
 
 /// Disjoint sets with consecutive numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Numbered {
+pub struct NumberedSets {
     /// Set number of each face.
     pub of_face: Vec<u32>,
     /// The smallest face of each set.
@@ -104,7 +104,7 @@ mod tests {
     fn groups_are_known_by_their_least_face_in_whatever_order_they_are_joined() {
         let pairs = [[5, 6], [1, 3], [6, 3], [2, 4]];
         for turn in 0..pairs.len() {
-            let groups = Groups::new(8, |join| {
+            let groups = DisjointSets::new(8, |join| {
                 for k in 0..pairs.len() {
                     let [a, b] = pairs[(k + turn) % pairs.len()];
                     join(b, a);
@@ -127,8 +127,9 @@ mod tests {
             .filter(|pair| pair.iter().all(|k| k % 7 != 0))
             .collect();
         let pool = rayon_core::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
-        let groups = pool
-            .install(|| Groups::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b))));
+        let groups = pool.install(|| {
+            DisjointSets::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b)))
+        });
         // Reference: the smallest number is propagated until nothing changes.
         let mut plain: Vec<u32> = (0..count).collect();
         let mut before = Vec::new();
@@ -159,7 +160,7 @@ mod tests {
         // Enough repetitions for two joins to collide.
         for _ in 0..40 {
             let groups = pool.install(|| {
-                Groups::new(last as usize + 1, |join| {
+                DisjointSets::new(last as usize + 1, |join| {
                     let joins = |own: u32| (0..each).rev().for_each(|k| join(threads * k + own, last));
                     (0..threads).into_par_iter().with_max_len(1).for_each(joins);
                 })

@@ -1,4 +1,4 @@
-//! [`Surfaces`]: connected surfaces of a mesh, and the faces to turn so that each surface shows its outside.
+//! [`OrientedSurfaces`]: connected surfaces of a mesh, and the faces to turn so that each surface shows its outside.
 //!
 //! 1. Faces are connected where exactly two faces meet at an edge, counted over all parts or within one part.
 //! 2. Windings within a surface are made consistent by union-find with parity. One-sided surfaces (Möbius
@@ -16,8 +16,8 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::mesh::{EdgeFaces, Edges, Groups, Numbered, PartId, Soup};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{DisjointSets, EdgeFaces, Edges, NumberedSets, PartId, Soup};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Faces that were wound inward, or against their neighbours, in one part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct TurnedFaces {
 }
 
 /// Triangles and their edges.
-pub(crate) struct Triangles<'a> {
+pub(crate) struct ConnectedTriangles<'a> {
     pub positions: &'a [DVec3],
     pub triangles: &'a [[u32; 3]],
     /// Part of each triangle, or empty.
@@ -41,21 +41,21 @@ pub(crate) struct Triangles<'a> {
 
 /// The connected surfaces of a mesh.
 #[derive(Debug, Default)]
-pub(crate) struct Surfaces {
+pub(crate) struct OrientedSurfaces {
     /// Surface of each face.
-    pub of_face: Numbered,
+    pub of_face: NumberedSets,
     /// Whether each surface is closed and two-sided.
     pub is_closed: Vec<bool>,
     /// Whether each face must be turned; empty if none must.
     pub turned: Vec<bool>,
 }
 
-impl Surfaces {
+impl OrientedSurfaces {
     /// Finds the surfaces of a mesh.
-    pub fn new(mesh: &Triangles) -> Self {
+    pub fn new(mesh: &ConnectedTriangles) -> Self {
         let of_face = mesh.connected();
         let count = of_face.first.len();
-        let Joints { open, mixed } = mesh.joints(&of_face);
+        let SurfaceFlags { open, mixed } = mesh.joints(&of_face);
         let mut turned = Vec::new();
         let mut twisted = vec![false; count];
         if mixed.contains(&true) {
@@ -70,7 +70,7 @@ impl Surfaces {
         let turns: Vec<bool> = (0..count).map(turns).collect();
         if turns.contains(&true) {
             turned.resize(mesh.triangles.len(), false);
-            let of_face = of_face.of_face.par_iter().with_min_len(GRAIN);
+            let of_face = of_face.of_face.par_iter().with_min_len(MIN_TASK_ITEMS);
             turned
                 .par_iter_mut()
                 .zip(of_face)
@@ -127,7 +127,7 @@ impl Surfaces {
 /// Turns faces of a soup, with all attributes of their corners and sides.
 pub(crate) fn turn_faces(soup: &mut Soup, turned: &[bool]) {
     fn turn<T: Send>(list: &mut [[T; 3]], turned: &[bool], [one, other]: [usize; 2]) {
-        let all = list.par_iter_mut().zip(turned).with_min_len(GRAIN);
+        let all = list.par_iter_mut().zip(turned).with_min_len(MIN_TASK_ITEMS);
         all.filter(|(_, turned)| **turned).for_each(|(own, _)| own.swap(one, other));
     }
     turn(&mut soup.triangles, turned, [1, 2]);
@@ -139,7 +139,7 @@ pub(crate) fn turn_faces(soup: &mut Soup, turned: &[bool]) {
 }
 
 /// Properties of each surface, found at its edges.
-struct Joints {
+struct SurfaceFlags {
     /// Whether it has a border.
     open: Vec<bool>,
     /// Whether some neighbours have opposite windings.
@@ -148,7 +148,7 @@ struct Joints {
 
 /// Sums over the faces of a surface, relative to one of its corners.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct SurfaceSums {
     faces: u32,
     area: f64,
     /// Area of the faces turned for consistency with their neighbours.
@@ -165,7 +165,7 @@ struct Sums {
     radius: f64,
 }
 
-impl Sums {
+impl SurfaceSums {
     fn add(&mut self, other: &Self) {
         self.faces += other.faces;
         self.area += other.area;
@@ -196,9 +196,9 @@ impl Sums {
 }
 
 /// Number of edges per task.
-const CHUNK: usize = 1 << 12;
+const EDGES_PER_TASK: usize = 1 << 12;
 
-impl Triangles<'_> {
+impl ConnectedTriangles<'_> {
     fn part(&self, face: u32) -> PartId {
         self.parts.get(face as usize).copied().unwrap_or_default()
     }
@@ -231,19 +231,19 @@ impl Triangles<'_> {
         }
     }
 
-    fn connected(&self) -> Numbered {
-        let groups = Groups::new(self.triangles.len(), |join| {
-            let edges = (0..self.edges.len()).into_par_iter().with_min_len(CHUNK);
+    fn connected(&self) -> NumberedSets {
+        let groups = DisjointSets::new(self.triangles.len(), |join| {
+            let edges = (0..self.edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK);
             edges.for_each(|edge| self.each_pair(edge, |a, b, _| join(a, b)));
         });
         groups.numbered(|_| None)
     }
 
-    fn joints(&self, surfaces: &Numbered) -> Joints {
+    fn joints(&self, surfaces: &NumberedSets) -> SurfaceFlags {
         let flags = || -> Vec<AtomicBool> { surfaces.first.iter().map(|_| AtomicBool::new(false)).collect() };
         let (open, mixed) = (flags(), flags());
         let of = |face: u32| surfaces.of_face[face as usize] as usize;
-        (0..self.edges.len()).into_par_iter().with_min_len(CHUNK).for_each(|edge| {
+        (0..self.edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK).for_each(|edge| {
             match self.edges.faces(edge) {
                 EdgeFaces::One(face) => open[of(face)].store(true, Relaxed),
                 EdgeFaces::Two { same_way: false, .. } => {}
@@ -262,14 +262,14 @@ impl Triangles<'_> {
             }
         });
         let values = |flags: Vec<AtomicBool>| flags.into_iter().map(AtomicBool::into_inner).collect();
-        Joints { open: values(open), mixed: values(mixed) }
+        SurfaceFlags { open: values(open), mixed: values(mixed) }
     }
 
     /// The faces to turn for consistent windings. Surfaces where this is impossible are marked as `twisted`
     /// and stay unchanged.
-    fn agreeing(&self, surfaces: &Numbered, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
+    fn agreeing(&self, surfaces: &NumberedSets, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
         let of = |face: u32| surfaces.of_face[face as usize] as usize;
-        let mut parities = Parities::new(self.triangles.len());
+        let mut parities = ParityUnionFind::new(self.triangles.len());
         for edge in 0..self.edges.len() {
             self.each_pair(edge, |a, b, same_way| {
                 if mixed[of(a)] && !parities.join(a, b, same_way) {
@@ -282,14 +282,14 @@ impl Triangles<'_> {
     }
 
     /// The sums over the faces of each surface.
-    fn sums(&self, surfaces: &Numbered, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<Sums> {
-        let mut sums = vec![Sums::default(); surfaces.first.len()];
+    fn sums(&self, surfaces: &NumberedSets, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<SurfaceSums> {
+        let mut sums = vec![SurfaceSums::default(); surfaces.first.len()];
         let of_face = |surface: u32, face: usize| {
             let [a, b, c] = self.corners_relative_to_first(surfaces, surface, face);
             let turned = is_turned(face);
             let across = (b - a).cross(c - a) / 2.0;
             let (area, normal) = (across.length(), if turned { -across } else { across });
-            Sums {
+            SurfaceSums {
                 faces: 1,
                 area,
                 turned_area: if turned { area } else { 0.0 },
@@ -305,24 +305,27 @@ impl Triangles<'_> {
     }
 
     /// Adds the radius of each open surface around its centroid.
-    fn add_radii(&self, surfaces: &Numbered, is_closed: &[bool], sums: &mut [Sums]) {
+    fn add_radii(&self, surfaces: &NumberedSets, is_closed: &[bool], sums: &mut [SurfaceSums]) {
         if !is_closed.contains(&false) {
             return;
         }
-        let centroids: Vec<DVec3> = sums.iter().map(Sums::centroid).collect();
+        let centroids: Vec<DVec3> = sums.iter().map(SurfaceSums::centroid).collect();
         let of_face = |surface: u32, face: usize| {
             let centroid = centroids[surface as usize];
             let corners =
                 self.corners_relative_to_first(surfaces, surface, face).map(|p| p.distance(centroid));
             let radius = corners.into_iter().fold(0.0, f64::max);
-            Sums { radius: if is_closed[surface as usize] { 0.0 } else { radius }, ..Sums::default() }
+            SurfaceSums {
+                radius: if is_closed[surface as usize] { 0.0 } else { radius },
+                ..SurfaceSums::default()
+            }
         };
         self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
     }
 
     /// Corners of a face, relative to the first corner of its surface.
     #[inline]
-    fn corners_relative_to_first(&self, surfaces: &Numbered, surface: u32, face: usize) -> [DVec3; 3] {
+    fn corners_relative_to_first(&self, surfaces: &NumberedSets, surface: u32, face: usize) -> [DVec3; 3] {
         let first = self.triangles[surfaces.first[surface as usize] as usize][0];
         let from = self.positions[first as usize];
         self.triangles[face].map(|v| self.positions[v as usize] - from)
@@ -331,13 +334,13 @@ impl Triangles<'_> {
     /// Sums values over runs of faces of one surface, in parallel. Calls `call` with the sums in face order.
     fn each_run(
         &self,
-        surfaces: &Numbered,
-        of_face: impl Fn(u32, usize) -> Sums + Sync,
-        mut call: impl FnMut(usize, Sums),
+        surfaces: &NumberedSets,
+        of_face: impl Fn(u32, usize) -> SurfaceSums + Sync,
+        mut call: impl FnMut(usize, SurfaceSums),
     ) {
         let of_chunk = |(chunk, own): (usize, &[u32])| {
-            let mut runs: Vec<(u32, Sums)> = Vec::new();
-            for (surface, face) in own.iter().zip(chunk * CHUNK..) {
+            let mut runs: Vec<(u32, SurfaceSums)> = Vec::new();
+            for (surface, face) in own.iter().zip(chunk * EDGES_PER_TASK..) {
                 let more = of_face(*surface, face);
                 match runs.last_mut() {
                     Some((last, sums)) if last == surface => sums.add(&more),
@@ -346,19 +349,19 @@ impl Triangles<'_> {
             }
             runs
         };
-        let chunks: Vec<Vec<(u32, Sums)>> =
-            surfaces.of_face.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        let chunks: Vec<Vec<(u32, SurfaceSums)>> =
+            surfaces.of_face.par_chunks(EDGES_PER_TASK).enumerate().map(of_chunk).collect();
         chunks.into_iter().flatten().for_each(|(surface, sums)| call(surface as usize, sums));
     }
 }
 
 /// Union-find over faces with parity: whether a face must be turned to match the root of its set.
-struct Parities {
+struct ParityUnionFind {
     /// Parent of each face, and whether their windings disagree.
     above: Vec<(u32, bool)>,
 }
 
-impl Parities {
+impl ParityUnionFind {
     fn new(count: usize) -> Self {
         Self { above: (0..count as u32).map(|face| (face, false)).collect() }
     }

@@ -1,7 +1,7 @@
 //! [`EdgeSet`]: set of edges of a mesh, as a bit set.
 
 use crate::parallel::prelude::*;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Set of edges of one mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -19,7 +19,7 @@ impl EdgeSet {
             edges.fold(0u64, |word, edge| word | u64::from(holds(edge)) << (edge % 64))
         };
         let words: Vec<u64> =
-            (0..count.div_ceil(64)).into_par_iter().with_min_len(GRAIN / 64).map(word).collect();
+            (0..count.div_ceil(64)).into_par_iter().with_min_len(MIN_TASK_ITEMS / 64).map(word).collect();
         if words.iter().all(|word| *word == 0) { Self::default() } else { Self { words } }
     }
 
@@ -44,7 +44,7 @@ impl EdgeSet {
 
     /// Calls `does` with each edge, in parallel.
     pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
-        self.words.par_iter().enumerate().with_min_len(GRAIN / 64).for_each(|(k, word)| {
+        self.words.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS / 64).for_each(|(k, word)| {
             let mut word = *word;
             while word != 0 {
                 does(64 * k + word.trailing_zeros() as usize);
@@ -75,7 +75,7 @@ impl EdgeSet {
     /// The set in a derived mesh with `count` edges. `ids` maps the edges of this mesh to it, `u32::MAX` for
     /// edges that are gone.
     #[must_use]
-    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
+    pub fn remapped(&self, ids: &[u32], count: usize) -> Self {
         let mut words = Vec::new();
         for edge in self.iter().map(|edge| ids[edge]).filter(|edge| *edge != u32::MAX) {
             if words.is_empty() {

@@ -7,16 +7,16 @@ use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::edge_table::{MANY, NONE, SAME_WAY};
+use super::edge_table::{NO_FACE, NON_MANIFOLD, PARALLEL_FLAG};
 use crate::mesh::{EdgeFaces, Edges};
 
 /// Marks a removed edge or face.
-const GONE: u32 = u32::MAX;
+const REMOVED: u32 = u32::MAX;
 
 /// Number of edges per task.
-const CHUNK: usize = 1 << 13;
+const EDGES_PER_TASK: usize = 1 << 13;
 /// Above this number of edges, one task does everything, so that nothing is stored twice.
-const MANY_EDGES: usize = 1 << 20;
+const MAX_PARALLEL_EDGES: usize = 1 << 20;
 
 impl Edges {
     /// The edges after faces were cut, with the new id of each old edge (`u32::MAX` for cut edges).
@@ -32,7 +32,7 @@ impl Edges {
         pieces: &[[u32; 3]],
     ) -> (Self, Vec<u32>) {
         let own = Self::build(vertex_count, pieces);
-        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
+        let chunk = if self.len() > MAX_PARALLEL_EDGES { self.len() } else { EDGES_PER_TASK };
         self.spliced_in_chunks(chunk, &own, renamed, kept)
     }
 
@@ -51,7 +51,7 @@ impl Edges {
             (0..self.len().div_ceil(chunk).max(1)).into_par_iter().map(spliced).unzip();
         let mut before = 0;
         for (part, ids) in parts.iter().zip(&mut ids) {
-            ids.iter_mut().filter(|id| **id != GONE).for_each(|id| *id += before);
+            ids.iter_mut().filter(|id| **id != REMOVED).for_each(|id| *id += before);
             before += part.len() as u32;
         }
         let ids = if let [only] = ids.as_mut_slice() { std::mem::take(only) } else { ids.concat() };
@@ -80,17 +80,17 @@ impl Edges {
             }
             let [first, second] = self.faces[edge];
             let beside = own.vertices.get(next) == Some(ends);
-            if !beside && first != MANY {
+            if !beside && first != NON_MANIFOLD {
                 let first = renamed[first as usize];
                 let second = match second {
-                    NONE => NONE,
-                    second => match renamed[(second & !SAME_WAY) as usize] {
-                        GONE => GONE,
-                        face => face | second & SAME_WAY,
+                    NO_FACE => NO_FACE,
+                    second => match renamed[(second & !PARALLEL_FLAG) as usize] {
+                        REMOVED => REMOVED,
+                        face => face | second & PARALLEL_FLAG,
                     },
                 };
-                if first == GONE {
-                    ids.push(GONE);
+                if first == REMOVED {
+                    ids.push(REMOVED);
                     continue;
                 }
                 ids.push(all.len() as u32);
@@ -106,14 +106,14 @@ impl Edges {
                 .list()
                 .iter()
                 .map(|face| renamed[*face as usize])
-                .filter(|face| *face != GONE)
+                .filter(|face| *face != REMOVED)
                 .collect();
             if beside {
                 faces.extend(own.faces(next).list().iter().map(|piece| piece + kept));
                 next += 1;
             }
             if faces.is_empty() {
-                ids.push(GONE);
+                ids.push(REMOVED);
                 continue;
             }
             ids.push(all.len() as u32);
@@ -126,7 +126,7 @@ impl Edges {
     /// The edges after faces were removed. `renamed` holds the new number of each face, `u32::MAX` for
     /// removed ones; the order is kept. `triangles` are the remaining ones.
     pub(crate) fn without(&self, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
-        let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
+        let chunk = if self.len() > MAX_PARALLEL_EDGES { self.len() } else { EDGES_PER_TASK };
         self.without_in_chunks(chunk, renamed, triangles)
     }
 
@@ -147,7 +147,7 @@ impl Edges {
             let faces = self.faces(edge);
             left.clear();
             let still = faces.list().iter().map(|face| renamed[*face as usize]);
-            left.extend(still.filter(|face| *face != GONE));
+            left.extend(still.filter(|face| *face != REMOVED));
             let same_way = match (faces, left.as_slice()) {
                 (_, []) => continue,
                 (EdgeFaces::Two { same_way, .. }, _) => same_way,
@@ -185,12 +185,12 @@ impl Edges {
     pub(crate) fn push(&mut self, ends: [u32; 2], faces: &[u32], same_way: bool) {
         self.vertices.push(ends);
         self.faces.push(match faces {
-            [face] => [*face, NONE],
-            [first, second] => [*first, second | if same_way { SAME_WAY } else { 0 }],
+            [face] => [*face, NO_FACE],
+            [first, second] => [*first, second | if same_way { PARALLEL_FLAG } else { 0 }],
             faces => {
                 self.fan_starts.push(self.fans.len() as u32);
                 self.fans.extend(faces);
-                [MANY, self.fan_starts.len() as u32 - 1]
+                [NON_MANIFOLD, self.fan_starts.len() as u32 - 1]
             }
         });
     }
@@ -222,7 +222,7 @@ mod tests {
             let mut renamed = Vec::new();
             for (number, face) in faces.iter().enumerate() {
                 let goes = number % every == every - 1;
-                renamed.push(if goes { GONE } else { left.len() as u32 });
+                renamed.push(if goes { REMOVED } else { left.len() as u32 });
                 left.extend(Some(*face).filter(|_| !goes));
             }
             let (fewer, anew) = (edges.without(&renamed, &left), Edges::build(50, &left));
@@ -261,7 +261,7 @@ mod tests {
                 } else {
                     // Around a separate centre vertex, so that sides never overlap.
                     let own = count + edges.len() as u32 + renamed.len() as u32;
-                    renamed.push(GONE);
+                    renamed.push(REMOVED);
                     pieces.extend((0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()], own]));
                 }
             }

@@ -5,12 +5,12 @@
 
 use crate::parallel::prelude::*;
 
-use super::vertex_ranges::{Share, share_count, shares};
-use crate::parallel::task_size::GRAIN;
+use super::vertex_ranges::{VertexRange, range_count, vertex_ranges};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
-pub(crate) const NONE: u32 = u32::MAX;
-pub(crate) const MANY: u32 = u32::MAX - 1;
-pub(crate) const SAME_WAY: u32 = 1 << 31;
+pub(crate) const NO_FACE: u32 = u32::MAX;
+pub(crate) const NON_MANIFOLD: u32 = u32::MAX - 1;
+pub(crate) const PARALLEL_FLAG: u32 = 1 << 31;
 
 /// Faces that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,11 +64,11 @@ pub struct Edges {
 }
 
 /// Maximum number of vertices per block, so that their sides fit in the cache.
-const SHARE: usize = 1 << 14;
+const MAX_VERTICES_PER_BLOCK: usize = 1 << 14;
 
 /// Side of a triangle, seen from its smaller vertex.
 #[derive(Clone, Copy)]
-struct Side {
+struct TriangleSide {
     other: u32,
     /// Face id shifted left by one; bit 0 is set if the face runs from the smaller vertex to the larger.
     face_way: u32,
@@ -78,7 +78,8 @@ impl Edges {
     /// Finds the edges of `triangles`, whose vertex ids are below `vertex_count`.
     #[must_use]
     pub fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let shares = shares(vertex_count, triangles, share_count(vertex_count, SHARE));
+        let shares =
+            vertex_ranges(vertex_count, triangles, range_count(vertex_count, MAX_VERTICES_PER_BLOCK));
         Self::joined(
             shares.par_iter().with_max_len(1).map(|share| edges_of_share(triangles, share)).collect(),
         )
@@ -109,7 +110,7 @@ impl Edges {
             vertices.copy_from_slice(&part.vertices);
             faces.copy_from_slice(&part.faces);
             if fan > 0 {
-                faces.iter_mut().filter(|f| f[0] == MANY).for_each(|f| f[1] += fan);
+                faces.iter_mut().filter(|f| f[0] == NON_MANIFOLD).for_each(|f| f[1] += fan);
             }
         });
         all
@@ -132,26 +133,27 @@ impl Edges {
     #[must_use]
     pub fn faces(&self, edge: usize) -> EdgeFaces<'_> {
         match self.faces[edge] {
-            [MANY, fan] => {
+            [NON_MANIFOLD, fan] => {
                 let fan = fan as usize;
                 let start = self.fan_starts[fan] as usize;
                 let end = self.fan_starts.get(fan + 1).map_or(self.fans.len(), |e| *e as usize);
                 EdgeFaces::Many(&self.fans[start..end])
             }
-            [face, NONE] => EdgeFaces::One(face),
-            [first, second] => {
-                EdgeFaces::Two { faces: [first, second & !SAME_WAY], same_way: second & SAME_WAY != 0 }
-            }
+            [face, NO_FACE] => EdgeFaces::One(face),
+            [first, second] => EdgeFaces::Two {
+                faces: [first, second & !PARALLEL_FLAG],
+                same_way: second & PARALLEL_FLAG != 0,
+            },
         }
     }
 
     /// Updates the direction flags after some faces were turned.
     pub(crate) fn turn(&mut self, turned: &[bool]) {
         let is_turned = |face: u32| turned.get(face as usize).copied().unwrap_or_default();
-        self.faces.par_iter_mut().with_min_len(GRAIN).for_each(|[first, second]| {
-            let has_two = *first != MANY && *second != NONE;
-            if has_two && is_turned(*first) != is_turned(*second & !SAME_WAY) {
-                *second ^= SAME_WAY;
+        self.faces.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|[first, second]| {
+            let has_two = *first != NON_MANIFOLD && *second != NO_FACE;
+            if has_two && is_turned(*first) != is_turned(*second & !PARALLEL_FLAG) {
+                *second ^= PARALLEL_FLAG;
             }
         });
     }
@@ -159,7 +161,7 @@ impl Edges {
     /// Number of edges with one face.
     #[must_use]
     pub fn border_count(&self) -> usize {
-        self.faces.iter().filter(|f| f[1] == NONE && f[0] != MANY).count()
+        self.faces.iter().filter(|f| f[1] == NO_FACE && f[0] != NON_MANIFOLD).count()
     }
 
     /// Number of edges with three faces or more.
@@ -169,7 +171,7 @@ impl Edges {
     }
 }
 
-fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
+fn edges_of_share(triangles: &[[u32; 3]], share: &VertexRange) -> Edges {
     let (first, span) = (share.vertices.start as u32, share.vertices.len());
     let mut starts = vec![0u32; span + 1];
     for &[a, b, c] in share.faces.iter().flat_map(|run| &triangles[run.clone()]) {
@@ -186,7 +188,7 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
         *start = total;
     }
     // Filled from the back, so that `starts` moves from the ends of the buckets to their beginnings.
-    let mut sides = vec![Side { other: 0, face_way: 0 }; total as usize];
+    let mut sides = vec![TriangleSide { other: 0, face_way: 0 }; total as usize];
     for run in share.faces.iter().rev() {
         for (face, &[a, b, c]) in run.clone().zip(&triangles[run.clone()]).rev() {
             for (a, b) in [(c, a), (b, c), (a, b)] {
@@ -194,7 +196,7 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
                 if bucket < span {
                     starts[bucket] -= 1;
                     sides[starts[bucket] as usize] =
-                        Side { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
+                        TriangleSide { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
                 }
             }
         }
@@ -210,7 +212,7 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
 }
 
 /// Stable sort. Buckets have about six sides, but the hub of a fan may have thousands.
-fn sort_by_other(sides: &mut [Side]) {
+fn sort_by_other(sides: &mut [TriangleSide]) {
     if sides.len() > 24 {
         sides.sort_by_key(|s| s.other);
         return;
@@ -228,7 +230,7 @@ fn sort_by_other(sides: &mut [Side]) {
 
 impl Edges {
     /// Adds the edges from `vertex` to its larger neighbours.
-    fn push_bucket(&mut self, vertex: u32, sides: &mut [Side]) {
+    fn push_bucket(&mut self, vertex: u32, sides: &mut [TriangleSide]) {
         sort_by_other(sides);
         let first_edge = self.vertices.len();
         let first_fan = self.fan_starts.len();
@@ -241,16 +243,16 @@ impl Edges {
             }
             self.vertices.push([vertex, one.other]);
             self.faces.push(match end - i {
-                1 => [one.face_way >> 1, NONE],
+                1 => [one.face_way >> 1, NO_FACE],
                 2 => {
                     let two = sides[i + 1].face_way;
-                    let same_way = if (one.face_way ^ two) & 1 == 0 { SAME_WAY } else { 0 };
+                    let same_way = if (one.face_way ^ two) & 1 == 0 { PARALLEL_FLAG } else { 0 };
                     [one.face_way >> 1, two >> 1 | same_way]
                 }
                 _ => {
                     self.fan_starts.push(self.fans.len() as u32);
                     self.fans.extend(sides[i..end].iter().map(|s| s.face_way >> 1));
-                    [MANY, self.fan_starts.len() as u32 - 1]
+                    [NON_MANIFOLD, self.fan_starts.len() as u32 - 1]
                 }
             });
             i = end;
@@ -258,8 +260,8 @@ impl Edges {
         // Two faces with the same three corners share both edges at their smallest corner.
         let fresh = &self.faces[first_edge..];
         let twins = (1..fresh.len()).any(|k| {
-            let pair = |f: &[u32; 2]| (f[0], f[1] & !SAME_WAY);
-            fresh[k][1] != NONE && fresh[..k].iter().any(|f| pair(f) == pair(&fresh[k]))
+            let pair = |f: &[u32; 2]| (f[0], f[1] & !PARALLEL_FLAG);
+            fresh[k][1] != NO_FACE && fresh[..k].iter().any(|f| pair(f) == pair(&fresh[k]))
         });
         if twins || self.fan_starts.len() > first_fan {
             self.suspects.extend((first_edge..self.faces.len()).map(|e| e as u32));
@@ -310,8 +312,8 @@ mod tests {
         let (one, three) = (run(1), run(3));
         assert_eq!(one.vertices, three.vertices);
         assert_eq!(one.faces, three.faces);
-        let whole = edges_of_share(&triangles, &shares(90_601, &triangles, 1)[0]);
-        assert!(one.border_count() == 4 * n as usize && 90_601 > 5 * SHARE);
+        let whole = edges_of_share(&triangles, &vertex_ranges(90_601, &triangles, 1)[0]);
+        assert!(one.border_count() == 4 * n as usize && 90_601 > 5 * MAX_VERTICES_PER_BLOCK);
         assert_eq!((one.vertices, one.faces), (whole.vertices, whole.faces));
     }
 }

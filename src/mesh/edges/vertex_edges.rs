@@ -1,4 +1,4 @@
-//! [`FirstEdges`]: index of the edges by their smaller vertex, for fast lookup of the edge between two
+//! [`VertexEdges`]: index of the edges by their smaller vertex, for fast lookup of the edge between two
 //! vertices.
 
 use crate::parallel::prelude::*;
@@ -6,22 +6,22 @@ use crate::parallel::prelude::*;
 use super::edge_table::Edges;
 
 /// Number of vertices per task.
-const CHUNK: usize = 1 << 12;
+const VERTICES_PER_TASK: usize = 1 << 12;
 
 /// Start of the edges of each vertex in the edge table. Edges are sorted by smaller vertex.
 #[derive(Debug, Clone)]
-pub(crate) struct FirstEdges<'a> {
+pub(crate) struct VertexEdges<'a> {
     edges: &'a Edges,
     /// One entry per vertex, and one at the end.
     first: Vec<u32>,
 }
 
-impl<'a> FirstEdges<'a> {
+impl<'a> VertexEdges<'a> {
     /// Indexes edges between `vertices` vertices.
     pub fn of(edges: &'a Edges, vertices: usize) -> Self {
         let mut first = vec![0; vertices + 1];
-        first.par_chunks_mut(CHUNK).enumerate().for_each(|(k, first)| {
-            let least = (k * CHUNK) as u32;
+        first.par_chunks_mut(VERTICES_PER_TASK).enumerate().for_each(|(k, first)| {
+            let least = (k * VERTICES_PER_TASK) as u32;
             let mut edge = edges.vertices.partition_point(|[lo, _]| *lo < least);
             for (vertex, first) in (least..).zip(first) {
                 while edges.vertices.get(edge).is_some_and(|[lo, _]| *lo < vertex) {
@@ -51,14 +51,14 @@ mod tests {
     #[test]
     fn edges_are_found_between_all_their_vertices_and_no_others() {
         // Some vertices have no edges, including the last ones.
-        let vertices = 2 * CHUNK as u64 + 10;
+        let vertices = 2 * VERTICES_PER_TASK as u64 + 10;
         let corner = |n: u64| (hash(n % 3, &[n / 3]) % (vertices - 5)) as u32;
         let triangles: Vec<[u32; 3]> =
             (0..vertices).map(|k| [3 * k, 3 * k + 1, 3 * k + 2].map(corner)).collect();
         let whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
         let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(whole).collect();
         let edges = Edges::build(vertices as usize, &triangles);
-        let first = FirstEdges::of(&edges, vertices as usize);
+        let first = VertexEdges::of(&edges, vertices as usize);
         for (edge, [a, b]) in edges.vertices.iter().enumerate() {
             assert_eq!(first.between(*b, *a), Some(edge));
         }

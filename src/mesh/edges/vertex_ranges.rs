@@ -1,17 +1,17 @@
-//! [`shares`]: blocks of vertices, one per task, with the faces that touch each block.
+//! [`vertex_ranges`]: blocks of vertices, one per task, with the faces that touch each block.
 
 use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Number of faces per task.
-const CHUNK: usize = 1 << 12;
+const FACES_PER_TASK: usize = 1 << 12;
 
 /// Block of vertices.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Share {
+pub(crate) struct VertexRange {
     /// Its vertices.
     pub vertices: Range<usize>,
     /// Runs of the faces with a corner in the block, ascending.
@@ -20,8 +20,8 @@ pub(crate) struct Share {
 
 /// Number of blocks of at most `size` vertices. A multiple of the number of threads, so that all have equal
 /// work.
-pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
-    if vertices <= size.min(GRAIN) {
+pub(crate) fn range_count(vertices: usize, size: usize) -> usize {
+    if vertices <= size.min(MIN_TASK_ITEMS) {
         return vertices.min(1);
     }
     vertices.div_ceil(size).next_multiple_of(rayon_core::current_num_threads())
@@ -29,7 +29,7 @@ pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
 
 /// Divides vertices into `workers` blocks. Vertices and faces mostly have the same order, so the faces of a
 /// block form few runs.
-pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize) -> Vec<Share> {
+pub(crate) fn vertex_ranges(vertex_count: usize, triangles: &[[u32; 3]], workers: usize) -> Vec<VertexRange> {
     let workers = workers.max(1);
     let bound = |k: usize| vertex_count * k / workers;
     // Bounds are rounded down, so the vertex may already be in the next block.
@@ -38,18 +38,18 @@ pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize
         if bound(worker + 1) <= v { worker + 1 } else { worker }
     };
     if workers == 1 {
-        return vec![Share {
+        return vec![VertexRange {
             vertices: 0..vertex_count,
             faces: std::iter::once(0..triangles.len()).collect(),
         }];
     }
     let found: Vec<Vec<Vec<Range<usize>>>> = triangles
-        .par_chunks(CHUNK)
+        .par_chunks(FACES_PER_TASK)
         .enumerate()
-        .map(|(chunk, triangles)| runs(chunk * CHUNK, triangles, workers, (bound, whose)))
+        .map(|(chunk, triangles)| runs(chunk * FACES_PER_TASK, triangles, workers, (bound, whose)))
         .collect();
-    let mut all: Vec<Share> = (0..workers)
-        .map(|worker| Share { vertices: bound(worker)..bound(worker + 1), faces: Vec::new() })
+    let mut all: Vec<VertexRange> = (0..workers)
+        .map(|worker| VertexRange { vertices: bound(worker)..bound(worker + 1), faces: Vec::new() })
         .collect();
     for (share, runs) in found.into_iter().flat_map(|runs| (0..).zip(runs)) {
         let faces: &mut Vec<Range<usize>> = &mut all[share].faces;
@@ -122,7 +122,7 @@ mod tests {
             })
             .collect();
         for workers in [1, 2, 3, 8, 317] {
-            let shares = shares(10_000, &faces, workers);
+            let shares = vertex_ranges(10_000, &faces, workers);
             assert_eq!(shares.len(), workers);
             for share in shares {
                 let listed: Vec<usize> = share.faces.iter().flat_map(Clone::clone).collect();
@@ -137,7 +137,7 @@ mod tests {
     fn threads_have_equally_many_shares() {
         for threads in [1, 2, 3, 16] {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            let count = |vertices: usize| pool.install(|| share_count(vertices, 100));
+            let count = |vertices: usize| pool.install(|| range_count(vertices, 100));
             assert_eq!([0, 1, 100].map(count), [0, 1, 1]);
             assert!([101, 299, 12_345].map(count).iter().all(|count| count.is_multiple_of(threads)));
             assert!(count(12_345) >= 124);

@@ -6,8 +6,8 @@
 
 use rustc_hash::FxHashSet;
 
-use super::intersection_curves::{IntersectionCurves, IntersectionInput, Pair, find_pairs, join};
-use super::triangle_pair::{Common, End, Feature, PairTolerance, Triangle, cross};
+use super::intersection_curves::{IntersectingPair, IntersectionCurves, IntersectionInput, find_pairs, join};
+use super::triangle_pair::{Feature, PairIntersection, PairTolerance, SegmentEnd, Triangle, cross};
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Follows the intersection curves of a mesh.
@@ -45,7 +45,7 @@ impl<'a> Tracer<'a> {
         let (mut firsts, mut seconds) = (Vec::new(), Vec::new());
         while let Some(faces) = waiting.pop() {
             let Some(common) = self.common(faces) else { continue };
-            found.push(Pair { faces, common });
+            found.push(IntersectingPair { faces, common });
             for end in common.ends() {
                 self.faces_at(end, 0, faces[0], &mut firsts);
                 self.faces_at(end, 1, faces[1], &mut seconds);
@@ -63,7 +63,7 @@ impl<'a> Tracer<'a> {
         join(&found)
     }
 
-    fn common(&self, [a, b]: [u32; 2]) -> Option<Common> {
+    fn common(&self, [a, b]: [u32; 2]) -> Option<PairIntersection> {
         let triangle = |face: u32| Triangle::new(&self.mesh.positions, self.mesh.triangles[face as usize]);
         let [own, other] = [a, b].map(|face| PairTolerance::of_part(self.mesh.extent(FaceId(face))));
         cross(&triangle(a), &triangle(b), own.and(other))
@@ -76,7 +76,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Collects the face and the faces where its surface continues at one end of a segment.
-    fn faces_at(&self, end: End, side: usize, face: u32, faces: &mut Vec<u32>) {
+    fn faces_at(&self, end: SegmentEnd, side: usize, face: u32, faces: &mut Vec<u32>) {
         faces.clear();
         faces.push(face);
         let Some(piercing) = end[side] else { return };

@@ -1,4 +1,4 @@
-//! [`PairSearch`]: intersecting triangles of a mesh, reused when some of its faces are cut.
+//! [`IntersectionCache`]: intersecting triangles of a mesh, reused when some of its faces are cut.
 //!
 //! A view cuts faces near its contours and keeps the others. Pairs of kept faces are known. Only the pieces
 //! of cut faces are searched, in the tree of the original mesh, with the box of a cut face replaced by the
@@ -7,11 +7,12 @@
 use crate::parallel::prelude::*;
 
 use super::intersection_curves::{
-    IntersectionCurves, IntersectionInput, Pair, bounds, intersections_of_parts, join, pairs_in, pairs_of,
+    IntersectingPair, IntersectionCurves, IntersectionInput, bounds, intersections_of_parts, join, pairs_in,
+    pairs_of,
 };
 use super::triangle_pair::PairTolerance;
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
-use crate::mesh::bvh::box_tree::{BoxTree, Faces, share_a_vertex};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::mesh::bvh::box_tree::{BoxTree, TreeFaces, share_a_vertex};
 use crate::mesh::bvh::quantized_box::FineBox;
 
 /// Number of cut faces per task.
@@ -19,24 +20,24 @@ const FACES_PER_TASK: usize = 64;
 
 /// Completed search over a mesh.
 #[derive(Debug, Clone)]
-pub struct PairSearch {
+pub struct IntersectionCache {
     /// `None` without triangles.
     tree: Option<BoxTree>,
     /// Rank of each face in the tree.
     ranks: Vec<u32>,
-    pairs: Vec<Pair>,
+    pairs: Vec<IntersectingPair>,
 }
 
 /// Mapping from the faces of a finer mesh to the original mesh.
 #[derive(Debug, Clone, Copy)]
-pub struct Hosts<'a> {
+pub struct FaceHosts<'a> {
     /// The original face that each face is or is part of.
     pub faces: &'a [u32],
     /// Number of kept faces, which come first; their hosts ascend.
     pub kept: usize,
 }
 
-impl PairSearch {
+impl IntersectionCache {
     /// Searches a mesh of several parts. `tolerance` returns that of the part of a face.
     #[must_use]
     pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
@@ -57,10 +58,10 @@ impl PairSearch {
     /// The curves of a finer mesh, made from this one by cutting faces. Equals a full search. `tolerance`
     /// takes faces of the finer mesh.
     #[must_use]
-    pub fn curves_of_finer(
+    pub fn refined_curves(
         &self,
         finer: &IntersectionInput,
-        hosts: Hosts,
+        hosts: FaceHosts,
         tolerance: impl Fn(u32) -> PairTolerance + Sync,
     ) -> IntersectionCurves {
         let Some(tree) = &self.tree else { return IntersectionCurves::default() };
@@ -69,9 +70,10 @@ impl PairSearch {
             places[*face as usize] = place as u32;
         }
         let whole = |face: u32| places.get(face as usize).copied().filter(|place| *place != u32::MAX);
-        let left =
-            |pair: &Pair| Some(Pair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair });
-        let mut pairs: Vec<Pair> = self.pairs.iter().filter_map(left).collect();
+        let left = |pair: &IntersectingPair| {
+            Some(IntersectingPair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair })
+        };
+        let mut pairs: Vec<IntersectingPair> = self.pairs.iter().filter_map(left).collect();
 
         // Pieces of faces without area may have an area.
         let is_active = |face: usize| finer.active.get(face).is_none_or(|active| *active);
@@ -81,9 +83,9 @@ impl PairSearch {
             return intersections_of_parts(finer, tolerance);
         }
 
-        let cut = Cut::new(tree, &self.ranks, finer, hosts);
+        let cut = RefinedFaces::new(tree, &self.ranks, finer, hosts);
         let found = |faces: &[(u32, u32)]| {
-            let (mut found, mut search) = (Vec::new(), Search::default());
+            let (mut found, mut search) = (Vec::new(), PieceSearch::default());
             for (rank, face) in faces {
                 cut.search_face(*rank, *face, whole, &mut search, |piece, others| {
                     pairs_of(finer, piece, others, &tolerance, &mut found);
@@ -98,14 +100,14 @@ impl PairSearch {
 }
 
 /// The cut faces, and a tree with boxes around their pieces.
-struct Cut<'a> {
+struct RefinedFaces<'a> {
     finer: &'a IntersectionInput<'a>,
     tree: BoxTree,
     kept: usize,
     /// Rank and id of each cut face, by rank.
     faces: Vec<(u32, u32)>,
     /// Pieces by the rank of their face.
-    pieces: Grouped<u32>,
+    pieces: CsrLists<u32>,
     /// Box of each piece.
     boxes: Vec<FineBox>,
     ranks: &'a [u32],
@@ -113,24 +115,24 @@ struct Cut<'a> {
 
 /// Buffers of one task.
 #[derive(Default)]
-struct Search {
+struct PieceSearch {
     stack: Vec<(usize, usize)>,
     /// Faces near a cut face, followed by its own pieces.
-    near: Vec<Near>,
+    near: Vec<NearbyFace>,
     /// Faces that may pass through one of the pieces.
     others: Vec<u32>,
 }
 
 /// Face of the finer mesh near a cut face, with its vertices and box.
 #[derive(Clone, Copy)]
-struct Near {
+struct NearbyFace {
     own_box: FineBox,
     face: u32,
     vertices: [u32; 3],
 }
 
-impl<'a> Cut<'a> {
-    fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: Hosts) -> Self {
+impl<'a> RefinedFaces<'a> {
+    fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: FaceHosts) -> Self {
         let kept = hosts.kept;
         let corners = |triangle: &[u32; 3]| triangle.map(|v| finer.positions[v as usize]);
         let boxes: Vec<FineBox> = finer.triangles[kept..]
@@ -141,7 +143,7 @@ impl<'a> Cut<'a> {
         let is_sought = |piece: &usize| finer.active.get(*piece).is_none_or(|active| *active);
         let by_rank = |piece: usize| (ranks[hosts.faces[piece] as usize] as usize, piece as u32);
         let sought = (kept..finer.triangles.len()).filter(is_sought);
-        let pieces = grouped_pairs(ranks.len(), sought.map(by_rank));
+        let pieces = csr_lists_from_pairs(ranks.len(), sought.map(by_rank));
         let around = |rank: usize| {
             let own = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - kept]);
             Some((rank as u32, own.reduce(FineBox::union)?))
@@ -159,13 +161,13 @@ impl<'a> Cut<'a> {
         rank: u32,
         face: u32,
         whole: impl Fn(u32) -> Option<u32>,
-        search: &mut Search,
+        search: &mut PieceSearch,
         mut visit: impl FnMut(u32, &[u32]),
     ) {
-        let Search { stack, near, others } = search;
+        let PieceSearch { stack, near, others } = search;
         let piece = |face: u32| {
             let own_box = self.boxes[face as usize - self.kept];
-            Near { own_box, face, vertices: self.finer.triangles[face as usize] }
+            NearbyFace { own_box, face, vertices: self.finer.triangles[face as usize] }
         };
         let pieces = self.pieces.of(rank as usize);
         let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept]);
@@ -184,19 +186,19 @@ impl<'a> Cut<'a> {
             } else if let Some(face) = whole(other) {
                 let vertices = self.finer.triangles[face as usize];
                 let corners = vertices.map(|v| self.finer.positions[v as usize]);
-                near.push(Near { own_box: self.tree.box_of(corners), face, vertices });
+                near.push(NearbyFace { own_box: self.tree.box_of(corners), face, vertices });
             }
         });
         near.retain(|other| around.overlaps(other.own_box));
-        let all = Faces { triangles: self.finer.triangles, bodies: self.finer.bodies };
+        let all = TreeFaces { triangles: self.finer.triangles, bodies: self.finer.bodies };
         let first = near.len();
         near.extend(pieces.iter().map(|face| piece(*face)));
         for k in first..near.len() {
             let own = near[k];
-            let are_neighbours = |other: &Near| {
+            let are_neighbours = |other: &NearbyFace| {
                 share_a_vertex(own.vertices, other.vertices) && all.are_joined(own.face, other.face)
             };
-            let meets = |other: &&Near| own.own_box.overlaps(other.own_box) && !are_neighbours(other);
+            let meets = |other: &&NearbyFace| own.own_box.overlaps(other.own_box) && !are_neighbours(other);
             others.clear();
             others.extend(near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|other| other.face));
             if !others.is_empty() {
@@ -211,11 +213,11 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
 
     /// One triangle around each point of `middles`, without common vertices.
     fn triangles(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let number = |k: usize| unit(hash(seed, &[k as u64])) - 0.5;
+        let number = |k: usize| unit_interval(hash(seed, &[k as u64])) - 0.5;
         let corner = |(k, middle): (usize, &DVec3)| {
             [0, 3, 6].map(|c| {
                 *middle + DVec3::new(number(9 * k + c), number(9 * k + c + 1), number(9 * k + c + 2))
@@ -239,7 +241,7 @@ mod tests {
                 active: &[],
                 bodies: &[],
             };
-            let search = PairSearch::new(&before, |_| PairTolerance::of_exact(1.0));
+            let search = IntersectionCache::new(&before, |_| PairTolerance::of_exact(1.0));
 
             let is_whole = |face: &u32| (*face as u64 + seed).is_multiple_of(3);
             let mut hosts: Vec<u32> = (0..40).filter(is_whole).collect();
@@ -256,7 +258,7 @@ mod tests {
                 IntersectionInput { positions: &positions, triangles: &after, active: &[], bodies: &[] };
 
             let curves = search
-                .curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));
+                .refined_curves(&finer, FaceHosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));
             assert_eq!(curves, intersections_of_parts(&finer, |_| PairTolerance::of_exact(1.0)), "{seed}");
             for segment in &curves.segments {
                 let [a, b] = segment.faces.map(|face| face as usize);

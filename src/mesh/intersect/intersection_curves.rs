@@ -13,9 +13,11 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::triangle_pair::{Along, Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
+use super::triangle_pair::{
+    Along, Feature, PairIntersection, PairTolerance, SegmentEnd, Touch, Triangle, cross_unrejected,
+};
 use crate::mesh::PartId;
-use crate::mesh::bvh::box_tree::{BoxTree, Faces};
+use crate::mesh::bvh::box_tree::{BoxTree, TreeFaces};
 
 /// Triangles to intersect.
 #[derive(Debug, Clone, Copy)]
@@ -90,7 +92,7 @@ pub(crate) fn find_pairs(
     low: DVec3,
     high: DVec3,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
-) -> Vec<Pair> {
+) -> Vec<IntersectingPair> {
     let IntersectionInput { positions, triangles, active, .. } = *input;
     pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
 }
@@ -100,8 +102,8 @@ pub(crate) fn pairs_in(
     tree: &BoxTree,
     input: &IntersectionInput,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
-) -> Vec<Pair> {
-    let faces = Faces { triangles: input.triangles, bodies: input.bodies };
+) -> Vec<IntersectingPair> {
+    let faces = TreeFaces { triangles: input.triangles, bodies: input.bodies };
     let mut pairs =
         tree.overlaps(faces, |face, others, found| pairs_of(input, face, others, &tolerance, found));
     pairs.par_sort_unstable_by_key(|pair| pair.faces);
@@ -114,7 +116,7 @@ pub(crate) fn pairs_of(
     face: u32,
     others: &[u32],
     tolerance: impl Fn(u32) -> PairTolerance,
-    found: &mut Vec<Pair>,
+    found: &mut Vec<IntersectingPair>,
 ) {
     let IntersectionInput { positions, triangles, .. } = *input;
     let own = &Triangle::new(positions, triangles[face as usize]);
@@ -130,21 +132,21 @@ pub(crate) fn pairs_of(
         }
         let tolerance = own_tolerance.and(tolerance(other));
         let common = if face < other {
-            cross_beyond(own, &other_triangle, tolerance)
+            cross_unrejected(own, &other_triangle, tolerance)
         } else {
-            cross_beyond(&other_triangle, own, tolerance)
+            cross_unrejected(&other_triangle, own, tolerance)
         };
         if let Some(common) = common {
-            found.push(Pair { faces: [face.min(other), face.max(other)], common });
+            found.push(IntersectingPair { faces: [face.min(other), face.max(other)], common });
         }
     }
 }
 
 /// Two triangles with their common part.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair {
+pub(crate) struct IntersectingPair {
     pub(crate) faces: [u32; 2],
-    pub(crate) common: Common,
+    pub(crate) common: PairIntersection,
 }
 
 /// The box around all corners of all triangles.
@@ -162,31 +164,31 @@ pub(crate) fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVe
     (!triangles.is_empty()).then_some((low, high))
 }
 
-/// Name of an end: a feature, and the face that it pierces (with [`FACE`]) or the feature that it meets.
-type Name = (Feature, [u32; 2]);
+/// Name of an end: a feature, and the face that it pierces (with [`FACE_INTERIOR`]) or the feature that it meets.
+type EndName = (Feature, [u32; 2]);
 
 /// Marks a name whose second entry is a face; no vertex has this id.
-const FACE: u32 = u32::MAX;
+const FACE_INTERIOR: u32 = u32::MAX;
 
 /// One name of one end.
-struct Naming {
-    name: Name,
+struct NamedEnd {
+    name: EndName,
     end: u32,
     point: DVec3,
 }
 
 /// Joins ends with a common name to points. The pairs must be sorted by faces.
-pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
+pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
     // Segments have two ends. A point has one end, which contributes only its names.
     let mut namings = Vec::new();
     let mut end_count = 0;
     let mut segments = Vec::new();
     let (passing, crossed) = (passing_edges(pairs), crossed_edges(pairs));
-    for &Pair { faces, common } in pairs {
+    for &IntersectingPair { faces, common } in pairs {
         let (ends, step) = match common {
-            Common::Segment(ends) => (ends, 1),
-            Common::Point(ends) => (ends, 0),
-            Common::Touch(touch) => {
+            PairIntersection::Segment(ends) => (ends, 1),
+            PairIntersection::Point(ends) => (ends, 0),
+            PairIntersection::Touch(touch) => {
                 let Some([first, second]) = passing.get(&pierced_and_edge(faces, &touch)) else { continue };
                 let (pierced, own) = pierced_and_own(faces, &touch);
                 if own != *first {
@@ -200,7 +202,7 @@ pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
                 name_end(ends[1], other, end_count + 1, &mut namings);
                 (touch.ends, 1)
             }
-            Common::Along(along) => {
+            PairIntersection::Along(along) => {
                 let Some(all) = crossed.get(&sorted(&along)).filter(|all| all[0].faces == faces) else {
                     continue;
                 };
@@ -233,11 +235,11 @@ pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
     // Positions of one point differ by rounding. Those of vertices take precedence over those on edges, and
     // then the smallest one is taken. Vertex and face numbers depend on the order of parts and must have no
     // effect.
-    let order = |a: &&Naming, b: &&Naming| {
-        let is_of_edge = |naming: &Naming| naming.name.0[0] != naming.name.0[1];
+    let order = |a: &&NamedEnd, b: &&NamedEnd| {
+        let is_of_edge = |naming: &NamedEnd| naming.name.0[0] != naming.name.0[1];
         is_of_edge(a).cmp(&is_of_edge(b)).then_with(|| compare_places(a.point, b.point))
     };
-    let mut place: Vec<Option<&Naming>> = vec![None; end_count as usize];
+    let mut place: Vec<Option<&NamedEnd>> = vec![None; end_count as usize];
     for naming in &namings {
         let slot = &mut place[root(&mut parent, naming.end) as usize];
         if slot.is_none_or(|best| order(&naming, &best).is_lt()) {
@@ -271,10 +273,10 @@ fn pierced_and_edge(faces: [u32; 2], touch: &Touch) -> (u32, Feature) {
 
 /// Edges that lie in a face where surfaces pass through it. Values are the first two faces with the edge on
 /// either side, lesser first.
-fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
+fn passing_edges(pairs: &[IntersectingPair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
     let mut sides: FxHashMap<(u32, Feature), [Option<u32>; 2]> = FxHashMap::default();
-    for Pair { faces, common } in pairs {
-        if let Common::Touch(touch) = common {
+    for IntersectingPair { faces, common } in pairs {
+        if let PairIntersection::Touch(touch) = common {
             let side =
                 &mut sides.entry(pierced_and_edge(*faces, touch)).or_default()[usize::from(touch.is_above)];
             let own = pierced_and_own(*faces, touch).1;
@@ -290,14 +292,14 @@ fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
 
 /// Pairs of collinear edges where two surfaces pass through each other, with their four pairs of faces in
 /// order.
-fn crossed_edges(pairs: &[Pair]) -> FxHashMap<[Feature; 2], Vec<Pair>> {
-    let mut found: FxHashMap<[Feature; 2], Vec<Pair>> = FxHashMap::default();
+fn crossed_edges(pairs: &[IntersectingPair]) -> FxHashMap<[Feature; 2], Vec<IntersectingPair>> {
+    let mut found: FxHashMap<[Feature; 2], Vec<IntersectingPair>> = FxHashMap::default();
     for pair in pairs {
-        if let Common::Along(along) = &pair.common {
+        if let PairIntersection::Along(along) = &pair.common {
             found.entry(sorted(along)).or_default().push(*pair);
         }
     }
-    found.retain(|_, own| come_by_turns(own));
+    found.retain(|_, own| alternate_around_line(own));
     found
 }
 
@@ -309,10 +311,10 @@ fn sorted(along: &Along) -> [Feature; 2] {
 
 /// Whether the faces at two collinear edges alternate around the line, with two faces per edge. Coplanar
 /// faces do not occur: such pairs have no common part.
-fn come_by_turns(pairs: &[Pair]) -> bool {
+fn alternate_around_line(pairs: &[IntersectingPair]) -> bool {
     let mut sides: [Vec<(u32, DVec3)>; 2] = Default::default();
-    for Pair { faces, common } in pairs {
-        let Common::Along(along) = common else { continue };
+    for IntersectingPair { faces, common } in pairs {
+        let PairIntersection::Along(along) = common else { continue };
         for k in 0..2 {
             let own = &mut sides[usize::from(along.edges[k] > along.edges[1 - k])];
             if own.iter().all(|(face, _)| *face != faces[k]) {
@@ -335,24 +337,24 @@ fn come_by_turns(pairs: &[Pair]) -> bool {
 }
 
 /// Distance between two ends.
-fn gap(one: &End, other: &End) -> f64 {
-    let place = |end: &End| end.iter().flatten().next().map(|piercing| piercing.point);
+fn gap(one: &SegmentEnd, other: &SegmentEnd) -> f64 {
+    let place = |end: &SegmentEnd| end.iter().flatten().next().map(|piercing| piercing.point);
     place(one).zip(place(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
 }
 
 /// Adds all names of one end of the common part of two faces.
-fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
+fn name_end([a, b]: SegmentEnd, faces: [u32; 2], end: u32, namings: &mut Vec<NamedEnd>) {
     if let Some(a) = a {
-        namings.push(Naming { name: (a.feature, [faces[1], FACE]), end, point: a.point });
+        namings.push(NamedEnd { name: (a.feature, [faces[1], FACE_INTERIOR]), end, point: a.point });
     }
     if let Some(b) = b {
-        namings.push(Naming { name: (b.feature, [faces[0], FACE]), end, point: b.point });
+        namings.push(NamedEnd { name: (b.feature, [faces[0], FACE_INTERIOR]), end, point: b.point });
     }
     if let (Some(a), Some(b)) = (a, b) {
         // A vertex on the border of the other triangle has its own position. Two edges that meet have two
         // nearly equal positions; the lesser edge decides.
         let (first, second) = if a.feature < b.feature { (a, b) } else { (b, a) };
-        namings.push(Naming { name: (first.feature, second.feature), end, point: first.point });
+        namings.push(NamedEnd { name: (first.feature, second.feature), end, point: first.point });
     }
 }
 

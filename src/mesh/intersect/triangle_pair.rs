@@ -13,10 +13,10 @@ use robust::{Coord3D, orient3d};
 use crate::geometry::numbers::tolerance::{
     OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART,
 };
-use crate::mesh::Extent;
+use crate::mesh::PartMetrics;
 
 /// Two corners may lie in a plane if their distances from it are below this share of the third one's.
-const NEAR_OF_FAR: f64 = 1e-4;
+const PLANE_DISTANCE_RATIO: f64 = 1e-4;
 
 /// Tolerances for the intersection of two triangles, world units.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ impl PairTolerance {
     /// Tolerance for triangles of a part.
     #[inline]
     #[must_use]
-    pub fn of_part(part: &Extent) -> Self {
+    pub fn of_part(part: &PartMetrics) -> Self {
         let exact = Self::of_exact(part.scale);
         let overlap = exact.overlap.max(OVERLAP_OF_ROUNDING * part.rounding);
         Self { overlap, rounding: part.rounding, ..exact }
@@ -95,7 +95,7 @@ impl Triangle {
         let is_on_one = a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0;
         let [x, y, z] = [a.abs(), b.abs(), c.abs()];
         let middle = x.min(y).max(x.max(y).min(z));
-        self.trusted & is_on_one & (middle > NEAR_OF_FAR * x.max(y).max(z))
+        self.trusted & is_on_one & (middle > PLANE_DISTANCE_RATIO * x.max(y).max(z))
     }
 
     /// Signed distances of points from the plane; zero within the tolerance. `None` if the points are
@@ -190,15 +190,15 @@ pub struct Piercing {
 
 /// End of the common part of two triangles: a piercing by the border of the first, of the second, or (within
 /// the tolerance) of both.
-pub type End = [Option<Piercing>; 2];
+pub type SegmentEnd = [Option<Piercing>; 2];
 
 /// Common part of two triangles. Its ends are ordered along the cross product of their normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Common {
+pub enum PairIntersection {
     /// A segment.
-    Segment([End; 2]),
+    Segment([SegmentEnd; 2]),
     /// A segment that is too short to count; both ends are one point. Segments of neighbours may end there.
-    Point([End; 2]),
+    Point([SegmentEnd; 2]),
     /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the
     /// edge is on the other side.
     Touch(Touch),
@@ -207,10 +207,10 @@ pub enum Common {
     Along(Along),
 }
 
-impl Common {
+impl PairIntersection {
     /// First and last end.
     #[must_use]
-    pub fn ends(&self) -> [End; 2] {
+    pub fn ends(&self) -> [SegmentEnd; 2] {
         match self {
             Self::Segment(ends) | Self::Point(ends) => *ends,
             Self::Touch(touch) => touch.ends,
@@ -223,7 +223,7 @@ impl Common {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// First and last end along the cross product of the normals.
-    pub ends: [End; 2],
+    pub ends: [SegmentEnd; 2],
     /// The edge, lesser vertex first.
     pub edge: Feature,
     /// Whether the edge belongs to the second triangle.
@@ -236,7 +236,7 @@ pub struct Touch {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Along {
     /// First and last end along the cross product of the normals.
-    pub ends: [End; 2],
+    pub ends: [SegmentEnd; 2],
     /// The edges of both triangles, lesser vertex first.
     pub edges: [Feature; 2],
     /// Unit vectors from the line into each triangle, perpendicular to the line.
@@ -248,15 +248,19 @@ pub struct Along {
 /// Coplanar triangles have no common part; neither have triangles that touch the other plane with a vertex
 /// only.
 #[must_use]
-pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
+pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<PairIntersection> {
     if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
         return None;
     }
-    cross_beyond(a, b, tolerance)
+    cross_unrejected(a, b, tolerance)
 }
 
 /// Same, for triangles that [`Triangle::has_on_one_side`] does not reject.
-pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
+pub(crate) fn cross_unrejected(
+    a: &Triangle,
+    b: &Triangle,
+    tolerance: PairTolerance,
+) -> Option<PairIntersection> {
     let (a_length, b_length) = (a.normal.length(), b.normal.length());
     if !(a_length > 0.0 && b_length > 0.0) {
         return None;
@@ -296,7 +300,7 @@ pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
             (way - direction * way.dot(direction)).normalize_or_zero()
         };
         let (edges, away) = ([edge(a, a_third), edge(b, b_third)], [away(a, a_third), away(b, b_third)]);
-        return (length > tolerance.overlap).then_some(Common::Along(Along { ends, edges, away }));
+        return (length > tolerance.overlap).then_some(PairIntersection::Along(Along { ends, edges, away }));
     }
     let touch = match (a_edge, b_edge) {
         (Some(side), _) => Some((a, a_distances, side, false)),
@@ -305,12 +309,12 @@ pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
     };
     if let Some((own, distances, third, is_of_second)) = touch {
         let touch = Touch { ends, edge: edge(own, third), is_of_second, is_above: distances[third] > 0.0 };
-        return (length > tolerance.overlap).then_some(Common::Touch(touch));
+        return (length > tolerance.overlap).then_some(PairIntersection::Touch(touch));
     }
     if length > tolerance.overlap {
-        Some(Common::Segment(ends))
+        Some(PairIntersection::Segment(ends))
     } else if length >= -tolerance.overlap {
-        Some(Common::Point(ends))
+        Some(PairIntersection::Point(ends))
     } else {
         None
     }

@@ -13,25 +13,25 @@ use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
 use crate::mesh::{EdgeFaces, Edges};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Maximum tilt of a face by rounding, as a tangent (4 degrees), for its vertices to stay fixed.
-const SURE: f64 = 0.07;
+const MAX_FIXED_TILT_TANGENT: f64 = 0.07;
 /// Turn of an edge that halves its influence (a quarter of the energy), as a share of the largest turn that
 /// rounding can cause. It is three standard deviations of the rounding. Larger turns are features and count
 /// less.
-const MEANT: f64 = 0.7;
+const FEATURE_TURN_OF_ROUNDING: f64 = 0.7;
 /// Minimum cosine (10 degrees) between normals of a continuous surface.
-const PARTED: f32 = 0.985;
+const MIN_SHARED_NORMAL_COSINE: f32 = 0.985;
 
 /// Maximum tilt of each face by rounding.
-pub(crate) struct Doubts {
+pub(crate) struct FaceTilts {
     /// Tangents of the tilt angles; infinite where the corners are collinear.
     tangents: Vec<f64>,
     half_step: f64,
 }
 
-impl Doubts {
+impl FaceTilts {
     /// Bounds the tilt: one corner may be off by half a step in one direction along each axis, and the
     /// opposite side by half a step in the other.
     pub fn of(places: &[DVec3], faces: &[[u32; 3]], half_step: f64) -> Self {
@@ -45,7 +45,7 @@ impl Doubts {
             let reach = normal.abs().element_sum() * longest.sqrt();
             2.0 * half_step * reach / normal.length_squared()
         };
-        let tangents = faces.par_iter().with_min_len(GRAIN).map(tangent);
+        let tangents = faces.par_iter().with_min_len(MIN_TASK_ITEMS).map(tangent);
         let tangents = tangents.map(|t| if t.is_nan() { f64::INFINITY } else { t }).collect();
         Self { tangents, half_step }
     }
@@ -54,8 +54,10 @@ impl Doubts {
     pub fn doubted(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
         let mut doubted = vec![false; places];
         for is_doubted in [true, false] {
-            let such =
-                faces.iter().zip(&self.tangents).filter(|(_, tangent)| (**tangent > SURE) == is_doubted);
+            let such = faces
+                .iter()
+                .zip(&self.tangents)
+                .filter(|(_, tangent)| (**tangent > MAX_FIXED_TILT_TANGENT) == is_doubted);
             such.for_each(|(face, _)| face.iter().for_each(|v| doubted[*v as usize] = is_doubted));
         }
         doubted
@@ -114,7 +116,7 @@ impl Hinge {
 pub(crate) fn hinges(
     places: &[DVec3],
     (faces, edges): (&[[u32; 3]], &Edges),
-    doubts: &Doubts,
+    doubts: &FaceTilts,
     (corners, normals): (&[[u32; 3]], &[[f32; 3]]),
     free: &[bool],
 ) -> Vec<Hinge> {
@@ -148,14 +150,14 @@ pub(crate) fn hinges(
         let gap = a * shares[0] + b * shares[1] + c * shares[2] + d * shares[3];
         let half = doubts.half_step;
         let per_gap = half * (high_c + high_d) / (high_c * high_d);
-        let meant = gap.length() / half * per_gap / (MEANT * doubts.turn(sides));
+        let meant = gap.length() / half * per_gap / (FEATURE_TURN_OF_ROUNDING * doubts.turn(sides));
         let counts = 1.0 / (1.0 + meant * meant);
         let weight = per_gap * per_gap * length / (high_c + high_d) * counts * counts;
         let halves = [crossing as f32, of_c as f32];
         let (gap, weight) = ((gap / half).as_vec3(), weight as f32);
         (gap.is_finite() && weight.is_finite()).then_some(Hinge { corners: all, halves, gap, weight })
     };
-    (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(hinge).collect()
+    (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter_map(hinge).collect()
 }
 
 /// The corner of a face that is not one of two vertices.
@@ -170,5 +172,5 @@ fn is_parted(normals: &[[f32; 3]], a: u32, b: u32) -> bool {
     }
     let (Some(m), Some(n)) = (normals.get(a as usize), normals.get(b as usize)) else { return false };
     let length = |n: &[f32; 3]| (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
-    m[0] * n[0] + m[1] * n[1] + m[2] * n[2] < PARTED * length(m) * length(n)
+    m[0] * n[0] + m[1] * n[1] + m[2] * n[2] < MIN_SHARED_NORMAL_COSINE * length(m) * length(n)
 }

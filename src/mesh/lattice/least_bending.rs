@@ -8,14 +8,14 @@ use crate::parallel::prelude::*;
 use glam::Vec3;
 
 use super::hinges::Hinge;
-use crate::geometry::lists::csr_lists::grouped_pairs;
-use crate::parallel::task_size::GRAIN;
+use crate::geometry::lists::csr_lists::csr_lists_from_pairs;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Maximum number of descent steps. They remove at least 5/6 of the removable bending; further steps affect
 /// few sharp edges.
-pub(crate) const STEPS: usize = 16;
+pub(crate) const MAX_DESCENT_STEPS: usize = 16;
 /// Minimum displacement in a step, in half steps of the lattice. Descent stops below it.
-const STILL: f32 = 4e-3;
+const MIN_MOVE_HALF_STEPS: f32 = 4e-3;
 
 /// Displacement of each position after at most `steps` steps of descent, in half steps of the lattice: -1 to
 /// 1 along each axis, zero for positions that are not `free`.
@@ -24,8 +24,8 @@ pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Ve
     let parts = hinges.iter().zip(0u32..).flat_map(|(hinge, k)| {
         hinge.corners.into_iter().zip(hinge.shares()).map(move |(v, share)| (v as usize, (k, share)))
     });
-    let parts = grouped_pairs(free.len(), parts);
-    let all = (0..free.len()).into_par_iter().with_min_len(GRAIN);
+    let parts = csr_lists_from_pairs(free.len(), parts);
+    let all = (0..free.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     let pace = |v: usize| {
         let steepest = |(k, share): &(u32, f32)| hinges[*k as usize].steepest(*share);
         let steepest: f32 = if free[v] { parts.of(v).iter().map(steepest).sum() } else { 0.0 };
@@ -37,7 +37,7 @@ pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Ve
     let mut momentum = 1.0f32;
     for _ in 0..steps {
         let pull = |hinge: &Hinge| hinge.gap_at(&ahead) * hinge.weight;
-        let pulls: Vec<Vec3> = hinges.par_iter().with_min_len(GRAIN).map(pull).collect();
+        let pulls: Vec<Vec3> = hinges.par_iter().with_min_len(MIN_TASK_ITEMS).map(pull).collect();
         let next = |v: usize| {
             let slope =
                 parts.of(v).iter().fold(Vec3::ZERO, |sum, (k, share)| sum + pulls[*k as usize] * *share);
@@ -49,11 +49,13 @@ pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Ve
         momentum = next_momentum;
         let moved = |v: usize| (next[v] - found[v]).abs().max_element();
         let most = all.clone().map(moved).reduce(|| 0.0, f32::max);
-        ahead.par_iter_mut().with_min_len(GRAIN).zip(&next).zip(&found).for_each(|((ahead, next), found)| {
-            *ahead = *next + (*next - *found) * on;
-        });
+        ahead.par_iter_mut().with_min_len(MIN_TASK_ITEMS).zip(&next).zip(&found).for_each(
+            |((ahead, next), found)| {
+                *ahead = *next + (*next - *found) * on;
+            },
+        );
         found = next;
-        if most <= STILL {
+        if most <= MIN_MOVE_HALF_STEPS {
             break;
         }
     }

@@ -18,27 +18,27 @@ mod least_bending;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use self::hinges::{Doubts, hinges};
-use self::least_bending::{STEPS, least_bending};
+use self::hinges::{FaceTilts, hinges};
+use self::least_bending::{MAX_DESCENT_STEPS, least_bending};
 use super::{EdgeFaces, Edges};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Range of the number of bits of a lattice. Files have 8 to 16; below 7 the match may be random.
-const BITS: std::ops::RangeInclusive<u32> = 7..=16;
+const LATTICE_BITS: std::ops::RangeInclusive<u32> = 7..=16;
 /// Maximum distance of a vertex from its lattice point, as a share of a step. It covers decoding in single
 /// precision.
-const OFF: f64 = 0.02;
+const MAX_OFFSET_STEPS: f64 = 0.02;
 
 /// Lattice over the box of some vertices, with 2ᵇ − 1 steps along its longest side, for a whole number b.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lattice {
+pub struct QuantizationLattice {
     /// Lower corner of the box, a point of the lattice.
     low: DVec3,
     /// Length of a step, the same on all axes, in the unit of the vertices.
     step: f64,
 }
 
-impl Lattice {
+impl QuantizationLattice {
     /// The coarsest lattice that contains all of these vertices; `None` if there is none.
     ///
     /// ```
@@ -59,7 +59,7 @@ impl Lattice {
         if !(side > 0.0 && side.is_finite()) {
             return None;
         }
-        let lattices = BITS.map(|bits| Self { low, step: side / f64::from((1 << bits) - 1) });
+        let lattices = LATTICE_BITS.map(|bits| Self { low, step: side / f64::from((1 << bits) - 1) });
         lattices.into_iter().find(|lattice| vertices.iter().all(|p| lattice.has(*p)))
     }
 
@@ -71,7 +71,7 @@ impl Lattice {
 
     fn has(&self, p: DVec3) -> bool {
         let steps = (p - self.low) / self.step;
-        (steps - steps.round()).abs().max_element() <= OFF
+        (steps - steps.round()).abs().max_element() <= MAX_OFFSET_STEPS
     }
 
     /// Lattice point of a vertex as one number, 16 bits per axis.
@@ -87,8 +87,8 @@ impl Lattice {
 /// Vertices at the same position stay together. `normals` are those of the vertices, or empty. An edge whose
 /// faces have different normals is a crease and may bend freely. Vertices on no lattice, and those of wide
 /// faces, stay unchanged.
-pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
-    let Some(lattice) = Lattice::of(vertices) else { return };
+pub fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
+    let Some(lattice) = QuantizationLattice::of(vertices) else { return };
     if triangles.as_flattened().iter().any(|v| *v as usize >= vertices.len()) {
         return;
     }
@@ -99,7 +99,7 @@ pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3
     };
     let corners: Vec<[u32; 3]> = triangles.iter().filter(|t| sound(t)).copied().collect();
     let faces: Vec<[u32; 3]> = corners.iter().map(|t| t.map(|v| place_of[v as usize])).collect();
-    let doubts = Doubts::of(&places, &faces, lattice.step / 2.0);
+    let doubts = FaceTilts::of(&places, &faces, lattice.step / 2.0);
     let mut free = doubts.doubted(&faces, places.len());
     if !free.contains(&true) {
         return;
@@ -111,8 +111,8 @@ pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3
         }
     }
     let hinges = hinges(&places, (&faces, &edges), &doubts, (&corners, normals), &free);
-    let moved = least_bending(&hinges, &free, STEPS);
-    vertices.par_iter_mut().with_min_len(GRAIN).zip(place_of).for_each(|(vertex, place)| {
+    let moved = least_bending(&hinges, &free, MAX_DESCENT_STEPS);
+    vertices.par_iter_mut().with_min_len(MIN_TASK_ITEMS).zip(place_of).for_each(|(vertex, place)| {
         let place = place as usize;
         if free[place] {
             *vertex = places[place] + moved[place].as_dvec3() * (lattice.step / 2.0);
@@ -122,8 +122,8 @@ pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3
 
 /// Position index of each vertex, and the positions in the order of their first vertices, which keeps
 /// neighbours close in memory.
-fn places(lattice: &Lattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
-    let keys = vertices.par_iter().with_min_len(GRAIN).enumerate();
+fn places(lattice: &QuantizationLattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
+    let keys = vertices.par_iter().with_min_len(MIN_TASK_ITEMS).enumerate();
     let mut keys: Vec<(u64, u32)> = keys.map(|(v, p)| (lattice.key(*p), v as u32)).collect();
     keys.par_sort_unstable();
     // First the smallest vertex at the same position, then the index of the position.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometry::numbers::portable_math::{acos, cos, sin};
-use crate::mesh::{Mesh, Soup, Turns};
+use crate::mesh::{DihedralCosines, Mesh, Soup};
 
 /// Torus with `around` times `along` quads, each cut in two.
 fn torus(around: u32, along: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
@@ -40,7 +40,7 @@ fn rounded(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
 fn sharp(vertices: &[DVec3], triangles: &[[u32; 3]], degrees: f64) -> usize {
     let soup = Soup { positions: vertices.to_vec(), triangles: triangles.to_vec(), ..Soup::default() };
     let mesh = Mesh::build(soup);
-    let turns = Turns::of(&mesh);
+    let turns = DihedralCosines::of(&mesh);
     let turn = |edge: usize| acos(f64::from(turns.at(&mesh, edge).clamp(-1.0, 1.0))).to_degrees();
     (0..mesh.edges.len()).filter(|edge| turn(*edge) > degrees).count()
 }
@@ -56,7 +56,7 @@ fn what_rounding_made_sharp_is_smooth_again_within_half_a_step() {
     assert_eq!(sharp(&truth, &triangles, 10.0), 0);
     assert!(sharp(&on_lattice, &triangles, 40.0) > 500);
     let mut loose = on_lattice.clone();
-    loosen(&mut loose, &triangles, &[]);
+    dequantize(&mut loose, &triangles, &[]);
     assert!(farthest(&loose, &on_lattice) <= 0.5 * step * 1.000_001);
     assert_eq!(sharp(&loose, &triangles, 30.0), 0);
     assert!(sharp(&loose, &triangles, 10.0) * 10 < sharp(&on_lattice, &triangles, 10.0));
@@ -76,7 +76,7 @@ fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
     let (truth, triangles) = torus(12, 8);
     let (on_lattice, _) = rounded(&truth, 12);
     let mut loose = on_lattice.clone();
-    loosen(&mut loose, &triangles, &[]);
+    dequantize(&mut loose, &triangles, &[]);
     assert_eq!(loose, on_lattice);
     // A fine wave with a border all around.
     let wave = |k: u32| {
@@ -86,13 +86,13 @@ fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
     let truth: Vec<DVec3> = (0..3600).map(wave).collect();
     let (on_lattice, _) = rounded(&truth, 7);
     let mut loose = on_lattice.clone();
-    loosen(&mut loose, &grid(60, 60, false), &[]);
+    dequantize(&mut loose, &grid(60, 60, false), &[]);
     let is_end = |k: usize| [k / 60, k % 60].iter().any(|i| *i == 0 || *i == 59);
     assert!((0..3600).filter(|k| is_end(*k)).all(|k| loose[k] == on_lattice[k]));
     assert!((0..3600).any(|k| loose[k] != on_lattice[k]));
     // Vertices on no lattice stay unchanged.
     let mut free = truth.clone();
-    loosen(&mut free, &grid(60, 60, false), &[]);
+    dequantize(&mut free, &grid(60, 60, false), &[]);
     assert_eq!(free, truth);
 }
 
@@ -126,7 +126,7 @@ fn a_crease_that_normals_tell_stays_and_the_faces_beside_it_are_flat() {
     let (truth, triangles, normals) = ridge();
     let (on_lattice, _) = rounded(&truth, 7);
     let mut loose = on_lattice.clone();
-    loosen(&mut loose, &triangles, &normals);
+    dequantize(&mut loose, &triangles, &normals);
     // All 39 edges of the crease keep most of their turn.
     let turned = |of: &[DVec3], least: f64| sharp(of, &triangles, least);
     assert_eq!([turned(&truth, 59.9), turned(&truth, 1.0)], [39, 39]);
@@ -158,7 +158,7 @@ fn a_bevel_of_a_few_steps_keeps_the_edge_in_its_middle() {
     let (on_lattice, step) = rounded(&truth, 10);
     assert!((0.5..1.0).contains(&step));
     let mut loose = on_lattice.clone();
-    loosen(&mut loose, &triangles, &[]);
+    dequantize(&mut loose, &triangles, &[]);
     let moves = |row: usize| (0..20).any(|k| loose[5 * k + row] != on_lattice[5 * k + row]);
     assert_eq!([0, 1, 2, 3, 4].map(moves), [false, false, true, false, false]);
     assert_eq!(sharp(&truth, &triangles, 40.0), 19);
@@ -173,9 +173,9 @@ fn vertices_at_one_place_stay_at_one_place() {
     let corners: Vec<DVec3> = triangles.as_flattened().iter().map(|v| on_lattice[*v as usize]).collect();
     let own: Vec<[u32; 3]> = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let mut apart = corners;
-    loosen(&mut apart, &own, &[]);
+    dequantize(&mut apart, &own, &[]);
     let mut shared = on_lattice;
-    loosen(&mut shared, &triangles, &[]);
+    dequantize(&mut shared, &triangles, &[]);
     let same = triangles.as_flattened().iter().zip(&apart).all(|(v, p)| {
         // The order of positions differs, and with it the rounding of sums.
         shared[*v as usize].abs_diff_eq(*p, 1e-5)
@@ -231,7 +231,7 @@ fn bending(hinges: &[super::hinges::Hinge], moved: impl Fn(u32) -> DVec3) -> f64
 fn descent_comes_near_the_least_bending_there_is() {
     let (truth, triangles) = torus(16, 8);
     let (places, step) = rounded(&truth, 5);
-    let doubts = Doubts::of(&places, &triangles, step / 2.0);
+    let doubts = FaceTilts::of(&places, &triangles, step / 2.0);
     let free = doubts.doubted(&triangles, places.len());
     assert!(free.iter().all(|free| *free));
     let edges = Edges::build(places.len(), &triangles);
@@ -244,7 +244,12 @@ fn descent_comes_near_the_least_bending_there_is() {
         let found = least_bending(&hinges, &free, steps);
         (bending(&hinges, |v| found[v as usize].as_dvec3()) - least) / (before - least)
     };
-    assert!(left(1000).abs() < 1e-3 && left(STEPS) < 1.0 / 6.0, "{} {}", left(1000), left(STEPS));
+    assert!(
+        left(1000).abs() < 1e-3 && left(MAX_DESCENT_STEPS) < 1.0 / 6.0,
+        "{} {}",
+        left(1000),
+        left(MAX_DESCENT_STEPS)
+    );
 }
 
 #[test]
@@ -254,7 +259,7 @@ fn one_thread_moves_as_many_do() {
     let with = |threads: usize| {
         let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let mut loose = on_lattice.clone();
-        pool.install(|| loosen(&mut loose, &triangles, &[]));
+        pool.install(|| dequantize(&mut loose, &triangles, &[]));
         loose
     };
     assert_eq!(with(1), with(5));
@@ -265,10 +270,10 @@ fn broken_input_is_left_as_it_is() {
     let on = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(f64::NAN, 0.0, 0.0)];
     for count in 0..4 {
         let mut vertices = on[..count].to_vec();
-        loosen(&mut vertices, &[[0, 1, 2], [2, 1, 7]], &[]);
+        dequantize(&mut vertices, &[[0, 1, 2], [2, 1, 7]], &[]);
         assert_eq!(vertices, on[..count]);
     }
     let mut vertices = on.to_vec();
-    loosen(&mut vertices, &[[0, 1, 2]], &[[0.0; 3]; 2]);
+    dequantize(&mut vertices, &[[0, 1, 2]], &[[0.0; 3]; 2]);
     assert_eq!(vertices[..3], on[..3]);
 }

@@ -11,7 +11,7 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Result of a lookup across an edge, through needles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Beyond {
+pub enum OppositeFace {
     /// A face with area.
     Face(u32),
     /// The edge is the long one of a needle, or collinear with others: shorter edges represent it.
@@ -22,40 +22,44 @@ pub enum Beyond {
 
 /// The face at an edge (`lo` < `hi`) on the side of `face`, looking through needles.
 #[must_use]
-pub fn seen_from(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> Beyond {
-    if mesh.is_degenerate(FaceId(face)) { beyond(mesh, face, lo, hi) } else { Beyond::Face(face) }
+pub fn opposite_face(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> OppositeFace {
+    if mesh.is_degenerate(FaceId(face)) {
+        across_needle(mesh, face, lo, hi)
+    } else {
+        OppositeFace::Face(face)
+    }
 }
 
 /// The face across `needle` from an edge (`lo` < `hi`).
 #[must_use]
-fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
+fn across_needle(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> OppositeFace {
     let (mut needle, mut edge) = (needle, [lo, hi]);
     let mut long = long_edge(mesh, needle);
     if long == edge {
-        return Beyond::LongEdge;
+        return OppositeFace::LongEdge;
     }
     let middle = (mesh.positions[lo as usize] + mesh.positions[hi as usize]) / 2.0;
     let mut rises = true;
     // Needles may be adjacent. The limit stops at a ring of them.
     for _ in 0..16 {
         let side = if long == edge { short_edge(mesh, needle, edge, middle) } else { long };
-        let Ok(id) = mesh.edges.vertices.binary_search(&side) else { return Beyond::Nothing };
-        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(id) else { return Beyond::Nothing };
+        let Ok(id) = mesh.edges.vertices.binary_search(&side) else { return OppositeFace::Nothing };
+        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(id) else { return OppositeFace::Nothing };
         let next = if faces[0] == needle { faces[1] } else { faces[0] };
         if !mesh.is_degenerate(FaceId(next)) {
-            return Beyond::Face(next);
+            return OppositeFace::Face(next);
         }
         long = long_edge(mesh, next);
         if rises && long == side {
             // Short edges are on both sides of this one; those on one side represent it.
             rises = false;
             if third_corner(mesh, needle, side) > third_corner(mesh, next, side) {
-                return Beyond::LongEdge;
+                return OppositeFace::LongEdge;
             }
         }
         (needle, edge) = (next, side);
     }
-    Beyond::Nothing
+    OppositeFace::Nothing
 }
 
 /// The short edge of a needle next to a point of its long edge.
@@ -105,10 +109,10 @@ mod tests {
         };
         let needle = (0..4).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
         let below = (0..4).find(|f| mesh.triangles[*f as usize].contains(&id(3))).unwrap();
-        let look = |a: usize, b: usize| beyond(&mesh, needle, id(a).min(id(b)), id(a).max(id(b)));
-        assert_eq!(look(0, 2), Beyond::Face(below));
-        assert_eq!(look(1, 2), Beyond::Face(below));
-        assert_eq!(look(0, 1), Beyond::LongEdge);
+        let look = |a: usize, b: usize| across_needle(&mesh, needle, id(a).min(id(b)), id(a).max(id(b)));
+        assert_eq!(look(0, 2), OppositeFace::Face(below));
+        assert_eq!(look(1, 2), OppositeFace::Face(below));
+        assert_eq!(look(0, 1), OppositeFace::LongEdge);
     }
 
     #[test]
@@ -121,7 +125,7 @@ mod tests {
         });
         let needle = (0..3).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
         let at = |x: f64| mesh.positions.iter().position(|p| p.x == x && p.y == 0.0).unwrap() as u32;
-        assert_eq!(beyond(&mesh, needle, at(0.0), at(1.0)), Beyond::Nothing);
+        assert_eq!(across_needle(&mesh, needle, at(0.0), at(1.0)), OppositeFace::Nothing);
     }
 
     /// Two walls that meet in one line, as in a roof, with needles between them. Each wall has separate

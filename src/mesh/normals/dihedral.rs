@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::degenerate_faces::{Beyond, seen_from};
+use super::degenerate_faces::{OppositeFace, opposite_face};
 use super::normal_carriers;
 use crate::geometry::numbers::portable_math::acos;
 use crate::geometry::numbers::tolerance;
@@ -32,7 +32,7 @@ impl Dihedral {
         match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way } => {
                 if faces.iter().any(|f| mesh.is_degenerate(FaceId(*f))) {
-                    return beside_needle(mesh, edge, faces);
+                    return dihedral_across_needle(mesh, edge, faces);
                 }
                 Some(Self::of(mesh, faces, same_way))
             }
@@ -58,7 +58,7 @@ impl Dihedral {
     /// Turn of the surface, degrees: 0 where it is flat, 180 where it folds back on itself.
     #[must_use]
     pub fn turn(&self) -> f32 {
-        turn_of(self.cosine)
+        turn_degrees(self.cosine)
     }
 
     /// Turn of the surface minus its error bound, degrees. Compare angle limits with this value, so that a
@@ -77,7 +77,7 @@ impl Dihedral {
     /// Error bound of a face normal due to rounding, degrees.
     #[must_use]
     pub fn doubt_of(mesh: &Mesh, face: u32) -> f64 {
-        let least = tolerance::ANGLE_DEG / 2.0;
+        let least = tolerance::DIHEDRAL_ROUNDING_DEG / 2.0;
         let rounding = mesh.extent(FaceId(face)).rounding;
         if rounding == 0.0 {
             return least;
@@ -124,16 +124,16 @@ impl Dihedral {
 
 /// Angle with a cosine, degrees.
 #[must_use]
-pub fn turn_of(cosine: f32) -> f32 {
+pub fn turn_degrees(cosine: f32) -> f32 {
     acos(f64::from(cosine)).to_degrees() as f32
 }
 
 /// Kept out of line, because needles are rare.
 #[cold]
-fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> {
-    let seen = |face: u32| match seen_from(mesh, face, mesh.edges.vertices[edge]) {
-        Beyond::Face(seen) => Some(seen),
-        Beyond::LongEdge | Beyond::Nothing => None,
+fn dihedral_across_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> {
+    let seen = |face: u32| match opposite_face(mesh, face, mesh.edges.vertices[edge]) {
+        OppositeFace::Face(seen) => Some(seen),
+        OppositeFace::LongEdge | OppositeFace::Nothing => None,
     };
     let [first, second] = [seen(faces[0])?, seen(faces[1])?];
     (first != second).then(|| Dihedral::of(mesh, [first, second], false))

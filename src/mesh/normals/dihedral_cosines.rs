@@ -1,18 +1,18 @@
-//! [`Turns`]: cosine of the dihedral angle at every edge, computed once.
+//! [`DihedralCosines`]: cosine of the dihedral angle at every edge, computed once.
 
 use crate::parallel::prelude::*;
 
 use crate::mesh::{Dihedral, EdgeFaces, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Cosines of the turns of the surface at the edges of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct Turns {
+pub struct DihedralCosines {
     /// Cosine between the two faces of each edge; NaN where there are not two, 0 next to faces without area.
     cosines: Vec<f32>,
 }
 
-impl Turns {
+impl DihedralCosines {
     /// Computes the cosines of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
@@ -20,7 +20,9 @@ impl Turns {
             EdgeFaces::Two { faces, same_way } => Dihedral::of(mesh, faces, same_way).cosine,
             _ => f32::NAN,
         };
-        Self { cosines: (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).map(cosine).collect() }
+        Self {
+            cosines: (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(cosine).collect(),
+        }
     }
 
     /// Cosine at an edge with exactly two faces, NaN elsewhere. Not meaningful next to faces without area.
@@ -35,7 +37,7 @@ impl Turns {
     #[must_use]
     pub fn at(&self, mesh: &Mesh, edge: usize) -> f32 {
         let cosine = self.cosines[edge];
-        if cosine.abs() > 0.0 { cosine } else { looked_through(mesh, edge) }
+        if cosine.abs() > 0.0 { cosine } else { cosine_across_needle(mesh, edge) }
     }
 
     /// Same as [`Dihedral::at`], but in most cases without access to the faces.
@@ -54,6 +56,6 @@ impl Turns {
 
 /// Kept out of line, because borders, faces without area and right angles are rare.
 #[cold]
-fn looked_through(mesh: &Mesh, edge: usize) -> f32 {
+fn cosine_across_needle(mesh: &Mesh, edge: usize) -> f32 {
     Dihedral::at(mesh, edge).map_or(f32::NAN, |dihedral| dihedral.cosine)
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::normal_carriers::{height, is_narrow};
 use super::triangle_area::area_vector;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Unit normals; zero where a triangle has no area at the scale of its part.
 pub(crate) fn face_normals(
@@ -26,7 +26,7 @@ pub(crate) fn normals_and_narrow(
     let mut normals = vec![[0.0; 3]; triangles.len()];
     let of_chunk = |(chunk, normals): (usize, &mut [[f32; 3]])| {
         let mut narrow = Vec::new();
-        for (face, normal) in (chunk * GRAIN..).zip(normals) {
+        for (face, normal) in (chunk * MIN_TASK_ITEMS..).zip(normals) {
             let corners = triangles[face].map(|v| positions[v as usize]);
             let (scale, rounding) = measure(face);
             let Some(cross) = area_vector(corners, scale) else { continue };
@@ -36,7 +36,7 @@ pub(crate) fn normals_and_narrow(
         }
         narrow
     };
-    let narrow: Vec<Vec<u32>> = normals.par_chunks_mut(GRAIN).enumerate().map(of_chunk).collect();
+    let narrow: Vec<Vec<u32>> = normals.par_chunks_mut(MIN_TASK_ITEMS).enumerate().map(of_chunk).collect();
     let narrow = narrow.concat();
     (normals, narrow)
 }

@@ -4,7 +4,7 @@
 //! angle: the error of its normal is the rounding divided by its height. A wider neighbour in the same plane
 //! has a more accurate normal. Each narrow face therefore gets a *carrier*:
 //!
-//! 1. A face is unsure if rounding may turn its normal by more than [`UNSURE_SINE`](tolerance::UNSURE_SINE).
+//! 1. A face is unsure if rounding may turn its normal by more than [`MAX_NORMAL_ERROR_SINE`](tolerance::MAX_NORMAL_ERROR_SINE).
 //! 2. The search crosses the longest edge to a neighbour of the same part whose plane contains all corners of
 //!    the face, within the rounding. A face that is almost a line fits the planes on both sides. Its short
 //!    edges show which part of it each neighbour meets, so the long edge is the one that vanishes.
@@ -18,21 +18,21 @@ use glam::DVec3;
 use super::triangle_area::has_area;
 use crate::geometry::numbers::portable_math::cos;
 use crate::geometry::numbers::tolerance;
-use crate::mesh::{EdgeFaces, Edges, Extents, Mesh, PartId};
+use crate::mesh::{EdgeFaces, Edges, Mesh, MeshMetrics, PartId};
 
 /// Maximum number of faces in the search for a carrier.
-const MAX_STEPS: usize = 16;
+const MAX_CARRIER_STEPS: usize = 16;
 
 /// Data for the search for carriers.
-pub(crate) struct Faces<'a> {
+pub(crate) struct CoplanarSearch<'a> {
     pub(crate) positions: &'a [DVec3],
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) parts: &'a [PartId],
     pub(crate) edges: &'a Edges,
-    pub(crate) extents: &'a Extents,
+    pub(crate) extents: &'a MeshMetrics,
 }
 
-impl<'a> Faces<'a> {
+impl<'a> CoplanarSearch<'a> {
     /// Uses the faces of a mesh.
     pub(crate) fn of(mesh: &'a Mesh) -> Self {
         let Mesh { positions, triangles, face_part: parts, edges, extents, .. } = mesh;
@@ -90,7 +90,7 @@ impl<'a> Faces<'a> {
     fn carrier(&self, face: u32) -> Option<u32> {
         let corners = self.corners(face);
         let mut way = vec![face];
-        while let Some(at) = way.last().copied().filter(|_| way.len() < MAX_STEPS) {
+        while let Some(at) = way.last().copied().filter(|_| way.len() < MAX_CARRIER_STEPS) {
             let next =
                 self.neighbours(at).find(|other| !way.contains(other) && self.holds(*other, &corners))?;
             if !self.is_unsure(next) {
@@ -149,14 +149,14 @@ pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
 }
 
 /// Whether rounding may turn the normal of a face with this height by more than
-/// [`UNSURE_SINE`](tolerance::UNSURE_SINE).
+/// [`MAX_NORMAL_ERROR_SINE`](tolerance::MAX_NORMAL_ERROR_SINE).
 #[inline]
 pub(crate) fn is_narrow(height: f64, rounding: f64) -> bool {
-    height * tolerance::UNSURE_SINE < 2.0 * rounding
+    height * tolerance::MAX_NORMAL_ERROR_SINE < 2.0 * rounding
 }
 
 /// Copies the normal of each carrier to its face.
-pub(crate) fn take_over(carriers: &[[u32; 2]], normals: &mut [[f32; 3]]) {
+pub(crate) fn copy_carrier_normals(carriers: &[[u32; 2]], normals: &mut [[f32; 3]]) {
     for [face, carrier] in carriers {
         normals[*face as usize] = normals[*carrier as usize];
     }

@@ -5,16 +5,16 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::tolerance;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum scale of a part, as a share of its largest coordinate: double precision resolves about sixteen
 /// digits.
-const SCALE_OF_LARGEST: f64 = 1.0 / 256.0;
+const MIN_SCALE_OF_COORDINATE: f64 = 1.0 / 256.0;
 
 /// Reference length for the tolerances of a part, from its box.
 pub(crate) fn scale_of(low: DVec3, high: DVec3) -> f64 {
     let largest = low.abs().max(high.abs()).max_element();
-    low.distance(high).max(SCALE_OF_LARGEST * largest)
+    low.distance(high).max(MIN_SCALE_OF_COORDINATE * largest)
 }
 
 /// Whether the height of a triangle exceeds rounding at the scale of its part.
@@ -41,7 +41,8 @@ pub(crate) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     // Fast acceptance for most triangles, without a square root and without their exact scale. The square of
     // that scale is at most `own_squared`.
     let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
-    let own_squared = (3.0 * longest_squared).max(SCALE_OF_LARGEST * SCALE_OF_LARGEST * largest * largest);
+    let own_squared =
+        (3.0 * longest_squared).max(MIN_SCALE_OF_COORDINATE * MIN_SCALE_OF_COORDINATE * largest * largest);
     let share = tolerance::DEGENERATE_HEIGHT_OF_PART * tolerance::DEGENERATE_HEIGHT_OF_PART;
     let limit = (1.0 + 1e-9) * share * longest_squared * own_squared.max(scale * scale);
     if limit > f64::MIN_POSITIVE && cross.length_squared() > limit {
@@ -63,7 +64,7 @@ pub(crate) fn may_have_flat_faces(
 ) -> bool {
     let scale = largest_scale(low, high);
     let is_flat = |t: &[u32; 3]| !has_area(t.map(|v| positions[v as usize]), scale);
-    triangles.par_iter().with_min_len(GRAIN).any(is_flat)
+    triangles.par_iter().with_min_len(MIN_TASK_ITEMS).any(is_flat)
 }
 
 /// Upper bound for the scale of every part, from the box of everything.

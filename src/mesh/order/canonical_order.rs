@@ -18,26 +18,26 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::counting_sort::counting_sort;
-use super::morton_curve::{CELLS, along_curve, along_exact_curve};
+use super::morton_curve::{CELLS_PER_HALF_AXIS, along_curve, along_exact_curve};
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::mesh::{MaterialId, PartId, Soup};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum number of vertices or faces per task. A task ends at the end of a run.
-const PIECE: usize = 1 << 11;
+const MIN_ITEMS_PER_TASK: usize = 1 << 11;
 
 /// Index of a missing normal or texture coordinate.
-const NONE: u32 = u32::MAX;
+const NO_ATTRIBUTE: u32 = u32::MAX;
 
 /// Face rotated to begin with its smallest vertex.
 #[derive(Clone, Copy, Default)]
-struct Entry {
+struct OrderedFace {
     corners: [u32; 3],
     /// Original face index, shifted left by two. The lowest two bits are the corner that now comes first.
     face_turn: u32,
 }
 
-impl Entry {
+impl OrderedFace {
     fn new(face: usize, [a, b, c]: [u32; 3]) -> Self {
         let turn = if a <= b && a <= c {
             0
@@ -65,7 +65,7 @@ impl Entry {
 
 /// Sorts a soup with coordinates up to `largest`, and joins vertices at equal positions. Returns the number
 /// of vertices that were removed.
-pub(crate) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
+pub(crate) fn sort_by_position(soup: &mut Soup, largest: f64) -> u64 {
     let before = soup.positions.len();
     let new_id = order_vertices(&mut soup.positions, largest);
     order_faces(soup, &new_id);
@@ -78,7 +78,7 @@ pub(crate) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
 }
 
 /// Sorts the faces of a soup again, after some of them were turned.
-pub(crate) fn faces_by_place(soup: &mut Soup) {
+pub(crate) fn sort_faces_by_position(soup: &mut Soup) {
     let same: Vec<u32> = (0..soup.positions.len() as u32).collect();
     order_faces(soup, &same);
 }
@@ -86,18 +86,18 @@ pub(crate) fn faces_by_place(soup: &mut Soup) {
 /// Sorts positions and removes duplicates. Returns the new id of each old vertex.
 fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
     // A power of two, so that the cells of a larger model consist of cells of a smaller one.
-    let cell = power_of_two_above(largest) / CELLS;
+    let cell = power_of_two_above(largest) / CELLS_PER_HALF_AXIS;
     let keyed: Vec<(u64, u32)> = positions
         .par_iter()
         .enumerate()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|(id, p)| (along_curve(*p, cell), id as u32))
         .collect();
     // The first sort is by large cells; a surface meets one for every few vertices. Bits that are equal in
     // all keys are skipped.
     let first = keyed.first().map_or(0, |(key, _)| *key);
     let different =
-        keyed.par_iter().with_min_len(GRAIN).map(|(key, _)| key ^ first).reduce(|| 0, |a, b| a | b);
+        keyed.par_iter().with_min_len(MIN_TASK_ITEMS).map(|(key, _)| key ^ first).reduce(|| 0, |a, b| a | b);
     let used = 64 - different.leading_zeros();
     let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
     let bits = (3 * depth).min(used);
@@ -116,8 +116,8 @@ fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
 fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
     let place = |k: usize| positions[keyed[k].1 as usize];
     let is_new = |k: usize| k == 0 || place(k - 1) != place(k);
-    let chunks = keyed.len().div_ceil(GRAIN);
-    let chunk = |c: usize| c * GRAIN..((c + 1) * GRAIN).min(keyed.len());
+    let chunks = keyed.len().div_ceil(MIN_TASK_ITEMS);
+    let chunk = |c: usize| c * MIN_TASK_ITEMS..((c + 1) * MIN_TASK_ITEMS).min(keyed.len());
     let counts: Vec<usize> =
         (0..chunks).into_par_iter().map(|c| chunk(c).filter(|k| is_new(*k)).count()).collect();
     let mut places = vec![DVec3::ZERO; counts.iter().sum()];
@@ -130,8 +130,11 @@ fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
         each.push((c, before, own));
         before += count as u32;
     }
-    let new_id: Vec<AtomicU32> =
-        (0..positions.len()).into_par_iter().with_min_len(GRAIN).map(|_| AtomicU32::new(0)).collect();
+    let new_id: Vec<AtomicU32> = (0..positions.len())
+        .into_par_iter()
+        .with_min_len(MIN_TASK_ITEMS)
+        .map(|_| AtomicU32::new(0))
+        .collect();
     each.into_par_iter().for_each(|(c, before, own)| {
         let mut count = 0;
         for k in chunk(c) {
@@ -150,22 +153,24 @@ fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
 /// Renumbers the vertices of the faces, and sorts the faces.
 fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
-    let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
-    let of_file: Vec<Entry> = soup.triangles.par_iter().enumerate().with_min_len(GRAIN).map(entry).collect();
+    let entry = |(face, t): (usize, &[u32; 3])| OrderedFace::new(face, renamed(t));
+    let of_file: Vec<OrderedFace> =
+        soup.triangles.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS).map(entry).collect();
     let mut entries = counting_sort(of_file, soup.positions.len(), |e| e.corners[0]);
     let groups = groups(soup);
-    let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
+    let group = |e: &OrderedFace| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
     if let Some(groups) = &groups {
         entries = counting_sort(entries, groups.count, group);
     }
-    let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
+    let at_one_corner =
+        |a: &OrderedFace, b: &OrderedFace| a.corners[0] == b.corners[0] && group(a) == group(b);
     for_each_run(&mut entries, at_one_corner, |faces| {
         faces.sort_unstable_by(|a, b| {
             a.others().cmp(&b.others()).then_with(|| attributes(soup, a).cmp(&attributes(soup, b)))
         });
     });
 
-    soup.triangles = entries.par_iter().with_min_len(GRAIN).map(|e| e.corners).collect();
+    soup.triangles = entries.par_iter().with_min_len(MIN_TASK_ITEMS).map(|e| e.corners).collect();
     if groups.is_some() {
         reorder(&mut soup.triangle_part, &entries, |part, _| part);
         reorder(&mut soup.triangle_material, &entries, |material, _| material);
@@ -196,8 +201,10 @@ fn for_each_run<T: Send>(
     // waiting.
     let mut pieces = Vec::new();
     let mut rest = items;
-    while rest.len() > PIECE {
-        let end = (PIECE..rest.len()).find(|k| !together(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
+    while rest.len() > MIN_ITEMS_PER_TASK {
+        let end = (MIN_ITEMS_PER_TASK..rest.len())
+            .find(|k| !together(&rest[k - 1], &rest[*k]))
+            .unwrap_or(rest.len());
         let piece;
         (piece, rest) = rest.split_at_mut(end);
         pieces.push(piece);
@@ -208,20 +215,20 @@ fn for_each_run<T: Send>(
 }
 
 /// Numbers of combinations of part and material, in the order of parts, then of materials.
-struct Groups {
+struct MaterialGroups {
     of_face: Vec<u32>,
     count: usize,
 }
 
 /// Groups of the faces by part and material; `None` if there is only one.
-fn groups(soup: &Soup) -> Option<Groups> {
+fn groups(soup: &Soup) -> Option<MaterialGroups> {
     let key = |face: usize| {
         let part = soup.triangle_part.get(face).copied().unwrap_or_default();
         (part, soup.triangle_material.get(face).copied().unwrap_or_default())
     };
     let faces = soup.triangles.len();
     let first = key(0);
-    if (1..faces).into_par_iter().with_min_len(GRAIN).all(|face| key(face) == first) {
+    if (1..faces).into_par_iter().with_min_len(MIN_TASK_ITEMS).all(|face| key(face) == first) {
         return None;
     }
     let mut keys: Vec<(PartId, MaterialId)> = (0..faces).map(key).collect();
@@ -229,15 +236,16 @@ fn groups(soup: &Soup) -> Option<Groups> {
     keys.sort_unstable();
     keys.dedup();
     let of = |face: usize| keys.binary_search(&key(face)).unwrap_or_default() as u32;
-    let of_face = (0..faces).into_par_iter().with_min_len(GRAIN).map(of).collect();
-    Some(Groups { of_face, count: keys.len() })
+    let of_face = (0..faces).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(of).collect();
+    Some(MaterialGroups { of_face, count: keys.len() })
 }
 
 /// Remaining attributes of a face, which order faces with equal corners: paint, marks, and the bits of its
 /// corner values. Faces with equal attributes are interchangeable.
-fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
+fn attributes(soup: &Soup, entry: &OrderedFace) -> impl Ord + use<> {
     let (face, turn) = (entry.face(), entry.turn());
-    let at_corners = |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NONE; 3]), turn);
+    let at_corners =
+        |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NO_ATTRIBUTE; 3]), turn);
     let normal = |id: u32| soup.normals.get(id as usize).map(|n| n.map(f32::to_bits));
     let uv = |id: u32| soup.uvs.get(id as usize).map(|uv| uv.map(f32::to_bits));
     (
@@ -253,12 +261,12 @@ fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
 /// its face.
 fn reorder<T: Copy + Default + Send + Sync>(
     list: &mut Vec<T>,
-    entries: &[Entry],
+    entries: &[OrderedFace],
     change: impl Fn(T, u32) -> T + Sync,
 ) {
     if !list.is_empty() {
-        let of = |e: &Entry| change(list.get(e.face()).copied().unwrap_or_default(), e.turn());
-        *list = entries.par_iter().with_min_len(GRAIN).map(of).collect();
+        let of = |e: &OrderedFace| change(list.get(e.face()).copied().unwrap_or_default(), e.turn());
+        *list = entries.par_iter().with_min_len(MIN_TASK_ITEMS).map(of).collect();
     }
 }
 
@@ -280,7 +288,7 @@ mod tests {
             normals: (0..6).map(|k| [k as f32, 0.0, 0.0]).collect(),
             corner_normals: vec![[0, 1, 2], [3, 4, 5]],
             uvs: (0..6).map(|k| [k as f32, 0.0]).collect(),
-            corner_uvs: vec![[0, 1, NONE], [3, 4, 5]],
+            corner_uvs: vec![[0, 1, NO_ATTRIBUTE], [3, 4, 5]],
             edge_marks: vec![
                 [EdgeMark::Hard, EdgeMark::Hidden, EdgeMark::Contour],
                 [EdgeMark::Unmarked, EdgeMark::Hard, EdgeMark::Unmarked],
@@ -310,8 +318,9 @@ mod tests {
     #[test]
     fn runs_are_changed_whole_in_pieces_of_many() {
         // Runs shorter and longer than a task.
-        let mut items: Vec<(usize, usize)> =
-            (0..5 * PIECE).map(|k| (k * k / (3 * PIECE * PIECE), (k * 7919) % 10_007)).collect();
+        let mut items: Vec<(usize, usize)> = (0..5 * MIN_ITEMS_PER_TASK)
+            .map(|k| (k * k / (3 * MIN_ITEMS_PER_TASK * MIN_ITEMS_PER_TASK), (k * 7919) % 10_007))
+            .collect();
         let mut expected = items.clone();
         expected.chunk_by_mut(|a, b| a.0 == b.0).for_each(<[_]>::sort_unstable);
         for_each_run(&mut items, |a, b| a.0 == b.0, <[_]>::sort_unstable);
@@ -321,7 +330,7 @@ mod tests {
     #[test]
     fn faces_go_by_material_and_begin_with_their_first_corner() {
         let mut soup = soup();
-        assert_eq!(by_place(&mut soup, 1.0), 0);
+        assert_eq!(sort_by_position(&mut soup, 1.0), 0);
         // Order along the curve: 0 0, then 1 0, then 0 1, then 1 1.
         let places: Vec<[f64; 2]> = soup.positions.iter().map(|p| [p.x, p.y]).collect();
         assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
@@ -333,7 +342,7 @@ mod tests {
     #[test]
     fn numbering_leaves_no_trace() {
         let mut first = soup();
-        by_place(&mut first, 1.0);
+        sort_by_position(&mut first, 1.0);
         // Other ids, rotated faces, zeros of other sign, a duplicate vertex, and an unused one at an existing
         // position.
         let mut second = soup();
@@ -354,7 +363,7 @@ mod tests {
         second.triangle_paint.reverse();
         second.wires[0].vertices = [0, 1];
         second.wires[1].vertices = [3, 2];
-        assert_eq!(by_place(&mut second, 1.0), 1);
+        assert_eq!(sort_by_position(&mut second, 1.0), 1);
         assert_eq!(values(&first), values(&second));
     }
 
@@ -367,7 +376,7 @@ mod tests {
             ..Soup::default()
         };
         // Two positions in one cell of the curve stay separate.
-        assert_eq!(by_place(&mut soup, 1.0), 2);
+        assert_eq!(sort_by_position(&mut soup, 1.0), 2);
         assert_eq!(soup.positions, [DVec3::splat(0.5), near, DVec3::X]);
         assert_eq!(soup.triangles, [[0, 2, 1]; 2]);
     }
@@ -381,7 +390,7 @@ mod tests {
                 triangle_paint: paints.map(PaintId).to_vec(),
                 ..Soup::default()
             };
-            by_place(&mut soup, 1.0);
+            sort_by_position(&mut soup, 1.0);
             soup.triangle_paint
         };
         assert_eq!(twins([7, 8]), twins([8, 7]));

@@ -7,7 +7,7 @@
 use crate::parallel::prelude::*;
 
 /// Minimum number of items for several threads.
-const MANY: usize = 1 << 17;
+const MIN_PARALLEL_ITEMS: usize = 1 << 17;
 /// Number of key bits that select the bucket.
 const UPPER_BITS: u32 = 8;
 
@@ -19,7 +19,7 @@ pub(crate) fn counting_sort<T: Copy + Default + Send + Sync>(
 ) -> Vec<T> {
     let threads = rayon_core::current_num_threads();
     let mut sorted = vec![T::default(); items.len()];
-    if threads == 1 || items.len() < MANY {
+    if threads == 1 || items.len() < MIN_PARALLEL_ITEMS {
         sort_into(&mut sorted, &items, keys, key);
         return sorted;
     }
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn items_with_one_key_stay_in_order_on_any_threads() {
         let items: Vec<(u32, u32)> =
-            (0..MANY as u32 + 5_000).map(|k| (k.wrapping_mul(2_654_435_761), k)).collect();
+            (0..MIN_PARALLEL_ITEMS as u32 + 5_000).map(|k| (k.wrapping_mul(2_654_435_761), k)).collect();
         for keys in [1_u32, 3, 255, 256, 257, 70_000] {
             let key = |item: &(u32, u32)| item.0 % keys;
             let mut expected = items.clone();

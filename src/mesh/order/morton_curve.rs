@@ -10,15 +10,19 @@ use glam::DVec3;
 
 /// Number of cells from zero in each direction of an axis, so that the cells of three axes fit in 64 bits.
 /// Positions in one cell are compared exactly.
-pub(crate) const CELLS: f64 = (1u32 << 20) as f64;
+pub(crate) const CELLS_PER_HALF_AXIS: f64 = (1u32 << 20) as f64;
 
 /// Morton code of the cell that contains a position. Signs come first, then the cells from zero outward.
 /// Positions outside all cells are clamped to the last one.
 pub(crate) fn along_curve(place: DVec3, cell: f64) -> u64 {
     let number = |x: f64| {
-        let from_zero = (x.abs() / cell).min(CELLS - 1.0) as u64;
+        let from_zero = (x.abs() / cell).min(CELLS_PER_HALF_AXIS - 1.0) as u64;
         // Cells below zero are mirrored, so that coordinates increase along the curve.
-        if x < 0.0 { CELLS as u64 - 1 - from_zero } else { from_zero + CELLS as u64 }
+        if x < 0.0 {
+            CELLS_PER_HALF_AXIS as u64 - 1 - from_zero
+        } else {
+            from_zero + CELLS_PER_HALF_AXIS as u64
+        }
     };
     let [x, y, z] = place.to_array().map(|x| spread(number(x)));
     x | y << 1 | z << 2
@@ -79,7 +83,7 @@ fn by_coordinates(a: DVec3, b: DVec3) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::noise::{hash, unit_interval};
     use crate::geometry::numbers::powers_of_two::power_of_two_above;
 
     #[test]
@@ -97,7 +101,7 @@ mod tests {
     fn the_size_of_cells_does_not_show() {
         // Numbers of very different sizes and both signs.
         let number = |k: u64| {
-            let chance = |word: u64| unit(hash(7, &[k, word]));
+            let chance = |word: u64| unit_interval(hash(7, &[k, word]));
             (chance(0) - 0.5) * [1.0, 0.1, 1e-4, 1e-7, 1e-12][(chance(1) * 5.0) as usize]
         };
         let mut sorted: Vec<DVec3> =

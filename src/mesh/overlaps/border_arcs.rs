@@ -17,14 +17,14 @@ use crate::mesh::{EdgeFaces, Mesh};
 
 /// Edge of a curved border.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Arc {
+pub(crate) struct BorderArc {
     pub ends: [DVec3; 2],
     /// Area of the rectangle over the edge that contains the curve.
     pub area: f64,
 }
 
 /// Curved borders of a surface, given by its faces. `is_own` returns whether a face belongs to it.
-pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> Vec<Arc> {
+pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> Vec<BorderArc> {
     let mut border: Vec<[u32; 2]> = Vec::new();
     for face in faces {
         let [a, b, c] = mesh.triangles[*face as usize];
@@ -56,7 +56,7 @@ pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> 
     let arc = |[v, w]: &[u32; 2]| {
         let (ends, turn) = ([place(*v), place(*w)], turn(*v).max(turn(*w)));
         let chord = ends[0].distance(ends[1]);
-        (turn > 0.0).then(|| Arc { ends, area: chord * chord / 2.0 * tan(turn / 4.0) })
+        (turn > 0.0).then(|| BorderArc { ends, area: chord * chord / 2.0 * tan(turn / 4.0) })
     };
     border.iter().filter_map(arc).collect()
 }

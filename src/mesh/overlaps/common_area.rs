@@ -6,7 +6,7 @@
 use glam::{DVec2, DVec3};
 
 /// Minimum cosine between the normals of coplanar triangles.
-const MIN_COSINE: f64 = 0.999;
+const MIN_COPLANAR_COSINE: f64 = 0.999;
 
 /// Common area of two triangles, seen along the normal of the first. It is 0 unless the overlap is wider than
 /// `contact` and the planes are within `contact` all over it.
@@ -15,7 +15,8 @@ pub(crate) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f
     let normal = (b - a).cross(c - a).normalize_or_zero();
     let own = (two[1] - two[0]).cross(two[2] - two[0]);
     let lean = own.dot(normal);
-    let Some(right) = (b - a).try_normalize().filter(|_| lean.abs() > MIN_COSINE * own.length()) else {
+    let Some(right) = (b - a).try_normalize().filter(|_| lean.abs() > MIN_COPLANAR_COSINE * own.length())
+    else {
         return 0.0;
     };
     let up = normal.cross(right);

@@ -15,14 +15,14 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use self::plane_key::{Candidate, PlaneKey, widest_axis};
-use super::border_arcs::{Arc, arcs};
-use super::colour_grid::near_other_colours;
+use self::plane_key::{OverlapCandidate, PlaneKey, widest_axis};
+use super::border_arcs::{BorderArc, arcs};
+use super::colour_grid::faces_near_other_colours;
 use super::common_area::common_area;
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::normals::dihedral::{Dihedral, runs_up};
-use crate::mesh::{EdgeFaces, FaceId, Groups, MaterialId, Mesh, PaintId, PartId};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{DisjointSets, EdgeFaces, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 mod plane_key;
 
@@ -36,21 +36,21 @@ pub struct Overlay {
 }
 
 /// Minimum cosine between the normals of flat neighbours.
-const FLAT_COSINE: f32 = 0.999;
+const MIN_FLAT_COSINE: f32 = 0.999;
 
 /// Maximum number of tests of surface pairs and triangle pairs, after which the search stops.
-const MAX_TESTS: usize = 50_000_000;
+const MAX_PAIR_TESTS: usize = 50_000_000;
 
 /// Stacking position of each face; empty if no surfaces overlap.
 pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
     let colour = |face: u32| colour(mesh, face);
     let count = mesh.triangles.len() as u32;
     let is_alike = |face: u32| colour(face) == colour(0);
-    if count == 0 || (0..count).into_par_iter().with_min_len(GRAIN).all(is_alike) {
+    if count == 0 || (0..count).into_par_iter().with_min_len(MIN_TASK_ITEMS).all(is_alike) {
         return Vec::new();
     }
-    let surfaces = Surfaces::of(mesh);
-    let mut planes = Joined::new(surfaces.all.len());
+    let surfaces = FlatSurfaces::of(mesh);
+    let mut planes = SurfaceUnionFind::new(surfaces.all.len());
     let related = surfaces.related(mesh, &mut planes);
     if !related {
         return Vec::new();
@@ -110,9 +110,9 @@ fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
 }
 
 /// Union-find over surfaces.
-struct Joined(Vec<u32>);
+struct SurfaceUnionFind(Vec<u32>);
 
-impl Joined {
+impl SurfaceUnionFind {
     fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
@@ -145,25 +145,25 @@ struct FlatSurface {
     contact: f64,
 }
 
-struct Surfaces {
+struct FlatSurfaces {
     all: Vec<FlatSurface>,
     /// Surface of each face; `u32::MAX` without area, and where no other colour is near.
     of_face: Vec<u32>,
-    faces: Grouped<u32>,
+    faces: CsrLists<u32>,
     /// Whether each face is near another colour. Only such faces can overlap one.
     near: Vec<bool>,
 }
 
-impl Surfaces {
+impl FlatSurfaces {
     fn of(mesh: &Mesh) -> Self {
         let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
         let is_one = |[a, b]: [u32; 2], same_way: bool, edge: usize| {
             let dihedral = Dihedral::of(mesh, [a, b], same_way);
-            owner(a) == owner(b) && dihedral.cosine > FLAT_COSINE && dihedral.is_flat(mesh, edge)
+            owner(a) == owner(b) && dihedral.cosine > MIN_FLAT_COSINE && dihedral.is_flat(mesh, edge)
         };
         let is_up = |edge: usize, face: u32| runs_up(mesh, edge, face);
-        let groups = Groups::new(mesh.triangles.len(), |join| {
-            (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).for_each(|edge| {
+        let groups = DisjointSets::new(mesh.triangles.len(), |join| {
+            (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).for_each(|edge| {
                 match mesh.edges.faces(edge) {
                     EdgeFaces::One(_) => {}
                     EdgeFaces::Two { faces: [a, b], same_way } => {
@@ -186,7 +186,7 @@ impl Surfaces {
             });
         });
         // Patches without a face near another colour are skipped.
-        let near = near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
+        let near = faces_near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
         let mut is_asked = vec![false; near.len()];
         for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
             is_asked[groups.of(face) as usize] = true;
@@ -217,7 +217,7 @@ impl Surfaces {
         }
         let is_real = |(surface, _): &(usize, u32)| *surface < all.len();
         let numbered = of_face.iter().map(|surface| *surface as usize).zip(0..).filter(is_real);
-        let faces = grouped_pairs(all.len(), numbered);
+        let faces = csr_lists_from_pairs(all.len(), numbered);
         Self { all, of_face, faces, near }
     }
 
@@ -235,15 +235,15 @@ impl Surfaces {
     }
 
     /// Joins the overlapping surfaces of different colours. Returns whether there are any.
-    fn related(&self, mesh: &Mesh, planes: &mut Joined) -> bool {
-        let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
+    fn related(&self, mesh: &Mesh, planes: &mut SurfaceUnionFind) -> bool {
+        let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
         let of_surface = |surface: u32| keys[surface as usize].cells().map(move |cell| (cell, surface));
         let mut cells: Vec<([i64; 3], u32)> = surfaces.flat_map_iter(of_surface).collect();
         cells.par_sort_unstable();
         let (mut tests, mut related) = (0, false);
-        let mut arcs: Vec<Option<Vec<Arc>>> = vec![None; self.all.len()];
-        let mut own: Vec<Candidate> = Vec::new();
+        let mut arcs: Vec<Option<Vec<BorderArc>>> = vec![None; self.all.len()];
+        let mut own: Vec<OverlapCandidate> = Vec::new();
         for cell in cells.chunk_by(|a, b| a.0 == b.0) {
             let colour = |at: &([i64; 3], u32)| self.all[at.1 as usize].colour;
             if cell.iter().all(|at| colour(at) == colour(&cell[0])) {
@@ -252,7 +252,7 @@ impl Surfaces {
             own.clear();
             own.extend(cell.iter().map(|(_, surface)| {
                 let FlatSurface { low, high, colour, contact, .. } = self.all[*surface as usize];
-                Candidate {
+                OverlapCandidate {
                     low: low - contact,
                     high: high + contact,
                     key: keys[*surface as usize],
@@ -265,7 +265,7 @@ impl Surfaces {
             for (k, first) in own.iter().enumerate() {
                 for other in own[k + 1..].iter().take_while(|other| other.low[axis] <= first.high[axis]) {
                     tests += 1;
-                    if tests > MAX_TESTS {
+                    if tests > MAX_PAIR_TESTS {
                         return related;
                     }
                     if first.may_overlap(other)
@@ -294,7 +294,7 @@ impl Surfaces {
         mesh: &Mesh,
         first: u32,
         other: u32,
-        arcs: &mut [Option<Vec<Arc>>],
+        arcs: &mut [Option<Vec<BorderArc>>],
         tests: &mut usize,
     ) -> bool {
         let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
@@ -321,7 +321,7 @@ impl Surfaces {
         let (mut common, mut slivers) = (0.0, None);
         for (a, a_box) in &one {
             *tests += two.len();
-            if *tests > MAX_TESTS {
+            if *tests > MAX_PAIR_TESTS {
                 return false;
             }
             for (b, _) in two.iter().filter(|(_, b_box)| meet(*a_box, *b_box)) {
@@ -332,7 +332,8 @@ impl Surfaces {
                 let slivers = slivers.get_or_insert_with(|| {
                     let mut near = |surface: u32, other| -> f64 {
                         let own = arcs[surface as usize].get_or_insert_with(|| self.arcs(mesh, surface));
-                        let boxed = |arc: &&Arc| (arc.ends[0].min(arc.ends[1]), arc.ends[0].max(arc.ends[1]));
+                        let boxed =
+                            |arc: &&BorderArc| (arc.ends[0].min(arc.ends[1]), arc.ends[0].max(arc.ends[1]));
                         own.iter().filter(|arc| meet(boxed(arc), other)).map(|arc| arc.area).sum()
                     };
                     near(first, two_box) + near(other, one_box)
@@ -346,7 +347,7 @@ impl Surfaces {
     }
 
     /// Curved borders of a surface.
-    fn arcs(&self, mesh: &Mesh, surface: u32) -> Vec<Arc> {
+    fn arcs(&self, mesh: &Mesh, surface: u32) -> Vec<BorderArc> {
         arcs(mesh, self.faces.of(surface as usize), |face| self.of_face[face as usize] == surface)
     }
 }

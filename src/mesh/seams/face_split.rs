@@ -6,27 +6,27 @@ use crate::mesh::EdgeMark;
 use crate::mesh::soup::Soup;
 
 /// Cut of a side: parameter from 0 to 1, and the vertex there.
-pub(crate) type Cut = (f64, u32);
+pub(crate) type SideCut = (f64, u32);
 
 /// A face with the cuts of its sides 0-1, 1-2 and 2-0, in order along each.
-pub(crate) type CutFace = (u32, [Vec<Cut>; 3]);
+pub(crate) type FaceCuts = (u32, [Vec<SideCut>; 3]);
 
 /// Minimum cosine (20 degrees) between a piece and its face. Two such pieces meet at less than a crease
 /// angle.
-const UPRIGHT: f64 = 0.94;
+const MIN_PIECE_COSINE: f64 = 0.94;
 
 /// Index of a missing normal or texture coordinate.
-const NONE: u32 = u32::MAX;
+const NO_ATTRIBUTE: u32 = u32::MAX;
 
 /// Triangle with the attributes of its corners and the marks of its sides.
 #[derive(Clone, Copy)]
-struct Piece {
-    corners: [Corner; 3],
+struct SplitTriangle {
+    corners: [CornerAttributes; 3],
     marks: [EdgeMark; 3],
 }
 
 #[derive(Clone, Copy)]
-struct Corner {
+struct CornerAttributes {
     vertex: u32,
     normal: u32,
     uv: u32,
@@ -35,14 +35,15 @@ struct Corner {
 
 /// Splits faces of a soup. The first piece replaces the face; the others are appended. A face stays whole if
 /// a piece would turn over or tilt too far.
-pub(crate) fn cut_faces(soup: &mut Soup, faces: &[CutFace]) {
+pub(crate) fn cut_faces(soup: &mut Soup, faces: &[FaceCuts]) {
     for (face, cuts) in faces {
         let face = *face as usize;
         let (mut pieces, uvs) = (Vec::new(), soup.uvs.len());
         split(soup, piece(soup, face), [&cuts[0], &cuts[1], &cuts[2]], &mut pieces);
         let upright = normal(soup, soup.triangles[face]);
-        let cosine = |piece: &Piece| normal(soup, piece.corners.map(|corner| corner.vertex)).dot(upright);
-        if pieces.iter().any(|piece| cosine(piece) < UPRIGHT) {
+        let cosine =
+            |piece: &SplitTriangle| normal(soup, piece.corners.map(|corner| corner.vertex)).dot(upright);
+        if pieces.iter().any(|piece| cosine(piece) < MIN_PIECE_COSINE) {
             soup.uvs.truncate(uvs);
             continue;
         }
@@ -76,21 +77,25 @@ fn put<T: Copy>(list: &mut Vec<T>, face: usize, piece: usize, of: impl Fn(T) -> 
     }
 }
 
-fn piece(soup: &Soup, face: usize) -> Piece {
+fn piece(soup: &Soup, face: usize) -> SplitTriangle {
     let [vertices, normals, uvs] = [
         soup.triangles[face],
-        soup.corner_normals.get(face).copied().unwrap_or([NONE; 3]),
-        soup.corner_uvs.get(face).copied().unwrap_or([NONE; 3]),
+        soup.corner_normals.get(face).copied().unwrap_or([NO_ATTRIBUTE; 3]),
+        soup.corner_uvs.get(face).copied().unwrap_or([NO_ATTRIBUTE; 3]),
     ];
     let colours = soup.corner_colours.get(face).copied().unwrap_or_default();
-    let corner =
-        |k: usize| Corner { vertex: vertices[k], normal: normals[k], uv: uvs[k], colour: colours[k] };
+    let corner = |k: usize| CornerAttributes {
+        vertex: vertices[k],
+        normal: normals[k],
+        uv: uvs[k],
+        colour: colours[k],
+    };
     let marks = soup.edge_marks.get(face).copied().unwrap_or_default();
-    Piece { corners: [0, 1, 2].map(corner), marks }
+    SplitTriangle { corners: [0, 1, 2].map(corner), marks }
 }
 
 /// Splits a triangle at the cuts of its sides, recursively. New inner edges are marked as hidden.
-fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piece>) {
+fn split(soup: &mut Soup, whole: SplitTriangle, cuts: [&[SideCut]; 3], pieces: &mut Vec<SplitTriangle>) {
     let Some(side) = cuts.iter().position(|cuts| !cuts.is_empty()) else {
         pieces.push(whole);
         return;
@@ -103,8 +108,10 @@ fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piec
         let to = cut.map_or(b, |(t, vertex)| between(soup, [a, b], *t, *vertex));
         let (first, last) = (k == 0, cut.is_none());
         let mark = |own: bool, mark: EdgeMark| if own { mark } else { EdgeMark::Hidden };
-        let part =
-            Piece { corners: [from, to, c], marks: [marks[0], mark(last, marks[1]), mark(first, marks[2])] };
+        let part = SplitTriangle {
+            corners: [from, to, c],
+            marks: [marks[0], mark(last, marks[1]), mark(first, marks[2])],
+        };
         let rest = |own: bool, k: usize| if own { cuts[(side + k) % 3] } else { &[] };
         split(soup, part, [&[], rest(last, 1), rest(first, 2)], pieces);
         from = to;
@@ -113,7 +120,7 @@ fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piec
 
 /// Attributes of a face on one of its sides, at parameter `t` from 0 to 1. The normal is that of the nearer
 /// end.
-fn between(soup: &mut Soup, [a, b]: [Corner; 2], t: f64, vertex: u32) -> Corner {
+fn between(soup: &mut Soup, [a, b]: [CornerAttributes; 2], t: f64, vertex: u32) -> CornerAttributes {
     let mix = |p: f32, q: f32| (f64::from(p) + (f64::from(q) - f64::from(p)) * t) as f32;
     let uvs = [a.uv, b.uv].map(|uv| soup.uvs.get(uv as usize).copied());
     let uv = match uvs {
@@ -121,10 +128,10 @@ fn between(soup: &mut Soup, [a, b]: [Corner; 2], t: f64, vertex: u32) -> Corner 
             soup.uvs.push([0, 1].map(|k| mix(p[k], q[k])));
             soup.uvs.len() as u32 - 1
         }
-        _ => NONE,
+        _ => NO_ATTRIBUTE,
     };
     let normal = if t < 0.5 { a.normal } else { b.normal };
-    Corner { vertex, normal, uv, colour: [0, 1, 2].map(|k| mix(a.colour[k], b.colour[k])) }
+    CornerAttributes { vertex, normal, uv, colour: [0, 1, 2].map(|k| mix(a.colour[k], b.colour[k])) }
 }
 
 #[cfg(test)]

@@ -13,42 +13,42 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::face_split::{Cut, CutFace};
-use super::point_tree::Places;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::face_split::{FaceCuts, SideCut};
+use super::point_tree::PointTree;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::tolerance;
 use crate::mesh::soup::Soup;
-use crate::mesh::{EdgeFaces, Edges, Extents, PartId};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{EdgeFaces, Edges, MeshMetrics, PartId};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum cosine (45 degrees) between one side of a seam and the reverse of the other. A border that turns
 /// by more at a vertex has a corner there.
-const ALONG: f64 = 0.7;
+const MIN_SEAM_COSINE: f64 = 0.7;
 
 /// Maximum cosine (120 degrees) between the normals of faces that fold back onto each other. Such edges form
 /// a seam only if their borders separate at a common corner and meet again at another.
-const FOLDED: f64 = -0.5;
+const MAX_FOLD_COSINE: f64 = -0.5;
 
 /// Maximum number of corners on a border between two corners that both sides share.
 const MAX_CORNERS_BETWEEN: usize = 64;
 
 /// A corner that cuts a side must be this many times nearer to it than the face is high, and than to the ends
 /// of the side.
-const NEARER: f64 = 2.0;
+const MIN_CLEARANCE_RATIO: f64 = 2.0;
 
 /// Factor on the sagitta of equal chords, because chords of a curve differ in length.
-const UNEVEN: f64 = 2.0;
+const SAGITTA_FACTOR: f64 = 2.0;
 
 /// The distance of a space curve from the plane of its chord and sagitta is at most the sagitta divided by
 /// this.
-const TWIST: f64 = 4.0;
+const SAGITTA_PER_TWIST: f64 = 4.0;
 
 /// Maximum difference of texture coordinates and colours across a seam. Larger differences are intentional
 /// borders.
-const PAINTED: f32 = 1e-3;
+const MAX_PAINT_DIFFERENCE: f32 = 1e-3;
 
 /// Side of a face that no other face of the part shares.
-struct Open {
+struct OpenEdge {
     /// Its vertices, in the order of the face.
     ends: [u32; 2],
     face: u32,
@@ -60,36 +60,36 @@ struct Open {
     length: f64,
     normal: DVec3,
     /// Paint at its ends.
-    paint: [Painted; 2],
+    paint: [CornerPaint; 2],
 }
 
 /// Texture coordinates and colour at a corner of a face.
-type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
+type CornerPaint = (Option<[f32; 2]>, Option<[f32; 3]>);
 
 /// Changes that close the seams.
 #[derive(Default)]
-pub(crate) struct Found {
+pub(crate) struct SeamRepairs {
     /// For each vertex the one that replaces it, where corners of both sides differ only by the precision of
     /// the modelling program. Empty if nothing is replaced.
     pub joined: Vec<u32>,
     /// Faces to cut; empty while corners are to be joined.
-    pub cuts: Vec<CutFace>,
+    pub cuts: Vec<FaceCuts>,
 }
 
 /// Finds the seams of a soup. With `corners`, corners that coincide are joined first.
-pub(crate) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool) -> Found {
+pub(crate) fn find(soup: &Soup, edges: &Edges, extents: &MeshMetrics, corners: bool) -> SeamRepairs {
     let open = open_edges(soup, edges);
     if open.len() < 2 {
-        return Found::default();
+        return SeamRepairs::default();
     }
-    let seams = Seams::new(soup, &open);
+    let seams = SeamSearch::new(soup, &open);
     let joined = if corners { seams.joined(edges, extents) } else { Vec::new() };
     let cuts = if joined.is_empty() { seams.all_cuts(extents) } else { Vec::new() };
-    Found { joined, cuts }
+    SeamRepairs { joined, cuts }
 }
 
 /// The sides of faces that no other face of the same part shares. Other parts may touch there.
-fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
+fn open_edges(soup: &Soup, edges: &Edges) -> Vec<OpenEdge> {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |edge: usize, face: u32, is_shared: bool| {
         let [a, b, c] = soup.triangles[face as usize];
@@ -99,7 +99,16 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
         let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
         let paint = ends.map(|v| painted(soup, face, v));
-        Some(Open { ends, face, part: part(face), is_shared, along, length: side.length(), normal, paint })
+        Some(OpenEdge {
+            ends,
+            face,
+            part: part(face),
+            is_shared,
+            along,
+            length: side.length(),
+            normal,
+            paint,
+        })
     };
     let sides = |edge: usize| {
         let (one, more) = match edges.faces(edge) {
@@ -113,25 +122,25 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
         let alone = more.iter().copied().filter(is_alone);
         one.into_iter().flatten().chain(alone).filter_map(move |face| open(edge, face, is_shared))
     };
-    (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(sides).collect()
+    (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).flat_map_iter(sides).collect()
 }
 
-fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
+fn painted(soup: &Soup, face: u32, vertex: u32) -> CornerPaint {
     let face = face as usize;
     let Some(corner) = soup.triangles[face].iter().position(|v| *v == vertex) else { return (None, None) };
     let uv = soup.corner_uvs.get(face).and_then(|ids| soup.uvs.get(ids[corner] as usize));
     (uv.copied(), soup.corner_colours.get(face).map(|colours| colours[corner]))
 }
 
-impl Open {
+impl OpenEdge {
     /// Whether another open edge of the part runs in the opposite direction.
     fn runs_against(&self, other: &Self) -> bool {
-        other.face != self.face && other.part == self.part && other.along.dot(self.along) < -ALONG
+        other.face != self.face && other.part == self.part && other.along.dot(self.along) < -MIN_SEAM_COSINE
     }
 
     /// Whether the surface would fold back across a seam with another open edge.
     fn folds(&self, other: &Self) -> bool {
-        other.normal.dot(self.normal) <= FOLDED
+        other.normal.dot(self.normal) <= MAX_FOLD_COSINE
     }
 
     /// Whether another open edge may be the other side of a seam: opposite in direction, without a fold.
@@ -140,11 +149,11 @@ impl Open {
     }
 
     /// Whether the paint of a corner at parameter `t` matches the paint interpolated between both ends.
-    fn goes_on(&self, t: f64, corner: Painted) -> bool {
+    fn goes_on(&self, t: f64, corner: CornerPaint) -> bool {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
                 ([Some(a), Some(b)], Some(c)) => {
-                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= PAINTED)
+                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= MAX_PAINT_DIFFERENCE)
                 }
                 ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
             }
@@ -154,31 +163,31 @@ impl Open {
 }
 
 /// Open edges by corner, with the corners in a tree by position.
-struct Seams<'a> {
+struct SeamSearch<'a> {
     soup: &'a Soup,
-    open: &'a [Open],
+    open: &'a [OpenEdge],
     corners: Vec<u32>,
     /// Corner number of each vertex.
     numbers: Vec<u32>,
     /// The open edges at each corner.
-    at: Grouped<u32>,
+    at: CsrLists<u32>,
     /// Positions of the corners.
-    places: Places,
+    places: PointTree,
 }
 
-impl<'a> Seams<'a> {
-    fn new(soup: &'a Soup, open: &'a [Open]) -> Self {
+impl<'a> SeamSearch<'a> {
+    fn new(soup: &'a Soup, open: &'a [OpenEdge]) -> Self {
         let mut corners: Vec<u32> = open.iter().flat_map(|edge| edge.ends).collect();
         corners.sort_unstable();
         corners.dedup();
         let mut numbers = vec![u32::MAX; soup.positions.len()];
         (0..).zip(&corners).for_each(|(number, v)| numbers[*v as usize] = number);
-        let at = grouped(corners.len(), |put| {
+        let at = csr_lists(corners.len(), |put| {
             for (k, edge) in (0..).zip(open) {
                 edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
             }
         });
-        let places = Places::new(corners.iter().map(|v| soup.positions[*v as usize]));
+        let places = PointTree::new(corners.iter().map(|v| soup.positions[*v as usize]));
         Self { soup, open, corners, numbers, at, places }
     }
 
@@ -187,7 +196,7 @@ impl<'a> Seams<'a> {
     }
 
     /// For each vertex the one that replaces it; empty if nothing changes.
-    fn joined(&self, edges: &Edges, extents: &Extents) -> Vec<u32> {
+    fn joined(&self, edges: &Edges, extents: &MeshMetrics) -> Vec<u32> {
         let mates: Vec<Option<u32>> = (0..self.corners.len() as u32)
             .into_par_iter()
             .with_min_len(256)
@@ -208,15 +217,17 @@ impl<'a> Seams<'a> {
     }
 
     /// All cuts, by face in ascending order.
-    fn all_cuts(&self, extents: &Extents) -> Vec<CutFace> {
-        let cuts: Vec<Vec<Cut>> = (0..self.open.len())
+    fn all_cuts(&self, extents: &MeshMetrics) -> Vec<FaceCuts> {
+        let cuts: Vec<Vec<SideCut>> = (0..self.open.len())
             .into_par_iter()
             .with_min_len(256)
-            .map(|edge| self.cuts(edge, tolerance::SEAM_OF_PART * extents.of(self.open[edge].part).scale))
+            .map(|edge| {
+                self.cuts(edge, tolerance::MAX_SEAM_GAP_OF_PART * extents.of(self.open[edge].part).scale)
+            })
             .collect();
-        let mut faces: Vec<CutFace> = Vec::new();
+        let mut faces: Vec<FaceCuts> = Vec::new();
         for (edge, cuts) in self.open.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
-            let mut sides: [Vec<Cut>; 3] = Default::default();
+            let mut sides: [Vec<SideCut>; 3] = Default::default();
             if let Some(side) =
                 self.soup.triangles[edge.face as usize].iter().position(|v| *v == edge.ends[0])
             {
@@ -236,7 +247,7 @@ impl<'a> Seams<'a> {
     }
 
     /// The nearest corner on the other side of a seam, if it is within the seam tolerance.
-    fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
+    fn mate(&self, corner: u32, edges: &Edges, extents: &MeshMetrics) -> Option<u32> {
         // Corners shared between parts stay unchanged.
         let borders = |of: u32| {
             let edges = self.at.of(of as usize).iter().map(|k| &self.open[*k as usize]);
@@ -245,7 +256,7 @@ impl<'a> Seams<'a> {
         let mut own = borders(corner).peekable();
         own.peek()?;
         let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
-        let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
+        let (reach, place) = (tolerance::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
         self.places.near(place, DVec3::ZERO, reach, |other, at| {
             let apart = at.distance(place);
@@ -258,7 +269,7 @@ impl<'a> Seams<'a> {
         let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
         // Corners connected by an edge lie on both sides of a narrow strip.
         let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
-        let meets = |a: &Open, b: &Open| {
+        let meets = |a: &OpenEdge, b: &OpenEdge| {
             let end = usize::from(a.ends[1] == p);
             b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
         };
@@ -266,7 +277,7 @@ impl<'a> Seams<'a> {
     }
 
     /// The corners that cut an open edge, in order along it.
-    fn cuts(&self, edge: usize, least: f64) -> Vec<Cut> {
+    fn cuts(&self, edge: usize, least: f64) -> Vec<SideCut> {
         let own = &self.open[edge];
         let third = self.soup.triangles[own.face as usize].into_iter().find(|v| !own.ends.contains(v));
         let start = self.soup.positions[own.ends[0] as usize];
@@ -280,9 +291,9 @@ impl<'a> Seams<'a> {
         };
         // Where parts touch, all their vertices are on the edge, so no sagitta is needed.
         let sagitta = if own.is_shared { DVec3::ZERO } else { self.sagitta(own) };
-        let reach = least.max(sagitta.length()).min(height / NEARER);
-        let aside = least.max(sagitta.length() / TWIST);
-        let mut cuts: Vec<Cut> = Vec::new();
+        let reach = least.max(sagitta.length()).min(height / MIN_CLEARANCE_RATIO);
+        let aside = least.max(sagitta.length() / SAGITTA_PER_TWIST);
+        let mut cuts: Vec<SideCut> = Vec::new();
         if own.length == 0.0 || reach == 0.0 {
             return cuts;
         }
@@ -293,7 +304,7 @@ impl<'a> Seams<'a> {
             let off = way - own.along * along;
             let way_off = off - off.project_onto_normalized(sagitta.normalize_or_zero());
             let off = off.length();
-            let clear = along > NEARER * off && own.length - along > NEARER * off;
+            let clear = along > MIN_CLEARANCE_RATIO * off && own.length - along > MIN_CLEARANCE_RATIO * off;
             let is_own = own.ends.contains(&vertex) || third == Some(vertex);
             if off <= reach
                 && way_off.length() <= aside
@@ -311,7 +322,7 @@ impl<'a> Seams<'a> {
     }
 
     /// Whether an open edge at this corner runs along the given edge, as the other side of a seam.
-    fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
+    fn is_of_seam(&self, own: &OpenEdge, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
             own.runs_against(other)
@@ -322,7 +333,7 @@ impl<'a> Seams<'a> {
 
     /// Whether the borders of an open edge and of a nearby vertex separate at a common corner and meet again
     /// at another.
-    fn meets_on_both_sides(&self, own: &Open, vertex: u32) -> bool {
+    fn meets_on_both_sides(&self, own: &OpenEdge, vertex: u32) -> bool {
         [0, 1].into_iter().all(|end| {
             let way = if end == 0 { -own.along } else { own.along };
             let own_corners = self.corners_from(own.ends[end], end, way, own.part);
@@ -340,9 +351,10 @@ impl<'a> Seams<'a> {
             let corner = self.numbers[last as usize] as usize;
             let edges = self.at.of(corner).iter().map(|k| &self.open[*k as usize]);
             let own = edges.filter(|edge| edge.ends[1 - end] == last && edge.part == part);
-            let cosine = |edge: &Open| edge.along.dot(if end == 0 { -way } else { way });
+            let cosine = |edge: &OpenEdge| edge.along.dot(if end == 0 { -way } else { way });
             let next = own.max_by(|a, b| cosine(a).total_cmp(&cosine(b)));
-            let Some(next) = next.filter(|next| cosine(next) > ALONG && !found.contains(&next.ends[end]))
+            let Some(next) =
+                next.filter(|next| cosine(next) > MIN_SEAM_COSINE && !found.contains(&next.ends[end]))
             else {
                 break;
             };
@@ -356,10 +368,10 @@ impl<'a> Seams<'a> {
     /// The estimate uses the end where the border turns less, because the other end may be a corner of the
     /// curve. The part of that turn that belongs to the next edge is estimated from the turn at the far end
     /// of that edge. A straight side next to a rounded corner therefore stays straight.
-    fn sagitta(&self, own: &Open) -> DVec3 {
-        let next = |of: &Open, end: usize| {
+    fn sagitta(&self, own: &OpenEdge) -> DVec3 {
+        let next = |of: &OpenEdge, end: usize| {
             let corner = self.numbers[of.ends[end] as usize] as usize;
-            let goes_on = |other: &&Open| other.ends[1 - end] == of.ends[end] && other.part == of.part;
+            let goes_on = |other: &&OpenEdge| other.ends[1 - end] == of.ends[end] && other.part == of.part;
             let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
             others.max_by(|a, b| a.along.dot(of.along).total_cmp(&b.along.dot(of.along)))
         };
@@ -367,7 +379,7 @@ impl<'a> Seams<'a> {
         let straighter = ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
         let Some((end, beside)) = straighter else { return DVec3::ZERO };
         let cosine = beside.along.dot(own.along);
-        if cosine < ALONG {
+        if cosine < MIN_SEAM_COSINE {
             return DVec3::ZERO;
         }
         // Tangent of half the turn. Equal edges share a turn in halves.
@@ -376,10 +388,10 @@ impl<'a> Seams<'a> {
         let share = next(beside, end).map_or(0.0, |beyond| {
             let cosine = beyond.along.dot(beside.along);
             let of_beside = beside.length / (beside.length + beyond.length);
-            if cosine < ALONG { 0.0 } else { half_turn(cosine) * of_beside }
+            if cosine < MIN_SEAM_COSINE { 0.0 } else { half_turn(cosine) * of_beside }
         });
         let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
-        let height = UNEVEN * own.length * own_turn / 2.0;
+        let height = SAGITTA_FACTOR * own.length * own_turn / 2.0;
         (beside.along - own.along * cosine).normalize_or_zero() * height
     }
 }

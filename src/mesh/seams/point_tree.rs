@@ -1,4 +1,4 @@
-//! [`Places`]: k-d tree of points that finds those near a segment.
+//! [`PointTree`]: k-d tree of points that finds those near a segment.
 //!
 //! A tree handles clustered points. In a uniform grid, all leaves of a tree in a wide field would fall into
 //! one cell.
@@ -9,41 +9,43 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Number of points or boxes in one box.
-const FAN: usize = 4;
+const CHILDREN_PER_BOX: usize = 4;
 
 /// Tolerance on the parameter of a segment, for rounding.
-const ROUNDED: f64 = 1e-9;
+const PARAMETER_ROUNDING: f64 = 1e-9;
 
 /// Point with its index.
-type Place = (DVec3, u32);
+type IndexedPoint = (DVec3, u32);
 
 /// Bounding box of some points.
 #[derive(Clone, Copy)]
-struct Around {
+struct PointBox {
     low: DVec3,
     high: DVec3,
 }
 
 /// Points in tree order. Each box covers a run of points, or of boxes one level down.
-pub(crate) struct Places {
-    places: Vec<Place>,
+pub(crate) struct PointTree {
+    places: Vec<IndexedPoint>,
     /// Boxes of points first, the box of all points last.
-    levels: Vec<Vec<Around>>,
+    levels: Vec<Vec<PointBox>>,
 }
 
-impl Places {
+impl PointTree {
     /// Builds the tree. Points are numbered from 0.
     pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let mut places: Vec<Place> = points.into_iter().zip(0..).collect();
+        let mut places: Vec<IndexedPoint> = points.into_iter().zip(0..).collect();
         part(&mut places);
-        let of_points = |run: &[Place]| Around::all(run.iter().map(|(p, _)| Around { low: *p, high: *p }));
-        let of_boxes = |run: &[Around]| Around::all(run.iter().copied());
-        let mut levels: Vec<Vec<Around>> = vec![places.par_chunks(FAN).map(of_points).collect()];
+        let of_points =
+            |run: &[IndexedPoint]| PointBox::all(run.iter().map(|(p, _)| PointBox { low: *p, high: *p }));
+        let of_boxes = |run: &[PointBox]| PointBox::all(run.iter().copied());
+        let mut levels: Vec<Vec<PointBox>> =
+            vec![places.par_chunks(CHILDREN_PER_BOX).map(of_points).collect()];
         while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let above = last.par_chunks(FAN).map(of_boxes).collect();
+            let above = last.par_chunks(CHILDREN_PER_BOX).map(of_boxes).collect();
             levels.push(above);
         }
         Self { places, levels }
@@ -52,44 +54,44 @@ impl Places {
     /// Visits all points within `reach` of the segment from `start` to `start + way`, and some others, each
     /// once.
     pub fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
-        let line = Line { start, per_way: way.recip(), reach };
+        let line = QuerySegment { start, per_way: way.recip(), reach };
         let top = self.levels.len() - 1;
         for k in 0..self.levels[top].len() {
-            self.ask(&line, top, k, &mut visit);
+            self.visit_box(&line, top, k, &mut visit);
         }
     }
 
     /// Visits the points in a box of a level.
-    fn ask(&self, line: &Line, level: usize, k: usize, visit: &mut impl FnMut(u32, DVec3)) {
+    fn visit_box(&self, line: &QuerySegment, level: usize, k: usize, visit: &mut impl FnMut(u32, DVec3)) {
         if !line.meets(&self.levels[level][k]) {
             return;
         }
         let all = if level == 0 { self.places.len() } else { self.levels[level - 1].len() };
-        let run = FAN * k..(FAN * (k + 1)).min(all);
+        let run = CHILDREN_PER_BOX * k..(CHILDREN_PER_BOX * (k + 1)).min(all);
         if level == 0 {
             self.places[run].iter().for_each(|(place, number)| visit(*number, *place));
         } else {
-            run.for_each(|k| self.ask(line, level - 1, k, visit));
+            run.for_each(|k| self.visit_box(line, level - 1, k, visit));
         }
     }
 }
 
 /// Sorts points so that each box covers a run of them. Splits in halves (rounded to whole boxes) along the
 /// axis of largest extent.
-fn part(places: &mut [Place]) {
-    if places.len() <= FAN {
+fn part(places: &mut [IndexedPoint]) {
+    if places.len() <= CHILDREN_PER_BOX {
         return;
     }
-    let mut unit = FAN;
-    while unit * FAN < places.len() {
-        unit *= FAN;
+    let mut unit = CHILDREN_PER_BOX;
+    while unit * CHILDREN_PER_BOX < places.len() {
+        unit *= CHILDREN_PER_BOX;
     }
-    let Around { low, high } = Around::all(places.iter().map(|(p, _)| Around { low: *p, high: *p }));
+    let PointBox { low, high } = PointBox::all(places.iter().map(|(p, _)| PointBox { low: *p, high: *p }));
     let axis = (high - low).max_position();
     let at = unit * (places.len().div_ceil(unit) / 2);
     places.select_nth_unstable_by(at, |a, b| a.0[axis].total_cmp(&b.0[axis]));
     let (first, second) = places.split_at_mut(at);
-    if first.len() < GRAIN {
+    if first.len() < MIN_TASK_ITEMS {
         part(first);
         part(second);
     } else {
@@ -97,7 +99,7 @@ fn part(places: &mut [Place]) {
     }
 }
 
-impl Around {
+impl PointBox {
     /// The box around some boxes.
     fn all(boxes: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
@@ -106,17 +108,17 @@ impl Around {
 }
 
 /// Segment with a search distance.
-struct Line {
+struct QuerySegment {
     start: DVec3,
     /// Inverse of the vector along each axis; infinite where that is zero.
     per_way: DVec3,
     reach: f64,
 }
 
-impl Line {
+impl QuerySegment {
     /// Whether the segment comes within reach of a box along each axis. May rarely return true for a box out
     /// of reach.
-    fn meets(&self, around: &Around) -> bool {
+    fn meets(&self, around: &PointBox) -> bool {
         let (low, high) = (around.low - self.start - self.reach, around.high - self.start + self.reach);
         let (mut from, mut to) = (0.0f64, 1.0f64);
         for axis in 0..3 {
@@ -129,7 +131,7 @@ impl Line {
             let (a, b) = (low[axis] * self.per_way[axis], high[axis] * self.per_way[axis]);
             (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
         }
-        from <= to + ROUNDED
+        from <= to + PARAMETER_ROUNDING
     }
 }
 
@@ -148,7 +150,7 @@ mod tests {
     #[test]
     fn what_is_near_is_what_looking_at_all_finds() {
         let all = crowds(9);
-        let places = Places::new(all.iter().copied());
+        let places = PointTree::new(all.iter().copied());
         let mut dice = Dice::new(6);
         let mut found = 0;
         for k in 0..600 {
@@ -177,14 +179,14 @@ mod tests {
             }
         }
         assert!(found > 1000, "{found}");
-        let none = Places::new(Vec::new());
+        let none = PointTree::new(Vec::new());
         none.near(DVec3::ZERO, DVec3::X, 1.0, |_, _| unreachable!("there is no point"));
     }
 
     #[test]
     fn in_crowds_few_are_visited() {
         let all = crowds(40);
-        let places = Places::new(all.iter().copied());
+        let places = PointTree::new(all.iter().copied());
         let mut visits = 0;
         for start in &all {
             places.near(*start, DVec3::new(0.004, 0.002, 0.001), 1e-6, |_, _| visits += 1);
@@ -195,7 +197,7 @@ mod tests {
     #[test]
     fn a_line_along_an_axis_meets_what_lies_on_it() {
         let row = || (0..100).map(|k| DVec3::new(f64::from(k), 0.0, 0.0));
-        let places = Places::new(row());
+        let places = PointTree::new(row());
         for (start, way) in [(DVec3::X * 20.0, DVec3::X * 10.0), (DVec3::X * 30.0, DVec3::X * -10.0)] {
             let mut met = Vec::new();
             places.near(start, way, 0.0, |number, place| {

@@ -12,17 +12,17 @@ use crate::parallel::prelude::*;
 use crate::mesh::Edges;
 use crate::mesh::soup::Soup;
 
-const NONE: u32 = u32::MAX;
+const NO_FACE_OR_PAIR: u32 = u32::MAX;
 
 /// Number of edges per task.
-const CHUNK: usize = 1 << 12;
+const EDGES_PER_TASK: usize = 1 << 12;
 
 /// Of each pair of faces with the same corners and opposite windings, the face to keep.
-pub(crate) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u32> {
+pub(crate) fn choose_sheet_sides(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u32> {
     if pairs.is_empty() {
         return Vec::new();
     }
-    let sheets = Sheets::new(soup, edges, pairs);
+    let sheets = DoubledSheets::new(soup, edges, pairs);
     let mut sides: Vec<Option<usize>> = vec![None; pairs.len()];
     for seed in 0..pairs.len() {
         if sides[seed].is_none() {
@@ -32,25 +32,25 @@ pub(crate) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u3
     pairs.iter().zip(sides).map(|(faces, side)| faces[side.unwrap_or_default()]).collect()
 }
 
-struct Sheets<'a> {
+struct DoubledSheets<'a> {
     soup: &'a Soup,
     pairs: &'a [[u32; 2]],
     pair_of: Vec<u32>,
     /// For each side of the first face of each pair, the face of the same part across it: the first face of
-    /// another pair, or a single face. [`NONE`] if there is no such face, or more than one.
+    /// another pair, or a single face. [`NO_FACE_OR_PAIR`] if there is no such face, or more than one.
     beyond: Vec<[AtomicU32; 3]>,
 }
 
-impl<'a> Sheets<'a> {
+impl<'a> DoubledSheets<'a> {
     fn new(soup: &'a Soup, edges: &Edges, pairs: &'a [[u32; 2]]) -> Self {
-        let mut pair_of = vec![NONE; soup.triangles.len()];
+        let mut pair_of = vec![NO_FACE_OR_PAIR; soup.triangles.len()];
         for (pair, faces) in pairs.iter().enumerate() {
             faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
         }
-        let beyond = pairs.iter().map(|_| [NONE; 3].map(AtomicU32::new)).collect();
+        let beyond = pairs.iter().map(|_| [NO_FACE_OR_PAIR; 3].map(AtomicU32::new)).collect();
         let sheets = Self { soup, pairs, pair_of, beyond };
-        let all = (0..edges.len()).into_par_iter().with_min_len(CHUNK);
-        all.for_each(|edge| sheets.look_beyond(edges, edge));
+        let all = (0..edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK);
+        all.for_each(|edge| sheets.record_neighbours(edges, edge));
         sheets
     }
 
@@ -70,13 +70,13 @@ impl<'a> Sheets<'a> {
             volume += p.dot(q.cross(r));
             for edge in [[a, b], [b, c], [c, a]] {
                 let other = self.beyond[pair][self.side(self.pairs[pair][0], edge)].load(Relaxed);
-                if other == NONE {
+                if other == NO_FACE_OR_PAIR {
                     continue;
                 }
                 // Consistent neighbours run along an edge in opposite directions.
                 let turned = self.runs(other, edge);
                 match self.pair_of[other as usize] {
-                    NONE => votes += if turned { -1 } else { 1 },
+                    NO_FACE_OR_PAIR => votes += if turned { -1 } else { 1 },
                     other => {
                         let (other, side) = (other as usize, usize::from(turned));
                         if sides[other].is_none() {
@@ -93,12 +93,12 @@ impl<'a> Sheets<'a> {
     }
 
     /// Records for the pairs at an edge the face across it.
-    fn look_beyond(&self, edges: &Edges, edge: usize) {
+    fn record_neighbours(&self, edges: &Edges, edge: usize) {
         let faces = edges.faces(edge);
         let part = |face: u32| self.soup.triangle_part.get(face as usize);
         // The first face of a pair represents both.
         let first_of = |face: u32| match self.pair_of[face as usize] {
-            NONE => None,
+            NO_FACE_OR_PAIR => None,
             pair => Some((pair as usize, self.pairs[pair as usize][0])),
         };
         let counts = |face: &u32| first_of(*face).is_none_or(|(_, first)| first == *face);
@@ -206,7 +206,7 @@ mod tests {
             };
             let pairs: Vec<[u32; 2]> = (0..faces).filter(is_pair).map(|face| [face, face + 1]).collect();
             let edges = Edges::build(9, &soup.triangles);
-            let sheets = Sheets::new(&soup, &edges, &pairs);
+            let sheets = DoubledSheets::new(&soup, &edges, &pairs);
             for ([first, second], beyond) in pairs.iter().zip(&sheets.beyond) {
                 let [a, b, c] = soup.triangles[*first as usize];
                 for (ends, beyond) in [[a, b], [b, c], [c, a]].iter().zip(beyond) {
@@ -219,9 +219,9 @@ mod tests {
                         same_part && !is_own && !is_second && ends.iter().all(|end| corners.contains(end))
                     };
                     let others: Vec<u32> = (0..faces).filter(is_other).collect();
-                    let expected = if let [only] = others[..] { only } else { NONE };
+                    let expected = if let [only] = others[..] { only } else { NO_FACE_OR_PAIR };
                     assert_eq!(beyond.load(Relaxed), expected, "{round}");
-                    found += usize::from(expected != NONE);
+                    found += usize::from(expected != NO_FACE_OR_PAIR);
                 }
             }
         }

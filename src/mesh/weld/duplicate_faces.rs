@@ -50,9 +50,9 @@ pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
 /// corners. `None` if there are no duplicates.
 ///
 /// Of duplicates with the same winding the first is kept. For opposite windings see [`doubled_sheets`].
-pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
-    let found: Vec<Doubles> =
-        edges.suspects.par_chunks(CHUNK).map(|some| Doubles::at(soup, edges, some)).collect();
+pub(crate) fn unique_faces(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
+    let found: Vec<DuplicateFaces> =
+        edges.suspects.par_chunks(EDGES_PER_TASK).map(|some| DuplicateFaces::at(soup, edges, some)).collect();
     if found.iter().all(|doubles| doubles.dropped.is_empty()) {
         return None;
     }
@@ -61,25 +61,25 @@ pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     let mut pairs: Vec<[u32; 2]> = found.iter().flat_map(|doubles| &doubles.pairs).copied().collect();
     // Sorted by part. Within a part they are already in corner order.
     pairs.par_sort_by_key(|[face, _]| part(soup, *face));
-    for face in doubled_sheets::one_side(soup, edges, &pairs) {
+    for face in doubled_sheets::choose_sheet_sides(soup, edges, &pairs) {
         keep[face as usize] = true;
     }
     Some(keep)
 }
 
 /// Number of edges per task.
-const CHUNK: usize = 1 << 12;
+const EDGES_PER_TASK: usize = 1 << 12;
 
 /// Duplicate faces of one part.
 #[derive(Default)]
-struct Doubles {
+struct DuplicateFaces {
     /// Faces that are dropped, and both faces of each pair.
     dropped: Vec<u32>,
     /// For each set of duplicates with both windings, the first face and the first with the other winding.
     pairs: Vec<[u32; 2]>,
 }
 
-impl Doubles {
+impl DuplicateFaces {
     /// Duplicates at some edges. Each face counts at the edge between its two smallest corners.
     fn at(soup: &Soup, edges: &Edges, some: &[u32]) -> Self {
         let mut doubles = Self::default();
@@ -152,7 +152,9 @@ mod tests {
                 None => keep[faces[0] as usize] = true,
             }
         }
-        doubled_sheets::one_side(soup, edges, &pairs).into_iter().for_each(|face| keep[face as usize] = true);
+        doubled_sheets::choose_sheet_sides(soup, edges, &pairs)
+            .into_iter()
+            .for_each(|face| keep[face as usize] = true);
         keep
     }
 
@@ -174,7 +176,7 @@ mod tests {
             soup.positions = (0..vertices).map(|_| dice.point(1.0)).collect();
             let edges = Edges::build(soup.positions.len(), &soup.triangles);
             let expected = plain(&soup, &edges);
-            let found = one_of_doubles(&soup, &edges);
+            let found = unique_faces(&soup, &edges);
             assert_eq!(found.is_none(), expected.iter().all(|keep| *keep), "{round}");
             assert_eq!(found.unwrap_or_else(|| vec![true; 60]), expected, "{round}");
         }

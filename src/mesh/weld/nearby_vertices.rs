@@ -2,7 +2,7 @@
 //!
 //! Exporters split vertices at normal and texture seams, STL has no connectivity, and corners of CAD faces
 //! differ in their last bits. Vertices at equal positions are already joined when vertices are sorted.
-//! [`near`] joins the rest within a tolerance. It examines only vertices on open edges, because a closed fan
+//! [`join_nearby`] joins the rest within a tolerance. It examines only vertices on open edges, because a closed fan
 //! of faces needs no join. Welding joins vertices, never faces, so parts stay separate.
 
 use glam::DVec3;
@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 /// Only `candidates` (ascending) are examined. Two of them are joined if their distance is at most the
 /// greater of their `reaches`. Joins are transitive.
 #[must_use]
-pub fn near(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
+pub fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
     let tolerance = reaches.iter().copied().fold(0.0, f64::max);
     if tolerance <= 0.0 {
         return None;
@@ -72,12 +72,12 @@ mod tests {
         let mut doubled = places.clone();
         doubled.extend(places.iter().map(|p| *p + DVec3::splat(5e-7)));
         let all: Vec<u32> = (0..400).collect();
-        let joined = near(&doubled, &all, &[1e-6; 400]).expect("pairs lie within the tolerance");
+        let joined = join_nearby(&doubled, &all, &[1e-6; 400]).expect("pairs lie within the tolerance");
         assert!((0..200).all(|i| joined[i + 200] == i as u32));
-        assert_eq!(near(&doubled, &all, &[1e-7; 400]), None);
+        assert_eq!(join_nearby(&doubled, &all, &[1e-7; 400]), None);
         // The greater of two reaches applies.
         let reaches: Vec<f64> = (0..400).map(|i| if i < 100 { 1e-6 } else { 1e-9 }).collect();
-        let joined = near(&doubled, &all, &reaches).expect("the first hundred pairs are joined");
+        let joined = join_nearby(&doubled, &all, &reaches).expect("the first hundred pairs are joined");
         assert!((0..200).all(|i| (joined[i + 200] == i as u32) == (i < 100)));
     }
 }

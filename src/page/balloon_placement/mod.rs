@@ -20,20 +20,23 @@ mod tail;
 use kurbo::Rect;
 
 use super::layout::Reading;
-use candidate::{Candidate, candidates};
+use candidate::{BalloonCandidate, candidates};
 use tail::is_clear;
 
-pub use request::{Placed, Room, Wish};
+pub use request::{PlacedBalloon, PlacementArea, PlacementRequest};
 
 /// Maximum number of candidate pairs that the search compares.
-const MOST_LOOKS: usize = 400_000;
+const MAX_CHECKED_PAIRS: usize = 400_000;
 
 /// Places all balloons, in reading order.
 ///
 /// # Errors
 /// Returns the index of a balloon that does not fit.
-pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
-    let all: Vec<Vec<Candidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
+pub fn place_balloons(
+    wishes: &[PlacementRequest],
+    room: &PlacementArea,
+) -> Result<Vec<PlacedBalloon>, usize> {
+    let all: Vec<Vec<BalloonCandidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
     if let Some(none) = all.iter().position(Vec::is_empty) {
         return Err(none);
     }
@@ -43,8 +46,16 @@ pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
         least[number] = least[number + 1] + own.first().map_or(0.0, |candidate| candidate.cost);
     }
     let told = wishes.iter().map(|wish| wish.at.is_some()).collect();
-    let mut search = Search { all: &all, told, least, room, best: None, looks: 0, farthest: 0 };
-    search.next(&mut Vec::new(), 0.0);
+    let mut search = PlacementSearch {
+        all: &all,
+        has_given_place: told,
+        least_cost_from: least,
+        room,
+        best: None,
+        checked_pairs: 0,
+        farthest: 0,
+    };
+    search.try_next(&mut Vec::new(), 0.0);
     match search.best {
         Some((_, best)) => Ok(best.into_iter().map(|candidate| candidate.place.clone()).collect()),
         None => Err(search.farthest),
@@ -52,20 +63,20 @@ pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
 }
 
 /// A branch-and-bound search for the cheapest compatible candidates.
-struct Search<'a> {
-    all: &'a [Vec<Candidate>],
-    told: Vec<bool>,
-    least: Vec<f64>,
-    room: &'a Room,
-    best: Option<(f64, Vec<&'a Candidate>)>,
-    looks: usize,
+struct PlacementSearch<'a> {
+    all: &'a [Vec<BalloonCandidate>],
+    has_given_place: Vec<bool>,
+    least_cost_from: Vec<f64>,
+    room: &'a PlacementArea,
+    best: Option<(f64, Vec<&'a BalloonCandidate>)>,
+    checked_pairs: usize,
     farthest: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a> PlacementSearch<'a> {
     /// Tries the candidates of the next balloon. `placed` are those of the balloons before it, and `cost` is
     /// their total.
-    fn next(&mut self, placed: &mut Vec<&'a Candidate>, cost: f64) {
+    fn try_next(&mut self, placed: &mut Vec<&'a BalloonCandidate>, cost: f64) {
         let number = placed.len();
         let all = self.all;
         let Some(candidates) = all.get(number) else {
@@ -75,15 +86,17 @@ impl<'a> Search<'a> {
         self.farthest = number.max(self.farthest);
         for own in candidates {
             let cost = cost + own.cost;
-            let cannot_be_better = |(best, _): &(f64, _)| cost + self.least[number + 1] >= *best;
-            if self.looks > MOST_LOOKS || self.best.as_ref().is_some_and(cannot_be_better) {
+            let cannot_be_better = |(best, _): &(f64, _)| cost + self.least_cost_from[number + 1] >= *best;
+            if self.checked_pairs > MAX_CHECKED_PAIRS || self.best.as_ref().is_some_and(cannot_be_better) {
                 return;
             }
-            self.looks += placed.len().max(1);
-            let goes = |before: &&Candidate| goes_with(own, before, self.told[number], self.room);
+            self.checked_pairs += placed.len().max(1);
+            let goes = |before: &&BalloonCandidate| {
+                is_compatible(own, before, self.has_given_place[number], self.room)
+            };
             if placed.iter().all(goes) {
                 placed.push(own);
-                self.next(placed, cost);
+                self.try_next(placed, cost);
                 placed.pop();
             }
         }
@@ -91,7 +104,12 @@ impl<'a> Search<'a> {
 }
 
 /// Whether a candidate is compatible with one of an earlier balloon.
-fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bool {
+fn is_compatible(
+    own: &BalloonCandidate,
+    before: &BalloonCandidate,
+    told: bool,
+    room: &PlacementArea,
+) -> bool {
     let is_read = told || is_read_after(own.bounds, before.bounds, room.reading);
     let apart = own.reach.inset(room.gap).intersect(before.reach).is_zero_area();
     let keeps_off = || {

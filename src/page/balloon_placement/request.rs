@@ -1,17 +1,17 @@
-//! Input and result of balloon placement: [`Wish`], [`Room`] and [`Placed`].
+//! Input and result of balloon placement: [`PlacementRequest`], [`PlacementArea`] and [`PlacedBalloon`].
 
 use kurbo::Point;
 
-use crate::page::figure::Cover;
-use crate::page::layout::{Polygon, Reading};
+use crate::page::figure::CoverageGrid;
+use crate::page::layout::{ConvexPolygon, Reading};
 
 /// A balloon that needs a place.
 #[derive(Debug, Clone)]
-pub struct Wish {
+pub struct PlacementRequest {
     /// Hulls of its possible shapes, preferred first, centred at the origin.
-    pub hulls: Vec<Polygon>,
+    pub hulls: Vec<ConvexPolygon>,
     /// Hull of the target of its tail, and the point that the tail points to.
-    pub target: Option<(Polygon, Point)>,
+    pub target: Option<(ConvexPolygon, Point)>,
     /// Em size of its letters.
     pub em: f64,
     /// Minimum length of its tail.
@@ -21,20 +21,20 @@ pub struct Wish {
     /// Centre from the page file, if given.
     pub at: Option<Point>,
     /// Whether it belongs in the corner where reading starts, as captions do.
-    pub cornered: bool,
+    pub is_caption: bool,
 }
 
 /// The area for balloons in a panel.
 #[derive(Debug, Clone)]
-pub struct Room {
+pub struct PlacementArea {
     /// The outline that contains all balloons.
-    pub outline: Polygon,
+    pub outline: ConvexPolygon,
     /// Areas that balloons and the tails of others must not cover.
-    pub kept: Vec<Polygon>,
+    pub kept: Vec<ConvexPolygon>,
     /// Areas that neither balloons nor tails may cover.
-    pub obstacles: Vec<Polygon>,
+    pub obstacles: Vec<ConvexPolygon>,
     /// The area that models cover; balloons avoid it if possible.
-    pub cover: Option<Cover>,
+    pub cover: Option<CoverageGrid>,
     /// Minimum gap between balloons and other areas.
     pub gap: f64,
     /// Reading direction.
@@ -43,7 +43,7 @@ pub struct Room {
 
 /// A placed balloon.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Placed {
+pub struct PlacedBalloon {
     /// Index of its shape.
     pub shape: usize,
     /// Its centre.
@@ -51,5 +51,5 @@ pub struct Placed {
     /// End of its tail.
     pub tip: Option<Point>,
     /// Its hull on the page.
-    pub hull: Polygon,
+    pub hull: ConvexPolygon,
 }

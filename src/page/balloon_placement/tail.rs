@@ -1,4 +1,4 @@
-//! [`Tail`]: the end of a balloon's tail, and its length over figures.
+//! [`BalloonTail`]: the end of a balloon's tail, and its length over figures.
 //!
 //! 1. The tail runs from the centre of the balloon towards the aim, and starts where it leaves the hull.
 //! 2. It ends just before the hull of its target.
@@ -7,32 +7,32 @@
 
 use kurbo::{Point, Vec2};
 
-use super::request::{Room, Wish};
-use crate::page::layout::Polygon;
+use super::request::{PlacementArea, PlacementRequest};
+use crate::page::layout::ConvexPolygon;
 
 /// Distance from the tip of a tail to its target, as a multiple of the gap.
-const SHORT_OF: f64 = 0.6;
+const TIP_GAP_FACTOR: f64 = 0.6;
 
-/// A tail is drawn in full up to this length, ems; of the excess only the share `OF_LONGER` is drawn.
-const LONG: f64 = 4.0;
-const OF_LONGER: f64 = 0.4;
+/// A tail is drawn in full up to this length, ems; of the excess only the share `EXCESS_TAIL_SHARE` is drawn.
+const FULL_TAIL_LENGTH_EM: f64 = 4.0;
+const EXCESS_TAIL_SHARE: f64 = 0.4;
 
 /// Maximum length of a figure in front of the target for the tail to end before the figure, ems.
-const BEFORE: f64 = 4.0;
+const MAX_FIGURE_REACH_EM: f64 = 4.0;
 
 /// Distance from the tip of a tail to the figure in front of its target, ems. It allows for coarse grid
 /// squares and line widths.
-const SHORT_OF_FIGURE: f64 = 0.45;
+const FIGURE_GAP_EM: f64 = 0.45;
 
 /// Sampling steps per em along a tail.
-const STEPS: f64 = 6.0;
+const STEPS_PER_EM: f64 = 6.0;
 
 /// Sideways bend of a tail, as a share of its length.
-const BEND: f64 = 0.03;
+const BEND_SHARE: f64 = 0.03;
 
 /// The tail of a balloon: its length up to the target, unit direction, length over figures, distance between
 /// tip and target, and its tip.
-pub(crate) struct Tail {
+pub(crate) struct BalloonTail {
     pub length: f64,
     pub way: Vec2,
     pub over: f64,
@@ -42,42 +42,42 @@ pub(crate) struct Tail {
 
 /// Fits the tail of a balloon. It ends just before its target, and before the figure that the target belongs
 /// to if that is near. `None` if the tail is too short.
-pub(crate) fn tail(
+pub(crate) fn fit_tail(
     middle: Point,
-    hull: &Polygon,
-    (target, aim): (&Polygon, Point),
-    wish: &Wish,
-    room: &Room,
-) -> Option<Tail> {
+    hull: &ConvexPolygon,
+    (target, aim): (&ConvexPolygon, Point),
+    wish: &PlacementRequest,
+    room: &PlacementArea,
+) -> Option<BalloonTail> {
     let way = aim - middle;
     let length = way.hypot();
     if length < 1e-9 {
         return None;
     }
     let way = way / length;
-    let enters = enters(target, middle, aim).unwrap_or(length);
-    let leaves = leaves(hull, middle, aim);
+    let enters = entry_distance(target, middle, aim).unwrap_or(length);
+    let leaves = exit_distance(hull, middle, aim);
     // If the balloon is inside a large part, the tail points to the aim itself.
-    let reach = if target.holds(middle) { length } else { enters } - room.gap * SHORT_OF;
+    let reach = if target.holds(middle) { length } else { enters } - room.gap * TIP_GAP_FACTOR;
     let least = leaves + wish.tail;
     if reach.is_nan() || reach < least {
         return None;
     }
     let is_figure = |at: f64| room.cover.as_ref().is_some_and(|cover| cover.is_figure(middle + way * at));
-    let step = wish.em / STEPS;
+    let step = wish.em / STEPS_PER_EM;
     let mut end = reach;
-    while end > least && reach - end < BEFORE * wish.em && is_figure(end) {
+    while end > least && reach - end < MAX_FIGURE_REACH_EM * wish.em && is_figure(end) {
         end -= step;
     }
     // If the figure covers the whole search length, the tail runs over it.
-    end = if is_figure(end) { reach } else { (end - SHORT_OF_FIGURE * wish.em).max(least) };
-    let long = leaves + LONG * wish.em;
+    end = if is_figure(end) { reach } else { (end - FIGURE_GAP_EM * wish.em).max(least) };
+    let long = leaves + FULL_TAIL_LENGTH_EM * wish.em;
     if end > long {
-        end = long + OF_LONGER * (end - long);
+        end = long + EXCESS_TAIL_SHARE * (end - long);
     }
     let steps = ((end - leaves) / step).ceil().max(1.0) as usize;
     let over = (0..steps).filter(|k| is_figure(leaves + step * (*k as f64 + 0.5))).count();
-    Some(Tail {
+    Some(BalloonTail {
         length: reach - leaves,
         way,
         over: over as f64 * step,
@@ -87,25 +87,25 @@ pub(crate) fn tail(
 }
 
 /// A polygon around a tail, from the centre of its balloon to the tip, with space for a bend.
-pub(crate) fn around(middle: Point, tip: Point, foot: f64) -> Polygon {
+pub(crate) fn tail_polygon(middle: Point, tip: Point, foot: f64) -> ConvexPolygon {
     let way = tip - middle;
     let across = Vec2::new(-way.y, way.x).normalize();
-    let (wide, narrow) = (across * (foot + BEND * way.hypot()), across * (0.3 * foot));
-    Polygon(vec![middle - wide, tip - narrow, tip + narrow, middle + wide])
+    let (wide, narrow) = (across * (foot + BEND_SHARE * way.hypot()), across * (0.3 * foot));
+    ConvexPolygon(vec![middle - wide, tip - narrow, tip + narrow, middle + wide])
 }
 
 /// Distance from a point to where the segment to another point enters a polygon.
-fn enters(polygon: &Polygon, from: Point, to: Point) -> Option<f64> {
+fn entry_distance(polygon: &ConvexPolygon, from: Point, to: Point) -> Option<f64> {
     crossings(polygon, from, to).reduce(f64::min).filter(|at| *at <= from.distance(to))
 }
 
 /// Distance from a point inside a polygon to where the ray towards another point leaves it.
-fn leaves(polygon: &Polygon, from: Point, to: Point) -> f64 {
+fn exit_distance(polygon: &ConvexPolygon, from: Point, to: Point) -> f64 {
     crossings(polygon, from, to).fold(0.0, f64::max)
 }
 
 /// Distances to the crossings of a ray with the sides of a polygon.
-fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = f64> + '_ {
+fn crossings(polygon: &ConvexPolygon, from: Point, to: Point) -> impl Iterator<Item = f64> + '_ {
     let way = to - from;
     polygon.sides().filter_map(move |(a, b)| {
         let side = b - a;
@@ -117,6 +117,6 @@ fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = 
 }
 
 /// Whether a tail does not touch a polygon.
-pub(crate) fn is_clear(tail: Option<&Polygon>, other: &Polygon) -> bool {
+pub(crate) fn is_clear(tail: Option<&ConvexPolygon>, other: &ConvexPolygon) -> bool {
     tail.is_none_or(|tail| !tail.meets(other, 0.0))
 }

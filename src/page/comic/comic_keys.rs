@@ -6,13 +6,13 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::colour::srgb::Colour;
-use crate::page::figure::figure_style::file;
-use crate::page::figure::{Aim, Models};
+use crate::page::figure::figure_style::style_file;
+use crate::page::figure::{CameraSpec, Models};
 use crate::page::layout::Reading;
 use crate::page::mm_length::Mm;
-use crate::page::page_size::Size;
-use crate::page::page_source::Source;
-use crate::page::print_inks::{PrintKeys, Spots};
+use crate::page::page_size::PageSize;
+use crate::page::page_source::PageSource;
+use crate::page::print_inks::{PrintKeys, SpotColours};
 
 /// A comic page in a page file.
 #[derive(Debug, Clone, Deserialize)]
@@ -21,7 +21,7 @@ pub struct ComicPage {
     /// Title for viewers. Default: the name of the file.
     pub title: Option<String>,
     /// Size after trimming. Default: A4.
-    pub size: Spanned<Size>,
+    pub size: Spanned<PageSize>,
     /// Whether the page is in landscape format. Default: no.
     pub landscape: bool,
     /// Whether the page is a double page. Default: no.
@@ -55,7 +55,7 @@ pub struct ComicPage {
     /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<Spanned<f64>>,
     /// One or more spot colours.
-    pub spot: Option<Spanned<Spots>>,
+    pub spot: Option<Spanned<SpotColours>>,
     /// Settings of all letters.
     pub lettering: LetteringKeys,
     /// The panels, in reading order.
@@ -130,7 +130,7 @@ pub struct PanelKeys {
     /// One or more models.
     pub model: Models,
     /// Camera. Default: from the front, right and above.
-    pub camera: Option<Spanned<Aim>>,
+    pub camera: Option<Spanned<CameraSpec>>,
     /// Style. Default: that of the page.
     pub style: Option<Spanned<String>>,
     /// Changes to the style, applied after those of the page.
@@ -219,14 +219,14 @@ pub struct SoundKeys {
 }
 
 fn low() -> Spanned<[f64; 2]> {
-    told([0.5, 0.75])
+    without_span([0.5, 0.75])
 }
 
 fn none() -> Spanned<f64> {
-    told(0.0)
+    without_span(0.0)
 }
 
-fn told<T>(value: T) -> Spanned<T> {
+fn without_span<T>(value: T) -> Spanned<T> {
     Spanned::new(0..0, value)
 }
 
@@ -234,19 +234,19 @@ impl Default for ComicPage {
     fn default() -> Self {
         Self {
             title: None,
-            size: told(Size::default()),
+            size: without_span(PageSize::default()),
             landscape: false,
             spread: false,
-            bleed: told(Mm(0.0)),
-            safe: told(Mm(5.0)),
-            margin: told(Mm(12.0)),
+            bleed: without_span(Mm(0.0)),
+            safe: without_span(Mm(5.0)),
+            margin: without_span(Mm(12.0)),
             reading: ReadingKey::Ltr,
             background: Colour::WHITE,
-            layout: told("1".to_owned()),
-            gutter: told(Gutter::All(Mm(4.0))),
-            border: told(Mm(0.6)),
-            hand: told(Mm(0.0)),
-            style: told("comic".to_owned()),
+            layout: without_span("1".to_owned()),
+            gutter: without_span(Gutter::All(Mm(4.0))),
+            border: without_span(Mm(0.6)),
+            hand: without_span(Mm(0.0)),
+            style: without_span("comic".to_owned()),
             set: Vec::new(),
             ink: None,
             icc: None,
@@ -261,11 +261,11 @@ impl Default for ComicPage {
 impl Default for LetteringKeys {
     fn default() -> Self {
         Self {
-            font: told("comic".to_owned()),
-            size: told(Mm(3.4)),
+            font: without_span("comic".to_owned()),
+            size: without_span(Mm(3.4)),
             upper_case: true,
             language: None,
-            line: told(Mm(0.4)),
+            line: without_span(Mm(0.4)),
             colour: Colour::BLACK,
             fill: Colour::WHITE,
         }
@@ -282,12 +282,12 @@ impl ComicPage {
 
     /// The files that the page is made from.
     #[must_use]
-    pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
-        let mut files: Vec<PathBuf> = file(&self.style, source).into_iter().collect();
-        files.extend(self.icc.as_ref().map(|icc| source.beside(icc.get_ref())));
+    pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> = style_file(&self.style, source).into_iter().collect();
+        files.extend(self.icc.as_ref().map(|icc| source.resolve(icc.get_ref())));
         for panel in self.panel.iter().map(Spanned::get_ref) {
             files.extend(panel.model.files(source));
-            files.extend(panel.style.as_ref().and_then(|style| file(style, source)));
+            files.extend(panel.style.as_ref().and_then(|style| style_file(style, source)));
             files.extend(panel.camera.as_ref().and_then(|aim| aim.get_ref().file(source)));
         }
         files

@@ -18,11 +18,11 @@ mod panel_outlines;
 use crate::parallel::prelude::*;
 use kurbo::Rect;
 
-use super::composed_page::Composed;
-use super::page_source::Source;
-use crate::drawing::{Boxes, Composition, Page, Unit};
+use super::composed_page::ComposedPage;
+use super::page_source::PageSource;
+use crate::drawing::{Composition, Page, PrintBoxes, Unit};
 use crate::error::Error;
-use panel_outlines::Sheet;
+use panel_outlines::PageBoxes;
 
 pub use comic_keys::ComicPage;
 
@@ -31,11 +31,11 @@ pub use comic_keys::ComicPage;
 ///
 /// # Errors
 /// Returns an error with the line of the wrong key.
-pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
-    let sheet = Sheet::of(comic, source)?;
-    let shapes = panel_outlines::shapes(comic, &sheet, source)?;
+pub fn compose(comic: &ComicPage, source: &PageSource) -> Result<ComposedPage, Error> {
+    let sheet = PageBoxes::of(comic, source)?;
+    let shapes = panel_outlines::panel_outlines(comic, &sheet, source)?;
     let lettering = lettering::Lettering::new(&comic.lettering, comic.reading.into(), source)?;
-    let panels: Vec<panel_drawing::Drawn> = shapes
+    let panels: Vec<panel_drawing::DrawnPanel> = shapes
         .par_iter()
         .map(|shape| panel_drawing::draw(shape, comic, &sheet, source))
         .collect::<Result<_, _>>()?;
@@ -57,6 +57,6 @@ pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
         || source.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let title = comic.title.clone().unwrap_or_else(stem);
     let mut composition = Composition::new(title, page, items);
-    composition.boxes = Some(Boxes { trim: sheet.trim, bleed: sheet.bleed });
-    Ok(Composed { composition, warnings })
+    composition.boxes = Some(PrintBoxes { trim: sheet.trim, bleed: sheet.bleed });
+    Ok(ComposedPage { composition, warnings })
 }

@@ -7,27 +7,27 @@ use kurbo::{Affine, BezPath, Point, Rect, Vec2};
 
 use crate::colour::srgb::Colour;
 use crate::drawing::{
-    Cap, Drawing, Item, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
+    Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, PlacedDrawing, Provenance, StrokePaint, Unit,
 };
-use crate::geometry::numbers::noise::{hash, smooth};
-use crate::page::layout::Polygon;
+use crate::geometry::numbers::noise::{hash, value_noise};
+use crate::page::layout::ConvexPolygon;
 
 /// Distance between two bends of a hand-drawn line, mm.
-const WAVE: f64 = 18.0;
+const BEND_SPACING_MM: f64 = 18.0;
 
 /// Curve points between two bends.
-const POINTS_A_WAVE: f64 = 4.0;
+const POINTS_PER_BEND: f64 = 4.0;
 
 /// The border of a panel as a drawing of the whole page. `hand` is the maximum deviation of a hand-drawn
 /// line, mm.
-pub(crate) fn border(
+pub(crate) fn panel_border(
     name: &str,
-    outline: &Polygon,
+    outline: &ConvexPolygon,
     [width, hand]: [f64; 2],
     colour: Colour,
     sheet: Rect,
-) -> Item {
-    let path = line(outline, hand, sheet);
+) -> PlacedDrawing {
+    let path = border_path(outline, hand, sheet);
     let paint = Paint::Stroke(StrokePaint {
         width,
         colour,
@@ -41,12 +41,12 @@ pub(crate) fn border(
     let layers = vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }];
     let page = Page { width: sheet.width(), height: sheet.height(), unit: Unit::Mm, background: None };
     let drawing = Drawing::new(name, page, layers);
-    Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
+    PlacedDrawing { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
 }
 
 /// The sides of an outline, except those along the edge of the printed area. With `hand` above 0 the sides
 /// are wavy between fixed corners.
-fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
+fn border_path(outline: &ConvexPolygon, hand: f64, sheet: Rect) -> BezPath {
     let sides: Vec<(Point, Point)> = outline.sides().collect();
     let is_edge = |(a, b): &(Point, Point)| {
         let along = |a: f64, b: f64, edge: f64| (a - edge).abs() < 1e-6 && (b - edge).abs() < 1e-6;
@@ -69,7 +69,7 @@ fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
             path.move_to(side.0);
         }
         goes_on = true;
-        if hand > 0.0 { shake(&mut path, side, number, hand) } else { path.line_to(side.1) }
+        if hand > 0.0 { add_wavy_side(&mut path, side, number, hand) } else { path.line_to(side.1) }
     }
     if !sides.iter().any(is_edge) {
         path.close_path();
@@ -78,16 +78,16 @@ fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
 }
 
 /// Adds a side that deviates by at most `hand`.
-fn shake(path: &mut BezPath, (a, b): (Point, Point), number: usize, hand: f64) {
+fn add_wavy_side(path: &mut BezPath, (a, b): (Point, Point), number: usize, hand: f64) {
     let length = a.distance(b);
     let across = Vec2::new(b.y - a.y, a.x - b.x) / length.max(f64::MIN_POSITIVE);
     let seed = hash(number as u64, &[a.x.to_bits(), a.y.to_bits()]);
-    let steps = (length / WAVE * POINTS_A_WAVE).ceil().max(1.0);
+    let steps = (length / BEND_SPACING_MM * POINTS_PER_BEND).ceil().max(1.0);
     let at = |step: f64| -> Point {
         let share = step / steps;
         // The amplitude is 0 at both ends and full at a distance of one bend.
-        let pinned = (share.min(1.0 - share) * length / WAVE).min(1.0);
-        a.lerp(b, share) + across * (hand * pinned * smooth(seed, share * length / WAVE))
+        let pinned = (share.min(1.0 - share) * length / BEND_SPACING_MM).min(1.0);
+        a.lerp(b, share) + across * (hand * pinned * value_noise(seed, share * length / BEND_SPACING_MM))
     };
     // Catmull-Rom spline through the points.
     for step in 0..steps as usize {

@@ -9,65 +9,65 @@ use kurbo::{Affine, BezPath, Rect, Shape as _, Vec2};
 use toml::Spanned;
 
 use super::comic_keys::{ComicPage, PanelKeys};
-use super::panel_border::border;
-use super::panel_outlines::{Shape, Sheet};
+use super::panel_border::panel_border;
+use super::panel_outlines::{PageBoxes, PanelOutline};
 use crate::colour::srgb::Colour;
-use crate::drawing::{Drawing, Item, Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
+use crate::drawing::{Drawing, Layer, LayerKind, Mark, Page, Paint, PlacedDrawing, Provenance, Unit};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{atan2, tan};
-use crate::page::figure::{self, Cover, Place, camera_spec, is_named};
+use crate::page::figure::{self, CoverageGrid, PartExtent, camera_spec, name_matches};
 use crate::page::mm_length::Mm;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::pipeline;
 use crate::scene::{Camera, Part, Projection, Scene};
 use crate::style::Style;
 
 /// How far a part may break out of its panel, as a share of the panel's shorter side.
-const BEYOND: f64 = 0.5;
+const BREAK_MARGIN_SHARE: f64 = 0.5;
 
 /// Overlap of broken-out parts with the panel, mm; it prevents gaps.
-const LAP: f64 = 0.1;
+const BREAK_OVERLAP_MM: f64 = 0.1;
 
 /// A panel that has been drawn.
-pub(crate) struct Drawn {
+pub(crate) struct DrawnPanel {
     /// The drawing of the scene, and the border.
-    pub items: Vec<Item>,
+    pub items: Vec<PlacedDrawing>,
     /// Parts that break out of the border; they may cover other panels.
-    pub over: Option<Item>,
+    pub over: Option<PlacedDrawing>,
     /// The scene and its camera; `None` without a model.
-    pub seen: Option<Seen>,
+    pub seen: Option<PanelScene>,
     /// Warnings about the panel.
     pub warnings: Vec<String>,
 }
 
 /// The scene of a panel with its camera.
-pub(crate) struct Seen {
+pub(crate) struct PanelScene {
     scene: Scene,
     camera: Camera,
     /// Offset from the camera's frame to the page, mm.
     place: Vec2,
 }
 
-impl Seen {
+impl PanelScene {
     /// The area of the panel that models cover. The figures are the models of `parts`, or all models if none
     /// has a name.
-    pub fn cover(&self, parts: &[&str]) -> Cover {
+    pub fn coverage(&self, parts: &[&str]) -> CoverageGrid {
         let models: Vec<&str> =
             parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
         let is_figure = |part: &Part| {
             let own = part.name.split_once('/').map(|(model, _)| model);
             models.is_empty() || own.is_some_and(|own| models.contains(&own))
         };
-        Cover::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
+        CoverageGrid::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
     }
 
     /// The bounds on the page of the parts that match a pattern.
     ///
     /// # Errors
     /// Returns an error if no part matches.
-    pub fn places(&self, glob: &Spanned<String>, source: &Source) -> Result<Vec<Place>, Error> {
-        let mut places = figure::places(&self.scene, &self.camera, glob.get_ref());
-        if !self.scene.parts.iter().any(|part| is_named(glob.get_ref(), &part.name)) {
+    pub fn places(&self, glob: &Spanned<String>, source: &PageSource) -> Result<Vec<PartExtent>, Error> {
+        let mut places = figure::find_part_bounds(&self.scene, &self.camera, glob.get_ref());
+        if !self.scene.parts.iter().any(|part| name_matches(glob.get_ref(), &part.name)) {
             return Err(camera_spec::unknown_part(glob, &self.scene, source));
         }
         for place in &mut places {
@@ -82,7 +82,12 @@ impl Seen {
 ///
 /// # Errors
 /// Returns an error if a model, style or camera is missing or invalid.
-pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Source) -> Result<Drawn, Error> {
+pub(crate) fn draw(
+    shape: &PanelOutline,
+    page: &ComicPage,
+    sheet: &PageBoxes,
+    source: &PageSource,
+) -> Result<DrawnPanel, Error> {
     let bounds = shape.outline.bounds();
     let none = PanelKeys::default();
     let keys = shape.keys.map_or(&none, Spanned::get_ref);
@@ -93,8 +98,8 @@ pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
         style.background = background(colour, source)?;
     }
     let warnings = figure::figure_style::unit_warning(name, &sets, source).into_iter().collect();
-    let mut drawn = Drawn { items: Vec::new(), over: None, seen: None, warnings };
-    let item = |name: &str, drawing, corner: Vec2, clip| Item {
+    let mut drawn = DrawnPanel { items: Vec::new(), over: None, seen: None, warnings };
+    let item = |name: &str, drawing, corner: Vec2, clip| PlacedDrawing {
         name: name.to_owned(),
         drawing,
         place: Affine::translate(corner),
@@ -108,19 +113,22 @@ pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
         drawn.items.push(item(&shape.name, drawing, bounds.origin().to_vec2(), outline));
     } else {
         let (time, animation) = (keys.time.as_ref(), keys.animation.as_ref());
-        let scene = figure::staged(&keys.model, time, animation, &style, source)?;
-        let usual = Spanned::new(0..0, figure::Aim::default());
+        let scene = figure::assemble_scene(&keys.model, time, animation, &style, source)?;
+        let usual = Spanned::new(0..0, figure::CameraSpec::default());
         let aim = keys.camera.as_ref().unwrap_or(&usual);
         let camera = figure::camera(aim, &scene, [bounds.width(), bounds.height()], source)?;
         for glob in &keys.breaking {
-            if !scene.parts.iter().any(|part| is_named(glob.get_ref(), &part.name)) {
+            if !scene.parts.iter().any(|part| name_matches(glob.get_ref(), &part.name)) {
                 return Err(camera_spec::unknown_part(glob, &scene, source));
             }
         }
         // Broken-out parts need a larger frame, with the same picture in its centre.
-        let beyond =
-            if keys.breaking.is_empty() { 0.0 } else { BEYOND * bounds.width().min(bounds.height()) };
-        let wide = widened(&camera, beyond);
+        let beyond = if keys.breaking.is_empty() {
+            0.0
+        } else {
+            BREAK_MARGIN_SHARE * bounds.width().min(bounds.height())
+        };
+        let wide = widen_frame(&camera, beyond);
         let size = paper([wide.width, wide.height], style.background);
         let (mut drawing, warnings) = figure::draw(&scene, &wide, &style, size)?;
         drawing.title.clone_from(&shape.name);
@@ -128,10 +136,10 @@ pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
         drawn.warnings.extend(told);
         let corner = bounds.origin().to_vec2() - Vec2::new(beyond, beyond);
         if beyond > 0.0 {
-            broken = Some((breaking(&drawing, &scene, &wide, &style, keys)?, corner));
+            broken = Some((break_out_drawing(&drawing, &scene, &wide, &style, keys)?, corner));
         }
         drawn.items.push(item(&shape.name, drawing, corner, outline));
-        drawn.seen = Some(Seen { scene, camera, place: bounds.origin().to_vec2() });
+        drawn.seen = Some(PanelScene { scene, camera, place: bounds.origin().to_vec2() });
     }
     let Mm(width) = *keys.border.as_ref().unwrap_or(&page.border).get_ref();
     if width < 0.0 {
@@ -141,11 +149,17 @@ pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
     let hand = page.hand.get_ref().0;
     if width > 0.0 {
         let name = format!("{}-border", shape.name);
-        drawn.items.push(border(&name, &shape.outline, [width, hand], page.lettering.colour, sheet.bleed));
+        drawn.items.push(panel_border(
+            &name,
+            &shape.outline,
+            [width, hand],
+            page.lettering.colour,
+            sheet.bleed,
+        ));
     }
     if let Some((drawing, corner)) = broken {
-        let inner = shape.outline.inset(width / 2.0 + hand + LAP);
-        let clip = around(sheet.bleed, &inner.path());
+        let inner = shape.outline.inset(width / 2.0 + hand + BREAK_OVERLAP_MM);
+        let clip = frame_with_hole(sheet.bleed, &inner.path());
         drawn.over = Some(item(&format!("{}-break", shape.name), drawing, corner, clip));
     }
     Ok(drawn)
@@ -156,7 +170,7 @@ fn paper([width, height]: [f64; 2], background: Option<Colour>) -> Page {
 }
 
 /// Parses a colour or `none`.
-fn background(word: &Spanned<String>, source: &Source) -> Result<Option<Colour>, Error> {
+fn background(word: &Spanned<String>, source: &PageSource) -> Result<Option<Colour>, Error> {
     if word.get_ref().eq_ignore_ascii_case("none") {
         return Ok(None);
     }
@@ -168,7 +182,7 @@ fn background(word: &Spanned<String>, source: &Source) -> Result<Option<Colour>,
 }
 
 /// The camera with a frame that is larger by a margin on each side and shows the same picture in its centre.
-fn widened(camera: &Camera, by: f64) -> Camera {
+fn widen_frame(camera: &Camera, by: f64) -> Camera {
     if by == 0.0 {
         return *camera;
     }
@@ -184,14 +198,14 @@ fn widened(camera: &Camera, by: f64) -> Camera {
 }
 
 /// The marks of the parts that break out of the border, over fills in the background colour.
-fn breaking(
+fn break_out_drawing(
     drawing: &Drawing,
     scene: &Scene,
     camera: &Camera,
     style: &Style,
     keys: &PanelKeys,
 ) -> Result<Drawing, Error> {
-    let is_meant = |part: &str| keys.breaking.iter().any(|glob| is_named(glob.get_ref(), part));
+    let is_meant = |part: &str| keys.breaking.iter().any(|glob| name_matches(glob.get_ref(), part));
     let paper = style.background.unwrap_or(Colour::WHITE);
     let seen = pipeline::hotspots(scene, camera, drawing.page, style)?;
     let ground = seen.into_iter().filter(|spot| is_meant(&spot.part)).map(|spot| Mark {
@@ -219,7 +233,7 @@ fn breaking(
 }
 
 /// A rectangle with a hole.
-fn around(frame: Rect, hole: &BezPath) -> BezPath {
+fn frame_with_hole(frame: Rect, hole: &BezPath) -> BezPath {
     let mut path = frame.to_path(0.1);
     path.extend(hole.reverse_subpaths());
     path

@@ -1,4 +1,4 @@
-//! [`Shape`]: the outlines of the panels of a page.
+//! [`PanelOutline`]: the outlines of the panels of a page.
 //!
 //! 1. Bleed, trim, margin and safe area give the boxes of the page.
 //! 2. The layout divides the frame inside the margin into panels. Panels with bleed extend to the printed
@@ -10,18 +10,18 @@ use toml::Spanned;
 
 use super::comic_keys::{ComicPage, Gutter, PanelKeys};
 use crate::error::Error;
-use crate::page::layout::grammar::MOST_PANELS;
-use crate::page::layout::{Grid, Polygon, cells};
+use crate::page::layout::grammar::MAX_PANELS;
+use crate::page::layout::{ConvexPolygon, LayoutGrid, cells};
 use crate::page::mm_length::Mm;
-use crate::page::page_size::Size;
-use crate::page::page_source::Source;
+use crate::page::page_size::PageSize;
+use crate::page::page_source::PageSource;
 
 /// Overlaps of panels up to this area are ignored, mm².
-const NOTHING: f64 = 1e-3;
+const MAX_OVERLAP_MM2: f64 = 1e-3;
 
 /// The boxes of a page, mm. The printed area starts at the origin.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sheet {
+pub(crate) struct PageBoxes {
     /// The page after trimming.
     pub trim: Rect,
     /// The printed area.
@@ -34,21 +34,21 @@ pub(crate) struct Sheet {
 
 /// A panel on the page.
 #[derive(Debug, Clone)]
-pub(crate) struct Shape<'a> {
+pub(crate) struct PanelOutline<'a> {
     /// Name of its layers.
     pub name: String,
     /// The keys of the panel; `None` if the page file has none for it.
     pub keys: Option<&'a Spanned<PanelKeys>>,
     /// The outline of the panel.
-    pub outline: Polygon,
+    pub outline: ConvexPolygon,
 }
 
-impl Sheet {
+impl PageBoxes {
     /// The boxes of a page.
     ///
     /// # Errors
     /// Returns an error if a length is negative, or a margin leaves no space.
-    pub fn of(page: &ComicPage, source: &Source) -> Result<Self, Error> {
+    pub fn of(page: &ComicPage, source: &PageSource) -> Result<Self, Error> {
         for length in [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line]
         {
             if length.get_ref().0 < 0.0 {
@@ -58,10 +58,10 @@ impl Sheet {
         let Mm(bleed) = *page.bleed.get_ref();
         let mut size = *page.size.get_ref();
         if page.landscape {
-            size = size.lying();
+            size = size.landscape();
         }
         if page.spread {
-            size = Size { width: size.width * 2.0, ..size };
+            size = PageSize { width: size.width * 2.0, ..size };
         }
         let trim = Rect::new(bleed, bleed, bleed + size.width, bleed + size.height);
         let within = |length: &Spanned<Mm>, what: &str| {
@@ -84,11 +84,11 @@ impl Sheet {
 /// # Errors
 /// Returns an error if the layout is invalid, or there are too many panels, or a panel is too small or
 /// overlaps others.
-pub(crate) fn shapes<'a>(
+pub(crate) fn panel_outlines<'a>(
     page: &'a ComicPage,
-    sheet: &Sheet,
-    source: &Source,
-) -> Result<Vec<Shape<'a>>, Error> {
+    sheet: &PageBoxes,
+    source: &PageSource,
+) -> Result<Vec<PanelOutline<'a>>, Error> {
     let gutter = match page.gutter.get_ref() {
         Gutter::All(Mm(all)) => [*all, *all],
         Gutter::Each([Mm(across), Mm(down)]) => [*across, *down],
@@ -100,26 +100,26 @@ pub(crate) fn shapes<'a>(
             "write 0 or more",
         ));
     }
-    let grid = Grid { frame: sheet.frame, gutter, reading: page.reading.into() };
+    let grid = LayoutGrid { frame: sheet.frame, gutter, reading: page.reading.into() };
     let cells = cells(page.layout.get_ref(), &grid)
         .map_err(|fault| source.within(&page.layout, &fault.span, &fault.message, &fault.advice))?;
-    if let Some(extra) = page.panel.get(MOST_PANELS) {
-        let message = format!("a page can hold at most {MOST_PANELS} panels");
-        return Err(source.fault(&head(source, extra), &message, "spread them over several pages"));
+    if let Some(extra) = page.panel.get(MAX_PANELS) {
+        let message = format!("a page can hold at most {MAX_PANELS} panels");
+        return Err(source.fault(&head_span(source, extra), &message, "spread them over several pages"));
     }
     let (placed, laid): (Vec<_>, Vec<_>) = page.panel.iter().partition(|panel| panel.get_ref().at.is_some());
     if let Some(extra) = laid.get(cells.len()) {
         let message = format!("the layout has only {} panels", cells.len());
         let advice =
             "give the layout a further share, or this panel a place: at = [left, top, width, height]";
-        return Err(source.fault(&head(source, extra), &message, advice));
+        return Err(source.fault(&head_span(source, extra), &message, advice));
     }
-    let mut shapes: Vec<Shape> = Vec::new();
+    let mut shapes: Vec<PanelOutline> = Vec::new();
     for (number, cell) in cells.iter().enumerate() {
         let keys = laid.get(number).copied();
         let bleeds = keys.is_some_and(|keys| keys.get_ref().bleed);
         let outline = cell.outline(if bleeds { sheet.bleed } else { sheet.frame });
-        shapes.push(Shape { name: name(keys, number), keys, outline });
+        shapes.push(PanelOutline { name: name(keys, number), keys, outline });
     }
     for keys in placed {
         let Some(at) = &keys.get_ref().at else { continue };
@@ -130,15 +130,15 @@ pub(crate) fn shapes<'a>(
             let message = format!("this panel has no size: {width} x {height} mm");
             return Err(source.fault(&at.span(), &message, "write [left, top, width, height]"));
         }
-        if rect.intersect(sheet.bleed).area() < rect.area() - NOTHING {
+        if rect.intersect(sheet.bleed).area() < rect.area() - MAX_OVERLAP_MM2 {
             return Err(source.fault(
                 &at.span(),
                 "this panel extends past the page",
                 "move it, or make it smaller",
             ));
         }
-        let outline = Polygon::from(rect);
-        let over = shapes.iter().find(|other| outline.common(&other.outline).area() > NOTHING);
+        let outline = ConvexPolygon::from(rect);
+        let over = shapes.iter().find(|other| outline.common(&other.outline).area() > MAX_OVERLAP_MM2);
         if let Some(over) = over.filter(|_| !keys.get_ref().inset) {
             let message = format!("this panel overlaps `{}`", over.name);
             return Err(source.fault(
@@ -148,7 +148,7 @@ pub(crate) fn shapes<'a>(
             ));
         }
         let number = shapes.len();
-        shapes.push(Shape { name: name(Some(keys), number), keys: Some(keys), outline });
+        shapes.push(PanelOutline { name: name(Some(keys), number), keys: Some(keys), outline });
     }
     for (number, shape) in shapes.iter().enumerate() {
         let named = shape.keys.and_then(|keys| keys.get_ref().name.as_ref());
@@ -166,7 +166,7 @@ pub(crate) fn shapes<'a>(
 }
 
 /// The span of the first line of a panel in the file.
-fn head(source: &Source, panel: &Spanned<PanelKeys>) -> std::ops::Range<usize> {
+fn head_span(source: &PageSource, panel: &Spanned<PanelKeys>) -> std::ops::Range<usize> {
     let span = panel.span();
     let text = source.text.get(span.clone()).unwrap_or_default();
     span.start..span.start + text.lines().next().map_or(0, str::len)

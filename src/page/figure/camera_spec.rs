@@ -1,4 +1,4 @@
-//! [`Aim`]: the camera of a figure as the page file describes it.
+//! [`CameraSpec`]: the camera of a figure as the page file describes it.
 //!
 //! 1. A record, a named view, or azimuth and elevation give the direction.
 //! 2. `fov` and `ortho` give the projection.
@@ -14,31 +14,31 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::part_bounds::{is_named, part_points};
+use super::part_bounds::{name_matches, part_points};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
-use crate::page::page_source::Source;
-use crate::scene::cameras::framing::{MARGIN, world_points};
+use crate::page::page_source::PageSource;
+use crate::scene::cameras::framing::{FRAME_MARGIN, world_points};
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 use crate::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use crate::style::sheet_errors;
 
 /// Share of the height that a bust shows.
-const BUST: f64 = 0.42;
+const BUST_HEIGHT_SHARE: f64 = 0.42;
 
 /// Zoom factor of a close view.
-const CLOSE: f64 = 1.7;
+const CLOSE_ZOOM: f64 = 1.7;
 
 /// The camera of a figure: a word or a table.
 #[derive(Debug, Clone)]
-pub enum Aim {
+pub enum CameraSpec {
     /// A named view, the file of a camera record, or a camera of the model.
     Word(String),
     /// A table of keys.
-    Keys(Box<AimKeys>),
+    Keys(Box<CameraKeys>),
 }
 
-impl Default for Aim {
+impl Default for CameraSpec {
     fn default() -> Self {
         Self::Keys(Box::default())
     }
@@ -47,7 +47,7 @@ impl Default for Aim {
 /// The keys of a camera.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct AimKeys {
+pub struct CameraKeys {
     /// A named view. It is orthographic unless `fov` is given.
     pub view: Option<Spanned<String>>,
     /// The file of a camera record, or a camera of the model. With `look_at` only its direction is used.
@@ -63,7 +63,7 @@ pub struct AimKeys {
     /// Pattern of the parts that fill the frame. Default: all parts.
     pub look_at: Option<Spanned<String>>,
     /// The section of these parts that fills the frame: `full`, `bust` or `close`. Default: full.
-    pub crop: Option<Crop>,
+    pub crop: Option<FramedPart>,
     /// Zoom factor relative to a fitted view. Default: 1.
     pub zoom: Option<Spanned<f64>>,
     /// Shift of the picture to the right and down, as shares of the frame. Default: 0, 0.
@@ -75,7 +75,7 @@ pub struct AimKeys {
 /// The section of the parts that fills the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Crop {
+pub enum FramedPart {
     /// The whole parts.
     #[default]
     Full,
@@ -85,39 +85,39 @@ pub enum Crop {
     Close,
 }
 
-impl<'de> Deserialize<'de> for Aim {
+impl<'de> Deserialize<'de> for CameraSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AimVisitor)
+        deserializer.deserialize_any(CameraSpecVisitor)
     }
 }
 
-struct AimVisitor;
+struct CameraSpecVisitor;
 
-impl<'de> Visitor<'de> for AimVisitor {
-    type Value = Aim;
+impl<'de> Visitor<'de> for CameraSpecVisitor {
+    type Value = CameraSpec;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("a camera: a named view, a camera record's file, or a table such as { azimuth = 20, look_at = \"hero\" }")
     }
 
-    fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Aim, E> {
-        Ok(Aim::Word(word.to_owned()))
+    fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<CameraSpec, E> {
+        Ok(CameraSpec::Word(word.to_owned()))
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Aim, A::Error> {
-        AimKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| Aim::Keys(Box::new(keys)))
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<CameraSpec, A::Error> {
+        CameraKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| CameraSpec::Keys(Box::new(keys)))
     }
 }
 
-impl Aim {
+impl CameraSpec {
     /// The file of a camera record, if one is named.
     #[must_use]
-    pub fn file(&self, source: &Source) -> Option<PathBuf> {
+    pub fn file(&self, source: &PageSource) -> Option<PathBuf> {
         let name = match self {
             Self::Word(word) => word,
             Self::Keys(keys) => keys.record.as_ref()?.get_ref(),
         };
-        name.ends_with(".json").then(|| source.beside(name))
+        name.ends_with(".json").then(|| source.resolve(name))
     }
 }
 
@@ -126,24 +126,24 @@ impl Aim {
 /// # Errors
 /// Returns an error if there is no such camera, view or part, or a number is out of range.
 pub fn camera(
-    aim: &Spanned<Aim>,
+    aim: &Spanned<CameraSpec>,
     scene: &Scene,
     [width, height]: [f64; 2],
-    source: &Source,
+    source: &PageSource,
 ) -> Result<Camera, Error> {
     let keys = match aim.get_ref() {
-        Aim::Word(word) => {
+        CameraSpec::Word(word) => {
             let word = Spanned::new(aim.span(), word.clone());
             if let Some(view) = NamedView::parse(word.get_ref()) {
                 let camera = Camera::named(view, scene.up).with_frame(width, height);
                 return Ok(camera.fit(scene));
             }
-            return recorded(&word, scene, source).map(|camera| camera.with_frame(width, height));
+            return named_camera(&word, scene, source).map(|camera| camera.with_frame(width, height));
         }
-        Aim::Keys(keys) => keys,
+        CameraSpec::Keys(keys) => keys,
     };
     let direction = match (&keys.record, &keys.view) {
-        (Some(record), _) => recorded(record, scene, source)?,
+        (Some(record), _) => named_camera(record, scene, source)?,
         (None, Some(view)) => {
             let known = NamedView::ALL.map(NamedView::name);
             let named = NamedView::parse(view.get_ref());
@@ -164,18 +164,18 @@ pub fn camera(
             Camera::azimuth_elevation(azimuth, elevation, scene.up)
         }
     };
-    let camera = lens(direction, keys, source)?.with_frame(width, height);
+    let camera = apply_lens(direction, keys, source)?.with_frame(width, height);
     let camera = match (&keys.record, &keys.look_at) {
         (Some(_), None) => camera,
-        (_, look_at) => fitted(camera, look_at.as_ref(), keys.crop.unwrap_or_default(), scene, source)?,
+        (_, look_at) => fit_camera(camera, look_at.as_ref(), keys.crop.unwrap_or_default(), scene, source)?,
     };
-    let camera = nearer(camera, keys, source)?;
+    let camera = apply_zoom_shift_roll(camera, keys, source)?;
     camera.validate().map_err(|error| source.about(&aim.span(), error))?;
     Ok(camera)
 }
 
 /// A camera of the model, or one from the file of a camera record.
-fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Camera, Error> {
+fn named_camera(name: &Spanned<String>, scene: &Scene, source: &PageSource) -> Result<Camera, Error> {
     if let Some(named) = scene.cameras.iter().find(|camera| camera.name == *name.get_ref()) {
         return Ok(named.camera);
     }
@@ -192,7 +192,7 @@ fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Ca
 }
 
 /// The camera with the projection that the keys request.
-fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
+fn apply_lens(camera: Camera, keys: &CameraKeys, source: &PageSource) -> Result<Camera, Error> {
     match &keys.fov {
         Some(fov) if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) => {
             Err(source.fault(&fov.span(), "this is not a field of view", "write degrees between 0 and 180"))
@@ -204,12 +204,12 @@ fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error
 }
 
 /// The camera fitted to the scene or to some parts.
-fn fitted(
+fn fit_camera(
     camera: Camera,
     look_at: Option<&Spanned<String>>,
-    crop: Crop,
+    crop: FramedPart,
     scene: &Scene,
-    source: &Source,
+    source: &PageSource,
 ) -> Result<Camera, Error> {
     let points = match look_at {
         None => world_points(scene),
@@ -222,18 +222,19 @@ fn fitted(
         }
     };
     Ok(match crop {
-        Crop::Full => camera.fit_points(&points, MARGIN),
-        Crop::Bust => camera.fit_points(&upper(&points, scene.up), MARGIN),
-        Crop::Close => zoomed(camera.fit_points(&points, 0.0), CLOSE),
+        FramedPart::Full => camera.fit_points(&points, FRAME_MARGIN),
+        FramedPart::Bust => camera.fit_points(&upper_points(&points, scene.up), FRAME_MARGIN),
+        FramedPart::Close => zoomed(camera.fit_points(&points, 0.0), CLOSE_ZOOM),
     })
 }
 
 /// The error that no part matches a pattern; it names the nearest part or all parts.
 #[must_use]
-pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &Source) -> Error {
+pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &PageSource) -> Error {
     let mut known: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
     known.dedup();
-    let near = sheet_errors::nearest(glob.get_ref(), &known).filter(|near| !is_named(glob.get_ref(), near));
+    let near =
+        sheet_errors::nearest(glob.get_ref(), &known).filter(|near| !name_matches(glob.get_ref(), near));
     known.truncate(12);
     let advice = match near {
         Some(near) => format!("did you mean `{near}`?"),
@@ -242,8 +243,8 @@ pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &Source) -> E
     source.fault(&glob.span(), &format!("there is no part `{}`", glob.get_ref()), &advice)
 }
 
-/// The points in the upper section of their extent, the share `BUST`.
-fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
+/// The points in the upper section of their extent, the share `BUST_HEIGHT_SHARE`.
+fn upper_points(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
     let height = |p: &DVec3| match up {
         UpAxis::Y => p.y,
         UpAxis::Z => p.z,
@@ -251,12 +252,12 @@ fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
     let span = points.iter().map(height);
     let low = span.clone().fold(f64::INFINITY, f64::min);
     let high = span.fold(f64::NEG_INFINITY, f64::max);
-    let least = high - BUST * (high - low);
+    let least = high - BUST_HEIGHT_SHARE * (high - low);
     points.iter().copied().filter(|p| height(p) >= least).collect()
 }
 
 /// The camera with the zoom, shift and roll of the keys.
-fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
+fn apply_zoom_shift_roll(camera: Camera, keys: &CameraKeys, source: &PageSource) -> Result<Camera, Error> {
     let zoom = keys.zoom.as_ref().map_or(1.0, |zoom| *zoom.get_ref());
     if let Some(key) = keys.zoom.as_ref().filter(|_| !(zoom.is_finite() && zoom > 0.0)) {
         return Err(source.fault(&key.span(), "this is not a zoom factor", "write a number above 0"));

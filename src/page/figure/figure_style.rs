@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use toml::Spanned;
 
 use crate::error::Error;
-use crate::page::page_source::Source;
-use crate::style::{Style, bare_lengths, placed_change, sheet_errors};
+use crate::page::page_source::PageSource;
+use crate::style::{Style, placed_change, sheet_errors, unitless_length_warning};
 
 /// Loads a style by name or file, relative to the page file, and applies changes (`KEY=VALUE` each).
 ///
 /// # Errors
 /// Returns an error if there is no such style, or a change is invalid.
-pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Result<Style, Error> {
+pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSource) -> Result<Style, Error> {
     let known: Vec<&str> = Style::names().collect();
-    let sheet = match file(name, source) {
+    let sheet = match style_file(name, source) {
         None => name.get_ref().clone(),
         Some(_) if !name.get_ref().ends_with(".toml") => {
             let advice = match sheet_errors::nearest(name.get_ref(), &known) {
@@ -31,7 +31,7 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) 
     let mut changes = Vec::new();
     for set in sets {
         let change = placed_change(set.get_ref(), source.folder());
-        changes.push(change.map_err(|error| source.about(&set.span(), plain(error)))?);
+        changes.push(change.map_err(|error| source.about(&set.span(), without_place(error)))?);
     }
     Style::load(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
 }
@@ -39,15 +39,15 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) 
 /// The warning about lengths without a unit in the page file or its own sheets; the default unit of a page is
 /// mm.
 #[must_use]
-pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Option<String> {
-    let sheet =
-        file(name, source).map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
+pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSource) -> Option<String> {
+    let sheet = style_file(name, source)
+        .map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
     let sets: Vec<String> = sets.iter().map(|set| set.get_ref().clone()).collect();
-    bare_lengths(&sheet, &sets)
+    unitless_length_warning(&sheet, &sets)
 }
 
 /// The error without its position in another text.
-fn plain(mut error: Error) -> Error {
+fn without_place(mut error: Error) -> Error {
     error.place = None;
     error.remedy = error.remedy.map(|remedy| remedy.lines().next().unwrap_or_default().to_owned());
     error
@@ -55,6 +55,6 @@ fn plain(mut error: Error) -> Error {
 
 /// The file of a style, unless it is built in.
 #[must_use]
-pub fn file(name: &Spanned<String>, source: &Source) -> Option<PathBuf> {
-    Style::sheet_text(name.get_ref()).is_none().then(|| source.beside(name.get_ref()))
+pub fn style_file(name: &Spanned<String>, source: &PageSource) -> Option<PathBuf> {
+    Style::sheet_text(name.get_ref()).is_none().then(|| source.resolve(name.get_ref()))
 }

@@ -21,11 +21,11 @@ pub mod part_bounds;
 pub mod part_colours;
 mod scene_assembly;
 
-pub use camera_spec::{Aim, AimKeys, Crop, camera};
-pub use coverage_grid::Cover;
+pub use camera_spec::{CameraKeys, CameraSpec, FramedPart, camera};
+pub use coverage_grid::CoverageGrid;
 pub use figure_style::style;
-pub use models::{ModelKeys, Models, staged};
-pub use part_bounds::{Place, is_named, places};
+pub use models::{ModelKeys, Models, assemble_scene};
+pub use part_bounds::{PartExtent, find_part_bounds, name_matches};
 
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;

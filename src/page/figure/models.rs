@@ -12,13 +12,13 @@ use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::part_colours::{self, Colours};
-use super::scene_assembly::{join, move_scene};
+use super::part_colours::{self, PartColours};
+use super::scene_assembly::{append_scene, move_scene};
 use crate::animation::{Clip, Playing, Rigged};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::motion;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::scene::{Scene, UpAxis};
 use crate::style::Style;
 
@@ -46,7 +46,7 @@ pub struct ModelKeys {
     pub animation: Option<Spanned<String>>,
     /// One colour, or colours by part name, that replace its materials. Default: those of the file.
     #[serde(alias = "color")]
-    pub colour: Option<Spanned<Colours>>,
+    pub colour: Option<Spanned<PartColours>>,
     /// Patterns of the parts that are kept. Default: all.
     #[serde(default)]
     pub only: Vec<String>,
@@ -61,59 +61,59 @@ pub struct Models(pub Vec<ModelKeys>);
 
 impl Models {
     /// The files of all models.
-    pub fn files<'a>(&'a self, source: &'a Source) -> impl Iterator<Item = PathBuf> + 'a {
-        self.0.iter().map(|model| source.beside(model.file.get_ref()))
+    pub fn files<'a>(&'a self, source: &'a PageSource) -> impl Iterator<Item = PathBuf> + 'a {
+        self.0.iter().map(|model| source.resolve(model.file.get_ref()))
     }
 }
 
 /// The value of a key for one or more models.
-enum Written {
+enum ModelValue {
     Path(String),
     Keys(Box<ModelKeys>),
-    List(Vec<Spanned<Written>>),
+    List(Vec<Spanned<ModelValue>>),
 }
 
-impl<'de> Deserialize<'de> for Written {
+impl<'de> Deserialize<'de> for ModelValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(WrittenVisitor)
+        deserializer.deserialize_any(ModelValueVisitor)
     }
 }
 
-struct WrittenVisitor;
+struct ModelValueVisitor;
 
-impl<'de> Visitor<'de> for WrittenVisitor {
-    type Value = Written;
+impl<'de> Visitor<'de> for ModelValueVisitor {
+    type Value = ModelValue;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("a model: its path, a table such as { file = \"a.glb\", position = [1, 0, 0] }, or a list of these")
     }
 
-    fn visit_str<E: serde::de::Error>(self, path: &str) -> Result<Written, E> {
-        Ok(Written::Path(path.to_owned()))
+    fn visit_str<E: serde::de::Error>(self, path: &str) -> Result<ModelValue, E> {
+        Ok(ModelValue::Path(path.to_owned()))
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Written, A::Error> {
-        ModelKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| Written::Keys(Box::new(keys)))
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ModelValue, A::Error> {
+        ModelKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| ModelValue::Keys(Box::new(keys)))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Written, A::Error> {
-        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Written::List)
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<ModelValue, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(ModelValue::List)
     }
 }
 
 impl<'de> Deserialize<'de> for Models {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let written = Spanned::<Written>::deserialize(deserializer)?;
+        let written = Spanned::<ModelValue>::deserialize(deserializer)?;
         let mut models = Vec::new();
         add(written, &mut models).map_err(D::Error::custom)?;
         Ok(Self(models))
     }
 }
 
-fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), String> {
+fn add(written: Spanned<ModelValue>, models: &mut Vec<ModelKeys>) -> Result<(), String> {
     let span = written.span();
     match written.into_inner() {
-        Written::Path(path) => {
+        ModelValue::Path(path) => {
             let file = Spanned::new(span, path);
             models.push(ModelKeys {
                 file,
@@ -129,8 +129,8 @@ fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), Str
                 hide: Vec::new(),
             });
         }
-        Written::Keys(keys) => models.push(*keys),
-        Written::List(list) => list.into_iter().try_for_each(|one| add(one, models))?,
+        ModelValue::Keys(keys) => models.push(*keys),
+        ModelValue::List(list) => list.into_iter().try_for_each(|one| add(one, models))?,
     }
     Ok(())
 }
@@ -141,18 +141,18 @@ fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), Str
 ///
 /// # Errors
 /// Returns an error if a model cannot be read, lacks the animation or parts, or has an invalid position.
-pub fn staged(
+pub fn assemble_scene(
     models: &Models,
     time: Option<&Spanned<f64>>,
     animation: Option<&Spanned<String>>,
     style: &Style,
-    source: &Source,
+    source: &PageSource,
 ) -> Result<Scene, Error> {
     let mut all: Option<Scene> = None;
     for keys in &models.0 {
-        let mut scene = posed(keys, time, animation, style, source)?;
+        let mut scene = posed_model(keys, time, animation, style, source)?;
         let up = all.as_ref().map_or(scene.up, |all| all.up);
-        let to = place(keys, [scene.up, up], source)?;
+        let to = scene_from_model(keys, [scene.up, up], source)?;
         move_scene(&mut scene, to);
         scene.up = up;
         if let Some(name) = &keys.name {
@@ -162,19 +162,19 @@ pub fn staged(
         }
         match &mut all {
             None => all = Some(scene),
-            Some(all) => join(all, scene),
+            Some(all) => append_scene(all, scene),
         }
     }
     Ok(all.unwrap_or_default())
 }
 
 /// A model posed at its time, with the selected parts.
-fn posed(
+fn posed_model(
     keys: &ModelKeys,
     time: Option<&Spanned<f64>>,
     animation: Option<&Spanned<String>>,
     style: &Style,
-    source: &Source,
+    source: &PageSource,
 ) -> Result<Scene, Error> {
     let path = source.existing(&keys.file, "model")?;
     let own = keys.time.is_some() || keys.animation.is_some();
@@ -219,7 +219,7 @@ fn playing(
     time: Option<&Spanned<f64>>,
     animation: Option<&Spanned<String>>,
     keys: &ModelKeys,
-    source: &Source,
+    source: &PageSource,
 ) -> Result<Playing, Error> {
     let names: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
     let clip = match (animation, names.as_slice()) {
@@ -246,7 +246,7 @@ fn playing(
 }
 
 /// The transform of a model to the scene. `up` holds the up axes of the model and the scene.
-fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3, Error> {
+fn scene_from_model(keys: &ModelKeys, up: [UpAxis; 2], source: &PageSource) -> Result<DAffine3, Error> {
     let [x, y, z] = keys.rotation.map(f64::to_radians);
     let numbers = keys.position.iter().chain(&keys.rotation);
     let scale = keys.scale.as_ref();

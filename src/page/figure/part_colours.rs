@@ -1,4 +1,4 @@
-//! [`Colours`]: colours that a page assigns to the parts of a model.
+//! [`PartColours`]: colours that a page assigns to the parts of a model.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::colour::srgb::Colour;
 use crate::error::Error;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::scene::part_selection::glob_matches;
 use crate::scene::{Material, Scene};
 
@@ -17,14 +17,14 @@ use crate::scene::{Material, Scene};
     untagged,
     expecting = "this is not a colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
 )]
-pub enum Colours {
+pub enum PartColours {
     /// One colour for all parts.
     All(Colour),
     /// Colours by pattern; the longest matching pattern applies.
     Parts(BTreeMap<String, Colour>),
 }
 
-impl Colours {
+impl PartColours {
     fn of(&self, part: &str) -> Option<Colour> {
         match self {
             Self::All(colour) => Some(*colour),
@@ -40,8 +40,12 @@ impl Colours {
 ///
 /// # Errors
 /// Returns an error if a pattern matches no part.
-pub(crate) fn paint(scene: &mut Scene, colours: &Spanned<Colours>, source: &Source) -> Result<(), Error> {
-    if let Colours::Parts(parts) = colours.get_ref() {
+pub(crate) fn paint(
+    scene: &mut Scene,
+    colours: &Spanned<PartColours>,
+    source: &PageSource,
+) -> Result<(), Error> {
+    if let PartColours::Parts(parts) = colours.get_ref() {
         let is_there = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
         if let Some(glob) = parts.keys().find(|glob| !is_there(glob)) {
             return Err(unknown(glob, scene, colours, source));
@@ -72,7 +76,7 @@ pub(crate) fn paint(scene: &mut Scene, colours: &Spanned<Colours>, source: &Sour
 }
 
 /// The error about a pattern that matches no part.
-fn unknown(glob: &str, scene: &Scene, colours: &Spanned<Colours>, source: &Source) -> Error {
+fn unknown(glob: &str, scene: &Scene, colours: &Spanned<PartColours>, source: &PageSource) -> Error {
     let span = colours.span();
     let text = source.text.get(span.clone()).unwrap_or_default();
     let start = text.find(glob).map_or(span.start, |at| span.start + at);
@@ -86,7 +90,7 @@ mod tests {
     #[test]
     fn the_longest_pattern_counts() {
         let parts = [("*", Colour::WHITE), ("leg*", Colour::BLACK), ("l*", Colour::rgb(1, 2, 3))];
-        let colours = Colours::Parts(parts.map(|(glob, colour)| (glob.to_owned(), colour)).into());
+        let colours = PartColours::Parts(parts.map(|(glob, colour)| (glob.to_owned(), colour)).into());
         assert_eq!(
             ["leg-left", "lid", "head"].map(|part| colours.of(part).unwrap()),
             [Colour::BLACK, Colour::rgb(1, 2, 3), Colour::WHITE]

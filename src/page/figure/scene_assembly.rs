@@ -50,7 +50,7 @@ pub(crate) fn move_scene(scene: &mut Scene, to: DAffine3) {
 }
 
 /// Appends everything in a scene to another one.
-pub(crate) fn join(all: &mut Scene, mut scene: Scene) {
+pub(crate) fn append_scene(all: &mut Scene, mut scene: Scene) {
     let materials = u32::try_from(all.materials.len()).unwrap_or(u32::MAX);
     let (geometries, parts) = (all.geometries.len(), all.parts.len());
     for geometry in &mut scene.geometries {

@@ -10,14 +10,14 @@
 use std::ops::Range;
 
 /// Maximum number of panels.
-pub const MOST_PANELS: usize = 10_000;
+pub const MAX_PANELS: usize = 10_000;
 
 /// Maximum nesting depth of brackets.
-const DEEPEST: usize = 32;
+const MAX_BRACKET_DEPTH: usize = 32;
 
 /// An error in a layout.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub struct LayoutFault {
     /// Position in the text, bytes.
     pub span: Range<usize>,
     /// Description of the error.
@@ -28,7 +28,7 @@ pub struct Fault {
 
 /// Direction of a stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
+pub enum StackAxis {
     /// Items below each other.
     Rows,
     /// Items side by side.
@@ -37,7 +37,7 @@ pub enum Axis {
 
 /// The share of a stack that an item takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Share {
+pub enum PanelShare {
     /// Percent if another item takes the rest, otherwise a proportion.
     Number(f64),
     /// The rest that other items leave.
@@ -48,9 +48,9 @@ pub enum Share {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stack {
     /// Direction of the stack.
-    pub axis: Axis,
+    pub axis: StackAxis,
     /// The items in reading order.
-    pub items: Vec<Item>,
+    pub items: Vec<StackItem>,
     /// Slant of the gutter after each item except the last, in degrees; it leans or rises to the right if
     /// positive.
     pub slants: Vec<f64>,
@@ -58,9 +58,9 @@ pub struct Stack {
 
 /// A row or column of a stack.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Item {
+pub struct StackItem {
     /// Share of the stack.
-    pub share: Share,
+    pub share: PanelShare,
     /// The stack inside; `None` for a panel.
     pub within: Option<Stack>,
     /// Position in the text, bytes.
@@ -71,8 +71,8 @@ pub struct Item {
 ///
 /// # Errors
 /// Returns an error at the position of the wrong character.
-pub fn parse(text: &str) -> Result<Stack, Fault> {
-    let mut parser = Parser { text, at: 0, panels: 0 };
+pub fn parse(text: &str) -> Result<Stack, LayoutFault> {
+    let mut parser = LayoutParser { text, at: 0, panels: 0 };
     let stack = parser.stack(0)?;
     match parser.peek() {
         None => Ok(stack),
@@ -83,13 +83,13 @@ pub fn parse(text: &str) -> Result<Stack, Fault> {
     }
 }
 
-struct Parser<'a> {
+struct LayoutParser<'a> {
     text: &'a str,
     at: usize,
     panels: usize,
 }
 
-impl Parser<'_> {
+impl LayoutParser<'_> {
     /// The next character after blanks.
     fn peek(&mut self) -> Option<char> {
         let rest = self.text.get(self.at..).unwrap_or_default();
@@ -105,21 +105,21 @@ impl Parser<'_> {
         is_there
     }
 
-    fn fault(&self, message: impl Into<String>, advice: &str) -> Fault {
+    fn fault(&self, message: impl Into<String>, advice: &str) -> LayoutFault {
         let width = self.text.get(self.at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-        Fault { span: self.at..self.at + width, message: message.into(), advice: advice.to_owned() }
+        LayoutFault { span: self.at..self.at + width, message: message.into(), advice: advice.to_owned() }
     }
 
-    fn stack(&mut self, depth: usize) -> Result<Stack, Fault> {
-        if depth > DEEPEST {
-            return Err(self.fault(format!("brackets are more than {DEEPEST} deep"), "nest less"));
+    fn stack(&mut self, depth: usize) -> Result<Stack, LayoutFault> {
+        if depth > MAX_BRACKET_DEPTH {
+            return Err(self.fault(format!("brackets are more than {MAX_BRACKET_DEPTH} deep"), "nest less"));
         }
-        let mut stack = Stack { axis: Axis::Rows, items: vec![self.item(depth)?], slants: Vec::new() };
+        let mut stack = Stack { axis: StackAxis::Rows, items: vec![self.item(depth)?], slants: Vec::new() };
         let mut axis = None;
         loop {
             let next = match self.peek() {
-                Some('/') => Axis::Rows,
-                Some('|') => Axis::Columns,
+                Some('/') => StackAxis::Rows,
+                Some('|') => StackAxis::Columns,
                 _ => break,
             };
             if axis.is_some_and(|axis| axis != next) {
@@ -133,12 +133,12 @@ impl Parser<'_> {
             let item = self.item(depth)?;
             stack.items.push(item);
         }
-        stack.axis = axis.unwrap_or(Axis::Rows);
+        stack.axis = axis.unwrap_or(StackAxis::Rows);
         Ok(stack)
     }
 
     /// The slant of a gutter in degrees, right after its separator; 0 if none is written.
-    fn slant(&mut self) -> Result<f64, Fault> {
+    fn slant(&mut self) -> Result<f64, LayoutFault> {
         let before = self.at;
         self.peek();
         let from = self.at;
@@ -152,7 +152,7 @@ impl Parser<'_> {
         };
         self.at += sign.len();
         if number.abs() > 60.0 {
-            let fault = Fault {
+            let fault = LayoutFault {
                 span: from..self.at,
                 message: "this is not a slant for a gutter".to_owned(),
                 advice: "write degrees from -60 to 60".to_owned(),
@@ -171,24 +171,24 @@ impl Parser<'_> {
         Some(number)
     }
 
-    fn item(&mut self, depth: usize) -> Result<Item, Fault> {
+    fn item(&mut self, depth: usize) -> Result<StackItem, LayoutFault> {
         let wanted = "write a share: a number, or * for the rest; or brackets around rows or columns";
         let next = self.peek();
         let from = self.at;
         let share = match next {
             Some('*') => {
                 self.at += 1;
-                Share::Rest
+                PanelShare::Rest
             }
-            Some('[') => Share::Rest,
+            Some('[') => PanelShare::Rest,
             Some(c) if c.is_ascii_digit() || matches!(c, '.' | '-') => {
                 let number = self.number();
                 if number.is_none_or(|share| share <= 0.0) {
                     let span = from..self.at.max(from + 1);
                     let message = "this share leaves no panel".to_owned();
-                    return Err(Fault { span, message, advice: "write a number above 0".to_owned() });
+                    return Err(LayoutFault { span, message, advice: "write a number above 0".to_owned() });
                 }
-                Share::Number(number.unwrap_or(1.0))
+                PanelShare::Number(number.unwrap_or(1.0))
             }
             None => return Err(self.fault("the layout ends where a panel is due", wanted)),
             Some(other) => return Err(self.fault(format!("`{other}` is not a share"), wanted)),
@@ -203,13 +203,17 @@ impl Parser<'_> {
             Some(stack)
         } else {
             self.panels += 1;
-            if self.panels > MOST_PANELS {
-                let message = format!("a page can hold at most {MOST_PANELS} panels");
-                return Err(Fault { span, message, advice: "spread them over several pages".to_owned() });
+            if self.panels > MAX_PANELS {
+                let message = format!("a page can hold at most {MAX_PANELS} panels");
+                return Err(LayoutFault {
+                    span,
+                    message,
+                    advice: "spread them over several pages".to_owned(),
+                });
             }
             None
         };
-        Ok(Item { share, within, span })
+        Ok(StackItem { share, within, span })
     }
 }
 
@@ -218,17 +222,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn layouts_are_read() {
+    fn layouts_are_parsed() {
         let stack = parse(" 30 [30 | 20 |-8.5° *] / * ").unwrap();
-        assert_eq!((stack.axis, stack.items.len()), (Axis::Rows, 2));
+        assert_eq!((stack.axis, stack.items.len()), (StackAxis::Rows, 2));
         let row = stack.items[0].within.as_ref().unwrap();
-        assert_eq!((row.axis, row.slants.as_slice()), (Axis::Columns, &[0.0, -8.5][..]));
-        assert_eq!(row.items[2].share, Share::Rest);
+        assert_eq!((row.axis, row.slants.as_slice()), (StackAxis::Columns, &[0.0, -8.5][..]));
+        assert_eq!(row.items[2].share, PanelShare::Rest);
         assert_eq!(parse("1").unwrap().items.len(), 1);
     }
 
     #[test]
-    fn what_is_no_layout_is_refused_at_its_place() {
+    fn invalid_layouts_are_refused_at_their_position() {
         for (text, at, message) in [
             ("", 0, "ends"),
             ("1 / ", 4, "ends"),
@@ -243,7 +247,7 @@ mod tests {
             let fault = parse(text).unwrap_err();
             assert!(fault.span.start == at && fault.message.contains(message), "{text}: {fault:?}");
         }
-        let many = format!("1{}", " | 1".repeat(MOST_PANELS));
+        let many = format!("1{}", " | 1".repeat(MAX_PANELS));
         assert!(parse(&many).unwrap_err().message.contains("10000 panels"));
         assert!(parse(&"[".repeat(1000)).unwrap_err().message.contains("deep"));
     }

@@ -22,6 +22,6 @@ pub mod grammar;
 pub mod panel_cells;
 pub mod polygon;
 
-pub use grammar::Fault;
-pub use panel_cells::{Cell, Grid, Reading, cells};
-pub use polygon::Polygon;
+pub use grammar::LayoutFault;
+pub use panel_cells::{LayoutGrid, PanelCell, Reading, cells};
+pub use polygon::ConvexPolygon;

@@ -7,12 +7,12 @@ use std::ops::Range;
 
 use kurbo::{Point, Rect, Vec2};
 
-use super::grammar::{Axis, Fault, Share, Stack, parse};
-use super::polygon::{HalfPlane, Polygon};
+use super::grammar::{LayoutFault, PanelShare, Stack, StackAxis, parse};
+use super::polygon::{ConvexPolygon, HalfPlane};
 use crate::geometry::numbers::portable_math::{cos, sin};
 
 /// Minimum side of a panel, mm.
-const SHORTEST: f64 = 2.0;
+const MIN_PANEL_SIDE_MM: f64 = 2.0;
 
 /// Reading direction of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,7 +26,7 @@ pub enum Reading {
 
 /// The area that a layout divides.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
+pub struct LayoutGrid {
     /// The rectangle to divide.
     pub frame: Rect,
     /// Gap between columns, and between rows.
@@ -37,7 +37,7 @@ pub struct Grid {
 
 /// A panel of a layout.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cell {
+pub struct PanelCell {
     /// Its rectangle if no gutter is slanted.
     pub nominal: Rect,
     /// The half planes of the gutters around it.
@@ -46,11 +46,11 @@ pub struct Cell {
     pub span: Range<usize>,
 }
 
-impl Cell {
+impl PanelCell {
     /// The outline within a frame: the divided area, or a larger one for panels with bleed.
     #[must_use]
-    pub fn outline(&self, frame: Rect) -> Polygon {
-        self.sides.iter().fold(Polygon::from(frame), |rest, side| rest.cut(side))
+    pub fn outline(&self, frame: Rect) -> ConvexPolygon {
+        self.sides.iter().fold(ConvexPolygon::from(frame), |rest, side| rest.cut(side))
     }
 }
 
@@ -58,10 +58,10 @@ impl Cell {
 ///
 /// # Errors
 /// Returns an error at the position of a syntax error or of a panel that is too small.
-pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
+pub fn cells(layout: &str, grid: &LayoutGrid) -> Result<Vec<PanelCell>, LayoutFault> {
     let stack = parse(layout)?;
     let mut cells = Vec::new();
-    split(&stack, grid.frame, &[], grid, &mut cells)?;
+    split_stack(&stack, grid.frame, &[], grid, &mut cells)?;
     if grid.reading == Reading::Rtl {
         let x = grid.frame.center().x;
         for cell in &mut cells {
@@ -71,11 +71,11 @@ pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
         }
     }
     for cell in &cells {
-        let Cell { nominal, span, .. } = cell;
+        let PanelCell { nominal, span, .. } = cell;
         let bounds = cell.outline(grid.frame).bounds();
         let shortest = bounds.width().min(bounds.height()).min(nominal.width()).min(nominal.height());
-        if shortest.is_nan() || shortest < SHORTEST {
-            return Err(Fault {
+        if shortest.is_nan() || shortest < MIN_PANEL_SIDE_MM {
+            return Err(LayoutFault {
                 span: span.clone(),
                 message: format!(
                     "this panel has no size: {:.1} x {:.1} mm",
@@ -89,19 +89,19 @@ pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
     Ok(cells)
 }
 
-fn split(
+fn split_stack(
     stack: &Stack,
     rect: Rect,
     sides: &[HalfPlane],
-    grid: &Grid,
-    cells: &mut Vec<Cell>,
-) -> Result<(), Fault> {
-    let rows = stack.axis == Axis::Rows;
+    grid: &LayoutGrid,
+    cells: &mut Vec<PanelCell>,
+) -> Result<(), LayoutFault> {
+    let rows = stack.axis == StackAxis::Rows;
     let (gutter, from, to) =
         if rows { (grid.gutter[1], rect.y0, rect.y1) } else { (grid.gutter[0], rect.x0, rect.x1) };
     let length = to - from - gutter * (stack.items.len() - 1) as f64;
-    let shares = shares(stack)?;
-    let within = sides.iter().fold(Polygon::from(grid.frame), |rest, side| rest.cut(side));
+    let shares = item_shares(stack)?;
+    let within = sides.iter().fold(ConvexPolygon::from(grid.frame), |rest, side| rest.cut(side));
     let mut begin = from;
     let last = stack.items.len() - 1;
     // The half plane of the gutter before the current item.
@@ -121,8 +121,8 @@ fn split(
         };
         let side =
             |way: f64| HalfPlane { point: centre + across * (way * gutter / 2.0), normal: across * way };
-        if number < last && before.as_ref().is_some_and(|before| meet(before, &side(-1.0), &within)) {
-            return Err(Fault {
+        if number < last && before.as_ref().is_some_and(|before| gutters_meet(before, &side(-1.0), &within)) {
+            return Err(LayoutFault {
                 span: item.span.clone(),
                 message: "the gutters around this panel meet on the page".to_owned(),
                 advice: "reduce their slant, or make it more similar".to_owned(),
@@ -135,8 +135,8 @@ fn split(
             before = Some(side(1.0));
         }
         match &item.within {
-            Some(within) => split(within, own, &own_sides, grid, cells)?,
-            None => cells.push(Cell { nominal: own, sides: own_sides, span: item.span.clone() }),
+            Some(within) => split_stack(within, own, &own_sides, grid, cells)?,
+            None => cells.push(PanelCell { nominal: own, sides: own_sides, span: item.span.clone() }),
         }
         begin = end + gutter;
     }
@@ -144,7 +144,7 @@ fn split(
 }
 
 /// Whether two boundary lines intersect within a polygon.
-fn meet(a: &HalfPlane, b: &HalfPlane, within: &Polygon) -> bool {
+fn gutters_meet(a: &HalfPlane, b: &HalfPlane, within: &ConvexPolygon) -> bool {
     let area = a.normal.cross(b.normal);
     if area == 0.0 {
         return false;
@@ -157,27 +157,27 @@ fn meet(a: &HalfPlane, b: &HalfPlane, within: &Polygon) -> bool {
 }
 
 /// The shares of the items of a stack; their sum is 1.
-fn shares(stack: &Stack) -> Result<Vec<f64>, Fault> {
+fn item_shares(stack: &Stack) -> Result<Vec<f64>, LayoutFault> {
     let numbers = stack.items.iter().filter_map(|item| match item.share {
-        Share::Number(number) => Some(number),
-        Share::Rest => None,
+        PanelShare::Number(number) => Some(number),
+        PanelShare::Rest => None,
     });
     let told: f64 = numbers.sum();
-    let resting = stack.items.iter().filter(|item| item.share == Share::Rest).count();
+    let resting = stack.items.iter().filter(|item| item.share == PanelShare::Rest).count();
     let all_rest = resting == stack.items.len();
     let whole = if resting == 0 { told } else { 100.0 };
     if resting > 0 && !all_rest && told >= 100.0 {
-        let first = stack.items.iter().find(|item| item.share == Share::Rest);
-        return Err(Fault {
+        let first = stack.items.iter().find(|item| item.share == PanelShare::Rest);
+        return Err(LayoutFault {
             span: first.map_or(0..0, |item| item.span.clone()),
             message: format!("no room is left for the rest: the other shares add up to {told} %"),
             advice: "with *, shares are percent and must add up to less than 100".to_owned(),
         });
     }
     let rest = (whole - told) / resting.max(1) as f64;
-    let share = |share: Share| match share {
-        Share::Number(number) => number / whole,
-        Share::Rest => rest / whole,
+    let share = |share: PanelShare| match share {
+        PanelShare::Number(number) => number / whole,
+        PanelShare::Rest => rest / whole,
     };
     Ok(stack.items.iter().map(|item| share(item.share)).collect())
 }

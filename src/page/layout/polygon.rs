@@ -1,4 +1,4 @@
-//! [`Polygon`]: convex polygons with clipping and separation tests.
+//! [`ConvexPolygon`]: convex polygons with clipping and separation tests.
 //!
 //! Clipping by a half plane follows Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
 
@@ -30,15 +30,15 @@ impl HalfPlane {
 
 /// A convex polygon, clockwise with y down; may be empty.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Polygon(pub Vec<Point>);
+pub struct ConvexPolygon(pub Vec<Point>);
 
-impl From<Rect> for Polygon {
+impl From<Rect> for ConvexPolygon {
     fn from(r: Rect) -> Self {
         Self([(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(Point::from).to_vec())
     }
 }
 
-impl Polygon {
+impl ConvexPolygon {
     /// The part of the polygon in a half plane.
     #[must_use]
     pub fn cut(&self, side: &HalfPlane) -> Self {
@@ -140,18 +140,18 @@ impl Polygon {
 mod tests {
     use super::*;
 
-    fn square(x: f64, side: f64) -> Polygon {
+    fn square(x: f64, side: f64) -> ConvexPolygon {
         Rect::new(x, 0.0, x + side, side).into()
     }
 
     #[test]
-    fn polygons_are_cut_and_measured() {
+    fn polygons_are_clipped_and_measured() {
         let square = square(0.0, 4.0);
         assert_eq!(square.area(), 16.0);
         let half = HalfPlane { point: Point::new(1.0, 0.0), normal: Vec2::new(1.0, 0.0) };
         assert_eq!(square.cut(&half).area(), 12.0);
         assert_eq!(square.inset(1.0).bounds(), Rect::new(1.0, 1.0, 3.0, 3.0));
-        assert_eq!(square.inset(3.0), Polygon::default());
+        assert_eq!(square.inset(3.0), ConvexPolygon::default());
     }
 
     #[test]

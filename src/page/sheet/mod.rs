@@ -32,41 +32,41 @@ use kurbo::{Affine, Point, Rect};
 
 pub use frame::title_block::TitleKeys;
 pub use keys::sheet_keys::SheetPage;
-pub use view::projection_method::Method;
+pub use view::projection_method::ProjectionMethod;
 
-use super::composed_page::Composed;
+use super::composed_page::ComposedPage;
 use super::figure;
-use super::page_size::Size;
-use super::page_source::Source;
+use super::page_size::PageSize;
+use super::page_source::PageSource;
 use crate::colour::srgb::Colour;
-use crate::drawing::{Composition, Item, Page, Unit};
+use crate::drawing::{Composition, Page, PlacedDrawing, Unit};
 use crate::error::Error;
 use crate::mesh::Mesh;
 use crate::pipeline::Prepared;
 use crate::surface::Cylinder;
 use crate::text::Font;
-use annotations::{Board, DrawnViews, Layout};
-use arrangement::view_arrangement::arrange;
-use arrangement::view_plan::{Plan, read_scale};
-use canvas::sheet_canvas::Ink;
-use dimensions::dimension_set::Measures;
-use dimensions::hole_dimensions::Round;
-use frame::parts_table::ItemTable;
+use annotations::{AnnotationBoard, Annotations, ViewDrawings};
+use arrangement::view_arrangement::arrange_views;
+use arrangement::view_plan::{ViewPlan, read_scale};
+use canvas::sheet_canvas::SheetCanvas;
+use dimensions::dimension_set::DimensionSet;
+use dimensions::hole_dimensions::HoleDimension;
+use frame::parts_table::PartsTable;
 use keys::sheet_keys::ListKeys;
 
 /// Gap between the frame and the views, mm.
-const INSET: f64 = 4.0;
+const FRAME_INSET_MM: f64 = 4.0;
 
 /// Clearance around centring marks, mm.
-const MARK_CLEAR: f64 = 2.0;
+const MARK_CLEARANCE_MM: f64 = 2.0;
 
 impl SheetPage {
     /// The files that the sheet is made from.
     #[must_use]
-    pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
-        let style = self.style.as_ref().and_then(|style| figure::figure_style::file(style, source));
+    pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
+        let style = self.style.as_ref().and_then(|style| figure::figure_style::style_file(style, source));
         let list = match self.parts_list.as_ref().map(toml::Spanned::get_ref) {
-            Some(ListKeys::File(path)) => Some(source.beside(path)),
+            Some(ListKeys::File(path)) => Some(source.resolve(path)),
             _ => None,
         };
         self.model.files(source).chain(style).chain(list).collect()
@@ -79,17 +79,18 @@ impl SheetPage {
 
     /// The size of the sheet in its orientation.
     #[must_use]
-    pub fn lying(&self) -> Size {
-        let size = self.size.unwrap_or(Size { width: 420.0, height: 297.0 });
+    pub fn lying(&self) -> PageSize {
+        let size = self.size.unwrap_or(PageSize { width: 420.0, height: 297.0 });
         let is_small = size.width.max(size.height) <= 297.0;
-        if is_small { size } else { size.lying() }
+        if is_small { size } else { size.landscape() }
     }
 }
 
 /// The name of a standard size, or an empty string.
-fn size_name(size: Size) -> &'static str {
-    let is_it = |name: &&str| Size::parse(name).is_some_and(|known| known == size || known.lying() == size);
-    Size::names().find(is_it).unwrap_or("")
+fn size_name(size: PageSize) -> &'static str {
+    let is_it =
+        |name: &&str| PageSize::parse(name).is_some_and(|known| known == size || known.landscape() == size);
+    PageSize::names().find(is_it).unwrap_or("")
 }
 
 /// Draws a sheet.
@@ -97,63 +98,72 @@ fn size_name(size: Size) -> &'static str {
 /// # Errors
 /// Returns an error if the model or style cannot be read, a key names something that does not exist, or the
 /// views do not fit.
-pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
+pub fn compose(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
     let in_file = |error: Error| if error.file.is_some() { error } else { error.in_file(&source.path) };
     compose_sheet(sheet, source).map_err(in_file)
 }
 
-fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
+fn compose_sheet(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
     let size = sheet.lying();
     let font = match &sheet.font {
         None => Font::named("technical")?,
         Some(name) => {
-            let file = source.beside(name.get_ref());
+            let file = source.resolve(name.get_ref());
             let font = if file.is_file() { Font::open(&file) } else { Font::named(name.get_ref()) };
             font.map_err(|error| source.about(&name.span(), error))?
         }
     };
-    let mut plan = Plan::new(sheet, source)?;
+    let mut plan = ViewPlan::new(sheet, source)?;
     let (items, mut warnings) = items(sheet, &plan, source)?;
     let technical = toml::Spanned::new(0..0, "technical".to_owned());
     let style = sheet.style.as_ref().unwrap_or(&technical);
     warnings.extend(figure::figure_style::unit_warning(style, &sheet.set, source));
-    let space = frame::zone_frame::space(size);
+    let space = frame::zone_frame::drawing_space(size);
     let block = frame::title_block::TitleBlock::new(&sheet.title, space, &font, source)?;
-    let table = ItemTable::new(&items, block.place, space, &font).map_err(|error| {
+    let table = PartsTable::new(&items, block.place, space, &font).map_err(|error| {
         sheet.parts_list.as_ref().map_or(error.clone(), |told| source.about(&told.span(), error))
     })?;
     let mut tables = vec![block.place];
     tables.extend(table.as_ref().map(|table| table.place));
-    let (written, notes) = arrangement::titles_and_notes::written(sheet, (space, &tables), &font, source)?;
+    let (written, notes) =
+        arrangement::titles_and_notes::write_notes(sheet, (space, &tables), &font, source)?;
     let marks = frame::zone_frame::centring_marks(size, &tables);
-    let inner = space.inflate(-INSET, -INSET);
+    let inner = space.inflate(-FRAME_INSET_MM, -FRAME_INSET_MM);
     let taken: Vec<Rect> = tables
         .iter()
         .chain(&notes)
-        .map(|rect| rect.inflate(INSET, INSET))
-        .chain(marks.iter().map(|[a, b]| Rect::from_points(*a, *b).inflate(MARK_CLEAR, MARK_CLEAR)))
+        .map(|rect| rect.inflate(FRAME_INSET_MM, FRAME_INSET_MM))
+        .chain(
+            marks
+                .iter()
+                .map(|[a, b]| Rect::from_points(*a, *b).inflate(MARK_CLEARANCE_MM, MARK_CLEARANCE_MM)),
+        )
         .collect();
 
-    let mut laying = Laying::new(sheet, &plan, source)?;
-    let laid = laying.lay(&mut plan, (inner, &taken), (&font, &items), source)?;
+    let mut laying = SheetLayout::new(sheet, &plan, source)?;
+    let laid = laying.settle_layout(&mut plan, (inner, &taken), (&font, &items), source)?;
     let (drawn, told) = laid.views;
     warnings.extend(told);
-    let mut ink = Ink::new(&font, "frame");
-    frame::zone_frame::draw(size, &marks, &mut ink)?;
-    let mut parts = vec![whole("frame", ink, size)];
-    let mut ink = Ink::new(&font, "title-block");
-    let names =
-        (&*view::scale_series::written(laid.scale), sheet.projection, size_name(size), plan.values.unit.name);
+    let mut ink = SheetCanvas::new(&font, "frame");
+    frame::zone_frame::draw_frame(size, &marks, &mut ink)?;
+    let mut parts = vec![page_item("frame", ink, size)];
+    let mut ink = SheetCanvas::new(&font, "title-block");
+    let names = (
+        &*view::scale_series::format_scale(laid.scale),
+        sheet.projection,
+        size_name(size),
+        plan.values.unit.name,
+    );
     block.draw(names, &mut ink)?;
-    parts.push(whole("title-block", ink, size));
+    parts.push(page_item("title-block", ink, size));
     parts.extend(drawn);
     if let Some(table) = &table {
-        let mut ink = Ink::new(&font, "parts-list");
+        let mut ink = SheetCanvas::new(&font, "parts-list");
         table.draw(&mut ink)?;
-        parts.push(whole("parts-list", ink, size));
+        parts.push(page_item("parts-list", ink, size));
     }
     let mut written = written;
-    let mut balloons = Ink::new(&font, "balloon");
+    let mut balloons = SheetCanvas::new(&font, "balloon");
     for board in laid.boards {
         written.marks.extend(board.ink.marks);
         balloons.marks.extend(board.balloons.marks);
@@ -164,28 +174,28 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
                 warnings.push(format!("item '{}' is not visible in the view with balloons", item.name));
             }
         }
-        parts.push(whole("balloons", balloons, size));
+        parts.push(page_item("balloons", balloons, size));
     }
-    parts.push(whole("notes", written, size));
+    parts.push(page_item("notes", written, size));
     let page =
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     let composition = Composition::new(name, page, parts);
-    warnings.extend(arrangement::titles_and_notes::unreadable(&composition));
-    Ok(Composed { composition, warnings })
+    warnings.extend(arrangement::titles_and_notes::unreadable_text_warning(&composition));
+    Ok(ComposedPage { composition, warnings })
 }
 
 /// The items of the parts list, and warnings about parts that belong to no item.
 fn items(
     sheet: &SheetPage,
-    plan: &Plan,
-    source: &Source,
-) -> Result<(Vec<parts_list::parts_list_items::Item>, Vec<String>), Error> {
+    plan: &ViewPlan,
+    source: &PageSource,
+) -> Result<(Vec<parts_list::parts_list_items::PartsListItem>, Vec<String>), Error> {
     if !sheet.has_parts_list() {
         return Ok((Vec::new(), Vec::new()));
     }
     let scene = &plan.sets[0].scene;
-    let own = parts_list::parts_list_items::items(scene);
+    let own = parts_list::parts_list_items::parts_list_items(scene);
     let Some((told, ListKeys::File(path))) = sheet.parts_list.as_ref().map(|told| (told, told.get_ref()))
     else {
         return Ok((own, Vec::new()));
@@ -198,29 +208,29 @@ fn items(
 
 /// Maximum number of layout rounds: annotations change the scale, and the scale changes the room of
 /// annotations.
-const ROUNDS: usize = 60;
+const MAX_LAYOUT_ROUNDS: usize = 60;
 
 /// Enlargements that are tried for a view inside a ring of balloons.
-const RINGS_FILLED: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
+const RING_ENLARGEMENTS: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
 
 /// A sheet whose views have their final positions.
-struct Laid {
+struct SettledLayout {
     scale: f64,
-    views: (Vec<Item>, Vec<String>),
-    boards: Vec<Board>,
+    views: (Vec<PlacedDrawing>, Vec<String>),
+    boards: Vec<AnnotationBoard>,
     anchors: Vec<Option<DVec2>>,
 }
 
 /// Data that stays the same while the views are arranged repeatedly.
-struct Laying<'a> {
+struct SheetLayout<'a> {
     sheet: &'a SheetPage,
     overall: bool,
-    rounds: Option<Vec<Round>>,
+    rounds: Option<Vec<HoleDimension>>,
     cylinders: Vec<Cylinder>,
 }
 
-impl<'a> Laying<'a> {
-    fn new(sheet: &'a SheetPage, plan: &Plan, source: &Source) -> Result<Self, Error> {
+impl<'a> SheetLayout<'a> {
+    fn new(sheet: &'a SheetPage, plan: &ViewPlan, source: &PageSource) -> Result<Self, Error> {
         let dimensions = match &sheet.dimensions {
             None => "overall",
             Some(told) => match &**told.get_ref() {
@@ -231,7 +241,7 @@ impl<'a> Laying<'a> {
         let auto = dimensions == "auto";
         let is_single = plan.sets[0].scene.parts.len() == 1;
         let cylinders = if sheet.centre_lines.unwrap_or(is_single || auto) {
-            dimensions::hole_dimensions::whole(&Mesh::build(plan.sets[0].scene.to_soup()))
+            dimensions::hole_dimensions::whole_cylinders(&Mesh::build(plan.sets[0].scene.to_soup()))
         } else {
             Vec::new()
         };
@@ -239,46 +249,46 @@ impl<'a> Laying<'a> {
         Ok(Self { sheet, overall, rounds: auto.then(Vec::new), cylinders })
     }
 
-    fn measures(&self, plan: &Plan, source: &Source) -> Result<Measures, Error> {
-        let mut measures = Measures::default();
+    fn measures(&self, plan: &ViewPlan, source: &PageSource) -> Result<DimensionSet, Error> {
+        let mut measures = DimensionSet::default();
         if self.overall {
             measures.add_overall(plan);
         }
         if let Some(rounds) = &self.rounds {
             measures.add_rounds(plan, rounds);
         }
-        dimensions::requested_dimensions::add_told(self.sheet, plan, &mut measures, source)?;
+        dimensions::requested_dimensions::add_requested(self.sheet, plan, &mut measures, source)?;
         Ok(measures)
     }
 
     /// Arranges the views until all annotations fit.
-    fn lay(
+    fn settle_layout(
         &mut self,
-        plan: &mut Plan,
+        plan: &mut ViewPlan,
         place: (Rect, &[Rect]),
-        (font, items): (&Font, &[parts_list::parts_list_items::Item]),
-        source: &Source,
-    ) -> Result<Laid, Error> {
+        (font, items): (&Font, &[parts_list::parts_list_items::PartsListItem]),
+        source: &PageSource,
+    ) -> Result<SettledLayout, Error> {
         let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
         let sets = plan.sets.clone();
         let mut prepared = Vec::new();
         for (number, set) in sets.iter().enumerate() {
             prepared.push(plan.set_of.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
         }
-        let mut drawn = DrawnViews::new(prepared, plan.views.len());
+        let mut drawn = ViewDrawings::new(prepared, plan.views.len());
         let mut anchors: Option<Vec<Option<DVec2>>> = None;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_LAYOUT_ROUNDS {
             let unit_mm = plan.unit_mm();
-            let arranged = arrange(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
-            let Some(scale) = arranged else { return Err(self.refused(plan, source)) };
+            let arranged = arrange_views(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
+            let Some(scale) = arranged else { return Err(self.misfit_error(plan, source)) };
             if anchors.is_none() {
                 drawn.update(plan)?;
                 if let Some(rounds) = &mut self.rounds {
-                    *rounds = dimensions::hole_dimensions::rounds(plan);
+                    *rounds = dimensions::hole_dimensions::find_hole_dimensions(plan);
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
-                    let found = part_balloons::balloon_anchors::anchors(
+                    let found = part_balloons::balloon_anchors::find_anchors(
                         sight,
                         &plan.sets[plan.set_of[view]].scene,
                         items,
@@ -289,7 +299,7 @@ impl<'a> Laying<'a> {
                 anchors = Some(found.unwrap_or_default());
             }
             let measures = self.measures(plan, source)?;
-            let layout = Layout {
+            let layout = Annotations {
                 font,
                 measures: &measures,
                 cylinders: &self.cylinders,
@@ -297,7 +307,7 @@ impl<'a> Laying<'a> {
                 anchors: anchors.as_deref().unwrap_or_default(),
                 scale,
             };
-            let boards = |plan: &Plan, drawn: &DrawnViews| {
+            let boards = |plan: &ViewPlan, drawn: &ViewDrawings| {
                 (0..plan.views.len())
                     .map(|view| layout.board(view, plan, drawn))
                     .collect::<Result<Vec<_>, _>>()
@@ -312,7 +322,7 @@ impl<'a> Laying<'a> {
                 continue;
             }
             if let Some(view) = plan.balloons {
-                let board = |plan: &Plan, drawn: &DrawnViews| layout.board(view, plan, drawn);
+                let board = |plan: &ViewPlan, drawn: &ViewDrawings| layout.board(view, plan, drawn);
                 fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
             }
             if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
@@ -320,15 +330,15 @@ impl<'a> Laying<'a> {
                     .remedy("choose a larger size or another scale, or leave something out"));
             }
             let views = drawn.into_items(plan);
-            return Ok(Laid { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
+            return Ok(SettledLayout { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
         }
-        Err(self.refused(plan, source))
+        Err(self.misfit_error(plan, source))
     }
 
     /// The error that the views do not fit; it names the view with the widest margins.
-    fn refused(&self, plan: &Plan, source: &Source) -> Error {
-        let around = |placed: &arrangement::view_arrangement::Placed| {
-            placed.rooms.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>())
+    fn misfit_error(&self, plan: &ViewPlan, source: &PageSource) -> Error {
+        let around = |placed: &arrangement::view_arrangement::PlacedView| {
+            placed.margins.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>())
         };
         let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
         let message = match widest.filter(|placed| around(placed) > 0.0) {
@@ -348,16 +358,16 @@ impl<'a> Laying<'a> {
 
 /// Enlarges a view with balloons as far as the ring of balloons allows. Views to scale keep their size.
 fn fill_ring(
-    plan: &mut Plan,
+    plan: &mut ViewPlan,
     view: usize,
-    drawn: &mut DrawnViews,
-    (scale, laid): (f64, &mut Board),
-    board: impl Fn(&Plan, &DrawnViews) -> Result<Board, Error>,
+    drawn: &mut ViewDrawings,
+    (scale, laid): (f64, &mut AnnotationBoard),
+    board: impl Fn(&ViewPlan, &ViewDrawings) -> Result<AnnotationBoard, Error>,
 ) -> Result<(), Error> {
     let unit = plan.views[view].sight.unit;
-    let Some(most) = plan.views[view].stands.largest(scale * plan.unit_mm()) else { return Ok(()) };
-    for larger in RINGS_FILLED {
-        plan.views[view].enlarge(unit, (unit * larger).min(most));
+    let Some(most) = plan.views[view].placement.max_unit(scale * plan.unit_mm()) else { return Ok(()) };
+    for larger in RING_ENLARGEMENTS {
+        plan.views[view].rescale(unit, (unit * larger).min(most));
         let mut own = board(plan, drawn)?;
         if plan.views[view].has_room_for(&own) {
             drawn.update(plan)?;
@@ -368,29 +378,29 @@ fn fill_ring(
             }
         }
         let now = plan.views[view].sight.unit;
-        plan.views[view].enlarge(now, unit);
+        plan.views[view].rescale(now, unit);
     }
     drawn.update(plan)?;
     Ok(())
 }
 
 /// Widens the margins of views to those that their annotations need. Returns whether they were wide enough.
-fn make_room(views: &mut [arrangement::view_arrangement::Placed], boards: &[Board]) -> bool {
+fn make_room(views: &mut [arrangement::view_arrangement::PlacedView], boards: &[AnnotationBoard]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
-        let needed = Layout::room(board, placed.sight.rect());
-        let own = placed.around_at(placed.sight.unit);
+        let needed = Annotations::room(board, placed.sight.rect());
+        let own = placed.margins_at(placed.sight.unit);
         if needed.iter().zip(own).all(|(needed, own)| *needed <= own + 1e-9) {
             continue;
         }
         fits = false;
-        placed.make_room(needed);
+        placed.widen_margins(needed);
     }
     fits
 }
 
 /// A drawing of the whole sheet as an item of the page.
-fn whole(name: &str, ink: Ink, size: Size) -> Item {
+fn page_item(name: &str, ink: SheetCanvas, size: PageSize) -> PlacedDrawing {
     let drawing = ink.drawing(name, size.width, size.height);
-    Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
+    PlacedDrawing { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
 }

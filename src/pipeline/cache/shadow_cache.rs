@@ -1,4 +1,4 @@
-//! [`LateShadows`]: shadows that all views of a surface share, built with the first view.
+//! [`ShadowCache`]: shadows that all views of a surface share, built with the first view.
 //!
 //! A light fixed in the world casts the same shadows in every view that splits no faces, because shadows lie
 //! on faces.
@@ -11,11 +11,11 @@ use crate::shadows::Shadows;
 
 /// Shadows of the first view.
 #[derive(Debug, Default)]
-pub(crate) struct LateShadows {
+pub(crate) struct ShadowCache {
     first: OnceLock<Arc<Shadows>>,
 }
 
-impl LateShadows {
+impl ShadowCache {
     /// The shadows of these lights on the surface's mesh. Lights that move with the camera get new shadows.
     pub fn of(&self, mesh: &Mesh, casters: &[Caster]) -> Arc<Shadows> {
         if let Some(first) = self.first.get().filter(|first| first.casters() == casters) {
@@ -39,7 +39,7 @@ mod tests {
     fn shadows_are_made_once_for_lights_that_stay() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let mesh = Mesh::build(Soup { positions, triangles: vec![[0, 1, 2]], ..Soup::default() });
-        let late = LateShadows::default();
+        let late = ShadowCache::default();
         let light = |towards| [Caster::Directional { towards }];
         let first = late.of(&mesh, &light(DVec3::Z));
         assert!(Arc::ptr_eq(&first, &late.of(&mesh, &light(DVec3::Z))));

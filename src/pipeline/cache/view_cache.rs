@@ -1,4 +1,4 @@
-//! [`LateSearch`]: results that all views of a surface share, built when they pay off.
+//! [`ViewCache`]: results that all views of a surface share, built when they pay off.
 //!
 //! Trees in dual space (see [`EdgeSearch`]) take time to build and save a little in each later view. They do
 //! not pay for one drawing, but do for the views of a turntable.
@@ -9,26 +9,26 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use crate::light::Cones;
+use crate::light::NormalCones;
 use crate::lines::intersections::intersection_lines;
-use crate::lines::{EdgeSearch, Finer, HiddenLines, Known, LineKind, LineOptions, Surface};
-use crate::mesh::intersect::intersection_cache::PairSearch;
+use crate::lines::{EdgeSearch, Finer, HiddenLines, LineKind, LineOptions, SharedSearches, Surface};
+use crate::mesh::intersect::intersection_cache::IntersectionCache;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
-use crate::visibility::ViewCovers;
+use crate::visibility::ViewOcclusionBuffer;
 
 /// Number of the view that builds the edge search. The search saves the cost of building it in 40 to 240
 /// views, and in about 100 for the median model of `cargo bench --bench dual_tree` (last column). By building
 /// it at that view, the total cost never exceeds twice the optimum.
-const MADE_FOR_VIEW: u32 = 100;
+const SEARCH_BUILD_VIEW: u32 = 100;
 
 /// Least number of edges for which the search is built. Testing fewer edges one by one takes half a
 /// millisecond at most.
-const FEW_EDGES: usize = 20_000;
+const MIN_SEARCH_EDGES: usize = 20_000;
 
 /// Results shared by the views of one surface, built on demand.
 #[derive(Debug, Default)]
-pub(crate) struct LateSearch {
+pub(crate) struct ViewCache {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
     /// Whether a view has found the intersections, or is about to.
@@ -36,29 +36,29 @@ pub(crate) struct LateSearch {
     intersections: OnceLock<IntersectionCurves>,
     /// Number of views that may split faces.
     asked_views: AtomicU32,
-    cones: OnceLock<Cones>,
+    cones: OnceLock<NormalCones>,
     /// Number of views that split faces.
     finer_views: AtomicU32,
-    pairs: OnceLock<PairSearch>,
+    pairs: OnceLock<IntersectionCache>,
 }
 
-impl LateSearch {
+impl ViewCache {
     /// The shared results for one more view. The lines are the same with and without them.
     ///
     /// Views may be drawn in parallel. One thread builds a missing result while others go without, so none
     /// waits.
     ///
     /// With `finds`, this view finds all intersections if no earlier one has.
-    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions, finds: bool) -> Known<'_> {
+    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions, finds: bool) -> SharedSearches<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
-        if view + 1 == MADE_FOR_VIEW && surface.mesh.edges.len() >= FEW_EDGES {
+        if view + 1 == SEARCH_BUILD_VIEW && surface.mesh.edges.len() >= MIN_SEARCH_EDGES {
             let _ = self.search.set(EdgeSearch::new(surface));
         }
         if finds && is_wanted(surface, options) && !self.is_found.swap(true, Ordering::Relaxed) {
             let _ = self.intersections.set(intersection_lines::all_curves(&surface.mesh));
         }
-        Known { search: self.search.get(), intersections: self.intersections.get() }
+        SharedSearches { search: self.search.get(), intersections: self.intersections.get() }
     }
 
     /// Intersections of the visible surface for one more view, with the view's covers.
@@ -72,25 +72,25 @@ impl LateSearch {
         view: &View,
         finer: Option<&IntersectionCurves>,
         options: &LineOptions,
-    ) -> Option<(ViewCovers, IntersectionCurves)> {
+    ) -> Option<(ViewOcclusionBuffer, IntersectionCurves)> {
         let is_told = is_wanted(surface, options)
             && if surface.refined { finer.is_some() } else { self.views.load(Ordering::Relaxed) > 0 };
         if is_told || options.hidden != HiddenLines::None || !has_intersections(options) {
             return None;
         }
-        let covers = ViewCovers::of(&surface.mesh, view)?;
-        let out_of_sight = covers.out_of_sight(&surface.mesh, view);
+        let covers = ViewOcclusionBuffer::of(&surface.mesh, view)?;
+        let out_of_sight = covers.occluded_faces(&surface.mesh, view);
         let curves = intersection_lines::curves_in_sight(&surface.mesh, out_of_sight);
         Some((covers, curves))
     }
 
     /// Bounds of the edges of a surface, for one more view that may split its faces.
-    pub fn cones_of_next_view(&self, surface: &Surface) -> Option<&Cones> {
+    pub fn cones_of_next_view(&self, surface: &Surface) -> Option<&NormalCones> {
         let is_asked =
-            !surface.refined && surface.mesh.edges.len() >= FEW_EDGES && !surface.smooth.is_empty();
+            !surface.refined && surface.mesh.edges.len() >= MIN_SEARCH_EDGES && !surface.smooth.is_empty();
         // Built at the second view: a surface drawn only once gains nothing.
         if is_asked && self.asked_views.fetch_add(1, Ordering::Relaxed) == 1 {
-            let _ = self.cones.set(Cones::new(&surface.mesh, &surface.smooth));
+            let _ = self.cones.set(NormalCones::new(&surface.mesh, &surface.smooth));
         }
         self.cones.get()
     }

@@ -8,18 +8,18 @@ use rustc_hash::FxHashMap;
 use crate::drawing::{Hotspot, Page};
 use crate::error::Error;
 use crate::hatching::HatchOptions;
-use crate::light::tones::tone_options::Scale;
+use crate::light::tones::tone_options::ToneScale;
 use crate::light::{LightOptions, ShadeOptions, ToneOptions};
 use crate::lines::{LineKind, LineOptions, Source};
 use crate::mesh::{MaterialId, PaintId};
 use crate::pipeline::Prepared;
 use crate::regions::paint::region_paint;
-use crate::regions::{self, Look, PageBorders, RegionOptions};
+use crate::regions::{self, PageBorders, RegionOptions, SurfaceLabel};
 use crate::scene::{Camera, GlassDraw, GlassOptions, Scene, TextureFill, TextureOptions};
 use crate::style::Style;
 
 /// Kinds of lines between parts.
-const BETWEEN: [LineKind; 5] =
+const PART_BORDER_KINDS: [LineKind; 5] =
     [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
 
 /// A style that paints each part in one tone. Lines run where those of `style` do.
@@ -29,11 +29,11 @@ fn one_tone(style: &Style) -> Style {
         lines: LineOptions {
             enabled: true,
             source: Source::Object,
-            kinds: BETWEEN.to_vec(),
+            kinds: PART_BORDER_KINDS.to_vec(),
             ..style.lines.clone()
         },
         light: LightOptions::default(),
-        tones: ToneOptions { scale: Scale::Thresholds(Vec::new()), ..ToneOptions::default() },
+        tones: ToneOptions { scale: ToneScale::Thresholds(Vec::new()), ..ToneOptions::default() },
         textures: TextureOptions { fill: TextureFill::Off, ..style.textures },
         patterns: Vec::new(),
         region: RegionOptions { enabled: true, ..RegionOptions::default() },
@@ -66,7 +66,7 @@ pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Re
     camera.validate()?;
     let style = one_tone(style);
     let prepared = Prepared::new(scene, &style);
-    let by_part = |look: &Look| Look {
+    let by_part = |look: &SurfaceLabel| SurfaceLabel {
         part: look.part,
         material: MaterialId(0),
         paint: PaintId(0),
@@ -77,7 +77,7 @@ pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Re
     let areas = prepared.on_view(camera, page.unit, |on_view| {
         let fills = on_view.fills?;
         let seen = fills.see(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
-        let regions = regions::gather_as(&seen, by_part, &style.region, &style.chain, page.unit);
+        let regions = regions::gather_relabelled(&seen, by_part, &style.region, &style.chain, page.unit);
         let offset = fills.paint_context(&page, camera).offset;
         Some(region_paint::outlines(&regions, offset, 0.0, |_| true))
     });

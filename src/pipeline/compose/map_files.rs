@@ -5,7 +5,7 @@ use crate::parallel::prelude::*;
 use crate::error::Error;
 use crate::lines::image::{self, ImageOptions};
 use crate::mesh::Mesh;
-use crate::view::raster::{Maps, NO_FRONT};
+use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 
 /// Maps of a view as PNG files of equal size, with `lines.image.samples` pixels per px of the drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl MapFiles {
         [(normal, &self.normal), (depth, &self.depth), (edges, &self.edges), (parts, &self.parts)]
     }
 
-    pub(crate) fn new(mesh: &Mesh, maps: &Maps, options: &ImageOptions) -> Result<Self, Error> {
+    pub(crate) fn new(mesh: &Mesh, maps: &NormalDepthMaps, options: &ImageOptions) -> Result<Self, Error> {
         let shown = |pixel: usize| maps.faces[pixel] != NO_FRONT;
         let normal = |pixel: usize| {
             let value = |x: f32| ((x * 0.5 + 0.5) * 255.0).round() as u8;
@@ -44,7 +44,7 @@ impl MapFiles {
             let part = mesh.face_part.get(maps.faces[pixel] as usize);
             part.map_or([255; 3], |part| colour(part.0))
         };
-        let ink = image::ink_dilation::inked(&image::edges(maps, options), maps.columns, options);
+        let ink = image::ink_dilation::dilate_ink(&image::edges(maps, options), maps.columns, options);
         let grey = |pixel: usize| [255 - (ink[pixel] * 255.0).round() as u8];
         Ok(Self {
             normal: encode(maps, png::ColorType::Rgb, png::BitDepth::Eight, normal)?,
@@ -62,7 +62,7 @@ fn colour(part: u32) -> [u8; 3] {
 }
 
 fn encode<const N: usize>(
-    maps: &Maps,
+    maps: &NormalDepthMaps,
     colours: png::ColorType,
     bits: png::BitDepth,
     pixel: impl Fn(usize) -> [u8; N] + Sync + Send,

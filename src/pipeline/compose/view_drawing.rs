@@ -6,28 +6,28 @@ use super::map_files::MapFiles;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Layer, Page, Unit};
 use crate::error::Error;
-use crate::hatching::{self, Hatched};
-use crate::pipeline::fills::fill_pass::{Painted, Unpainted};
-use crate::pipeline::fills::glass::Behind;
-use crate::pipeline::fills::surface_fills::{self, Colours};
+use crate::hatching::{self, LayerStrokes};
+use crate::pipeline::fills::fill_pass::{FillInputs, FillPass};
+use crate::pipeline::fills::glass::BehindGlass;
+use crate::pipeline::fills::surface_fills::{self, SurfaceColours};
 use crate::pipeline::fills::view_hatching;
 use crate::pipeline::fills::view_hatching::Hatching;
-use crate::pipeline::lines::chain_samples::{self, Beside};
+use crate::pipeline::lines::chain_samples::{self, ChainSampler};
 use crate::pipeline::lines::motion_trails::{self, Trails};
 use crate::pipeline::lines::{chain_colours, image_lines, view_chains};
 use crate::pipeline::prepare::prepared_scene::Prepared;
 use crate::pipeline::report::drawing_report::{self, Report, Stopwatch};
 use crate::pipeline::report::{empty_drawing, mesh_defects};
 use crate::pipeline::stages::stage::Stage;
-use crate::pipeline::stages::{self, Made};
-use crate::pipeline::thread_pool::on_threads;
+use crate::pipeline::stages::{self, StageInputs};
+use crate::pipeline::thread_pool::run_on_pool;
 use crate::pipeline::view::page_transform::{centre_on_page, frame_on_page, margin};
-use crate::pipeline::view::visibility_pass::OnView;
-use crate::regions::{Ground, PageBorders};
+use crate::pipeline::view::visibility_pass::VisibleView;
+use crate::regions::{HatchRegions, PageBorders};
 use crate::scene::{Camera, Scene};
 use crate::strokes::{self, InkContext, InkWidths, Parting};
 use crate::view::View;
-use crate::visibility::{Ahead, ViewMap};
+use crate::visibility::{GapOcclusion, ViewMap};
 
 impl Prepared<'_> {
     /// Draws a view as [`render_reported`](crate::pipeline::render_reported) does. The report has only the times spent
@@ -51,7 +51,7 @@ impl Prepared<'_> {
     /// If the camera is invalid: see [`Camera::validate`].
     pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
-        on_threads(|| {
+        run_on_pool(|| {
             let refined = self.surface.refined_for(camera, None);
             let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
             let view = View::new(&surface.mesh, camera);
@@ -63,10 +63,10 @@ impl Prepared<'_> {
     /// The ground of a view's hatching, and the strokes of each of its layers with their identities. `None`
     /// if the style hatches nothing or the camera is invalid.
     #[must_use]
-    pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
+    pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(HatchRegions, Vec<LayerStrokes>)> {
         camera.validate().ok()?;
         self.on_view(camera, page.unit, |on_view| {
-            let OnView { fills, map, behind, .. } = on_view;
+            let VisibleView { fills, map, behind, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
             let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
@@ -79,14 +79,14 @@ impl Prepared<'_> {
     /// The drawing of a view with its report; with a stage named, the result of that stage.
     pub(crate) fn drawn(
         &self,
-        on_view: OnView,
+        on_view: VisibleView,
         camera: &Camera,
         page: Page,
         stage: Option<Stage>,
     ) -> (Drawing, Report) {
         let Self { scene, style, paints, .. } = self;
-        let OnView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
-        let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
+        let VisibleView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
+        let VisibleView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, &style.paper, style.seed).into_iter().collect();
         let lit = fills.filter(|_| surface_fills::is_lit(style));
         let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
@@ -99,8 +99,8 @@ impl Prepared<'_> {
         let paint = || {
             let (fills, borders) = lit.zip(borders.as_ref())?;
             let (paints, behind) = (paints.as_deref(), behind.as_ref());
-            let on = Unpainted { scene, style, paints, fills, surface, lines, borders, behind };
-            Some(Painted::of(&on, &page, camera))
+            let on = FillInputs { scene, style, paints, fills, surface, lines, borders, behind };
+            Some(FillPass::of(&on, &page, camera))
         };
         let link = || {
             let mut watch = Stopwatch::start();
@@ -110,13 +110,13 @@ impl Prepared<'_> {
             let lines = image_lines::joined(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
-            let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, margin);
+            let ahead = GapOcclusion::new(whole, view, &lines, &map.visible_contours, margin);
             let of_view = (scene.as_ref(), &surface.mesh.extents, &view.frame);
             let chains = view_chains::chains(&ahead, &map, (style, &widths), page.unit, of_view);
             (lines, chains, [joining, watch.lap_ms()])
         };
         let (painted, (lines, mut chains, [joining, linking])) = crate::parallel::join(paint, link);
-        let Painted { layers: painted, blacks, warnings: more, regions, leaks, regions_ms, hatching_ms } =
+        let FillPass { layers: painted, blacks, warnings: more, regions, leaks, regions_ms, hatching_ms } =
             painted.unwrap_or_default();
         layers.extend(painted);
         warnings.extend(more);
@@ -135,15 +135,15 @@ impl Prepared<'_> {
         }
         report.stages_ms.chains = linking + watch.lap_ms();
 
-        let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
-        chain_samples::ask(&mut chains, &beside);
+        let beside = ChainSampler { scene, surface, view, style, margin, unit: page.unit };
+        chain_samples::sample_chains(&mut chains, &beside);
         let paints = paints.as_deref();
-        let colours = paints.zip(textures).map(|(paints, textures)| Colours { paints, textures });
-        chain_colours::ask(&mut chains, &beside, lines, colours, blacks.as_ref());
+        let colours = paints.zip(textures).map(|(paints, textures)| SurfaceColours { paints, textures });
+        chain_colours::sample_colours(&mut chains, &beside, lines, colours, blacks.as_ref());
         if let Some(anchors) = &self.anchors {
-            anchors.ask(&mut chains, camera, margin);
+            anchors.anchor_chains(&mut chains, camera, margin);
         }
-        let names = chain_samples::names(lines, surface, &style.stroke);
+        let names = chain_samples::segment_names(lines, surface, &style.stroke);
         let context = InkContext {
             unit: page.unit,
             parts: &parts,
@@ -162,7 +162,7 @@ impl Prepared<'_> {
         };
         match stage {
             None => {
-                let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
+                let clear = behind.as_ref().map_or(&surface.mesh, BehindGlass::clear);
                 let centre = |map: &mut ViewMap| centre_on_page(map, &view.frame, &page);
                 let trails = Trails::of((clear, view, camera), scene, style, page.unit, centre);
                 let before = layers.len();
@@ -175,8 +175,8 @@ impl Prepared<'_> {
                 layers.extend(hatching::tooth(&page, &style.paper, style.seed));
             }
             Some(stage) => {
-                let ahead = Ahead::new(whole, view, lines, &map.seen_contours, margin);
-                let made = Made {
+                let ahead = GapOcclusion::new(whole, view, lines, &map.visible_contours, margin);
+                let made = StageInputs {
                     surface,
                     view,
                     lines,
@@ -209,7 +209,7 @@ impl Prepared<'_> {
         }
         if stage.is_none() && empty_drawing::shows_nothing(&layers) {
             let seen = (&surface.mesh, view);
-            report.warnings.push(empty_drawing::reason(scene, seen, style, !chains.is_empty()));
+            report.warnings.push(empty_drawing::empty_reason(scene, seen, style, !chains.is_empty()));
         }
         let warnings = report.warnings.clone();
         (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)

@@ -1,25 +1,25 @@
-//! [`Painted`]: everything below the lines of a drawing: paint and hatching.
+//! [`FillPass`]: everything below the lines of a drawing: paint and hatching.
 
-use super::glass::Behind;
-use super::surface_fills::Fills;
+use super::glass::BehindGlass;
+use super::surface_fills::SurfaceFills;
 use super::view_hatching::Hatching;
 use super::{pattern_pass, picture_pass};
 use crate::drawing::{Layer, LayerKind, Page};
 use crate::lines::{FeatureLines, Surface};
 use crate::pipeline::report::drawing_report::Stopwatch;
-use crate::regions::{Ground, PageBorders};
+use crate::regions::{HatchRegions, PageBorders};
 use crate::scene::paints::triangle_paints::Paints;
 use crate::scene::{Camera, Scene};
-use crate::strokes::{self, Order};
+use crate::strokes::{self, MarkOrder};
 use crate::style::Style;
 
 /// Layers below the lines of a drawing.
 #[derive(Default)]
-pub(crate) struct Painted {
+pub(crate) struct FillPass {
     /// Layers from bottom to top.
     pub layers: Vec<Layer>,
     /// Areas where paint or hatching is black.
-    pub blacks: Option<Ground>,
+    pub blacks: Option<HatchRegions>,
     pub warnings: Vec<String>,
     /// Number of regions.
     pub regions: u64,
@@ -32,21 +32,21 @@ pub(crate) struct Painted {
 }
 
 /// Lit surface with visible lines, to be painted and hatched.
-pub(crate) struct Unpainted<'a> {
+pub(crate) struct FillInputs<'a> {
     pub scene: &'a Scene,
     pub style: &'a Style,
     pub paints: Option<&'a Paints>,
-    pub fills: &'a Fills<'a>,
+    pub fills: &'a SurfaceFills<'a>,
     pub surface: &'a Surface,
     pub lines: &'a FeatureLines,
     pub borders: &'a PageBorders,
-    pub behind: Option<&'a Behind<'a>>,
+    pub behind: Option<&'a BehindGlass<'a>>,
 }
 
-impl Painted {
+impl FillPass {
     /// Paints and hatches a surface.
-    pub fn of(on: &Unpainted, page: &Page, camera: &Camera) -> Self {
-        let Unpainted { scene, style, paints, fills, surface, lines, borders, behind } = *on;
+    pub fn of(on: &FillInputs, page: &Page, camera: &Camera) -> Self {
+        let FillInputs { scene, style, paints, fills, surface, lines, borders, behind } = *on;
         let mut watch = Stopwatch::start();
         let mut painted = Self::default();
         let seen = behind.map_or_else(|| fills.see(borders, page), |behind| behind.see(fills, page));
@@ -54,7 +54,7 @@ impl Painted {
             let (mut layers, regions) = fills.paint(&seen, page, camera, style);
             painted.regions = regions.regions.len() as u64;
             if let Some(paints) = paints {
-                let clear = behind.map_or(&surface.mesh, Behind::clear);
+                let clear = behind.map_or(&surface.mesh, BehindGlass::clear);
                 let (on, asked) = ((clear, lines), (page, camera, style));
                 picture_pass::add(fills, on, (paints, &regions), asked, &mut layers, &mut painted.warnings);
             }
@@ -72,8 +72,8 @@ impl Painted {
             patterned.extend(hatched.take().into_iter().flat_map(|layer| layer.marks));
             hatched = Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
         }
-        if style.stroke.layers.order == Order::Travel {
-            hatched = hatched.map(strokes::travel_order::along);
+        if style.stroke.layers.order == MarkOrder::Travel {
+            hatched = hatched.map(strokes::travel_order::in_travel_order);
         }
         painted.layers.extend(hatched);
         if style.hatch.enabled {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::surface_fills::Fills;
+use super::surface_fills::SurfaceFills;
 use crate::chains::{self, Chain};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Unit};
@@ -10,34 +10,34 @@ use crate::lines::{FeatureLines, HiddenLines, LineOptions, Surface};
 use crate::mesh::{MaterialId, Mesh};
 use crate::regions::{self, PageBorders};
 use crate::scene::textures::cutouts;
-use crate::scene::textures::cutouts::Cut;
+use crate::scene::textures::cutouts::CutScene;
 use crate::scene::{Camera, GlassDraw, Scene, glass};
 use crate::style::Style;
 use crate::view::View;
 use crate::visibility::{self, ViewMap};
 
 /// A scene without the materials that a style leaves out.
-pub(crate) fn left<'a>(scene: &'a Scene, style: &Style) -> Cow<'a, Scene> {
+pub(crate) fn without_absent_materials<'a>(scene: &'a Scene, style: &Style) -> Cow<'a, Scene> {
     let absent = style.glass.opacities(scene, GlassDraw::Absent);
     if absent.is_empty() {
         return Cow::Borrowed(scene);
     }
-    Cow::Owned(glass::without(scene, |material| absent.get(material).copied().flatten().is_some()))
+    Cow::Owned(glass::without_materials(scene, |material| absent.get(material).copied().flatten().is_some()))
 }
 
 /// A scene without the areas that textures cut out, by [`cutouts::cut`].
-pub(crate) fn cut<'a>(scene: &'a Scene, left: &Cow<'a, Scene>) -> Cut<'a> {
+pub(crate) fn cut_textures<'a>(scene: &'a Scene, left: &Cow<'a, Scene>) -> CutScene<'a> {
     match left {
-        Cow::Borrowed(_) => cutouts::cut(scene),
+        Cow::Borrowed(_) => cutouts::cut_out(scene),
         Cow::Owned(left) => {
-            let Cut { scene, origins, warnings } = cutouts::cut(left);
-            Cut { scene: Cow::Owned(scene.into_owned()), origins, warnings }
+            let CutScene { scene, origins, warnings } = cutouts::cut_out(left);
+            CutScene { scene: Cow::Owned(scene.into_owned()), origins, warnings }
         }
     }
 }
 
 /// Mesh with transparent faces.
-pub(crate) struct Panes {
+pub(crate) struct GlassPanes {
     /// The mesh with transparent faces that hide nothing.
     clear: Mesh,
     /// Opacity of each transparent material; `None` for opaque ones.
@@ -45,15 +45,15 @@ pub(crate) struct Panes {
 }
 
 /// Lines and surfaces visible through panes.
-pub(crate) struct Behind<'a> {
-    panes: &'a Panes,
+pub(crate) struct BehindGlass<'a> {
+    panes: &'a GlassPanes,
     /// View map of the lines that are visible when panes hide nothing.
     map: ViewMap,
     /// Lines that are visible through panes only.
     veiled: ViewMap,
 }
 
-impl Panes {
+impl GlassPanes {
     /// The panes of a surface. `None` if it has none, or the style draws them as opaque.
     pub fn of(surface: &Surface, scene: &Scene, style: &Style) -> Option<Self> {
         let opacities = style.glass.opacities(scene, GlassDraw::Glass);
@@ -62,7 +62,7 @@ impl Panes {
         if !mesh.face_material.iter().any(|material| is_pane(*material)) {
             return None;
         }
-        let clear = mesh.seen_through(|face| is_pane(mesh.face_material[face.index()]));
+        let clear = mesh.with_transparent_faces(|face| is_pane(mesh.face_material[face.index()]));
         Some(Self { clear, opacities })
     }
 
@@ -78,20 +78,20 @@ impl Panes {
         view: &View,
         lines: &FeatureLines,
         options: &LineOptions,
-    ) -> Behind<'_> {
+    ) -> BehindGlass<'_> {
         let [map, veiled] = visibility::build_through(mesh, &self.clear, view, lines, options);
-        Behind { panes: self, map, veiled }
+        BehindGlass { panes: self, map, veiled }
     }
 }
 
-impl Behind<'_> {
+impl BehindGlass<'_> {
     /// The mesh with panes that hide nothing.
     pub fn clear(&self) -> &Mesh {
         self.panes.clear()
     }
 
     /// The surfaces visible without panes.
-    pub fn see(&self, fills: &Fills, page: &Page) -> regions::Seen {
+    pub fn see(&self, fills: &SurfaceFills, page: &Page) -> regions::LabelledPage {
         fills.see_behind(&self.panes.clear, &self.map, page)
     }
 
@@ -99,7 +99,7 @@ impl Behind<'_> {
     /// of its material.
     pub fn paint(
         &self,
-        fills: &Fills,
+        fills: &SurfaceFills,
         borders: &PageBorders,
         (page, camera, style): (&Page, &Camera, &Style),
         layers: &mut Vec<Layer>,

@@ -4,26 +4,26 @@ use std::sync::Arc;
 
 use kurbo::Vec2;
 
-use super::surface_fills::Fills;
+use super::surface_fills::SurfaceFills;
 use super::surface_patterns;
 use super::view_hatching::cut_of;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Mark, Page};
 use crate::hatching::guides::section_guides;
-use crate::hatching::{self, Guide, HatchContext, OnSurface, Pattern, PatternFixed, PatternKind};
-use crate::regions::surface_curves::level_curves::{are_seen, level_curves};
-use crate::regions::{Ground, Seen};
+use crate::hatching::{self, Guide, HatchContext, Pattern, PatternFixed, PatternKind, SurfacePattern};
+use crate::regions::surface_curves::level_curves::{are_visible, level_curves};
+use crate::regions::{HatchRegions, LabelledPage};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
 /// Greatest coverage of pattern lines. Denser parts are omitted, because they would fill surfaces that turn
 /// away from the camera.
-const DENSEST: f64 = 0.7;
+const MAX_LINE_COVERAGE: f64 = 0.7;
 
 /// The marks of all patterns of a style.
 pub(crate) fn marks(
-    fills: &Fills,
-    seen: &Seen,
+    fills: &SurfaceFills,
+    seen: &LabelledPage,
     scene: &Scene,
     (page, camera, style): (&Page, &Camera, &Style),
 ) -> Vec<Mark> {
@@ -32,7 +32,7 @@ pub(crate) fn marks(
         return Vec::new();
     }
     let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
-    let ground = Ground::toned(seen, style.region.crumb, page.unit, offset);
+    let ground = HatchRegions::toned(seen, style.region.crumb, page.unit, offset);
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
     let materials: Vec<(Arc<str>, Colour)> =
         scene.materials.iter().map(|own| (Arc::from(own.name.as_str()), own.colour)).collect();
@@ -53,13 +53,13 @@ pub(crate) fn marks(
         let fixed = match (own.fixed, own.kind) {
             (PatternFixed::Page, _) => None,
             (PatternFixed::Surface, PatternKind::Lines | PatternKind::Crosses) => {
-                Some(OnSurface::Guides(guides(fills, &ground, scene, own, page, offset)))
+                Some(SurfacePattern::Guides(guides(fills, &ground, scene, own, page, offset)))
             }
             (PatternFixed::Surface, PatternKind::Dots | PatternKind::Tile) => {
-                Some(surface_patterns::laid(&fills.lit(), &ground, scene, own, page, offset))
+                Some(surface_patterns::surface_figures(&fills.lit(), &ground, scene, own, page, offset))
             }
         };
-        let tones = |look: &crate::regions::Look| fills.tone_count(look.paint);
+        let tones = |look: &crate::regions::SurfaceLabel| fills.tone_count(look.paint);
         hatching::pattern(&ground, &context, own, tones, fixed.as_ref())
     };
     style.patterns.iter().filter(asked).flat_map(of).collect()
@@ -68,8 +68,8 @@ pub(crate) fn marks(
 /// The lines of a pattern that is fixed to the surface: cuts through the model, spaced as on the page at the
 /// camera's target.
 fn guides(
-    fills: &Fills,
-    ground: &Ground,
+    fills: &SurfaceFills,
+    ground: &HatchRegions,
     scene: &Scene,
     own: &Pattern,
     page: &Page,
@@ -83,8 +83,15 @@ fn guides(
     let of = |turn: &f64| {
         let across = cut_of(scene, (own.angle + turn).to_radians());
         let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
-        let curves = level_curves(&lit, offset, cut, |_, density| density * width < DENSEST);
-        section_guides::guides(ground, &curves, |points| are_seen(&lit, offset, points), |_, _| 0, size, 0)
+        let curves = level_curves(&lit, offset, cut, |_, density| density * width < MAX_LINE_COVERAGE);
+        section_guides::guides_along_curves(
+            ground,
+            &curves,
+            |points| are_visible(&lit, offset, points),
+            |_, _| 0,
+            size,
+            0,
+        )
     };
     turns.iter().flat_map(of).collect()
 }

@@ -4,26 +4,26 @@ use std::sync::Arc;
 
 use kurbo::BezPath;
 
-use super::surface_fills::Fills;
+use super::surface_fills::SurfaceFills;
 use crate::drawing::{Layer, Length, Mark, Page, Paint, Provenance};
-use crate::images::facets::face_crossings::Crossings;
-use crate::images::facets::visible_faces::InFront;
-use crate::images::tone_veils::Shades;
-use crate::images::{Stage, pictures};
+use crate::images::facets::face_crossings::FaceCrossings;
+use crate::images::facets::visible_faces::VisibleFaces;
+use crate::images::tone_veils::ToneVeils;
+use crate::images::{ImageContext, pictures};
 use crate::lines::FeatureLines;
 use crate::mesh::{Mesh, PartId};
 use crate::regions::Regions;
 use crate::regions::paint::region_paint::PaintContext;
 use crate::regions::paint::region_unions::unions;
-use crate::scene::textures::Imaged;
+use crate::scene::textures::EmbeddedTexture;
 use crate::scene::{Camera, Paints};
 use crate::style::Style;
-use crate::view::raster::Screen;
+use crate::view::raster::PixelGrid;
 
 /// Adds the pictures of materials to painted regions, and the translucent fills that give them tones. `mesh`
 /// is that of the surface, where panes hide nothing.
 pub(crate) fn add(
-    fills: &Fills,
+    fills: &SurfaceFills,
     (mesh, lines): (&Mesh, &FeatureLines),
     (paints, regions): (&Paints, &Regions),
     (page, camera, style): (&Page, &Camera, &Style),
@@ -32,15 +32,15 @@ pub(crate) fn add(
 ) {
     let Some(over) = layers.last_mut().filter(|_| !paints.images.is_empty()) else { return };
     let (view, context) = (fills.lit().view, fills.paint_context(page, camera));
-    let screen = &Screen::new(mesh, view);
-    let in_front = &InFront::new(mesh, screen);
+    let screen = &PixelGrid::new(mesh, view);
+    let in_front = &VisibleFaces::new(mesh, screen);
     let px = Length::px(1.0).in_unit(page.unit);
-    let (crossings, samples) = (&Crossings::of(mesh, view, lines), style.textures.samples);
-    let stage = Stage { mesh, view, screen, in_front, crossings, offset: context.offset, px, samples };
+    let (crossings, samples) = (&FaceCrossings::of(mesh, view, lines), style.textures.samples);
+    let stage = ImageContext { mesh, view, screen, in_front, crossings, offset: context.offset, px, samples };
     for imaged in &paints.images {
-        let Some(shades) = Shades::of(context.shading, &paints.list, imaged) else { continue };
+        let Some(shades) = ToneVeils::of(context.shading, &paints.list, imaged) else { continue };
         let Some(pieces) = pictures(&stage, imaged, |picture| shades.tone(picture)) else { continue };
-        let painted = Painted { regions, imaged, context: &context };
+        let painted = PictureRegions { regions, imaged, context: &context };
         let parts: Vec<PartId> = pieces.of_part.iter().map(|(part, _)| *part).collect();
         let outlines = painted.outlines(&parts, |_| true);
         let veils: Vec<Vec<BezPath>> = shades
@@ -73,13 +73,13 @@ pub(crate) fn add(
 }
 
 /// Regions that show a picture.
-struct Painted<'a> {
+struct PictureRegions<'a> {
     regions: &'a Regions,
-    imaged: &'a Imaged,
+    imaged: &'a EmbeddedTexture,
     context: &'a PaintContext<'a>,
 }
 
-impl Painted<'_> {
+impl PictureRegions<'_> {
     /// For each of these parts (ascending), the outline of the regions that show the picture in the selected
     /// tones.
     fn outlines(&self, parts: &[PartId], of_tone: impl Fn(u16) -> bool) -> Vec<BezPath> {

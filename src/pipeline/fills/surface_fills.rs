@@ -8,19 +8,21 @@ use kurbo::{BezPath, Vec2};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, Page, Provenance};
 use crate::hatching::{Direction, HatchLayer, PatternFixed};
-use crate::light::ambient_occlusion::openness;
-use crate::light::tones::tone_options::Scale;
-use crate::light::{ShadedNormals, Shading, ToneOptions};
+use crate::light::ambient_occlusion::ambient_visibility;
+use crate::light::tones::tone_options::ToneScale;
+use crate::light::{Shading, ShadingNormals, ToneOptions};
 use crate::lines::isophotes::isophote_lines;
-use crate::lines::isophotes::tone_changes::{self, Darkens, ToneBorders};
+use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorders};
 use crate::lines::paint_borders::{paint_lines, tone_edges};
-use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, in_sight};
+use crate::lines::{FeatureLines, LineKind, LineOptions, Lit, Source, Surface, Textures, visible_faces_of};
 use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
-use crate::pipeline::cache::shadow_cache::LateShadows;
+use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::rest::chain_anchors::Anchors;
-use crate::pipeline::rest::rest_pose::AtRest;
+use crate::pipeline::rest::rest_pose::RestPose;
 use crate::regions::paint::region_paint::PaintContext;
-use crate::regions::{self, Darkened, Look, PageBorders, Region, RegionOptions, Regions, Seen, StepsAs};
+use crate::regions::{
+    self, LabelledPage, PageBorders, Region, RegionOptions, Regions, ShadowDarkening, StepsAs, SurfaceLabel,
+};
 use crate::scene::paints::triangle_paints::Paints;
 use crate::scene::{Camera, Paint, Scene};
 use crate::shadows::Shadows;
@@ -34,32 +36,32 @@ pub(crate) fn is_lit(style: &Style) -> bool {
 }
 
 /// Whether a style draws lines where tones change.
-pub(crate) fn asks_isophotes(style: &Style) -> bool {
+pub(crate) fn draws_isophotes(style: &Style) -> bool {
     let lines = &style.lines;
     lines.enabled && lines.source != Source::Image && lines.kinds.contains(&LineKind::Isophote)
 }
 
 /// Whether a style needs the paints of the surface: for fills, for lines between painted colours, or for
 /// lines between tones.
-pub(crate) fn asks_surface(style: &Style) -> bool {
-    is_lit(style) || asks_artist(style) || asks_isophotes(style)
+pub(crate) fn uses_paints(style: &Style) -> bool {
+    is_lit(style) || draws_artist_lines(style) || draws_isophotes(style)
 }
 
 /// Whether a style draws lines between painted colours.
-pub(crate) fn asks_artist(style: &Style) -> bool {
+pub(crate) fn draws_artist_lines(style: &Style) -> bool {
     style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist)
 }
 
 /// Whether a style lays strokes or patterns that are fixed to the model.
-pub(crate) fn lays_through(style: &Style) -> bool {
+pub(crate) fn has_model_fixed_marks(style: &Style) -> bool {
     let fixed = |layer: &HatchLayer| matches!(layer.direction, Direction::Object | Direction::Uv);
     let hatches = style.hatch.enabled && style.hatch.layers.iter().any(fixed);
     hatches || style.patterns.iter().any(|own| own.fixed == PatternFixed::Surface)
 }
 
 /// Which of tones and hatching bins cast shadows darken.
-fn darkened(style: &Style) -> Darkened {
-    Darkened {
+fn darkened(style: &Style) -> ShadowDarkening {
+    ShadowDarkening {
         tones: has_tones(style) && style.tones.cast_shadows,
         bins: style.hatch.enabled && style.hatch.cast_shadows,
     }
@@ -67,21 +69,21 @@ fn darkened(style: &Style) -> Darkened {
 
 /// Whether light is divided into tones, for paint or for lines between tones.
 fn has_tones(style: &Style) -> bool {
-    style.region.enabled || asks_isophotes(style)
+    style.region.enabled || draws_isophotes(style)
 }
 
 /// The tone options of a style; a single tone if it needs none.
 fn tones(style: &Style) -> ToneOptions {
-    let Darkened { tones, bins } = darkened(style);
+    let ShadowDarkening { tones, bins } = darkened(style);
     let cast_shadows = tones || bins;
     if has_tones(style) {
         return ToneOptions { cast_shadows, ..style.tones.clone() };
     }
-    ToneOptions { scale: Scale::Thresholds(Vec::new()), cast_shadows, ..ToneOptions::default() }
+    ToneOptions { scale: ToneScale::Thresholds(Vec::new()), cast_shadows, ..ToneOptions::default() }
 }
 
 /// Kinds of lines that separate regions, drawn or not.
-const PARTING: [LineKind; 4] =
+const REGION_BORDER_KINDS: [LineKind; 4] =
     [LineKind::Contour, LineKind::Border, LineKind::Material, LineKind::Intersection];
 
 /// Options for the feature lines to be found: those that the style draws, and with regions, those that may
@@ -100,8 +102,11 @@ pub(crate) fn sought(style: &Style) -> LineOptions {
     }
     // Hatching strokes end at creases as well.
     let creases = style.hatch.enabled.then_some(LineKind::Crease);
-    let missing =
-        PARTING.into_iter().chain(creases).filter(|kind| !options.kinds.contains(kind)).collect::<Vec<_>>();
+    let missing = REGION_BORDER_KINDS
+        .into_iter()
+        .chain(creases)
+        .filter(|kind| !options.kinds.contains(kind))
+        .collect::<Vec<_>>();
     options.kinds.extend(missing);
     options
 }
@@ -130,18 +135,18 @@ pub(crate) fn keep_inked(map: &mut ViewMap, style: &Style, unchanged: &[u32]) {
 
 /// Data of a surface for painting that all views share.
 #[derive(Debug)]
-pub(crate) struct Paintable {
-    normals: ShadedNormals,
+pub(crate) struct ToneInputs {
+    normals: ShadingNormals,
     /// Edges where the tone may change.
     edges: EdgeSet,
     /// Whether each part is closed, so that its inside is invisible.
     solid: Vec<bool>,
 }
 
-impl Paintable {
+impl ToneInputs {
     /// Collects the data. `solid` says whether each part of the mesh is closed.
     pub fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
-        let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+        let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
         Self { normals, edges, solid }
     }
@@ -154,17 +159,17 @@ impl Paintable {
 
 /// Paints and textures of a surface.
 #[derive(Clone, Copy)]
-pub(crate) struct Colours<'a> {
+pub(crate) struct SurfaceColours<'a> {
     pub paints: &'a Paints,
     pub textures: &'a Textures,
 }
 
 /// Lit surface of a view, ready to be divided into regions.
-pub(crate) struct Fills<'a> {
+pub(crate) struct SurfaceFills<'a> {
     surface: &'a Surface,
     /// Mesh that casts shadows.
     casting: &'a Mesh,
-    paintable: &'a Paintable,
+    paintable: &'a ToneInputs,
     view: &'a View,
     shading: Shading,
     shadows: Arc<Shadows>,
@@ -175,12 +180,12 @@ pub(crate) struct Fills<'a> {
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
     textures: &'a Textures,
-    darkened: Darkened,
+    darkened: ShadowDarkening,
     /// Rest positions of the mesh, if it is posed.
-    rest: Option<AtRest<'a>>,
+    rest: Option<RestPose<'a>>,
 }
 
-impl<'a> Fills<'a> {
+impl<'a> SurfaceFills<'a> {
     /// Lights the surface of a view.
     ///
     /// `casting` is the mesh that casts shadows: that of the surface, where some faces may hide nothing. If
@@ -188,11 +193,11 @@ impl<'a> Fills<'a> {
     #[expect(clippy::too_many_arguments, reason = "it is called once, and each is another thing")]
     pub fn new(
         surface: &'a Surface,
-        (casting, late): (&'a Mesh, Option<&LateShadows>),
-        paintable: &'a Paintable,
+        (casting, late): (&'a Mesh, Option<&ShadowCache>),
+        paintable: &'a ToneInputs,
         view: &'a View,
         scene: &Scene,
-        Colours { paints, textures }: Colours<'a>,
+        SurfaceColours { paints, textures }: SurfaceColours<'a>,
         style: &Style,
         warnings: &mut Vec<String>,
     ) -> Self {
@@ -207,10 +212,10 @@ impl<'a> Fills<'a> {
             None => Arc::new(Shadows::new(casting, shading.casters())),
         };
         let dims = style.light.occlusion > 0.0;
-        let nook = |at: DVec3| frame.side_at(frame.depth(at)) * NOOK_OF_FRAME;
+        let nook = |at: DVec3| frame.side_at(frame.depth(at)) * OCCLUSION_RADIUS_OF_FRAME;
         // Through glass more is visible than the front faces.
-        let asked = || if std::ptr::eq(casting, mesh) { in_sight(mesh, view) } else { Vec::new() };
-        let openness = if dims { openness(mesh, &asked(), nook) } else { Vec::new() };
+        let asked = || if std::ptr::eq(casting, mesh) { visible_faces_of(mesh, view) } else { Vec::new() };
+        let openness = if dims { ambient_visibility(mesh, &asked(), nook) } else { Vec::new() };
         Self {
             surface,
             casting,
@@ -231,7 +236,7 @@ impl<'a> Fills<'a> {
 
     /// Fixes patterns and strokes through the model to its rest pose.
     pub fn laid_at(self, anchors: &'a Anchors) -> Self {
-        Self { rest: AtRest::new(anchors, &self.surface.mesh), ..self }
+        Self { rest: RestPose::new(anchors, &self.surface.mesh), ..self }
     }
 
     /// The rest positions of a face's corners, world.
@@ -308,42 +313,42 @@ impl<'a> Fills<'a> {
         let casters = self.shadows.lines.segments.iter().map(|segment| segment.caster).collect();
         let shadows = first..lines.segments.len();
         let borders = ToneBorders { edges, isophotes, traced, shadows, casters };
-        let Darkened { tones, bins } = self.darkened;
+        let ShadowDarkening { tones, bins } = self.darkened;
         tone_changes::unchanged(
             &lit,
             &borders,
-            Darkens { tones, bins },
+            ShadowEffects { tones, bins },
             |points| self.shadowed(points),
             lines,
         )
     }
 
     /// The visible surface, divided by the given borders.
-    pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
+    pub fn see(&self, borders: &PageBorders, page: &Page) -> LabelledPage {
         self.see_lit(&self.lit(), borders, page)
     }
 
     /// The visible surface with another mesh in front, which has the same faces but hides less.
-    pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
+    pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> LabelledPage {
         let borders = PageBorders::of(map, &self.view.frame);
         self.see_lit(&Lit { mesh: clear, ..self.lit() }, &borders, page)
     }
 
-    fn see_lit(&self, lit: &Lit, borders: &PageBorders, page: &Page) -> Seen {
+    fn see_lit(&self, lit: &Lit, borders: &PageBorders, page: &Page) -> LabelledPage {
         let has_shadows = !self.shadows.casters().is_empty();
         let shadowed = has_shadows.then_some(|points: &[_]| self.shadowed(points));
-        regions::see(lit, borders, shadowed, self.darkened, page.unit)
+        regions::label_page(lit, borders, shadowed, self.darkened, page.unit)
     }
 
     /// Outlines of the regions whose look `pick` accepts, with colour, look and provenance.
     pub fn outlines(
         &self,
-        seen: &Seen,
+        seen: &LabelledPage,
         page: &Page,
         camera: &Camera,
         style: &Style,
-        pick: impl Fn(&Look) -> bool,
-    ) -> Vec<(BezPath, Colour, Look, Provenance)> {
+        pick: impl Fn(&SurfaceLabel) -> bool,
+    ) -> Vec<(BezPath, Colour, SurfaceLabel, Provenance)> {
         // Each outline has one colour.
         let options = RegionOptions { steps_as: StepsAs::Bands, ..style.region.clone() };
         let regions = regions::gather(seen, &options, &style.chain, page.unit);
@@ -379,22 +384,28 @@ impl<'a> Fills<'a> {
     }
 
     /// The painted layers and their regions.
-    pub fn paint(&self, seen: &Seen, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
+    pub fn paint(
+        &self,
+        seen: &LabelledPage,
+        page: &Page,
+        camera: &Camera,
+        style: &Style,
+    ) -> (Vec<Layer>, Regions) {
         let regions = regions::gather(seen, &style.region, &style.chain, page.unit);
         (regions::paint(&regions, &self.paint_context(page, camera), &style.region), regions)
     }
 }
 
 /// Occlusion radius as a share of the frame's longer side at a point's depth.
-const NOOK_OF_FRAME: f64 = 0.15;
+const OCCLUSION_RADIUS_OF_FRAME: f64 = 0.15;
 
 /// Greatest number of lights for which every shadow combination is searched. With more lights, only none,
 /// each and all are searched.
-const FEW_LIGHTS: u32 = 3;
+const MAX_COMBINED_LIGHTS: u32 = 3;
 
 fn masks(lights: u32) -> Vec<u32> {
     let all = (1 << lights) - 1;
-    if lights <= FEW_LIGHTS {
+    if lights <= MAX_COMBINED_LIGHTS {
         return (0..=all).collect();
     }
     [0].into_iter().chain((0..lights).map(|k| 1 << k)).chain([all]).collect()

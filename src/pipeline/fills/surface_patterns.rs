@@ -6,34 +6,34 @@ use kurbo::Vec2;
 use super::view_hatching::texture_scales;
 use crate::drawing::Page;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::hatching::{OnSurface, Pattern, PatternKind};
+use crate::hatching::{Pattern, PatternKind, SurfacePattern};
 use crate::lines::Lit;
 use crate::mesh::{FaceId, Mesh};
-use crate::regions::Ground;
-use crate::regions::surface_curves::decals::{Chart, Figure, MOST_FIGURES, count, decals};
+use crate::regions::HatchRegions;
+use crate::regions::surface_curves::decals::{Chart, Figure, MAX_FIGURES, count, decals};
 use crate::scene::{Scene, UpAxis};
 use crate::view::{Frame, View};
 
 /// Least area of texture coordinates relative to the usual scale of their part. Below it they are ignored.
-const NO_TEXTURE: f64 = 1e-4;
+const MIN_TEXTURE_AREA_SHARE: f64 = 1e-4;
 
 /// Number of points on the outline of a dot.
 const DOT_POINTS: u32 = 40;
 
 /// The dots or tiles of a pattern on the surface.
-pub(crate) fn laid(
+pub(crate) fn surface_figures(
     lit: &Lit,
-    ground: &Ground,
+    ground: &HatchRegions,
     scene: &Scene,
     own: &Pattern,
     page: &Page,
     offset: Vec2,
-) -> OnSurface {
+) -> SurfacePattern {
     let mesh = lit.mesh;
     let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
     let (figures, filled) = figures(own, width / size);
     if figures.is_empty() {
-        return OnSurface::Decals(Vec::new(), filled);
+        return SurfacePattern::Decals(Vec::new(), filled);
     }
     let material = |face: u32| {
         let number = mesh.face_material[face as usize].index();
@@ -41,12 +41,12 @@ pub(crate) fn laid(
     };
     let wanted: Vec<bool> =
         (0..mesh.triangles.len() as u32).map(|face| own.material.matches(material(face))).collect();
-    let mut plane = Plane::new(lit, scene, own.angle.to_radians(), in_model(size, &lit.view.frame));
-    let chart = |plane: &Plane, face: u32| wanted[face as usize].then(|| plane.chart(face)).flatten();
+    let mut plane = PatternPlane::new(lit, scene, own.angle.to_radians(), in_model(size, &lit.view.frame));
+    let chart = |plane: &PatternPlane, face: u32| wanted[face as usize].then(|| plane.chart(face)).flatten();
     let most = count(mesh, |face| chart(&plane, face), &figures);
-    plane.spacing *= (most / MOST_FIGURES).sqrt().max(1.0);
+    plane.spacing *= (most / MAX_FIGURES).sqrt().max(1.0);
     let found = decals(lit, ground, offset, &|face| chart(&plane, face), &figures);
-    OnSurface::Decals(found, filled)
+    SurfacePattern::Decals(found, filled)
 }
 
 /// The length in the model of a page length, at the camera's target.
@@ -77,7 +77,7 @@ fn figures(own: &Pattern, width: f64) -> (Vec<Figure>, Vec<bool>) {
 }
 
 /// Plane of unit squares that carries a pattern, and its place on the faces.
-struct Plane<'a> {
+struct PatternPlane<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     /// Axes of each part (across, upwards, and normal to both), and their origin.
@@ -89,7 +89,7 @@ struct Plane<'a> {
     spacing: f64,
 }
 
-impl<'a> Plane<'a> {
+impl<'a> PatternPlane<'a> {
     fn new(lit: &Lit<'a>, scene: &Scene, angle: f64, spacing: f64) -> Self {
         let mesh = lit.mesh;
         let of_part = |part: &crate::scene::Part| {
@@ -133,7 +133,7 @@ impl<'a> Plane<'a> {
         if let (Some(uvs), Some((scale, upwards))) = (texture(self.mesh, face), self.textures.get(part)) {
             let flip = DVec2::new(1.0, if *upwards { 1.0 } else { -1.0 });
             let [p, q, r] = uvs.map(|uv| uv * flip * *scale);
-            if (q - p).perp_dot(r - p).abs() > NO_TEXTURE * normal.length() {
+            if (q - p).perp_dot(r - p).abs() > MIN_TEXTURE_AREA_SHARE * normal.length() {
                 return Some(Chart { corners: [p, q, r].map(place), name: 0 });
             }
         }

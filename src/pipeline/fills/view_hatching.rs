@@ -5,26 +5,28 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use kurbo::{BezPath, Point, Rect, Size, Vec2};
 
-use super::surface_fills::Fills;
+use super::surface_fills::SurfaceFills;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, Length, Page, Unit};
-use crate::geometry::names::name_ids::identities;
+use crate::geometry::names::name_ids::stable_ids;
 use crate::geometry::numbers::noise::hash;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::geometry::numbers::powers_of_two::power_of_two_below;
 use crate::hatching::guides::guide::rank;
 use crate::hatching::guides::section_guides;
-use crate::hatching::{self, Direction, Flow, Guide, HatchContext, HatchLayer, Hatched, Tone};
+use crate::hatching::{
+    self, Direction, Guide, GuideDirections, HatchContext, HatchLayer, LayerStrokes, ToneCoverage,
+};
 use crate::mesh::{FaceId, Mesh, PaintId, PartId};
-use crate::regions::lattice::direction_field::Asked;
-use crate::regions::surface_curves::level_curves::{are_seen, level_curves};
-use crate::regions::{self, Ground, Look, RegionOptions, Samples, Seen};
+use crate::regions::lattice::direction_field::DirectionSource;
+use crate::regions::surface_curves::level_curves::{are_visible, level_curves};
+use crate::regions::{self, HatchRegions, LabelledPage, LightLattice, RegionOptions, SurfaceLabel};
 use crate::scene::{Camera, Scene, UpAxis};
 use crate::style::Style;
 
 /// Lit view, ready to be hatched.
 pub(crate) struct Hatching<'a> {
-    pub fills: &'a Fills<'a>,
+    pub fills: &'a SurfaceFills<'a>,
     pub scene: &'a Scene,
     pub page: &'a Page,
     pub camera: &'a Camera,
@@ -33,14 +35,14 @@ pub(crate) struct Hatching<'a> {
 
 impl Hatching<'_> {
     /// The layer `hatching`, if anything is hatched.
-    pub fn layer(&self, seen: &Seen) -> Option<Layer> {
+    pub fn layer(&self, seen: &LabelledPage) -> Option<Layer> {
         let ground = self.ground(seen);
         let blacks = if self.style.hatch.blacks > 0 { self.blacks(seen) } else { Vec::new() };
         self.with_context(&ground, |context| hatching::fill(&ground, context, &self.style.hatch, blacks))
     }
 
     /// The ground, and the strokes of each layer on it.
-    pub fn strokes(&self, seen: &Seen) -> (Ground, Vec<Hatched>) {
+    pub fn strokes(&self, seen: &LabelledPage) -> (HatchRegions, Vec<LayerStrokes>) {
         let ground = self.ground(seen);
         let strokes =
             self.with_context(&ground, |context| hatching::strokes(&ground, context, &self.style.hatch));
@@ -52,12 +54,12 @@ impl Hatching<'_> {
         Vec2::new(self.page.width - self.camera.width, self.page.height - self.camera.height) / 2.0
     }
 
-    fn ground(&self, seen: &Seen) -> Ground {
-        Ground::new(seen, self.style.hatch.crumb, self.page.unit, self.offset())
+    fn ground(&self, seen: &LabelledPage) -> HatchRegions {
+        HatchRegions::new(seen, self.style.hatch.crumb, self.page.unit, self.offset())
     }
 
     /// Calls `call` with the context of hatching.
-    fn with_context<T>(&self, ground: &Ground, call: impl FnOnce(&HatchContext) -> T) -> T {
+    fn with_context<T>(&self, ground: &HatchRegions, call: impl FnOnce(&HatchContext) -> T) -> T {
         let Self { fills, scene, page, style, .. } = self;
         let offset = self.offset();
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
@@ -72,19 +74,26 @@ impl Hatching<'_> {
         let px = Length::px(1.0).in_unit(page.unit);
         let shadowed = |points: &[(u32, DVec3)]| fills.shadowed_bins(points);
         let samples = sampled.then(|| {
-            Samples::new(&lit, ground, shadowed, |face| fills.is_round(face), offset, SAMPLES_PX * px)
+            LightLattice::new(
+                &lit,
+                ground,
+                shadowed,
+                |face| fills.is_round(face),
+                offset,
+                LATTICE_STEP_PX * px,
+            )
         });
         let flow = |layer: &HatchLayer| {
             let (samples, probe) = samples.as_ref()?;
             let angle = layer.angle.to_radians();
             let asked = match layer.direction {
-                Direction::Surface => Asked::Bend(angle),
-                Direction::Light => Asked::Shade(angle),
+                Direction::Surface => DirectionSource::Curvature(angle),
+                Direction::Light => DirectionSource::LightGradient(angle),
                 Direction::Page | Direction::Uv | Direction::Object => return None,
             };
-            Some(Flow::new(samples, &samples.axes(probe, asked)))
+            Some(GuideDirections::new(samples, &samples.axes(probe, asked)))
         };
-        let flows: Vec<Option<Flow>> = style.hatch.layers.iter().map(flow).collect();
+        let flows: Vec<Option<GuideDirections>> = style.hatch.layers.iter().map(flow).collect();
         let fixed: Vec<Option<Vec<Guide>>> = style
             .hatch
             .layers
@@ -113,34 +122,35 @@ impl Hatching<'_> {
     }
 
     /// Whether a look is a spot black.
-    fn is_spot_black(&self, look: &Look) -> bool {
+    fn is_spot_black(&self, look: &SurfaceLabel) -> bool {
         self.style.hatch.enabled && usize::from(look.bin) < self.style.hatch.blacks
     }
 
     /// Whether ink on a look would be invisible.
-    fn is_black(&self, look: &Look) -> bool {
+    fn is_black(&self, look: &SurfaceLabel) -> bool {
         let painted = || {
             let colour = self.fills.lit().shading.colour(look.paint, look.tone);
-            self.style.region.enabled && [colour.r, colour.g, colour.b].into_iter().all(|c| c <= BLACKEST)
+            self.style.region.enabled
+                && [colour.r, colour.g, colour.b].into_iter().all(|c| c <= MAX_BLACK_CHANNEL)
         };
         self.is_spot_black(look) || painted()
     }
 
     /// The ground, divided into black and other cells. `None` if nothing is black or blacks are not
     /// separated.
-    pub fn black_ground(&self, seen: &Seen) -> Option<Ground> {
+    pub fn black_ground(&self, seen: &LabelledPage) -> Option<HatchRegions> {
         let hatch = &self.style.hatch;
-        let coarser = |look: &Look| black_or_not(look, self.is_black(look));
+        let coarser = |look: &SurfaceLabel| black_or_not(look, self.is_black(look));
         (hatch.parting > 0.0 && seen.shows(|look| self.is_black(look)))
-            .then(|| Ground::coarse(seen, coarser, hatch.crumb, self.page.unit, self.offset()))
+            .then(|| HatchRegions::coarse(seen, coarser, hatch.crumb, self.page.unit, self.offset()))
     }
 
     /// The outlines of spot blacks, and their looks.
-    fn blacks(&self, seen: &Seen) -> Vec<(BezPath, Look)> {
+    fn blacks(&self, seen: &LabelledPage) -> Vec<(BezPath, SurfaceLabel)> {
         let style = self.style;
-        let coarser = |look: &Look| black_or_not(look, self.is_spot_black(look));
+        let coarser = |look: &SurfaceLabel| black_or_not(look, self.is_spot_black(look));
         let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
-        let regions = regions::gather_as(seen, coarser, &options, &style.chain, self.page.unit);
+        let regions = regions::gather_relabelled(seen, coarser, &options, &style.chain, self.page.unit);
         let reach = style.region.underlap.in_unit(self.page.unit);
         let black = regions::paint::region_paint::outlines(&regions, self.offset(), reach, |region| {
             region.look.bin == 0
@@ -150,18 +160,18 @@ impl Hatching<'_> {
 }
 
 /// Greatest channel value of a black paint.
-const BLACKEST: u8 = 0x20;
+const MAX_BLACK_CHANNEL: u8 = 0x20;
 
 /// A look reduced to black or not black.
-fn black_or_not(look: &Look, is_black: bool) -> Look {
-    Look { tone: 0, cast: false, bin: u16::from(!is_black), ..*look }
+fn black_or_not(look: &SurfaceLabel, is_black: bool) -> SurfaceLabel {
+    SurfaceLabel { tone: 0, cast: false, bin: u16::from(!is_black), ..*look }
 }
 
 /// A warning if a coverage table wants more ink than the layers can give.
 pub(crate) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
     let asked = style.hatch.coverage.iter().skip(style.hatch.blacks).copied().fold(0.0, f64::max);
-    let most = hatching::most_covered(&style.hatch, unit);
-    (style.hatch.enabled && asked > most + SAME_COVERAGE).then(|| {
+    let most = hatching::max_coverage(&style.hatch, unit);
+    (style.hatch.enabled && asked > most + COVERAGE_TOLERANCE).then(|| {
         let percent = |share: f64| (share * 100.0).round();
         format!(
             "hatching.coverage is {} % of ink, but its layers cover {} % at most; make strokes wider or add a layer",
@@ -172,12 +182,12 @@ pub(crate) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
 }
 
 /// Greatest excess of coverage that gives no warning.
-const SAME_COVERAGE: f64 = 0.02;
+const COVERAGE_TOLERANCE: f64 = 0.02;
 
 /// Guides of a layer that is fixed to the model; `None` for other directions.
 fn fixed(
-    fills: &Fills,
-    ground: &Ground,
+    fills: &SurfaceFills,
+    ground: &HatchRegions,
     scene: &Scene,
     page: &Page,
     offset: Vec2,
@@ -191,7 +201,7 @@ fn fixed(
     // The pitch in the model at the camera's target, rounded down to a power of two, so that small camera
     // moves change nothing. Finer sets fill surfaces seen at a slant.
     let in_model = pitch / frame.scale * if frame.perspective { frame.focus } else { 1.0 };
-    let spacing = power_of_two_below(in_model) / FINER;
+    let spacing = power_of_two_below(in_model) / CUTS_PER_PITCH;
     let angle = layer.angle.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let across = cut_of(scene, angle);
@@ -214,14 +224,17 @@ fn fixed(
         Direction::Uv => level_curves(lit, offset, |face| woven(face).or_else(|| cut(face)), is_wanted),
         Direction::Page | Direction::Surface | Direction::Light => return None,
     };
-    let seen = |points: &[(Point, f64)]| are_seen(lit, offset, points);
-    let names = identities(scene.parts.iter().map(|part| part.name.as_str()));
+    let seen = |points: &[(Point, f64)]| are_visible(lit, offset, points);
+    let names = stable_ids(scene.parts.iter().map(|part| part.name.as_str()));
     let name = |part: PartId, at: DVec3| {
-        let [x, y, z] =
-            fills.rough_place(part, at, ROUGHLY).round().to_array().map(|x| (x as i64).cast_unsigned());
+        let [x, y, z] = fills
+            .rough_place(part, at, IDENTITY_CELL_OF_PART)
+            .round()
+            .to_array()
+            .map(|x| (x as i64).cast_unsigned());
         hash(names.get(part.index()).copied().unwrap_or_default(), &[x, y, z])
     };
-    Some(section_guides::guides(ground, &curves, seen, name, pitch, seed))
+    Some(section_guides::guides_along_curves(ground, &curves, seen, name, pitch, seed))
 }
 
 /// The normal of the planes that cut a model: upwards at 0, tilted by an angle in radians.
@@ -230,17 +243,17 @@ pub(crate) fn cut_of(scene: &Scene, angle: f64) -> DVec3 {
         UpAxis::Y => DVec3::Y,
         UpAxis::Z => DVec3::Z,
     };
-    up * cos(angle) + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sin(angle)
+    up * cos(angle) + (DVec3::X + up.cross(DVec3::X) * CUT_SLANT).normalize() * sin(angle)
 }
 
 /// Number of cutting planes per pitch. Surfaces facing the camera use only some of them.
-const FINER: f64 = 4.0;
+const CUTS_PER_PITCH: f64 = 4.0;
 
 /// Turn of tilted planes away from the model's axes, because walls often follow these.
-const SLANT: f64 = 0.35;
+const CUT_SLANT: f64 = 0.35;
 
 /// Cell size for the identity of curve pieces, as a share of their part's size.
-const ROUGHLY: f64 = 0.3;
+const IDENTITY_CELL_OF_PART: f64 = 0.3;
 
 /// The mean world length of a texture coordinate unit in each part.
 pub(crate) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
@@ -265,10 +278,10 @@ pub(crate) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Distance between lattice points where light and directions are sampled, px.
-const SAMPLES_PX: f64 = 3.0;
+const LATTICE_STEP_PX: f64 = 3.0;
 
 /// The tone of each paint.
-fn tones(fills: &Fills, scene: &Scene, style: &Style) -> Vec<Tone> {
+fn tones(fills: &SurfaceFills, scene: &Scene, style: &Style) -> Vec<ToneCoverage> {
     let lit = fills.lit();
     let Some(bins) = lit.shading.bins() else { return Vec::new() };
     let paints = fills.paints();
@@ -279,7 +292,7 @@ fn tones(fills: &Fills, scene: &Scene, style: &Style) -> Vec<Tone> {
             .map_or("", |material| material.name.as_str());
         let own = style.hatch.materials.iter().rev().find(|(pattern, _)| pattern.matches(name));
         let table = own.map_or(&style.hatch.coverage, |(_, table)| table);
-        Tone::new(lit.shading.levels(PaintId(number as u32), bins), table)
+        ToneCoverage::new(lit.shading.levels(PaintId(number as u32), bins), table)
     };
     // The last entry stands in for unknown paints.
     (0..=paints.len()).map(of).collect()

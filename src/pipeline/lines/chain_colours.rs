@@ -5,60 +5,62 @@
 
 use glam::DVec2;
 
-use super::chain_samples::{BESIDE_PX, Beside, NEARER_OF_FRAME, STEP_PX, across, fill};
+use super::chain_samples::{
+    ChainSampler, MIN_DEPTH_GAP_OF_FRAME, SAMPLE_STEP_PX, SIDE_OFFSET_PX, across, densify,
+};
 use crate::chains::Chain;
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::lines::FeatureLines;
 use crate::mesh::FaceId;
-use crate::pipeline::fills::surface_fills::{Colours, paint_colours};
-use crate::regions::Ground;
+use crate::pipeline::fills::surface_fills::{SurfaceColours, paint_colours};
+use crate::regions::HatchRegions;
 use crate::strokes::{Ink, Pen};
 use crate::style::Style;
-use crate::visibility::{Front, front_faces};
+use crate::visibility::{FrontFace, front_faces};
 
 /// Greatest distance between samples of blacks along a line, px.
 const BLACK_STEP_PX: f64 = 1.0;
 
 /// Greatest distance that blacks are followed to either side, px.
-const BLACK_PX: f64 = 12.0;
+const MAX_BLACK_REACH_PX: f64 = 12.0;
 
 /// Whether any line takes the colour of its material.
-pub(crate) fn asks_colours(style: &Style) -> bool {
+pub(crate) fn needs_material_colours(style: &Style) -> bool {
     let shades = |colour: Ink| matches!(colour, Ink::Shade(_));
     let options = &style.stroke;
     shades(options.pen.colour) || options.rules.iter().any(|rule| rule.pen.colour.is_some_and(shades))
 }
 
 /// Samples the colours and blacks next to the chains.
-pub(crate) fn ask(
+pub(crate) fn sample_colours(
     chains: &mut [Chain],
-    beside: &Beside,
+    beside: &ChainSampler,
     lines: &FeatureLines,
-    colours: Option<Colours>,
-    blacks: Option<&Ground>,
+    colours: Option<SurfaceColours>,
+    blacks: Option<&HatchRegions>,
 ) {
     let px = Length::px(1.0).in_unit(beside.unit);
-    let colours = colours.filter(|_| asks_colours(beside.style));
+    let colours = colours.filter(|_| needs_material_colours(beside.style));
     let asks = colours.is_some();
     if asks || blacks.is_some() {
-        let step = if blacks.is_some() { BLACK_STEP_PX } else { STEP_PX };
+        let step = if blacks.is_some() { BLACK_STEP_PX } else { SAMPLE_STEP_PX };
         for chain in chains.iter_mut() {
-            fill(chain, step * px, beside.view.frame.perspective);
+            densify(chain, step * px, beside.view.frame.perspective);
         }
     }
     if let Some(colours) = colours {
-        ask_colours(chains, beside, lines, colours, px);
+        sample_surface_colours(chains, beside, lines, colours, px);
     }
     if let Some(blacks) = blacks {
         let most = widest(beside) * beside.style.hatch.parting;
-        let rings = (most.min(BLACK_PX * px) / px).ceil().max(1.0) as u32 + 1;
-        ask_blacks(chains, blacks, rings, px);
+        let rings = (most.min(MAX_BLACK_REACH_PX * px) / px).ceil().max(1.0) as u32 + 1;
+        sample_blacks(chains, blacks, rings, px);
     }
 }
 
 /// The width of the widest pen.
-fn widest(beside: &Beside) -> f64 {
+fn widest(beside: &ChainSampler) -> f64 {
     let options = &beside.style.stroke;
     let width = |pen: &Pen| pen.width.in_unit(beside.unit);
     let rules = options.rules.iter().filter_map(|rule| rule.pen.width);
@@ -66,7 +68,7 @@ fn widest(beside: &Beside) -> f64 {
 }
 
 /// Samples how far blacks extend on both sides of visible chains, point by point.
-fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
+fn sample_blacks(chains: &mut [Chain], blacks: &HatchRegions, rings: u32, px: f64) {
     use crate::parallel::prelude::*;
     let is_black = |p| {
         let cell = blacks.cells.get(blacks.cell_at(p) as usize);
@@ -86,18 +88,24 @@ fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
 }
 
 /// Samples the colour of the surface that each chain belongs to, point by point.
-fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, painted: Colours, px: f64) {
+fn sample_surface_colours(
+    chains: &mut [Chain],
+    beside: &ChainSampler,
+    lines: &FeatureLines,
+    painted: SurfaceColours,
+    px: f64,
+) {
     let mesh = &beside.surface.mesh;
     let colours = paint_colours(&painted.paints.list, beside.scene, beside.style);
     let colour_of = |face: u32| colours.get(mesh.paint(FaceId(face)).index()).copied();
-    let colour_at = |(front, p): (Front, DVec2)| {
+    let colour_at = |(front, p): (FrontFace, DVec2)| {
         let at = beside.view.frame.local_from_image(p.extend(front.nearness));
         colours.get(painted.textures.paint(mesh, front.face, at).index()).copied()
     };
     let mut places: Vec<DVec2> = Vec::new();
     for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
         for i in 0..chain.points.len() {
-            let across = across(chain, i) * (BESIDE_PX * px);
+            let across = across(chain, i) * (SIDE_OFFSET_PX * px);
             for p in [chain.points[i] + across, chain.points[i] - across] {
                 let p = p - beside.margin;
                 places.push(DVec2::new(p.x, p.y));
@@ -119,7 +127,7 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, pain
             let nearer = nearer(sides, |(front, _)| {
                 let depth = beside.view.frame.depth_of(front.nearness);
                 depth
-                    / (beside.view.frame.side_at(beside.view.frame.focus) * NEARER_OF_FRAME)
+                    / (beside.view.frame.side_at(beside.view.frame.focus) * MIN_DEPTH_GAP_OF_FRAME)
                         .max(f64::MIN_POSITIVE)
             });
             let faces = nearer.into_iter().flatten();

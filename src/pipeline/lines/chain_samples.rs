@@ -10,7 +10,7 @@ use kurbo::{Point, Vec2};
 use crate::chains::{Chain, Sample};
 use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::noise::hash;
-use crate::light::{ShadedNormals, Shading};
+use crate::light::{Shading, ShadingNormals};
 use crate::lines::{FeatureLines, Lit, Surface, Textures};
 use crate::mesh::FaceId;
 use crate::scene::Scene;
@@ -20,20 +20,20 @@ use crate::view::View;
 use crate::visibility::front_faces;
 
 /// Distance of the samples from the line, px.
-pub(crate) const BESIDE_PX: f64 = 1.5;
+pub(crate) const SIDE_OFFSET_PX: f64 = 1.5;
 
 /// Greatest distance between samples along a line, px.
-pub(crate) const STEP_PX: f64 = 3.0;
+pub(crate) const SAMPLE_STEP_PX: f64 = 3.0;
 
 /// Depth gap that counts as background, as a share of the frame's longer side at the line's depth.
-const FAR_OF_FRAME: f64 = 0.2;
+const BACKGROUND_GAP_OF_FRAME: f64 = 0.2;
 
 /// Least depth difference between the surfaces next to a line, in the same measure. Above it the nearer one
 /// counts as the line's own.
-pub(crate) const NEARER_OF_FRAME: f64 = 0.01;
+pub(crate) const MIN_DEPTH_GAP_OF_FRAME: f64 = 0.01;
 
 /// A view and its position on the page.
-pub(crate) struct Beside<'a> {
+pub(crate) struct ChainSampler<'a> {
     pub scene: &'a Scene,
     pub surface: &'a Surface,
     pub view: &'a View,
@@ -45,7 +45,7 @@ pub(crate) struct Beside<'a> {
 
 /// Samples that the pens of a style need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Wanted {
+struct SampleNeeds {
     /// Depth along the lines.
     depth: bool,
     /// Surfaces on both sides.
@@ -54,12 +54,12 @@ struct Wanted {
     light: bool,
 }
 
-impl Wanted {
+impl SampleNeeds {
     fn of(options: &StrokeOptions) -> Self {
         let mut wanted = Self::default();
         let mut add = |pen: &Pen| {
             wanted.depth |= pen.halo.value > 0.0 || pen.swell.near > 0.0;
-            wanted.sides |= pen.swell.asks();
+            wanted.sides |= pen.swell.needs_side_samples();
             wanted.light |= pen.swell.lit > 0.0;
         };
         add(&options.pen);
@@ -75,7 +75,7 @@ impl Wanted {
 
 /// A camera-independent number for each feature segment, from the positions of its vertices. 0 for segments
 /// that do not lie on mesh edges. Empty if no pen has random effects.
-pub(crate) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
+pub(crate) fn segment_names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
     let has_hand = |pen: &Pen| pen.hand.is_on() || pen.swell.chance > 0.0;
     let changed = options.rules.iter().any(|rule| {
         let mut pen = Pen::default();
@@ -96,14 +96,14 @@ pub(crate) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOpt
 }
 
 /// Samples what the pens of the chains need.
-pub(crate) fn ask(chains: &mut [Chain], beside: &Beside) {
-    let wanted = Wanted::of(&beside.style.stroke);
-    if wanted == Wanted::default() {
+pub(crate) fn sample_chains(chains: &mut [Chain], beside: &ChainSampler) {
+    let wanted = SampleNeeds::of(&beside.style.stroke);
+    if wanted == SampleNeeds::default() {
         return;
     }
     let px = Length::px(1.0).in_unit(beside.unit);
     for chain in chains.iter_mut() {
-        fill(chain, STEP_PX * px, beside.view.frame.perspective);
+        densify(chain, SAMPLE_STEP_PX * px, beside.view.frame.perspective);
     }
     if wanted.sides {
         beside.ask_sides(chains, px, wanted.light);
@@ -111,7 +111,7 @@ pub(crate) fn ask(chains: &mut [Chain], beside: &Beside) {
 }
 
 /// Adds points to a chain until neighbours are at most a step apart.
-pub(crate) fn fill(chain: &mut Chain, step: f64, perspective: bool) {
+pub(crate) fn densify(chain: &mut Chain, step: f64, perspective: bool) {
     let n = chain.points.len();
     let sides = if chain.closed { n } else { n.saturating_sub(1) };
     let (mut points, mut samples) = (Vec::with_capacity(n), Vec::with_capacity(n));
@@ -144,17 +144,17 @@ fn foreshortened(from: Sample, to: Sample, t: f64) -> Sample {
 
 /// The surface visible at a point next to a line: its depth and light.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct SideSample {
     depth: f64,
     light: f64,
 }
 
-impl Beside<'_> {
+impl ChainSampler<'_> {
     fn ask_sides(&self, chains: &mut [Chain], px: f64, light: bool) {
         let mut places: Vec<DVec2> = Vec::new();
         for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
             for i in 0..chain.points.len() {
-                let across = across(chain, i) * (BESIDE_PX * px);
+                let across = across(chain, i) * (SIDE_OFFSET_PX * px);
                 for p in [chain.points[i] + across, chain.points[i] - across] {
                     let p = p - self.margin;
                     places.push(DVec2::new(p.x, p.y));
@@ -167,22 +167,22 @@ impl Beside<'_> {
         for chain in chains.iter_mut().filter(|chain| chain.invisibility == 0) {
             for sample in &mut chain.samples {
                 if let Some([left, right]) = pairs.next() {
-                    learn(sample, *left, *right, frame.side_at(sample.depth));
+                    set_side_values(sample, *left, *right, frame.side_at(sample.depth));
                 }
             }
         }
     }
 
     /// The surfaces visible at points of the frame; `None` is background.
-    fn seen(&self, places: &[DVec2], light: bool) -> Vec<Option<Seen>> {
+    fn seen(&self, places: &[DVec2], light: bool) -> Vec<Option<SideSample>> {
         let (mesh, view) = (&self.surface.mesh, self.view);
         let frame = &view.frame;
         let fronts = front_faces(mesh, view, places);
-        let dark = |nearness: f64| Seen { depth: frame.depth_of(nearness), light: 1.0 };
+        let dark = |nearness: f64| SideSample { depth: frame.depth_of(nearness), light: 1.0 };
         if !light {
             return fronts.into_iter().map(|front| front.map(|front| dark(front.nearness))).collect();
         }
-        let normals = ShadedNormals::new(mesh, &self.surface.hard, &self.surface.smooth);
+        let normals = ShadingNormals::new(mesh, &self.surface.hard, &self.surface.smooth);
         // Warnings are dropped here; painting reports the same ones.
         let style = self.style;
         let shading = Shading::new(self.scene, &[], mesh, frame, &style.light, &style.tones, &mut Vec::new());
@@ -196,12 +196,12 @@ impl Beside<'_> {
             textures: &textures,
             solid: &[],
         };
-        let of = |(front, place): (Option<crate::visibility::Front>, &DVec2)| {
+        let of = |(front, place): (Option<crate::visibility::FrontFace>, &DVec2)| {
             let front = front?;
             let at = frame.local_from_image(place.extend(front.nearness));
             let point = lit.point(front.face, weights(mesh.corners(FaceId(front.face)), at));
             let light = shading.value(0, mesh.paint(FaceId(front.face)), &point, 0);
-            Some(Seen { light: light.clamp(0.0, 1.0), ..dark(front.nearness) })
+            Some(SideSample { light: light.clamp(0.0, 1.0), ..dark(front.nearness) })
         };
         fronts.into_iter().zip(places).map(of).collect()
     }
@@ -222,14 +222,14 @@ pub(crate) fn across(chain: &Chain, i: usize) -> Vec2 {
 }
 
 /// Sets the side, gap and light of a line's sample from the surfaces on both sides.
-fn learn(sample: &mut Sample, left: Option<Seen>, right: Option<Seen>, size: f64) {
-    let depth = |seen: Option<Seen>| seen.map_or(f64::INFINITY, |seen| seen.depth);
-    let apart = (depth(right) - depth(left)) / (size * NEARER_OF_FRAME).max(f64::MIN_POSITIVE);
+fn set_side_values(sample: &mut Sample, left: Option<SideSample>, right: Option<SideSample>, size: f64) {
+    let depth = |seen: Option<SideSample>| seen.map_or(f64::INFINITY, |seen| seen.depth);
+    let apart = (depth(right) - depth(left)) / (size * MIN_DEPTH_GAP_OF_FRAME).max(f64::MIN_POSITIVE);
     // Between two backgrounds neither side is nearer.
     sample.side = if apart.is_nan() { 0.0 } else { apart.clamp(-1.0, 1.0) };
     let farther = depth(left).max(depth(right)) - sample.depth;
-    sample.gap = (farther / (size * FAR_OF_FRAME).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let light = |seen: Option<Seen>| seen.map_or(0.0, |seen| seen.light);
+    sample.gap = (farther / (size * BACKGROUND_GAP_OF_FRAME).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let light = |seen: Option<SideSample>| seen.map_or(0.0, |seen| seen.light);
     let share = (1.0 + sample.side) / 2.0;
     sample.light = match (left, right) {
         (None, None) => 1.0,
@@ -252,16 +252,16 @@ mod tests {
     #[test]
     fn a_line_learns_which_side_is_its_own() {
         let mut sample = Sample::new(10.0, 1.0);
-        let near = Seen { depth: 10.0, light: 0.25 };
-        learn(&mut sample, Some(near), None, 1.0);
+        let near = SideSample { depth: 10.0, light: 0.25 };
+        set_side_values(&mut sample, Some(near), None, 1.0);
         assert_eq!((sample.side, sample.gap, sample.light), (1.0, 1.0, 0.25));
-        learn(&mut sample, Some(Seen { depth: 10.1, light: 0.75 }), Some(near), 1.0);
+        set_side_values(&mut sample, Some(SideSample { depth: 10.1, light: 0.75 }), Some(near), 1.0);
         assert_eq!((sample.side, sample.light), (-1.0, 0.25));
         assert!((sample.gap - 0.5).abs() < 1e-12);
         // A crease: both sides are equally near, so the light is their mean.
-        learn(&mut sample, Some(Seen { light: 0.75, ..near }), Some(near), 1.0);
+        set_side_values(&mut sample, Some(SideSample { light: 0.75, ..near }), Some(near), 1.0);
         assert_eq!((sample.side, sample.gap, sample.light), (0.0, 0.0, 0.5));
-        learn(&mut sample, None, None, 1.0);
+        set_side_values(&mut sample, None, None, 1.0);
         assert_eq!((sample.side, sample.gap, sample.light), (0.0, 1.0, 1.0));
     }
 

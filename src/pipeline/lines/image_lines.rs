@@ -3,21 +3,21 @@
 use std::borrow::Cow;
 
 use crate::drawing::{Length, Unit};
-use crate::light::ShadedNormals;
-use crate::lines::image::Loose;
+use crate::light::ShadingNormals;
+use crate::lines::image::SoupNormals;
 use crate::lines::{FeatureLines, Source, Surface, image};
 use crate::style::Style;
 use crate::view::View;
-use crate::view::raster::Maps;
+use crate::view::raster::NormalDepthMaps;
 use crate::visibility::{self, ViewMap};
 
 /// The maps of a view, at the resolution of the style.
-pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) -> Maps {
-    let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) -> NormalDepthMaps {
+    let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
     let per_unit = style.lines.image.samples / Length::px(1.0).in_unit(unit);
-    let loose = Loose::new(&surface.mesh, view, style.lines.crease_deg, |face| normals.of(face));
+    let loose = SoupNormals::new(&surface.mesh, view, style.lines.crease_deg, |face| normals.of(face));
     let normals_of = |face| loose.normals(face).unwrap_or_else(|| normals.of(face));
-    let mut maps = Maps::new(&surface.mesh, view, per_unit, normals_of);
+    let mut maps = NormalDepthMaps::new(&surface.mesh, view, per_unit, normals_of);
     if !loose.is_empty() {
         maps.close_hairlines(|face| loose.is_loose(face));
     }

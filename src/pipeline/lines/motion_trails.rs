@@ -11,13 +11,13 @@ use crate::geometry::numbers::noise::hash;
 use crate::geometry::plane::planar_distance::length;
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, NO_FACE, Role};
 use crate::mesh::{MaterialId, Mesh, PartId, Soup};
-use crate::motion::{MotionOptions, POINTS_A_SEGMENT, Speed};
+use crate::motion::{MotionOptions, POINTS_PER_SEGMENT, Speed};
 use crate::scene::{Camera, Mover, Scene, Trail};
 use crate::strokes::{self, InkContext, Pen};
 use crate::style::Style;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 use crate::view::{Frame, View};
-use crate::visibility::{self, Beside, ViewMap};
+use crate::visibility::{self, BodyLines, ViewMap};
 
 /// Warning where motion lines are on, but the scene has no animation time.
 pub(crate) const NO_MOMENT: &str = "no motion lines: nothing moves; give --animation and --time";
@@ -65,10 +65,10 @@ impl<'a> Trails<'a> {
             }
             let segments = first..lines.segments.len() as u32;
             if !mover.body.is_empty() && !segments.is_empty() {
-                bodies.push(Beside { segments, body: Mesh::build(soup(&mover.body)) });
+                bodies.push(BodyLines { segments, body: Mesh::build(soup(&mover.body)) });
             }
         }
-        let mut map = visibility::build_beside(mesh, view, camera, &lines, &bodies);
+        let mut map = visibility::build_motion_lines(mesh, view, camera, &lines, &bodies);
         centre(&mut map);
         let tidy = style.chain.tidy.in_unit(unit);
         // Trails of different lines are never joined, however close their ends.
@@ -105,13 +105,13 @@ impl<'a> Trails<'a> {
 fn leaves_lines(mover: &Mover, options: &MotionOptions, frame: &Frame, origin: DVec3, unit: Unit) -> bool {
     let Some(Speed::Page(least)) = options.speed.filter(|_| !mover.chosen) else { return mover.chosen };
     let way = |trail: &Trail| {
-        let ends = [trail.points.first()?, trail.points.get(POINTS_A_SEGMENT)?];
+        let ends = [trail.points.first()?, trail.points.get(POINTS_PER_SEGMENT)?];
         let [now, before] = ends.map(|point| frame.image_from_local(*point - origin));
         let way = (now - before).truncate().length();
         (!way.is_nan() && !before.z.is_nan() && !now.z.is_nan()).then_some(way)
     };
     let ways: Vec<f64> = mover.trails.iter().filter_map(way).collect();
-    let seconds = mover.interval * POINTS_A_SEGMENT as f64;
+    let seconds = mover.interval * POINTS_PER_SEGMENT as f64;
     ways.iter().sum::<f64>() / ways.len().max(1) as f64 / seconds > least.in_unit(unit)
 }
 
@@ -157,7 +157,7 @@ fn add(lines: &mut FeatureLines, mesh: &Mesh, scene: &Scene, mover: &Mover, trai
         kind: LineKind::Motion,
         both_seen: true,
         smooth: true,
-        origin: Origin::default(),
+        origin: MeshSource::default(),
         role: Role::Line,
         strength: 180.0,
         part: PartId::from(mover.part),

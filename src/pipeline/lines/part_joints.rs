@@ -22,7 +22,7 @@ pub(crate) fn take_out(
     if style.lines.joints {
         return Vec::new();
     }
-    joints::take_out(mesh, lines, &kinds(scene, paints), has_regions)
+    joints::remove_joints(mesh, lines, &kinds(scene, paints), has_regions)
 }
 
 /// For each paint, the first one of equal material and colour. A file may list a material twice.

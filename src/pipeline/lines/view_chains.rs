@@ -4,28 +4,28 @@ use crate::chains::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::tolerance;
 use crate::lines::HiddenLines;
-use crate::mesh::part_metrics::{Extent, Extents};
+use crate::mesh::part_metrics::{MeshMetrics, PartMetrics};
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};
 use crate::strokes::InkWidths;
 use crate::style::Style;
 use crate::view::Frame;
 use crate::visibility::overlap::hidden_line_precedence::{self, Ink};
-use crate::visibility::{Ahead, ViewEdge, ViewMap};
+use crate::visibility::{GapOcclusion, ViewEdge, ViewMap};
 
 /// Links the lines of a view. `widths` gives their ink widths; `extents` are those of the scene's parts.
 pub(crate) fn chains(
-    ahead: &Ahead,
+    ahead: &GapOcclusion,
     map: &ViewMap,
     (style, widths): (&Style, &InkWidths),
     unit: Unit,
-    (scene, extents, frame): (&Scene, &Extents, &Frame),
+    (scene, extents, frame): (&Scene, &MeshMetrics, &Frame),
 ) -> Vec<Chain> {
     let perspective = frame.perspective;
     let rounding =
         (style.chain.circles && !perspective).then(|| corner_rounding(scene, extents, frame.scale));
     let chained = (&style.chain, Rounding(rounding.as_deref()));
-    let link = |map| chains::link_rounded(ahead, map, chained, unit, style.lines.hidden);
+    let link = |map| chains::link_with_arcs(ahead, map, chained, unit, style.lines.hidden);
     let mut chains = link(map);
     if style.lines.hidden == HiddenLines::None {
         return chains;
@@ -34,9 +34,9 @@ pub(crate) fn chains(
     let px = Length::px(1.0).in_unit(unit);
     let half_width = |edge: &ViewEdge| widths.half(map, edge);
     let ink = Ink { half_width: &half_width, extents, perspective, px };
-    if let Some(cut) = hidden_line_precedence::apart(map, &ink) {
+    if let Some(cut) = hidden_line_precedence::without_hidden_in_ink(map, &ink) {
         chains.retain(|chain| chain.invisibility == 0);
-        let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= CRUMB_PX * px;
+        let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= MIN_HIDDEN_LENGTH_PX * px;
         chains.extend(link(&cut).into_iter().filter(stays));
     }
     chains
@@ -46,17 +46,17 @@ pub(crate) fn chains(
 /// world unit.
 ///
 /// Numbers with few decimals may be rounded to these, even if exact or in single precision.
-fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
-    let own = |(extent, part): (&Extent, &Part)| {
+fn corner_rounding(scene: &Scene, extents: &MeshMetrics, scale: f64) -> Vec<f64> {
+    let own = |(extent, part): (&PartMetrics, &Part)| {
         let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
         let step = scene.geometry_of(part).map_or(0.0, decimals).max(extent.step);
-        (tolerance::CORNER_OFF_CIRCLE * step).max(tolerance::WELD_OF_PART * extent.scale)
+        (tolerance::MAX_CIRCLE_CORNER_STEPS * step).max(tolerance::WELD_OF_PART * extent.scale)
     };
     extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
 }
 
 /// Least length of a remaining hidden line, px. Curves that coincide except for rounding leave short pieces.
-const CRUMB_PX: f64 = 1.0;
+const MIN_HIDDEN_LENGTH_PX: f64 = 1.0;
 
 /// Length of a chain on the page.
 fn length(chain: &Chain) -> f64 {

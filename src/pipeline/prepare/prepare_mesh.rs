@@ -1,4 +1,4 @@
-//! [`Welded`]: the mesh of the part of a scene that a style draws.
+//! [`PreparedMesh`]: the mesh of the part of a scene that a style draws.
 
 use std::borrow::Cow;
 
@@ -12,9 +12,9 @@ use crate::style::Style;
 
 /// The paints of the drawn part of a scene, if the style needs any.
 pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
-    let needs_paints = surface_fills::asks_surface(style) || chain_colours::asks_colours(style);
+    let needs_paints = surface_fills::uses_paints(style) || chain_colours::needs_material_colours(style);
     let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
-    if surface_fills::asks_artist(style) {
+    if surface_fills::draws_artist_lines(style) {
         let pictures = &style.lines.artist_texture;
         paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
     }
@@ -22,23 +22,23 @@ pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
 }
 
 /// The part of a scene that a style draws, and its mesh.
-pub(crate) struct Welded<'a> {
+pub(crate) struct PreparedMesh<'a> {
     pub scene: Cow<'a, Scene>,
     pub warnings: Warnings,
     pub paints: Option<Paints>,
     pub mesh: Mesh,
 }
 
-impl<'a> Welded<'a> {
+impl<'a> PreparedMesh<'a> {
     pub fn of(scene: &'a Scene, style: &Style) -> Self {
-        let (scene, paints, warnings) = left(scene, style);
+        let (scene, paints, warnings) = visible_scene(scene, style);
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         Self { scene, warnings, paints, mesh }
     }
 
     /// Builds the mesh of an owned scene. Its geometry is freed once the mesh is built.
     pub fn of_all(scene: Scene, style: &Style) -> Self {
-        let (left, paints, warnings) = left(&scene, style);
+        let (left, paints, warnings) = visible_scene(&scene, style);
         let left = match left {
             Cow::Owned(left) => Some(left),
             Cow::Borrowed(_) => None,
@@ -50,10 +50,10 @@ impl<'a> Welded<'a> {
 }
 
 /// The part of a scene that style and texture cut-outs leave, its paints, and warnings about failed cuts.
-fn left<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
-    let left = glass::left(scene, style);
+fn visible_scene<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
+    let left = glass::without_absent_materials(scene, style);
     let mut paints = paints_of(&left, style);
-    let cutouts::Cut { scene, origins, warnings } = glass::cut(scene, &left);
+    let cutouts::CutScene { scene, origins, warnings } = glass::cut_textures(scene, &left);
     paints.iter_mut().for_each(|paints| paints.carry(&origins));
     (scene, paints, warnings)
 }

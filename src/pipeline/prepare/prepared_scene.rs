@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::prepare_mesh::Welded;
+use super::prepare_mesh::PreparedMesh;
 use crate::lines::{LineOptions, Surface};
 use crate::mesh::components::solid_parts::solid_parts;
-use crate::pipeline::cache::shadow_cache::LateShadows;
-use crate::pipeline::cache::view_cache::LateSearch;
-use crate::pipeline::fills::surface_fills::{self, Paintable};
+use crate::pipeline::cache::shadow_cache::ShadowCache;
+use crate::pipeline::cache::view_cache::ViewCache;
+use crate::pipeline::fills::surface_fills::{self, ToneInputs};
 use crate::pipeline::rest::chain_anchors::Anchors;
-use crate::pipeline::thread_pool::on_threads;
+use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::paints::triangle_paints::Paints;
 use crate::scene::{Camera, Scene, Warnings};
 use crate::style::Style;
@@ -45,9 +45,9 @@ pub struct Prepared<'a> {
     /// Numbers of vertices and edges of the model.
     pub(crate) counts: [u64; 2],
     /// Rebuilt for views that refine the surface.
-    pub(crate) paintable: Option<Paintable>,
-    pub(crate) search: LateSearch,
-    pub(crate) shadows: LateShadows,
+    pub(crate) paintable: Option<ToneInputs>,
+    pub(crate) search: ViewCache,
+    pub(crate) shadows: ShadowCache,
     /// Anchors of lines on the model, if strokes have to persist.
     pub(crate) anchors: Option<Anchors>,
 }
@@ -56,38 +56,38 @@ impl<'a> Prepared<'a> {
     /// Welds the scene into a mesh and finds its creases and rounded areas.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        on_threads(|| Self::made(Welded::of(scene, style), style, None).0)
+        run_on_pool(|| Self::made(PreparedMesh::of(scene, style), style, None).0)
     }
 
     /// Prepares the scene for one camera. The surface is refined for it at once and permanently, which takes
     /// less memory than a refined copy next to the model.
     #[must_use]
     pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
-        on_threads(|| Self::made(Welded::of(scene, style), style, Some(camera)).0)
+        run_on_pool(|| Self::made(PreparedMesh::of(scene, style), style, Some(camera)).0)
     }
 
     /// Prepares an owned scene for one camera. Its geometry is freed once the mesh is built.
     #[must_use]
     pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
-        on_threads(|| Self::made(Welded::of_all(scene, style), style, Some(camera)).0)
+        run_on_pool(|| Self::made(PreparedMesh::of_all(scene, style), style, Some(camera)).0)
     }
 
     pub(crate) fn made(
-        welded: Welded<'a>,
+        welded: PreparedMesh<'a>,
         style: &'a Style,
         only: Option<&Camera>,
     ) -> (Self, Option<Patches>) {
-        let Welded { scene, warnings, paints, mesh } = welded;
+        let PreparedMesh { scene, warnings, paints, mesh } = welded;
         let sought = surface_fills::sought(style);
         let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
-        let painted = paints.as_ref().filter(|_| surface_fills::asks_surface(style));
+        let painted = paints.as_ref().filter(|_| surface_fills::uses_paints(style));
         let painted = painted.map(|paints| (paints, solid_parts(&surface.mesh)));
         if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
             patches = None;
             surface = surface.finer_for(camera);
         }
-        let paintable = painted.map(|(paints, solid)| Paintable::new(&surface, paints, solid));
+        let paintable = painted.map(|(paints, solid)| ToneInputs::new(&surface, paints, solid));
         let prepared = Self {
             scene,
             warnings,
@@ -97,8 +97,8 @@ impl<'a> Prepared<'a> {
             surface,
             counts,
             paintable,
-            search: LateSearch::default(),
-            shadows: LateShadows::default(),
+            search: ViewCache::default(),
+            shadows: ShadowCache::default(),
             anchors: None,
         };
         (prepared, patches)

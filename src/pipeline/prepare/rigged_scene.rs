@@ -1,4 +1,4 @@
-//! [`Resting`]: a scene prepared at rest, which makes preparing its poses fast.
+//! [`PosedRenderer`]: a scene prepared at rest, which makes preparing its poses fast.
 //!
 //! Results that survive a change of pose are found once at rest: welded vertices and edges, creases, rounded
 //! areas, and paints with their pictures, unless materials change. Positions, normals, lines and visibility
@@ -6,17 +6,17 @@
 
 use std::sync::Arc;
 
-use super::prepare_mesh::{Welded, paints_of};
-use crate::mesh::Sources;
+use super::prepare_mesh::{PreparedMesh, paints_of};
+use crate::mesh::VertexSources;
 use crate::mesh::components::solid_parts::solid_parts;
 use crate::pipeline::Prepared;
-use crate::pipeline::cache::shadow_cache::LateShadows;
-use crate::pipeline::cache::view_cache::LateSearch;
+use crate::pipeline::cache::shadow_cache::ShadowCache;
+use crate::pipeline::cache::view_cache::ViewCache;
 use crate::pipeline::fills::glass;
-use crate::pipeline::fills::surface_fills::{self, Paintable};
+use crate::pipeline::fills::surface_fills::{self, ToneInputs};
 use crate::pipeline::rest::chain_anchors::Anchors;
-use crate::pipeline::thread_pool::on_threads;
-use crate::scene::textures::cutouts::Cut;
+use crate::pipeline::thread_pool::run_on_pool;
+use crate::scene::textures::cutouts::CutScene;
 use crate::scene::{Part, Scene};
 use crate::style::Style;
 use crate::surface::Patches;
@@ -40,16 +40,16 @@ use crate::surface::Patches;
 /// # Ok::<(), ligne::Error>(())
 /// ```
 #[derive(Debug)]
-pub struct Resting<'a> {
+pub struct PosedRenderer<'a> {
     scene: &'a Scene,
     style: &'a Style,
     still: Prepared<'a>,
     patches: Option<Patches>,
     /// `None` if the mesh cannot be tracked. Then every pose is prepared from the start.
-    sources: Option<Sources>,
+    sources: Option<VertexSources>,
 }
 
-impl<'a> Resting<'a> {
+impl<'a> PosedRenderer<'a> {
     /// Prepares a scene in its stored pose.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
@@ -58,8 +58,8 @@ impl<'a> Resting<'a> {
     }
 
     fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
-        let (still, patches) = on_threads(|| Prepared::made(Welded::of(scene, style), style, None));
-        let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
+        let (still, patches) = run_on_pool(|| Prepared::made(PreparedMesh::of(scene, style), style, None));
+        let sources = VertexSources::of(&still.surface.mesh, &still.scene.to_soup());
         Self { scene, style, still, patches, sources }
     }
 
@@ -95,8 +95,8 @@ impl<'a> Resting<'a> {
         let prepared = self
             .following(posed, self.style, before())
             .or_else(|| {
-                let rest = left_of(self.scene, posed)?;
-                Resting::without_anchors(&rest, self.style).following(posed, self.style, before())
+                let rest = rest_without_hidden_parts(self.scene, posed)?;
+                PosedRenderer::without_anchors(&rest, self.style).following(posed, self.style, before())
             })
             .unwrap_or_else(|| Prepared::new(posed, self.style));
         prepared.anchored(posed, self.scene)
@@ -113,8 +113,8 @@ impl<'a> Resting<'a> {
         if names(self.scene) != names(posed) {
             return None;
         }
-        let left = glass::left(posed, style);
-        let Cut { scene, origins, warnings } = glass::cut(posed, &left);
+        let left = glass::without_absent_materials(posed, style);
+        let CutScene { scene, origins, warnings } = glass::cut_textures(posed, &left);
         let soup = scene.to_soup();
         let mut paints = self.still.paints.clone();
         if posed.materials != self.scene.materials {
@@ -126,21 +126,22 @@ impl<'a> Resting<'a> {
             if let Some(still) = &paints {
                 let mut own = paints_of(&left, style)?;
                 own.carry(&origins);
-                paints = Some(Arc::new(own)).filter(|own| own.lie_like(still));
+                paints = Some(Arc::new(own)).filter(|own| own.has_same_layout(still));
                 paints.as_ref()?;
             }
         }
         let (still, sources) = (&self.still.surface, self.sources.as_ref()?);
         let mesh = still.mesh.posed(sources, &soup)?;
         let before = before.map_while(|scene| {
-            let cut = glass::cut(&scene, &glass::left(&scene, style)).scene.to_soup();
+            let cut =
+                glass::cut_textures(&scene, &glass::without_absent_materials(&scene, style)).scene.to_soup();
             still.mesh.posed(sources, &cut)
         });
         let sought = surface_fills::sought(style);
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
-        let paintable = paints.as_deref().filter(|_| surface_fills::asks_surface(style));
-        let paintable = paintable.map(|paints| Paintable::new(&surface, paints, solid_parts(&surface.mesh)));
-        let (search, shadows) = (LateSearch::default(), LateShadows::default());
+        let paintable = paints.as_deref().filter(|_| surface_fills::uses_paints(style));
+        let paintable = paintable.map(|paints| ToneInputs::new(&surface, paints, solid_parts(&surface.mesh)));
+        let (search, shadows) = (ViewCache::default(), ShadowCache::default());
         let counts = self.still.counts;
         Some(Prepared {
             scene,
@@ -160,7 +161,7 @@ impl<'a> Resting<'a> {
 
 /// The resting scene without the parts that a pose hides. `None` if the pose hides none or belongs to another
 /// scene.
-fn left_of(scene: &Scene, posed: &Scene) -> Option<Scene> {
+fn rest_without_hidden_parts(scene: &Scene, posed: &Scene) -> Option<Scene> {
     let mut wanted = posed.parts.iter().peekable();
     let mut parts = scene.parts.clone();
     parts.retain(|part| {

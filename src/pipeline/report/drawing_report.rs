@@ -129,21 +129,21 @@ impl Report {
 /// in bare WebAssembly in a browser, all times are 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Stopwatch {
-    started: Moment,
-    lap: Moment,
+    started: ClockReading,
+    lap: ClockReading,
 }
 
 impl Stopwatch {
     /// A stopwatch that starts now.
     #[must_use]
     pub fn start() -> Self {
-        let now = Moment::now();
+        let now = ClockReading::now();
         Self { started: now, lap: now }
     }
 
     /// Milliseconds since the last lap or the start. Starts the next lap.
     pub fn lap_ms(&mut self) -> f64 {
-        let now = Moment::now();
+        let now = ClockReading::now();
         let lap = now.seconds_since(self.lap);
         self.lap = now;
         (lap * 1e6).round() / 1e3
@@ -152,17 +152,17 @@ impl Stopwatch {
     /// Seconds since the start.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        Moment::now().seconds_since(self.started)
+        ClockReading::now().seconds_since(self.started)
     }
 }
 
 /// Reading of a clock.
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 #[derive(Debug, Clone, Copy)]
-struct Moment(std::time::Instant);
+struct ClockReading(std::time::Instant);
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
-impl Moment {
+impl ClockReading {
     fn now() -> Self {
         Self(std::time::Instant::now())
     }
@@ -178,7 +178,7 @@ impl Moment {
 struct Moment;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
-impl Moment {
+impl ClockReading {
     fn now() -> Self {
         Self
     }

@@ -1,4 +1,4 @@
-//! [`reason`]: why a drawing has no mark.
+//! [`empty_reason`]: why a drawing has no mark.
 //!
 //! The candidates are narrowed down in pipeline order:
 //! 1. contents of the scene;
@@ -25,7 +25,12 @@ pub(crate) fn shows_nothing(layers: &[Layer]) -> bool {
 }
 
 /// The reason why a drawing is empty, as a sentence. `has_chains` says whether lines are visible.
-pub(crate) fn reason(scene: &Scene, (mesh, view): (&Mesh, &View), style: &Style, has_chains: bool) -> String {
+pub(crate) fn empty_reason(
+    scene: &Scene,
+    (mesh, view): (&Mesh, &View),
+    style: &Style,
+    has_chains: bool,
+) -> String {
     let why = of_scene(scene, mesh).or_else(|| of_style(style)).or_else(|| of_view(mesh, view)).unwrap_or(
         if has_chains {
             "the style draws none of the visible lines"

@@ -9,7 +9,7 @@ use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
 
 use crate::chains::{Anchor, Chain, chain_identity};
-use crate::geometry::names::name_ids::identities;
+use crate::geometry::names::name_ids::stable_ids;
 use crate::geometry::numbers::portable_math::{cbrt, tan};
 use crate::mesh::PartId;
 use crate::mesh::bvh::nearest_tree::NearestTree;
@@ -20,15 +20,15 @@ use crate::scene::{Camera, Geometry, Part, Projection, Scene};
 #[derive(Debug)]
 pub(crate) struct Anchors {
     /// One entry per geometry of the scene.
-    resting: Vec<Resting>,
-    parts: Vec<Posed>,
+    resting: Vec<RestGeometry>,
+    parts: Vec<PosedPart>,
     /// A stable number for each part.
     names: Vec<u64>,
 }
 
 /// Geometry at rest.
 #[derive(Debug)]
-struct Resting {
+struct RestGeometry {
     triangles: Arc<[[DVec3; 3]]>,
     middle: DVec3,
     diagonal: f64,
@@ -36,7 +36,7 @@ struct Resting {
 
 /// Part in its pose.
 #[derive(Debug)]
-struct Posed {
+struct PosedPart {
     geometry: usize,
     tree: NearestTree,
     /// World units per diagonal of its geometry.
@@ -50,7 +50,7 @@ impl Anchors {
     /// The anchors of a posed scene and the same scene at rest. Geometries with equal numbers must have the
     /// same triangles.
     pub fn new(posed: &Scene, rest: &Scene) -> Self {
-        let resting: Vec<Resting> = rest.geometries.par_iter().map(Resting::new).collect();
+        let resting: Vec<RestGeometry> = rest.geometries.par_iter().map(RestGeometry::new).collect();
         let part = |(number, part): (usize, &Part)| {
             let is_it = |other: &&Part| other.name == part.name && other.geometry == part.geometry;
             let own = rest.parts.get(number).filter(is_it).or_else(|| rest.parts.iter().find(is_it));
@@ -65,16 +65,16 @@ impl Anchors {
                 rest.eq(corners.iter().copied())
             });
             let size = stretch * diagonal;
-            Posed { geometry: part.geometry, tree: NearestTree::new(&corners), size, rest: own, rests }
+            PosedPart { geometry: part.geometry, tree: NearestTree::new(&corners), size, rest: own, rests }
         };
         let parts = posed.parts.par_iter().enumerate().map(part).collect();
-        let names = identities(posed.parts.iter().map(|part| part.name.as_str()));
+        let names = stable_ids(posed.parts.iter().map(|part| part.name.as_str()));
         Self { resting, parts, names }
     }
 
     /// Sets the anchor of every chain sample and names the chains. `margin` is the offset of the camera's
     /// frame on the page.
-    pub fn ask(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
+    pub fn anchor_chains(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
         let [right, up, forward] = camera.axes();
         let perspective = match camera.projection {
             Projection::Perspective { fov_y_deg } => Some(tan(fov_y_deg.to_radians() / 2.0)),
@@ -96,7 +96,7 @@ impl Anchors {
                 sample.anchor = self.anchor(part, world, unit).unwrap_or_default();
             }
         });
-        chain_identity::name(chains, &self.names);
+        chain_identity::assign_identities(chains, &self.names);
     }
 
     /// Whether every part is in its rest position.
@@ -117,7 +117,7 @@ impl Anchors {
     }
 
     /// The position of a point near a part on its resting geometry.
-    fn resting_place(&self, part: &Posed, world: DVec3) -> Option<(DVec3, &Resting)> {
+    fn resting_place(&self, part: &PosedPart, world: DVec3) -> Option<(DVec3, &RestGeometry)> {
         let resting = self.resting.get(part.geometry)?;
         let nearest = part.tree.nearest(world)?;
         let [a, b, c] = resting.triangles.get(nearest.triangle as usize)?;
@@ -125,7 +125,7 @@ impl Anchors {
     }
 
     /// The anchor of a point near a part. `unit` is the length of a page unit there.
-    fn anchor(&self, part: &Posed, world: DVec3, unit: f64) -> Option<Anchor> {
+    fn anchor(&self, part: &PosedPart, world: DVec3, unit: f64) -> Option<Anchor> {
         let (place, resting) = self.resting_place(part, world).filter(|_| unit > 0.0)?;
         let place = (place - resting.middle) / resting.diagonal;
         let anchor = Anchor { place: place.as_vec3().to_array(), scale: (part.size / unit) as f32 };
@@ -133,7 +133,7 @@ impl Anchors {
     }
 }
 
-impl Resting {
+impl RestGeometry {
     fn new(geometry: &Geometry) -> Self {
         let triangles = corners(geometry);
         // Faces without area are not drawn. They count only if there are no others.

@@ -1,4 +1,4 @@
-//! [`AtRest`]: rest positions of the vertices of a posed mesh, so that patterns laid through the model move
+//! [`RestPose`]: rest positions of the vertices of a posed mesh, so that patterns laid through the model move
 //! with it.
 
 use crate::parallel::prelude::*;
@@ -9,13 +9,13 @@ use crate::chains::Anchor;
 use crate::mesh::{Mesh, PartId};
 
 /// Posed mesh with its rest positions.
-pub(crate) struct AtRest<'a> {
+pub(crate) struct RestPose<'a> {
     anchors: &'a Anchors,
     /// Rest positions in world space, one per vertex.
     places: Vec<DVec3>,
 }
 
-impl<'a> AtRest<'a> {
+impl<'a> RestPose<'a> {
     /// `None` if every part is in its rest position.
     pub fn new(anchors: &'a Anchors, mesh: &Mesh) -> Option<Self> {
         if anchors.rests() {

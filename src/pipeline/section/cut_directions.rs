@@ -8,14 +8,14 @@ use crate::geometry::numbers::portable_math::atan2;
 use crate::scene::{Camera, Projection, Scene};
 
 /// Angle within which hatching counts as parallel to a side, degrees.
-pub(crate) const PARALLEL_DEG: f64 = 10.0;
+pub(crate) const MAX_PARALLEL_DEG: f64 = 10.0;
 
 /// Greatest difference between sides of one direction, degrees. It covers rounding.
-const ONE_DIRECTION_DEG: f64 = 0.1;
+const MAX_DIRECTION_SPREAD_DEG: f64 = 0.1;
 
 /// Least total length of a long direction as a share of the longest direction. All sides of a regular polygon
 /// are long. The small steps of a rounding next to a straight side are not.
-const LONG_SHARE: f64 = 0.5;
+const MIN_LENGTH_OF_LONGEST: f64 = 0.5;
 
 /// The directions of the long sides of cut faces in the pictures of the cameras: degrees from the horizontal,
 /// counter-clockwise, 0 to 180.
@@ -67,7 +67,7 @@ fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
     let mut longest = 0.0;
     for (angle, length) in sides {
         match directions.last_mut() {
-            Some(direction) if angle - first < ONE_DIRECTION_DEG => {
+            Some(direction) if angle - first < MAX_DIRECTION_SPREAD_DEG => {
                 direction.1 += length;
                 if length > longest {
                     (direction.0, longest) = (angle, length);
@@ -81,13 +81,13 @@ fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
     }
     // Directions near 0 and near 180 degrees are one.
     if let [first, .., last] = directions.as_slice()
-        && first.0 + 180.0 - last.0 < ONE_DIRECTION_DEG
+        && first.0 + 180.0 - last.0 < MAX_DIRECTION_SPREAD_DEG
     {
         let both = first.1 + last.1;
         directions[0].1 = both;
         directions.pop();
     }
     let longest = directions.iter().map(|(_, length)| *length).fold(0.0, f64::max);
-    directions.retain(|(_, length)| *length >= LONG_SHARE * longest);
+    directions.retain(|(_, length)| *length >= MIN_LENGTH_OF_LONGEST * longest);
     directions.into_iter().map(|(angle, _)| angle).collect()
 }

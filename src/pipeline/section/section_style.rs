@@ -1,7 +1,7 @@
-//! [`hatched`], [`hatched_for`], [`trailed`]: styles that also hatch the cut faces of a scene and draw the
+//! [`with_cut_hatching`], [`with_cut_hatching_for`], [`with_trail_lines`]: styles that also hatch the cut faces of a scene and draw the
 //! trails of moved parts.
 
-use super::cut_directions::{PARALLEL_DEG, long_sides};
+use super::cut_directions::{MAX_PARALLEL_DEG, long_sides};
 use crate::drawing::{Length, Unit};
 use crate::edit::explode::TRAIL;
 use crate::edit::section::{CutFaces, Section, are_neighbours, material_name};
@@ -14,7 +14,7 @@ use crate::style::Style;
 
 /// The style with thin chain lines (ISO 128-2, line type 04.1) for the trails of parts that were moved apart.
 #[must_use]
-pub fn trailed(style: &Style) -> Style {
+pub fn with_trail_lines(style: &Style) -> Style {
     let mut style = style.clone();
     let dash = [24.0, 3.0, 0.5, 3.0].map(|part| Length::mm(part * TRAIL_MM));
     let pen =
@@ -36,7 +36,7 @@ const WIDTH_MM: f64 = 0.18;
 
 /// Angles (degrees) and spacing factors of the hatching of cut parts. Neighbours differ in at least one of
 /// them (ISO 128-50, 6.2).
-const KINDS: [(f64, f64); 8] = [
+const HATCH_KINDS: [(f64, f64); 8] = [
     (45.0, 1.0),
     (135.0, 1.0),
     (45.0, 1.7),
@@ -48,29 +48,29 @@ const KINDS: [(f64, f64); 8] = [
 ];
 
 /// Additional angles, for parts with long sides along 45 and 135 degrees.
-const ANGLES: [f64; 6] = [60.0, 150.0, 15.0, 105.0, 75.0, 165.0];
+const EXTRA_ANGLES_DEG: [f64; 6] = [60.0, 150.0, 15.0, 105.0, 75.0, 165.0];
 
 /// Spacing factors of hatching at the additional angles.
-const SPACINGS: [f64; 3] = [1.0, 1.7, 0.6];
+const SPACING_FACTORS: [f64; 3] = [1.0, 1.7, 0.6];
 
-/// Number of kinds of hatching: [`KINDS`], then [`ANGLES`] and all whole degrees, each with every factor of
-/// [`SPACINGS`].
-const ALL_KINDS: usize = KINDS.len() + (ANGLES.len() + 180) * SPACINGS.len();
+/// Number of kinds of hatching: [`HATCH_KINDS`], then [`EXTRA_ANGLES_DEG`] and all whole degrees, each with every factor of
+/// [`SPACING_FACTORS`].
+const KIND_COUNT: usize = HATCH_KINDS.len() + (EXTRA_ANGLES_DEG.len() + 180) * SPACING_FACTORS.len();
 
 /// Angle (degrees) and spacing factor of a kind. The last kinds are whole degrees, starting near 45 and 135.
 fn lines_of(kind: usize) -> (f64, f64) {
-    let kind = kind % ALL_KINDS;
-    let Some(more) = kind.checked_sub(KINDS.len()) else { return KINDS[kind] };
-    let (number, farther) = (more / SPACINGS.len(), SPACINGS[more % SPACINGS.len()]);
-    let angle = ANGLES.get(number).copied().unwrap_or_else(|| {
-        let degree = (number - ANGLES.len()) as f64;
+    let kind = kind % KIND_COUNT;
+    let Some(more) = kind.checked_sub(HATCH_KINDS.len()) else { return HATCH_KINDS[kind] };
+    let (number, farther) = (more / SPACING_FACTORS.len(), SPACING_FACTORS[more % SPACING_FACTORS.len()]);
+    let angle = EXTRA_ANGLES_DEG.get(number).copied().unwrap_or_else(|| {
+        let degree = (number - EXTRA_ANGLES_DEG.len()) as f64;
         let turn = ((degree / 4.0).floor() + 1.0) * if degree % 4.0 < 2.0 { 1.0 } else { -1.0 };
         (if degree % 2.0 == 0.0 { 45.0 } else { 135.0 } + turn).rem_euclid(180.0)
     });
     (angle, farther)
 }
 
-/// Like [`hatched`], for particular views of a cut scene.
+/// Like [`with_cut_hatching`], for particular views of a cut scene.
 ///
 /// If the hatching of a part would run within 10 degrees of its long sides in the picture of any camera,
 /// another angle is used where one exists. Neighbouring parts still differ. The kinds of the faces and the
@@ -78,7 +78,12 @@ fn lines_of(kind: usize) -> (f64, f64) {
 ///
 /// Source: ISO 128-50:2001, 4.
 #[must_use]
-pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cameras: &[Camera]) -> Style {
+pub fn with_cut_hatching_for(
+    style: &Style,
+    scene: &mut Scene,
+    faces: &mut [CutFaces],
+    cameras: &[Camera],
+) -> Style {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
     let mut done: Vec<usize> = Vec::new();
@@ -86,7 +91,7 @@ pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cam
         let sides = long_sides(scene, &faces[own], cameras);
         let runs_along = |angle: f64| {
             let apart = |side: &f64| (angle - side).rem_euclid(180.0);
-            sides.iter().map(apart).any(|apart| apart.min(180.0 - apart) < PARALLEL_DEG)
+            sides.iter().map(apart).any(|apart| apart.min(180.0 - apart) < MAX_PARALLEL_DEG)
         };
         let near = done.iter().filter(|other| are_neighbours(&faces[own], &faces[**other]));
         let taken: Vec<usize> = near.map(|other| faces[*other].kind).collect();
@@ -96,7 +101,7 @@ pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cam
                 && (has_pattern(style, &material_name(*kind)) || !runs_along(lines_of(*kind).0))
         };
         let usual = || (0..).find(|kind| !taken.contains(kind)).unwrap_or_default();
-        let kind = (0..ALL_KINDS).find(is_right).unwrap_or_else(usual);
+        let kind = (0..KIND_COUNT).find(is_right).unwrap_or_else(usual);
         faces[own].kind = kind;
         if let Some(material) = scene.materials.get_mut(faces[own].material as usize) {
             material.name = material_name(kind);
@@ -119,7 +124,7 @@ fn has_pattern(style: &Style, name: &str) -> bool {
 ///
 /// Source: ISO 128-50:2001, Basic conventions for representing areas on cuts and sections, 4 and 6.
 #[must_use]
-pub fn hatched(style: &Style, section: &Section) -> Style {
+pub fn with_cut_hatching(style: &Style, section: &Section) -> Style {
     with_kinds(style, &section.faces)
 }
 
@@ -181,7 +186,7 @@ mod tests {
     fn the_ways_of_hatching_differ_and_begin_with_the_usual_ones() {
         assert_eq!([0, 1, 2].map(lines_of), [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7)]);
         let degrees = |kind: usize| (lines_of(kind).0.round() as usize, (lines_of(kind).1 * 10.0) as usize);
-        let all: std::collections::BTreeSet<_> = (0..ALL_KINDS).map(degrees).collect();
+        let all: std::collections::BTreeSet<_> = (0..KIND_COUNT).map(degrees).collect();
         assert!((0..180).all(|degree| degree == 45 || degree == 135 || all.contains(&(degree, 10))));
         let first = (0..60).map(degrees).collect::<std::collections::BTreeSet<_>>();
         assert!(first.len() > 50, "{first:?}");

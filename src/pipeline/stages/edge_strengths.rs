@@ -1,8 +1,8 @@
 //! The visible view edges by strength: creases by their angle, inner lines by their strength, and kinds
 //! without strength in grey.
 
-use super::stage_marks::{PALE, Runs, line};
-use super::{Made, layers};
+use super::stage_marks::{PALE, PolylineRuns, line};
+use super::{StageInputs, layers};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind};
 use crate::lines::LineKind;
@@ -19,7 +19,7 @@ const RAMP: [Colour; 6] = [
 ];
 
 /// A view edge's step on the ramp; `None` if its kind has no strength.
-fn step(made: &Made, edge: &ViewEdge) -> Option<usize> {
+fn step(made: &StageInputs, edge: &ViewEdge) -> Option<usize> {
     let share = match edge.kind {
         LineKind::Crease => f64::from(edge.strength) / 180.0,
         kind if kind.is_inside() => {
@@ -42,7 +42,7 @@ fn note(kind: LineKind, step: usize) -> String {
 }
 
 /// Draws weak edges first, so that strong ones lie over them.
-pub(crate) fn draw(made: &Made) -> Vec<Layer> {
+pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
     let mut steps: Vec<Option<usize>> = vec![None];
     steps.extend((0..RAMP.len()).map(Some));
     let visible: Vec<(&ViewEdge, Option<usize>)> =
@@ -50,7 +50,7 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     let mut marks = Vec::new();
     for wanted in steps {
         for kind in LineKind::ALL {
-            let mut runs = Runs::default();
+            let mut runs = PolylineRuns::default();
             for (edge, _) in visible.iter().filter(|(e, step)| e.kind == kind && *step == wanted) {
                 runs.push([edge.start, edge.end].map(|v| made.map.vertices[v.index()].position));
             }

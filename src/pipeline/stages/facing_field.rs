@@ -3,22 +3,22 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::stage_marks::{Runs, fill, line};
-use super::{Made, layers};
+use super::stage_marks::{PolylineRuns, fill, line};
+use super::{StageInputs, layers};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Mark, Paint};
 use crate::light::{SurfaceCut, cut};
 use crate::lines;
 use crate::view::raster::painter_order::back_to_front;
-use crate::view::raster::{FaceBuffer, Screen};
+use crate::view::raster::{FaceBuffer, PixelGrid};
 
 /// Borders between bands.
 const LEVELS: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
 /// Index of the zero level.
-const ZERO: u16 = 4;
+const ZERO_LEVEL: u16 = 4;
 
 /// Colours of the bands, most averted first.
-const COLOURS: [Colour; 10] = [
+const BAND_COLOURS: [Colour; 10] = [
     Colour::rgb(0x1d, 0x3c, 0x6e),
     Colour::rgb(0x2c, 0x5a, 0x96),
     Colour::rgb(0x45, 0x7f, 0xb8),
@@ -33,13 +33,13 @@ const COLOURS: [Colour; 10] = [
 
 /// Colours of flat faces, which have no smooth field: greys by their angle to the camera, and a bluish grey
 /// for averted ones.
-const FLAT: [Colour; 4] = [
+const FACING_FLAT_COLOURS: [Colour; 4] = [
     Colour::rgb(0xb4, 0xb4, 0xb0),
     Colour::rgb(0xcc, 0xcc, 0xc8),
     Colour::rgb(0xde, 0xde, 0xda),
     Colour::rgb(0xee, 0xee, 0xea),
 ];
-const FLAT_AVERTED: Colour = Colour::rgb(0x86, 0x94, 0xa6);
+const AVERTED_FLAT_COLOUR: Colour = Colour::rgb(0x86, 0x94, 0xa6);
 
 /// Widening of pieces, px. Neighbours overlap slightly, so that no paper shows between them.
 const WIDEN_PX: f64 = 0.4;
@@ -48,10 +48,10 @@ const WIDEN_PX: f64 = 0.4;
 const SHARP_COSINE: f64 = -0.5;
 
 /// Draws the front faces from back to front, with the zero set over them.
-pub(crate) fn draw(made: &Made) -> Vec<Layer> {
+pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
     let (mesh, view) = (&made.surface.mesh, made.view);
     let cut = cut(mesh, &made.surface.smooth, &lines::facing(made.surface, view), &LEVELS);
-    let screen = Screen::new(mesh, view);
+    let screen = PixelGrid::new(mesh, view);
     let buffer = FaceBuffer::new(&screen);
     let order = back_to_front(&screen, &buffer);
     let mut fills: Vec<Mark> = Vec::new();
@@ -64,9 +64,9 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
         }
         for piece in pieces {
             let band = usize::from(piece.band);
-            let side = if piece.band > ZERO { "facing" } else { "averted" };
+            let side = if piece.band > ZERO_LEVEL { "facing" } else { "averted" };
             let note = format!("n·v {:.1} to {:.1}", band as f64 / 5.0 - 1.0, (band + 1) as f64 / 5.0 - 1.0);
-            paint(&mut fills, made, &cut, cut.corners(piece), COLOURS[band], &["field", side], &note);
+            paint(&mut fills, made, &cut, cut.corners(piece), BAND_COLOURS[band], &["field", side], &note);
         }
     }
     let dark = Colour::rgb(0x1a, 0x1a, 0x1a);
@@ -75,20 +75,21 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     layers([(LayerKind::Fills, fills), (LayerKind::Lines, zero.into_iter().collect())])
 }
 
-fn flat_colour(made: &Made, face: u32) -> Colour {
+fn flat_colour(made: &StageInputs, face: u32) -> Colour {
     if !made.view.facing[face as usize] {
-        return FLAT_AVERTED;
+        return AVERTED_FLAT_COLOUR;
     }
     // The view axis is used instead of the eye direction, so that triangles of one plane are alike.
     let normal = glam::Vec3::from_array(made.surface.mesh.face_normals[face as usize]).as_dvec3();
     let cosine = -normal.dot(made.view.frame.forward);
-    FLAT[((cosine.max(0.0) * FLAT.len() as f64) as usize).min(FLAT.len() - 1)]
+    FACING_FLAT_COLOURS
+        [((cosine.max(0.0) * FACING_FLAT_COLOURS.len() as f64) as usize).min(FACING_FLAT_COLOURS.len() - 1)]
 }
 
 /// Paints a polygon. Consecutive polygons of one colour share a mark.
 fn paint(
     marks: &mut Vec<Mark>,
-    made: &Made,
+    made: &StageInputs,
     cut: &SurfaceCut,
     corners: &[u32],
     colour: Colour,
@@ -115,7 +116,7 @@ fn paint(
 }
 
 /// A corner of a piece on the page; `None` if the near plane cuts it off.
-fn on_page(made: &Made, cut: &SurfaceCut, corner: u32) -> Option<Point> {
+fn on_page(made: &StageInputs, cut: &SurfaceCut, corner: u32) -> Option<Point> {
     let point = match made.view.points.get(corner as usize) {
         Some(point) => *point,
         None => made.view.frame.image_from_local(cut.position(&made.surface.mesh, corner)),
@@ -149,7 +150,7 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
 }
 
 /// The zero set where its face is in front, or no face is.
-fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
+fn zero_set(made: &StageInputs, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
     let mesh = &made.surface.mesh;
     let per_unit = buffer.columns as f64 / made.view.frame.width;
     let in_front = |face: u32, middle: Point| {
@@ -164,8 +165,8 @@ fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPat
             front.is_none_or(|front| mesh.triangles[front as usize].iter().any(|v| own.contains(v)))
         })
     };
-    let mut runs = Runs::default();
-    for (face, side) in cut.border(ZERO) {
+    let mut runs = PolylineRuns::default();
+    for (face, side) in cut.border(ZERO_LEVEL) {
         let [Some(a), Some(b)] = side.map(|corner| on_page(made, cut, corner)) else { continue };
         if in_front(face, a.midpoint(b) - made.margin()) {
             runs.push([a, b]);

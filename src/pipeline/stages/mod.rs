@@ -23,15 +23,15 @@ use crate::lines::{FeatureLines, LineKind, Surface};
 use crate::pipeline::view::page_transform::margin;
 use crate::style::Style;
 use crate::view::View;
-use crate::visibility::{Ahead, ViewMap};
+use crate::visibility::{GapOcclusion, ViewMap};
 use stage_marks::{HUES, line, polyline};
 
 /// Results of the stages of one drawing.
-pub(crate) struct Made<'a> {
+pub(crate) struct StageInputs<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    pub ahead: &'a Ahead<'a>,
+    pub ahead: &'a GapOcclusion<'a>,
     /// View map, centred on the page.
     pub map: &'a ViewMap,
     pub chains: &'a [Chain],
@@ -40,7 +40,7 @@ pub(crate) struct Made<'a> {
 }
 
 /// Draws the result of one stage.
-pub(crate) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
+pub(crate) fn draw(stage: Stage, made: &StageInputs) -> Vec<Layer> {
     match stage {
         Stage::Field => facing_field::draw(made),
         Stage::Zeros => zero_sets::draw(made),
@@ -52,7 +52,7 @@ pub(crate) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
     }
 }
 
-impl Made<'_> {
+impl StageInputs<'_> {
     /// Offset from the camera's frame to the page.
     fn margin(&self) -> Vec2 {
         margin(&self.view.frame, self.page)
@@ -86,7 +86,7 @@ fn kind_colour(kind: LineKind) -> Colour {
 }
 
 /// All feature lines, hidden or not, with one colour per kind.
-fn of_lines(made: &Made) -> Vec<Layer> {
+fn of_lines(made: &StageInputs) -> Vec<Layer> {
     let marks = (0..made.lines.segments.len() as u32).filter_map(|s| {
         let kind = made.lines.segments[s as usize].kind;
         Some(line(polyline(&made.segment(s)?), kind_colour(kind), made.thin(), &[kind.name()], None))
@@ -96,7 +96,7 @@ fn of_lines(made: &Made) -> Vec<Layer> {
 
 /// Every view edge separately. Visible edges have the colour of their kind. Hidden ones are pale, in a layer
 /// below.
-fn of_view_map(made: &Made) -> Vec<Layer> {
+fn of_view_map(made: &StageInputs) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
     for edge in &made.map.edges {
         let ends = [edge.start, edge.end].map(|v| made.map.vertices[v.index()].position);
@@ -107,7 +107,7 @@ fn of_view_map(made: &Made) -> Vec<Layer> {
 }
 
 /// Every chain, in eight colours that repeat.
-fn of_chains(made: &Made) -> Vec<Layer> {
+fn of_chains(made: &StageInputs) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
     for (i, chain) in made.chains.iter().enumerate() {
         let (colour, path) = (HUES[i % HUES.len()], chain.path.clone());

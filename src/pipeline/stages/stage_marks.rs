@@ -61,12 +61,12 @@ pub(crate) fn add(path: &mut BezPath, points: &[Point]) {
 
 /// Joins consecutive segments of a list into polylines.
 #[derive(Debug, Default)]
-pub(crate) struct Runs {
+pub(crate) struct PolylineRuns {
     finished: BezPath,
     points: Vec<Point>,
 }
 
-impl Runs {
+impl PolylineRuns {
     /// Adds a segment. It continues the last line if it starts where that line ends.
     pub fn push(&mut self, [a, b]: [Point; 2]) {
         if self.points.last() != Some(&a) {

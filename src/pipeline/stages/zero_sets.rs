@@ -1,24 +1,24 @@
 //! The zero sets as traced, before hiding, and the mesh edges that decide their visibility.
 
-use super::stage_marks::{PALE, Runs, line};
-use super::{Made, layers};
+use super::stage_marks::{PALE, PolylineRuns, line};
+use super::{StageInputs, layers};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind};
 use crate::lines::{LineKind, Role};
 
 /// Colour of mesh contour edges, which decide the visibility of smooth contours.
-const WITNESS: Colour = Colour::rgb(0xd6, 0x27, 0x28);
+const MESH_CONTOUR_COLOUR: Colour = Colour::rgb(0xd6, 0x27, 0x28);
 /// Colours of contours that run forward, and of those that run backward between two cusps.
-const FORWARD: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
-const BACKWARD: Colour = Colour::rgb(0x9b, 0x3f, 0xc4);
+const FORWARD_COLOUR: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
+const BACKWARD_COLOUR: Colour = Colour::rgb(0x9b, 0x3f, 0xc4);
 
 /// Draws contours along their curves, inner lines, mesh contour edges, and everything else pale.
-pub(crate) fn draw(made: &Made) -> Vec<Layer> {
+pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
     let mut lines = Vec::new();
     let mut on_curve = vec![false; made.lines.segments.len()];
     for curve in &made.lines.curves {
         for backward in [false, true] {
-            let mut runs = Runs::default();
+            let mut runs = PolylineRuns::default();
             for (segment, advance) in curve.segments.clone().zip(&curve.advance) {
                 on_curve[segment as usize] = true;
                 if (*advance < 0.0) == backward
@@ -28,9 +28,9 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
                 }
             }
             let (colour, class, note) = if backward {
-                (BACKWARD, "backward", "contour, the averted side nearer: between two cusps")
+                (BACKWARD_COLOUR, "backward", "contour, the averted side nearer: between two cusps")
             } else {
-                (FORWARD, "forward", "contour")
+                (FORWARD_COLOUR, "forward", "contour")
             };
             let path = runs.finish();
             lines.extend(path.map(|path| line(path, colour, made.px(1.0), &["contour", class], Some(note))));
@@ -38,11 +38,11 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     }
     let mut others = Vec::new();
     for kind in LineKind::ALL {
-        let mut runs = Runs::default();
+        let mut runs = PolylineRuns::default();
         for (i, segment) in made.lines.segments.iter().enumerate() {
             if segment.kind == kind
                 && !on_curve[i]
-                && !matches!(segment.role, Role::Witness { .. })
+                && !matches!(segment.role, Role::MeshContour { .. })
                 && let Some(ends) = made.segment(i as u32)
             {
                 runs.push(ends);
@@ -55,14 +55,15 @@ pub(crate) fn draw(made: &Made) -> Vec<Layer> {
             others.push(line(path, PALE, made.px(0.6), &[kind.name()], None));
         }
     }
-    let mut runs = Runs::default();
+    let mut runs = PolylineRuns::default();
     let segments = made.lines.segments.iter().enumerate();
-    for (i, _) in segments.filter(|(_, s)| matches!(s.role, Role::Witness { .. })) {
+    for (i, _) in segments.filter(|(_, s)| matches!(s.role, Role::MeshContour { .. })) {
         made.segment(i as u32).into_iter().for_each(|ends| runs.push(ends));
     }
     let note = "edge along which the polyhedron turns from the eye";
     others.extend(
-        runs.finish().map(|path| line(path, WITNESS, made.px(0.6), &["contour", "witness"], Some(note))),
+        runs.finish()
+            .map(|path| line(path, MESH_CONTOUR_COLOUR, made.px(0.6), &["contour", "witness"], Some(note))),
     );
     others.extend(lines);
     layers([(LayerKind::Lines, others)])

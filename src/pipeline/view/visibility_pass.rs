@@ -1,19 +1,19 @@
-//! [`OnView`]: a view with the visibility of its lines.
+//! [`VisibleView`]: a view with the visibility of its lines.
 
 use crate::drawing::{Length, Unit};
-use crate::lines::{self, FeatureLines, Known, Surface, Textures};
-use crate::pipeline::fills::glass::{self, Behind};
-use crate::pipeline::fills::surface_fills::{self, Colours, Fills};
+use crate::lines::{self, FeatureLines, SharedSearches, Surface, Textures};
+use crate::pipeline::fills::glass::{self, BehindGlass};
+use crate::pipeline::fills::surface_fills::{self, SurfaceColours, SurfaceFills};
 use crate::pipeline::lines::part_joints;
 use crate::pipeline::prepare::prepared_scene::Prepared;
 use crate::pipeline::report::drawing_report::{Report, Stopwatch};
-use crate::pipeline::thread_pool::on_threads;
+use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::Camera;
 use crate::view::View;
 use crate::visibility::{self, ViewMap};
 
 /// View with the visibility of its lines decided.
-pub(crate) struct OnView<'a> {
+pub(crate) struct VisibleView<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
@@ -22,10 +22,10 @@ pub(crate) struct OnView<'a> {
     /// Set if lines or surfaces use colours.
     pub textures: Option<&'a Textures>,
     /// Set if surfaces are painted or hatched.
-    pub fills: Option<&'a Fills<'a>>,
+    pub fills: Option<&'a SurfaceFills<'a>>,
     pub map: ViewMap,
     /// Lines and surfaces visible through transparent materials.
-    pub behind: Option<Behind<'a>>,
+    pub behind: Option<BehindGlass<'a>>,
     pub report: Report,
     pub watch: Stopwatch,
     pub warnings: Vec<String>,
@@ -37,12 +37,12 @@ impl Prepared<'_> {
         &self,
         camera: &Camera,
         unit: Unit,
-        call: impl FnOnce(OnView) -> T + Send,
+        call: impl FnOnce(VisibleView) -> T + Send,
     ) -> T {
-        on_threads(|| self.decided(camera, unit, call))
+        run_on_pool(|| self.decided(camera, unit, call))
     }
 
-    fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T) -> T {
+    fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(VisibleView) -> T) -> T {
         let Self { scene, style, sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
@@ -62,14 +62,14 @@ impl Prepared<'_> {
         let paintable = own.as_ref().or(self.paintable.as_ref());
         report.stages_ms.topology = watch.lap_ms();
 
-        let panes = glass::Panes::of(surface, scene, style);
+        let panes = glass::GlassPanes::of(surface, scene, style);
         // Through glass more is visible.
         let is_clear = panes.is_none();
         let in_sight =
             is_clear.then(|| self.search.in_sight(surface, &view, finer.as_ref(), sought)).flatten();
         let (covers, in_sight) = in_sight.unzip();
         let mut known = if surface.refined {
-            Known { intersections: finer.as_ref(), ..Known::default() }
+            SharedSearches { intersections: finer.as_ref(), ..SharedSearches::default() }
         } else {
             self.search.of_next_view(surface, sought, in_sight.is_none())
         };
@@ -85,18 +85,26 @@ impl Prepared<'_> {
         let textures = paints.as_deref().map(of);
         let colours = paints.as_deref().zip(textures.as_ref());
         // Transparent faces cast no shadow.
-        let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
+        let casting = panes.as_ref().map_or(&surface.mesh, glass::GlassPanes::clear);
         // Shadows on faces that this view has split are not shared.
         let late = refined.is_none().then_some(&self.shadows);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
-            let colours = Colours { paints, textures };
-            let fills =
-                Fills::new(surface, (casting, late), paintable, &view, scene, colours, style, &mut warnings);
-            let moved = self.anchors.as_ref().filter(|_| surface_fills::lays_through(style));
-            moved.into_iter().fold(fills, Fills::laid_at)
+            let colours = SurfaceColours { paints, textures };
+            let fills = SurfaceFills::new(
+                surface,
+                (casting, late),
+                paintable,
+                &view,
+                scene,
+                colours,
+                style,
+                &mut warnings,
+            );
+            let moved = self.anchors.as_ref().filter(|_| surface_fills::has_model_fixed_marks(style));
+            moved.into_iter().fold(fills, SurfaceFills::laid_at)
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
-        let inked = surface_fills::asks_isophotes(style);
+        let inked = surface_fills::draws_isophotes(style);
         let mut unchanged = joints;
         unchanged.extend(
             fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default(),
@@ -107,7 +115,7 @@ impl Prepared<'_> {
         report.stages_ms.visibility = watch.lap_ms();
         let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
         let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
-        call(OnView {
+        call(VisibleView {
             surface,
             view,
             lines,

@@ -13,13 +13,13 @@ use super::snap_rounding::{Border, GridPoint};
 /// Segments on the grid, with the kind of border.
 pub(crate) type Segments = Vec<([GridPoint; 2], Border)>;
 
-const NONE: u32 = u32::MAX;
+const NO_SEGMENT: u32 = u32::MAX;
 
 /// Simplifies lines of segments. Points where lines meet or end stay.
 ///
 /// `tolerance` is the largest error for a kind of border, grid steps.
-pub(crate) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
-    let lines = Lines::new(segments);
+pub(crate) fn simplify_borders(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
+    let lines = SegmentGraph::new(segments);
     let mut done = vec![false; segments.len()];
     let mut out = Segments::new();
     let mut points = Vec::new();
@@ -65,7 +65,7 @@ fn make_canonical(points: &mut Vec<GridPoint>) {
 }
 
 /// Segments by their end points.
-struct Lines<'a> {
+struct SegmentGraph<'a> {
     segments: &'a Segments,
     /// Point ids of the ends of each segment.
     ends: Vec<[u32; 2]>,
@@ -75,7 +75,7 @@ struct Lines<'a> {
     count: Vec<u32>,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> SegmentGraph<'a> {
     fn new(segments: &'a Segments) -> Self {
         let mut number: FxHashMap<GridPoint, u32> = FxHashMap::default();
         number.reserve(segments.len());
@@ -86,7 +86,7 @@ impl<'a> Lines<'a> {
                 let next = lines.at.len() as u32;
                 let own = *number.entry(p).or_insert(next);
                 if own == next {
-                    lines.at.push([NONE; 2]);
+                    lines.at.push([NO_SEGMENT; 2]);
                     lines.count.push(0);
                 }
                 own
@@ -192,7 +192,7 @@ mod tests {
         let mut segments: Segments =
             (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
         segments.push(([[50, 0], [50, 40]], Border::Soft));
-        let mut thin = thinned(&segments, |_| 0.5);
+        let mut thin = simplify_borders(&segments, |_| 0.5);
         thin.sort_unstable();
         assert_eq!(
             thin,
@@ -217,7 +217,7 @@ mod tests {
             ]
         };
         let segments: Segments = (0..200).map(|k| ([at(k), at((k + 1) % 200)], Border::Soft)).collect();
-        let thin = thinned(&segments, |_| 10.0);
+        let thin = simplify_borders(&segments, |_| 10.0);
         assert!((12..60).contains(&thin.len()), "{}", thin.len());
         let mut ends: Vec<GridPoint> = thin.iter().flat_map(|(ends, _)| *ends).collect();
         ends.sort_unstable();

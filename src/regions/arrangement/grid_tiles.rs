@@ -1,38 +1,38 @@
-//! [`PieceTiles`]: border pieces by the tiles of the page that they pass, so that only neighbours are
+//! [`GridTiles`]: border pieces by the tiles of the page that they pass, so that only neighbours are
 //! compared.
 
 use rustc_hash::FxHashMap;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Point of the grid.
 pub(crate) type GridPoint = [i64; 2];
 
 /// Average number of pieces per tile, over the whole page.
-const PIECES_A_TILE: usize = 1;
+const PIECES_PER_TILE: usize = 1;
 
 /// Approximate maximum number of tiles along an axis.
-const MOST_TILES: usize = 1000;
+const MAX_TILES_PER_AXIS: usize = 1000;
 
 /// Grid of tiles with the border pieces that pass each of them.
 #[derive(Default)]
-pub(crate) struct PieceTiles {
+pub(crate) struct GridTiles {
     low: GridPoint,
     /// Width and height of tiles, as powers of two.
     shift: [u32; 2],
     across: GridPoint,
-    first: Grouped<u32>,
+    first: CsrLists<u32>,
     /// Pieces that were added later; few.
     later: FxHashMap<u32, Vec<u32>>,
 }
 
-impl PieceTiles {
+impl GridTiles {
     /// Tiles of the bounding box of the points, filled with `count` pieces.
     pub fn new(points: &[GridPoint], count: usize, ends: impl Fn(u32) -> [GridPoint; 2]) -> Self {
         let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
         let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
-        let across = ((count / PIECES_A_TILE) as f64).sqrt() as usize;
-        let across = across.clamp(1, MOST_TILES) as i64;
+        let across = ((count / PIECES_PER_TILE) as f64).sqrt() as usize;
+        let across = across.clamp(1, MAX_TILES_PER_AXIS) as i64;
         // Power of two nearest to the wanted size.
         let shift = [0, 1].map(|k| {
             let size = (high[k] - low[k]) / across + 1;
@@ -41,7 +41,7 @@ impl PieceTiles {
         });
         let across = [0, 1].map(|k| ((high[k] - low[k]) >> shift[k]) + 1);
         let tiles = Self { low, shift, across, ..Self::default() };
-        let first = grouped((across[0] * across[1]) as usize, |put| {
+        let first = csr_lists((across[0] * across[1]) as usize, |put| {
             for piece in 0..count as u32 {
                 tiles.each(ends(piece), |tile| put(tile as usize, piece));
             }

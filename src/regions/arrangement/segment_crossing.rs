@@ -1,12 +1,12 @@
-//! [`Passing`]: exact integer tests for crossings and contacts of border pieces on the grid.
+//! [`TilePiece`]: exact integer tests for crossings and contacts of border pieces on the grid.
 
 use super::grid_tiles::GridPoint;
 
 /// Largest squared distance of a point that lies on a piece, grid steps squared.
-const ON_PIECE: f64 = 0.5;
+const MAX_ON_PIECE_DISTANCE2: f64 = 0.5;
 
 /// Border piece in a tile, with everything that the tests need.
-pub(crate) struct Passing {
+pub(crate) struct TilePiece {
     ends: [GridPoint; 2],
     low: GridPoint,
     high: GridPoint,
@@ -15,7 +15,7 @@ pub(crate) struct Passing {
     origin: u32,
 }
 
-impl Passing {
+impl TilePiece {
     pub fn new(ends: [GridPoint; 2], number: u32, origin: u32) -> Self {
         let [a, b] = ends;
         let of = |end: fn(i64, i64) -> i64| [end(a[0], b[0]), end(a[1], b[1])];
@@ -74,7 +74,7 @@ pub(crate) fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
     let length2 = dot(a, b, b);
     let off = orient(a, b, p) as f64;
     // Early exit, since most points are far away.
-    if off * off > ON_PIECE * length2 as f64 || p == a || p == b {
+    if off * off > MAX_ON_PIECE_DISTANCE2 * length2 as f64 || p == a || p == b {
         return false;
     }
     (1..length2).contains(&dot(a, b, p))
@@ -90,7 +90,7 @@ pub(crate) fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint)
 }
 
 /// Squared distance from a point to the bounding box of a piece.
-pub(crate) fn beside(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
+pub(crate) fn box_distance2(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
     let gap = |k: usize| (a[k].min(b[k]) - p[k]).max(p[k] - a[k].max(b[k])).max(0) as f64;
     gap(0) * gap(0) + gap(1) * gap(1)
 }

@@ -12,8 +12,8 @@ use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 pub(crate) use super::grid_tiles::GridPoint;
-use super::grid_tiles::PieceTiles;
-use super::segment_crossing::{Passing, beside, dot, foot};
+use super::grid_tiles::GridTiles;
+use super::segment_crossing::{TilePiece, box_distance2, dot, foot};
 
 /// Kind of a border: the things it separates, and whether its line is smooth. Stronger kinds come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -58,7 +58,7 @@ pub(crate) struct Noded {
 }
 
 /// Maximum number of rounds. The triangulation leaves out one of two pieces that still cross.
-const MOST_ROUNDS: u32 = 16;
+const MAX_ROUNDS: u32 = 16;
 
 /// Cuts segments on the grid until they meet in shared points only.
 ///
@@ -70,7 +70,7 @@ pub(crate) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
         let ends = [noded.point(*a), noded.point(*b)];
         noded.add(ends, *border, noded.pieces.len() as u32);
     }
-    noded.tiles = PieceTiles::new(&noded.points, noded.pieces.len(), |piece| noded.ends(piece));
+    noded.tiles = GridTiles::new(&noded.points, noded.pieces.len(), |piece| noded.ends(piece));
     noded.cut_all((0..noded.tiles.count() as u32).collect());
     let touched = noded.bridge(reach);
     noded.cut_all(touched);
@@ -104,7 +104,7 @@ struct Noder {
     is_cut: Vec<bool>,
     /// First piece that is new since the last round. Older pieces do not meet each other.
     first_new: u32,
-    tiles: PieceTiles,
+    tiles: GridTiles,
 }
 
 impl Noder {
@@ -147,7 +147,7 @@ impl Noder {
 
     /// Cuts pieces until none meet, starting with the given tiles.
     fn cut_all(&mut self, mut touched: Vec<u32>) {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             if touched.is_empty() {
                 break;
             }
@@ -192,7 +192,7 @@ impl Noder {
                     let most = nearest.map_or(reach * reach, |(distance2, _)| distance2);
                     let is_own = self.pieces[k as usize].ends.contains(end);
                     // The bounding box is at least as near as the piece.
-                    if self.is_cut[k as usize] || is_own || beside(a, b, *p) > most {
+                    if self.is_cut[k as usize] || is_own || box_distance2(a, b, *p) > most {
                         continue;
                     }
                     let found = foot(a, b, *p);
@@ -219,13 +219,13 @@ impl Noder {
     /// Runs one round in the given tiles: cuts new pieces and those that they meet. Returns the tiles of
     /// their parts.
     fn cut(&mut self, touched: &[u32]) -> Vec<u32> {
-        const TILES: usize = 256;
+        const TILES_PER_TASK: usize = 256;
         let in_tiles = |tiles: &[u32]| {
             let (mut cuts, mut own) = (Vec::new(), Vec::new());
             for tile in tiles {
                 own.clear();
                 let whole = self.tiles.of(*tile).filter(|piece| !self.is_cut[*piece as usize]);
-                own.extend(whole.map(|k| Passing::new(self.ends(k), k, self.origins[k as usize])));
+                own.extend(whole.map(|k| TilePiece::new(self.ends(k), k, self.origins[k as usize])));
                 for (k, new) in own.iter().enumerate().filter(|(_, piece)| piece.number >= self.first_new) {
                     own[..k]
                         .iter()
@@ -236,7 +236,7 @@ impl Noder {
             cuts
         };
         let mut cuts: Vec<(u32, GridPoint)> =
-            touched.par_chunks(TILES).with_max_len(1).flat_map_iter(in_tiles).collect();
+            touched.par_chunks(TILES_PER_TASK).with_max_len(1).flat_map_iter(in_tiles).collect();
         cuts.par_sort_unstable();
         cuts.dedup();
         let first_new = self.pieces.len() as u32;

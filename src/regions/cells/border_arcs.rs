@@ -26,14 +26,14 @@ pub(crate) struct RawArc {
 }
 
 /// Arc in a loop, and whether it is passed from its first point to its last.
-pub(crate) type Use = (u32, bool);
+pub(crate) type ArcUse = (u32, bool);
 
 /// Arcs between patches, and the loops around each patch.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Borders {
     pub arcs: Vec<RawArc>,
     /// Loops around each patch, with the patch on their left.
-    pub loops: Vec<Vec<Vec<Use>>>,
+    pub loops: Vec<Vec<Vec<ArcUse>>>,
 }
 
 /// Side of a triangle on a border, with the patch on its left.
@@ -85,7 +85,7 @@ struct Tracer<'a> {
     starts: Vec<u32>,
 }
 
-const UNSET: u32 = u32::MAX;
+const NO_ARC: u32 = u32::MAX;
 
 impl Tracer<'_> {
     fn from(&self, point: u32) -> std::ops::Range<usize> {
@@ -104,13 +104,13 @@ impl Tracer<'_> {
     }
 
     /// All arcs, and for each half edge its arc and whether it runs along it.
-    fn arcs(&self) -> (Vec<RawArc>, Vec<Use>) {
+    fn arcs(&self) -> (Vec<RawArc>, Vec<ArcUse>) {
         let mut arcs = Vec::new();
-        let mut arc_of: Vec<Use> = vec![(UNSET, false); self.halves.len()];
+        let mut arc_of: Vec<ArcUse> = vec![(NO_ARC, false); self.halves.len()];
         // Arcs between nodes first, then closed arcs.
         for closed in [false, true] {
             for first in 0..self.halves.len() {
-                if arc_of[first].0 != UNSET || (!closed && !self.is_node(self.halves[first].from)) {
+                if arc_of[first].0 != NO_ARC || (!closed && !self.is_node(self.halves[first].from)) {
                     continue;
                 }
                 arcs.push(self.follow(first, arcs.len() as u32, &mut arc_of));
@@ -119,7 +119,7 @@ impl Tracer<'_> {
         (arcs, arc_of)
     }
 
-    fn follow(&self, first: usize, arc: u32, arc_of: &mut [Use]) -> RawArc {
+    fn follow(&self, first: usize, arc: u32, arc_of: &mut [ArcUse]) -> RawArc {
         let start = self.halves[first];
         let mut found = RawArc {
             points: vec![start.from],
@@ -142,7 +142,7 @@ impl Tracer<'_> {
             found.points.push(half.to);
             let next = self.from(half.to).find(|k| self.halves[*k].to != half.from);
             match next {
-                Some(next) if !self.is_node(half.to) && arc_of[next].0 == UNSET => at = next,
+                Some(next) if !self.is_node(half.to) && arc_of[next].0 == NO_ARC => at = next,
                 _ => {
                     found.soft.push(half.soft);
                     return found;
@@ -152,8 +152,8 @@ impl Tracer<'_> {
     }
 
     /// Loops around each patch.
-    fn loops(&self, arcs: &[RawArc], arc_of: &[Use], count: usize) -> Vec<Vec<Vec<Use>>> {
-        let mut loops: Vec<Vec<Vec<Use>>> = vec![Vec::new(); count];
+    fn loops(&self, arcs: &[RawArc], arc_of: &[ArcUse], count: usize) -> Vec<Vec<Vec<ArcUse>>> {
+        let mut loops: Vec<Vec<Vec<ArcUse>>> = vec![Vec::new(); count];
         let mut done = vec![[false; 2]; arcs.len()];
         for arc in 0..arcs.len() {
             for along in [true, false] {
@@ -161,7 +161,7 @@ impl Tracer<'_> {
                 if patch == OUTSIDE_PATCH || done[arc][usize::from(!along)] {
                     continue;
                 }
-                let mut uses: Vec<Use> = Vec::new();
+                let mut uses: Vec<ArcUse> = Vec::new();
                 let mut next = (arc as u32, along);
                 while !done[next.0 as usize][usize::from(!next.1)] {
                     done[next.0 as usize][usize::from(!next.1)] = true;

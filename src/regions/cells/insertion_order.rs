@@ -4,11 +4,11 @@ use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::noise::hash;
 use crate::mesh::order::morton_curve::spread;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::regions::arrangement::snap_rounding::GridPoint;
 
 /// Bits per coordinate in a Morton code.
-const BITS: u32 = 21;
+const MAX_COORDINATE_BITS: u32 = 21;
 
 /// Biased randomized insertion order of points.
 ///
@@ -28,14 +28,14 @@ pub(crate) fn insertion_order(points: &[GridPoint]) -> Vec<u32> {
         }
     }
     let size = (0..2).map(|axis| high[axis].abs_diff(low[axis])).max().unwrap_or(0);
-    let shift = (u64::BITS - size.leading_zeros()).saturating_sub(BITS);
+    let shift = (u64::BITS - size.leading_zeros()).saturating_sub(MAX_COORDINATE_BITS);
     let along = |point: &GridPoint| {
         let [x, y] = [0, 1].map(|axis| spread(point[axis].abs_diff(low[axis]) >> shift));
         x | y << 1
     };
     let mut keys: Vec<(u32, u64, u32)> = points
         .par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .enumerate()
         .map(|(number, point)| {
             // The last round holds half of the points, the one before it a quarter, and so on.

@@ -14,7 +14,7 @@ use crate::regions::arrangement::snap_rounding::{Border, GridPoint, Noded};
 pub(crate) const OUTSIDE: u32 = u32::MAX;
 
 /// Minimum number of triangles per task.
-const GRAIN: usize = 1 << 9;
+const MIN_TRIANGLES_PER_TASK: usize = 1 << 9;
 
 /// Constrained Delaunay triangulation of the page.
 #[derive(Debug, Clone, Default)]
@@ -30,12 +30,12 @@ pub(crate) struct Triangulation {
 
 /// Point with its id.
 #[derive(Clone, Copy)]
-struct Corner {
+struct NumberedPoint {
     position: Point2<f64>,
     number: u32,
 }
 
-impl HasPosition for Corner {
+impl HasPosition for NumberedPoint {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
@@ -57,7 +57,8 @@ impl Triangulation {
             (corners, face)
         };
         let faces: Vec<FixedFaceHandle<InnerTag>> = built.fixed_inner_faces().collect();
-        let mut faces: Vec<_> = faces.into_par_iter().with_min_len(GRAIN).map(with_corners).collect();
+        let mut faces: Vec<_> =
+            faces.into_par_iter().with_min_len(MIN_TRIANGLES_PER_TASK).map(with_corners).collect();
         faces.par_sort_unstable_by_key(|(corners, _)| *corners);
         let mut number = vec![OUTSIDE; built.num_all_faces()];
         for (k, (_, face)) in (0..).zip(&faces) {
@@ -79,7 +80,7 @@ impl Triangulation {
             });
             (neighbours, borders)
         };
-        let (neighbours, borders) = faces.par_iter().with_min_len(GRAIN).map(sides).unzip();
+        let (neighbours, borders) = faces.par_iter().with_min_len(MIN_TRIANGLES_PER_TASK).map(sides).unzip();
         let triangles = faces.iter().map(|(corners, _)| *corners).collect();
         Self { triangles, neighbours, borders, points: noded.points }
     }
@@ -143,14 +144,15 @@ impl Triangulation {
 }
 
 /// Delaunay triangulation of points and border pieces; `None` if a coordinate is out of range.
-fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner>> {
+fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<NumberedPoint>> {
     let points = noded.points.len();
-    let mut built = ConstrainedDelaunayTriangulation::<Corner>::with_capacity(points, 3 * points, 2 * points);
+    let mut built =
+        ConstrainedDelaunayTriangulation::<NumberedPoint>::with_capacity(points, 3 * points, 2 * points);
     let mut vertices = vec![None; points];
     let mut last = None;
     for number in insertion_order(&noded.points) {
         let [x, y] = noded.points[number as usize];
-        let corner = Corner { position: Point2::new(x as f64, y as f64), number };
+        let corner = NumberedPoint { position: Point2::new(x as f64, y as f64), number };
         let vertex = match last {
             Some(near) => built.insert_with_hint(corner, near),
             None => built.insert(corner),

@@ -1,4 +1,4 @@
-//! [`Ground`]: the page as hatching needs it: what is visible where, and where strokes end.
+//! [`HatchRegions`]: the page as hatching needs it: what is visible where, and where strokes end.
 //!
 //! Borders are the sides of the triangulation, accurate to a hundredth of a px. They are not smoothed again,
 //! and no polygons are built. A stroke is cut where it crosses a border piece, which stores the cells on both
@@ -10,18 +10,18 @@ use kurbo::{Point, Vec2};
 
 pub use super::border_piece::{BorderPiece, PAPER};
 
-use super::piece_tiles::PieceTiles;
+use super::piece_tiles::BorderPieceTiles;
 use crate::drawing::{Length, Unit};
 use crate::regions::cells::patches;
 use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
-use crate::regions::labels::labelled_page::Seen;
-use crate::regions::labels::surface_label::{Look, NOTHING};
+use crate::regions::labels::labelled_page::LabelledPage;
+use crate::regions::labels::surface_label::{NO_LABEL, SurfaceLabel};
 
 /// Connected part of the page that looks the same to hatching.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cell {
+pub struct HatchCell {
     /// Label; tones of fills are set to 0. Meaningless in cell 0, which is paper.
-    pub look: Look,
+    pub look: SurfaceLabel,
     /// Stretch of visible surface that contains the cell; 0 for paper. Cells of one facet differ in light and
     /// shade only.
     pub facet: u32,
@@ -31,24 +31,24 @@ pub struct Cell {
 
 /// Cells of the page, and the border pieces between them.
 #[derive(Debug, Clone, Default)]
-pub struct Ground {
+pub struct HatchRegions {
     /// All cells. The first is paper.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<HatchCell>,
     /// Border pieces between different cells or surfaces.
     pub pieces: Vec<BorderPiece>,
     /// Number of facets. Facet 0 is paper.
     pub facets: u32,
-    grid: PieceTiles,
+    grid: BorderPieceTiles,
 }
 
-impl Ground {
+impl HatchRegions {
     /// Cells of a labelled page, moved by `offset`. Cells with less area than a square of side `crumb` go to
     /// a neighbour.
     #[must_use]
-    pub fn new(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+    pub fn new(seen: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
         let cut = &seen.cut;
         // Hatching ignores tones and marks of cast shadows: the bins include shadows already.
-        let (looks, table) = seen.seen_as(|look| Look { tone: 0, cast: false, ..*look });
+        let (looks, table) = seen.relabelled(|look| SurfaceLabel { tone: 0, cast: false, ..*look });
         let part = |triangle: usize| {
             looks[triangle]
                 .checked_sub(1)
@@ -63,8 +63,8 @@ impl Ground {
 
     /// Cells that differ in tone and colour, but not in hatching bin.
     #[must_use]
-    pub fn toned(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
-        let (looks, table) = seen.seen_as(|look| Look { bin: 0, ..*look });
+    pub fn toned(seen: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let (looks, table) = seen.relabelled(|look| SurfaceLabel { bin: 0, ..*look });
         let (facet_of, _) = seen.cut.flooded(|triangle, side, next| {
             seen.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
                 && looks[triangle] == looks[next]
@@ -74,21 +74,21 @@ impl Ground {
 
     /// Cells after relabelling by `coarser`, which may make labels equal. All cells form one facet.
     pub(crate) fn coarse(
-        seen: &Seen,
-        coarser: impl Fn(&Look) -> Look,
+        seen: &LabelledPage,
+        coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
         crumb: Length,
         unit: Unit,
         offset: Vec2,
     ) -> Self {
-        let (looks, table) = seen.seen_as(coarser);
+        let (looks, table) = seen.relabelled(coarser);
         Self::gathered(seen, &looks, &table, &vec![0; looks.len()], crumb, unit, offset)
     }
 
     /// Builds cells and border pieces from triangles with known labels and facets.
     fn gathered(
-        seen: &Seen,
+        seen: &LabelledPage,
         looks: &[u32],
-        table: &[Look],
+        table: &[SurfaceLabel],
         facet_of: &[u32],
         crumb: Length,
         unit: Unit,
@@ -96,11 +96,11 @@ impl Ground {
     ) -> Self {
         let cut = &seen.cut;
         let mut numbers: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        let mut keys: Vec<(u32, u32)> = vec![(NOTHING, 0)];
+        let mut keys: Vec<(u32, u32)> = vec![(NO_LABEL, 0)];
         let keyed: Vec<u32> = (0..looks.len())
             .map(|t| {
-                if looks[t] == NOTHING {
-                    return NOTHING;
+                if looks[t] == NO_LABEL {
+                    return NO_LABEL;
                 }
                 *numbers.entry((looks[t], facet_of[t])).or_insert_with(|| {
                     keys.push((looks[t], facet_of[t]));
@@ -109,7 +109,7 @@ impl Ground {
             })
             .collect();
         let crumb = crumb.in_unit(unit).max(0.0) / seen.step;
-        let patches = patches::gather(cut, &keyed, NOTHING, 2.0 * crumb * crumb);
+        let patches = patches::gather(cut, &keyed, NO_LABEL, 2.0 * crumb * crumb);
 
         let mut ground = Self { cells: vec![paper()], facets: 1, ..Self::default() };
         let mut cell_of: Vec<Option<u32>> = vec![None; patches.looks.len()];
@@ -130,23 +130,23 @@ impl Ground {
             ground.facets = next.max(facet + 1);
             *cell = Some(ground.cells.len() as u32);
             let area = patches.area2[*patch as usize] / 2.0 * seen.step * seen.step;
-            ground.cells.push(Cell { look: *look, facet, area });
+            ground.cells.push(HatchCell { look: *look, facet, area });
         }
         let of = |triangle: usize| cell_of[patches.of[triangle] as usize].unwrap_or(PAPER);
         ground.add_pieces(cut, of, |v: u32| {
             let [x, y] = cut.points[v as usize];
             Point::new(x as f64 * seen.step, y as f64 * seen.step) + offset
         });
-        ground.grid = PieceTiles::new(&ground.pieces);
+        ground.grid = BorderPieceTiles::new(&ground.pieces);
         ground
     }
 
     /// A ground with the given cells and pieces, for tests and for pages without a model. The first cell is
     /// paper.
     #[must_use]
-    pub fn of_pieces(cells: Vec<Cell>, pieces: Vec<BorderPiece>) -> Self {
+    pub fn of_pieces(cells: Vec<HatchCell>, pieces: Vec<BorderPiece>) -> Self {
         let facets = cells.iter().map(|cell| cell.facet + 1).max().unwrap_or(1);
-        let grid = PieceTiles::new(&pieces);
+        let grid = BorderPieceTiles::new(&pieces);
         Self { cells, pieces, facets, grid }
     }
 
@@ -239,11 +239,17 @@ impl Ground {
     }
 }
 
-const fn paper() -> Cell {
+const fn paper() -> HatchCell {
     use crate::mesh::{MaterialId, PaintId, PartId};
-    let look =
-        Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin: 0, cast: false };
-    Cell { look, facet: 0, area: 0.0 }
+    let look = SurfaceLabel {
+        part: PartId(0),
+        material: MaterialId(0),
+        paint: PaintId(0),
+        tone: 0,
+        bin: 0,
+        cast: false,
+    };
+    HatchCell { look, facet: 0, area: 0.0 }
 }
 
 /// Whether a point lies to the right of the line from `a` to `b` on the page, or on it.

@@ -1,26 +1,26 @@
-//! [`PieceTiles`]: border pieces, indexed by the tiles of the page that they pass.
+//! [`BorderPieceTiles`]: border pieces, indexed by the tiles of the page that they pass.
 
 use kurbo::{Point, Vec2};
 
 use super::border_piece::{BorderPiece, PAPER};
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Grid of square tiles with the border pieces that pass each of them.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct PieceTiles {
+pub(crate) struct BorderPieceTiles {
     low: Vec2,
     tiles_per_unit: f64,
     across: [usize; 2],
-    pieces: Grouped<u32>,
+    pieces: CsrLists<u32>,
 }
 
 /// Average number of pieces per tile.
-const PIECES_A_TILE: usize = 2;
+const PIECES_PER_TILE: usize = 2;
 
 /// Maximum number of tiles along an axis.
-const MOST_TILES: f64 = 256.0;
+const MAX_TILES_PER_AXIS: f64 = 256.0;
 
-impl PieceTiles {
+impl BorderPieceTiles {
     pub fn new(pieces: &[BorderPiece]) -> Self {
         let ends = || pieces.iter().flat_map(|piece| piece.ends);
         let Some(first) = ends().next() else { return Self::default() };
@@ -28,11 +28,11 @@ impl PieceTiles {
             (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
         });
         let size = high - low;
-        let wanted = ((pieces.len() / PIECES_A_TILE).max(1) as f64).sqrt().clamp(1.0, MOST_TILES);
+        let wanted = ((pieces.len() / PIECES_PER_TILE).max(1) as f64).sqrt().clamp(1.0, MAX_TILES_PER_AXIS);
         let tiles_per_unit = wanted / size.x.max(size.y).max(f64::MIN_POSITIVE);
         let across = [size.x, size.y].map(|length| (length * tiles_per_unit) as usize + 1);
         let mut grid = Self { low: low.to_vec2(), tiles_per_unit, across, ..Self::default() };
-        grid.pieces = grouped(across[0] * across[1], |put| {
+        grid.pieces = csr_lists(across[0] * across[1], |put| {
             for (number, piece) in pieces.iter().enumerate() {
                 grid.pass(piece.ends[0], piece.ends[1], |tile| put(tile, number as u32));
             }
@@ -58,7 +58,7 @@ impl PieceTiles {
             let x_at =
                 |y: f64| if way.y > 0.0 { a.x + way.x * ((y - a.y) / way.y).clamp(0.0, 1.0) } else { a.x };
             let (x0, x1) = if way.y > 0.0 { (x_at(row as f64), x_at(row as f64 + 1.0)) } else { (a.x, b.x) };
-            let (x0, x1) = (x0.min(x1) - WIDENED, x0.max(x1) + WIDENED);
+            let (x0, x1) = (x0.min(x1) - TILE_MARGIN, x0.max(x1) + TILE_MARGIN);
             if x1 < 0.0 || x0 >= columns as f64 {
                 continue;
             }
@@ -110,7 +110,7 @@ impl PieceTiles {
                 }
                 let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
                 // A piece that crosses this height farther left is found in a later tile.
-                let here = (x - self.low.x) * self.tiles_per_unit >= column as f64 - WIDENED;
+                let here = (x - self.low.x) * self.tiles_per_unit >= column as f64 - TILE_MARGIN;
                 if here && x <= p.x && nearest.is_none_or(|(most, _)| x > most) {
                     // The point lies to the left of a piece that runs down the page.
                     nearest = Some((x, piece.sides[usize::from(b.y > a.y)]));
@@ -125,4 +125,4 @@ impl PieceTiles {
 }
 
 /// Margin against rounding, in tiles.
-const WIDENED: f64 = 1e-6;
+const TILE_MARGIN: f64 = 1e-6;

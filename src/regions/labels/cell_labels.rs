@@ -6,18 +6,18 @@ use std::collections::BinaryHeap;
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::geometry::lists::csr_lists::grouped_pairs;
+use crate::geometry::lists::csr_lists::csr_lists_from_pairs;
 use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
 
 /// Cells per task.
-const CELLS: usize = 1 << 8;
+const CELLS_PER_TASK: usize = 1 << 8;
 
 /// Labels of the triangles of a cell.
-enum CellLooks {
+enum CellLabels {
     /// One label for all.
-    Alike(u32),
+    Uniform(u32),
     /// One label per triangle, because the border has a gap.
-    Each(Vec<u32>),
+    PerTriangle(Vec<u32>),
 }
 
 /// Labels each triangle, given what is seen at its centre (`seen`).
@@ -29,23 +29,23 @@ enum CellLooks {
 ///   longest side.
 ///
 /// Returns the labels and the number of cells with a gap.
-pub(crate) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>, u64) {
+pub(crate) fn label_cells(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>, u64) {
     let (cell_of, count) = cut.cells();
     let triangles = cell_of.iter().enumerate().map(|(triangle, cell)| (*cell as usize, triangle as u32));
-    let cells = grouped_pairs(count, triangles);
-    let decided: Vec<CellLooks> = (0..count)
+    let cells = csr_lists_from_pairs(count, triangles);
+    let decided: Vec<CellLabels> = (0..count)
         .into_par_iter()
-        .with_min_len(CELLS)
-        .with_max_len(CELLS)
-        .map(|cell| of_cell(cut, cells.of(cell), seen, wide))
+        .with_min_len(CELLS_PER_TASK)
+        .with_max_len(CELLS_PER_TASK)
+        .map(|cell| label_cell(cut, cells.of(cell), seen, wide))
         .collect();
     let mut looks = seen.to_vec();
     let mut leaks = 0;
     for (cell, decided) in decided.into_iter().enumerate() {
         let triangles = cells.of(cell).iter().map(|triangle| *triangle as usize);
         match decided {
-            CellLooks::Alike(look) => triangles.for_each(|triangle| looks[triangle] = look),
-            CellLooks::Each(own) => {
+            CellLabels::Uniform(look) => triangles.for_each(|triangle| looks[triangle] = look),
+            CellLabels::PerTriangle(own) => {
                 leaks += 1;
                 triangles.zip(own).for_each(|(triangle, look)| looks[triangle] = look);
             }
@@ -55,7 +55,7 @@ pub(crate) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>,
 }
 
 /// Labels a non-empty cell.
-fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLooks {
+fn label_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLabels {
     let mut areas: Vec<(u32, f64)> = Vec::new();
     for triangle in triangles {
         let look = seen[*triangle as usize];
@@ -75,15 +75,15 @@ fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> C
         );
     let differs = |t: &u32| seen[*t as usize] != most && cut.width(*t as usize) > wide;
     if triangles.iter().any(differs) {
-        CellLooks::Each(spread(cut, triangles, wide, seen))
+        CellLabels::PerTriangle(spread_labels(cut, triangles, wide, seen))
     } else {
-        CellLooks::Alike(most)
+        CellLabels::Uniform(most)
     }
 }
 
 /// Labels of a cell with a gap: narrow triangles inherit from wide ones, across the longest sides first. A
 /// sliver shares its long sides with its surroundings.
-fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
+fn spread_labels(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
     let is_wide = |triangle: &u32| cut.width(*triangle as usize) > wide;
     let sure: Vec<u32> = triangles.iter().copied().filter(is_wide).collect();
     let mut known: FxHashMap<u32, u32> = sure.iter().map(|t| (*t, seen[*t as usize])).collect();
@@ -124,7 +124,7 @@ mod tests {
         let is_sliver = |corners: [u32; 3]| corners == [2, 4, 3];
         let seen: Vec<u32> = cut.triangles.iter().map(|t| u32::from(is_light(*t) || is_sliver(*t))).collect();
         assert_eq!(cut.triangles.iter().filter(|t| is_sliver(**t)).count(), 1, "{:?}", cut.triangles);
-        let (looks, leaks) = decide(&cut, &seen, 3.0);
+        let (looks, leaks) = label_cells(&cut, &seen, 3.0);
         assert_eq!(leaks, 1);
         for (corners, look) in cut.triangles.iter().zip(looks) {
             assert_eq!(look, u32::from(is_light(*corners)), "{corners:?}");
@@ -141,7 +141,7 @@ mod tests {
         let is_along = |corners: [u32; 3]| is_top(corners) && corners.contains(&4) && corners.contains(&5);
         let seen: Vec<u32> = cut.triangles.iter().map(|t| u32::from(is_along(*t))).collect();
         assert_eq!(cut.triangles.iter().filter(|t| !is_top(**t)).count(), 4, "{:?}", cut.triangles);
-        let (looks, leaks) = decide(&cut, &seen, 3.0);
+        let (looks, leaks) = label_cells(&cut, &seen, 3.0);
         assert_eq!(leaks, 1);
         for (corners, look) in cut.triangles.iter().zip(looks) {
             assert_eq!(look, u32::from(!is_top(*corners) || is_along(*corners)), "{corners:?}");

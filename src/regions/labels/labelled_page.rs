@@ -1,16 +1,16 @@
-//! [`Seen`]: the page as labelled triangles.
+//! [`LabelledPage`]: the page as labelled triangles.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::Point;
 
 use super::cell_labels;
-use super::point_labels::seen_at;
-use super::surface_label::{Darkened, Look, NOTHING};
+use super::point_labels::label_points;
+use super::surface_label::{NO_LABEL, ShadowDarkening, SurfaceLabel};
 use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::tolerance;
 use crate::lines::{LineKind, Lit};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::regions::arrangement::border_simplification::{self, Segments};
 use crate::regions::arrangement::snap_rounding::{self, Border, GridPoint};
 use crate::regions::cells::triangulation::Triangulation;
@@ -20,11 +20,11 @@ use crate::visibility::ViewMap;
 /// The page as labelled triangles. Regions of colour and hatching are both derived from it, so they cannot
 /// disagree.
 #[derive(Debug, Clone)]
-pub struct Seen {
+pub struct LabelledPage {
     pub(crate) cut: Triangulation,
-    /// Label of each triangle: [`NOTHING`], or an index into `table` plus 1.
+    /// Label of each triangle: [`NO_LABEL`], or an index into `table` plus 1.
     pub(crate) looks: Vec<u32>,
-    pub(crate) table: Vec<Look>,
+    pub(crate) table: Vec<SurfaceLabel>,
     /// User units per grid step of the triangulation.
     pub(crate) step: f64,
     /// Number of cells with different labels, because a line around them has a gap.
@@ -45,64 +45,68 @@ impl PageBorders {
 
 /// User units per grid step.
 fn step(frame: &Frame) -> f64 {
-    frame.width.max(frame.height) / tolerance::REGION_STEPS
+    frame.width.max(frame.height) / tolerance::REGION_GRID_STEPS
 }
 
 /// Triangulates the page along the borders, and labels the triangles.
 ///
 /// `shadowed` returns a mask of the lights that do not reach each point; `None` if nothing casts shadows.
 #[must_use]
-pub fn see(
+pub fn label_page(
     lit: &Lit,
     PageBorders(segments): &PageBorders,
     shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,
-    darkened: Darkened,
+    darkened: ShadowDarkening,
     unit: Unit,
-) -> Seen {
+) -> LabelledPage {
     let step = step(&lit.view.frame);
     let px = Length::px(1.0).in_unit(unit);
     let of_tone = match lit.shading.most_levels() {
-        0 => tolerance::THIN_BIN_PX,
-        1..=tolerance::FEW_LEVELS => tolerance::THIN_PX,
-        _ => tolerance::THIN_STEP_PX,
+        0 => tolerance::BIN_SIMPLIFY_PX,
+        1..=tolerance::MAX_SEPARATE_LEVELS => tolerance::BORDER_SIMPLIFY_PX,
+        _ => tolerance::GRADIENT_SIMPLIFY_PX,
     };
-    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::THIN_PX };
-    let segments = border_simplification::thinned(segments, |border| fine(border) * px / step);
-    let noded = snap_rounding::node(&segments, tolerance::BRIDGE_PX * px / step);
+    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::BORDER_SIMPLIFY_PX };
+    let segments = border_simplification::simplify_borders(segments, |border| fine(border) * px / step);
+    let noded = snap_rounding::node(&segments, tolerance::MAX_BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|t| {
             let [a, b, c] = cut.corners(t).map(DVec2::from_array);
             (a + b + c) / 3.0 * step
         })
         .collect();
-    let (looks, table) = seen_at(lit, &centres, shadowed, darkened);
+    let (looks, table) = label_points(lit, &centres, shadowed, darkened);
     drop(centres);
-    let (looks, leaks) = cell_labels::decide(&cut, &looks, tolerance::LEAK_PX * px / step);
-    Seen { cut, looks, table, step, leaks }
+    let (looks, leaks) =
+        cell_labels::label_cells(&cut, &looks, tolerance::MIN_LABEL_DIFFERENCE_PX * px / step);
+    LabelledPage { cut, looks, table, step, leaks }
 }
 
-impl Seen {
+impl LabelledPage {
     /// Whether any label satisfies the test.
-    pub(crate) fn shows(&self, is_so: impl Fn(&Look) -> bool) -> bool {
+    pub(crate) fn shows(&self, is_so: impl Fn(&SurfaceLabel) -> bool) -> bool {
         self.table.iter().any(is_so)
     }
 
-    /// Labels after relabelling by `coarser`, which may make labels equal: indices as in [`Seen::looks`], and
+    /// Labels after relabelling by `coarser`, which may make labels equal: indices as in [`LabelledPage::looks`], and
     /// their table.
-    pub(crate) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {
-        let of: Vec<Look> = self.table.iter().map(coarser).collect();
+    pub(crate) fn relabelled(
+        &self,
+        coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
+    ) -> (Vec<u32>, Vec<SurfaceLabel>) {
+        let of: Vec<SurfaceLabel> = self.table.iter().map(coarser).collect();
         let mut table = of.clone();
         table.sort_unstable();
         table.dedup();
         let number: Vec<u32> =
-            of.iter().map(|look| table.binary_search(look).map_or(NOTHING, |at| at as u32 + 1)).collect();
+            of.iter().map(|look| table.binary_search(look).map_or(NO_LABEL, |at| at as u32 + 1)).collect();
         let looks = self.looks.iter().map(|look| match look.checked_sub(1) {
-            Some(k) => number.get(k as usize).copied().unwrap_or(NOTHING),
-            None => NOTHING,
+            Some(k) => number.get(k as usize).copied().unwrap_or(NO_LABEL),
+            None => NO_LABEL,
         });
         (looks.collect(), table)
     }

@@ -1,71 +1,76 @@
-//! [`seen_at`]: labels of points of the image.
+//! [`label_points`]: labels of points of the image.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::surface_label::{Darkened, Look, NOTHING};
+use super::surface_label::{NO_LABEL, ShadowDarkening, SurfaceLabel};
 use crate::lines::Lit;
-use crate::visibility::{Front, front_faces};
+use crate::visibility::{FrontFace, front_faces};
 
 /// Points per task. Consecutive points are close together and mostly look alike.
-const TASK: usize = 1 << 9;
+const POINTS_PER_TASK: usize = 1 << 9;
 
-/// Labels of a batch of points: the distinct labels, and for each point [`NOTHING`] or an index plus 1.
-struct Looks {
-    looks: Vec<Look>,
+/// Labels of a batch of points: the distinct labels, and for each point [`NO_LABEL`] or an index plus 1.
+struct LabelBatch {
+    looks: Vec<SurfaceLabel>,
     numbers: Vec<u32>,
 }
 
-/// Labels points of the image: for each [`NOTHING`], or an index into the table plus 1.
+/// Labels points of the image: for each [`NO_LABEL`], or an index into the table plus 1.
 ///
 /// `shadowed` returns a mask of the lights that do not reach each point; `None` if nothing casts shadows.
 /// There is a point for each triangle of the page, so only the index is stored per point.
-pub(crate) fn seen_at(
+pub(crate) fn label_points(
     lit: &Lit,
     points: &[DVec2],
     shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,
-    darkened: Darkened,
-) -> (Vec<u32>, Vec<Look>) {
+    darkened: ShadowDarkening,
+) -> (Vec<u32>, Vec<SurfaceLabel>) {
     let fronts = front_faces(lit.mesh, lit.view, points);
-    let place = |front: &Front, p: &DVec2| lit.view.frame.local_from_image(p.extend(front.nearness));
+    let place = |front: &FrontFace, p: &DVec2| lit.view.frame.local_from_image(p.extend(front.nearness));
     let masks = shadowed.map(|shadowed| {
         let seen = || fronts.iter().zip(points).filter_map(|(front, p)| Some((front.as_ref()?, p)));
         let asked: Vec<(u32, DVec3)> = seen().map(|(front, p)| (front.face, place(front, p))).collect();
         let mut masks = shadowed(&asked).into_iter();
-        let of_point = |front: &Option<Front>| front.as_ref().and_then(|_| masks.next()).unwrap_or_default();
+        let of_point =
+            |front: &Option<FrontFace>| front.as_ref().and_then(|_| masks.next()).unwrap_or_default();
         fronts.iter().map(of_point).collect::<Vec<u32>>()
     });
     let look_at = |k: usize| {
         let front = fronts[k].as_ref()?;
         let shadowed = masks.as_ref().map_or(0, |masks| masks[k]);
-        Some(look(lit, front.face, place(front, &points[k]), shadowed, darkened))
+        Some(label_at(lit, front.face, place(front, &points[k]), shadowed, darkened))
     };
-    let some: Vec<Looks> = (0..points.len().div_ceil(TASK))
+    let some: Vec<LabelBatch> = (0..points.len().div_ceil(POINTS_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
-        .map(|task| Looks::of((task * TASK..((task + 1) * TASK).min(points.len())).map(look_at)))
+        .map(|task| {
+            LabelBatch::of(
+                (task * POINTS_PER_TASK..((task + 1) * POINTS_PER_TASK).min(points.len())).map(look_at),
+            )
+        })
         .collect();
-    let all: FxHashSet<Look> = some.iter().flat_map(|some| &some.looks).copied().collect();
-    let mut table: Vec<Look> = all.into_iter().collect();
+    let all: FxHashSet<SurfaceLabel> = some.iter().flat_map(|some| &some.looks).copied().collect();
+    let mut table: Vec<SurfaceLabel> = all.into_iter().collect();
     table.sort_unstable();
     let mut numbers = Vec::with_capacity(points.len());
-    for Looks { looks, numbers: own } in some {
-        let number = |look: &Look| table.binary_search(look).map_or(NOTHING, |at| at as u32 + 1);
+    for LabelBatch { looks, numbers: own } in some {
+        let number = |look: &SurfaceLabel| table.binary_search(look).map_or(NO_LABEL, |at| at as u32 + 1);
         let of: Vec<u32> = looks.iter().map(number).collect();
-        numbers.extend(own.iter().map(|own| own.checked_sub(1).map_or(NOTHING, |own| of[own as usize])));
+        numbers.extend(own.iter().map(|own| own.checked_sub(1).map_or(NO_LABEL, |own| of[own as usize])));
     }
     (numbers, table)
 }
 
-impl Looks {
-    fn of(seen: impl Iterator<Item = Option<Look>>) -> Self {
+impl LabelBatch {
+    fn of(seen: impl Iterator<Item = Option<SurfaceLabel>>) -> Self {
         let (mut looks, mut known) = (Vec::new(), FxHashMap::default());
         // Consecutive points mostly have the same label.
-        let mut last = (None, NOTHING);
+        let mut last = (None, NO_LABEL);
         let numbers = seen.map(|look| {
             if look != last.0 {
-                let number = look.map_or(NOTHING, |look| {
+                let number = look.map_or(NO_LABEL, |look| {
                     *known.entry(look).or_insert_with(|| {
                         looks.push(look);
                         looks.len() as u32
@@ -81,7 +86,7 @@ impl Looks {
 }
 
 /// Label of a face at a point on it.
-fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
+fn label_at(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: ShadowDarkening) -> SurfaceLabel {
     let mesh = lit.mesh;
     let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));
     let point = lit.at(face, at);
@@ -94,7 +99,7 @@ fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> L
     let tone = if darkened.tones { tone_dark } else { tone_lit };
     let bin = if darkened.bins { bin_dark } else { bin_lit };
     let cast = tone != tone_lit;
-    Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
+    SurfaceLabel { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
 }
 
 #[cfg(test)]
@@ -104,7 +109,7 @@ mod tests {
 
     #[test]
     fn looks_are_told_apart_and_paper_is_none() {
-        let look = |tone| Look {
+        let look = |tone| SurfaceLabel {
             part: PartId(0),
             material: MaterialId(0),
             paint: PaintId(0),
@@ -113,10 +118,10 @@ mod tests {
             cast: tone == 9,
         };
         let seen = [3, 3, 0, 9, 0, 0, 3, 7, 9].map(|tone| (tone > 0).then(|| look(tone)));
-        let Looks { looks, numbers } = Looks::of(seen.into_iter());
+        let LabelBatch { looks, numbers } = LabelBatch::of(seen.into_iter());
         assert_eq!(looks, [3, 9, 7].map(look));
         let back = numbers.iter().map(|number| number.checked_sub(1).map(|k| looks[k as usize]));
-        assert!(back.eq(seen) && numbers[2] == NOTHING);
-        assert!(Looks::of(std::iter::empty()).numbers.is_empty());
+        assert!(back.eq(seen) && numbers[2] == NO_LABEL);
+        assert!(LabelBatch::of(std::iter::empty()).numbers.is_empty());
     }
 }

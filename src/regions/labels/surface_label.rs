@@ -1,10 +1,10 @@
-//! [`Look`]: the label of a part of the page: part, material, paint, tone and hatching bin.
+//! [`SurfaceLabel`]: the label of a part of the page: part, material, paint, tone and hatching bin.
 
 use crate::mesh::{MaterialId, PaintId, PartId};
 
 /// Appearance of a part of the page. Neighbouring triangles of equal label belong to one region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Look {
+pub struct SurfaceLabel {
     /// Part that is seen.
     pub part: PartId,
     /// Material of the part.
@@ -21,7 +21,7 @@ pub struct Look {
 
 /// Effects of cast shadows: fills and hatching each have a switch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Darkened {
+pub struct ShadowDarkening {
     /// Tones of fills.
     pub tones: bool,
     /// Hatching bins.
@@ -29,4 +29,4 @@ pub struct Darkened {
 }
 
 /// In lists of labels: only paper is seen.
-pub(crate) const NOTHING: u32 = 0;
+pub(crate) const NO_LABEL: u32 = 0;

@@ -1,52 +1,52 @@
-//! [`Axes`]: the stroke direction at each lattice point, from the surface's curvature or its light.
+//! [`DirectionField`]: the stroke direction at each lattice point, from the surface's curvature or its light.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::flat_faces::flat;
-use super::page_lattice::{Probe, Samples};
+use super::flat_faces::flat_points;
+use super::page_lattice::{LatticeProbe, LightLattice};
 use crate::geometry::numbers::portable_math::{cos, sin};
 
 /// Source of the stroke directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Asked {
+pub enum DirectionSource {
     /// No directions, only light.
     Light,
     /// Direction of largest curvature, rotated by an angle (radians) in the surface.
-    Bend(f64),
+    Curvature(f64),
     /// Direction of the light's gradient, rotated by an angle (radians) on the page.
-    Shade(f64),
+    LightGradient(f64),
 }
 
 /// Undirected line at a point of the page: cosine and sine of twice its angle (from x to y), times its
 /// confidence, 0 to 1.
-pub type Axis = [f32; 2];
+pub type LineDirection = [f32; 2];
 
 /// Stroke directions at the points of a lattice.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Axes {
+pub struct DirectionField {
     /// One per point.
-    pub of: Vec<Axis>,
+    pub of: Vec<LineDirection>,
     /// Whether a point's direction is independent of its neighbours; true on wide flat faces.
     pub hold: Vec<bool>,
 }
 
-impl Samples {
+impl LightLattice {
     /// Stroke directions from the given source, one per point.
     #[must_use]
-    pub fn axes(&self, probe: &Probe, asked: Asked) -> Axes {
+    pub fn axes(&self, probe: &LatticeProbe, asked: DirectionSource) -> DirectionField {
         let (mut of, angle) = match asked {
-            Asked::Light => (vec![[0.0; 2]; self.facets.len()], 0.0),
-            Asked::Bend(angle) => (probe.bends(self, angle), angle),
-            Asked::Shade(angle) => (self.shades(angle), angle),
+            DirectionSource::Light => (vec![[0.0; 2]; self.facets.len()], 0.0),
+            DirectionSource::Curvature(angle) => (probe.bends(self, angle), angle),
+            DirectionSource::LightGradient(angle) => (self.shades(angle), angle),
         };
         // On flat faces distant light is constant, but the light of lamps changes.
-        let follows_light = matches!(asked, Asked::Shade(_))
+        let follows_light = matches!(asked, DirectionSource::LightGradient(_))
             && probe.lit.shading.bins().is_some_and(|bins| probe.lit.shading.is_local(bins));
-        let mut hold = if asked == Asked::Light || follows_light {
+        let mut hold = if asked == DirectionSource::Light || follows_light {
             vec![false; of.len()]
         } else {
-            flat(self, &probe.as_built)
+            flat_points(self, &probe.as_built)
         };
         let level = |k: usize| {
             let (_, at) = probe.hits[k]?;
@@ -54,18 +54,18 @@ impl Samples {
         };
         of.par_iter_mut().zip(&mut hold).enumerate().with_min_len(1 << 10).for_each(|(k, (axis, hold))| {
             let sure = f64::from(axis[0] * axis[0] + axis[1] * axis[1]).sqrt();
-            if asked != Asked::Light && (*hold || sure < HABIT) {
+            if asked != DirectionSource::Light && (*hold || sure < DEFAULT_CONFIDENCE) {
                 match level(k) {
-                    Some(way) => *axis = along(way, if *hold { 1.0 } else { HABIT }),
+                    Some(way) => *axis = double_angle(way, if *hold { 1.0 } else { DEFAULT_CONFIDENCE }),
                     None => *hold = false,
                 }
             }
         });
-        Axes { of, hold }
+        DirectionField { of, hold }
     }
 
     /// Directions of the light's gradient on the page, by central differences within a facet.
-    fn shades(&self, angle: f64) -> Vec<Axis> {
+    fn shades(&self, angle: f64) -> Vec<LineDirection> {
         let light = |k: usize, next: usize| {
             (self.facets[k] == self.facets[next]).then(|| f64::from(self.lights[next]))
         };
@@ -91,22 +91,22 @@ impl Samples {
                     return [0.0; 2];
                 }
                 let slope = DVec2::new(x, y);
-                along(turned(slope, angle), (slope.length() / STEEP).min(1.0))
+                double_angle(turned(slope, angle), (slope.length() / MIN_SURE_SLOPE).min(1.0))
             })
             .collect()
     }
 }
 
 /// Smallest change of light between neighbouring points that gives a direction full confidence.
-const STEEP: f64 = 0.02;
+const MIN_SURE_SLOPE: f64 = 0.02;
 
 /// Confidence of default directions.
-const HABIT: f64 = 0.004;
+const DEFAULT_CONFIDENCE: f64 = 0.004;
 
-impl Probe<'_> {
+impl LatticeProbe<'_> {
     /// Directions of largest curvature, from finite differences of the smoothed normals. Bends that are too
     /// small for strokes to follow are smoothed away.
-    fn bends(&self, samples: &Samples, angle: f64) -> Vec<Axis> {
+    fn bends(&self, samples: &LightLattice, angle: f64) -> Vec<LineDirection> {
         let lit = self.lit;
         let frame = &lit.view.frame;
         let normals = self.smooth_normals(samples);
@@ -132,7 +132,7 @@ impl Probe<'_> {
                 let y = around(k, columns, row > 0, row + 1 < samples.rows);
                 let depth = self.hits[k].map_or(frame.focus, |(_, at)| frame.depth(at));
                 match bend([x.0, y.0], [x.1, y.1], angle, frame.side_at(depth)) {
-                    Some((way, sure)) => along(way, sure),
+                    Some((way, sure)) => double_angle(way, sure),
                     None => [0.0; 2],
                 }
             })
@@ -140,8 +140,8 @@ impl Probe<'_> {
     }
 
     /// Unit normals at all points, smoothed over neighbours on the same facet.
-    fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
-        samples.spread(self.normals.clone(), EVENED, |_, own, around| {
+    fn smooth_normals(&self, samples: &LightLattice) -> Vec<DVec3> {
+        samples.spread(self.normals.clone(), NORMAL_SMOOTHING_ROUNDS, |_, own, around| {
             let sum: DVec3 = around.into_iter().flatten().sum();
             (own + sum).normalize_or_zero()
         })
@@ -152,18 +152,22 @@ impl Probe<'_> {
     fn level(&self, at: DVec3, normal: DVec3) -> DVec2 {
         let frame = &self.lit.view.frame;
         let level = frame.up.cross(normal);
-        let level = if level.length_squared() > LEVEL * LEVEL { level.normalize() } else { frame.right };
-        let step = frame.px_at(frame.depth(at)) * STEP_PX;
+        let level = if level.length_squared() > MIN_LEVEL_SINE * MIN_LEVEL_SINE {
+            level.normalize()
+        } else {
+            frame.right
+        };
+        let step = frame.px_at(frame.depth(at)) * PROJECTION_STEP_PX;
         let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
         to - from
     }
 }
 
 /// Step length for projecting directions to the page, px.
-const STEP_PX: f64 = 1e-2;
+const PROJECTION_STEP_PX: f64 = 1e-2;
 
 /// Rounds of smoothing normals; they act over about five lattice points.
-const EVENED: usize = 40;
+const NORMAL_SMOOTHING_ROUNDS: usize = 40;
 
 /// Direction of largest curvature on the page, rotated by an angle in the surface, and its confidence.
 ///
@@ -195,14 +199,14 @@ fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(D
     let second = DVec2::new(-(first.x * g12 + first.y * g22), first.x * g11 + first.y * g12) / area2.sqrt();
     let (s, c) = (sin(angle), cos(angle));
     let sure = 2.0 * apart / (2.0 * (mean.abs() + apart)).max(f64::MIN_POSITIVE);
-    Some((first * c - second * s, sure * (k1.abs() * size / BENDS).min(1.0)))
+    Some((first * c - second * s, sure * (k1.abs() * size / MIN_SURE_BEND_RAD).min(1.0)))
 }
 
 /// Sine of the slope below which a surface counts as horizontal.
-const LEVEL: f64 = 0.05;
+const MIN_LEVEL_SINE: f64 = 0.05;
 
 /// Smallest bend over the longer side of the frame that gives a direction full confidence, radians.
-const BENDS: f64 = 2.0;
+const MIN_SURE_BEND_RAD: f64 = 2.0;
 
 fn turned(v: DVec2, angle: f64) -> DVec2 {
     let (s, c) = (sin(angle), cos(angle));
@@ -210,7 +214,7 @@ fn turned(v: DVec2, angle: f64) -> DVec2 {
 }
 
 /// Double-angle form of the line along a vector, with the given confidence.
-fn along(v: DVec2, sure: f64) -> Axis {
+fn double_angle(v: DVec2, sure: f64) -> LineDirection {
     let length2 = v.length_squared();
     if length2 <= 0.0 || !length2.is_finite() {
         return [0.0; 2];

@@ -7,33 +7,34 @@
 
 use glam::DVec3;
 
-use super::page_lattice::Samples;
+use super::page_lattice::LightLattice;
 
 /// Largest difference between the normals of neighbours on a flat face.
-const SAME: f64 = 1e-3;
+const MAX_NEIGHBOUR_NORMAL_DISTANCE: f64 = 1e-3;
 
 /// Largest difference between normals on a flat face and the normal of its first point. It excludes gently
 /// curved faces.
-const ALL_SAME: f64 = 0.01;
+const MAX_FACE_NORMAL_DISTANCE: f64 = 0.01;
 
 /// Minimum distance, in lattice points, from the innermost point of a wide face to its border.
-const WIDE: u16 = 3;
+const MIN_DEPTH_POINTS: u16 = 3;
 
 /// Whether each lattice point lies on a wide flat face. `normals` are not smoothed, and zero where no surface
 /// is seen.
-pub(crate) fn flat(samples: &Samples, normals: &[DVec3]) -> Vec<bool> {
+pub(crate) fn flat_points(samples: &LightLattice, normals: &[DVec3]) -> Vec<bool> {
     let (patches, count) = patches(samples, normals);
     let depths = depths(samples, &patches);
     let mut is_flat = vec![false; count as usize + 1];
     for (patch, depth) in patches.iter().zip(&depths) {
-        is_flat[*patch as usize] |= *patch != 0 && *depth >= WIDE;
+        is_flat[*patch as usize] |= *patch != 0 && *depth >= MIN_DEPTH_POINTS;
     }
     // Patches that continue each other without an edge are slightly curved.
     for k in 0..patches.len() {
         let beside =
             [(k % samples.columns + 1 < samples.columns).then_some(k + 1), Some(k + samples.columns)];
         for next in beside.into_iter().flatten().filter(|next| *next < patches.len()) {
-            let goes_on = samples.facets[next] == samples.facets[k] && near(normals, k, next, SAME);
+            let goes_on = samples.facets[next] == samples.facets[k]
+                && near(normals, k, next, MAX_NEIGHBOUR_NORMAL_DISTANCE);
             if goes_on && patches[next] != patches[k] {
                 is_flat[patches[k] as usize] = false;
                 is_flat[patches[next] as usize] = false;
@@ -49,7 +50,7 @@ fn near(normals: &[DVec3], a: usize, b: usize, far: f64) -> bool {
 }
 
 /// Patch of each point, from 1 (0 where no surface is seen), and the number of patches.
-fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
+fn patches(samples: &LightLattice, normals: &[DVec3]) -> (Vec<u32>, u32) {
     let (columns, rows) = (samples.columns, samples.rows);
     let mut patches = vec![0; normals.len()];
     let mut count = 0;
@@ -72,8 +73,8 @@ fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
             for next in beside.into_iter().flatten() {
                 if patches[next] == 0
                     && samples.facets[next] == samples.facets[first]
-                    && near(normals, k, next, SAME)
-                    && near(normals, first, next, ALL_SAME)
+                    && near(normals, k, next, MAX_NEIGHBOUR_NORMAL_DISTANCE)
+                    && near(normals, first, next, MAX_FACE_NORMAL_DISTANCE)
                 {
                     patches[next] = count;
                     open.push(next);
@@ -86,7 +87,7 @@ fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
 
 /// Distance from each point to the next one outside its patch, in lattice points, with diagonal steps counted
 /// as one.
-fn depths(samples: &Samples, patches: &[u32]) -> Vec<u16> {
+fn depths(samples: &LightLattice, patches: &[u32]) -> Vec<u16> {
     let (columns, rows) = (samples.columns, samples.rows);
     let mut depths = vec![u16::MAX; patches.len()];
     let mut pass = |order: &mut dyn Iterator<Item = usize>, back: isize| {
@@ -118,9 +119,9 @@ mod tests {
     /// Flat points of a page with one facet and the given normals.
     fn page(columns: usize, rows: usize, normal: impl Fn(usize, usize) -> DVec3) -> Vec<bool> {
         let count = columns * rows;
-        let samples = Samples { columns, rows, facets: vec![1; count], ..Samples::default() };
+        let samples = LightLattice { columns, rows, facets: vec![1; count], ..LightLattice::default() };
         let normals: Vec<DVec3> = (0..count).map(|k| normal(k % columns, k / columns)).collect();
-        flat(&samples, &normals)
+        flat_points(&samples, &normals)
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! [`Samples`]: facet and light at the points of a lattice on the page.
+//! [`LightLattice`]: facet and light at the points of a lattice on the page.
 //!
 //! They determine the direction, width and density of strokes. Where strokes end is decided by the borders of
-//! the [`Ground`] only.
+//! the [`HatchRegions`] only.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -10,12 +10,12 @@ use kurbo::{Point, Vec2};
 use crate::light::SurfacePoint;
 use crate::lines::Lit;
 use crate::mesh::FaceId;
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 use crate::visibility::front_faces;
 
 /// Samples of the page at the points of a lattice, row by row.
 #[derive(Debug, Clone, Default)]
-pub struct Samples {
+pub struct LightLattice {
     /// Distance between points, page units.
     pub pitch: f64,
     /// First point.
@@ -33,7 +33,7 @@ pub struct Samples {
 }
 
 /// Surface points and normals at the lattice points.
-pub struct Probe<'a> {
+pub struct LatticeProbe<'a> {
     pub(crate) lit: &'a Lit<'a>,
     /// Visible surface point at each lattice point: its face and position.
     pub(crate) hits: Vec<Option<(u32, DVec3)>>,
@@ -43,19 +43,19 @@ pub struct Probe<'a> {
     pub(crate) as_built: Vec<DVec3>,
 }
 
-impl Samples {
+impl LightLattice {
     /// Samples the page at points `pitch` apart.
     ///
     /// `shadowed` returns a mask of the lights that do not reach each point. `is_round` says which faces are
     /// part of a rounded surface. `offset` moves the image on the page.
     pub fn new<'a>(
         lit: &'a Lit,
-        ground: &Ground,
+        ground: &HatchRegions,
         shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
         is_round: impl Fn(u32) -> bool + Sync,
         offset: Vec2,
         pitch: f64,
-    ) -> (Self, Probe<'a>) {
+    ) -> (Self, LatticeProbe<'a>) {
         let frame = &lit.view.frame;
         let count = |length: f64| ((length / pitch).ceil().max(1.0)) as usize;
         let (columns, rows) = (count(frame.width), count(frame.height));
@@ -107,7 +107,7 @@ impl Samples {
             })
             .collect();
         let samples = Self { pitch, origin, columns, rows, cells, facets, lights };
-        (samples, Probe { lit, hits, normals, as_built })
+        (samples, LatticeProbe { lit, hits, normals, as_built })
     }
 
     /// Position of point `k`.
@@ -172,7 +172,7 @@ impl Samples {
     pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
         let own = self.around(p).into_iter().filter(|(k, _)| self.facets[*k] == facet);
         let (sum, weight) = own.fold((0.0, 0.0), |(sum, weight), (k, w)| {
-            let w = w + FAINT;
+            let w = w + MIN_SAMPLE_WEIGHT;
             (sum + f64::from(self.lights[k]) * w, weight + w)
         });
         (weight > 0.0).then(|| sum / weight)
@@ -180,7 +180,7 @@ impl Samples {
 }
 
 /// Minimum weight of a sample, so that the sum of weights is never zero.
-const FAINT: f64 = 1e-6;
+const MIN_SAMPLE_WEIGHT: f64 = 1e-6;
 
 impl Lit<'_> {
     /// Surface point of a face at a position on it.

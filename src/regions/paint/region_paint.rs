@@ -8,7 +8,7 @@ use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point
 use super::tone_ramps::gradient;
 use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
 use crate::light::Shading;
-use crate::regions::{Look, Region, RegionOptions, Regions, Seams};
+use crate::regions::{Region, RegionOptions, Regions, Seams, SurfaceLabel};
 
 /// Names, colours and unit, as needed for painting.
 #[derive(Debug, Clone, Copy)]
@@ -113,7 +113,7 @@ fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
 }
 
 /// Provenance of a region with the given label.
-pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
+pub(crate) fn provenance(look: SurfaceLabel, context: &PaintContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
         identity: 0,
@@ -139,7 +139,7 @@ fn outline(regions: &Regions, number: u32, rank: &[u32], reach: f64) -> BezPath 
             let later = other.is_some_and(|other| rank[other as usize] > rank[number as usize]);
             let mut piece = if *along { border.path.clone() } else { border.path.reverse_subpaths() };
             if later && reach > 0.0 {
-                piece = pushed(&piece, reach, border.closed);
+                piece = offset_outward(&piece, reach, border.closed);
             }
             append(&mut path, &piece, &mut begun);
         }
@@ -181,7 +181,7 @@ pub(crate) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
 
 /// Offsets a path by `reach` to its left on the page (y down), which is outward. Sharp corners are cut off or
 /// crossed over, so their sides keep the full distance.
-fn pushed(path: &BezPath, reach: f64, closed: bool) -> BezPath {
+fn offset_outward(path: &BezPath, reach: f64, closed: bool) -> BezPath {
     let segments: Vec<PathSeg> = path.segments().collect();
     let directions: Vec<[Vec2; 2]> = segments.iter().map(ends).collect();
     let n = segments.len();
@@ -258,7 +258,7 @@ mod tests {
             PathEl::LineTo(Point::new(0.0, 10.0)),
             PathEl::ClosePath,
         ]);
-        let grown = pushed(&square, 1.0, true);
+        let grown = offset_outward(&square, 1.0, true);
         let area = kurbo::Shape::area(&grown);
         assert!((area - 144.0).abs() < 1e-9, "{area}: {}", grown.to_svg());
     }

@@ -86,7 +86,7 @@ mod tests {
 
     use super::*;
     use crate::mesh::{MaterialId, PaintId, PartId};
-    use crate::regions::{Border, Look, Region};
+    use crate::regions::{Region, RegionBorder, SurfaceLabel};
 
     #[test]
     fn two_halves_of_a_square_are_a_square() {
@@ -99,7 +99,7 @@ mod tests {
         let (part, material, paint) = (PartId(0), MaterialId(0), PaintId(0));
         let region = |tone| Region {
             ramp: None,
-            look: Look { part, material, paint, tone, bin: 0, cast: false },
+            look: SurfaceLabel { part, material, paint, tone, bin: 0, cast: false },
             area: 50.0,
             loops: vec![],
         };
@@ -107,7 +107,7 @@ mod tests {
         let right = line(&[[5.0, 0.0], [10.0, 0.0], [10.0, 10.0], [5.0, 10.0]]);
         let left = line(&[[5.0, 0.0], [0.0, 0.0], [0.0, 10.0], [5.0, 10.0]]);
         let middle = line(&[[5.0, 0.0], [5.0, 10.0]]);
-        let border = |path, sides| Border { path, sides, closed: false };
+        let border = |path, sides| RegionBorder { path, sides, closed: false };
         let borders = vec![
             border(right, [Some(0), None]),
             border(left, [None, Some(1)]),

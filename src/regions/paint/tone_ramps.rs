@@ -17,7 +17,7 @@ use crate::drawing::Gradient;
 use crate::regions::cells::border_arcs::{Borders, OUTSIDE_PATCH, RawArc};
 use crate::regions::cells::patches::Patches;
 use crate::regions::cells::triangulation::Triangulation;
-use crate::regions::labels::surface_label::Look;
+use crate::regions::labels::surface_label::SurfaceLabel;
 
 /// Tones along a direction.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,23 +73,23 @@ fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]
     };
     let worst =
         (first + 1..last).map(|k| (off(k), k)).fold((0.0, first), |w, o| if o.0 > w.0 { o } else { w });
-    if worst.0 > SHADE {
+    if worst.0 > MAX_CHANNEL_ERROR {
         keep(shades, first, worst.1, kept);
         keep(shades, worst.1, last, kept);
     }
 }
 
 /// Largest invisible error of a colour channel, 0 to 1.
-const SHADE: f64 = 0.6 / 255.0;
+const MAX_CHANNEL_ERROR: f64 = 0.6 / 255.0;
 
 /// Minimum number of steps of a ramp. With fewer a gradient saves nothing.
-const FEWEST_STEPS: usize = 3;
+const MIN_RAMP_STEPS: usize = 3;
 
 /// How far a band may extend past its borders, in tolerances.
-const REACH: f64 = 2.0;
+const MAX_OVERHANG_TOLERANCES: f64 = 2.0;
 
 /// Straight border between two bands of one surface, on the page.
-struct Step {
+struct BandBorder {
     /// Index of its arc.
     arc: usize,
     /// Darker patch and lighter patch.
@@ -103,7 +103,7 @@ struct Step {
 
 /// Patches that may become one region.
 #[derive(Default)]
-struct Group {
+struct RampGroup {
     way: Vec2,
     /// Indices of the borders inside the group.
     steps: Vec<usize>,
@@ -118,7 +118,7 @@ type Spans = BTreeMap<[u16; 2], (f64, f64)>;
 pub(crate) fn join(
     cut: &Triangulation,
     patches: &mut Patches,
-    table: &[Look],
+    table: &[SurfaceLabel],
     borders: &Borders,
     unit: f64,
     tolerance: f64,
@@ -131,13 +131,13 @@ pub(crate) fn join(
         .map(|arc| arc.points.iter().map(|v| cut.points[*v as usize]))
         .map(|points| points.map(|[x, y]| Point::new(x as f64 * unit, y as f64 * unit)).collect())
         .collect();
-    let mut steps: Vec<Step> = Vec::new();
+    let mut steps: Vec<BandBorder> = Vec::new();
     for (number, (arc, points)) in borders.arcs.iter().zip(&points).enumerate() {
         steps.extend(straight(number, arc, points, look, tolerance));
     }
     steps.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.arc.cmp(&b.arc)));
 
-    let mut joined = Joined { root: (0..count as u32).collect(), groups: BTreeMap::new() };
+    let mut joined = RampGroups { root: (0..count as u32).collect(), groups: BTreeMap::new() };
     for number in 0..steps.len() {
         joined.join(&steps, number, tolerance);
     }
@@ -147,7 +147,7 @@ pub(crate) fn join(
     let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for patch in 0..count as u32 {
         let root = joined.find(patch);
-        if joined.groups.get(&root).is_some_and(|g| !g.is_broken && g.spans.len() >= FEWEST_STEPS) {
+        if joined.groups.get(&root).is_some_and(|g| !g.is_broken && g.spans.len() >= MIN_RAMP_STEPS) {
             members.entry(root).or_default().push(patch);
         }
     }
@@ -176,15 +176,15 @@ fn straight<'a>(
     arc: usize,
     raw: &RawArc,
     points: &[Point],
-    look: impl Fn(u32) -> Option<&'a Look>,
+    look: impl Fn(u32) -> Option<&'a SurfaceLabel>,
     tolerance: f64,
-) -> Option<Step> {
+) -> Option<BandBorder> {
     let [left, right] = raw.sides;
     if raw.closed || left == OUTSIDE_PATCH || right == OUTSIDE_PATCH || left == right {
         return None;
     }
     let (a, b) = (look(left)?, look(right)?);
-    if (Look { tone: b.tone, ..*a }) != *b || a.tone == b.tone {
+    if (SurfaceLabel { tone: b.tone, ..*a }) != *b || a.tone == b.tone {
         return None;
     }
     let (first, last) = (*points.first()?, *points.last()?);
@@ -202,16 +202,16 @@ fn straight<'a>(
     } else {
         ([left, right], [a.tone, b.tone], -to_left)
     };
-    points.iter().all(is_near).then_some(Step { arc, patches, tones, ends: [first, last], way, length })
+    points.iter().all(is_near).then_some(BandBorder { arc, patches, tones, ends: [first, last], way, length })
 }
 
-struct Joined {
+struct RampGroups {
     root: Vec<u32>,
     /// Groups of more than one patch, by root patch.
-    groups: BTreeMap<u32, Group>,
+    groups: BTreeMap<u32, RampGroup>,
 }
 
-impl Joined {
+impl RampGroups {
     fn find(&self, mut patch: u32) -> u32 {
         while self.root[patch as usize] != patch {
             patch = self.root[patch as usize];
@@ -220,7 +220,7 @@ impl Joined {
     }
 
     /// Joins the groups on both sides of a border, if all their borders fit along one direction.
-    fn join(&mut self, steps: &[Step], number: usize, tolerance: f64) {
+    fn join(&mut self, steps: &[BandBorder], number: usize, tolerance: f64) {
         let step = &steps[number];
         let [a, b] = step.patches.map(|patch| self.find(patch));
         if a == b {
@@ -241,7 +241,7 @@ impl Joined {
             .chain([number])
             .collect();
         for k in &added {
-            let Step { tones, ends, .. } = &steps[*k];
+            let BandBorder { tones, ends, .. } = &steps[*k];
             let at = ends.map(|p| p.to_vec2().dot(way));
             let span = spans.entry(*tones).or_insert((f64::INFINITY, f64::NEG_INFINITY));
             *span = (span.0.min(at[0]).min(at[1]), span.1.max(at[0]).max(at[1]));
@@ -267,7 +267,7 @@ impl Joined {
         &mut self,
         borders: &Borders,
         points: &[Vec<Point>],
-        look: impl Fn(u32) -> Option<&'a Look>,
+        look: impl Fn(u32) -> Option<&'a SurfaceLabel>,
         tolerance: f64,
     ) {
         for (arc, points) in borders.arcs.iter().zip(points) {
@@ -284,7 +284,7 @@ impl Joined {
                 let high = above.map(|(_, span)| middle(span)).fold(f64::NEG_INFINITY, f64::max);
                 let low = if low < f64::INFINITY { low } else { f64::NEG_INFINITY };
                 let high = if high > f64::NEG_INFINITY { high } else { f64::INFINITY };
-                let slack = REACH * tolerance;
+                let slack = MAX_OVERHANG_TOLERANCES * tolerance;
                 let is_within = |p: &Point| {
                     let at = p.to_vec2().dot(group.way);
                     at >= low - slack && at <= high + slack

@@ -5,7 +5,7 @@
 //! 2. Each figure is anchored at its centre. Its points are found by walking from there over the faces,
 //!    straight in the plane. Where the plane ends or turns away from the camera, the last face is extended.
 //! 3. Sample points decide on which facets a figure is visible. The exact clipping uses the borders of the
-//!    [`Ground`].
+//!    [`HatchRegions`].
 
 use std::collections::BTreeMap;
 
@@ -13,12 +13,12 @@ use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 
-use super::level_curves::are_seen;
+use super::level_curves::are_visible;
 pub use super::surface_chart::Chart;
 use super::surface_chart::Walker;
 use crate::lines::{Lit, shows_inside};
 use crate::mesh::{FaceId, Mesh};
-use crate::regions::Ground;
+use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
 /// Figure that is repeated on the plane.
@@ -42,15 +42,15 @@ pub struct Decal {
 }
 
 /// Maximum number of figures on a surface. More would be too small to see.
-pub const MOST_FIGURES: f64 = 5e5;
+pub const MAX_FIGURES: f64 = 5e5;
 
 /// Approximate number of points per line that are tested for visibility.
-const ASKED: usize = 12;
+const VISIBILITY_SAMPLES_PER_LINE: usize = 12;
 
 /// Minimum distance between figures of two charts, relative to their sizes. It applies where the normals
-/// differ little (cosine above `SMOOTH`); there the later figure is left out.
-const NEAR: f64 = 0.9;
-const SMOOTH: f64 = 0.7;
+/// differ little (cosine above `MIN_NORMAL_COSINE`); there the later figure is left out.
+const MIN_SPACING_RATIO: f64 = 0.9;
+const MIN_NORMAL_COSINE: f64 = 0.7;
 
 /// Approximate number of figures that the charts would hold.
 #[must_use]
@@ -65,7 +65,7 @@ pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figur
 }
 
 /// Centre of a figure on a face.
-struct Anchor {
+struct FigurePlacement {
     figure: u32,
     face: u32,
     /// Repetition number along x and y.
@@ -80,27 +80,33 @@ struct Anchor {
 #[must_use]
 pub fn decals(
     lit: &Lit,
-    ground: &Ground,
+    ground: &HatchRegions,
     offset: Vec2,
     chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
     figures: &[Figure],
 ) -> Vec<Decal> {
-    const CHUNK: usize = 1 << 10;
+    const FACES_PER_TASK: usize = 1 << 10;
     let mesh = lit.mesh;
-    let middles: Vec<DVec2> = figures.iter().map(middle).collect();
+    let middles: Vec<DVec2> = figures.iter().map(figure_centre).collect();
     let faces = mesh.triangles.len();
-    let anchors: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+    let anchors: Vec<Vec<FigurePlacement>> = (0..faces.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
             let mut found = Vec::new();
-            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+            for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(faces) {
                 let Some(own) = chart(face as u32).filter(|_| !mesh.is_degenerate(FaceId(face as u32)))
                 else {
                     continue;
                 };
                 for (number, figure) in figures.iter().enumerate() {
-                    place(mesh, face as u32, &own, (number as u32, figure, middles[number]), &mut found);
+                    place_on_face(
+                        mesh,
+                        face as u32,
+                        &own,
+                        (number as u32, figure, middles[number]),
+                        &mut found,
+                    );
                 }
             }
             found
@@ -109,18 +115,18 @@ pub fn decals(
     let inside = shows_inside(lit);
     let shows = |face: u32| lit.view.facing[face as usize] || inside[mesh.face_part[face as usize].index()];
     let walker = Walker { lit, chart };
-    let mut anchors: Vec<Anchor> = anchors.into_iter().flatten().collect();
-    let outer: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+    let mut anchors: Vec<FigurePlacement> = anchors.into_iter().flatten().collect();
+    let outer: Vec<Vec<FigurePlacement>> = (0..faces.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
-            let own = chunk * CHUNK..((chunk + 1) * CHUNK).min(faces);
+            let own = chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(faces);
             own.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()
         })
         .collect();
     add_outer(lit, chart, outer.into_iter().flatten().collect(), &mut anchors);
-    let anchors = apart(lit, chart, figures, anchors);
-    let laid: Vec<Laid> = anchors
+    let anchors = drop_crowded(lit, chart, figures, anchors);
+    let laid: Vec<PlacedFigure> = anchors
         .par_iter()
         .with_min_len(64)
         .filter(|anchor| shows(anchor.face))
@@ -131,8 +137,8 @@ pub fn decals(
         })
         .collect();
     let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();
-    let mut seen = are_seen(lit, offset, &asked).into_iter();
-    let decal = |laid: Laid| {
+    let mut seen = are_visible(lit, offset, &asked).into_iter();
+    let decal = |laid: PlacedFigure| {
         let seen: Vec<bool> = seen.by_ref().take(laid.asked.len()).collect();
         let on = laid.asked.iter().zip(seen).filter(|(_, seen)| *seen).map(|((p, _), _)| ground.cell_at(*p));
         let mut facets: Vec<u32> =
@@ -145,14 +151,14 @@ pub fn decals(
 }
 
 /// Figure on the page, with surface points to be tested for visibility.
-struct Laid {
+struct PlacedFigure {
     figure: u32,
     lines: Vec<Vec<Point>>,
     asked: Vec<(Point, f64)>,
 }
 
 /// Centre of a figure's bounding box.
-fn middle(figure: &Figure) -> DVec2 {
+fn figure_centre(figure: &Figure) -> DVec2 {
     let points = || figure.lines.iter().flatten();
     let low = points().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = points().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -160,26 +166,26 @@ fn middle(figure: &Figure) -> DVec2 {
 }
 
 /// Adds the figures whose centres lie on a face.
-fn place(
+fn place_on_face(
     mesh: &Mesh,
     face: u32,
     chart: &Chart,
     (number, figure, middle): (u32, &Figure, DVec2),
-    found: &mut Vec<Anchor>,
+    found: &mut Vec<FigurePlacement>,
 ) {
     let corners = chart.corners.map(|p| (p - middle) / figure.period);
     let [a, b, c] = corners;
     let (low, high) = (a.min(b).min(c).ceil(), a.max(b).max(c).floor());
     let whole = (b - a).perp_dot(c - a);
     let size = high - low + 1.0;
-    if !(whole.abs() > 0.0 && whole.is_finite() && size.x.max(1.0) * size.y.max(1.0) < 4.0 * MOST_FIGURES) {
+    if !(whole.abs() > 0.0 && whole.is_finite() && size.x.max(1.0) * size.y.max(1.0) < 4.0 * MAX_FIGURES) {
         return;
     }
     let solid = mesh.corners(FaceId(face));
     for j in low.y as i64..=high.y as i64 {
         for i in low.x as i64..=high.x as i64 {
             let p = DVec2::new(i as f64, j as f64);
-            let parts = [beside(b, c, p), beside(c, a, p), beside(a, b, p)];
+            let parts = [signed_area(b, c, p), signed_area(c, a, p), signed_area(a, b, p)];
             // A point on a side belongs to exactly one of its two faces.
             let is_in = parts.iter().all(|(part, along)| match whole > 0.0 {
                 true => *part > 0.0 || (*part == 0.0 && *along),
@@ -187,7 +193,7 @@ fn place(
             });
             if is_in {
                 let at = (0..3).map(|k| solid[k] * (parts[k].0 / whole)).sum();
-                found.push(Anchor { figure: number, face, place: [i, j], at, is_outer: false });
+                found.push(FigurePlacement { figure: number, face, place: [i, j], at, is_outer: false });
             }
         }
     }
@@ -195,7 +201,7 @@ fn place(
 
 /// Twice the signed area between a side and a point, and which of the two faces owns points on the side. The
 /// magnitude is exactly the same from both faces.
-fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
+fn signed_area(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
     if (a.x, a.y) < (b.x, b.y) { ((b - a).perp_dot(p - a), true) } else { (-(a - b).perp_dot(p - b), false) }
 }
 
@@ -203,10 +209,10 @@ fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
 fn add_outer(
     lit: &Lit,
     chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
-    outer: Vec<Anchor>,
-    anchors: &mut Vec<Anchor>,
+    outer: Vec<FigurePlacement>,
+    anchors: &mut Vec<FigurePlacement>,
 ) {
-    let key = |anchor: &Anchor| {
+    let key = |anchor: &FigurePlacement| {
         let name = chart(anchor.face).map_or(0, |chart| chart.name);
         (lit.mesh.face_part[anchor.face as usize], name, anchor.figure, anchor.place)
     };
@@ -236,12 +242,12 @@ fn unit(mesh: &Mesh, chart: &(dyn Fn(u32) -> Option<Chart> + Sync), face: u32) -
 }
 
 /// Drops figures too close to one in another chart. The order depends on the plane, not on faces or view.
-fn apart(
+fn drop_crowded(
     lit: &Lit,
     chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
     figures: &[Figure],
-    mut anchors: Vec<Anchor>,
-) -> Vec<Anchor> {
+    mut anchors: Vec<FigurePlacement>,
+) -> Vec<FigurePlacement> {
     let mesh = lit.mesh;
     let name = |face: u32| chart(face).map_or(0, |chart| chart.name);
     let names: Vec<u32> = anchors.iter().map(|anchor| name(anchor.face)).collect();
@@ -249,7 +255,7 @@ fn apart(
         return anchors;
     }
     let far = |figure: &Figure| {
-        let middle = middle(figure);
+        let middle = figure_centre(figure);
         figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
     };
     let reaches: Vec<f64> = figures.iter().map(far).collect();
@@ -257,7 +263,7 @@ fn apart(
         let [a, b, c] = mesh.corners(FaceId(face));
         (b - a).cross(c - a).normalize_or_zero()
     };
-    let part = |anchor: &Anchor| mesh.face_part[anchor.face as usize];
+    let part = |anchor: &FigurePlacement| mesh.face_part[anchor.face as usize];
     anchors.sort_by_key(|anchor| {
         (anchor.is_outer, part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face)
     });
@@ -277,10 +283,11 @@ fn apart(
         let around = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
         let is_near = |other: &usize| {
             let other = &anchors[*other];
-            let reach = (reaches[anchor.figure as usize] + reaches[other.figure as usize]) * unit * NEAR;
+            let reach =
+                (reaches[anchor.figure as usize] + reaches[other.figure as usize]) * unit * MIN_SPACING_RATIO;
             name(other.face) != own
                 && anchor.at.distance(other.at) < reach
-                && normal(anchor.face).dot(normal(other.face)) > SMOOTH
+                && normal(anchor.face).dot(normal(other.face)) > MIN_NORMAL_COSINE
         };
         stays[k] = !around.filter_map(|cell| kept.get(&(part, cell))).flatten().any(is_near);
         if stays[k] {
@@ -297,11 +304,11 @@ impl Walker<'_> {
     /// Projects a figure around its centre; none if a point lies behind the camera.
     fn lay(
         &self,
-        anchor: &Anchor,
+        anchor: &FigurePlacement,
         figure: &Figure,
         (shift, offset): (DVec2, Vec2),
         shows: impl Fn(u32) -> bool,
-    ) -> Option<Laid> {
+    ) -> Option<PlacedFigure> {
         let frame = &self.lit.view.frame;
         let on_page = |p: DVec3| {
             let image = frame.image_from_local(p);
@@ -312,7 +319,7 @@ impl Walker<'_> {
         for line in &figure.lines {
             let mut points = Vec::with_capacity(line.len());
             let mut face = anchor.face;
-            let every = line.len().div_ceil(ASKED);
+            let every = line.len().div_ceil(VISIBILITY_SAMPLES_PER_LINE);
             for (k, p) in line.iter().enumerate() {
                 // Consecutive points are mostly on the same face.
                 let (at, there, is_on) = match self.find(face, *p + shift) {
@@ -330,11 +337,11 @@ impl Walker<'_> {
             }
             lines.push(points);
         }
-        Some(Laid { figure: anchor.figure, lines, asked })
+        Some(PlacedFigure { figure: anchor.figure, lines, asked })
     }
 
     /// Figures whose centres lie outside a face at the border of the plane.
-    fn beyond_border(&self, face: u32, figures: &[Figure], middles: &[DVec2]) -> Vec<Anchor> {
+    fn beyond_border(&self, face: u32, figures: &[Figure], middles: &[DVec2]) -> Vec<FigurePlacement> {
         let mut found = Vec::new();
         let is_degenerate = self.lit.mesh.is_degenerate(FaceId(face));
         let Some(own) = (self.chart)(face).filter(|_| !is_degenerate) else { return found };
@@ -349,7 +356,7 @@ impl Walker<'_> {
             let high = ((a.max(b).max(c) + half - *middle) / figure.period).floor();
             let size = high - low + 1.0;
             let many = size.x.max(1.0) * size.y.max(1.0);
-            if many.is_nan() || many >= MOST_FIGURES {
+            if many.is_nan() || many >= MAX_FIGURES {
                 continue;
             }
             for j in low.y as i64..=high.y as i64 {
@@ -358,7 +365,7 @@ impl Walker<'_> {
                     // Figures on a face are known already, unless they lie exactly on the border.
                     if let Some((at, last, is_on)) = self.walk(face, p, |_| true) {
                         let (figure, place) = (number as u32, [i, j]);
-                        found.push(Anchor { figure, face: last, place, at, is_outer: !is_on });
+                        found.push(FigurePlacement { figure, face: last, place, at, is_outer: !is_on });
                     }
                 }
             }

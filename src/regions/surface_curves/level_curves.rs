@@ -48,16 +48,16 @@ pub fn level_curves(
     value: impl Fn(u32) -> Option<[f64; 3]> + Sync,
     is_wanted: impl Fn(i64, f64) -> bool + Sync,
 ) -> Vec<LevelCurve> {
-    const CHUNK: usize = 1 << 11;
+    const FACES_PER_TASK: usize = 1 << 11;
     let count = lit.mesh.triangles.len();
     let inside = shows_inside(lit);
     let shows = |face: usize| lit.view.facing[face] || inside[lit.mesh.face_part[face].index()];
-    let found: Vec<Vec<LevelPiece>> = (0..count.div_ceil(CHUNK))
+    let found: Vec<Vec<LevelPiece>> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
             let mut pieces = Vec::new();
-            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+            for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(count) {
                 if shows(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     trace(lit, face as u32, &value, &is_wanted, &mut pieces);
                 }
@@ -85,7 +85,7 @@ fn trace(
         values.into_iter().fold(f64::NEG_INFINITY, f64::max),
     );
     // Not finite: behind the camera, or without coordinates.
-    let is_sound = high - low < MOST_LEVELS && image.iter().all(|p| p.is_finite());
+    let is_sound = high - low < MAX_LEVELS_PER_FACE && image.iter().all(|p| p.is_finite());
     if !is_sound || low.ceil() > high.floor() {
         return;
     }
@@ -124,7 +124,7 @@ fn trace(
 }
 
 /// Maximum number of levels on a face. Faces with more are skipped.
-const MOST_LEVELS: f64 = 1e4;
+const MAX_LEVELS_PER_FACE: f64 = 1e4;
 
 /// Joins pieces end to end and projects them to the page.
 fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
@@ -183,7 +183,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
 
 /// Whether each surface point is visible, given its position on the page and its nearness.
 #[must_use]
-pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
+pub fn are_visible(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
     let at: Vec<DVec2> = points.iter().map(|(p, _)| DVec2::new(p.x - offset.x, p.y - offset.y)).collect();
     let frame = &lit.view.frame;
     let fronts = front_faces(lit.mesh, lit.view, &at);
@@ -194,11 +194,11 @@ pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
         .map(|(front, own)| {
             front.is_some_and(|front| {
                 frame.depth_of(own) - frame.depth_of(front.nearness)
-                    < frame.px_at(frame.depth_of(own)) * SAME_DEPTH_PX
+                    < frame.px_at(frame.depth_of(own)) * MAX_DEPTH_DIFFERENCE_PX
             })
         })
         .collect()
 }
 
 /// Largest depth difference of two points on the same surface, px.
-const SAME_DEPTH_PX: f64 = 0.1;
+const MAX_DEPTH_DIFFERENCE_PX: f64 = 0.1;

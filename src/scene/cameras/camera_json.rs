@@ -11,12 +11,12 @@ use crate::error::Error;
 use crate::scene::{Camera, Projection};
 
 /// Example of a record, shown in error messages.
-const EXAMPLE: &str = "a record looks like {\"type\": \"perspective\", \"eye\": [3, 2, 5], \"target\": [0, 0, 0], \
+const EXAMPLE_RECORD: &str = "a record looks like {\"type\": \"perspective\", \"eye\": [3, 2, 5], \"target\": [0, 0, 0], \
                        \"up\": [0, 1, 0], \"fov_y_deg\": 35, \"width_px\": 1000, \"height_px\": 1000}";
 
 /// Serialised form of the record.
 #[derive(Serialize)]
-struct Record {
+struct CameraRecord {
     r#type: &'static str,
     eye: [f64; 3],
     target: [f64; 3],
@@ -39,9 +39,9 @@ impl Camera {
     /// Names the line or the key that is wrong, and the remedy; see [`Camera::validate`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-            .map_err(|error| Error::json("the camera record is not JSON", &error).remedy(EXAMPLE))?;
+            .map_err(|error| Error::json("the camera record is not JSON", &error).remedy(EXAMPLE_RECORD))?;
         let Value::Object(record) = value else {
-            return Err(Error::new("the camera record is not a JSON object").remedy(EXAMPLE));
+            return Err(Error::new("the camera record is not a JSON object").remedy(EXAMPLE_RECORD));
         };
         let camera = Self {
             eye: point(&record, "eye")?,
@@ -77,7 +77,7 @@ impl Camera {
             Projection::Perspective { fov_y_deg } => ("perspective", Some(fov_y_deg), None),
             Projection::Orthographic { height } => ("orthographic", None, Some(height)),
         };
-        let record = Record {
+        let record = CameraRecord {
             r#type: kind,
             eye: self.eye.to_array(),
             target: self.target.to_array(),
@@ -140,7 +140,7 @@ fn point(record: &Map<String, Value>, key: &str) -> Result<DVec3, Error> {
 }
 
 fn missing(key: &str) -> Error {
-    Error::new("the camera record has no such key").at(format!("key {key}")).remedy(EXAMPLE)
+    Error::new("the camera record has no such key").at(format!("key {key}")).remedy(EXAMPLE_RECORD)
 }
 
 #[cfg(test)]

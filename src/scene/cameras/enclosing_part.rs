@@ -7,7 +7,7 @@ use crate::geometry::numbers::portable_math::atan2;
 use crate::scene::{Part, Scene};
 
 /// Triangles per parallel task.
-const CHUNK: usize = 1 << 14;
+const TRIANGLES_PER_TASK: usize = 1 << 14;
 
 impl Scene {
     /// First part that encloses a world point: the winding number of its triangles is closer to 1 than to 0.
@@ -17,7 +17,7 @@ impl Scene {
     /// 1983, equation 8. Open surfaces enclose a point partly (Jacobson and others, *Robust inside-outside
     /// segmentation using generalized winding numbers*, 2013).
     #[must_use]
-    pub fn part_round(&self, point: DVec3) -> Option<&Part> {
+    pub fn enclosing_part(&self, point: DVec3) -> Option<&Part> {
         self.parts.iter().find(|part| self.winding(part, point).is_some_and(|turns| turns > 0.5))
     }
 
@@ -43,7 +43,7 @@ impl Scene {
         };
         let of_chunk = |chunk: &[[u32; 3]]| chunk.iter().map(solid_angle).sum::<f64>();
         // Summed in order, so the result does not depend on the number of threads.
-        let chunks: Vec<f64> = geometry.triangles.par_chunks(CHUNK).map(of_chunk).collect();
+        let chunks: Vec<f64> = geometry.triangles.par_chunks(TRIANGLES_PER_TASK).map(of_chunk).collect();
         // Computed in local space, where a mirrored part has its stored orientation.
         Some(chunks.iter().sum::<f64>() / (4.0 * std::f64::consts::PI))
     }
@@ -65,20 +65,20 @@ mod tests {
     #[test]
     fn what_is_inside_is_told_from_what_is_beside() {
         let scene = tetrahedron(false);
-        assert!(scene.part_round(DVec3::splat(0.2)).is_some());
-        assert!(scene.part_round(DVec3::splat(0.4)).is_none());
-        assert!(scene.part_round(DVec3::splat(2.0)).is_none());
-        assert!(scene.part_round(DVec3::NAN).is_none());
-        assert!(tetrahedron(true).part_round(DVec3::splat(0.2)).is_none());
+        assert!(scene.enclosing_part(DVec3::splat(0.2)).is_some());
+        assert!(scene.enclosing_part(DVec3::splat(0.4)).is_none());
+        assert!(scene.enclosing_part(DVec3::splat(2.0)).is_none());
+        assert!(scene.enclosing_part(DVec3::NAN).is_none());
+        assert!(tetrahedron(true).enclosing_part(DVec3::splat(0.2)).is_none());
     }
 
     #[test]
     fn mirrored_parts_have_the_same_inside() {
         let mut scene = tetrahedron(false);
         scene.parts[0].world_from_part = DAffine3::from_scale(DVec3::new(-1.0, 2.0, 1.0));
-        assert!(scene.part_round(DVec3::new(-0.2, 0.4, 0.2)).is_some());
-        assert!(scene.part_round(DVec3::new(0.2, 0.4, 0.2)).is_none());
+        assert!(scene.enclosing_part(DVec3::new(-0.2, 0.4, 0.2)).is_some());
+        assert!(scene.enclosing_part(DVec3::new(0.2, 0.4, 0.2)).is_none());
         scene.parts[0].world_from_part = DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.0));
-        assert!(scene.part_round(DVec3::splat(0.2)).is_none());
+        assert!(scene.enclosing_part(DVec3::splat(0.2)).is_none());
     }
 }

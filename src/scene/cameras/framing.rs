@@ -15,33 +15,33 @@ use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Camera, Projection, Scene};
 
 /// Margin on each side of a fitted model, as a fraction of the frame's shorter side.
-pub const MARGIN: f64 = 0.05;
+pub const FRAME_MARGIN: f64 = 0.05;
 
 /// Minimum distance of a perspective eye in front of the model, as a fraction of the model's diagonal.
 /// Matters only for models that are thin in the view direction, such as a rod seen end-on.
-const NEAREST_EYE: f64 = 0.02;
+const MIN_EYE_DISTANCE_OF_DIAGONAL: f64 = 0.02;
 
 /// Minimum height of a parallel view, as a fraction of the model's diagonal, for the same reason.
-const LEAST_SPAN: f64 = 1e-6;
+const MIN_VIEW_HEIGHT_OF_DIAGONAL: f64 = 1e-6;
 
 /// Points per parallel task.
-const CHUNK: usize = 1 << 14;
+const POINTS_PER_TASK: usize = 1 << 14;
 
 /// Points per bounding box.
-const BLOCK: usize = 1 << 8;
+const POINTS_PER_BOX: usize = 1 << 8;
 
 /// Maximum Newton steps of the centring. Each step but the last passes a vertex of a convex polyline; three
 /// or four are usual.
-const CENTRING_STEPS: usize = 32;
+const MAX_CENTRING_STEPS: usize = 32;
 
 impl Camera {
     /// Moves the camera along its view direction so that the whole scene fills the frame, centred, with a
-    /// margin of [`MARGIN`] on the tight sides.
+    /// margin of [`FRAME_MARGIN`] on the tight sides.
     ///
     /// A scene without drawable content leaves the camera unchanged.
     #[must_use]
     pub fn fit(self, scene: &Scene) -> Self {
-        self.fit_points(&world_points(scene), MARGIN)
+        self.fit_points(&world_points(scene), FRAME_MARGIN)
     }
 
     /// Moves the camera along its view direction so that all `points` (world) are in the frame, centred.
@@ -87,7 +87,7 @@ impl Camera {
 /// depend on the order of the points.
 struct Cloud {
     points: Vec<DVec3>,
-    /// Lower and upper corner of each [`BLOCK`] of points.
+    /// Lower and upper corner of each [`POINTS_PER_BOX`] of points.
     boxes: Vec<(DVec3, DVec3)>,
 }
 
@@ -96,10 +96,16 @@ impl Cloud {
     fn new(points: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
         // Replace invalid points by a duplicate of a valid one.
         let finite = points.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
-        let placed =
-            points.par_iter().with_min_len(CHUNK).map(|&p| place(if p.is_finite() { p } else { finite }));
+        let placed = points
+            .par_iter()
+            .with_min_len(POINTS_PER_TASK)
+            .map(|&p| place(if p.is_finite() { p } else { finite }));
         let points: Vec<DVec3> = placed.collect();
-        let boxes = points.par_chunks(BLOCK).with_min_len(CHUNK / BLOCK).map(box_round).collect();
+        let boxes = points
+            .par_chunks(POINTS_PER_BOX)
+            .with_min_len(POINTS_PER_TASK / POINTS_PER_BOX)
+            .map(box_round)
+            .collect();
         Self { points, boxes }
     }
 
@@ -123,7 +129,7 @@ impl Cloud {
         let reaches: Vec<f64> = self.boxes.iter().map(beyond).collect();
         let first =
             reaches.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(block, _)| block);
-        let blocks = || self.points.chunks(BLOCK);
+        let blocks = || self.points.chunks(POINTS_PER_BOX);
         let mut reached = blocks().nth(first).map_or(f64::NEG_INFINITY, &mut look);
         for (reach, points) in reaches.into_iter().zip(blocks()) {
             if reach < reached {
@@ -158,7 +164,9 @@ fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3
     let (r, l) = (reach(1.0, 0.0, -tx), reach(-1.0, 0.0, -tx));
     let (t, b) = (reach(0.0, 1.0, -ty), reach(0.0, -1.0, -ty));
     let near = reach(0.0, 0.0, -1.0);
-    let z = (-(r + l) / (2.0 * tx)).min(-(t + b) / (2.0 * ty)).min(-near - NEAREST_EYE * diagonal);
+    let z = (-(r + l) / (2.0 * tx))
+        .min(-(t + b) / (2.0 * ty))
+        .min(-near - MIN_EYE_DISTANCE_OF_DIAGONAL * diagonal);
     DVec3::new(centred(points, tx, z, DVec3::X), centred(points, ty, z, DVec3::Y), z)
 }
 
@@ -170,7 +178,7 @@ fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3
 fn centred(points: &Cloud, widest: f64, eye_z: f64, side: DVec3) -> f64 {
     let mut t = 0.0;
     let mut x = 0.0;
-    for _ in 0..CENTRING_STEPS {
+    for _ in 0..MAX_CENTRING_STEPS {
         let plus = points.farthest(side - t * DVec3::Z);
         let minus = points.farthest(-side - t * DVec3::Z);
         let excess = plus.0 + minus.0 + 2.0 * t * eye_z;
@@ -190,7 +198,11 @@ fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -
     let [r, l, t, b, near] =
         [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_Z].map(|axis| points.reach(axis));
     let span = ((r + l) * height / frame.0).max((t + b) * height / frame.1);
-    let span = if span < LEAST_SPAN * diagonal { diagonal * height / frame.0.min(frame.1) } else { span };
+    let span = if span < MIN_VIEW_HEIGHT_OF_DIAGONAL * diagonal {
+        diagonal * height / frame.0.min(frame.1)
+    } else {
+        span
+    };
     (DVec3::new((r - l) / 2.0, (t - b) / 2.0, -near - diagonal), span)
 }
 
@@ -260,12 +272,12 @@ mod tests {
     fn the_model_touches_the_margin_and_is_centred() {
         for camera in cameras() {
             let points = cloud(DVec3::ZERO, 1.0);
-            let fitted = camera.fit_points(&points, MARGIN);
+            let fitted = camera.fit_points(&points, FRAME_MARGIN);
             assert_eq!(fitted.validate(), Ok(()));
             let [l, r, t, b] = free(&fitted, &points);
             assert!((l - r).abs() < 1e-9 && (t - b).abs() < 1e-9, "not centred: {l} {r} {t} {b} {camera:?}");
             let side = camera.width.min(camera.height);
-            let (across, down) = (MARGIN * side / camera.width, MARGIN * side / camera.height);
+            let (across, down) = (FRAME_MARGIN * side / camera.width, FRAME_MARGIN * side / camera.height);
             assert!(l > across - 1e-9 && t > down - 1e-9, "outside: {l} {t} {camera:?}");
             assert!(l < across + 1e-9 || t < down + 1e-9, "not tight: {l} {t} {camera:?}");
         }
@@ -274,7 +286,7 @@ mod tests {
     #[test]
     fn the_line_of_sight_stays() {
         for camera in cameras() {
-            let fitted = camera.fit_points(&cloud(DVec3::new(5.0, -3.0, 1.0), 1.0), MARGIN);
+            let fitted = camera.fit_points(&cloud(DVec3::new(5.0, -3.0, 1.0), 1.0), FRAME_MARGIN);
             let turn = camera.axes().into_iter().zip(fitted.axes()).map(|(a, b)| (a - b).length());
             assert!(turn.into_iter().all(|turn| turn < 1e-9));
         }
@@ -285,9 +297,9 @@ mod tests {
         for (offset, scale) in [(4.6e6, 10.0), (0.0, 3e-6), (1e9, 3e9)] {
             for camera in cameras() {
                 let points = cloud(DVec3::splat(offset), scale);
-                let there = free(&camera.fit_points(&points, MARGIN), &points);
+                let there = free(&camera.fit_points(&points, FRAME_MARGIN), &points);
                 let points = cloud(DVec3::ZERO, 1.0);
-                let here = free(&camera.fit_points(&points, MARGIN), &points);
+                let here = free(&camera.fit_points(&points, FRAME_MARGIN), &points);
                 assert!(here.into_iter().zip(there).all(|(a, b)| (a - b).abs() < 1e-5), "{here:?} {there:?}");
             }
         }
@@ -303,7 +315,7 @@ mod tests {
         let holed = [DVec3::ZERO, DVec3::NAN, DVec3::ONE, DVec3::INFINITY];
         for points in [&single[..], &repeated, &line, &upright, &sheet, &holed] {
             for camera in cameras() {
-                let fitted = camera.fit_points(points, MARGIN);
+                let fitted = camera.fit_points(points, FRAME_MARGIN);
                 assert_eq!(fitted.validate(), Ok(()), "{points:?} {camera:?}");
                 let finite: Vec<DVec3> = points.iter().copied().filter(|p| p.is_finite()).collect();
                 let inside = free(&fitted, &finite).into_iter().all(|free| free > 0.01);
@@ -311,8 +323,8 @@ mod tests {
             }
         }
         let camera = Camera::three_quarter();
-        assert_eq!(camera.fit_points(&[], MARGIN), camera);
-        assert_eq!(camera.fit_points(&[DVec3::NAN], MARGIN), camera);
+        assert_eq!(camera.fit_points(&[], FRAME_MARGIN), camera);
+        assert_eq!(camera.fit_points(&[DVec3::NAN], FRAME_MARGIN), camera);
     }
 
     #[test]
@@ -336,6 +348,6 @@ mod tests {
         assert_eq!(points.len(), 8);
         assert_eq!(bounds(&points), Some((DVec3::ZERO, DVec3::splat(11.0))));
         let fitted = Camera::three_quarter().fit(&scene);
-        assert_eq!(fitted, Camera::three_quarter().fit_points(&points, MARGIN));
+        assert_eq!(fitted, Camera::three_quarter().fit_points(&points, FRAME_MARGIN));
     }
 }

@@ -17,7 +17,7 @@ pub const THREE_QUARTER_ELEVATION_DEG: f64 = 22.0;
 
 /// Elevation in degrees above which the vertical is too close to the view direction to serve as up in the
 /// picture.
-const STEEP_DEG: f64 = 89.0;
+const MAX_UPRIGHT_ELEVATION_DEG: f64 = 89.0;
 
 /// A view with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -156,7 +156,7 @@ impl Camera {
         let (azimuth, elevation) = (azimuth_deg.to_radians(), elevation_deg.to_radians());
         let horizontal = DVec3::new(sin(azimuth), -cos(azimuth), 0.0);
         let d = horizontal * cos(elevation) + DVec3::Z * sin(elevation);
-        let page_up = if elevation_deg.abs() < STEEP_DEG {
+        let page_up = if elevation_deg.abs() < MAX_UPRIGHT_ELEVATION_DEG {
             DVec3::Z
         } else {
             DVec3::Z * cos(elevation) - horizontal * sin(elevation)

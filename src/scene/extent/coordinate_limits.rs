@@ -4,21 +4,21 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 /// Points per parallel task.
-const CHUNK: usize = 1 << 14;
+const POINTS_PER_TASK: usize = 1 << 14;
 
 /// Maximum absolute coordinate. Products of four larger ones overflow an `f64`, so these are rejected like
 /// NaN.
-pub const LARGEST: f64 = 1e60;
+pub const MAX_COORDINATE: f64 = 1e60;
 
-/// Whether all three coordinates are numbers up to [`LARGEST`].
+/// Whether all three coordinates are numbers up to [`MAX_COORDINATE`].
 #[inline]
 #[must_use]
 pub fn is_drawable(point: DVec3) -> bool {
-    point.abs().cmple(DVec3::splat(LARGEST)).all()
+    point.abs().cmple(DVec3::splat(MAX_COORDINATE)).all()
 }
 
 /// Warning about faces and lines that are left out because of their coordinates.
-pub(crate) const NOT_DRAWABLE: &str =
+pub(crate) const NOT_DRAWABLE_WARNING: &str =
     "faces or lines left out, with coordinates that are not numbers or too large";
 
 /// Bounding box of all finite points, as lower and upper corner; `None` if there are none.
@@ -29,7 +29,7 @@ pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
         finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
     };
     let (low, high) = points
-        .par_chunks(CHUNK)
+        .par_chunks(POINTS_PER_TASK)
         .map(of_chunk)
         .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
     (low.is_finite() && high.is_finite()).then_some((low, high))

@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 use super::coordinate_limits::{bounds, is_drawable};
 use crate::mesh::normals::triangle_area::{has_area, has_own_area, largest_scale, scale_of};
 use crate::mesh::part_metrics::origin;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::{Geometry, Part, Scene};
 
 /// Points that are drawn, part by part.
@@ -38,19 +38,19 @@ pub(crate) struct DrawnPart {
     pub points: Range<usize>,
     /// Degenerate faces and wires that are left out.
     #[cfg_attr(not(feature = "cli"), expect(dead_code))]
-    pub left_out: LeftOut,
+    pub left_out: DegenerateCounts,
 }
 
 /// Counts of faces without area and wires without length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct LeftOut {
+pub(crate) struct DegenerateCounts {
     pub faces: u64,
     pub wires: u64,
     /// First corner of the first such face, or else of the first wire, world space.
     pub first: Option<DVec3>,
 }
 
-impl LeftOut {
+impl DegenerateCounts {
     /// Whether nothing is left out.
     #[cfg(feature = "cli")]
     pub fn is_none(&self) -> bool {
@@ -59,13 +59,13 @@ impl LeftOut {
 }
 
 /// Instance of a geometry with a valid transform.
-struct Placed<'a> {
+struct PlacedGeometry<'a> {
     part: usize,
     geometry: &'a Geometry,
     place: &'a DAffine3,
 }
 
-impl Placed<'_> {
+impl PlacedGeometry<'_> {
     fn at(&self, vertex: u32) -> DVec3 {
         let own = self.geometry.positions.get(vertex as usize).copied().unwrap_or_default();
         if *self.place == DAffine3::IDENTITY { own } else { self.place.transform_point3(own) }
@@ -81,7 +81,7 @@ impl Placed<'_> {
 
     /// Faces that may have no area, ascending; `scale` is at least that of the part.
     fn suspects(&self, scale: f64) -> Vec<u32> {
-        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN).enumerate();
+        let faces = self.geometry.triangles.par_iter().with_min_len(MIN_TASK_ITEMS).enumerate();
         let suspects = faces.filter(|(_, t)| !has_area(self.corners(t), scale));
         suspects.map(|(face, _)| face as u32).collect()
     }
@@ -95,7 +95,9 @@ impl Placed<'_> {
         if *self.place == DAffine3::IDENTITY {
             to.extend_from_slice(own);
         } else {
-            to.par_extend(own.par_iter().with_min_len(GRAIN).map(|&p| self.place.transform_point3(p)));
+            to.par_extend(
+                own.par_iter().with_min_len(MIN_TASK_ITEMS).map(|&p| self.place.transform_point3(p)),
+            );
         }
     }
 }
@@ -111,17 +113,17 @@ impl DrawnPoints {
         let wanted = scene.parts.iter().enumerate().filter(|(_, part)| is_wanted(part));
         let placed = wanted.filter_map(|(number, part)| {
             let geometry = scene.geometry_of(part)?;
-            Some(Placed { part: number, geometry, place: &part.world_from_part })
+            Some(PlacedGeometry { part: number, geometry, place: &part.world_from_part })
         });
         Self::of_placed(placed.collect())
     }
 
     /// Points of a geometry, in local space.
     pub fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
-        Self::of_placed(vec![Placed { part: 0, geometry, place: &DAffine3::IDENTITY }]).points
+        Self::of_placed(vec![PlacedGeometry { part: 0, geometry, place: &DAffine3::IDENTITY }]).points
     }
 
-    fn of_placed(mut placed: Vec<Placed>) -> Self {
+    fn of_placed(mut placed: Vec<PlacedGeometry>) -> Self {
         let mut all = Self::default();
         // Instances of a geometry share its list of used points.
         let mut known: FxHashMap<*const Geometry, Cow<[DVec3]>> = FxHashMap::default();
@@ -132,10 +134,10 @@ impl DrawnPoints {
             own.add(used, &mut all.points);
             let points = all.points.get(first..).unwrap_or_default();
             // A part with coordinates that are not finite or too large is not drawn.
-            let is_drawn = points.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p));
+            let is_drawn = points.par_iter().with_min_len(MIN_TASK_ITEMS).all(|&p| is_drawable(p));
             if is_drawn {
                 let points = first..all.points.len();
-                all.parts.push(DrawnPart { part: own.part, points, left_out: LeftOut::default() });
+                all.parts.push(DrawnPart { part: own.part, points, left_out: DegenerateCounts::default() });
             } else {
                 all.points.truncate(first);
             }
@@ -145,15 +147,15 @@ impl DrawnPoints {
     }
 
     /// Removes degenerate faces and wires; `None` if there are none, or no points.
-    fn without_flat(&self, placed: &[Placed]) -> Option<Self> {
+    fn without_flat(&self, placed: &[PlacedGeometry]) -> Option<Self> {
         let (low, high) = bounds(&self.points)?;
         let largest = largest_scale(low, high);
-        let doubtful = |own: &Placed| {
+        let doubtful = |own: &PlacedGeometry| {
             let suspects = own.suspects(largest);
             let is_whole = suspects.is_empty() && !own.has_short_wires();
-            (!is_whole).then(|| Doubtful::of(own, suspects))
+            (!is_whole).then(|| DegenerateCandidates::of(own, suspects))
         };
-        let doubtful: Vec<Option<Doubtful>> = placed.iter().map(doubtful).collect();
+        let doubtful: Vec<Option<DegenerateCandidates>> = placed.iter().map(doubtful).collect();
         if doubtful.iter().all(Option::is_none) {
             return None;
         }
@@ -169,7 +171,7 @@ impl DrawnPoints {
         let mut all = Self::default();
         for ((own, part), doubtful) in parts() {
             let first = all.points.len();
-            let mut left_out = LeftOut::default();
+            let mut left_out = DegenerateCounts::default();
             if let Some(doubtful) = doubtful {
                 let counted = doubtful.bounds(own, |corners| has_own_area(corners.map(|p| p - origin)));
                 let scale = counted.or(whole(part)).map_or(0.0, |(l, h)| scale_of(l - origin, h - origin));
@@ -193,7 +195,7 @@ impl DrawnPoints {
 }
 
 /// A part with faces that may have no area, or with wires of zero length.
-struct Doubtful {
+struct DegenerateCandidates {
     /// Faces that may have no area, ascending.
     suspects: Vec<u32>,
     /// For each vertex, whether another face or a wire with length uses it.
@@ -203,12 +205,12 @@ struct Doubtful {
     high: DVec3,
 }
 
-impl Doubtful {
-    fn of(own: &Placed, suspects: Vec<u32>) -> Self {
+impl DegenerateCandidates {
+    fn of(own: &PlacedGeometry, suspects: Vec<u32>) -> Self {
         let mut is_suspect = vec![false; own.geometry.triangles.len()];
         suspects.iter().for_each(|face| is_suspect[*face as usize] = true);
         let used = used(own.geometry, |face| !is_suspect[face], |wire| own.is_long(wire));
-        let vertices = used.par_iter().enumerate().with_min_len(GRAIN).filter(|(_, used)| **used);
+        let vertices = used.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS).filter(|(_, used)| **used);
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let grow = |(low, high): (DVec3, DVec3), (vertex, _): (usize, &bool)| {
             let p = own.at(vertex as u32);
@@ -222,7 +224,7 @@ impl Doubtful {
     /// Suspect faces for which `counts` returns `wanted`.
     fn those<'a>(
         &'a self,
-        own: &'a Placed,
+        own: &'a PlacedGeometry,
         counts: impl Fn([DVec3; 3]) -> bool + 'a,
         wanted: bool,
     ) -> impl Iterator<Item = &'a [u32; 3]> {
@@ -231,7 +233,7 @@ impl Doubtful {
     }
 
     /// Bounding box without the suspect faces for which `counts` is false, world space.
-    fn bounds(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
+    fn bounds(&self, own: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
         let real = self.those(own, counts, true).flatten();
         let real = real.filter(|corner| (**corner as usize) < self.used.len());
         let (low, high) = real.fold((self.low, self.high), |(low, high), corner| {
@@ -242,7 +244,7 @@ impl Doubtful {
     }
 
     /// Vertices without those of suspect faces for which `counts` is false, in local space.
-    fn counted(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
+    fn counted(&self, own: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
         let mut used = self.used.clone();
         for corner in self.those(own, counts, true).flatten() {
             if let Some(used) = used.get_mut(*corner as usize) {
@@ -253,11 +255,11 @@ impl Doubtful {
         kept.map(|(p, _)| *p).collect()
     }
 
-    fn left_out(&self, own: &Placed, has_area: impl Fn([DVec3; 3]) -> bool) -> LeftOut {
+    fn left_out(&self, own: &PlacedGeometry, has_area: impl Fn([DVec3; 3]) -> bool) -> DegenerateCounts {
         let is_short = |wire: &&[u32; 2]| !own.is_long(wire);
         let wires = || own.geometry.wires.iter().filter(is_short);
         let first_face = self.those(own, &has_area, false).next().map(|t| own.at(t[0]));
-        LeftOut {
+        DegenerateCounts {
             faces: self.those(own, &has_area, false).count() as u64,
             wires: wires().count() as u64,
             first: first_face.or_else(|| wires().next().map(|wire| own.at(wire[0]))),
@@ -286,8 +288,12 @@ fn used(
             used.store(true, Relaxed);
         }
     };
-    let counted =
-        geometry.triangles.par_iter().with_min_len(GRAIN).enumerate().filter(|(face, _)| faces(*face));
+    let counted = geometry
+        .triangles
+        .par_iter()
+        .with_min_len(MIN_TASK_ITEMS)
+        .enumerate()
+        .filter(|(face, _)| faces(*face));
     counted.for_each(|(_, corners)| corners.iter().for_each(mark));
     geometry.wires.iter().filter(|ends| wires(ends)).for_each(|ends| ends.iter().for_each(mark));
     used.into_iter().map(AtomicBool::into_inner).collect()

@@ -8,18 +8,18 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::COARSE_OF_MODEL;
-use crate::parallel::task_size::GRAIN;
+use crate::geometry::numbers::tolerance::MAX_COORDINATE_STEP_OF_MODEL;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::{Geometry, Scene};
 
 /// Returns the scene, with a warning if its coordinates are too coarse.
-pub(crate) fn checked(mut scene: Scene) -> Scene {
-    warn(&mut scene);
+pub(crate) fn with_precision_warning(mut scene: Scene) -> Scene {
+    warn_of_coarse_steps(&mut scene);
     scene
 }
 
 /// Adds a warning if the coordinate steps of a part would be visible in a drawing of the model.
-pub(crate) fn warn(scene: &mut Scene) {
+pub(crate) fn warn_of_coarse_steps(scene: &mut Scene) {
     // Near the origin every format is precise enough, and few models are far from it.
     let far: Vec<bool> = scene.geometries.iter().map(is_far).collect();
     if !far.contains(&true) {
@@ -31,16 +31,16 @@ pub(crate) fn warn(scene: &mut Scene) {
         .geometries
         .iter()
         .zip(&far)
-        .map(|(geometry, far)| if *far { steps(geometry) } else { DVec3::ZERO })
+        .map(|(geometry, far)| if *far { coordinate_steps(geometry) } else { DVec3::ZERO })
         .collect();
-    let mut worst = (COARSE_OF_MODEL * size, "");
+    let mut worst = (MAX_COORDINATE_STEP_OF_MODEL * size, "");
     let mut count = 0_u64;
     for part in &scene.parts {
         let Some(step) = scene.geometry_of(part).and_then(|_| steps.get(part.geometry)) else { continue };
         let turned = part.world_from_part.matrix3;
         let step = turned.x_axis.abs() * step.x + turned.y_axis.abs() * step.y + turned.z_axis.abs() * step.z;
         let step = step.max_element();
-        if step > COARSE_OF_MODEL * size {
+        if step > MAX_COORDINATE_STEP_OF_MODEL * size {
             count += 1;
             if step > worst.0 {
                 worst = (step, part.name.as_str());
@@ -67,15 +67,15 @@ fn is_far(geometry: &Geometry) -> bool {
     let (low, high) = geometry
         .positions
         .par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .fold(|| nothing, |(low, high), p| (low.min(*p), high.max(*p)))
         .reduce(|| nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
     let largest = low.abs().max(high.abs()).max_element();
-    largest.is_finite() && single_step(largest) > COARSE_OF_MODEL * (high - low).length()
+    largest.is_finite() && single_step(largest) > MAX_COORDINATE_STEP_OF_MODEL * (high - low).length()
 }
 
 /// Coordinate step along each axis; 0 if all values are equal or exact.
-fn steps(geometry: &Geometry) -> DVec3 {
+fn coordinate_steps(geometry: &Geometry) -> DVec3 {
     let all =
         |holds: &dyn Fn(f64) -> bool| geometry.positions.iter().all(|p| p.to_array().into_iter().all(holds));
     let is_single = geometry.single_precision
@@ -146,16 +146,16 @@ mod tests {
         };
         let part = Part { name: "house".into(), geometry: 0, world_from_part: DAffine3::IDENTITY };
         let mut scene = Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() };
-        warn(&mut scene);
+        warn_of_coarse_steps(&mut scene);
         scene
     }
 
-    const MAP: DVec3 = DVec3::new(451_234.0, 5_412_345.0, 410.0);
+    const MAP_ORIGIN: DVec3 = DVec3::new(451_234.0, 5_412_345.0, 410.0);
 
     #[test]
     fn single_precision_far_from_the_origin_is_told() {
         let single = |value: f64| f64::from(value as f32);
-        let lines = house(MAP, true, single).warnings.lines();
+        let lines = house(MAP_ORIGIN, true, single).warnings.lines();
         assert_eq!(lines.len(), 1);
         for word in ["part `house`", "steps of 0.5,", "size of 18", "move the model near the origin"] {
             assert!(lines[0].contains(word), "{word}: {}", lines[0]);
@@ -168,35 +168,39 @@ mod tests {
     #[test]
     fn few_decimals_far_from_the_origin_are_told() {
         let tenths = |value: f64| (value * 10.0).round() / 10.0;
-        assert!(house(MAP, false, tenths).warnings.lines()[0].contains("steps of 0.1,"));
+        assert!(house(MAP_ORIGIN, false, tenths).warnings.lines()[0].contains("steps of 0.1,"));
         let single = |value: f64| f64::from(value as f32);
-        assert!(house(MAP, false, single).warnings.lines()[0].contains("steps of 0.5,"));
+        assert!(house(MAP_ORIGIN, false, single).warnings.lines()[0].contains("steps of 0.5,"));
         for fine in [|value: f64| (value * 1e6).round() / 1e6, |value: f64| value, f64::round] {
-            assert!(house(MAP, false, fine).warnings.is_empty(), "{:?}", house(MAP, false, fine).warnings);
+            assert!(
+                house(MAP_ORIGIN, false, fine).warnings.is_empty(),
+                "{:?}",
+                house(MAP_ORIGIN, false, fine).warnings
+            );
         }
         assert!(house(DVec3::ZERO, false, tenths).warnings.is_empty());
         // The coordinates of an axis-aligned box have few decimals and are exact.
         let mut scene = house(DVec3::ZERO, false, |value| value);
         for (k, position) in scene.geometries[0].positions.iter_mut().enumerate() {
             let side = |bit: usize| if k >> bit & 1 == 0 { 0.5 } else { 10.5 };
-            *position = MAP + DVec3::new(side(0), side(1), side(2));
+            *position = MAP_ORIGIN + DVec3::new(side(0), side(1), side(2));
         }
-        warn(&mut scene);
+        warn_of_coarse_steps(&mut scene);
         assert!(scene.warnings.is_empty(), "{}", scene.warnings);
     }
 
     #[test]
     fn what_nodes_move_is_as_fine_as_before() {
         let mut scene = house(DVec3::ZERO, true, |value| f64::from(value as f32));
-        scene.parts[0].world_from_part = DAffine3::from_translation(MAP);
-        warn(&mut scene);
+        scene.parts[0].world_from_part = DAffine3::from_translation(MAP_ORIGIN);
+        warn_of_coarse_steps(&mut scene);
         assert!(scene.warnings.is_empty());
         // A large model is drawn at a small scale.
-        let mut scene = house(MAP, true, |value| f64::from(value as f32));
+        let mut scene = house(MAP_ORIGIN, true, |value| f64::from(value as f32));
         scene.warnings = crate::scene::Warnings::default();
         let far = DAffine3::from_translation(DVec3::new(1e5, 0.0, 0.0));
         scene.parts.push(Part { world_from_part: far, ..scene.parts[0].clone() });
-        warn(&mut scene);
+        warn_of_coarse_steps(&mut scene);
         assert!(scene.warnings.is_empty());
     }
 }

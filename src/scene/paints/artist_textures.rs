@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::varying_surface::Varied;
+use super::varying_surface::VaryingSurface;
 use crate::colour::pixel_picture::Picture;
 use crate::geometry::names::glob::Glob;
 use crate::mesh::{MaterialId, PaintId};
@@ -42,7 +42,7 @@ impl ArtistTextures {
 
     /// Picture of each material that has one, reduced to at most `count` colours. The colour numbers serve as
     /// paint ids.
-    pub(crate) fn on(&self, scene: &Scene, count: usize) -> Vec<(MaterialId, Varied)> {
+    pub(crate) fn on(&self, scene: &Scene, count: usize) -> Vec<(MaterialId, VaryingSurface)> {
         if self.0.is_empty() {
             return Vec::new();
         }
@@ -58,13 +58,13 @@ impl ArtistTextures {
         let materials = scene.materials.iter().chain([&without]).enumerate();
         let inked = materials.filter_map(|(id, material)| {
             let picture = self.of(material).filter(|_| !shown_by[id].is_empty())?;
-            let texture = Texture::showing(scene, material, picture);
-            let shown = texture.seen_on(scene, &shown_by[id]);
-            let colours = texture.few(&shown, count);
+            let texture = Texture::with_picture(scene, material, picture);
+            let shown = texture.unmasked_coverage(scene, &shown_by[id]);
+            let colours = texture.representative_colours(&shown, count);
             // The mean colour comes last.
             let paints = (0..=colours.len()).map(PaintId::from).collect();
             let mean = texture.mean(&shown);
-            Some((id.into(), Varied::new(Some(texture.painted(shown, &colours, mean)), None, paints)))
+            Some((id.into(), VaryingSurface::new(Some(texture.painted(shown, &colours, mean)), None, paints)))
         });
         inked.collect()
     }
@@ -72,14 +72,14 @@ impl ArtistTextures {
 
 impl<'de> Deserialize<'de> for ArtistTextures {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Paths)
+        deserializer.deserialize_any(PathsVisitor)
     }
 }
 
 /// Reads one path, or a table of patterns and paths.
-struct Paths;
+struct PathsVisitor;
 
-impl<'de> Visitor<'de> for Paths {
+impl<'de> Visitor<'de> for PathsVisitor {
     type Value = ArtistTextures;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

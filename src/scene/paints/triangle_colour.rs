@@ -1,18 +1,18 @@
-//! [`Coloured`]: the colour of a triangle from a texture or from its vertices, if it has one.
+//! [`TriangleColour`]: the colour of a triangle from a texture or from its vertices, if it has one.
 
 use glam::Vec3;
 
 use crate::colour::srgb::{Colour, linear};
 use crate::scene::Geometry;
 use crate::scene::textures::Texture;
-use crate::scene::textures::palette::palette_clusters::{ALIKE, difference};
+use crate::scene::textures::palette::palette_clusters::{MIN_CHANNEL_DIFFERENCE, channel_difference};
 
 /// Maximum channel difference of corner colours that count as equal.
-const ONE: u32 = 2;
+const MAX_EQUAL_CHANNEL_DIFFERENCE: u32 = 2;
 
 /// A triangle with a colour other than its material's.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Coloured {
+pub(crate) struct TriangleColour {
     pub geometry: usize,
     pub triangle: usize,
     /// Representative colour in the texture.
@@ -25,7 +25,7 @@ pub(crate) struct Coloured {
     pub tint_spread: u32,
 }
 
-impl Coloured {
+impl TriangleColour {
     /// Samples the colours of a triangle; `None` if neither a texture nor its corners give it one.
     pub fn of(geometry: &Geometry, index: usize, triangle: usize, texture: Option<&Texture>) -> Option<Self> {
         let uvs = geometry.corner_uvs.get(triangle).and_then(|corners| {
@@ -33,14 +33,14 @@ impl Coloured {
             Some([a?, b?, c?])
         });
         let shown = texture.zip(uvs).map(|(texture, uvs)| texture.of_triangle(uvs));
-        let corners = tints_of(geometry, triangle);
+        let corners = corner_light(geometry, triangle);
         let painted = corners.map(|[a, b, c]| {
             // Rounded once, so that the order of the corners does not matter.
             ((a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0).as_vec3()
         });
         let tint_spread = corners.map_or(0, |corners| {
             let [a, b, c] = corners.map(|light| Colour::from_linear(light.extend(1.0).to_array()));
-            difference(a, b).max(difference(b, c)).max(difference(c, a))
+            channel_difference(a, b).max(channel_difference(b, c)).max(channel_difference(c, a))
         });
         // White does not change a texture.
         let painted = painted.filter(|light| shown.is_none() || *light != Vec3::ONE || tint_spread > 0);
@@ -53,17 +53,17 @@ impl Coloured {
 
     /// Whether the corner colours differ.
     pub fn varies(&self) -> bool {
-        self.tint_spread > ONE
+        self.tint_spread > MAX_EQUAL_CHANNEL_DIFFERENCE
     }
 
     /// Whether the triangle has a single colour.
     pub fn is_flat(&self) -> bool {
-        self.spread < ALIKE && !self.varies()
+        self.spread < MIN_CHANNEL_DIFFERENCE && !self.varies()
     }
 }
 
 /// Corner colours of a triangle, in linear light.
-pub(crate) fn tints_of(geometry: &Geometry, triangle: usize) -> Option<[Vec3; 3]> {
+pub(crate) fn corner_light(geometry: &Geometry, triangle: usize) -> Option<[Vec3; 3]> {
     let [a, b, c] = geometry.triangles.get(triangle)?.map(|corner| geometry.colour_of(corner));
     Some([a?, b?, c?].map(|[r, g, b, _]| Vec3::new(r, g, b)))
 }
@@ -71,14 +71,14 @@ pub(crate) fn tints_of(geometry: &Geometry, triangle: usize) -> Option<[Vec3; 3]
 /// Effect of the material's colour on texture and vertex colours: glTF multiplies them, other formats replace
 /// it by them.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Factor {
+pub(crate) struct MaterialFactor {
     pub base: Colour,
     pub multiplies: bool,
 }
 
-impl Factor {
+impl MaterialFactor {
     /// Colour of a triangle.
-    pub fn of(&self, own: &Coloured) -> Colour {
+    pub fn of(&self, own: &TriangleColour) -> Colour {
         self.product([own.shown.map(light), own.painted])
     }
 

@@ -8,14 +8,14 @@ use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::artist_textures::ArtistTextures;
-use super::triangle_colour::{Coloured, Factor};
-use super::varying_surface::Varied;
+use super::triangle_colour::{MaterialFactor, TriangleColour};
+use super::varying_surface::VaryingSurface;
 use crate::colour::srgb::Colour;
 use crate::mesh::{MaterialId, PaintId};
-use crate::parallel::task_size::GRAIN;
-use crate::scene::textures::palette::palette_clusters::{ALIKE, mean, swatches};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::scene::textures::palette::palette_clusters::{MIN_CHANNEL_DIFFERENCE, cluster_colours, mean};
 use crate::scene::textures::texture_options::{TextureFill, TextureOptions};
-use crate::scene::textures::{Imaged, Texture};
+use crate::scene::textures::{EmbeddedTexture, Texture};
 use crate::scene::{Material, Scene, Warnings};
 
 /// A material in one of its colours.
@@ -37,15 +37,15 @@ pub struct Paints {
     /// Textures that could not be read.
     pub warnings: Warnings,
     /// Pictures of the style for lines along colour changes, by material.
-    pub(crate) inked: Vec<(MaterialId, Varied)>,
+    pub(crate) inked: Vec<(MaterialId, VaryingSurface)>,
     /// Paint of each triangle of each geometry; empty if all have the paint of their material.
     triangles: Vec<Vec<PaintId>>,
     /// Surfaces painted point by point, with the paint of their triangles.
-    pub(crate) varied: Vec<(PaintId, Varied)>,
+    pub(crate) varied: Vec<(PaintId, VaryingSurface)>,
     /// Whether any of them uses vertex colours.
     pub(crate) tinted: bool,
     /// Pictures that are embedded in the drawing.
-    pub(crate) images: Vec<Imaged>,
+    pub(crate) images: Vec<EmbeddedTexture>,
 }
 
 impl Paints {
@@ -76,7 +76,7 @@ impl Paints {
             .collect();
 
         // Sampled triangles that have a texture or vertex colours, by material.
-        let mut coloured: Vec<Vec<Coloured>> = vec![Vec::new(); materials.len()];
+        let mut coloured: Vec<Vec<TriangleColour>> = vec![Vec::new(); materials.len()];
         for (index, geometry) in scene.geometries.iter().enumerate() {
             let last = materials.len() - 1;
             let material_of =
@@ -84,10 +84,13 @@ impl Paints {
             let colour = |triangle: usize| {
                 let id = material_of(triangle);
                 let texture = textures.get(id).and_then(Option::as_ref);
-                Some((id, Coloured::of(geometry, index, triangle, texture)?))
+                Some((id, TriangleColour::of(geometry, index, triangle, texture)?))
             };
-            let found: Vec<Option<(usize, Coloured)>> =
-                (0..geometry.triangles.len()).into_par_iter().with_min_len(GRAIN).map(colour).collect();
+            let found: Vec<Option<(usize, TriangleColour)>> = (0..geometry.triangles.len())
+                .into_par_iter()
+                .with_min_len(MIN_TASK_ITEMS)
+                .map(colour)
+                .collect();
             for (id, found) in found.into_iter().flatten() {
                 coloured[id].push(found);
             }
@@ -98,7 +101,8 @@ impl Paints {
             // Without a material, vertex colours are multiplied by white (glTF 2.0, section 3.9.6), not by
             // the default grey. Readers put such a material last.
             let is_none = id + 2 >= count && *material == without;
-            let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" && !is_none };
+            let factor =
+                MaterialFactor { base: material.colour, multiplies: scene.format == "glTF" && !is_none };
             let is_tinted = list.iter().any(|own| own.painted.is_some());
             let texture = texture.filter(|_| !list.is_empty());
             match (texture, options.fill) {
@@ -109,20 +113,23 @@ impl Paints {
                     paints.add_image(scene, id, list, texture, &factor);
                 }
                 (Some(texture), TextureFill::Regions | TextureFill::Image)
-                    if !list.iter().all(Coloured::is_flat) =>
+                    if !list.iter().all(TriangleColour::is_flat) =>
                 {
                     paints.add_tinted_picture(scene, id, list, texture, options.colours, &factor);
                 }
-                (None, _) if list.iter().any(Coloured::varies) => {
+                (None, _) if list.iter().any(TriangleColour::varies) => {
                     paints.add_tints(scene, id, list, options.colours, &factor);
                 }
                 (texture, fill) => {
                     // If texture and corner colours are constant on each triangle, so is their product.
                     let texture = texture.filter(|_| !is_tinted);
-                    let colours: Vec<(Colour, bool)> =
-                        list.iter().map(|own| (factor.of(own), own.spread < ALIKE)).collect();
+                    let colours: Vec<(Colour, bool)> = list
+                        .iter()
+                        .map(|own| (factor.of(own), own.spread < MIN_CHANNEL_DIFFERENCE))
+                        .collect();
                     let is_one = texture.is_some() && fill == TextureFill::Mean;
-                    let colours = if is_one { vec![mean(&colours); list.len()] } else { swatches(&colours) };
+                    let colours =
+                        if is_one { vec![mean(&colours); list.len()] } else { cluster_colours(&colours) };
                     paints.add(scene, id, &colours, list);
                 }
             }
@@ -151,7 +158,7 @@ impl Paints {
     }
 
     /// Whether all triangles have the same paint ids in both; the colours may differ.
-    pub(crate) fn lie_like(&self, other: &Self) -> bool {
+    pub(crate) fn has_same_layout(&self, other: &Self) -> bool {
         let materials = |paints: &Self| paints.list.iter().map(|paint| paint.material).collect::<Vec<_>>();
         self.triangles == other.triangles
             && self.tinted == other.tinted
@@ -159,7 +166,7 @@ impl Paints {
     }
 
     /// Adds paints for triangles of a material, each with its colour.
-    fn add(&mut self, scene: &Scene, material: usize, colours: &[Colour], triangles: &[Coloured]) {
+    fn add(&mut self, scene: &Scene, material: usize, colours: &[Colour], triangles: &[TriangleColour]) {
         let known = self.of_colours(material, colours);
         for (colour, own) in colours.iter().zip(triangles) {
             if let Some(paint) = known.get(colour) {
@@ -187,7 +194,7 @@ impl Paints {
     }
 
     /// Sets the paint of a triangle.
-    pub(crate) fn paint(&mut self, scene: &Scene, own: &Coloured, paint: PaintId) {
+    pub(crate) fn paint(&mut self, scene: &Scene, own: &TriangleColour, paint: PaintId) {
         let Some((paints, shape)) =
             self.triangles.get_mut(own.geometry).zip(scene.geometries.get(own.geometry))
         else {
@@ -213,7 +220,7 @@ mod tests {
     use crate::mesh::Mesh;
     use crate::scene::{Geometry, Part};
 
-    const NONE: u32 = u32::MAX;
+    const NO_INDEX: u32 = u32::MAX;
 
     /// Strip of four triangles: two show the palette, one shows nothing of it.
     fn scene(format: &'static str, base: Colour) -> Scene {
@@ -232,7 +239,7 @@ mod tests {
             triangles: vec![[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]],
             triangle_material: vec![0, 0, 0, 1],
             uvs: vec![[0.25, 0.5], [0.75, 0.5]],
-            corner_uvs: vec![[0, 0, 0], [1, 1, 1], [NONE; 3], [0, 0, 0]],
+            corner_uvs: vec![[0, 0, 0], [1, 1, 1], [NO_INDEX; 3], [0, 0, 0]],
             ..Geometry::default()
         };
         let part = Part { name: "strip".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };

@@ -1,21 +1,23 @@
 //! Paints of triangles that show pictures or blended vertex colours.
 
-use super::triangle_colour::{Coloured, Factor, light};
+use super::triangle_colour::{MaterialFactor, TriangleColour, light};
 use super::triangle_paints::{Paint, Paints};
-use super::varying_surface::Varied;
-use super::vertex_colours::{self, Tints};
+use super::varying_surface::VaryingSurface;
+use super::vertex_colours::{self, VertexColourPalette};
 use crate::colour::srgb::Colour;
 use crate::mesh::PaintId;
-use crate::scene::textures::palette::palette_clusters::{ALIKE, difference, mean, of_palette};
+use crate::scene::textures::palette::palette_clusters::{
+    MIN_CHANNEL_DIFFERENCE, channel_difference, cluster_palette, mean,
+};
 use crate::scene::textures::{self, Texture};
 use crate::scene::{Alpha, Scene};
 
 /// Greatest channel of the dark probe colour, used to derive the effect of tones on dark colours. Tones do
 /// not distinguish darker colours.
-const DARK_PROBE: f64 = 0.3;
+const DARK_PROBE_LEVEL: f64 = 0.3;
 
 /// Maximum channel difference between equal colours that were stored differently.
-const SAME: u32 = 8;
+const MAX_STORAGE_CHANNEL_ERROR: u32 = 8;
 
 impl Paints {
     /// Adds the paints of a material whose triangles show a picture. Triangles of a single palette colour get
@@ -24,19 +26,21 @@ impl Paints {
         &mut self,
         scene: &Scene,
         material: usize,
-        triangles: &[Coloured],
+        triangles: &[TriangleColour],
         texture: Texture,
         count: usize,
-        factor: &Factor,
+        factor: &MaterialFactor,
     ) {
-        let seen: Vec<(Colour, bool)> =
-            triangles.iter().filter_map(|own| Some((own.shown?, own.spread < ALIKE))).collect();
+        let seen: Vec<(Colour, bool)> = triangles
+            .iter()
+            .filter_map(|own| Some((own.shown?, own.spread < MIN_CHANNEL_DIFFERENCE)))
+            .collect();
         let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
         let shown = texture.shown(scene, material, &places);
-        let swatches = of_palette(&seen);
+        let swatches = cluster_palette(&seen);
         let mut colours = match &swatches {
             Some(swatches) => swatches.clone(),
-            None => texture.few(&shown, count),
+            None => texture.representative_colours(&shown, count),
         };
         colours.sort_unstable();
         colours.dedup();
@@ -48,13 +52,17 @@ impl Paints {
             .filter_map(|(own, tinted)| Some((*own, *known.get(tinted)?)))
             .collect();
         let paint_of = |colour: Colour| {
-            with_paint.iter().min_by_key(|(own, _)| difference(*own, colour)).map(|(_, paint)| *paint)
+            with_paint.iter().min_by_key(|(own, _)| channel_difference(*own, colour)).map(|(_, paint)| *paint)
         };
         // Areas of mixed colour are divided where the picture changes, not along triangle edges.
-        let is_near =
-            |own: &Coloured| colours.iter().any(|c| own.shown.is_some_and(|s| difference(*c, s) <= SAME));
-        let is_whole = |own: &Coloured| {
-            with_paint.len() < 2 || (swatches.is_some() && own.spread <= SAME && is_near(own))
+        let is_near = |own: &TriangleColour| {
+            colours
+                .iter()
+                .any(|c| own.shown.is_some_and(|s| channel_difference(*c, s) <= MAX_STORAGE_CHANNEL_ERROR))
+        };
+        let is_whole = |own: &TriangleColour| {
+            with_paint.len() < 2
+                || (swatches.is_some() && own.spread <= MAX_STORAGE_CHANNEL_ERROR && is_near(own))
         };
         if triangles.iter().all(is_whole) {
             for own in triangles {
@@ -75,7 +83,7 @@ impl Paints {
         // The mean colour comes last.
         paints.push(picture);
         let painted = texture.painted(shown, &colours, whole);
-        self.varied.push((picture, Varied::new(Some(painted), None, paints)));
+        self.varied.push((picture, VaryingSurface::new(Some(painted), None, paints)));
     }
 
     /// Adds the paints of a material whose vertex colours blend across its triangles. If most triangles have
@@ -84,18 +92,18 @@ impl Paints {
         &mut self,
         scene: &Scene,
         material: usize,
-        triangles: &[Coloured],
+        triangles: &[TriangleColour],
         count: usize,
-        factor: &Factor,
+        factor: &MaterialFactor,
     ) {
         let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), own.is_flat())).collect();
-        let swatches = of_palette(&seen);
+        let swatches = cluster_palette(&seen);
         let opaque = |colour: Colour| Colour { a: factor.base.a, ..colour };
         let mut colours = match &swatches {
             Some(swatches) => swatches.clone(),
             None => {
-                let (samples, areas) = vertex_colours::samples(scene, triangles, factor);
-                textures::few(&samples, &areas, count).into_iter().map(opaque).collect()
+                let (samples, areas) = vertex_colours::sample_vertex_colours(scene, triangles, factor);
+                textures::kmeans_colours(&samples, &areas, count).into_iter().map(opaque).collect()
             }
         };
         colours.sort_unstable();
@@ -111,8 +119,8 @@ impl Paints {
             self.paint(scene, own, swatch.and_then(|s| known.get(&s).copied()).unwrap_or(varied));
         }
         let paints = colours.iter().filter_map(|colour| known.get(colour).copied()).collect();
-        let tints = Tints::new(factor.light(), &colours);
-        self.varied.push((varied, Varied::new(None, Some(tints), paints)));
+        let tints = VertexColourPalette::new(factor.light(), &colours);
+        self.varied.push((varied, VaryingSurface::new(None, Some(tints), paints)));
         self.tinted = true;
     }
 
@@ -122,10 +130,10 @@ impl Paints {
         &mut self,
         scene: &Scene,
         material: usize,
-        triangles: &[Coloured],
+        triangles: &[TriangleColour],
         texture: Texture,
         count: usize,
-        factor: &Factor,
+        factor: &MaterialFactor,
     ) {
         let places: Vec<[usize; 2]> = triangles
             .iter()
@@ -133,10 +141,10 @@ impl Paints {
             .map(|own| [own.geometry, own.triangle])
             .collect();
         let shown = texture.shown(scene, material, &places);
-        let of_picture = texture.few(&shown, count);
-        let plain = Factor { base: Colour::WHITE, multiplies: false };
-        let (samples, areas) = vertex_colours::samples(scene, triangles, &plain);
-        let of_tints = textures::few(&samples, &areas, count);
+        let of_picture = texture.representative_colours(&shown, count);
+        let plain = MaterialFactor { base: Colour::WHITE, multiplies: false };
+        let (samples, areas) = vertex_colours::sample_vertex_colours(scene, triangles, &plain);
+        let of_tints = textures::kmeans_colours(&samples, &areas, count);
         // Rows: colours of the picture, its mean colour, and no picture.
         let whole = texture.mean(&shown);
         let rows = of_picture.iter().chain([&whole]).map(|colour| Some(light(*colour))).chain([None]);
@@ -151,8 +159,8 @@ impl Paints {
         triangles.iter().for_each(|own| self.paint(scene, own, varied));
         let paints = products.iter().filter_map(|colour| known.get(colour).copied()).collect();
         let painted = texture.painted(shown, &of_picture, whole);
-        let tints = Tints::new(glam::Vec3::ONE, &of_tints);
-        self.varied.push((varied, Varied::new(Some(painted), Some(tints), paints)));
+        let tints = VertexColourPalette::new(glam::Vec3::ONE, &of_tints);
+        self.varied.push((varied, VaryingSurface::new(Some(painted), Some(tints), paints)));
         self.tinted = true;
     }
 
@@ -161,9 +169,9 @@ impl Paints {
         &mut self,
         scene: &Scene,
         material: usize,
-        triangles: &[Coloured],
+        triangles: &[TriangleColour],
         texture: Texture,
-        factor: &Factor,
+        factor: &MaterialFactor,
     ) {
         let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
         let seen = texture.mean_light(&texture.shown(scene, material, &places)).unwrap_or(Colour::WHITE);
@@ -174,7 +182,7 @@ impl Paints {
             let channels = mean.channels().map(|c| c.max(0.1 * greatest) / greatest * level);
             Colour { a: mean.a, ..Colour::from_channels(channels) }
         };
-        let [paint, dark, light] = [mean, bright(DARK_PROBE), bright(1.0)].map(|colour| {
+        let [paint, dark, light] = [mean, bright(DARK_PROBE_LEVEL), bright(1.0)].map(|colour| {
             self.list.push(Paint { material: material.into(), colour });
             PaintId::from(self.list.len() - 1)
         });

@@ -1,17 +1,17 @@
-//! [`Varied`]: a surface whose colour varies from point to point, by a picture, vertex colours, or both.
+//! [`VaryingSurface`]: a surface whose colour varies from point to point, by a picture, vertex colours, or both.
 
-use super::vertex_colours::Tints;
+use super::vertex_colours::VertexColourPalette;
 use crate::mesh::PaintId;
-use crate::scene::textures::Painted;
+use crate::scene::textures::PaintedTexture;
 
 /// A surface whose colour varies from point to point. With both a picture and vertex colours, each is reduced
 /// to a few colours separately, and these are multiplied.
 #[derive(Debug, Clone)]
-pub(crate) struct Varied {
+pub(crate) struct VaryingSurface {
     /// Its picture.
-    pub picture: Option<Painted>,
+    pub picture: Option<PaintedTexture>,
     /// Its vertex colours.
-    pub tints: Option<Tints>,
+    pub tints: Option<VertexColourPalette>,
     paints: PaintTable,
 }
 
@@ -32,8 +32,12 @@ impl PaintTable {
     }
 }
 
-impl Varied {
-    pub(crate) fn new(picture: Option<Painted>, tints: Option<Tints>, paints: Vec<PaintId>) -> Self {
+impl VaryingSurface {
+    pub(crate) fn new(
+        picture: Option<PaintedTexture>,
+        tints: Option<VertexColourPalette>,
+        paints: Vec<PaintId>,
+    ) -> Self {
         let columns = tints.as_ref().map_or(1, |tints| tints.palette().len().max(1));
         Self { picture, tints, paints: PaintTable { paints, tints: columns } }
     }

@@ -1,21 +1,21 @@
-//! [`Tints`]: a few colours that represent vertex colours blended across triangles.
+//! [`VertexColourPalette`]: a few colours that represent vertex colours blended across triangles.
 
 use glam::{DVec3, Vec3};
 
-use super::triangle_colour::{Coloured, Factor, tints_of};
+use super::triangle_colour::{MaterialFactor, TriangleColour, corner_light};
 use crate::colour::oklab::{self, Oklab, distance2};
 use crate::colour::srgb::Colour;
 use crate::scene::Scene;
 
 /// A few colours that represent vertex colours.
 #[derive(Debug, Clone)]
-pub(crate) struct Tints {
+pub(crate) struct VertexColourPalette {
     /// Factor of the vertex colours, linear light.
     factor: Vec3,
     palette: Vec<Oklab>,
 }
 
-impl Tints {
+impl VertexColourPalette {
     /// Makes a palette from colours.
     pub(crate) fn new(factor: Vec3, palette: &[Colour]) -> Self {
         Self { factor, palette: palette.iter().map(|colour| oklab::of(*colour)).collect() }
@@ -47,14 +47,18 @@ impl Tints {
 }
 
 /// Triangles with a smaller channel difference between corners are represented by their mean.
-const NEARLY_ONE: u32 = 24;
+const MIN_BLEND_CHANNEL_DIFFERENCE: u32 = 24;
 
 /// Number of cuts along each side that divide a triangle into equal pieces for sampling.
-const CUTS: usize = 5;
+const CUTS_PER_SIDE: usize = 5;
 
 /// Samples of the vertex colours, and their surface areas in world units. `triangles` are in ascending order
 /// of geometry.
-pub(crate) fn samples(scene: &Scene, triangles: &[Coloured], factor: &Factor) -> (Vec<Colour>, Vec<f32>) {
+pub(crate) fn sample_vertex_colours(
+    scene: &Scene,
+    triangles: &[TriangleColour],
+    factor: &MaterialFactor,
+) -> (Vec<Colour>, Vec<f32>) {
     let (mut colours, mut weights) = (Vec::new(), Vec::new());
     for part in &scene.parts {
         let Some(geometry) = scene.geometry_of(part) else { continue };
@@ -70,11 +74,11 @@ pub(crate) fn samples(scene: &Scene, triangles: &[Coloured], factor: &Factor) ->
                 colours.push(Colour { a: 255, ..factor.product([Some(light), None]) });
                 weights.push((area * share) as f32);
             };
-            match tints_of(geometry, own.triangle) {
-                Some(corners) if own.tint_spread >= NEARLY_ONE => {
-                    middles().for_each(|at| {
+            match corner_light(geometry, own.triangle) {
+                Some(corners) if own.tint_spread >= MIN_BLEND_CHANNEL_DIFFERENCE => {
+                    piece_centres().for_each(|at| {
                         let light = corners[0] * at[0] + corners[1] * at[1] + corners[2] * at[2];
-                        put(light, 1.0 / (CUTS * CUTS) as f64);
+                        put(light, 1.0 / (CUTS_PER_SIDE * CUTS_PER_SIDE) as f64);
                     });
                 }
                 _ => put(own.painted.unwrap_or(Vec3::ONE), 1.0),
@@ -85,13 +89,15 @@ pub(crate) fn samples(scene: &Scene, triangles: &[Coloured], factor: &Factor) ->
 }
 
 /// Centres of equal pieces of a triangle, in barycentric coordinates.
-fn middles() -> impl Iterator<Item = [f32; 3]> {
+fn piece_centres() -> impl Iterator<Item = [f32; 3]> {
     let place = |i: usize, j: usize, off: f32| {
-        let [x, y] = [i, j].map(|k| (k as f32 + off) / CUTS as f32);
+        let [x, y] = [i, j].map(|k| (k as f32 + off) / CUTS_PER_SIDE as f32);
         [1.0 - x - y, x, y]
     };
-    let upright = (0..CUTS).flat_map(move |i| (0..CUTS - i).map(move |j| place(i, j, 1.0 / 3.0)));
-    let turned = (0..CUTS).flat_map(move |i| (0..CUTS - 1 - i).map(move |j| place(i, j, 2.0 / 3.0)));
+    let upright =
+        (0..CUTS_PER_SIDE).flat_map(move |i| (0..CUTS_PER_SIDE - i).map(move |j| place(i, j, 1.0 / 3.0)));
+    let turned =
+        (0..CUTS_PER_SIDE).flat_map(move |i| (0..CUTS_PER_SIDE - 1 - i).map(move |j| place(i, j, 2.0 / 3.0)));
     upright.chain(turned)
 }
 
@@ -101,8 +107,8 @@ mod tests {
 
     #[test]
     fn pieces_of_a_triangle_are_all_there_and_within_it() {
-        let all: Vec<[f32; 3]> = middles().collect();
-        assert_eq!(all.len(), CUTS * CUTS);
+        let all: Vec<[f32; 3]> = piece_centres().collect();
+        assert_eq!(all.len(), CUTS_PER_SIDE * CUTS_PER_SIDE);
         assert!(all.iter().flatten().all(|share| *share > 0.0));
         let sums = [0, 1, 2].map(|k| all.iter().map(|at| at[k]).sum::<f32>() / all.len() as f32);
         assert!(sums.iter().all(|sum| (sum - 1.0 / 3.0).abs() < 1e-5), "{sums:?}");
@@ -110,13 +116,14 @@ mod tests {
 
     #[test]
     fn light_is_painted_in_the_colour_that_looks_nearest() {
-        let tints = Tints::new(Vec3::ONE, &[Colour::WHITE, Colour::rgb(255, 0, 0), Colour::BLACK]);
+        let tints =
+            VertexColourPalette::new(Vec3::ONE, &[Colour::WHITE, Colour::rgb(255, 0, 0), Colour::BLACK]);
         assert_eq!(tints.at([0.9, 0.1, 0.1]), 1);
         assert_eq!(tints.at([0.7, 0.7, 0.7]), 0);
         // In linear light, a tenth looks nearly half as light as white.
-        let even = Tints::new(Vec3::ONE, &[Colour::WHITE, Colour::BLACK]);
+        let even = VertexColourPalette::new(Vec3::ONE, &[Colour::WHITE, Colour::BLACK]);
         assert_eq!([0.1, 0.2].map(|c| even.at([c; 3])), [1, 0]);
-        let dim = Tints::new(Vec3::splat(0.1), &[Colour::WHITE, Colour::BLACK]);
+        let dim = VertexColourPalette::new(Vec3::splat(0.1), &[Colour::WHITE, Colour::BLACK]);
         assert_eq!(dim.at([1.0; 3]), 1);
     }
 }

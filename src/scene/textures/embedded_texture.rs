@@ -1,8 +1,8 @@
-//! [`Imaged`]: the texture of a material, for embedding in a drawing.
+//! [`EmbeddedTexture`]: the texture of a material, for embedding in a drawing.
 
 use glam::DVec2;
 
-use super::texel_plane::Texels;
+use super::texel_plane::TexelPlane;
 use crate::colour::oklab::linear_table;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::{Colour, linear};
@@ -10,14 +10,14 @@ use crate::mesh::{MaterialId, PaintId};
 
 /// The texture of a material, for embedding in a drawing.
 #[derive(Debug, Clone)]
-pub(crate) struct Imaged {
+pub(crate) struct EmbeddedTexture {
     /// The material.
     pub material: MaterialId,
     /// Paint of the surfaces that show it, in its mean colour.
     pub paint: PaintId,
     /// Paints in a dark and in a light colour, used to derive the effect of tones.
     pub probes: [PaintId; 2],
-    texels: Texels,
+    texels: TexelPlane,
     picture: Picture,
     /// For each channel, the table of values after multiplication by the material's colour.
     tint: [Vec<u8>; 3],
@@ -26,13 +26,13 @@ pub(crate) struct Imaged {
 }
 
 /// Maximum texels that are compared to find a single colour.
-const MOST_LOOKS: i64 = 4096;
+const MAX_TESTED_TEXELS: i64 = 4096;
 
-impl Imaged {
+impl EmbeddedTexture {
     /// Prepares a picture; `base` multiplies it, and with `weighed` texels are weighted by their opacity.
     pub fn new(
         (material, paint, probes): (MaterialId, PaintId, [PaintId; 2]),
-        texels: Texels,
+        texels: TexelPlane,
         picture: Picture,
         base: Option<Colour>,
         weighed: bool,
@@ -49,19 +49,19 @@ impl Imaged {
     }
 
     /// Layout of its texels in the plane.
-    pub fn texels(&self) -> &Texels {
+    pub fn texels(&self) -> &TexelPlane {
         &self.texels
     }
 
     /// Single colour of everything in a box of the texel plane, if there is one.
     pub fn one_colour(&self, low: DVec2, high: DVec2) -> Option<Colour> {
         let ([left, top], [right, bottom]) = (low.floor().to_array(), (high + 1.0).floor().to_array());
-        if (right - left + 1.0) * (bottom - top + 1.0) > MOST_LOOKS as f64 {
+        if (right - left + 1.0) * (bottom - top + 1.0) > MAX_TESTED_TEXELS as f64 {
             return None;
         }
         let first = self.texel(left as i64, top as i64);
         let alike = |c: Colour| {
-            let far = |a: u8, b: u8| a.abs_diff(b) <= ALIKE;
+            let far = |a: u8, b: u8| a.abs_diff(b) <= MAX_STORAGE_CHANNEL_ERROR;
             far(c.r, first.r) && far(c.g, first.g) && far(c.b, first.b)
         };
         let mut rows = top as i64..=bottom as i64;
@@ -80,8 +80,8 @@ impl Imaged {
                 from[axis] + 0.5 + k as f64 * per_pixel[axis],
                 from[axis] + 0.5 + (k + 1) as f64 * per_pixel[axis],
             );
-            let range =
-                (low + SLIVER).floor() as i64..=((high - SLIVER).floor() as i64).max(low.floor() as i64);
+            let range = (low + MIN_TEXEL_SHARE).floor() as i64
+                ..=((high - MIN_TEXEL_SHARE).floor() as i64).max(low.floor() as i64);
             range.map(move |t| (t, (high.min((t + 1) as f64) - low.max(t as f64)).max(0.0) as f32))
         };
         let columns: Vec<Vec<(i64, f32)>> = (0..width).map(|k| covered(k, 0).collect()).collect();
@@ -123,26 +123,32 @@ impl Imaged {
 }
 
 /// Maximum channel difference between equal colours that were stored differently.
-const ALIKE: u8 = 3;
+const MAX_STORAGE_CHANNEL_ERROR: u8 = 3;
 
 /// Overlaps below this share of a texel are rounding errors.
-const SLIVER: f64 = 1e-6;
+const MIN_TEXEL_SHARE: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::material::{Placing, Wrap};
 
-    fn imaged(base: Option<Colour>) -> Imaged {
+    fn imaged(base: Option<Colour>) -> EmbeddedTexture {
         let grey = |v: u8| Colour::rgb(v, v, v);
         let picture = Picture { width: 4, height: 1, pixels: [0, 255, 9, 10].map(grey).to_vec() };
-        let texels = Texels {
+        let texels = TexelPlane {
             size: [4, 1],
             wrap: [Wrap::Repeat, Wrap::Clamp],
             upward: false,
             placing: Placing::default(),
         };
-        Imaged::new((MaterialId(0), PaintId(0), [PaintId(1), PaintId(2)]), texels, picture, base, false)
+        EmbeddedTexture::new(
+            (MaterialId(0), PaintId(0), [PaintId(1), PaintId(2)]),
+            texels,
+            picture,
+            base,
+            false,
+        )
     }
 
     #[test]

@@ -20,44 +20,44 @@ pub mod texture_options;
 
 use std::path::Path;
 
-pub(crate) use embedded_texture::Imaged;
+pub(crate) use embedded_texture::EmbeddedTexture;
 pub(crate) use label_map::colour_map::ColourMap;
-pub(crate) use label_map::painted_texture::Painted;
-pub(crate) use palette::colour_kmeans::few;
+pub(crate) use label_map::painted_texture::PaintedTexture;
+pub(crate) use palette::colour_kmeans::kmeans_colours;
 
-use self::label_map::texel_assignments::Guesses;
-use self::palette::palette_clusters::{ALIKE, difference};
-use self::result_cache::Kept;
-use super::model_folder::read_beside;
+use self::label_map::texel_assignments::TexelAssignments;
+use self::palette::palette_clusters::{MIN_CHANNEL_DIFFERENCE, channel_difference};
+use self::result_cache::ResultCache;
+use super::model_folder::read_from_model_folder;
 use super::{Alpha, Filter, Material, Scene};
 use crate::colour::oklab;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::mesh::{MaterialId, PaintId};
-use texel_plane::Texels;
+use texel_plane::TexelPlane;
 
 /// The picture of a base colour, with its layout.
 pub(crate) struct Texture {
     picture: Picture,
-    texels: Texels,
+    texels: TexelPlane,
     filter: Filter,
 }
 
 /// Maximum samples along each side of a triangle in the test for a single colour.
-const LOOKS: f64 = 48.0;
+const MAX_SAMPLES_PER_SIDE: f64 = 48.0;
 
 impl Texture {
     /// Reads the texture of a material; `None` if it has none, an error if it cannot be read or decoded.
     pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
         let picture = picture_of(scene, material)?;
         Some(picture.map(|picture| {
-            let picture = picture.at_most(MOST_TEXELS);
-            Self { texels: Texels::of(scene, material, &picture), picture, filter: material.filter }
+            let picture = picture.at_most(MAX_TEXELS);
+            Self { texels: TexelPlane::of(scene, material, &picture), picture, filter: material.filter }
         }))
     }
 
     /// Representative colour of a triangle, and the maximum channel difference from it inside the triangle,
-    /// up to [`ALIKE`].
+    /// up to [`MIN_CHANNEL_DIFFERENCE`].
     ///
     /// The colour is that of four samples which differs least from the others: the centroid and three points
     /// towards the corners. The outermost tenth of the triangle is not tested.
@@ -69,22 +69,24 @@ impl Texture {
         let at = |wa: f64, wb: f64, wc: f64| self.at(a * wa + b * wb + c * wc);
         let third = 1.0 / 3.0;
         let samples = [at(third, third, third), at(0.8, 0.1, 0.1), at(0.1, 0.8, 0.1), at(0.1, 0.1, 0.8)];
-        let strange = |sample: &Colour| samples.iter().map(|other| difference(*sample, *other)).sum::<u32>();
+        let strange =
+            |sample: &Colour| samples.iter().map(|other| channel_difference(*sample, *other)).sum::<u32>();
         let colour = samples.into_iter().min_by_key(strange).unwrap_or(samples[0]);
-        let mut far = samples.iter().map(|sample| difference(*sample, colour)).max().unwrap_or_default();
-        // One sample per texel, up to `LOOKS` along a side.
+        let mut far =
+            samples.iter().map(|sample| channel_difference(*sample, colour)).max().unwrap_or_default();
+        // One sample per texel, up to `MAX_SAMPLES_PER_SIDE` along a side.
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        let steps = longest.min(LOOKS).ceil().max(1.0);
+        let steps = longest.min(MAX_SAMPLES_PER_SIDE).ceil().max(1.0);
         for i in 0..=steps as u32 {
             for j in 0..=steps as u32 - i {
-                if far >= ALIKE {
-                    return (colour, ALIKE);
+                if far >= MIN_CHANNEL_DIFFERENCE {
+                    return (colour, MIN_CHANNEL_DIFFERENCE);
                 }
                 let (wa, wb) = (0.1 + 0.7 * f64::from(i) / steps, 0.1 + 0.7 * f64::from(j) / steps);
-                far = far.max(difference(at(wa, wb, 1.0 - wa - wb), colour));
+                far = far.max(channel_difference(at(wa, wb, 1.0 - wa - wb), colour));
             }
         }
-        (colour, far.min(ALIKE))
+        (colour, far.min(MIN_CHANNEL_DIFFERENCE))
     }
 
     /// Colour of the nearest texel.
@@ -95,21 +97,21 @@ impl Texture {
     }
 
     /// Texture of a picture that is laid on a material from outside, such as a style's.
-    pub fn showing(scene: &Scene, material: &Material, picture: &Picture) -> Self {
-        let picture = picture.clone().at_most(MOST_TEXELS);
-        Self { texels: Texels::of(scene, material, &picture), picture, filter: Filter::Smooth }
+    pub fn with_picture(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+        let picture = picture.clone().at_most(MAX_TEXELS);
+        Self { texels: TexelPlane::of(scene, material, &picture), picture, filter: Filter::Smooth }
     }
 
-    /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::shown`].
-    pub fn seen_on(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
-        texel_coverage::shown(scene, triangles, &self.texels)
+    /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::texel_coverage`].
+    pub fn unmasked_coverage(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
+        texel_coverage::texel_coverage(scene, triangles, &self.texels)
     }
 
     /// Visible surface area of each texel on a material; zero for transparent texels.
     ///
     /// `triangles` are those that show the picture, as pairs of geometry (ascending) and triangle.
     pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
-        let mut shown = self.seen_on(scene, triangles);
+        let mut shown = self.unmasked_coverage(scene, triangles);
         let least = match scene.materials.get(material).map(|material| material.alpha) {
             Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
             Some(Alpha::Blend) => 127.5,
@@ -143,58 +145,61 @@ impl Texture {
         paints: (MaterialId, PaintId, [PaintId; 2]),
         base: Option<Colour>,
         weighed: bool,
-    ) -> Imaged {
-        Imaged::new(paints, self.texels, self.picture, base, weighed)
+    ) -> EmbeddedTexture {
+        EmbeddedTexture::new(paints, self.texels, self.picture, base, weighed)
     }
 
     /// At most `count` representative colours, weighted by visible area.
-    pub fn few(&self, shown: &[f32], count: usize) -> Vec<Colour> {
-        palette::colour_kmeans::few(&self.picture.pixels, shown, count)
+    pub fn representative_colours(&self, shown: &[f32], count: usize) -> Vec<Colour> {
+        palette::colour_kmeans::kmeans_colours(&self.picture.pixels, shown, count)
     }
 
     /// Mean colour, weighted by visible area.
     pub fn mean(&self, shown: &[f32]) -> Colour {
-        palette::colour_kmeans::few(&self.picture.pixels, shown, 1).first().copied().unwrap_or(Colour::WHITE)
+        palette::colour_kmeans::kmeans_colours(&self.picture.pixels, shown, 1)
+            .first()
+            .copied()
+            .unwrap_or(Colour::WHITE)
     }
 
     /// Prepares the texture for painting in a few colours, and in their mean.
-    pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> Painted {
-        let most = KEPT * shown.len();
-        Painted {
+    pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> PaintedTexture {
+        let most = MAX_CACHED_PICTURES * shown.len();
+        PaintedTexture {
             texels: self.texels,
             colours: self.picture.pixels,
             shown,
             palette: colours.iter().map(|colour| oklab::of(*colour)).collect(),
             mean: oklab::of(mean),
             filter: self.filter,
-            guesses: Kept::new(most, |guesses: &Guesses| guesses.list.len()),
-            maps: Kept::new(most, ColourMap::texels),
+            guesses: ResultCache::new(most, |guesses: &TexelAssignments| guesses.list.len()),
+            maps: ResultCache::new(most, ColourMap::texels),
         }
     }
 }
 
 /// Maximum size of a cache, in multiples of the picture: enough for all of its scales together.
-const KEPT: usize = 2;
+const MAX_CACHED_PICTURES: usize = 2;
 
 /// Maximum texels of a picture; larger ones are downsampled, as no drawing shows more.
-const MOST_TEXELS: usize = 1 << 22;
+const MAX_TEXELS: usize = 1 << 22;
 
 /// Decodes the picture of a material's base colour; `None` if it has none, an error if it cannot be read.
 pub(crate) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
     match (&material.picture, &material.texture) {
         (Some(bytes), _) => Some(Picture::decode(bytes)),
-        (None, Some(path)) => beside(scene, path),
+        (None, Some(path)) => picture_from_model_folder(scene, path),
         (None, None) => None,
     }
 }
 
 /// Decodes a picture next to the model; `None` if the model is not a file.
-pub(crate) fn beside(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
+pub(crate) fn picture_from_model_folder(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
     scene.file.as_ref().map(|file| from_file(file, path))
 }
 
 fn from_file(model: &Path, path: &str) -> Result<Picture, String> {
-    let bytes = read_beside(model, path).map_err(|error| error.message)?;
+    let bytes = read_from_model_folder(model, path).map_err(|error| error.message)?;
     Picture::decode(&bytes).map_err(|message| format!("{path} {message}"))
 }
 
@@ -208,7 +213,7 @@ mod tests {
         let (a, b, c, d) =
             (Colour::rgb(1, 0, 0), Colour::rgb(2, 0, 0), Colour::rgb(3, 0, 0), Colour::rgb(4, 0, 0));
         let picture = Picture { width: 2, height: 2, pixels: vec![a, b, c, d] };
-        let texels = Texels {
+        let texels = TexelPlane {
             size: [2, 2],
             wrap: [Wrap::Repeat; 2],
             upward: false,

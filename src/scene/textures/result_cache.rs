@@ -1,17 +1,17 @@
-//! [`Kept`]: a cache of results computed from a picture, shared between views.
+//! [`ResultCache`]: a cache of results computed from a picture, shared between views.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum number of keys that are remembered; the oldest are forgotten first.
-const MOST_ASKED: usize = 64;
+const MAX_REMEMBERED_KEYS: usize = 64;
 
 /// Cache of results computed from a picture, by key.
 ///
 /// A result is stored only when it is requested for the second time, because pictures are large and most are
 /// drawn once. The total size is bounded, and the oldest results are dropped first. Clones share the cache.
 #[derive(Debug)]
-pub(crate) struct Kept<K, V> {
-    asked: Arc<Mutex<Vec<Asked<K, V>>>>,
+pub(crate) struct ResultCache<K, V> {
+    asked: Arc<Mutex<Vec<CacheEntry<K, V>>>>,
     /// Size of a result, and maximum total size.
     size: fn(&V) -> usize,
     most: usize,
@@ -19,18 +19,18 @@ pub(crate) struct Kept<K, V> {
 
 /// A requested key, with its result from the second request on.
 #[derive(Debug)]
-struct Asked<K, V> {
+struct CacheEntry<K, V> {
     key: K,
     made: Option<Arc<V>>,
 }
 
-impl<K, V> Clone for Kept<K, V> {
+impl<K, V> Clone for ResultCache<K, V> {
     fn clone(&self) -> Self {
         Self { asked: Arc::clone(&self.asked), ..*self }
     }
 }
 
-impl<K: Copy + PartialEq, V> Kept<K, V> {
+impl<K: Copy + PartialEq, V> ResultCache<K, V> {
     /// Makes a cache of at most `most` units, as measured by `size`.
     pub fn new(most: usize, size: fn(&V) -> usize) -> Self {
         Self { asked: Arc::default(), size, most }
@@ -47,13 +47,13 @@ impl<K: Copy + PartialEq, V> Kept<K, V> {
         let made = Arc::new(make());
         let mut all = lock();
         all.retain(|asked| asked.key != key);
-        all.push(Asked { key, made: asked.map(|_| Arc::clone(&made)) });
+        all.push(CacheEntry { key, made: asked.map(|_| Arc::clone(&made)) });
         self.forget(&mut all);
         made
     }
 
     /// Drops the oldest results and keys until the limits are met.
-    fn forget(&self, all: &mut Vec<Asked<K, V>>) {
+    fn forget(&self, all: &mut Vec<CacheEntry<K, V>>) {
         let mut left = self.most;
         for asked in all.iter_mut().rev() {
             let size = asked.made.as_ref().map_or(0, |made| (self.size)(made));
@@ -62,7 +62,7 @@ impl<K: Copy + PartialEq, V> Kept<K, V> {
                 None => asked.made = None,
             }
         }
-        let more = all.len().saturating_sub(MOST_ASKED);
+        let more = all.len().saturating_sub(MAX_REMEMBERED_KEYS);
         all.drain(..more);
     }
 }
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     /// For each of some sizes, whether it has to be computed when requested after those before it.
-    fn made(kept: &Kept<usize, usize>, sizes: &[usize]) -> Vec<bool> {
+    fn made(kept: &ResultCache<usize, usize>, sizes: &[usize]) -> Vec<bool> {
         let ask = |size: &usize| {
             let mut is_made = false;
             let value = kept.clone().get(*size, || {
@@ -87,19 +87,19 @@ mod tests {
 
     #[test]
     fn what_is_asked_for_again_is_kept() {
-        let kept = Kept::new(10, |size: &usize| *size);
+        let kept = ResultCache::new(10, |size: &usize| *size);
         assert_eq!(made(&kept, &[1, 2, 1, 1, 2, 2, 1]), [true, true, true, false, true, false, false]);
     }
 
     #[test]
     fn no_more_than_so_much_is_kept() {
-        let kept = Kept::new(10, |size: &usize| *size);
+        let kept = ResultCache::new(10, |size: &usize| *size);
         assert_eq!(made(&kept, &[4, 4, 5, 5, 4, 5]), [true, true, true, true, false, false]);
         // The oldest result is dropped and computed again later.
         assert_eq!(made(&kept, &[3, 3, 5, 3, 4, 4, 3]), [true, true, false, false, true, false, false]);
         // A result larger than the limit is never stored.
         assert_eq!(made(&kept, &[11, 11, 11, 4]), [true, true, true, false]);
         (100..200).for_each(|size| assert_eq!(made(&kept, &[size]), [true]));
-        assert!(kept.asked.lock().unwrap().len() <= MOST_ASKED);
+        assert!(kept.asked.lock().unwrap().len() <= MAX_REMEMBERED_KEYS);
     }
 }

@@ -1,17 +1,17 @@
-//! [`shown`]: the visible surface area of each texel of a picture.
+//! [`texel_coverage`]: the visible surface area of each texel of a picture.
 
 use glam::DVec2;
 
-use super::texel_plane::Texels;
+use super::texel_plane::TexelPlane;
 use crate::scene::Scene;
 
 /// Maximum texels visited one by one; the area of further triangles is spread over all texels.
-const MOST_VISITS: usize = 1 << 26;
+const MAX_VISITED_TEXELS: usize = 1 << 26;
 
 /// Surface area of each texel in world units; zero for texels that no triangle shows.
 ///
 /// `triangles` are those that show the picture, as pairs of geometry (ascending) and triangle.
-pub(crate) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) -> Vec<f32> {
+pub(crate) fn texel_coverage(scene: &Scene, triangles: &[[usize; 2]], texels: &TexelPlane) -> Vec<f32> {
     let count = texels.size[0] * texels.size[1];
     let mut shown = vec![0.0_f32; count];
     let mut everywhere = 0.0;
@@ -32,11 +32,11 @@ pub(crate) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) ->
             let area = (q - p).cross(r - p).length() / 2.0;
             let size = a.max(b).max(c) - a.min(b).min(c) + 2.0;
             let is_large = size.element_product() > 4.0 * count as f64;
-            if is_large || visits > MOST_VISITS {
+            if is_large || visits > MAX_VISITED_TEXELS {
                 everywhere += area;
                 continue;
             }
-            let spans = spans([a, b, c]);
+            let spans = texel_spans([a, b, c]);
             let touched: i64 = spans.iter().map(|(_, first, last)| last - first + 1).sum();
             visits += touched as usize;
             let each = (area / touched.max(1) as f64) as f32;
@@ -53,7 +53,7 @@ pub(crate) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) ->
 }
 
 /// Texels that influence a triangle under bilinear interpolation: row, first and last column.
-fn spans(corners: [DVec2; 3]) -> Vec<(i64, i64, i64)> {
+fn texel_spans(corners: [DVec2; 3]) -> Vec<(i64, i64, i64)> {
     let [a, b, c] = corners;
     let (low, high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
     let rows = (low - 1.0).floor() as i64 + 1..=(high + 1.0).ceil() as i64 - 1;
@@ -84,10 +84,10 @@ mod tests {
 
     #[test]
     fn a_point_rests_on_the_texels_around_it() {
-        let at = |x: f64, y: f64| spans([DVec2::new(x, y); 3]);
+        let at = |x: f64, y: f64| texel_spans([DVec2::new(x, y); 3]);
         assert_eq!(at(2.3, 4.6), [(4, 2, 3), (5, 2, 3)]);
         assert_eq!(at(2.0, 4.0), [(4, 2, 2)]);
-        let triangle = spans([DVec2::ZERO, DVec2::new(4.0, 0.0), DVec2::new(0.0, 4.0)]);
+        let triangle = texel_spans([DVec2::ZERO, DVec2::new(4.0, 0.0), DVec2::new(0.0, 4.0)]);
         assert_eq!(triangle, [(0, 0, 4), (1, 0, 4), (2, 0, 3), (3, 0, 2), (4, 0, 1)]);
     }
 }

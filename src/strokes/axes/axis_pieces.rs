@@ -1,6 +1,6 @@
 //! Splits an axis at gaps such as halos, and at corners where the pen is lifted.
 
-use super::stroke_axis::Axis;
+use super::stroke_axis::StrokeAxis;
 
 /// Cosine of the least corner turn that lifts the pen, 35 degrees.
 const LIFT_COSINE: f64 = 0.819;
@@ -8,20 +8,20 @@ const LIFT_COSINE: f64 = 0.819;
 /// Part of an axis with its ends.
 #[derive(Debug, Clone)]
 pub(crate) struct AxisPart {
-    pub axis: Axis,
-    pub ends: [End; 2],
+    pub axis: StrokeAxis,
+    pub ends: [PieceEnd; 2],
 }
 
 /// Treatment of an end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct End {
+pub(crate) struct PieceEnd {
     pub tapers: bool,
     pub runs_on: bool,
     /// Distance that the line continues past the frame's border, which cuts it; 0 inside the frame.
     pub past: f64,
 }
 
-impl End {
+impl PieceEnd {
     /// End at a gap.
     const GAP: Self = Self { tapers: true, runs_on: false, past: 0.0 };
     /// End at a corner where the pen is lifted.
@@ -29,16 +29,22 @@ impl End {
 }
 
 /// Least length of a piece between gaps, px. Shorter ones are dropped.
-const SHORTEST_PX: f64 = 0.75;
+const MIN_PIECE_PX: f64 = 0.75;
 
 /// The parts of an axis outside of gaps.
 ///
 /// Gaps are ascending arc lengths. Those of an open axis lie between its ends; those of a closed axis may
 /// cross its seam. With `lifts`, sharp corners split the axis as well. `ends` describes the ends of an open
 /// axis.
-pub(crate) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<AxisPart> {
+pub(crate) fn split_axis(
+    axis: &StrokeAxis,
+    gaps: &[[f64; 2]],
+    lifts: bool,
+    ends: [PieceEnd; 2],
+    px: f64,
+) -> Vec<AxisPart> {
     let total = axis.length();
-    let mut cuts: Vec<([f64; 2], End)> = gaps.iter().map(|gap| (*gap, End::GAP)).collect();
+    let mut cuts: Vec<([f64; 2], PieceEnd)> = gaps.iter().map(|gap| (*gap, PieceEnd::GAP)).collect();
     if lifts {
         let sharp = axis.corners.iter().filter(|c| {
             let [comes, leaves] = axis.at_corner(**c);
@@ -46,15 +52,15 @@ pub(crate) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2]
         });
         let inside = |arc: f64| gaps.iter().any(|[from, to]| *from <= arc && arc <= *to);
         let at = sharp.map(|c| axis.arcs[*c]).filter(|arc| !inside(*arc));
-        cuts.extend(at.map(|arc| ([arc; 2], End::LIFTED)));
+        cuts.extend(at.map(|arc| ([arc; 2], PieceEnd::LIFTED)));
         cuts.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     }
     if cuts.is_empty() {
         return vec![AxisPart { axis: axis.clone(), ends }];
     }
     let mut pieces = Vec::new();
-    let mut add = |from: f64, to: f64, ends: [End; 2]| {
-        if to - from >= SHORTEST_PX * px {
+    let mut add = |from: f64, to: f64, ends: [PieceEnd; 2]| {
+        if to - from >= MIN_PIECE_PX * px {
             pieces.push(AxisPart { axis: axis.cut(from, to), ends });
         }
     };

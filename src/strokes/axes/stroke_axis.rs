@@ -1,30 +1,30 @@
-//! [`Axis`]: the centre line of a stroke as points about a px apart, with corners and scene samples.
+//! [`StrokeAxis`]: the centre line of a stroke as points about a px apart, with corners and scene samples.
 
 use kurbo::{BezPath, Point, Vec2};
 
 use super::path_samples::{CORNER_COSINE, arcs, dense, samples};
 use crate::chains::fit::bezier_fit::{end_tangent, fit, unit};
 use crate::chains::{Chain, Sample};
-use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
 
 /// Distance between points along the axis, px.
-const STEP_PX: f64 = 1.0;
+const POINT_STEP_PX: f64 = 1.0;
 
 /// Least distance between points as a share of a step. Closer points are merged.
-const CROWD: f64 = 0.6;
+const MIN_POINT_GAP_OF_STEP: f64 = 0.6;
 
 /// Length to either side of a corner for measuring its turn, px.
 const CORNER_REACH_PX: f64 = 2.0;
 
 /// Greatest distance of a fitted path from its points, px.
-const TOLERANCE_PX: f64 = 0.06;
+const FIT_TOLERANCE_PX: f64 = 0.06;
 
 /// Share of the tolerance within which a stretch counts as straight and becomes one line.
-const STRAIGHT: f64 = 0.3;
+const STRAIGHTNESS_OF_TOLERANCE: f64 = 0.3;
 
 /// Centre line of a stroke, in user units.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Axis {
+pub(crate) struct StrokeAxis {
     /// Points about a px apart. The last point of a closed axis equals its first.
     pub points: Vec<Point>,
     /// Arc length of each point along the chain.
@@ -37,10 +37,10 @@ pub(crate) struct Axis {
     pub closed: bool,
 }
 
-impl Axis {
+impl StrokeAxis {
     /// The axis of a chain. `px` is the length of a px in user units. A chain without a path gives no points.
     pub fn of(chain: &Chain, px: f64) -> Self {
-        let (points, joints) = dense(&chain.path, STEP_PX * px);
+        let (points, joints) = dense(&chain.path, POINT_STEP_PX * px);
         let arcs = arcs(&points);
         let samples = samples(chain, &points, &arcs);
         let mut axis = Self { points, arcs, samples, corners: Vec::new(), closed: chain.closed };
@@ -50,7 +50,7 @@ impl Axis {
 
     /// Removes points that are too close to the previous one. Corners and ends stay.
     pub fn evened(self, px: f64) -> Self {
-        let least = CROWD * STEP_PX * px;
+        let least = MIN_POINT_GAP_OF_STEP * POINT_STEP_PX * px;
         let last = self.len().saturating_sub(1);
         let mut even = Self { closed: self.closed, ..Self::default() };
         let mut arc = f64::NEG_INFINITY;
@@ -175,7 +175,7 @@ impl Axis {
         if n < 2 || amount <= 0.0 {
             return;
         }
-        let count = (amount / (STEP_PX * px)).ceil() as usize;
+        let count = (amount / (POINT_STEP_PX * px)).ceil() as usize;
         let (end, sample, arc) = if side == 0 {
             (self.points[0], self.samples[0], self.arcs[0])
         } else {
@@ -257,7 +257,7 @@ impl Axis {
         if n < 2 {
             return path;
         }
-        let tolerance = TOLERANCE_PX * px;
+        let tolerance = FIT_TOLERANCE_PX * px;
         if self.closed && self.corners.is_empty() {
             path.move_to(self.points[0]);
             let seam = unit(self.points[1] - self.points[n - 2]);
@@ -293,8 +293,8 @@ pub(crate) fn add_stretch(points: &[Point], tolerance: f64, path: &mut BezPath) 
     if n < 2 {
         return;
     }
-    let straight = STRAIGHT * tolerance;
-    if n == 2 || points.iter().all(|p| distance2(*p, *first, *last) <= straight * straight) {
+    let straight = STRAIGHTNESS_OF_TOLERANCE * tolerance;
+    if n == 2 || points.iter().all(|p| segment_distance_squared(*p, *first, *last) <= straight * straight) {
         path.line_to(*last);
         return;
     }

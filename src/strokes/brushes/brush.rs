@@ -10,14 +10,14 @@ use std::sync::Arc;
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
 use super::brush_core;
-use super::brush_image::Copy;
-use super::brush_strip::Strip;
+use super::brush_image::ImageCopy;
+use super::brush_strip::BrushStrip;
 use crate::chains::fit::bezier_fit::unit;
 use crate::colour::srgb::Colour;
-use crate::drawing::{ImagePiece, Length, Shows, Unit};
+use crate::drawing::{ImagePiece, Length, PieceContent, Unit};
 use crate::geometry::numbers::portable_math::cos;
 use crate::geometry::plane::planar_distance::length;
-use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
+use crate::strokes::axes::stroke_axis::{StrokeAxis, add_stretch};
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::widths::width_profile::mean;
 
@@ -32,7 +32,7 @@ pub struct Brush {
     /// Approximate length of one copy. 0: in proportion to the pen's width.
     pub length: Length,
     /// Shapes that replace it where the line turns, if it is repeated.
-    pub turns: Option<Turns>,
+    pub turns: Option<TurnShapes>,
 }
 
 /// Shapes for pieces of a line that turn, by the angle from a piece to the next.
@@ -41,7 +41,7 @@ pub struct Brush {
 /// animation, 2000, section 4.3, equation 3: straight, leftward and rightward strokes. Their pieces are edges
 /// of the mesh; here a piece is one brush length.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Turns {
+pub struct TurnShapes {
     /// Shape for turns to the left along the line.
     pub left: BrushShape,
     /// Shape for turns to the right.
@@ -59,9 +59,9 @@ pub enum BrushShape {
     /// pen widths (0 to 0.5). The second value is length divided by width.
     Profile(Vec<[f64; 2]>, f64),
     /// A picture whose interior is traced, and its length divided by its width.
-    Picture(Strip, f64),
+    Picture(BrushStrip, f64),
     /// A picture that is shown itself, and its length divided by its width.
-    Image(Arc<Strip>, f64),
+    Image(Arc<BrushStrip>, f64),
 }
 
 impl BrushShape {
@@ -88,7 +88,7 @@ impl BrushShape {
 
 /// The outline of a profile.
 fn edges(profile: &[[f64; 2]]) -> BezPath {
-    let count = profile.len().clamp(1, MOST_COLUMNS);
+    let count = profile.len().clamp(1, MAX_PROFILE_COLUMNS);
     let at = |k: usize, side: usize| {
         let x = (k as f64 / count as f64).min(1.0);
         Point::new(x, sample(profile, x, side, false) * if side == 0 { -1.0 } else { 1.0 })
@@ -104,44 +104,44 @@ fn edges(profile: &[[f64; 2]]) -> BezPath {
 }
 
 /// Greatest number of columns in the outline of a profile.
-const MOST_COLUMNS: usize = 512;
+const MAX_PROFILE_COLUMNS: usize = 512;
 
 /// Greatest number of copies along a line.
-const MOST_COPIES: f64 = 10_000.0;
+const MAX_COPIES: f64 = 10_000.0;
 
 /// Greatest deviation of mapped brush edges, px.
-const TOLERANCE_PX: f64 = 0.06;
+const EDGE_TOLERANCE_PX: f64 = 0.06;
 
 /// Approximate distance between points on brush edges, px.
-const STEP_PX: f64 = 1.0;
+const EDGE_STEP_PX: f64 = 1.0;
 
 /// Reach of direction samples to either side, in half widths of the pen.
-const TURN: f64 = 1.0;
+const DIRECTION_REACH_HALF_WIDTHS: f64 = 1.0;
 
 /// Cosine of the least turn that makes a corner of a brush, 20 degrees.
 const CORNER_COSINE: f64 = 0.94;
 
 /// Line drawn with a brush.
-pub(crate) struct Brushed {
+pub(crate) struct BrushOutline {
     pub path: BezPath,
     /// Mean width.
     pub width: f64,
     /// Picture visible inside the outline: the strip, its pixels along and across, and the pieces of it.
-    pub image: Option<(Arc<Strip>, [usize; 2], Vec<ImagePiece>)>,
+    pub image: Option<(Arc<BrushStrip>, [usize; 2], Vec<ImagePiece>)>,
 }
 
 /// Draws a line with a brush.
 ///
 /// `thick` holds the width at each point of the axis. `reach` holds how far the ink must extend to either
 /// side, without a gap, in every inked part.
-pub(crate) fn drawn(
+pub(crate) fn brush_outline(
     brush: &Brush,
-    axis: &Axis,
+    axis: &StrokeAxis,
     thick: &[f64],
     reach: &[f64],
     nib: &Nib,
     (unit, colour): (Unit, Colour),
-) -> Option<Brushed> {
+) -> Option<BrushOutline> {
     let total = axis.length();
     let pen = mean(axis, thick);
     if total <= 0.0 || axis.len() < 3 {
@@ -152,7 +152,7 @@ pub(crate) fn drawn(
         length if length > 0.0 => length,
         _ => ratio * pen,
     };
-    let copies = if brush.repeats { (total / one).round().clamp(1.0, MOST_COPIES) } else { 1.0 };
+    let copies = if brush.repeats { (total / one).round().clamp(1.0, MAX_COPIES) } else { 1.0 };
     // On a line shorter than the brush's proportions, a single copy is made thinner, to avoid a blot.
     let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
     let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
@@ -176,10 +176,10 @@ pub(crate) fn drawn(
             let (left, right) = (at_least(&left), at_least(&right));
             let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
             let path = outline(axis, [&left, &right], nib)?;
-            Some(Brushed { path, width: mean(axis, &both), image: None })
+            Some(BrushOutline { path, width: mean(axis, &both), image: None })
         }
         (shape, turns) => {
-            let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
+            let map = BrushMap { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
             let size = [total / copies, pen * thinner].map(|way| way / nib.px);
             let straight = shape.path(size);
             let turned = turns.as_ref().map(|turns| [&turns.left, &turns.right].map(|own| own.path(size)));
@@ -188,7 +188,7 @@ pub(crate) fn drawn(
                 BrushShape::Image(strip, _) => Some((Arc::clone(strip), strip.pixels(size[1]), Vec::new())),
                 _ => None,
             };
-            let solid = |outline: BezPath| ImagePiece { outline, shows: Shows::Colour(colour) };
+            let solid = |outline: BezPath| ImagePiece { outline, shows: PieceContent::Colour(colour) };
             for number in 0..copies as usize {
                 let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, number));
                 let own = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
@@ -204,7 +204,9 @@ pub(crate) fn drawn(
                         map.add(&edges(&[[0.5; 2]]), number, nib.px, &mut path);
                         let size = [total / copies, pen * thinner];
                         let at = |p: Point| map.at(p);
-                        pieces.extend(Copy { at: &at, number, size, pixels: *pixels, px: nib.px }.pieces());
+                        pieces.extend(
+                            ImageCopy { at: &at, number, size, pixels: *pixels, px: nib.px }.pieces(),
+                        );
                     }
                 }
             }
@@ -230,7 +232,7 @@ pub(crate) fn drawn(
                 }
             }
             let width = area.abs() / total;
-            (path.elements().len() > 2).then_some(Brushed { path, width, image })
+            (path.elements().len() > 2).then_some(BrushOutline { path, width, image })
         }
     }
 }
@@ -254,14 +256,14 @@ fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
 
 /// Turning direction of a copy of a brush.
 #[derive(Clone, Copy)]
-enum Turn {
+enum TurnSide {
     Left,
     Right,
 }
 
 /// Map from brush space to the page.
-struct Map<'a> {
-    axis: &'a Axis,
+struct BrushMap<'a> {
+    axis: &'a StrokeAxis,
     thick: &'a [f64],
     copies: f64,
     total: f64,
@@ -269,7 +271,7 @@ struct Map<'a> {
     step: f64,
 }
 
-impl Map<'_> {
+impl BrushMap<'_> {
     /// The page position of a brush point. Whole numbers of x count copies.
     fn at(&self, p: Point) -> Point {
         let axis = self.axis;
@@ -288,13 +290,13 @@ impl Map<'_> {
 
     /// Direction at a point over about one pen width, across corners as well.
     fn along(&self, i: usize) -> Vec2 {
-        let reach = (self.thick[i] / 2.0 * TURN / self.step).ceil().max(2.0) as isize;
+        let reach = (self.thick[i] / 2.0 * DIRECTION_REACH_HALF_WIDTHS / self.step).ceil().max(2.0) as isize;
         let k = i as isize;
         unit(self.axis.point(k + reach) - self.axis.point(k - reach))
     }
 
     /// Turning direction from a copy to its successor; `None` for turns of at most `degrees`.
-    fn turn(&self, degrees: f64, copy: usize) -> Option<Turn> {
+    fn turn(&self, degrees: f64, copy: usize) -> Option<TurnSide> {
         let copies = self.copies as usize;
         let chord = |copy: usize| {
             let end = |k: usize| self.at(Point::new(k as f64, 0.0));
@@ -310,7 +312,7 @@ impl Map<'_> {
             return None;
         }
         // The page's y points down, so a positive turn is to the right.
-        Some(if own.cross(next) > 0.0 { Turn::Right } else { Turn::Left })
+        Some(if own.cross(next) > 0.0 { TurnSide::Right } else { TurnSide::Left })
     }
 
     /// Adds a copy of the brush to a path.
@@ -320,7 +322,7 @@ impl Map<'_> {
         let mut run: Vec<Point> = Vec::new();
         let mut last: Option<Vec2> = None;
         let mut start = Point::ZERO;
-        let tolerance = TOLERANCE_PX * px;
+        let tolerance = EDGE_TOLERANCE_PX * px;
         let flush = |run: &mut Vec<Point>, path: &mut BezPath| {
             if run.len() > 1 {
                 add_stretch(run, tolerance, path);
@@ -351,7 +353,7 @@ impl Map<'_> {
             }
             let extent = [cubic.p1 - cubic.p0, cubic.p2 - cubic.p1, cubic.p3 - cubic.p2];
             let size: f64 = extent.iter().map(|v| (v.x.abs() * long) + v.y.abs() * self.thick[0]).sum();
-            let count = (size / (STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
+            let count = (size / (EDGE_STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
             for k in 1..=count {
                 let p = place(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
                 if run.last().is_none_or(|q| length(p - *q) > 1e-9 * px) {

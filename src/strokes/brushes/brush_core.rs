@@ -4,23 +4,23 @@
 
 use kurbo::{BezPath, PathEl, PathSeg, Point};
 
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 
 /// Number of columns along a brush shape that are examined.
-pub(crate) const COLUMNS: usize = 256;
+pub(crate) const BRUSH_COLUMNS: usize = 256;
 
 /// Distances from the middle to the left and right into the ink, in pen widths.
-pub(crate) type Way = [f64; 2];
+pub(crate) type InkOffset = [f64; 2];
 
 /// Flattening tolerance as a share of the shape's length or width.
-const FLAT: f64 = 1e-3;
+const FLATNESS_OF_SIZE: f64 = 1e-3;
 
 /// Distances from the axis to the left and right into the shape, in evenly spaced columns. `None` for a
 /// column without ink.
-pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
+pub(crate) fn columns(shape: &BezPath) -> Vec<Option<InkOffset>> {
     let mut flat = BezPath::new();
-    kurbo::flatten(shape, FLAT, |element| flat.push(element));
+    kurbo::flatten(shape, FLATNESS_OF_SIZE, |element| flat.push(element));
     if !matches!(flat.elements().last(), Some(PathEl::ClosePath) | None) {
         flat.close_path();
     }
@@ -29,7 +29,7 @@ pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
         .filter_map(|segment| if let PathSeg::Line(line) = segment { Some([line.p0, line.p1]) } else { None })
         .collect();
     let column = |k: usize| {
-        let x = (k as f64 + 0.5) / COLUMNS as f64;
+        let x = (k as f64 + 0.5) / BRUSH_COLUMNS as f64;
         let mut meets: Vec<(f64, i32)> = Vec::new();
         for [a, b] in &sides {
             if (a.x > x) != (b.x > x) {
@@ -40,15 +40,15 @@ pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
         meets.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         nearest(&meets)
     };
-    (0..COLUMNS).map(column).collect()
+    (0..BRUSH_COLUMNS).map(column).collect()
 }
 
 /// Distances from 0 to the left and right into the closest ink. `meets` holds the edges in order, each with
 /// its winding.
-pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
+pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<InkOffset> {
     let mut winding = 0;
     let mut begun = 0.0;
-    let mut best: Option<Way> = None;
+    let mut best: Option<InkOffset> = None;
     for (y, turn) in meets {
         if winding == 0 {
             begun = *y;
@@ -63,7 +63,7 @@ pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
             (_, true) => [-middle, 0.0],
             _ => [0.0, 0.0],
         };
-        let far = |way: Way| way[0].max(way[1]);
+        let far = |way: InkOffset| way[0].max(way[1]);
         if best.is_none_or(|best| far(way) < far(best)) {
             best = Some(way);
         }
@@ -77,9 +77,9 @@ pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
 /// `place` returns the position of a point along the brush. Each copy has length 1.
 pub(crate) fn add(
     path: &mut BezPath,
-    columns: &[Option<Way>],
-    axis: &Axis,
-    half: impl Fn(usize, Option<Way>) -> [f64; 2],
+    columns: &[Option<InkOffset>],
+    axis: &StrokeAxis,
+    half: impl Fn(usize, Option<InkOffset>) -> [f64; 2],
     place: impl Fn(usize) -> f64,
     nib: &Nib,
 ) {
@@ -110,7 +110,7 @@ mod tests {
         );
         let over = BezPath::from_svg("M0 -0.1L0.5 -0.1L0.5 0.4L0 0.4Z").unwrap();
         let found = columns(&over);
-        assert_eq!((found[0], found[COLUMNS - 1]), (Some([0.0, 0.0]), None));
+        assert_eq!((found[0], found[BRUSH_COLUMNS - 1]), (Some([0.0, 0.0]), None));
         // With two strands, the closer one counts.
         let two = BezPath::from_svg("M0 -0.2L1 -0.2L1 -0.1L0 -0.1ZM0 0.2L1 0.2L1 0.4L0 0.4Z").unwrap();
         assert!(

@@ -5,23 +5,23 @@ use std::sync::{Arc, Mutex, PoisonError};
 use kurbo::{Affine, BezPath, Point};
 use rustc_hash::FxHashMap;
 
-use super::brush_strip::Strip;
+use super::brush_strip::BrushStrip;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
-use crate::drawing::{ImagePiece, Shows};
+use crate::drawing::{ImagePiece, PieceContent};
 use crate::geometry::plane::planar_distance::length;
 
 /// Greatest error of the affine map of a piece, px.
-const TOLERANCE_PX: f64 = 0.2;
+const WARP_TOLERANCE_PX: f64 = 0.2;
 
 /// Overlap of a piece with the next, px.
-const REACH_PX: f64 = 1.0;
+const PIECE_OVERLAP_PX: f64 = 1.0;
 
 /// Greatest number of halvings of a copy.
-const MOST_HALVINGS: u32 = 10;
+const MAX_HALVINGS: u32 = 10;
 
 /// One copy of a picture along a line.
-pub(crate) struct Copy<'a> {
+pub(crate) struct ImageCopy<'a> {
     /// Map from brush space to the page. Whole numbers of x count copies; y runs across from -0.5 to 0.5.
     pub at: &'a dyn Fn(Point) -> Point,
     /// Index of the copy.
@@ -33,7 +33,7 @@ pub(crate) struct Copy<'a> {
     pub px: f64,
 }
 
-impl Copy<'_> {
+impl ImageCopy<'_> {
     /// The pieces of the copy, each with one affine map.
     pub fn pieces(&self) -> Vec<ImagePiece> {
         let mut pieces = Vec::new();
@@ -47,7 +47,7 @@ impl Copy<'_> {
         // The quarter points detect bends that the middle misses.
         let places = (0..=4).map(|k| from + (to - from) * f64::from(k) / 4.0);
         let miss = places.flat_map(|x| [far(x, -0.5), far(x, 0.5)]).fold(0.0, f64::max);
-        if miss > TOLERANCE_PX * self.px && depth < MOST_HALVINGS {
+        if miss > WARP_TOLERANCE_PX * self.px && depth < MAX_HALVINGS {
             let middle = f64::midpoint(from, to);
             self.cut([from, middle], depth + 1, pieces);
             self.cut([middle, to], depth + 1, pieces);
@@ -60,7 +60,7 @@ impl Copy<'_> {
         let long = (1.0 + self.more()[0] - from) / (1.0 - from);
         let longer = if to < 1.0 { Affine::IDENTITY } else { Affine::scale_non_uniform(long, 1.0) };
         let longer = Affine::translate((from, 0.0)) * longer * Affine::translate((-from, 0.0));
-        let shows = Shows::Pixels(map * longer * from_pixels);
+        let shows = PieceContent::Pixels(map * longer * from_pixels);
         if map.determinant().abs() > 0.0 && map.is_finite() {
             pieces.push(ImagePiece { outline: self.outline([from, to]), shows });
         }
@@ -79,7 +79,7 @@ impl Copy<'_> {
 
     /// Overlap along and across, in lengths and widths of the copy.
     fn more(&self) -> [f64; 2] {
-        self.size.map(|size| REACH_PX * self.px / size.max(self.px))
+        self.size.map(|size| PIECE_OVERLAP_PX * self.px / size.max(self.px))
     }
 
     /// A stretch of the band, slightly longer and wider. The outline of the whole line clips it.
@@ -102,14 +102,14 @@ impl Copy<'_> {
 
 /// Pictures of strips in their inks, cached so that each is made once.
 #[derive(Default)]
-pub(crate) struct StripPictures(Mutex<FxHashMap<Key, Arc<Picture>>>);
+pub(crate) struct StripPictures(Mutex<FxHashMap<StripPictureKey, Arc<Picture>>>);
 
 /// Address of a strip, pixels of its picture, and ink.
-type Key = (usize, [usize; 2], [u8; 4]);
+type StripPictureKey = (usize, [usize; 2], [u8; 4]);
 
 impl StripPictures {
     /// The picture of a strip with the given pixels, in an ink.
-    pub fn of(&self, strip: &Arc<Strip>, pixels: [usize; 2], ink: Colour) -> Arc<Picture> {
+    pub fn of(&self, strip: &Arc<BrushStrip>, pixels: [usize; 2], ink: Colour) -> Arc<Picture> {
         let key = (Arc::as_ptr(strip).addr(), pixels, [ink.r, ink.g, ink.b, ink.a]);
         // A poisoned lock is safe: entries are complete or absent.
         let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);

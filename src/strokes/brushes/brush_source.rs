@@ -8,8 +8,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use super::brush::{Brush, BrushShape, Turns};
-use super::brush_strip::{DARK, Strip};
+use super::brush::{Brush, BrushShape, TurnShapes};
+use super::brush_strip::{BrushStrip, MIN_INK_DARKNESS};
 use crate::colour::pixel_picture::Picture;
 use crate::drawing::Length;
 
@@ -67,13 +67,13 @@ pub enum ShapeSource {
     /// The paths of an SVG file.
     Svg(PathBuf),
     /// A PNG, JPEG or WebP picture.
-    Picture(PathBuf, Inside),
+    Picture(PathBuf, PictureInside),
 }
 
 /// Treatment of the interior of a stroke's picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Inside {
+pub enum PictureInside {
     /// Paper between bristles is kept.
     #[default]
     Traced,
@@ -93,7 +93,7 @@ impl BrushSource {
         let turned = |own: &Option<ShapeSource>| own.as_ref().map_or_else(|| Ok(shape.clone()), &read);
         let turns = match &self.turns {
             Some(TurnSources { left, right, degrees }) => {
-                Some(Turns { left: turned(left)?, right: turned(right)?, degrees: *degrees })
+                Some(TurnShapes { left: turned(left)?, right: turned(right)?, degrees: *degrees })
             }
             None => None,
         };
@@ -126,13 +126,13 @@ impl BrushShape {
     ///
     /// # Errors
     /// Describes the fault of the picture.
-    pub fn of_picture(picture: &Picture, inside: Inside) -> Result<Self, String> {
+    pub fn of_picture(picture: &Picture, inside: PictureInside) -> Result<Self, String> {
         let middle = picture.height as f64 / 2.0;
         let dark = |column: usize, row: usize| {
             let c = picture.at(column, row);
             let grey = (f64::from(c.r) + f64::from(c.g) + f64::from(c.b)) / 765.0;
             let alpha = f64::from(c.a) / 255.0;
-            1.0 - (grey * alpha + 1.0 - alpha) > DARK
+            1.0 - (grey * alpha + 1.0 - alpha) > MIN_INK_DARKNESS
         };
         let reach = |column: usize| {
             let rows = || (0..picture.height).filter(|row| dark(column, *row));
@@ -147,11 +147,11 @@ impl BrushShape {
         }
         let height = picture.height as f64;
         let ratio = picture.width as f64 / height;
-        if inside == Inside::Image {
-            return Ok(Self::Image(Arc::new(Strip::of(picture)), ratio));
+        if inside == PictureInside::Image {
+            return Ok(Self::Image(Arc::new(BrushStrip::of(picture)), ratio));
         }
-        if inside == Inside::Traced {
-            let strip = Strip::of(picture);
+        if inside == PictureInside::Traced {
+            let strip = BrushStrip::of(picture);
             if !strip.is_solid() {
                 return Ok(Self::Picture(strip, ratio));
             }
@@ -168,9 +168,9 @@ struct BrushTable {
     path: Option<String>,
     file: Option<PathBuf>,
     image: Option<PathBuf>,
-    inside: Option<Inside>,
+    inside: Option<PictureInside>,
     #[serde(default)]
-    mode: Mode,
+    mode: BrushMode,
     length: Option<Length>,
     left: Option<TurnTable>,
     right: Option<TurnTable>,
@@ -184,7 +184,7 @@ struct ShapeTable {
     path: Option<String>,
     file: Option<PathBuf>,
     image: Option<PathBuf>,
-    inside: Option<Inside>,
+    inside: Option<PictureInside>,
 }
 
 /// Shape of a turn: path data, or a table.
@@ -219,11 +219,11 @@ impl<'de> Visitor<'de> for TurnVisitor {
 }
 
 /// Default of the greatest turn that counts as straight, degrees.
-const TURN_DEG: f64 = 10.0;
+const DEFAULT_TURN_DEG: f64 = 10.0;
 
 #[derive(Deserialize, Default, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
-enum Mode {
+enum BrushMode {
     #[default]
     Stretch,
     Repeat,
@@ -266,13 +266,13 @@ impl TryFrom<BrushTable> for BrushChange {
 
     fn try_from(table: BrushTable) -> Result<Self, String> {
         let BrushTable { path, file, image, inside, mode, length, left, right, turn } = table;
-        let repeats = mode == Mode::Repeat;
+        let repeats = mode == BrushMode::Repeat;
         let turned = left.is_some() || right.is_some() || turn.is_some();
         if turned && !repeats {
             return Err("`left`, `right` and `turn` go with a brush that is repeated: add mode = \"repeat\""
                 .to_owned());
         }
-        let degrees = turn.unwrap_or(TURN_DEG);
+        let degrees = turn.unwrap_or(DEFAULT_TURN_DEG);
         if !(0.0..=180.0).contains(&degrees) {
             return Err(format!("{degrees} is not an angle; write degrees from 0 to 180"));
         }

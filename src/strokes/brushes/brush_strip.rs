@@ -1,58 +1,58 @@
-//! [`Strip`]: the picture of a stroke as a brush that keeps its interior: islands of ink, with paper between
+//! [`BrushStrip`]: the picture of a stroke as a brush that keeps its interior: islands of ink, with paper between
 //! bristles.
 
 use kurbo::{BezPath, Point};
 
-use super::brush_core::{COLUMNS, Way, nearest};
-use crate::colour::darkness_map::{Shades, Tracing};
+use super::brush_core::{BRUSH_COLUMNS, InkOffset, nearest};
+use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
 /// Darkness on white above which a pixel is ink.
-pub(crate) const DARK: f64 = 0.5;
+pub(crate) const MIN_INK_DARKNESS: f64 = 0.5;
 
 /// Greatest number of pixels. Larger pictures are scaled down.
-const MOST_PIXELS: usize = 1 << 20;
+const MAX_PIXELS: usize = 1 << 20;
 
 /// Greatest number of pixels per page px in traced pictures.
-const FINENESS: f64 = 3.0;
+const TRACED_PIXELS_PER_PX: f64 = 3.0;
 
 /// Greatest number of pixels per page px in pictures that are shown themselves.
-const PRINT_FINENESS: f64 = 4.0;
+const IMAGE_PIXELS_PER_PX: f64 = 4.0;
 
 /// Greatest error of traced outlines before they are mapped, px.
-const TOLERANCE_PX: f64 = 0.08;
+const OUTLINE_TOLERANCE_PX: f64 = 0.08;
 
 /// Least area of islands and holes, px². Smaller ones are dropped.
-const SPECK_PX: f64 = 0.35;
+const MIN_ISLAND_AREA_PX2: f64 = 0.35;
 
 /// Share of paper below which a stroke is solid.
-const SOLID: f64 = 0.01;
+const MAX_SOLID_PAPER_SHARE: f64 = 0.01;
 
 /// Picture of a stroke.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strip {
-    shades: Shades,
+pub struct BrushStrip {
+    shades: DarknessMap,
     /// Distances from the middle into the ink, evenly along the picture. Bristles count as one.
-    pub(crate) ways: Vec<Option<Way>>,
+    pub(crate) ways: Vec<Option<InkOffset>>,
 }
 
-impl Strip {
+impl BrushStrip {
     /// The strip of a picture of a stroke, dark on light, running from left to right.
     #[must_use]
     pub fn of(picture: &Picture) -> Self {
-        let whole = Shades::of(picture);
-        let times = (MOST_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
+        let whole = DarknessMap::of(picture);
+        let times = (MAX_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
         let smaller = |count: usize| (count as f64 * times).floor() as usize;
         let shades = whole.at_most(smaller(whole.width), smaller(whole.height));
-        let wide = shades.at_most(COLUMNS, shades.height);
+        let wide = shades.at_most(BRUSH_COLUMNS, shades.height);
         let way = |k: usize| {
-            let column = k * wide.width / COLUMNS;
+            let column = k * wide.width / BRUSH_COLUMNS;
             let (top, bottom) = edges(&wide, column)?;
             let [top, bottom] = [top, bottom].map(|row| row / wide.height as f64 - 0.5);
             nearest(&[(top, 1), (bottom, -1)])
         };
-        let ways = (0..COLUMNS).map(way).collect();
+        let ways = (0..BRUSH_COLUMNS).map(way).collect();
         Self { shades, ways }
     }
 
@@ -66,12 +66,12 @@ impl Strip {
                 inked += (0..self.shades.height).filter(|row| is_ink(&self.shades, column, *row)).count();
             }
         }
-        within - inked as f64 <= SOLID * within
+        within - inked as f64 <= MAX_SOLID_PAPER_SHARE * within
     }
 
     /// Pixels along and across for a pen `wide` px wide. Sizes are rounded so that lines share pictures.
     pub(crate) fn pixels(&self, wide: f64) -> [usize; 2] {
-        let rows = ((wide * PRINT_FINENESS).clamp(1.0, 1e6) as usize).next_power_of_two();
+        let rows = ((wide * IMAGE_PIXELS_PER_PX).clamp(1.0, 1e6) as usize).next_power_of_two();
         let rows = rows.min(self.shades.height) as f64;
         let columns = (rows * self.shades.width as f64 / self.shades.height as f64).round().max(1.0);
         [columns as usize, rows as usize]
@@ -92,12 +92,17 @@ impl Strip {
     /// The islands of ink and their holes as a brush path. The arguments are its length and width on the
     /// page, px.
     pub(crate) fn path(&self, [long, wide]: [f64; 2]) -> BezPath {
-        let fine = |size: f64| (size * FINENESS).ceil().clamp(1.0, 1e6) as usize;
+        let fine = |size: f64| (size * TRACED_PIXELS_PER_PX).ceil().clamp(1.0, 1e6) as usize;
         let shades = self.shades.at_most(fine(long), fine(wide));
         let size = [shades.width as f64, shades.height as f64];
         let scale = [long / size[0], wide / size[1]];
-        let tracing =
-            Tracing { level: DARK, scale, tolerance: TOLERANCE_PX, speck: SPECK_PX, repeats: false };
+        let tracing = OutlineTracing {
+            level: MIN_INK_DARKNESS,
+            scale,
+            tolerance: OUTLINE_TOLERANCE_PX,
+            speck: MIN_ISLAND_AREA_PX2,
+            repeats: false,
+        };
         let rings = shades.outlines(&tracing).unwrap_or_default();
         let place = |p: &Point| Point::new(p.x / size[0], p.y / size[1] - 0.5);
         let mut path = BezPath::new();
@@ -111,13 +116,13 @@ impl Strip {
     }
 }
 
-fn is_ink(shades: &Shades, column: usize, row: usize) -> bool {
+fn is_ink(shades: &DarknessMap, column: usize, row: usize) -> bool {
     let [x, y] = [column as f64, row as f64];
-    shades.mean([x, y], [x + 1.0, y + 1.0]) > DARK
+    shades.mean([x, y], [x + 1.0, y + 1.0]) > MIN_INK_DARKNESS
 }
 
 /// First and last row of ink in a column.
-fn edges(shades: &Shades, column: usize) -> Option<(f64, f64)> {
+fn edges(shades: &DarknessMap, column: usize) -> Option<(f64, f64)> {
     let own = |row: &usize| is_ink(shades, column, *row);
     let top = (0..shades.height).find(own)?;
     let bottom = (0..shades.height).rev().find(own)?;

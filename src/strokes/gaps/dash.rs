@@ -6,14 +6,14 @@ use kurbo::{BezPath, ParamCurveArclen, PathSeg, Point, Vec2};
 use crate::chains::Anchor;
 
 /// Path length in periods below which a path is drawn solid, because a single gap would look like a fault.
-const SHORTEST_PERIODS: f64 = 0.6;
+const MIN_PERIODS: f64 = 0.6;
 /// Cosine of the least turn that makes a corner, 20 degrees.
 const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
 /// Greatest number of dashes and gaps written out for one path. Longer paths use one repeated pattern, which
 /// limits file size. The outline of an A0 sheet in the dashes of `technical` has about 2,600.
 const MAX_ENTRIES: usize = 8192;
 /// Tolerance of curve lengths as a share of the period.
-const LENGTH_OF_PERIOD: f64 = 1e-3;
+const LENGTH_TOLERANCE_OF_PERIOD: f64 = 1e-3;
 
 /// The dash array and offset of a path, from the wanted lengths of dashes and gaps in turn. Empty if the path
 /// is to be solid. All lengths are in user units.
@@ -74,7 +74,8 @@ pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f
     if pattern.is_empty() || chord <= 0.0 {
         return (pattern, 0.0);
     }
-    let length: f64 = path.segments().map(|segment| segment.arclen(period * LENGTH_OF_PERIOD)).sum();
+    let length: f64 =
+        path.segments().map(|segment| segment.arclen(period * LENGTH_TOLERANCE_OF_PERIOD)).sum();
     let before = from.dot(to - from) / (chord * chord) * length;
     let offset = (before + own.first().copied().unwrap_or_default() / 2.0).rem_euclid(period);
     (own, offset)
@@ -85,7 +86,7 @@ fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
     let mut runs: Vec<f64> = Vec::new();
     let mut last: Option<Vec2> = None;
     for segment in path.segments() {
-        let length = segment.arclen(period * LENGTH_OF_PERIOD);
+        let length = segment.arclen(period * LENGTH_TOLERANCE_OF_PERIOD);
         if length <= 0.0 {
             continue;
         }
@@ -99,7 +100,7 @@ fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
     }
     // A run too short for a gap would be solid. A circle of many short segments would then be all solid, so
     // such a path counts as one curve.
-    if closed && runs.len() > 2 && runs.iter().all(|run| *run < period * SHORTEST_PERIODS) {
+    if closed && runs.len() > 2 && runs.iter().all(|run| *run < period * MIN_PERIODS) {
         return vec![runs.iter().sum()];
     }
     runs
@@ -124,7 +125,7 @@ fn uniform(length: f64, closed: bool, pattern: &[f64], period: f64) -> (Vec<f64>
     let first = pattern.first().copied().unwrap_or(0.0);
     let spare = if closed { 0.0 } else { first };
     let periods = ((length - spare) / period).round();
-    if periods < 1.0 || length < period * SHORTEST_PERIODS {
+    if periods < 1.0 || length < period * MIN_PERIODS {
         return (Vec::new(), 0.0);
     }
     let stretch = length / (periods * period + spare);
@@ -143,7 +144,7 @@ fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> O
         let after = if index + 1 == runs.len() && !closed { first } else { first / 2.0 };
         let inner = period - first;
         let periods = ((run - before - after + first) / period).round();
-        if periods < 1.0 || run < period * SHORTEST_PERIODS {
+        if periods < 1.0 || run < period * MIN_PERIODS {
             *dashes.last_mut()? += run;
             continue;
         }

@@ -5,30 +5,30 @@
 use kurbo::Point;
 use rustc_hash::FxHashMap;
 
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Least depth difference between a nearer and a farther line, as a share of the depth range of all lines.
-const NEARER: f64 = 0.01;
+const MIN_DEPTH_GAP_OF_RANGE: f64 = 0.01;
 
 /// Distance from a junction within which joined lines do not interrupt each other, in halo reaches.
-const MEETING: f64 = 8.0;
+const JOIN_ZONE_REACHES: f64 = 8.0;
 
 /// Greatest distance of a line's end from the line that it meets, px.
-const TOUCH_PX: f64 = 1.0;
+const MAX_TOUCH_PX: f64 = 1.0;
 
 /// Bisections that find where a gap begins and ends.
-const ROUNDS: usize = 24;
+const GAP_END_BISECTIONS: usize = 24;
 
 /// Line that may have a halo.
-pub(crate) struct Haloed<'a> {
-    pub axis: &'a Axis,
+pub(crate) struct HaloLine<'a> {
+    pub axis: &'a StrokeAxis,
     /// Distance from its axis within which nothing farther is drawn; 0 for no halo.
     pub reach: f64,
 }
 
 /// Run of consecutive points of an axis with a halo.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct AxisRun {
     line: u32,
     /// Its first point and the point after its last.
     from: u32,
@@ -36,37 +36,37 @@ struct Stretch {
 }
 
 /// Number of points in a run.
-const STRETCH: usize = 4;
+const POINTS_PER_RUN: usize = 4;
 
 /// The gaps in each line as arc lengths, ascending. Gaps over the seam of a closed line start before 0 or end
 /// past its length.
-pub(crate) fn gaps(lines: &[Haloed], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn gaps(lines: &[HaloLine], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
     use crate::parallel::prelude::*;
     let greatest = lines.iter().map(|line| line.reach).fold(0.0, f64::max);
     if greatest <= 0.0 {
         return vec![Vec::new(); lines.len()];
     }
-    let field = Field::new(lines, greatest, NEARER * (depths[1] - depths[0]), px);
+    let field = HaloGrid::new(lines, greatest, MIN_DEPTH_GAP_OF_RANGE * (depths[1] - depths[0]), px);
     (0..lines.len()).into_par_iter().map(|line| field.gaps(line)).collect()
 }
 
-struct Field<'a> {
-    lines: &'a [Haloed<'a>],
-    cells: FxHashMap<(i64, i64), Vec<Stretch>>,
+struct HaloGrid<'a> {
+    lines: &'a [HaloLine<'a>],
+    cells: FxHashMap<(i64, i64), Vec<AxisRun>>,
     cell: f64,
     margin: f64,
     px: f64,
 }
 
-impl<'a> Field<'a> {
-    fn new(lines: &'a [Haloed<'a>], greatest: f64, margin: f64, px: f64) -> Self {
-        let cell = (greatest + STRETCH as f64 * px).max(4.0 * px);
+impl<'a> HaloGrid<'a> {
+    fn new(lines: &'a [HaloLine<'a>], greatest: f64, margin: f64, px: f64) -> Self {
+        let cell = (greatest + POINTS_PER_RUN as f64 * px).max(4.0 * px);
         let mut field = Self { lines, cells: FxHashMap::default(), cell, margin, px };
         for (i, line) in lines.iter().enumerate().filter(|(_, line)| line.reach > 0.0) {
             let last = line.axis.len().saturating_sub(1);
-            for from in (0..last).step_by(STRETCH) {
-                let to = (from + STRETCH).min(last);
-                let stretch = Stretch { line: i as u32, from: from as u32, to: to as u32 };
+            for from in (0..last).step_by(POINTS_PER_RUN) {
+                let to = (from + POINTS_PER_RUN).min(last);
+                let stretch = AxisRun { line: i as u32, from: from as u32, to: to as u32 };
                 let (mut low, mut high) =
                     (field.at(line.axis.points[from]), field.at(line.axis.points[from]));
                 for p in &line.axis.points[from..=to] {
@@ -97,7 +97,7 @@ impl<'a> Field<'a> {
         let covered: Vec<bool> = axis.arcs.iter().map(|arc| self.covers(line, *arc)).collect();
         // Arc length where the halo ends, between a covered and an uncovered point.
         let border = |mut inside: f64, mut outside: f64| {
-            for _ in 0..ROUNDS {
+            for _ in 0..GAP_END_BISECTIONS {
                 let middle = (inside + outside) / 2.0;
                 if self.covers(line, middle) {
                     inside = middle;
@@ -158,12 +158,12 @@ impl<'a> Field<'a> {
                 }
                 let there = other.axis.arcs[i] + (other.axis.arcs[i + 1] - other.axis.arcs[i]) * t;
                 let same = stretch.line as usize == line;
-                if same && near_along(own, arc, there, MEETING * reach) {
+                if same && near_along(own, arc, there, JOIN_ZONE_REACHES * reach) {
                     continue;
                 }
                 if !same
                     && (self.meets(own, arc, other, there)
-                        || self.meets(other.axis, there, &Haloed { axis: own, reach }, arc))
+                        || self.meets(other.axis, there, &HaloLine { axis: own, reach }, arc))
                 {
                     continue;
                 }
@@ -174,16 +174,16 @@ impl<'a> Field<'a> {
     }
 
     /// Whether a line, near one of its ends, is about to meet another one there.
-    fn meets(&self, axis: &Axis, arc: f64, other: &Haloed, there: f64) -> bool {
+    fn meets(&self, axis: &StrokeAxis, arc: f64, other: &HaloLine, there: f64) -> bool {
         if axis.closed {
             return false;
         }
-        let near = MEETING * other.reach;
+        let near = JOIN_ZONE_REACHES * other.reach;
         let ends = [(arc - axis.arcs[0], 0), (axis.length() - arc, axis.len() - 1)];
         ends.into_iter().filter(|(way, _)| *way < near).any(|(_, end)| {
             let (p, depth) = (axis.points[end], axis.samples[end].depth);
             // Search the other line around its current position for a point that touches the end.
-            let touch = TOUCH_PX * self.px;
+            let touch = MAX_TOUCH_PX * self.px;
             let steps = (2.0 * near / self.px).ceil() as usize;
             (0..=steps).any(|k| {
                 let at = there - near + 2.0 * near * k as f64 / steps as f64;
@@ -195,7 +195,7 @@ impl<'a> Field<'a> {
 }
 
 /// Whether two points of a line are less than `most` apart along it.
-fn near_along(axis: &Axis, a: f64, b: f64, most: f64) -> bool {
+fn near_along(axis: &StrokeAxis, a: f64, b: f64, most: f64) -> bool {
     let way = (a - b).abs();
     let way = if axis.closed { way.min(axis.length() - way) } else { way };
     way < most

@@ -1,20 +1,20 @@
 //! Hand-drawn gaps in a line.
 
-use crate::geometry::numbers::noise::{hash, unit};
-use crate::strokes::axes::axis_pieces::{AxisPart, parted};
+use crate::geometry::numbers::noise::{hash, unit_interval};
+use crate::strokes::axes::axis_pieces::{AxisPart, split_axis};
 
 /// Greatest number of gaps in a line.
-const MOST: f64 = 10_000.0;
+const MAX_GAPS: f64 = 10_000.0;
 
 /// Margin at either end of a step where no gap has its middle, as a share of the step.
-const CLEAR: f64 = 0.2;
+const GAP_MARGIN_OF_STEP: f64 = 0.2;
 
 /// Greatest half length of a gap as a share of the step.
-const WIDEST_HALF: f64 = 0.15;
+const MAX_HALF_GAP_OF_STEP: f64 = 0.15;
 
 /// Random gaps in a line. Lengths are in user units.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Breaks {
+pub(crate) struct HandGaps {
     pub mean: f64,
     pub gap: f64,
     pub seed: u64,
@@ -23,15 +23,15 @@ pub(crate) struct Breaks {
 /// Origin of gaps that are fixed to the model. `arc` is an arc length, possibly outside the chain;
 /// `backwards` reverses the count.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Moored {
+pub(crate) struct GapOrigin {
     pub arc: f64,
     pub backwards: bool,
 }
 
-impl Breaks {
+impl HandGaps {
     /// Splits piece `number` of an axis at its gaps. The number of gaps does not depend on the seed, unless
     /// they are fixed to the model.
-    pub fn leave(&self, piece: AxisPart, number: usize, moored: Option<Moored>, px: f64) -> Vec<AxisPart> {
+    pub fn leave(&self, piece: AxisPart, number: usize, moored: Option<GapOrigin>, px: f64) -> Vec<AxisPart> {
         let (Some(first), true) = (piece.axis.arcs.first(), self.mean > 0.0 && self.gap > 0.0) else {
             return vec![piece];
         };
@@ -40,29 +40,29 @@ impl Breaks {
             Some(moored) => self.on_model(range, moored),
             None => self.along(range, hash(self.seed, &[0, number as u64])),
         };
-        parted(&piece.axis, &gaps, false, piece.ends, px)
+        split_axis(&piece.axis, &gaps, false, piece.ends, px)
     }
 
     /// Gaps spread over all of a piece.
     fn along(&self, [from, to]: [f64; 2], seed: u64) -> Vec<[f64; 2]> {
-        let count = ((to - from) / self.mean).round().min(MOST) as usize;
+        let count = ((to - from) / self.mean).round().min(MAX_GAPS) as usize;
         let step = (to - from) / count as f64;
         let gap = |k: usize| {
-            let chance = |word: u64| unit(hash(seed, &[k as u64, word]));
+            let chance = |word: u64| unit_interval(hash(seed, &[k as u64, word]));
             self.around(from + (k as f64 + place(chance(0))) * step, step, chance(1))
         };
         (0..count).map(gap).collect()
     }
 
     /// Gaps at fixed positions, independent of where the piece begins and ends. Gaps at its ends are dropped.
-    fn on_model(&self, [from, to]: [f64; 2], Moored { arc, backwards }: Moored) -> Vec<[f64; 2]> {
-        let step = self.mean.max((to - from) / MOST);
+    fn on_model(&self, [from, to]: [f64; 2], GapOrigin { arc, backwards }: GapOrigin) -> Vec<[f64; 2]> {
+        let step = self.mean.max((to - from) / MAX_GAPS);
         let cells = [from, to].map(|end| ((end - arc) / step).floor());
-        let count = (cells[1] - cells[0]).clamp(0.0, MOST) as usize;
+        let count = (cells[1] - cells[0]).clamp(0.0, MAX_GAPS) as usize;
         let gaps = (0..=count).map(|k| {
             let cell = cells[0] + k as f64;
             let own = if backwards { -1.0 - cell } else { cell };
-            let chance = |word: u64| unit(hash(self.seed, &[0, (own as i64).cast_unsigned(), word]));
+            let chance = |word: u64| unit_interval(hash(self.seed, &[0, (own as i64).cast_unsigned(), word]));
             let within = if backwards { 1.0 - place(chance(0)) } else { place(chance(0)) };
             self.around(arc + (cell + within) * step, step, chance(1))
         });
@@ -71,21 +71,21 @@ impl Breaks {
 
     /// A gap around a position. `step` is the mean distance to the next one.
     fn around(&self, middle: f64, step: f64, chance: f64) -> [f64; 2] {
-        let half = (self.gap * (0.6 + 0.8 * chance) / 2.0).min(WIDEST_HALF * step);
+        let half = (self.gap * (0.6 + 0.8 * chance) / 2.0).min(MAX_HALF_GAP_OF_STEP * step);
         [middle - half, middle + half]
     }
 }
 
 /// Position of a gap within its step, 0 to 1.
 fn place(chance: f64) -> f64 {
-    CLEAR + (1.0 - 2.0 * CLEAR) * chance
+    GAP_MARGIN_OF_STEP + (1.0 - 2.0 * GAP_MARGIN_OF_STEP) * chance
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const BREAKS: Breaks = Breaks { mean: 20.0, gap: 3.0, seed: 7 };
+    const BREAKS: HandGaps = HandGaps { mean: 20.0, gap: 3.0, seed: 7 };
 
     fn near(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
         a.len() == b.len() && a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-9)
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn gaps_on_the_model_stay_where_they_are() {
-        let moored = |arc: f64| Moored { arc, backwards: false };
+        let moored = |arc: f64| GapOrigin { arc, backwards: false };
         let all = BREAKS.on_model([0.0, 200.0], moored(-30.0));
         assert!((9..=10).contains(&all.len()), "{all:?}");
         // The same line without its first 70 units, which are hidden.
@@ -101,7 +101,7 @@ mod tests {
         let moved: Vec<_> = rest.iter().map(|gap| gap.map(|arc| arc + 70.0)).collect();
         assert!(near(&all[all.len() - rest.len()..], &moved), "{all:?} {moved:?}");
         // The same line in the opposite direction.
-        let turned = BREAKS.on_model([0.0, 200.0], Moored { arc: 230.0, backwards: true });
+        let turned = BREAKS.on_model([0.0, 200.0], GapOrigin { arc: 230.0, backwards: true });
         let turned: Vec<_> = turned.iter().rev().map(|[from, to]| [200.0 - to, 200.0 - from]).collect();
         assert!(near(&all, &turned), "{all:?} {turned:?}");
     }

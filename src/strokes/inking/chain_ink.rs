@@ -5,50 +5,50 @@
 //! 3. The piece becomes a path, or an outline if its width varies.
 
 use super::frame_cut;
-use super::ink_pieces::{Drawn, parts};
-use super::ink_spans::{Stretch, Tint};
-use super::stroke_shape::Shape;
+use super::ink_pieces::{InkedPiece, split_by_ink};
+use super::ink_spans::{InkSpan, SpanInk};
+use super::stroke_shape::StrokeShape;
 use crate::chains::Chain;
 use crate::colour::srgb::Colour;
-use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::geometry::plane::planar_distance::length;
 use crate::lines::LineKind;
-use crate::strokes::axes::axis_pieces::{AxisPart, End, parted};
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::axis_pieces::{AxisPart, PieceEnd, split_axis};
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::brushes::brush;
 use crate::strokes::gaps::gap_origin;
-use crate::strokes::gaps::hand_gaps::Breaks;
+use crate::strokes::gaps::hand_gaps::HandGaps;
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::outlines::tremor::Tremor;
 use crate::strokes::pens::ink_context::InkContext;
 use crate::strokes::pens::pen::Pen;
-use crate::strokes::widths::width_profile::{Setting, mean, meet, taper};
+use crate::strokes::widths::width_profile::{WidthSettings, mean, meet, taper};
 
 /// Distance to either side that a line must cover on the border of painted surfaces, px. On smooth surfaces
 /// lines are smoothed more than borders, so the distance is greater.
-const OVER_BORDER_PX: f64 = 0.3;
-const OVER_SMOOTH_BORDER_PX: f64 = 0.6;
+const BORDER_COVER_PX: f64 = 0.3;
+const SMOOTH_BORDER_COVER_PX: f64 = 0.6;
 
 /// Least extension of an end as a share of the greatest one.
-const LEAST_OVERSHOOT: f64 = 0.35;
+const MIN_OVERSHOOT_SHARE: f64 = 0.35;
 
 /// Greatest extension of an end as a share of its line.
-const MOST_OVERSHOOT: f64 = 0.2;
+const MAX_OVERSHOOT_OF_LENGTH: f64 = 0.2;
 
 /// Greatest difference of widths that count as equal, as a share of the pen's width.
-const SAME_WIDTH: f64 = 1e-6;
+const WIDTH_TOLERANCE_OF_PEN: f64 = 1e-6;
 
 /// Side of the squares that identify chains, px. Chains of one kind and part that start in the same square
 /// share a random seed, if nothing in the model distinguishes them.
-const CELL_PX: f64 = 96.0;
+const IDENTITY_CELL_PX: f64 = 96.0;
 
 /// Separates the random seed of widths from all others.
-const WIDTH: u64 = 0x7769_6474;
+const WIDTH_SEED: u64 = 0x7769_6474;
 
 /// Chain with everything needed to draw it.
-pub(crate) struct Inked<'a> {
+pub(crate) struct ChainInk<'a> {
     pub chain: &'a Chain,
-    pub axis: &'a Axis,
+    pub axis: &'a StrokeAxis,
     pub pen: &'a Pen,
     /// Widths before the ends are tapered.
     pub thick: &'a [f64],
@@ -63,12 +63,12 @@ pub(crate) struct Inked<'a> {
     /// Whether its width may vary. It may not on dashed lines.
     pub solid: bool,
     /// Ink from its start to its end.
-    pub inks: &'a [Stretch],
+    pub inks: &'a [InkSpan],
 }
 
-impl Inked<'_> {
+impl ChainInk<'_> {
     /// The shapes of the line and their colours, pass by pass.
-    pub fn shapes(&self, context: &InkContext) -> Vec<(Shape, Colour)> {
+    pub fn shapes(&self, context: &InkContext) -> Vec<(StrokeShape, Colour)> {
         let (hand, px) = (&self.pen.hand, context.px());
         let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
@@ -76,7 +76,7 @@ impl Inked<'_> {
         let leaving = frame_cut::leaving(self.chain, self.axis, context.frame, px);
         let leaving = [0, 1].map(|side| leaving[side].filter(|_| self.joined[side].is_none()));
         let past = frame_cut::past(leaving, self.axis.length(), self.pen, context.unit);
-        let ends = [0, 1].map(|side| End {
+        let ends = [0, 1].map(|side| PieceEnd {
             tapers: self.joined[side].is_none(),
             runs_on: self.joined[side].is_none() && !self.chain.covered[side],
             past: past[side],
@@ -89,9 +89,9 @@ impl Inked<'_> {
         }
         // From here on, `strength` carries the width; the strengths themselves have been used.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
-        let breaks = Breaks { mean: in_unit(hand.breaks), gap: in_unit(hand.break_gap), seed };
-        let moored = gap_origin::of(self.chain, self.axis.length());
-        let pieces: Vec<AxisPart> = parted(&axis, self.gaps, lifts, ends, px)
+        let breaks = HandGaps { mean: in_unit(hand.breaks), gap: in_unit(hand.break_gap), seed };
+        let moored = gap_origin::gap_origin(self.chain, self.axis.length());
+        let pieces: Vec<AxisPart> = split_axis(&axis, self.gaps, lifts, ends, px)
             .into_iter()
             .enumerate()
             .flat_map(|(k, piece)| breaks.leave(piece, k, moored, px))
@@ -119,9 +119,9 @@ impl Inked<'_> {
                     if piece.ends[side].past > 0.0 {
                         piece.axis.extend(side, piece.ends[side].past, px);
                     } else if piece.ends[side].runs_on && !piece.axis.closed {
-                        let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
-                        let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
-                        let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
+                        let chance = unit_interval(hash(pass_seed, &[2, k as u64, side as u64]));
+                        let part = MIN_OVERSHOOT_SHARE + (1.0 - MIN_OVERSHOOT_SHARE) * chance;
+                        let most = in_unit(hand.overshoot).min(MAX_OVERSHOOT_OF_LENGTH * long);
                         piece.axis.extend(side, most * part, px);
                     }
                 }
@@ -136,9 +136,9 @@ impl Inked<'_> {
         piece: AxisPart,
         tremor: &Tremor,
         pass: u64,
-        setting: &Setting,
+        setting: &WidthSettings,
         context: &InkContext,
-    ) -> Vec<(Shape, Colour)> {
+    ) -> Vec<(StrokeShape, Colour)> {
         let swell = &self.pen.swell;
         let AxisPart { axis, ends } = piece;
         let mut axis = axis.subdivided();
@@ -165,50 +165,58 @@ impl Inked<'_> {
         let covers = setting.covers.filter(|_| pass == 0 && self.pen.brush.is_some());
         let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
         let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
-        let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
+        let drawn = InkedPiece { axis, thick, reach, caps: [self.pen.cap; 2] };
         let frame = context.frame.filter(|_| ends.iter().any(|end| end.past > 0.0));
-        let cut = |shape: Shape| match frame {
+        let cut = |shape: StrokeShape| match frame {
             Some(frame) => frame_cut::cut(shape, frame, context.px()),
             None => Some(shape),
         };
-        if let [Stretch { tint, .. }] = self.inks {
+        if let [InkSpan { tint, .. }] = self.inks {
             let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context).and_then(cut);
             return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
         }
         let round = self.chain.closed.then(|| self.axis.length());
-        let parts = parts(&drawn, self.inks, round);
-        let shape = |(part, tint): &(Drawn, Tint)| {
+        let parts = split_by_ink(&drawn, self.inks, round);
+        let shape = |(part, tint): &(InkedPiece, SpanInk)| {
             Some((self.shape(part, tint.colour, setting, context).and_then(cut)?, tint.colour))
         };
         parts.iter().filter_map(shape).collect()
     }
 
     /// The shape of a piece with one ink.
-    fn shape(&self, drawn: &Drawn, colour: Colour, setting: &Setting, context: &InkContext) -> Option<Shape> {
-        let (Drawn { axis, thick, reach, caps }, px) = (drawn, context.px());
+    fn shape(
+        &self,
+        drawn: &InkedPiece,
+        colour: Colour,
+        setting: &WidthSettings,
+        context: &InkContext,
+    ) -> Option<StrokeShape> {
+        let (InkedPiece { axis, thick, reach, caps }, px) = (drawn, context.px());
         let path = axis.path(px);
         if path.elements().len() < 2 {
             return None;
         }
         let nib = Nib { caps: *caps, join: self.pen.join, px };
         if let (true, Some(brush)) = (self.solid, &self.pen.brush) {
-            let brushed = brush::drawn(brush, axis, thick, reach, &nib, (context.unit, colour))?;
+            let brushed = brush::brush_outline(brush, axis, thick, reach, &nib, (context.unit, colour))?;
             return Some(match brushed.image {
-                Some((strip, pixels, pieces)) => Shape::Image { path: brushed.path, strip, pixels, pieces },
-                None => Shape::Outline { path: brushed.path, axis: path, width: brushed.width },
+                Some((strip, pixels, pieces)) => {
+                    StrokeShape::Image { path: brushed.path, strip, pixels, pieces }
+                }
+                None => StrokeShape::Outline { path: brushed.path, axis: path, width: brushed.width },
             });
         }
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
-        let varies = high - low > SAME_WIDTH * setting.width
-            || (high - setting.width).abs() > SAME_WIDTH * setting.width;
+        let varies = high - low > WIDTH_TOLERANCE_OF_PEN * setting.width
+            || (high - setting.width).abs() > WIDTH_TOLERANCE_OF_PEN * setting.width;
         // A stroked path has equal caps at both ends.
         let is_cut = *caps != [self.pen.cap; 2];
         if !(self.solid && (varies || is_cut)) {
-            return Some(Shape::Path(path, axis.closed));
+            return Some(StrokeShape::Path(path, axis.closed));
         }
         let halves: Vec<f64> = thick.iter().map(|width| width / 2.0).collect();
         let width = mean(axis, thick);
-        outline(axis, [&halves, &halves], &nib).map(|outline| Shape::Outline {
+        outline(axis, [&halves, &halves], &nib).map(|outline| StrokeShape::Outline {
             path: outline,
             axis: path,
             width,
@@ -231,7 +239,7 @@ fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
     }
     let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
     let begins = || {
-        let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
+        let cell = |x: f64| ((x / (IDENTITY_CELL_PX * context.px())).floor() as i64).cast_unsigned();
         let p = chain.points.first().copied().unwrap_or_default();
         hash(1, &[cell(p.x), cell(p.y)])
     };
@@ -246,15 +254,16 @@ pub(crate) fn setting(
     depths: [f64; 2],
     identities: &[u64],
     context: &InkContext,
-) -> Setting {
+) -> WidthSettings {
     let chance = if pen.swell.chance > 0.0 {
-        1.0 - pen.swell.chance * unit(hash(context.seed, &[identity(chain, identities, context), WIDTH]))
+        1.0 - pen.swell.chance
+            * unit_interval(hash(context.seed, &[identity(chain, identities, context), WIDTH_SEED]))
     } else {
         1.0
     };
     let covers = context.painted && chain.invisibility == 0 && bounds(chain.kind);
-    let to_side = if chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
-    Setting {
+    let to_side = if chain.smooth { SMOOTH_BORDER_COVER_PX } else { BORDER_COVER_PX };
+    WidthSettings {
         width: pen.width.in_unit(context.unit),
         fade: pen.fade,
         swell: pen.swell,

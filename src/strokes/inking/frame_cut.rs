@@ -5,12 +5,12 @@
 
 use kurbo::{PathEl, Point, Rect, Shape as _, Vec2};
 
-use super::stroke_shape::Shape;
+use super::stroke_shape::StrokeShape;
 use crate::chains::Chain;
-use crate::drawing::region_clip::Region;
+use crate::drawing::region_clip::ClipRegion;
 use crate::drawing::{Length, Unit};
-use crate::geometry::numbers::tolerance::COVER_PX;
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::geometry::numbers::tolerance::TRIANGLE_BORDER_PX;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::brushes::brush::BrushShape;
 use crate::strokes::pens::pen::Pen;
 
@@ -19,27 +19,27 @@ use crate::strokes::pens::pen::Pen;
 const MIN_SLANT_SINE: f64 = 0.1;
 
 /// Least share of a brush that lies inside the frame.
-const MIN_INSIDE: f64 = 0.1;
+const MIN_INSIDE_SHARE: f64 = 0.1;
 
 /// Number of columns for measuring brush tips, and the flattening tolerance as a share of the brush's length
 /// or width.
 const TIP_COLUMNS: usize = 64;
-const TIP_FLAT: f64 = 1e-3;
+const TIP_FLATNESS_OF_SIZE: f64 = 1e-3;
 
 /// Share of the greatest width that counts as full width.
-const FULL_WIDTH: f64 = 0.95;
+const FULL_WIDTH_SHARE: f64 = 0.95;
 
 /// Tolerance of cut outlines, px.
-const TOLERANCE_PX: f64 = 0.02;
+const CUT_TOLERANCE_PX: f64 = 0.02;
 
 /// For the first and last point of a chain, the sine of the angle between line and border where it leaves the
 /// frame. `None` where it ends inside.
-pub(crate) fn leaving(chain: &Chain, axis: &Axis, frame: Option<Rect>, px: f64) -> [Option<f64>; 2] {
+pub(crate) fn leaving(chain: &Chain, axis: &StrokeAxis, frame: Option<Rect>, px: f64) -> [Option<f64>; 2] {
     let Some(frame) = frame.filter(|_| !chain.closed && axis.len() > 1) else { return [None; 2] };
     let ends = [chain.points.first(), chain.points.last()];
     [0, 1].map(|side| {
         let out = -axis.end_tangent(side);
-        let sine = outward(*ends[side]?, frame, COVER_PX * px)?.dot(out);
+        let sine = outward(*ends[side]?, frame, TRIANGLE_BORDER_PX * px)?.dot(out);
         (sine > 0.0).then_some(sine)
     })
 }
@@ -65,7 +65,7 @@ pub(crate) fn past(leaving: [Option<f64>; 2], length: f64, pen: &Pen, unit: Unit
     let tips = stretched.map_or([0.0; 2], |brush| tips(&brush.shape));
     let tips = [0, 1].map(|side| if leaving[side].is_some() { tips[side] } else { 0.0 });
     // The line inside the frame is the brush without its tips.
-    let whole = length / (1.0 - tips[0] - tips[1]).max(MIN_INSIDE);
+    let whole = length / (1.0 - tips[0] - tips[1]).max(MIN_INSIDE_SHARE);
     [0, 1].map(|side| {
         let taper = if leaving[side].is_some() { in_unit(pen.swell.taper) } else { 0.0 };
         ends[side] + taper.max(whole * tips[side])
@@ -78,7 +78,7 @@ fn tips(shape: &BrushShape) -> [f64; 2] {
     let path = shape.path([columns, columns / shape.ratio().max(1.0)]);
     let mut edges = [[f64::INFINITY, f64::NEG_INFINITY]; TIP_COLUMNS];
     let mut last = Point::ZERO;
-    kurbo::flatten(path.iter(), TIP_FLAT, |element| {
+    kurbo::flatten(path.iter(), TIP_FLATNESS_OF_SIZE, |element| {
         let (PathEl::MoveTo(to) | PathEl::LineTo(to)) = element else { return };
         let from = if matches!(element, PathEl::MoveTo(_)) { to } else { last };
         last = to;
@@ -93,22 +93,22 @@ fn tips(shape: &BrushShape) -> [f64; 2] {
         }
     });
     let widest = edges.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-    let is_full = |[low, high]: &[f64; 2]| high - low >= FULL_WIDTH * widest;
+    let is_full = |[low, high]: &[f64; 2]| high - low >= FULL_WIDTH_SHARE * widest;
     let part = |columns: Option<usize>| columns.map_or(0.0, |count| count as f64 / TIP_COLUMNS as f64);
     [part(edges.iter().position(is_full)), part(edges.iter().rev().position(is_full))]
 }
 
 /// The part of a shape inside the frame; `None` if it is empty.
-pub(crate) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
-    let tolerance = TOLERANCE_PX * px;
-    let region = Region::new(&frame.to_path(tolerance), tolerance);
+pub(crate) fn cut(shape: StrokeShape, frame: Rect, px: f64) -> Option<StrokeShape> {
+    let tolerance = CUT_TOLERANCE_PX * px;
+    let region = ClipRegion::new(&frame.to_path(tolerance), tolerance);
     let cut = match shape {
-        Shape::Path(path, closed) => {
+        StrokeShape::Path(path, closed) => {
             let kept = region.line(&path);
             let closed = closed && kept == path;
-            Shape::Path(kept, closed)
+            StrokeShape::Path(kept, closed)
         }
-        Shape::Outline { path, axis, width } => {
+        StrokeShape::Outline { path, axis, width } => {
             let (kept, kept_axis) = (region.area(&path, tolerance), region.line(&axis));
             // Scale the mean width by the change of area per length, so that it describes the remaining part.
             let mean =
@@ -117,12 +117,13 @@ pub(crate) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
             if !width.is_finite() {
                 return None;
             }
-            Shape::Outline { path: kept, axis: kept_axis, width }
+            StrokeShape::Outline { path: kept, axis: kept_axis, width }
         }
-        Shape::Image { path, strip, pixels, pieces } => {
-            Shape::Image { path: region.area(&path, tolerance), strip, pixels, pieces }
+        StrokeShape::Image { path, strip, pixels, pieces } => {
+            StrokeShape::Image { path: region.area(&path, tolerance), strip, pixels, pieces }
         }
     };
-    let (Shape::Path(path, _) | Shape::Outline { path, .. } | Shape::Image { path, .. }) = &cut;
+    let (StrokeShape::Path(path, _) | StrokeShape::Outline { path, .. } | StrokeShape::Image { path, .. }) =
+        &cut;
     (path.elements().len() > 1).then_some(cut)
 }

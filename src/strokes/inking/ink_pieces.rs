@@ -1,13 +1,13 @@
-//! [`Drawn`]: a piece of a line ready to be drawn, and its division where the ink changes.
+//! [`InkedPiece`]: a piece of a line ready to be drawn, and its division where the ink changes.
 
-use super::ink_spans::{Stretch, Tint};
+use super::ink_spans::{InkSpan, SpanInk};
 use crate::drawing::Cap;
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Piece of a line ready to be drawn.
 #[derive(Debug, Clone)]
-pub(crate) struct Drawn {
-    pub axis: Axis,
+pub(crate) struct InkedPiece {
+    pub axis: StrokeAxis,
     /// Width at each point.
     pub thick: Vec<f64>,
     /// Least extent of a brush to either side at each point.
@@ -16,7 +16,7 @@ pub(crate) struct Drawn {
     pub caps: [Cap; 2],
 }
 
-impl Drawn {
+impl InkedPiece {
     /// This piece with its width multiplied by a factor.
     pub fn times(mut self, factor: f64) -> Self {
         self.thick.iter_mut().for_each(|width| *width *= factor);
@@ -25,8 +25,12 @@ impl Drawn {
 }
 
 /// Splits a piece where its ink changes. `round` is the length of a closed chain. Cut ends get butt caps.
-pub(crate) fn parts(drawn: &Drawn, inks: &[Stretch], round: Option<f64>) -> Vec<(Drawn, Tint)> {
-    let Drawn { axis, thick, reach, caps } = drawn;
+pub(crate) fn split_by_ink(
+    drawn: &InkedPiece,
+    inks: &[InkSpan],
+    round: Option<f64>,
+) -> Vec<(InkedPiece, SpanInk)> {
+    let InkedPiece { axis, thick, reach, caps } = drawn;
     let (Some(first), Some(last)) = (axis.arcs.first().copied(), axis.arcs.last().copied()) else {
         return Vec::new();
     };
@@ -35,7 +39,7 @@ pub(crate) fn parts(drawn: &Drawn, inks: &[Stretch], round: Option<f64>) -> Vec<
     for ((sample, width), reach) in carrier.samples.iter_mut().zip(thick).zip(reach) {
         (sample.strength, sample.gap) = (*width, *reach);
     }
-    let part = |stretch: Stretch| {
+    let part = |stretch: InkSpan| {
         let (from, to) = if axis.closed {
             (stretch.from, stretch.to)
         } else {
@@ -47,21 +51,21 @@ pub(crate) fn parts(drawn: &Drawn, inks: &[Stretch], round: Option<f64>) -> Vec<
             let caps = [0, 1].map(|side| if is_cut[side] { Cap::Butt } else { caps[side] });
             let thick = part.samples.iter().map(|sample| sample.strength).collect();
             let reach = part.samples.iter().map(|sample| sample.gap).collect();
-            (Drawn { axis: part, thick, reach, caps }.times(stretch.tint.width), stretch.tint)
+            (InkedPiece { axis: part, thick, reach, caps }.times(stretch.tint.width), stretch.tint)
         })
     };
-    laid(inks, round, axis.closed).into_iter().filter_map(part).collect()
+    cyclic_spans(inks, round, axis.closed).into_iter().filter_map(part).collect()
 }
 
 /// The spans over all arc lengths that pieces can have.
 ///
 /// Pieces of a closed chain continue past its seam, and open chains are extended at their ends. A whole
 /// closed chain starts where its ink first changes.
-fn laid(inks: &[Stretch], round: Option<f64>, whole: bool) -> Vec<Stretch> {
+fn cyclic_spans(inks: &[InkSpan], round: Option<f64>, whole: bool) -> Vec<InkSpan> {
     let mut all = inks.to_vec();
     match round {
         Some(round) => {
-            all.extend(inks.iter().map(|s| Stretch { from: s.from + round, to: s.to + round, ..*s }));
+            all.extend(inks.iter().map(|s| InkSpan { from: s.from + round, to: s.to + round, ..*s }));
             if whole {
                 // Of two rounds, keep one round from the first change.
                 all = all.into_iter().skip(1).take(inks.len()).collect();
@@ -76,7 +80,7 @@ fn laid(inks: &[Stretch], round: Option<f64>, whole: bool) -> Vec<Stretch> {
             }
         }
     }
-    all.into_iter().fold(Vec::new(), |mut kept: Vec<Stretch>, next| {
+    all.into_iter().fold(Vec::new(), |mut kept: Vec<InkSpan>, next| {
         match kept.last_mut() {
             Some(last) if last.tint == next.tint => last.to = next.to,
             _ => kept.push(next),
@@ -93,26 +97,26 @@ mod tests {
     use crate::chains::Sample;
     use crate::colour::srgb::Colour;
 
-    fn stretch(from: f64, to: f64, grey: u8) -> Stretch {
-        Stretch { from, to, tint: Tint { colour: Colour::rgb(grey, grey, grey), width: 1.0 } }
+    fn stretch(from: f64, to: f64, grey: u8) -> InkSpan {
+        InkSpan { from, to, tint: SpanInk { colour: Colour::rgb(grey, grey, grey), width: 1.0 } }
     }
 
     /// Start, end and grey of each part.
-    fn found(closed: bool, inks: &[Stretch]) -> Vec<(f64, f64, u8)> {
+    fn found(closed: bool, inks: &[InkSpan]) -> Vec<(f64, f64, u8)> {
         let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)].map(Point::from);
-        let axis = Axis {
+        let axis = StrokeAxis {
             points: corners.to_vec(),
             arcs: (0..5).map(|k| f64::from(k) * 10.0).collect(),
             samples: vec![Sample::new(1.0, 1.0); 5],
             corners: Vec::new(),
             closed,
         };
-        let drawn = Drawn { axis, thick: vec![2.0; 5], reach: vec![0.0; 5], caps: [Cap::Round; 2] };
-        let of = |(part, tint): &(Drawn, Tint)| {
+        let drawn = InkedPiece { axis, thick: vec![2.0; 5], reach: vec![0.0; 5], caps: [Cap::Round; 2] };
+        let of = |(part, tint): &(InkedPiece, SpanInk)| {
             let arcs = &part.axis.arcs;
             (arcs[0], arcs[arcs.len() - 1], tint.colour.r)
         };
-        parts(&drawn, inks, closed.then_some(40.0)).iter().map(of).collect()
+        split_by_ink(&drawn, inks, closed.then_some(40.0)).iter().map(of).collect()
     }
 
     #[test]

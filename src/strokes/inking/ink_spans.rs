@@ -6,19 +6,19 @@
 use crate::chains::Chain;
 use crate::colour::srgb::Colour;
 use crate::lines::LineKind;
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::pens::ink_context::InkContext;
 use crate::strokes::pens::pen::{Ink, Pen};
 
 /// Least length of a span, px. Shorter ones take the ink of their longer neighbour.
-const LEAST_PX: f64 = 5.0;
+const MIN_SPAN_PX: f64 = 5.0;
 
 /// Least visible width of the black on either side of a white line, px.
-const SHOWS_PX: f64 = 1.0;
+const MIN_BLACK_MARGIN_PX: f64 = 1.0;
 
 /// Ink of a span.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tint {
+pub(crate) struct SpanInk {
     pub colour: Colour,
     /// Width as a share of the pen's width.
     pub width: f64,
@@ -26,16 +26,16 @@ pub(crate) struct Tint {
 
 /// Span of an axis in arc lengths, with its ink.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stretch {
+pub(crate) struct InkSpan {
     pub from: f64,
     pub to: f64,
-    pub tint: Tint,
+    pub tint: SpanInk,
 }
 
 /// The spans of a chain from start to end; neighbours differ. A chain without points has one.
-pub(crate) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkContext) -> Vec<Stretch> {
+pub(crate) fn ink_spans(axis: &StrokeAxis, chain: &Chain, pen: &Pen, context: &InkContext) -> Vec<InkSpan> {
     let tint = |i: usize| tint(axis, i, chain, pen, context);
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut stretches: Vec<InkSpan> = Vec::new();
     for i in 0..axis.len() {
         let tint = tint(i);
         // Each point stands for the stretch closer to it than to its neighbours.
@@ -44,24 +44,24 @@ pub(crate) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkCont
             Some(last) if last.tint == tint => {}
             Some(last) => {
                 last.to = border(i);
-                stretches.push(Stretch { from: border(i), to: border(i), tint });
+                stretches.push(InkSpan { from: border(i), to: border(i), tint });
             }
-            None => stretches.push(Stretch { from: axis.arcs[0], to: axis.arcs[0], tint }),
+            None => stretches.push(InkSpan { from: axis.arcs[0], to: axis.arcs[0], tint }),
         }
     }
     match (stretches.last_mut(), axis.arcs.last()) {
         (Some(last), Some(end)) => last.to = *end,
         _ => {
-            let tint = Tint { colour: plain(chain, pen, None, context), width: 1.0 };
-            return vec![Stretch { from: 0.0, to: 0.0, tint }];
+            let tint = SpanInk { colour: pen_colour(chain, pen, None, context), width: 1.0 };
+            return vec![InkSpan { from: 0.0, to: 0.0, tint }];
         }
     }
-    settled(stretches, LEAST_PX * context.px())
+    merge_short_spans(stretches, MIN_SPAN_PX * context.px())
 }
 
 /// Merges spans that are too short to be noticed.
-fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
-    let long = |stretch: &Stretch| stretch.to - stretch.from;
+fn merge_short_spans(mut stretches: Vec<InkSpan>, least: f64) -> Vec<InkSpan> {
+    let long = |stretch: &InkSpan| stretch.to - stretch.from;
     while stretches.len() > 1 {
         let by_length = |a: &usize, b: &usize| long(&stretches[*a]).total_cmp(&long(&stretches[*b]));
         let Some(short) = (0..stretches.len()).min_by(by_length).filter(|k| long(&stretches[*k]) < least)
@@ -72,7 +72,7 @@ fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
         let after = (short + 1 < stretches.len()).then_some(short + 1);
         let beside = [before, after].into_iter().flatten().max_by(by_length);
         stretches[short].tint = beside.map_or(stretches[short].tint, |k| stretches[k].tint);
-        stretches = stretches.into_iter().fold(Vec::new(), |mut kept: Vec<Stretch>, next| {
+        stretches = stretches.into_iter().fold(Vec::new(), |mut kept: Vec<InkSpan>, next| {
             match kept.last_mut() {
                 Some(last) if last.tint == next.tint => last.to = next.to,
                 _ => kept.push(next),
@@ -84,21 +84,21 @@ fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
 }
 
 /// The ink at a point of an axis.
-fn tint(axis: &Axis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -> Tint {
+fn tint(axis: &StrokeAxis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -> SpanInk {
     let under = axis.samples[i].under;
     if let Some(parting) = context.parting.filter(|_| chain.invisibility == 0 && parts(chain.kind)) {
         let half = parting.width * pen.width.in_unit(context.unit) / 2.0;
-        if half > 0.0 && under.black >= half + half.max(SHOWS_PX * context.px()) {
+        if half > 0.0 && under.black >= half + half.max(MIN_BLACK_MARGIN_PX * context.px()) {
             let mut colour = parting.colour;
             colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
-            return Tint { colour, width: parting.width };
+            return SpanInk { colour, width: parting.width };
         }
     }
-    Tint { colour: plain(chain, pen, under.colour, context), width: 1.0 }
+    SpanInk { colour: pen_colour(chain, pen, under.colour, context), width: 1.0 }
 }
 
 /// The colour of a pen on a line next to a material of colour `beside`.
-pub(crate) fn plain(chain: &Chain, pen: &Pen, beside: Option<Colour>, context: &InkContext) -> Colour {
+pub(crate) fn pen_colour(chain: &Chain, pen: &Pen, beside: Option<Colour>, context: &InkContext) -> Colour {
     let mut colour = match pen.colour {
         Ink::Fixed(colour) => colour,
         Ink::Shade(shade) => {
@@ -125,11 +125,11 @@ fn parts(kind: LineKind) -> bool {
 mod tests {
     use super::*;
 
-    fn list(of: &[(f64, u8)]) -> Vec<Stretch> {
+    fn list(of: &[(f64, u8)]) -> Vec<InkSpan> {
         let mut from = 0.0;
         let stretch = |(to, grey): &(f64, u8)| {
-            let tint = Tint { colour: Colour::rgb(*grey, *grey, *grey), width: 1.0 };
-            let stretch = Stretch { from, to: *to, tint };
+            let tint = SpanInk { colour: Colour::rgb(*grey, *grey, *grey), width: 1.0 };
+            let stretch = InkSpan { from, to: *to, tint };
             from = *to;
             stretch
         };
@@ -138,9 +138,12 @@ mod tests {
 
     #[test]
     fn short_stretches_go_to_the_longer_one_beside() {
-        assert_eq!(settled(list(&[(10.0, 1), (12.0, 2), (40.0, 3)]), 5.0), list(&[(10.0, 1), (40.0, 3)]));
-        assert_eq!(settled(list(&[(10.0, 1), (12.0, 2), (40.0, 1)]), 5.0), list(&[(40.0, 1)]));
-        assert_eq!(settled(list(&[(2.0, 1), (3.0, 2)]), 5.0), list(&[(3.0, 1)]));
-        assert_eq!(settled(list(&[(6.0, 1), (12.0, 2)]), 5.0), list(&[(6.0, 1), (12.0, 2)]));
+        assert_eq!(
+            merge_short_spans(list(&[(10.0, 1), (12.0, 2), (40.0, 3)]), 5.0),
+            list(&[(10.0, 1), (40.0, 3)])
+        );
+        assert_eq!(merge_short_spans(list(&[(10.0, 1), (12.0, 2), (40.0, 1)]), 5.0), list(&[(40.0, 1)]));
+        assert_eq!(merge_short_spans(list(&[(2.0, 1), (3.0, 2)]), 5.0), list(&[(3.0, 1)]));
+        assert_eq!(merge_short_spans(list(&[(6.0, 1), (12.0, 2)]), 5.0), list(&[(6.0, 1), (12.0, 2)]));
     }
 }

@@ -9,34 +9,34 @@ use kurbo::{BezPath, Point, Vec2};
 use crate::chains::fit::bezier_fit::{fit, unit};
 use crate::drawing::Join;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin};
-use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
+use crate::strokes::axes::stroke_axis::{StrokeAxis, add_stretch};
 
 /// Number of points on either side for measuring directions and bends.
-pub(crate) const REACH: isize = 2;
+pub(crate) const DIRECTION_REACH_POINTS: isize = 2;
 
 /// A side point is inside the ink if its distance to the axis is below this share of the point's offset.
-const IN_INK: f64 = 0.985;
+const INK_REACH_SHARE: f64 = 0.985;
 
 /// Length of axis around a point that is tested for ink, in half widths.
-const WINDOW: f64 = 7.0;
+const INK_WINDOW_HALF_WIDTHS: f64 = 7.0;
 
 /// Number of points before and after a removed run where a self-crossing is searched.
-const BEYOND: usize = 5;
+const CROSSING_SEARCH_POINTS: usize = 5;
 
 /// Least distance of side points from a crossing, as a share of their spacing.
-const CROWD: f64 = 0.6;
+const MIN_CROSSING_GAP_OF_STEP: f64 = 0.6;
 
 /// Greatest length of a run of points between removed ones that is removed as well.
-const CHANCE: usize = 2;
+const MAX_STRAY_POINTS: usize = 2;
 
 /// Number of points removed on either side of a spike.
-const SPIKE: usize = 2;
+const SPIKE_POINTS: usize = 2;
 
 /// Greatest length of a mitre in half widths, as in SVG. Longer ones are bevelled.
-const MITER_LIMIT: f64 = 4.0;
+const MITER_LIMIT_HALF_WIDTHS: f64 = 4.0;
 
 /// Angle between points of a round join, radians.
-const ROUND_STEP: f64 = 0.35;
+const ROUND_JOIN_STEP_RAD: f64 = 0.35;
 
 /// Point of a side.
 #[derive(Debug, Clone, Copy)]
@@ -52,19 +52,23 @@ struct SidePoint {
 
 /// One side of a line, without points inside the ink.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Side {
+pub(crate) struct OffsetSide {
     pub points: Vec<Point>,
     corners: Vec<bool>,
 }
 
-impl Side {
+impl OffsetSide {
     /// The left (`sign` 1) or right (-1) side of an axis, at distance `halves`.
-    pub fn new(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Self {
-        let raw = raw(axis, halves, sign, join);
+    pub fn new(axis: &StrokeAxis, halves: &[f64], sign: f64, join: Join) -> Self {
+        let raw = offset_points(axis, halves, sign, join);
         let bad: Vec<bool> = raw.iter().map(|p| p.dropped || in_ink(axis, halves, p)).collect();
-        let near = CROWD * axis.length() / (axis.len().max(2) - 1) as f64;
-        let side = cleaned(&raw, &bad, axis.closed, near);
-        if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed, near) }
+        let near = MIN_CROSSING_GAP_OF_STEP * axis.length() / (axis.len().max(2) - 1) as f64;
+        let side = without_folds(&raw, &bad, axis.closed, near);
+        if side.points.len() > 1 {
+            side
+        } else {
+            without_folds(&raw, &vec![false; raw.len()], axis.closed, near)
+        }
     }
 
     /// The side in reverse.
@@ -110,7 +114,7 @@ impl Side {
 }
 
 /// All points of a side, with the joins of its corners. A closed axis is followed once.
-fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
+fn offset_points(axis: &StrokeAxis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
     let n = axis.len();
     let count = if axis.closed { n - 1 } else { n };
     let mut points = Vec::with_capacity(count + 8 * axis.corners.len());
@@ -134,7 +138,7 @@ fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
             let out = axis.end_tangent(usize::from(i > 0));
             if i == 0 { out } else { -out }
         } else {
-            axis.direction(i, REACH)
+            axis.direction(i, DIRECTION_REACH_POINTS)
         };
         points.push(plain(p + normal(along) * half));
     }
@@ -146,11 +150,11 @@ fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator
     let middle = unit(from + to);
     let cosine = middle.dot(from);
     let points: Vec<Point> = match join {
-        Join::Miter if cosine * MITER_LIMIT > 1.0 => vec![p + middle * (half / cosine)],
+        Join::Miter if cosine * MITER_LIMIT_HALF_WIDTHS > 1.0 => vec![p + middle * (half / cosine)],
         Join::Miter | Join::Bevel => vec![p + from * half, p + to * half],
         Join::Round => {
             let turn = atan2(from.cross(to), from.dot(to));
-            let count = (turn.abs() / ROUND_STEP).ceil().max(1.0) as usize;
+            let count = (turn.abs() / ROUND_JOIN_STEP_RAD).ceil().max(1.0) as usize;
             let at = |k: usize| {
                 let angle = turn * k as f64 / count as f64;
                 let (s, c) = (sin(angle), cos(angle));
@@ -163,16 +167,16 @@ fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator
 }
 
 /// Whether a side point lies inside the ink of axis points near its own.
-fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
+fn in_ink(axis: &StrokeAxis, halves: &[f64], point: &SidePoint) -> bool {
     let n = axis.len();
     let (own, half) = (axis.arcs[point.of], halves[point.of]);
     if half <= 0.0 {
         return false;
     }
-    let (window, total) = (WINDOW * half, axis.length());
+    let (window, total) = (INK_WINDOW_HALF_WIDTHS * half, axis.length());
     let ring = if axis.closed { n - 1 } else { n };
     let covers = |j: usize| {
-        let reach = half.min(halves[j]) * IN_INK;
+        let reach = half.min(halves[j]) * INK_REACH_SHARE;
         (axis.points[j] - point.at).hypot2() < reach * reach
     };
     let away = |j: usize| {
@@ -199,7 +203,7 @@ fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
 ///
 /// Points closer than `near` to a crossing are removed too, because they would bend the curves that end
 /// there.
-fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
+fn without_folds(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> OffsetSide {
     let n = raw.len();
     let mut keep: Vec<bool> = bad.iter().map(|bad| !bad).collect();
     if !closed && n > 0 {
@@ -210,11 +214,11 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
     // Remove short runs of good points between bad ones.
     for i in 1..n {
         let run = if bad[i - 1] { keep[i..].iter().take_while(|keep| **keep).count() } else { 0 };
-        if (1..=CHANCE).contains(&run) && i + run < n {
+        if (1..=MAX_STRAY_POINTS).contains(&run) && i + run < n {
             keep[i..i + run].fill(false);
         }
     }
-    let Some(first) = keep.iter().position(|keep| *keep) else { return Side::default() };
+    let Some(first) = keep.iter().position(|keep| *keep) else { return OffsetSide::default() };
     // Replacement for the removed points after each kept one: a corner, and its crossing if there is one.
     let mut after: Vec<Option<Option<Point>>> = vec![None; n];
     let mut before = first;
@@ -245,7 +249,7 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
             before = i;
         }
     }
-    let mut side = Side::default();
+    let mut side = OffsetSide::default();
     let mut push = |at: Point, corner: bool| {
         if side.points.last() == Some(&at) {
             if let Some(last) = side.corners.last_mut() {
@@ -283,10 +287,10 @@ fn crossing_near(
 ) -> (usize, usize, Option<Point>) {
     let n = raw.len();
     let inside = |back: usize, ahead: usize| closed || (back <= before && next + ahead < n);
-    for beyond in (0..=2 * BEYOND).rev() {
-        for back in 0..=beyond.min(BEYOND) {
+    for beyond in (0..=2 * CROSSING_SEARCH_POINTS).rev() {
+        for back in 0..=beyond.min(CROSSING_SEARCH_POINTS) {
             let ahead = beyond - back;
-            if ahead > BEYOND || 2 * (back + ahead) + 4 > n || !inside(back, ahead) {
+            if ahead > CROSSING_SEARCH_POINTS || 2 * (back + ahead) + 4 > n || !inside(back, ahead) {
                 continue;
             }
             let a = (before + n - back) % n;
@@ -298,8 +302,8 @@ fn crossing_near(
         }
     }
     // A spike without width: remove its tip.
-    let ends = !closed && (before < SPIKE || next + SPIKE >= n);
-    if ends || 4 * SPIKE + 4 > n { (0, 0, None) } else { (SPIKE, SPIKE, None) }
+    let ends = !closed && (before < SPIKE_POINTS || next + SPIKE_POINTS >= n);
+    if ends || 4 * SPIKE_POINTS + 4 > n { (0, 0, None) } else { (SPIKE_POINTS, SPIKE_POINTS, None) }
 }
 
 /// The crossing point of two segments.

@@ -8,20 +8,20 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::offset_side::{REACH, Side};
+use super::offset_side::{DIRECTION_REACH_POINTS, OffsetSide};
 use crate::chains::fit::bezier_fit::{end_tangent, fit, tangent_of, unit};
 use crate::drawing::{Cap, Join};
 use crate::geometry::plane::planar_distance::length;
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Greatest distance of fitted sides from their points, px.
-const TOLERANCE_PX: f64 = 0.1;
+const SIDE_TOLERANCE_PX: f64 = 0.1;
 
 /// Greatest offset on the inside of a bend, as a share of the bend's radius.
-const INNER: f64 = 0.7;
+const MAX_INNER_OFFSET_OF_RADIUS: f64 = 0.7;
 
 /// Bézier handle length of a quarter circle of radius 1.
-const QUARTER: f64 = 0.552_284_749_830_793_4;
+const QUARTER_CIRCLE_HANDLE: f64 = 0.552_284_749_830_793_4;
 
 /// Caps and joins of a stroke.
 #[derive(Debug, Clone, Copy)]
@@ -35,14 +35,14 @@ pub(crate) struct Nib {
 
 /// The outline of a line from its distances to the left and right at every point of its axis. `None` if it
 /// has fewer than three points.
-pub(crate) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<BezPath> {
+pub(crate) fn outline(axis: &StrokeAxis, halves: [&[f64]; 2], nib: &Nib) -> Option<BezPath> {
     if axis.len() < 3 {
         return None;
     }
     let [left, right] = [(halves[0], 1.0), (halves[1], -1.0)];
-    let left = Side::new(axis, left.0, left.1, nib.join);
-    let right = Side::new(axis, right.0, right.1, nib.join).reversed();
-    let tolerance = TOLERANCE_PX * nib.px;
+    let left = OffsetSide::new(axis, left.0, left.1, nib.join);
+    let right = OffsetSide::new(axis, right.0, right.1, nib.join).reversed();
+    let tolerance = SIDE_TOLERANCE_PX * nib.px;
     let mut path = BezPath::new();
     if axis.closed {
         left.add_loop_to(tolerance, &mut path);
@@ -62,12 +62,12 @@ pub(crate) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<Bez
 }
 
 /// The outline of a line without corners; `None` if it has fewer than three points.
-pub(crate) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<BezPath> {
+pub(crate) fn soft_outline(axis: &StrokeAxis, widths: &[f64], nib: &Nib) -> Option<BezPath> {
     let n = axis.len();
     if n < 3 {
         return None;
     }
-    let (points, tolerance) = (&axis.points, TOLERANCE_PX * nib.px);
+    let (points, tolerance) = (&axis.points, SIDE_TOLERANCE_PX * nib.px);
     let [left, right] = sides(points, widths, axis.closed);
     let mut path = BezPath::new();
     if axis.closed {
@@ -101,7 +101,8 @@ fn sides(axis: &[Point], widths: &[f64], closed: bool) -> [Vec<Point>; 2] {
     };
     let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
     for i in 0..n {
-        let (before, after) = (axis[neighbour(i, -REACH)], axis[neighbour(i, REACH)]);
+        let (before, after) =
+            (axis[neighbour(i, -DIRECTION_REACH_POINTS)], axis[neighbour(i, DIRECTION_REACH_POINTS)]);
         let along = if !closed && (i == 0 || i + 1 == n) {
             let end = |k: usize| if i == 0 { axis[k] } else { axis[n - 1 - k] };
             let tangent = end_tangent(end, n);
@@ -114,7 +115,7 @@ fn sides(axis: &[Point], widths: &[f64], closed: bool) -> [Vec<Point>; 2] {
         let (to, from) = (after - axis[i], axis[i] - before);
         let turn = unit(from).cross(unit(to)) / ((length(to) + length(from)) / 2.0).max(f64::MIN_POSITIVE);
         let half = widths[i] / 2.0;
-        let inner = half.min(INNER / turn.abs().max(f64::MIN_POSITIVE));
+        let inner = half.min(MAX_INNER_OFFSET_OF_RADIUS / turn.abs().max(f64::MIN_POSITIVE));
         let (left, right) = if turn > 0.0 { (half, inner) } else { (inner, half) };
         sides[0].push(axis[i] + normal * left);
         sides[1].push(axis[i] - normal * right);
@@ -133,7 +134,7 @@ fn add_side(points: &[Point], tolerance: f64, path: &mut BezPath) {
 /// Adds a cap from one side around the end of the axis to the other side.
 fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, cap: Cap, px: f64) {
     let radius = from - middle;
-    if length(radius) < TOLERANCE_PX * px {
+    if length(radius) < SIDE_TOLERANCE_PX * px {
         path.line_to(to);
         return;
     }
@@ -148,8 +149,8 @@ fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, cap: Cap, px: 
         }
         Cap::Round => {
             let tip = middle + out;
-            path.curve_to(from + out * QUARTER, tip + radius * QUARTER, tip);
-            path.curve_to(tip + opposite * QUARTER, to + out * QUARTER, to);
+            path.curve_to(from + out * QUARTER_CIRCLE_HANDLE, tip + radius * QUARTER_CIRCLE_HANDLE, tip);
+            path.curve_to(tip + opposite * QUARTER_CIRCLE_HANDLE, to + out * QUARTER_CIRCLE_HANDLE, to);
             return;
         }
     }
@@ -162,19 +163,19 @@ mod tests {
 
     use super::*;
     use crate::chains::Sample;
-    use crate::geometry::numbers::noise::{hash, smooth, unit as chance};
+    use crate::geometry::numbers::noise::{hash, unit_interval as chance, value_noise};
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::strokes::axes::path_samples::arcs;
 
     const NIB: Nib = Nib { caps: [Cap::Round; 2], join: Join::Round, px: 1.0 };
 
-    fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> Axis {
+    fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> StrokeAxis {
         let samples = vec![Sample::new(1.0, 1.0); points.len()];
-        Axis { arcs: arcs(&points), points, samples, corners, closed }
+        StrokeAxis { arcs: arcs(&points), points, samples, corners, closed }
     }
 
     /// Polyline with points a px apart and corners at its vertices.
-    fn polyline(vertices: &[(f64, f64)]) -> Axis {
+    fn polyline(vertices: &[(f64, f64)]) -> StrokeAxis {
         let mut points = vec![Point::from(vertices[0])];
         let mut corners = Vec::new();
         for pair in vertices.windows(2) {
@@ -187,7 +188,7 @@ mod tests {
         axis(points, corners, false)
     }
 
-    fn both(axis: &Axis, widths: &[f64], nib: &Nib) -> BezPath {
+    fn both(axis: &StrokeAxis, widths: &[f64], nib: &Nib) -> BezPath {
         let halves: Vec<f64> = widths.iter().map(|w| w / 2.0).collect();
         outline(axis, [&halves, &halves], nib).expect("an outline")
     }
@@ -291,7 +292,7 @@ mod tests {
             let line = polyline(&vertices);
             let width = 2.0 + 3.0 * dice(1);
             let widths: Vec<f64> =
-                line.arcs.iter().map(|s| width * (0.7 + 0.3 * smooth(case, s / 20.0))).collect();
+                line.arcs.iter().map(|s| width * (0.7 + 0.3 * value_noise(case, s / 20.0))).collect();
             for join in [Join::Miter, Join::Bevel, Join::Round] {
                 whole(&both(&line, &widths, &Nib { join, ..NIB }));
             }
@@ -305,12 +306,13 @@ mod tests {
             let (mut at, mut points) = (Point::ZERO, vec![Point::ZERO]);
             for k in 0..160 {
                 let calm = (f64::from(k.min(160 - k)) / 24.0).min(1.0);
-                let heading = 1.3 * calm * smooth(hash(case, &[0]), f64::from(k) / 9.0);
+                let heading = 1.3 * calm * value_noise(hash(case, &[0]), f64::from(k) / 9.0);
                 at += Vec2::new(cos(heading), sin(heading));
                 points.push(at);
             }
             let line = axis(points, vec![], false);
-            let widths: Vec<f64> = line.arcs.iter().map(|s| 5.0 + 3.0 * smooth(case, s / 25.0)).collect();
+            let widths: Vec<f64> =
+                line.arcs.iter().map(|s| 5.0 + 3.0 * value_noise(case, s / 25.0)).collect();
             whole(&both(&line, &widths, &NIB));
         }
     }

@@ -67,7 +67,7 @@ pub enum LayersBy {
 /// Order of the marks in a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Order {
+pub enum MarkOrder {
     /// Weak kinds first, so that outlines paint over the lines that end at them.
     #[default]
     Strength,
@@ -82,7 +82,7 @@ pub struct LayerOptions {
     /// Division into layers. Default: visibility.
     pub by: LayersBy,
     /// Order inside a layer. Default: strength.
-    pub order: Order,
+    pub order: MarkOrder,
 }
 
 /// Rules with their name patterns already matched against the names of the scene.

@@ -58,7 +58,7 @@ impl Swell {
 
     /// Whether the width depends on samples next to the line.
     #[must_use]
-    pub fn asks(&self) -> bool {
+    pub fn needs_side_samples(&self) -> bool {
         self.bend > 0.0 || self.lit > 0.0 || self.gap > 0.0
     }
 }

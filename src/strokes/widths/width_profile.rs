@@ -5,29 +5,29 @@ use kurbo::Vec2;
 use super::swell::Swell;
 use crate::chains::fit::bezier_fit::unit;
 use crate::geometry::plane::planar_distance::length;
-use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Window for smoothing widths, px.
-const EVEN_PX: f64 = 10.0;
+const SMOOTHING_PX: f64 = 10.0;
 
 /// Length to either side for measuring bends, px.
-const BEND_PX: f64 = 5.0;
+const BEND_REACH_PX: f64 = 5.0;
 
 /// Window for smoothing bends, px, so that the width does not follow every small wiggle.
-const BEND_EVEN_PX: f64 = 24.0;
+const BEND_SMOOTHING_PX: f64 = 24.0;
 
 /// Length of the blend between joined lines of different widths, px.
-const MEET_PX: f64 = 16.0;
+const JOIN_BLEND_PX: f64 = 16.0;
 
 /// Least width of a line of varying width, px.
-const LEAST_PX: f64 = 0.12;
+const MIN_WIDTH_PX: f64 = 0.12;
 
 /// Extra width of lines that border painted surfaces, on top of the border that they cover, px.
-const MORE_PX: f64 = 0.1;
+const COVER_MARGIN_PX: f64 = 0.1;
 
 /// Inputs of the width, besides the line itself.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Setting {
+pub(crate) struct WidthSettings {
     /// Width of the pen, user units.
     pub width: f64,
     /// Share of the width lost where strength is 0.
@@ -45,23 +45,24 @@ pub(crate) struct Setting {
     pub covers: Option<f64>,
 }
 
-impl Setting {
+impl WidthSettings {
     /// The least width of a line.
     pub fn least(&self) -> f64 {
-        let least = self.covers.map_or(LEAST_PX * self.px, |to_side| 2.0 * to_side + MORE_PX * self.px);
+        let least =
+            self.covers.map_or(MIN_WIDTH_PX * self.px, |to_side| 2.0 * to_side + COVER_MARGIN_PX * self.px);
         least.min(self.width)
     }
 }
 
 /// Widths from strength alone.
-pub(crate) fn faded(axis: &Axis, width: f64, fade: f64) -> Vec<f64> {
+pub(crate) fn faded(axis: &StrokeAxis, width: f64, fade: f64) -> Vec<f64> {
     let strengths: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
-    let strengths = even(&strengths, axis.closed, EVEN_PX as usize);
+    let strengths = even(&strengths, axis.closed, SMOOTHING_PX as usize);
     strengths.iter().map(|s| width * (1.0 - fade * (1.0 - s))).collect()
 }
 
 /// The width at each point of an axis, before its ends are tapered.
-pub(crate) fn widths(axis: &Axis, setting: &Setting) -> Vec<f64> {
+pub(crate) fn widths(axis: &StrokeAxis, setting: &WidthSettings) -> Vec<f64> {
     let swell = &setting.swell;
     let n = axis.len();
     if n < 2 {
@@ -78,7 +79,7 @@ pub(crate) fn widths(axis: &Axis, setting: &Setting) -> Vec<f64> {
             * (1.0 - swell.near * far)
             * (1.0 - swell.gap * (1.0 - sample.gap.clamp(0.0, 1.0)))
     };
-    let mut factors = even(&(0..n).map(factor).collect::<Vec<f64>>(), axis.closed, EVEN_PX as usize);
+    let mut factors = even(&(0..n).map(factor).collect::<Vec<f64>>(), axis.closed, SMOOTHING_PX as usize);
     if swell.bend > 0.0 {
         for (factor, bend) in factors.iter_mut().zip(bends(axis, setting)) {
             *factor *= 1.0 + swell.bend * bend;
@@ -89,9 +90,9 @@ pub(crate) fn widths(axis: &Axis, setting: &Setting) -> Vec<f64> {
 
 /// Bend of each point out of the shape, -1 to 1: x/(1 + |x|), where x is curvature times the radius of half
 /// effect.
-fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
+fn bends(axis: &StrokeAxis, setting: &WidthSettings) -> Vec<f64> {
     let n = axis.len();
-    let reach = BEND_PX as isize;
+    let reach = BEND_REACH_PX as isize;
     let curvature = |i: usize| {
         let (first, last) = axis.stretch(i);
         let k = i as isize;
@@ -106,9 +107,10 @@ fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
         let way = length(r - p).max(f64::MIN_POSITIVE);
         2.0 * unit(from).cross(unit(to)) / way
     };
-    let curvatures = even(&(0..n).map(curvature).collect::<Vec<f64>>(), axis.closed, BEND_EVEN_PX as usize);
+    let curvatures =
+        even(&(0..n).map(curvature).collect::<Vec<f64>>(), axis.closed, BEND_SMOOTHING_PX as usize);
     let sides: Vec<f64> = axis.samples.iter().map(|sample| sample.side).collect();
-    let sides = even(&sides, axis.closed, BEND_EVEN_PX as usize);
+    let sides = even(&sides, axis.closed, BEND_SMOOTHING_PX as usize);
     let hand = handedness(axis);
     let bend = |(curvature, side): (f64, f64)| {
         // With the shape on the right, a line that bulges outwards turns to the right.
@@ -124,7 +126,7 @@ fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
 ///
 /// Lines are drawn left to right or top to bottom, and closed ones clockwise, as by a right-handed artist.
 /// The right side counts as outside.
-fn handedness(axis: &Axis) -> f64 {
+fn handedness(axis: &StrokeAxis) -> f64 {
     let points = &axis.points;
     let (first, last) = (points[0], points[points.len() - 1]);
     let runs_on = if axis.closed {
@@ -142,7 +144,7 @@ fn handedness(axis: &Axis) -> f64 {
 /// Tapers the ends of an open axis over the length `over`. The width is multiplied by a factor that rises
 /// from `to` at the end to 1, as (2 - t) t for t from 0 to 1. Shorter lines are thinner throughout, so that
 /// they do not become dots.
-pub(crate) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64, to: f64, least: f64) {
+pub(crate) fn taper(axis: &StrokeAxis, widths: &mut [f64], ends: [bool; 2], over: f64, to: f64, least: f64) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
     let count = ends.iter().filter(|end| **end).count();
     let total = last - first;
@@ -165,9 +167,9 @@ pub(crate) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64,
 }
 
 /// Blends the ends of a line half-way towards the widths of the lines that continue there.
-pub(crate) fn meet(axis: &Axis, widths: &mut [f64], others: [Option<f64>; 2], px: f64) {
+pub(crate) fn meet(axis: &StrokeAxis, widths: &mut [f64], others: [Option<f64>; 2], px: f64) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
-    let over = (MEET_PX * px).min((last - first) / 2.0);
+    let over = (JOIN_BLEND_PX * px).min((last - first) / 2.0);
     let (Some(start), Some(end)) = (widths.first().copied(), widths.last().copied()) else { return };
     if over <= 0.0 {
         return;
@@ -181,7 +183,7 @@ pub(crate) fn meet(axis: &Axis, widths: &mut [f64], others: [Option<f64>; 2], px
 }
 
 /// The mean of widths along an axis.
-pub(crate) fn mean(axis: &Axis, widths: &[f64]) -> f64 {
+pub(crate) fn mean(axis: &StrokeAxis, widths: &[f64]) -> f64 {
     let pairs = widths.windows(2).zip(axis.arcs.windows(2));
     let area: f64 = pairs.map(|(w, a)| (w[0] + w[1]) / 2.0 * (a[1] - a[0])).sum();
     area / axis.length().max(f64::MIN_POSITIVE)

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::strokes::{BrushChange, BrushShape, ShapeSource};
 
 /// Maximum size of a brush file, bytes.
-const GREATEST_FILE: u64 = 1 << 24;
+const MAX_FILE_BYTES: u64 = 1 << 24;
 
 /// Reads the files of a brush that has not been read.
 pub(crate) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
@@ -61,7 +61,7 @@ fn read(source: &ShapeSource) -> Result<BrushShape, Error> {
     let unread = |error: std::io::Error| {
         Error::io("cannot read the brush", error).in_file(path).remedy("check the path")
     };
-    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+    if std::fs::metadata(path).map_err(unread)?.len() > MAX_FILE_BYTES {
         return Err(unfit(path, "is too large"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;

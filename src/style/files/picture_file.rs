@@ -7,7 +7,7 @@ use crate::colour::pixel_picture::Picture;
 use crate::error::Error;
 
 /// Maximum size of a picture file, bytes.
-const GREATEST_FILE: u64 = 1 << 26;
+const MAX_FILE_BYTES: u64 = 1 << 26;
 
 /// Reads a picture. `of` names its use in errors, `remedy` is the advice.
 pub(crate) fn read_picture(path: &Path, of: &str, remedy: &str) -> Result<Picture, Error> {
@@ -17,7 +17,7 @@ pub(crate) fn read_picture(path: &Path, of: &str, remedy: &str) -> Result<Pictur
     let unfit = |message: &dyn fmt::Display| {
         Error::new(format!("the picture {of} {message}")).in_file(path).remedy(remedy)
     };
-    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+    if std::fs::metadata(path).map_err(unread)?.len() > MAX_FILE_BYTES {
         return Err(unfit(&"is too large"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;

@@ -2,7 +2,7 @@
 
 use kurbo::BezPath;
 
-use crate::hatching::Filling;
+use crate::hatching::WindingRule;
 
 /// The paths of an SVG file.
 #[derive(Debug, Clone, Default)]
@@ -12,7 +12,7 @@ pub(crate) struct SvgPaths {
     /// All paths, painted or not.
     pub paths: Vec<BezPath>,
     /// The areas painted in dark colours: fills, and strokes as their outlines.
-    pub painted: Vec<(BezPath, Filling)>,
+    pub painted: Vec<(BezPath, WindingRule)>,
 }
 
 /// Reads an SVG file.
@@ -42,8 +42,8 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
                 let whole = placed(path.data().clone()).map(|own| curves(&own)).unwrap_or_default();
                 if let Some(fill) = path.fill().filter(|fill| path.is_visible() && is_dark(fill.paint())) {
                     let filling = match fill.rule() {
-                        usvg::FillRule::NonZero => Filling::NonZero,
-                        usvg::FillRule::EvenOdd => Filling::EvenOdd,
+                        usvg::FillRule::NonZero => WindingRule::NonZero,
+                        usvg::FillRule::EvenOdd => WindingRule::EvenOdd,
                     };
                     found.painted.push((whole.clone(), filling));
                 }
@@ -51,10 +51,14 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
                     path.stroke().filter(|stroke| path.is_visible() && is_dark(stroke.paint()))
                 {
                     let stroke = stroke.to_tiny_skia();
-                    let dashed = stroke.dash.as_ref().and_then(|dash| path.data().clone().dash(dash, FINE));
-                    let outline = dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, FINE);
+                    let dashed = stroke
+                        .dash
+                        .as_ref()
+                        .and_then(|dash| path.data().clone().dash(dash, STROKE_RESOLUTION_SCALE));
+                    let outline =
+                        dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, STROKE_RESOLUTION_SCALE);
                     let outline = outline.and_then(placed).map(|own| curves(&own)).unwrap_or_default();
-                    found.painted.push((outline, Filling::NonZero));
+                    found.painted.push((outline, WindingRule::NonZero));
                 }
                 found.paths.push(whole);
             }
@@ -65,7 +69,7 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
 
 /// Resolution scale for stroke outlines: they are as fine as for a picture this many times larger.
 #[cfg(feature = "png")]
-const FINE: f32 = 8.0;
+const STROKE_RESOLUTION_SCALE: f32 = 8.0;
 
 /// Whether a paint is dark; gradients and patterns count as dark.
 #[cfg(feature = "png")]

@@ -8,10 +8,10 @@ use toml::Value;
 use super::svg_file;
 use crate::colour::pixel_picture::Picture;
 use crate::error::Error;
-use crate::hatching::{Filling, Pattern, PatternKind, Tile};
+use crate::hatching::{Pattern, PatternKind, Tile, WindingRule};
 
 /// Maximum size of a tile file, bytes.
-const GREATEST_FILE: u64 = 1 << 24;
+const MAX_FILE_BYTES: u64 = 1 << 24;
 
 /// Reads the tile of a pattern of tiles; does nothing for other patterns.
 pub(crate) fn read_tile(pattern: &mut Pattern) -> Result<(), Error> {
@@ -31,7 +31,7 @@ pub(crate) fn read_tile(pattern: &mut Pattern) -> Result<(), Error> {
             .remedy("write such as path = \"M0 0L10 10\", or image = \"tile.png\""));
     }
     pattern.tile = if let Some(path) = &pattern.path {
-        Tile::of_path(path, pattern.fill.then_some(Filling::NonZero)).map_err(|message| {
+        Tile::of_path(path, pattern.fill.then_some(WindingRule::NonZero)).map_err(|message| {
             Error::new(format!("the tile {message}"))
                 .at("fills.pattern")
                 .remedy("write SVG path data in a square of 10, such as \"M0 0L10 10\"")
@@ -67,7 +67,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let unread = |error: std::io::Error| {
         Error::io("cannot read the tile", error).in_file(path).remedy("check the path")
     };
-    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+    if std::fs::metadata(path).map_err(unread)?.len() > MAX_FILE_BYTES {
         return Err(unfit(path, "is too large"));
     }
     std::fs::read(path).map_err(unread)

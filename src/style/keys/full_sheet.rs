@@ -10,7 +10,7 @@ use toml::{Table, Value};
 use super::key_table::{KeyType, StyleKey};
 
 /// Maximum width of a comment that lists keys, columns.
-const COLUMNS: usize = 100;
+const MAX_COMMENT_COLUMNS: usize = 100;
 
 /// A sheet with all keys: the values of the style, and defaults for the rest. Keys without a value are
 /// commented out.
@@ -115,7 +115,7 @@ fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_d
 fn comment(sheet: &mut String, head: &str, names: &[&str]) {
     let mut line = format!("# {head}:");
     for (number, name) in names.iter().enumerate() {
-        if line.len() + name.len() + 2 > COLUMNS {
+        if line.len() + name.len() + 2 > MAX_COMMENT_COLUMNS {
             let _ = writeln!(sheet, "{line}");
             "#  ".clone_into(&mut line);
         }

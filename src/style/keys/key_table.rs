@@ -11,7 +11,7 @@
 use std::sync::OnceLock;
 
 /// Text of the table.
-const TEXT: &str = include_str!("table.txt");
+const TABLE_TEXT: &str = include_str!("table.txt");
 
 /// A key of a style sheet.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,7 +99,7 @@ pub enum KeyType {
 /// A section of the table: keys that belong together.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Section {
+pub struct KeySection {
     /// Its heading.
     pub title: &'static str,
     /// The tables that contain its keys; an empty string for the top level.
@@ -110,7 +110,7 @@ pub struct Section {
 
 impl KeyType {
     /// For each type its name in `table.txt`, and how to write a value.
-    const NAMES: [(Self, &'static str, &'static str); 24] = [
+    const TYPE_NAMES: [(Self, &'static str, &'static str); 24] = [
         (Self::Switch, "switch", "true or false"),
         (Self::Whole, "whole", "a whole number"),
         (Self::Wholes, "wholes", "a list of whole numbers, such as [0, 1]"),
@@ -139,11 +139,11 @@ impl KeyType {
 
     /// All types.
     pub fn all() -> impl Iterator<Item = Self> {
-        Self::NAMES.iter().map(|(kind, ..)| *kind)
+        Self::TYPE_NAMES.iter().map(|(kind, ..)| *kind)
     }
 
     fn row(self) -> &'static (Self, &'static str, &'static str) {
-        Self::NAMES.iter().find(|(kind, ..)| *kind == self).unwrap_or(&Self::NAMES[0])
+        Self::TYPE_NAMES.iter().find(|(kind, ..)| *kind == self).unwrap_or(&Self::TYPE_NAMES[0])
     }
 
     /// Name of the type in the table.
@@ -168,7 +168,7 @@ impl StyleKey {
 
     /// The sections of the table, in the same order.
     #[must_use]
-    pub fn sections() -> &'static [Section] {
+    pub fn sections() -> &'static [KeySection] {
         &table().0
     }
 
@@ -226,14 +226,14 @@ impl StyleKey {
     }
 }
 
-fn table() -> &'static (Vec<Section>, Vec<StyleKey>) {
-    static TABLE: OnceLock<(Vec<Section>, Vec<StyleKey>)> = OnceLock::new();
-    TABLE.get_or_init(|| parse(TEXT))
+fn table() -> &'static (Vec<KeySection>, Vec<StyleKey>) {
+    static TABLE: OnceLock<(Vec<KeySection>, Vec<StyleKey>)> = OnceLock::new();
+    TABLE.get_or_init(|| parse(TABLE_TEXT))
 }
 
 /// Parses the table. Invalid lines are ignored; tests report them.
-fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
-    let mut sections: Vec<Section> = Vec::new();
+fn parse(text: &'static str) -> (Vec<KeySection>, Vec<StyleKey>) {
+    let mut sections: Vec<KeySection> = Vec::new();
     let mut keys = Vec::new();
     // Rows of the current section. At its end they are expanded for each prefix.
     let mut rows: Vec<Vec<&'static str>> = Vec::new();
@@ -243,7 +243,7 @@ fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
             rows.clear();
             let (title, prefixes) = head.split_once(" | ").unwrap_or((head, ""));
             let prefixes = prefixes.split_whitespace().map(|prefix| if prefix == "-" { "" } else { prefix });
-            sections.push(Section { title, prefixes: prefixes.collect(), note: "" });
+            sections.push(KeySection { title, prefixes: prefixes.collect(), note: "" });
         } else if let Some(note) = line.strip_prefix("! ") {
             sections.iter_mut().last().into_iter().for_each(|section| section.note = note);
         } else if !line.starts_with('#') && line.contains(" | ") {
@@ -258,7 +258,7 @@ fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
 }
 
 /// Adds the rows of the last section for each of its prefixes.
-fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<StyleKey>) {
+fn expand(sections: &[KeySection], rows: &[Vec<&'static str>], keys: &mut Vec<StyleKey>) {
     let Some(section) = sections.last() else { return };
     let first = section.prefixes.first().copied().unwrap_or_default();
     let joined = |prefix: &str, name: &str| match prefix {
@@ -270,7 +270,8 @@ fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<Style
         let prefix = prefix.trim_start_matches('=');
         for row in rows {
             let [name, kind, default, values, unit, help] = row[..] else { continue };
-            let kind = KeyType::NAMES.iter().find(|(_, known, _)| *known == kind).map(|(kind, ..)| *kind);
+            let kind =
+                KeyType::TYPE_NAMES.iter().find(|(_, known, _)| *known == kind).map(|(kind, ..)| *kind);
             let Some(kind) = kind else { continue };
             let given = |text: &'static str| Some(text).filter(|text| *text != "-");
             let values = given(values).unwrap_or_default();

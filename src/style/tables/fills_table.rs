@@ -8,15 +8,15 @@ use serde::{Deserialize, Deserializer};
 
 use super::highlight_table::{HighlightRule, HighlightTable};
 use super::ramp_source::{RampSource, TableSource};
-use crate::colour::colour_factor::Factor;
+use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::hatching::Pattern;
 use crate::light::ToneOptions;
-use crate::light::tones::tone_options::{Colours, Gooch, MaterialChange, Scale, thresholds};
-use crate::light::tones::tone_ramps::GREATEST_TONES;
+use crate::light::tones::tone_options::{Colours, Gooch, MaterialChange, ToneScale, thresholds};
+use crate::light::tones::tone_ramps::MAX_TONES;
 use crate::regions::{RegionOptions, Seams, StepsAs};
 use crate::scene::{TextureFill, TextureOptions};
 use crate::style::files::tile_file::read_tile;
@@ -37,8 +37,8 @@ pub(crate) struct FillsTable {
     gooch: Gooch,
     #[serde(deserialize_with = "tones")]
     tones: Option<Vec<f64>>,
-    shadow: Option<Factor>,
-    lit: Option<Factor>,
+    shadow: Option<ColourFactor>,
+    lit: Option<ColourFactor>,
     #[serde(deserialize_with = "modulate")]
     modulate: Option<f64>,
     highlight: HighlightTable,
@@ -53,14 +53,14 @@ pub(crate) struct FillsTable {
     texture_colours: Option<usize>,
     #[serde(deserialize_with = "texture_samples")]
     texture_samples: Option<f64>,
-    material: Vec<MaterialTable>,
+    material: Vec<FillsMaterialTable>,
     pattern: Vec<Pattern>,
 }
 
 /// A table `[[fills.material]]`.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct MaterialTable {
+struct FillsMaterialTable {
     name: Glob,
     #[serde(alias = "color")]
     colour: Option<Colour>,
@@ -75,8 +75,8 @@ struct MaterialTable {
     gooch: Option<Gooch>,
     #[serde(default, deserialize_with = "tones")]
     tones: Option<Vec<f64>>,
-    shadow: Option<Factor>,
-    lit: Option<Factor>,
+    shadow: Option<ColourFactor>,
+    lit: Option<ColourFactor>,
     #[serde(default, deserialize_with = "modulate")]
     modulate: Option<f64>,
     highlight: Option<HighlightRule>,
@@ -120,7 +120,7 @@ impl FillsTable {
             modulate: self.modulate.or(tones.modulate),
             highlight: self.highlight.into_options(),
             cast_shadows: self.cast_shadows,
-            materials: self.material.into_iter().map(MaterialTable::into_change).collect(),
+            materials: self.material.into_iter().map(FillsMaterialTable::into_change).collect(),
         };
         let region = RegionOptions {
             enabled: self.enabled,
@@ -140,7 +140,7 @@ impl FillsTable {
     }
 }
 
-impl MaterialTable {
+impl FillsMaterialTable {
     fn into_change(self) -> MaterialChange {
         let off = self.gooch.filter(|gooch| !gooch.enabled).map(|_| Colours::Material);
         let gooch = self.gooch.filter(|gooch| gooch.enabled);
@@ -164,10 +164,10 @@ fn scale(
     steps: Option<usize>,
     ramp: Option<RampSource>,
     table: Option<TableSource>,
-) -> Option<Scale> {
-    let table = table.and_then(TableSource::into_table).map(Scale::Table);
-    let ramp = ramp.and_then(RampSource::into_strip).map(Scale::Ramp);
-    table.or(ramp).or(steps.map(Scale::Steps)).or(thresholds.map(Scale::Thresholds))
+) -> Option<ToneScale> {
+    let table = table.and_then(TableSource::into_table).map(ToneScale::Table);
+    let ramp = ramp.and_then(RampSource::into_strip).map(ToneScale::Ramp);
+    table.or(ramp).or(steps.map(ToneScale::Steps)).or(thresholds.map(ToneScale::Thresholds))
 }
 
 fn colours(gooch: Option<Gooch>, palette: Option<Vec<Colour>>) -> Option<Colours> {
@@ -175,12 +175,12 @@ fn colours(gooch: Option<Gooch>, palette: Option<Vec<Colour>>) -> Option<Colours
 }
 
 /// Groups of keys that exclude each other: for tones, and for their colours.
-const WAYS: [&[&str]; 2] =
+const EXCLUSIVE_KEYS: [&[&str]; 2] =
     [&["thresholds", "steps", "ramp", "table"], &["palette", "gooch", "ramp", "table"]];
 
 /// Removes the keys of a table `[fills]` that another table on top of it replaces. For example, thresholds
 /// replace steps, and a palette replaces a ramp.
-pub(crate) fn set_aside(below: &mut toml::Table, above: &toml::Table) {
+pub(crate) fn remove_replaced_keys(below: &mut toml::Table, above: &toml::Table) {
     let is_used = |key: &str| match above.get(key) {
         // A table of Gooch colours that is switched off sets no colours.
         Some(toml::Value::Table(gooch)) if key == "gooch" => {
@@ -188,7 +188,7 @@ pub(crate) fn set_aside(below: &mut toml::Table, above: &toml::Table) {
         }
         value => value.is_some(),
     };
-    for ways in WAYS {
+    for ways in EXCLUSIVE_KEYS {
         if ways.iter().any(|way| is_used(way)) {
             below.retain(|key, _| !ways.contains(&key) || above.contains_key(key));
         }
@@ -201,21 +201,21 @@ fn some_thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
 
 fn steps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
     let steps = u64::deserialize(deserializer)?;
-    if (1..=GREATEST_TONES as u64).contains(&steps) {
+    if (1..=MAX_TONES as u64).contains(&steps) {
         return Ok(Some(steps as usize));
     }
     Err(D::Error::custom(format!(
-        "{steps} is not a number of tones; write a whole number from 1 to {GREATEST_TONES}"
+        "{steps} is not a number of tones; write a whole number from 1 to {MAX_TONES}"
     )))
 }
 
 fn texture_colours<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
     let count = u64::deserialize(deserializer)?;
-    if (1..=GREATEST_COLOURS).contains(&count) {
+    if (1..=MAX_TEXTURE_COLOURS).contains(&count) {
         return Ok(Some(count as usize));
     }
     Err(D::Error::custom(format!(
-        "{count} is not a number of colours; write a whole number from 1 to {GREATEST_COLOURS}"
+        "{count} is not a number of colours; write a whole number from 1 to {MAX_TEXTURE_COLOURS}"
     )))
 }
 
@@ -228,11 +228,11 @@ fn texture_samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
 }
 
 /// Maximum number of texture colours.
-const GREATEST_COLOURS: u64 = 64;
+const MAX_TEXTURE_COLOURS: u64 = 64;
 
 fn palette<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Colour>>, D::Error> {
     let list = Vec::<Colour>::deserialize(deserializer)?;
-    if list.is_empty() || list.len() > GREATEST_TONES {
+    if list.is_empty() || list.len() > MAX_TONES {
         return Err(D::Error::custom(
             "a palette has a colour for each tone; write such as [\"#334\", \"#eee\"]",
         ));
@@ -242,7 +242,7 @@ fn palette<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Colo
 
 fn tones<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<f64>>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
-    if list.iter().all(|share| (0.0..=2.0).contains(share)) && list.len() <= GREATEST_TONES {
+    if list.iter().all(|share| (0.0..=2.0).contains(share)) && list.len() <= MAX_TONES {
         return Ok(Some(list));
     }
     Err(D::Error::custom("tones are shares of light; write numbers from 0 to 2, such as [0, 0.4, 1]"))

@@ -8,7 +8,7 @@ use crate::geometry::names::glob::Glob;
 use crate::hatching::{HatchLayer, HatchOptions};
 use crate::light::ShadeOptions;
 use crate::light::tones::tone_options::thresholds;
-use crate::light::tones::tone_ramps::GREATEST_TONES;
+use crate::light::tones::tone_ramps::MAX_TONES;
 
 /// The table `[hatching]`.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -27,13 +27,13 @@ pub(crate) struct HatchingTable {
     parting: Option<f64>,
     crumb: Option<Length>,
     layer: Vec<HatchLayer>,
-    material: Vec<MaterialTable>,
+    material: Vec<HatchingMaterialTable>,
 }
 
 /// A table `[[hatching.material]]`.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct MaterialTable {
+struct HatchingMaterialTable {
     name: Glob,
     #[serde(default, deserialize_with = "some_thresholds")]
     thresholds: Option<Vec<f64>>,
@@ -75,7 +75,7 @@ fn some_thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
 fn coverage<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<f64>>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
     let falls = list.windows(2).all(|pair| pair[0] >= pair[1]);
-    let fits = !list.is_empty() && list.len() <= GREATEST_TONES;
+    let fits = !list.is_empty() && list.len() <= MAX_TONES;
     if fits && falls && list.iter().all(|share| (0.0..=1.0).contains(share)) {
         return Ok(Some(list));
     }

@@ -13,10 +13,10 @@ use crate::error::Error;
 use crate::light::tones::tone_ramps::{Strip, Table};
 
 /// Maximum size of a picture of tones, bytes.
-const GREATEST_FILE: u64 = 1 << 24;
+const MAX_FILE_BYTES: u64 = 1 << 24;
 
 /// Maximum width and height of a table of tones, px.
-const GREATEST_TABLE: usize = 1024;
+const MAX_TABLE_SIDE_PX: usize = 1024;
 
 /// A ramp: the path of a picture, or colours from dark to light.
 #[derive(Debug, Clone)]
@@ -55,8 +55,8 @@ impl TableSource {
     pub fn read(&mut self) -> Result<(), Error> {
         if let Self::Picture(path) = self {
             let picture = picture(path)?;
-            if picture.width.max(picture.height) > GREATEST_TABLE {
-                return Err(unfit(path, format!("is larger than {GREATEST_TABLE} px")));
+            if picture.width.max(picture.height) > MAX_TABLE_SIDE_PX {
+                return Err(unfit(path, format!("is larger than {MAX_TABLE_SIDE_PX} px")));
             }
             let table = Table::of_picture(&picture).map_err(|message| unfit(path, message))?;
             *self = Self::Read(table);
@@ -92,7 +92,7 @@ fn picture(path: &Path) -> Result<Picture, Error> {
     let unread = |error: std::io::Error| {
         Error::io("cannot read the picture of tones", error).in_file(path).remedy("check the path")
     };
-    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+    if std::fs::metadata(path).map_err(unread)?.len() > MAX_FILE_BYTES {
         return Err(unfit(path, "is too large"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;

@@ -1,4 +1,4 @@
-//! [`Sheet`]: a style sheet as serde reads it, with the tables `[page]` and `[pen]`.
+//! [`StyleSheet`]: a style sheet as serde reads it, with the tables `[page]` and `[pen]`.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ use crate::style::files::picture_file::read_picture;
 /// A style sheet; every key is optional.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub(crate) struct Sheet {
+pub(crate) struct StyleSheet {
     /// The sheet that this one extends: a built-in name, or a path relative to this sheet.
     pub extends: Option<String>,
     seed: u64,
@@ -59,7 +59,7 @@ struct PageTable {
     paper: PathBuf,
     #[serde(skip)]
     picture: Option<Arc<Picture>>,
-    #[serde(deserialize_with = "breadth")]
+    #[serde(deserialize_with = "positive_length")]
     paper_width: Option<Length>,
     #[serde(deserialize_with = "fraction")]
     tooth: Option<f64>,
@@ -113,7 +113,7 @@ struct PenTable {
     hidden: PenChange,
 }
 
-impl Sheet {
+impl StyleSheet {
     /// Reads the picture of the paper.
     pub fn read_paper(&mut self) -> Result<(), Error> {
         let page = &mut self.page;
@@ -239,7 +239,7 @@ fn surface_kinds() -> Vec<LineKind> {
 }
 
 /// Parses a length above 0.
-fn breadth<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
+fn positive_length<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
     let length = Length::deserialize(deserializer)?;
     if length.in_unit(Unit::Px) > 0.0 {
         Ok(Some(length))

@@ -1,4 +1,4 @@
-//! [`Folds`]: crease candidates, and the chains that they form end to end.
+//! [`CreaseCandidates`]: crease candidates, and the chains that they form end to end.
 //!
 //! 1. Edges that turn by more than the low threshold are candidates.
 //! 2. At each vertex, candidates are paired by straightness and similar turn, best pair first. A ridge is
@@ -11,29 +11,29 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::normals::dihedral::{Dihedral, turn_of};
-use crate::mesh::{FaceId, Mesh, Turns};
-use crate::parallel::concatenation::joined;
+use crate::mesh::normals::dihedral::{Dihedral, turn_degrees};
+use crate::mesh::{DihedralCosines, FaceId, Mesh};
+use crate::parallel::concatenation::concatenate;
 
 /// Minimum cosine of the bend between two candidates at a vertex without others. At 80 degrees the zigzag of
 /// a regular triangulation is one chain.
-const BEND_COSINE: f64 = 0.17;
+const MIN_CHAIN_COSINE: f64 = 0.17;
 
 /// Minimum cosine of the bend between two candidates at a vertex with more than two: 53 degrees.
-const JUNCTION_COSINE: f64 = 0.6;
+const MIN_JUNCTION_COSINE: f64 = 0.6;
 
 /// Maximum number of candidates at a vertex through which a chain may run.
-const TIP: usize = 24;
+const MAX_JUNCTION_EDGES: usize = 24;
 
 /// Candidates that turn by more than this many degrees are neither ridge nor valley: the surface almost folds
 /// onto itself.
-const FLAPPED_DEG: f32 = 170.0;
+const MAX_SIGNED_TURN_DEG: f32 = 170.0;
 
 /// Edge where the surface turns by more than the low threshold.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fold {
+pub(crate) struct CreaseCandidate {
     /// Edge id.
     pub edge: u32,
     /// Turn of the surface, degrees.
@@ -41,19 +41,19 @@ pub(crate) struct Fold {
 }
 
 /// All candidates of a mesh, indexed by vertex.
-pub(crate) struct Folds<'a> {
+pub(crate) struct CreaseCandidates<'a> {
     mesh: &'a Mesh,
     /// In edge order.
-    pub folds: Vec<Fold>,
+    pub folds: Vec<CreaseCandidate>,
     /// Candidate ends at each vertex: candidate index shifted left by one; bit 0 selects which of its
     /// vertices.
-    ends: Grouped<u32>,
+    ends: CsrLists<u32>,
 }
 
 /// Candidates joined end to end.
-pub(crate) struct Chain {
+pub(crate) struct CreaseChain {
     /// In order along the chain.
-    pub folds: Vec<Fold>,
+    pub folds: Vec<CreaseCandidate>,
     /// Mean cosine of the bends, above 0 and at most 1.
     pub straightness: f64,
     /// Whether the last candidate continues into the first.
@@ -61,7 +61,7 @@ pub(crate) struct Chain {
 }
 
 /// All edges where the surface turns by more than `low_deg` degrees, in edge order.
-pub(crate) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
+pub(crate) fn folds(mesh: &Mesh, turns: &DihedralCosines, low_deg: f64) -> Vec<CreaseCandidate> {
     const CHUNK: usize = 1 << 12;
     let low_cosine = cos(low_deg.to_radians()) as f32;
     let fold = |edge: usize| {
@@ -70,24 +70,24 @@ pub(crate) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
             return None;
         }
         let dihedral = turns.dihedral(mesh, edge);
-        let turn = dihedral.map_or_else(|| turn_of(cosine), |dihedral| dihedral.sure_turn(mesh));
-        (turn > low_deg as f32).then_some(Fold { edge: edge as u32, turn })
+        let turn = dihedral.map_or_else(|| turn_degrees(cosine), |dihedral| dihedral.sure_turn(mesh));
+        (turn > low_deg as f32).then_some(CreaseCandidate { edge: edge as u32, turn })
     };
     let chunks = mesh.edges.len().div_ceil(CHUNK);
-    let found: Vec<Vec<Fold>> = (0..chunks)
+    let found: Vec<Vec<CreaseCandidate>> = (0..chunks)
         .into_par_iter()
         .with_max_len(1)
         .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(fold).collect())
         .collect();
-    joined(&found)
+    concatenate(&found)
 }
 
-impl<'a> Folds<'a> {
+impl<'a> CreaseCandidates<'a> {
     /// Keeps the candidates that share a vertex with one that turns by at most `high_deg` degrees.
-    /// [`Self::going_on`] needs no others, and most machined parts have few of them or none.
-    pub fn around_faint(mesh: &'a Mesh, mut folds: Vec<Fold>, high_deg: f64) -> Self {
-        let ends = |f: &Fold| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
-        let faint: Vec<&Fold> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
+    /// [`Self::extensions`] needs no others, and most machined parts have few of them or none.
+    pub fn near_weak_edges(mesh: &'a Mesh, mut folds: Vec<CreaseCandidate>, high_deg: f64) -> Self {
+        let ends = |f: &CreaseCandidate| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
+        let faint: Vec<&CreaseCandidate> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
         if faint.is_empty() {
             return Self::new(mesh, Vec::new());
         }
@@ -98,18 +98,18 @@ impl<'a> Folds<'a> {
     }
 
     /// Sorts candidate ends by vertex.
-    pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
-        let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
-        let of_fold = |(fold, id): (&Fold, u32)| {
+    pub fn new(mesh: &'a Mesh, folds: Vec<CreaseCandidate>) -> Self {
+        let vertices = |f: &CreaseCandidate| mesh.edges.vertices[f.edge as usize];
+        let of_fold = |(fold, id): (&CreaseCandidate, u32)| {
             let [a, b] = vertices(fold);
             [(a as usize, id << 1), (b as usize, id << 1 | 1)]
         };
-        let ends = grouped_pairs(mesh.positions.len(), folds.iter().zip(0..).flat_map(of_fold));
+        let ends = csr_lists_from_pairs(mesh.positions.len(), folds.iter().zip(0..).flat_map(of_fold));
         Self { mesh, folds, ends }
     }
 
     /// The maximal chains that contain a candidate of more than `high_deg` degrees.
-    pub fn chains(&self, high_deg: f64) -> Vec<Chain> {
+    pub fn chains(&self, high_deg: f64) -> Vec<CreaseChain> {
         let links = self.links();
         let mut taken = vec![false; self.folds.len()];
         let mut chains = Vec::new();
@@ -128,7 +128,7 @@ impl<'a> Folds<'a> {
             chain.push(seed);
             chain.append(&mut ahead);
             let bends = chain.len() - usize::from(!closed);
-            chains.push(Chain {
+            chains.push(CreaseChain {
                 straightness: if bends == 0 { 1.0 } else { cosines / bends as f64 },
                 folds: chain.into_iter().map(|i| self.folds[i]).collect(),
                 closed,
@@ -142,7 +142,7 @@ impl<'a> Folds<'a> {
     /// Starts at ends of candidates of more than `high_deg` degrees where no other such candidate ends.
     /// Follows paired candidates to the first vertex where one ends. An end that reaches none is not
     /// extended.
-    pub fn going_on(&self, high_deg: f64) -> Vec<usize> {
+    pub fn extensions(&self, high_deg: f64) -> Vec<usize> {
         let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
         // Skips the candidate that leads to this end.
         let meets = |end: u32| {
@@ -169,7 +169,7 @@ impl<'a> Folds<'a> {
     fn links(&self) -> Vec<Option<(u32, f32)>> {
         const CHUNK: usize = 1 << 12;
         let vertices = self.ends.count();
-        let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
+        let found: Vec<Vec<EndPair>> = (0..vertices.div_ceil(CHUNK))
             .into_par_iter()
             .with_max_len(1)
             .map(|k| {
@@ -179,7 +179,7 @@ impl<'a> Folds<'a> {
             })
             .collect();
         let mut links = vec![None; 2 * self.folds.len()];
-        for Pair { ends: [a, b], cosine, .. } in found.into_iter().flatten() {
+        for EndPair { ends: [a, b], cosine, .. } in found.into_iter().flatten() {
             links[a as usize] = Some((b, cosine as f32));
             links[b as usize] = Some((a, cosine as f32));
         }
@@ -187,12 +187,12 @@ impl<'a> Folds<'a> {
     }
 
     /// Adds the pairs of ends at a vertex that continue each other.
-    fn pair_up(&self, vertex: usize, pairs: &mut Vec<Pair>) {
+    fn pair_up(&self, vertex: usize, pairs: &mut Vec<EndPair>) {
         let ends = self.ends.of(vertex);
-        if !(2..=TIP).contains(&ends.len()) {
+        if !(2..=MAX_JUNCTION_EDGES).contains(&ends.len()) {
             return;
         }
-        let least = if ends.len() == 2 { BEND_COSINE } else { JUNCTION_COSINE };
+        let least = if ends.len() == 2 { MIN_CHAIN_COSINE } else { MIN_JUNCTION_COSINE };
         let mut candidates = Vec::new();
         for (i, a) in ends.iter().enumerate() {
             for b in &ends[i + 1..] {
@@ -211,7 +211,7 @@ impl<'a> Folds<'a> {
     }
 
     /// Two ends at one vertex as a pair, if one continues the other.
-    fn pair(&self, a: u32, b: u32, least: f64) -> Option<Pair> {
+    fn pair(&self, a: u32, b: u32, least: f64) -> Option<EndPair> {
         let cosine = -self.away(a).dot(self.away(b));
         if cosine < least || !self.same_bend(a, b) {
             return None;
@@ -219,7 +219,7 @@ impl<'a> Folds<'a> {
         let [s, t] = [a, b].map(|end| f64::from(self.folds[(end >> 1) as usize].turn));
         let middle = [a, b].map(|end| self.mesh.positions[self.vertex(end ^ 1)]);
         let place = (middle[0] + middle[1]).dot(DVec3::new(1.0, 0.618, 0.414));
-        Some(Pair { ends: [a, b], cosine, rank: cosine * s.min(t) / s.max(t), place })
+        Some(EndPair { ends: [a, b], cosine, rank: cosine * s.min(t) / s.max(t), place })
     }
 
     fn vertex(&self, end: u32) -> usize {
@@ -244,7 +244,7 @@ impl<'a> Folds<'a> {
     fn bend(&self, end: u32) -> (f64, DVec3) {
         let fold = self.folds[(end >> 1) as usize];
         let Some(dihedral) = Dihedral::at(self.mesh, fold.edge as usize) else { return (0.0, DVec3::ZERO) };
-        if fold.turn > FLAPPED_DEG {
+        if fold.turn > MAX_SIGNED_TURN_DEG {
             return (0.0, DVec3::ZERO);
         }
         let [a, b] = dihedral.normals(self.mesh);
@@ -272,7 +272,7 @@ fn walk(links: &[Option<(u32, f32)>], from: u32, taken: &mut [bool]) -> (Vec<usi
 }
 
 /// Two candidate ends at one vertex.
-struct Pair {
+struct EndPair {
     ends: [u32; 2],
     /// Cosine of the bend between them.
     cosine: f64,
@@ -282,7 +282,7 @@ struct Pair {
     place: f64,
 }
 
-impl Pair {
+impl EndPair {
     /// The end paired with `end`.
     fn other(&self, end: u32) -> Option<u32> {
         let [a, b] = self.ends;
@@ -311,10 +311,14 @@ mod tests {
         let mut walked = 0;
         for (seed, height) in (0..60).zip([0.2, 0.5, 0.8, 1.2, 2.0].into_iter().cycle()) {
             let mesh = rough_sheet(seed, height);
-            let turns = Turns::of(&mesh);
+            let turns = DihedralCosines::of(&mesh);
             let all = folds(&mesh, &turns, 20.0);
-            let expected = Folds::new(&mesh, all.clone()).going_on(40.0);
-            assert_eq!(Folds::around_faint(&mesh, all, 40.0).going_on(40.0), expected, "{seed}");
+            let expected = CreaseCandidates::new(&mesh, all.clone()).extensions(40.0);
+            assert_eq!(
+                CreaseCandidates::near_weak_edges(&mesh, all, 40.0).extensions(40.0),
+                expected,
+                "{seed}"
+            );
             walked += expected.len();
         }
         assert!(walked > 100, "{walked}");

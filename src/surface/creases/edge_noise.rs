@@ -1,51 +1,51 @@
-//! [`Roughness`]: noise of the turns at the edges around a chain.
+//! [`EdgeNoise`]: noise of the turns at the edges around a chain.
 //!
 //! The median of absolute turns estimates the spread of noise and is robust against a few feature edges
 //! (Huber and Ronchetti, "Robust Statistics"). The lower quartile is a second estimate. Noise affects every
 //! edge, so both agree there. A tessellated cylinder turns at two of three edges and is flat at its
 //! diagonals, so its quartile is 0. The result is the geometric mean of both estimates.
 
-use super::crease_chains::Chain;
+use super::crease_chains::CreaseChain;
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::normals::dihedral::Dihedral;
-use crate::mesh::{FirstEdges, Mesh, Turns};
+use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 
 /// Standard deviation of a normal distribution, in medians of its absolute values.
-const DEVIATION_OF_MEDIAN: f64 = 1.4826;
+const DEVIATIONS_PER_MEDIAN: f64 = 1.4826;
 
 /// Standard deviation of a normal distribution, in lower quartiles of its absolute values.
-const DEVIATION_OF_QUARTILE: f64 = 3.1383;
+const DEVIATIONS_PER_QUARTILE: f64 = 3.1383;
 
 /// Maximum number of edges of a chain that are sampled. Longer chains are sampled evenly.
-const SAMPLES: usize = 64;
+const MAX_CHAIN_SAMPLES: usize = 64;
 
 /// Estimates the noise around chains of a mesh.
-pub(crate) struct Roughness<'a> {
+pub(crate) struct EdgeNoise<'a> {
     mesh: &'a Mesh,
-    turns: &'a Turns,
-    edges: FirstEdges<'a>,
+    turns: &'a DihedralCosines,
+    edges: VertexEdges<'a>,
     /// Edges that turn by more than the angle of this cosine are features, not noise.
     high_cosine: f32,
 }
 
 /// Noise and edge length around a chain.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Around {
+pub(crate) struct NoiseEstimate {
     /// Standard deviation of the turns, degrees; 0 where the surface is flat.
     pub deviation: f64,
     /// Median length of the edges, world units.
     pub edge_length: f64,
 }
 
-impl<'a> Roughness<'a> {
-    pub fn new(mesh: &'a Mesh, turns: &'a Turns, high_deg: f64) -> Self {
-        let edges = FirstEdges::of(&mesh.edges, mesh.positions.len());
+impl<'a> EdgeNoise<'a> {
+    pub fn new(mesh: &'a Mesh, turns: &'a DihedralCosines, high_deg: f64) -> Self {
+        let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
         Self { mesh, turns, edges, high_cosine: cos(high_deg.to_radians()) as f32 }
     }
 
     /// Samples the edges of the faces next to a chain and of their neighbours. Edges of the chain and other
     /// sharp edges are left out of the noise estimate.
-    pub fn around(&self, chain: &Chain) -> Around {
+    pub fn around(&self, chain: &CreaseChain) -> NoiseEstimate {
         let mut own: Vec<u32> = chain.folds.iter().map(|f| f.edge).collect();
         own.sort_unstable();
         let (mut cosines, mut lengths) = (Vec::new(), Vec::new());
@@ -56,7 +56,7 @@ impl<'a> Roughness<'a> {
                 cosines.push(f64::from(-cosine));
             }
         };
-        for fold in chain.folds.iter().step_by(chain.folds.len().div_ceil(SAMPLES)) {
+        for fold in chain.folds.iter().step_by(chain.folds.len().div_ceil(MAX_CHAIN_SAMPLES)) {
             let Some(dihedral) = self.turns.dihedral(self.mesh, fold.edge as usize) else { continue };
             for face in dihedral.faces {
                 for (edge, beside) in self.sides(face, fold.edge as usize) {
@@ -69,8 +69,8 @@ impl<'a> Roughness<'a> {
         // Cosines are negated: a smaller cosine is a larger turn.
         let mut turn = |share| quantile(&mut cosines, share).map_or(0.0, |c| acos(-c).to_degrees());
         let (median, quartile) = (turn(2), turn(4));
-        Around {
-            deviation: (DEVIATION_OF_MEDIAN * median * DEVIATION_OF_QUARTILE * quartile).sqrt(),
+        NoiseEstimate {
+            deviation: (DEVIATIONS_PER_MEDIAN * median * DEVIATIONS_PER_QUARTILE * quartile).sqrt(),
             edge_length: quantile(&mut lengths, 2).map_or(0.0, f64::sqrt),
         }
     }

@@ -10,33 +10,33 @@
 
 use crate::parallel::prelude::*;
 
-use super::crease_chains::{Chain, Fold, Folds, folds};
-use super::edge_noise::Roughness;
+use super::crease_chains::{CreaseCandidate, CreaseCandidates, CreaseChain, folds};
+use super::edge_noise::EdgeNoise;
 use super::sliver_creases::wrinkles;
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::normals::dihedral::{Dihedral, is_unfolded_diagonal, mark};
-use crate::mesh::{EdgeMark, Mesh, Turns};
+use crate::mesh::{DihedralCosines, EdgeMark, Mesh};
 
 /// Low threshold as a share of the high one: a crease continues where it turns by more than this.
-pub const LOW_OF_HIGH: f64 = 0.5;
+pub const LOW_THRESHOLD_OF_HIGH: f64 = 0.5;
 
-/// Minimum of n²·t/σ for a chain to be a crease (see `stands_out`). One right angle reaches it where the
+/// Minimum of n²·t/σ for a chain to be a crease (see `is_significant`). One right angle reaches it where the
 /// surface around is flat within a degree. On a scan whose triangles turn by about ten degrees at random,
 /// five straight edges of 40 degrees reach it.
-const EVIDENCE: f64 = 80.0;
+const MIN_CHAIN_EVIDENCE: f64 = 80.0;
 
 /// Mean turn, in standard deviations of the noise, that counts in full.
-const CLEAR: f64 = 4.0;
+const MIN_TURN_DEVIATIONS: f64 = 4.0;
 
 /// Factor on the length of a closed chain.
-const LOOP: f64 = 2.0;
+const CLOSED_CHAIN_FACTOR: f64 = 2.0;
 
 /// Maximum number of edges that a chain counts for, per median edge length around it.
-const TINY: f64 = 2.0;
+const TINY_EDGE_FACTOR: f64 = 2.0;
 
 /// Turns are capped at this many degrees: folded slivers of scans turn by 180.
-const FULL_TURN_DEG: f64 = 90.0;
+const MAX_COUNTED_TURN_DEG: f64 = 90.0;
 
 /// Edges where the surface is creased: one flag per edge of a mesh.
 ///
@@ -52,32 +52,32 @@ impl HardEdges {
     /// Finds creases as chains.
     ///
     /// A chain is a crease if it has an edge that turns by more than `crease_deg` degrees and stands out from
-    /// the noise around it. It continues where it turns by more than half of that ([`LOW_OF_HIGH`]). Where
+    /// the noise around it. It continues where it turns by more than half of that ([`LOW_THRESHOLD_OF_HIGH`]). Where
     /// the surface around is flat, one edge is enough. On rougher surfaces a crease must be longer and
     /// straighter.
     ///
     /// Edge marks of the file take precedence.
     #[must_use]
     pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
-        Self::find_with(mesh, &Turns::of(mesh), crease_deg, |_| true)
+        Self::find_with(mesh, &DihedralCosines::of(mesh), crease_deg, |_| true)
     }
 
     /// Same as [`Self::find`], among the two-face edges whose first face satisfies `is_asked`.
     pub(crate) fn find_with(
         mesh: &Mesh,
-        turns: &Turns,
+        turns: &DihedralCosines,
         crease_deg: f64,
         is_asked: impl Fn(u32) -> bool,
     ) -> Self {
-        let mut folds = folds(mesh, turns, LOW_OF_HIGH * crease_deg);
+        let mut folds = folds(mesh, turns, LOW_THRESHOLD_OF_HIGH * crease_deg);
         folds.retain(|fold| is_asked(mesh.edges.faces(fold.edge as usize).list()[0]));
-        let folds = Folds::new(mesh, folds);
+        let folds = CreaseCandidates::new(mesh, folds);
         let chains = folds.chains(crease_deg);
-        let roughness = Roughness::new(mesh, turns, crease_deg);
-        let kept: Vec<&Chain> = chains
+        let roughness = EdgeNoise::new(mesh, turns, crease_deg);
+        let kept: Vec<&CreaseChain> = chains
             .par_iter()
             .with_max_len(8)
-            .filter(|c| stands_out(mesh, c, crease_deg, &roughness))
+            .filter(|c| is_significant(mesh, c, crease_deg, &roughness))
             .collect();
         let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));
         Self::of_edges(mesh, edges).with_marks(mesh)
@@ -86,10 +86,10 @@ impl HardEdges {
     /// Every edge that turns by more than `crease_deg` degrees, and those that the file marks.
     #[must_use]
     pub fn above(mesh: &Mesh, crease_deg: f64) -> Self {
-        Self::above_with(mesh, &Turns::of(mesh), crease_deg)
+        Self::above_with(mesh, &DihedralCosines::of(mesh), crease_deg)
     }
 
-    pub(crate) fn above_with(mesh: &Mesh, turns: &Turns, crease_deg: f64) -> Self {
+    pub(crate) fn above_with(mesh: &Mesh, turns: &DihedralCosines, crease_deg: f64) -> Self {
         Self::of_edges(mesh, folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
     }
 
@@ -98,20 +98,21 @@ impl HardEdges {
     /// Extensions continue a crease to the next line through edges that turn by more than `low_deg` degrees.
     /// They are sought only among edges that satisfy `goes_on`. The second result holds edges that are sharp
     /// only because of a sliver; they are no creases.
-    pub(crate) fn above_and_on(
+    pub(crate) fn above_with_extensions(
         mesh: &Mesh,
-        turns: &Turns,
+        turns: &DihedralCosines,
         [crease_deg, low_deg]: [f64; 2],
         goes_on: impl Fn(usize) -> bool + Sync,
     ) -> (Self, EdgeSet) {
         let folds = folds(mesh, turns, low_deg);
         let cosine = cos(crease_deg.to_radians()) as f32;
         // The same comparison as in `above`: by cosine and by angle.
-        let is_above = |f: &Fold| f.turn > crease_deg as f32 && turns.at(mesh, f.edge as usize) < cosine;
+        let is_above =
+            |f: &CreaseCandidate| f.turn > crease_deg as f32 && turns.at(mesh, f.edge as usize) < cosine;
         let all = folds.par_iter().with_min_len(1 << 10);
         let mut edges: Vec<usize> = all.clone().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
         let folds = all.filter(|f| goes_on(f.edge as usize)).copied().collect();
-        edges.extend(Folds::around_faint(mesh, folds, crease_deg).going_on(crease_deg));
+        edges.extend(CreaseCandidates::near_weak_edges(mesh, folds, crease_deg).extensions(crease_deg));
         edges.par_sort_unstable();
         edges.dedup();
         let mut wrinkles = wrinkles(mesh, turns, crease_deg, &edges);
@@ -130,7 +131,7 @@ impl HardEdges {
     /// These edges as edges of a derived mesh with `count` edges. `ids` maps the edges of this mesh to it,
     /// with `u32::MAX` for edges that are gone.
     #[must_use]
-    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
+    pub fn remapped(&self, ids: &[u32], count: usize) -> Self {
         if self.is_empty() {
             return Self::none();
         }
@@ -225,7 +226,7 @@ fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// Whether a chain is a feature rather than noise: n²·t/σ is at least [`EVIDENCE`].
+/// Whether a chain is a feature rather than noise: n²·t/σ is at least [`MIN_CHAIN_EVIDENCE`].
 ///
 /// n is the length in edges and σ the standard deviation of the turns around the chain. t is the mean turn,
 /// stretched so that the low threshold counts as 0 and the high threshold as itself.
@@ -233,18 +234,18 @@ fn count(bits: &[u64]) -> usize {
 /// The mean of n noisy turns has a deviation of σ/√n only. Noise also does not run straight: most noisy
 /// chains end after two or three edges. Length therefore counts more than sharpness. Chains whose mean turn
 /// is within a few deviations of zero can be noise, so they count less.
-fn stands_out(mesh: &Mesh, chain: &Chain, crease_deg: f64, roughness: &Roughness) -> bool {
+fn is_significant(mesh: &Mesh, chain: &CreaseChain, crease_deg: f64, roughness: &EdgeNoise) -> bool {
     let around = roughness.around(chain);
     let n = chain.folds.len() as f64;
-    let most = FULL_TURN_DEG.max(crease_deg);
+    let most = MAX_COUNTED_TURN_DEG.max(crease_deg);
     let mean = chain.folds.iter().map(|f| f64::from(f.turn).min(most)).sum::<f64>() / n;
-    let turn = (mean - LOW_OF_HIGH * crease_deg).max(0.0) / (1.0 - LOW_OF_HIGH);
+    let turn = (mean - LOW_THRESHOLD_OF_HIGH * crease_deg).max(0.0) / (1.0 - LOW_THRESHOLD_OF_HIGH);
     let ends = chain.folds.iter().map(|f| mesh.edges.vertices[f.edge as usize]);
     let length: f64 =
         ends.map(|[a, b]| mesh.positions[a as usize].distance(mesh.positions[b as usize])).sum();
     // Many tiny edges count as one edge of their total length.
-    let edges = (TINY * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
-    let straight = edges * chain.straightness * if chain.closed { LOOP } else { 1.0 };
-    let clear = (turn / (CLEAR * around.deviation).max(f64::MIN_POSITIVE)).min(1.0);
-    straight * straight * turn * clear * clear >= EVIDENCE * around.deviation
+    let edges = (TINY_EDGE_FACTOR * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
+    let straight = edges * chain.straightness * if chain.closed { CLOSED_CHAIN_FACTOR } else { 1.0 };
+    let clear = (turn / (MIN_TURN_DEVIATIONS * around.deviation).max(f64::MIN_POSITIVE)).min(1.0);
+    straight * straight * turn * clear * clear >= MIN_CHAIN_EVIDENCE * around.deviation
 }

@@ -10,14 +10,14 @@ use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{Dihedral, FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Distance of both thresholds from the crease angle, as a share of that angle.
-const MEMORY: f64 = 0.125;
+const HYSTERESIS_OF_CREASE: f64 = 0.125;
 
 /// Hysteresis thresholds, degrees.
 #[derive(Debug, Clone, Copy)]
-struct Thresholds {
+struct HysteresisThresholds {
     lower: f32,
     middle: f32,
     upper: f32,
@@ -30,7 +30,7 @@ struct Thresholds {
 ///
 /// `before` yields the mesh at earlier moments, latest first. Only as many are taken as the decision needs.
 /// Edges that stay undecided are creases if they turn by more than `crease_deg` now.
-pub fn bent(
+pub fn pose_creases(
     rest: &Mesh,
     posed: &Mesh,
     crease_deg: f64,
@@ -38,13 +38,17 @@ pub fn bent(
     before: impl Iterator<Item = Mesh>,
 ) -> Vec<usize> {
     let at = |share: f64| (crease_deg * share) as f32;
-    let thresholds = Thresholds { lower: at(1.0 - MEMORY), middle: at(1.0), upper: at(1.0 + MEMORY) };
+    let thresholds = HysteresisThresholds {
+        lower: at(1.0 - HYSTERESIS_OF_CREASE),
+        middle: at(1.0),
+        upper: at(1.0 + HYSTERESIS_OF_CREASE),
+    };
     let least = cos(f64::from(thresholds.lower.min(180.0)).to_radians()) as f32;
     // Nearly all edges are ruled out by their cosine.
     let turns = |edge: &usize| {
         may(*edge) && Dihedral::at(posed, *edge).is_some_and(|dihedral| dihedral.cosine < least)
     };
-    let asked = (0..posed.edges.len()).into_par_iter().with_min_len(GRAIN).filter(turns);
+    let asked = (0..posed.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(turns);
     let bends: Vec<(usize, f32)> = asked.filter_map(|edge| Some((edge, bend(rest, posed, edge)?))).collect();
     let (mut creased, mut open) = (Vec::new(), Vec::new());
     for (edge, now) in bends {
@@ -70,7 +74,7 @@ pub fn bent(
     creased
 }
 
-impl Thresholds {
+impl HysteresisThresholds {
     /// Whether an edge is a crease, or `None` if that depends on its earlier state.
     fn decide(&self, bend: f32) -> Option<bool> {
         match (bend.partial_cmp(&self.upper), bend.partial_cmp(&self.lower)) {
@@ -121,7 +125,7 @@ mod tests {
 
     fn count(rest: f64, now: f64, before: &[f64]) -> usize {
         let before = before.iter().map(|degrees| hinge(*degrees));
-        bent(&hinge(rest), &hinge(now), 40.0, |_| true, before).len()
+        pose_creases(&hinge(rest), &hinge(now), 40.0, |_| true, before).len()
     }
 
     #[test]

@@ -10,21 +10,26 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::components::disjoint_sets::Groups;
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::components::disjoint_sets::DisjointSets;
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum aspect ratio (length to width) of a sliver.
-const SLIVER: f64 = 6.0;
+const SLIVER_ASPECT: f64 = 6.0;
 /// Minimum cosine (one degree) between two faces of one sliver.
-const FLAT_COSINE: f32 = 0.999_85;
+const MIN_SLIVER_COSINE: f32 = 0.999_85;
 /// Maximum number of faces in a sliver.
-const MOST: usize = 8;
+const MAX_SLIVER_FACES: usize = 8;
 /// The edges of `creases` (ascending) that are caused only by slivers, ascending.
 ///
 /// The surface around such a sliver turns by less than `crease_deg` degrees. Lines that connect to other
 /// creases are kept.
-pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[usize]) -> Vec<usize> {
+pub(crate) fn wrinkles(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    crease_deg: f64,
+    creases: &[usize],
+) -> Vec<usize> {
     let least = cos(crease_deg.to_radians()) as f32;
     let beside = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces, .. } => faces.map(|face| wrinkle(mesh, turns, least, face)),
@@ -34,7 +39,7 @@ pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
         return Vec::new();
     }
     let lines = lines(mesh, creases);
-    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     // The first edge of a line already rules out most lines.
     let may = |k: u32| lines.of(k) == k && beside(creases[k as usize]) != [None; 2];
     let may: Vec<bool> = all.clone().map(may).collect();
@@ -44,7 +49,7 @@ pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
     // All edges of a line must touch the same sliver, which has at most three edges per face.
     let is_wrinkle = |line: &&[(u32, u32)]| {
         let mut edges = line.iter().map(|(_, k)| creases[*k as usize]);
-        let Some(first) = edges.next().filter(|_| line.len() <= 3 * MOST) else { return false };
+        let Some(first) = edges.next().filter(|_| line.len() <= 3 * MAX_SLIVER_FACES) else { return false };
         let mut shared = beside(first);
         for edge in edges {
             if shared == [None; 2] {
@@ -65,20 +70,20 @@ pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
 }
 
 /// Groups creases that are connected at their ends.
-fn lines(mesh: &Mesh, creases: &[usize]) -> Groups {
+fn lines(mesh: &Mesh, creases: &[usize]) -> DisjointSets {
     let ends = |k: u32| mesh.edges.vertices[creases[k as usize]].map(|vertex| vertex as usize);
-    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     // Any crease at a vertex can represent it, because all of them are joined to it.
     let one_at: Vec<AtomicU32> = (0..mesh.positions.len()).map(|_| AtomicU32::new(0)).collect();
     all.clone().for_each(|k| ends(k).iter().for_each(|vertex| one_at[*vertex].store(k, Relaxed)));
-    Groups::new(creases.len(), |join| {
+    DisjointSets::new(creases.len(), |join| {
         all.for_each(|k| ends(k).iter().for_each(|vertex| join(k, one_at[*vertex].load(Relaxed))));
     })
 }
 
 /// The smallest face id of the sliver that contains `face`. `None` unless all faces around the sliver turn
 /// into each other by less than the angle of cosine `least`.
-fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
+fn wrinkle(mesh: &Mesh, turns: &DihedralCosines, least: f32, face: u32) -> Option<u32> {
     let mut own = vec![face];
     // Normals of the faces around, as seen from the front of the sliver.
     let mut around: Vec<[f32; 3]> = Vec::new();
@@ -100,8 +105,8 @@ fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
             if own.contains(&other) {
                 continue;
             }
-            if turns.of_two(edge) > FLAT_COSINE && !same_way {
-                if own.len() == MOST {
+            if turns.of_two(edge) > MIN_SLIVER_COSINE && !same_way {
+                if own.len() == MAX_SLIVER_FACES {
                     return None;
                 }
                 own.push(other);
@@ -122,5 +127,5 @@ fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
     let corners =
         || own.iter().flat_map(|face| mesh.triangles[*face as usize]).map(|v| mesh.positions[v as usize]);
     let longest = corners().flat_map(|p| corners().map(move |q| p.distance_squared(q))).fold(0.0, f64::max);
-    (longest > SLIVER * 2.0 * area).then(|| own.iter().copied().min()).flatten()
+    (longest > SLIVER_ASPECT * 2.0 * area).then(|| own.iter().copied().min()).flatten()
 }

@@ -6,29 +6,29 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::principal_curvatures::{Principal, in_axes, turned};
-use super::vertex_fans::{Fans, sides};
+use super::principal_curvatures::{PrincipalCurvatures, in_axes, turned};
+use super::vertex_fans::{VertexFans, sides};
 use crate::geometry::numbers::linear_solver::solve;
 use crate::mesh::{FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 
 /// Derivatives along the principal directions, entries 111, 112, 122, 222.
 pub(crate) fn derivative(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    fans: &Fans,
+    fans: &VertexFans,
     normals: &[DVec3],
-    principal: &[Principal],
+    principal: &[PrincipalCurvatures],
 ) -> Vec<[f64; 4]> {
     let of_faces: Vec<[f64; 4]> = (0..smooth.corners.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|face| of_face(mesh, smooth, fans, normals, principal, face).unwrap_or_default())
         .collect();
     (0..smooth.vertices.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|vertex| {
             let axes = [principal[vertex].dir1, principal[vertex].dir2];
             let (mut sum, mut area) = ([0.0; 4], 0.0);
@@ -49,9 +49,9 @@ pub(crate) fn derivative(
 fn of_face(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    fans: &Fans,
+    fans: &VertexFans,
     normals: &[DVec3],
-    principal: &[Principal],
+    principal: &[PrincipalCurvatures],
     face: usize,
 ) -> Option<[f64; 4]> {
     if !fans.holds(face) {

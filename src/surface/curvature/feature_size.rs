@@ -9,32 +9,32 @@
 
 use crate::parallel::prelude::*;
 
-use super::principal_curvatures::Principal;
-use super::vertex_fans::Fans;
+use super::principal_curvatures::PrincipalCurvatures;
+use super::vertex_fans::VertexFans;
 use crate::mesh::{Mesh, PartId};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Share of the surface, by area, that may be flatter than the measured curvature.
-const FLATTER: f64 = 0.1;
+const FLAT_AREA_QUANTILE: f64 = 0.1;
 
 /// Feature size, as a share of the radius of that curvature.
-const OF_RADIUS: f64 = 0.01;
+const FEATURE_OF_RADIUS: f64 = 0.01;
 
 /// Maximum feature size, as a share of the part.
-pub const MOST_OF_PART: f64 = 0.025;
+pub const MAX_FEATURE_OF_PART: f64 = 0.025;
 
 /// Feature size of each part, world units. It scales with the part. Curvature thresholds are multiples of its
 /// inverse; thresholds on derivatives are multiples of its inverse square. `part_of` has one part per smooth
 /// vertex.
 pub(crate) fn feature_sizes(
     mesh: &Mesh,
-    fans: &Fans,
-    principal: &[Principal],
+    fans: &VertexFans,
+    principal: &[PrincipalCurvatures],
     part_of: &[PartId],
 ) -> Vec<f64> {
     let mut bends: Vec<(PartId, f64, f64)> = principal
         .par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .enumerate()
         .flat_map_iter(|(vertex, p)| {
             let (part, area) = (part_of[vertex], fans.area(vertex));
@@ -46,7 +46,7 @@ pub(crate) fn feature_sizes(
     let mut sizes = vec![0.0; bends.last().map_or(0, |last| last.0.index() + 1)];
     for of_part in bends.chunk_by(|a, b| a.0 == b.0) {
         let part = of_part[0].0;
-        sizes[part.index()] = feature_size(of_part, MOST_OF_PART * mesh.extents.of(part).scale);
+        sizes[part.index()] = feature_size(of_part, MAX_FEATURE_OF_PART * mesh.extents.of(part).scale);
     }
     sizes
 }
@@ -57,7 +57,7 @@ fn feature_size(bends: &[(PartId, f64, f64)], most: f64) -> f64 {
     let mut sum = 0.0;
     let flat = bends.iter().find(|bend| {
         sum += bend.2;
-        bend.2 > 0.0 && sum >= FLATTER * total
+        bend.2 > 0.0 && sum >= FLAT_AREA_QUANTILE * total
     });
-    flat.map_or(most, |(_, bend, _)| if *bend > 0.0 { (OF_RADIUS / bend).min(most) } else { most })
+    flat.map_or(most, |(_, bend, _)| if *bend > 0.0 { (FEATURE_OF_RADIUS / bend).min(most) } else { most })
 }

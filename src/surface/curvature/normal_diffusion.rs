@@ -10,24 +10,24 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::vertex_fans::Fans;
+use super::vertex_fans::VertexFans;
 use crate::mesh::PartId;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 
 /// Minimum weight of a term of the series.
-const LEAST_TERM: f64 = 2e-3;
+const MIN_CHEBYSHEV_WEIGHT: f64 = 2e-3;
 
 /// Maximum standard deviation of the smoothing, in typical edge lengths. It limits the run time; finer meshes
 /// are scanned more exactly.
-const MOST_EDGES: f64 = 4.0;
+const MAX_SMOOTHING_EDGES: f64 = 4.0;
 
 /// Unit normals smoothed with a Gaussian. `length` returns its standard deviation for each part, world units,
-/// limited to [`MOST_EDGES`]. Normals stay unchanged where edges are as long as that. `part_of` has one part
+/// limited to [`MAX_SMOOTHING_EDGES`]. Normals stay unchanged where edges are as long as that. `part_of` has one part
 /// per smooth vertex.
 pub(crate) fn diffuse(
     smooth: &SmoothNormals,
-    fans: &Fans,
+    fans: &VertexFans,
     part_of: &[PartId],
     length: impl Fn(PartId) -> f64,
 ) -> Vec<DVec3> {
@@ -49,7 +49,7 @@ pub(crate) fn diffuse(
         }
         // On regular triangles, one step has a variance of a third of the squared edge length in each
         // direction.
-        let steps = 3.0 * (length * length / edge2).min(MOST_EDGES * MOST_EDGES);
+        let steps = 3.0 * (length * length / edge2).min(MAX_SMOOTHING_EDGES * MAX_SMOOTHING_EDGES);
         weights(steps / 2.0)
     };
     let weights_of: Vec<Vec<f64>> = edge2_of.iter().enumerate().map(weights_of).collect();
@@ -57,8 +57,8 @@ pub(crate) fn diffuse(
     if terms == 1 {
         return smooth.normals.clone();
     }
-    let usual = |face: usize| edge2_of[part_of_face(face)] / EDGE2_OF_AREA;
-    let mut flow = Flow::new(smooth, fans, &areas, usual);
+    let usual = |face: usize| edge2_of[part_of_face(face)] / SQUARED_EDGE_PER_AREA;
+    let mut flow = HeatFlow::new(smooth, fans, &areas, usual);
     // A vertex in no fan stays unchanged.
     let weight = |vertex: usize, k: usize| {
         let weights = weights_of.get(part_of[vertex].index());
@@ -72,14 +72,14 @@ pub(crate) fn diffuse(
         flow.step(&now, &mut before, &mut sum, factor, |vertex| weight(vertex, k));
         std::mem::swap(&mut now, &mut before);
     }
-    sum.par_iter_mut().with_min_len(GRAIN).for_each(|normal| *normal = normal.normalize_or_zero());
+    sum.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|normal| *normal = normal.normalize_or_zero());
     sum
 }
 
 /// One smoothing step S, with its data.
-struct Flow<'a> {
+struct HeatFlow<'a> {
     smooth: &'a SmoothNormals,
-    fans: &'a Fans,
+    fans: &'a VertexFans,
     /// Effective area of each face. Large faces count only in part, so that the smoothing length is the same
     /// everywhere.
     parts: Vec<f64>,
@@ -89,13 +89,18 @@ struct Flow<'a> {
     means: Vec<DVec3>,
 }
 
-impl<'a> Flow<'a> {
-    fn new(smooth: &'a SmoothNormals, fans: &'a Fans, areas: &[f64], usual: impl Fn(usize) -> f64) -> Self {
+impl<'a> HeatFlow<'a> {
+    fn new(
+        smooth: &'a SmoothNormals,
+        fans: &'a VertexFans,
+        areas: &[f64],
+        usual: impl Fn(usize) -> f64,
+    ) -> Self {
         let part = |(face, area): (usize, &f64)| if *area > 0.0 { area.min(usual(face)) } else { 0.0 };
         let parts: Vec<f64> = areas.iter().enumerate().map(part).collect();
         let around = (0..smooth.normals.len())
             .into_par_iter()
-            .with_min_len(GRAIN)
+            .with_min_len(MIN_TASK_ITEMS)
             .map(|vertex| {
                 let (mut taken, mut all) = (0.0, 0.0);
                 for (face, _) in fans.around(vertex) {
@@ -120,25 +125,27 @@ impl<'a> Flow<'a> {
         weight: impl Fn(usize) -> f64 + Sync,
     ) {
         let (smooth, fans, parts, around) = (self.smooth, self.fans, &self.parts, &self.around);
-        self.means.par_iter_mut().with_min_len(GRAIN).enumerate().for_each(|(face, mean)| {
+        self.means.par_iter_mut().with_min_len(MIN_TASK_ITEMS).enumerate().for_each(|(face, mean)| {
             if parts[face] > 0.0 {
                 let [a, b, c] = smooth.corners[face].map(|v| now[v as usize]);
                 *mean = (a + b + c) * (parts[face] / 3.0);
             }
         });
         let means = &self.means;
-        before.par_iter_mut().zip(sum).with_min_len(GRAIN).enumerate().for_each(|(vertex, (before, sum))| {
-            let whole: DVec3 = fans.around(vertex).map(|(face, _)| means[face]).sum();
-            let (inverse, rest) = around[vertex];
-            let step = whole * inverse + now[vertex] * rest;
-            *before = (step * 2.0 - now[vertex]) * factor - *before;
-            *sum += *before * weight(vertex);
-        });
+        before.par_iter_mut().zip(sum).with_min_len(MIN_TASK_ITEMS).enumerate().for_each(
+            |(vertex, (before, sum))| {
+                let whole: DVec3 = fans.around(vertex).map(|(face, _)| means[face]).sum();
+                let (inverse, rest) = around[vertex];
+                let step = whole * inverse + now[vertex] * rest;
+                *before = (step * 2.0 - now[vertex]) * factor - *before;
+                *sum += *before * weight(vertex);
+            },
+        );
     }
 }
 
 /// Squared edge of an equilateral triangle, divided by its area.
-const EDGE2_OF_AREA: f64 = 2.309_401_076_758_503;
+const SQUARED_EDGE_PER_AREA: f64 = 2.309_401_076_758_503;
 
 /// Squared edge of an equilateral triangle with the median area; 0 without triangles.
 fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
@@ -147,7 +154,7 @@ fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
     }
     let middle = sound.len() / 2;
     let (_, median, _) = sound.select_nth_unstable_by(middle, f64::total_cmp);
-    *median * EDGE2_OF_AREA
+    *median * SQUARED_EDGE_PER_AREA
 }
 
 /// Chebyshev coefficients of exp(−z (1 − x)): modified Bessel functions of z, by Miller's backward
@@ -165,7 +172,7 @@ fn weights(z: f64) -> Vec<f64> {
     bessel.iter_mut().skip(1).for_each(|b| *b *= 2.0);
     let sum: f64 = bessel.iter().sum();
     bessel.iter_mut().for_each(|b| *b /= sum);
-    while bessel.len() > 1 && bessel.last().is_some_and(|last| *last < LEAST_TERM) {
+    while bessel.len() > 1 && bessel.last().is_some_and(|last| *last < MIN_CHEBYSHEV_WEIGHT) {
         bessel.pop();
     }
     let sum: f64 = bessel.iter().sum();

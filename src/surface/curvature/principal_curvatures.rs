@@ -1,4 +1,4 @@
-//! [`Principal`]: principal curvatures at the smooth vertices of a mesh.
+//! [`PrincipalCurvatures`]: principal curvatures at the smooth vertices of a mesh.
 //!
 //! 1. A curvature tensor is fitted to each face, from the differences of the normals at its corners.
 //! 2. The tensors of the faces around a vertex are rotated into its tangent plane and averaged by Voronoi
@@ -10,15 +10,15 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::vertex_fans::{Fans, sides};
+use super::vertex_fans::{VertexFans, sides};
 use crate::geometry::numbers::linear_solver::solve;
 use crate::mesh::{FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 
 /// The principal curvatures at a point of a surface, and their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Principal {
+pub struct PrincipalCurvatures {
     /// Curvature of larger magnitude, per world unit; positive where the surface is convex, as on a sphere.
     pub k1: f64,
     /// Curvature of smaller magnitude, per world unit.
@@ -34,17 +34,17 @@ pub struct Principal {
 pub(crate) fn principal(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    fans: &Fans,
+    fans: &VertexFans,
     normals: &[DVec3],
-) -> Vec<Principal> {
+) -> Vec<PrincipalCurvatures> {
     let tensors: Vec<[f64; 3]> = (0..smooth.corners.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|face| tensor(mesh, smooth, fans, normals, face).unwrap_or_default())
         .collect();
     (0..smooth.vertices.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .map(|vertex| {
             let normal = normals[vertex];
             let u = normal.try_normalize().map_or(DVec3::ZERO, DVec3::any_orthonormal_vector);
@@ -58,7 +58,11 @@ pub(crate) fn principal(
                 (0..3).for_each(|i| sum[i] += own[i] * share);
                 area += share;
             }
-            if area > 0.0 { diagonal(sum.map(|entry| entry / area), axes) } else { Principal::default() }
+            if area > 0.0 {
+                diagonal(sum.map(|entry| entry / area), axes)
+            } else {
+                PrincipalCurvatures::default()
+            }
         })
         .collect()
 }
@@ -68,7 +72,7 @@ pub(crate) fn principal(
 fn tensor(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    fans: &Fans,
+    fans: &VertexFans,
     normals: &[DVec3],
     face: usize,
 ) -> Option<[f64; 3]> {
@@ -116,7 +120,7 @@ pub(crate) fn in_axes([a, b, c]: [f64; 3], old: [DVec3; 2], new: [DVec3; 2]) -> 
 }
 
 /// Eigenvalues and eigenvectors of a tensor given in axes.
-fn diagonal([a, b, c]: [f64; 3], [u, v]: [DVec3; 2]) -> Principal {
+fn diagonal([a, b, c]: [f64; 3], [u, v]: [DVec3; 2]) -> PrincipalCurvatures {
     let (mean, half) = ((a + c) / 2.0, (a - c) / 2.0);
     let spread = (half * half + b * b).sqrt();
     let (high, low) = (mean + spread, mean - spread);
@@ -126,8 +130,8 @@ fn diagonal([a, b, c]: [f64; 3], [u, v]: [DVec3; 2]) -> Principal {
     let across = v * x - u * y;
     let across = across.try_normalize().unwrap_or(v);
     if high.abs() >= low.abs() {
-        Principal { k1: high, k2: low, dir1: along, dir2: across }
+        PrincipalCurvatures { k1: high, k2: low, dir1: along, dir2: across }
     } else {
-        Principal { k1: low, k2: high, dir1: across, dir2: -along }
+        PrincipalCurvatures { k1: low, k2: high, dir1: across, dir2: -along }
     }
 }

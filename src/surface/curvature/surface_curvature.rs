@@ -1,14 +1,14 @@
 //! [`Curvature`]: principal curvatures of the curved surfaces of a mesh, and their derivatives.
 //!
-//! Source: Rusinkiewicz 2004 (see [`Principal`]). Here the normals are smoothed first (see `diffuse`).
+//! Source: Rusinkiewicz 2004 (see [`PrincipalCurvatures`]). Here the normals are smoothed first (see `diffuse`).
 
 use glam::DVec3;
 
 use super::curvature_derivative;
 use super::feature_size;
 use super::normal_diffusion::diffuse;
-use super::principal_curvatures::{Principal, principal};
-use super::vertex_fans::Fans;
+use super::principal_curvatures::{PrincipalCurvatures, principal};
+use super::vertex_fans::VertexFans;
 use crate::mesh::{Mesh, PartId};
 use crate::surface::SmoothNormals;
 
@@ -16,11 +16,11 @@ use crate::surface::SmoothNormals;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curvature {
     /// The faces around each smooth vertex.
-    pub fans: Fans,
+    pub fans: VertexFans,
     /// Smoothed unit normals, one per smooth vertex.
     pub normals: Vec<DVec3>,
     /// Principal curvatures, one per smooth vertex.
-    pub principal: Vec<Principal>,
+    pub principal: Vec<PrincipalCurvatures>,
     /// Derivative of the curvature tensor along `dir1` and `dir2`, per world unit squared, one per smooth
     /// vertex. The entries 111, 112, 122, 222 of a symmetric 2 × 2 × 2 tensor.
     pub derivative: Vec<[f64; 4]>,
@@ -34,7 +34,7 @@ impl Curvature {
     /// Measures a surface. Normals are smoothed over `smoothing` times the scale of each part.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
-        let fans = Fans::new(mesh, smooth);
+        let fans = VertexFans::new(mesh, smooth);
         let part_of = fans.bodies(mesh, smooth.vertices.len());
         let length = |part: PartId| smoothing * mesh.extents.of(part).scale;
         let normals = diffuse(smooth, &fans, &part_of, length);

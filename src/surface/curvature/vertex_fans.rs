@@ -1,11 +1,11 @@
-//! [`Fans`]: the curved faces around each smooth vertex, with their shares of area.
+//! [`VertexFans`]: the curved faces around each smooth vertex, with their shares of area.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::mesh::{FaceId, Mesh, PartId};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
@@ -13,8 +13,8 @@ use crate::surface::normals::smooth_normals::NO_NORMAL;
 ///
 /// Flat faces and faces without area are in no fan.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Fans {
-    corners: Grouped<u32>,
+pub struct VertexFans {
+    corners: CsrLists<u32>,
     /// One per face.
     pub(crate) frames: Vec<FaceFrame>,
 }
@@ -29,17 +29,17 @@ pub(crate) struct FaceFrame {
     pub areas: [f64; 3],
 }
 
-impl Fans {
+impl VertexFans {
     /// The fans of a mesh.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
         let faces = smooth.corners.len();
         let frames: Vec<FaceFrame> = (0..faces)
             .into_par_iter()
-            .with_min_len(GRAIN)
+            .with_min_len(MIN_TASK_ITEMS)
             .map(|face| FaceFrame::of(mesh, smooth, face).unwrap_or(FaceFrame::NONE))
             .collect();
-        let corners = grouped(smooth.vertices.len(), |put| {
+        let corners = csr_lists(smooth.vertices.len(), |put| {
             for face in (0..faces).filter(|face| frames[*face].u != DVec3::ZERO) {
                 for (corner, v) in smooth.corners[face].into_iter().enumerate() {
                     put(v as usize, (face as u32) << 2 | corner as u32);

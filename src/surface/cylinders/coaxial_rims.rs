@@ -10,24 +10,24 @@ use glam::DVec3;
 use super::cylinder::Cylinder;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
-use crate::mesh::{Groups, Mesh, PartId};
+use crate::mesh::{DisjointSets, Mesh, PartId};
 
 /// Minimum arc, radians, of a cylinder whose axis is used.
-const WHOLE: f64 = 5.8;
+const MIN_AXIS_ARC_RAD: f64 = 5.8;
 
 /// Maximum arc of a facet of a rim, radians. It excludes the sides of nuts.
-const WIDEST: f64 = 0.45;
+const MAX_FACET_ARC_RAD: f64 = 0.45;
 
 /// Minimum number of facets of a rim, and maximum number of triangles of a facet.
-const FEWEST: usize = 6;
-const MOST_TRIANGLES: usize = 24;
+const MIN_RIM_FACETS: usize = 6;
+const MAX_FACET_TRIANGLES: usize = 24;
 
 /// Maximum difference of distances from the axis, as a share: within a facet, and between facets.
-const SAME: f64 = 2e-4;
-const ALIKE: f64 = 1e-3;
+const MAX_FACET_RADIUS_SPREAD: f64 = 2e-4;
+const MAX_RIM_RADIUS_SPREAD: f64 = 1e-3;
 
 /// Chord of a circle around an axis.
-struct Chord {
+struct RimChord {
     radius: f64,
     /// Difference between the largest and smallest distance of its corners from the axis.
     spread: f64,
@@ -38,10 +38,15 @@ struct Chord {
 
 /// The rims around the axes of complete cylinders of the same body, where no cylinder of the same radius is
 /// known.
-pub(crate) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cylinder]) -> Vec<Cylinder> {
+pub(crate) fn rims(
+    mesh: &Mesh,
+    normals: &[DVec3],
+    facets: &DisjointSets,
+    known: &[Cylinder],
+) -> Vec<Cylinder> {
     let body = |part: PartId| body_of(&mesh.bodies, part);
     let mut axes: Vec<&Cylinder> = Vec::new();
-    for cylinder in known.iter().filter(|cylinder| cylinder.arc > WHOLE) {
+    for cylinder in known.iter().filter(|cylinder| cylinder.arc > MIN_AXIS_ARC_RAD) {
         if !axes.iter().any(|other| body(other.part) == body(cylinder.part) && is_coaxial(other, cylinder)) {
             axes.push(cylinder);
         }
@@ -55,23 +60,25 @@ pub(crate) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cyl
     }
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or_default();
     let mut of_body: Vec<Vec<&[u32]>> = vec![Vec::new(); parts];
-    for own in faces_of.iter().filter(|own| (1..=MOST_TRIANGLES).contains(&own.len())) {
+    for own in faces_of.iter().filter(|own| (1..=MAX_FACET_TRIANGLES).contains(&own.len())) {
         of_body[mesh.body(own[0]).index()].push(own);
     }
     let mut found = Vec::new();
     for axis in axes {
         let facets = of_body[body(axis.part).index()].iter();
-        let mut chords: Vec<Chord> =
+        let mut chords: Vec<RimChord> =
             facets.filter_map(|own| chord(mesh, own, normals[own[0] as usize], axis)).collect();
         chords.sort_by(|a, b| a.hollow.cmp(&b.hollow).then(a.radius.total_cmp(&b.radius)));
-        let alike = |a: &Chord, b: &Chord| a.hollow == b.hollow && b.radius - a.radius < ALIKE * b.radius;
-        for own in chords.chunk_by(alike).filter(|own| own.len() >= FEWEST) {
+        let alike = |a: &RimChord, b: &RimChord| {
+            a.hollow == b.hollow && b.radius - a.radius < MAX_RIM_RADIUS_SPREAD * b.radius
+        };
+        for own in chords.chunk_by(alike).filter(|own| own.len() >= MIN_RIM_FACETS) {
             let rim = whole(own, axis.part, axis);
             let is_known = |other: &Cylinder| {
                 body(other.part) == body(rim.part)
                     && is_coaxial(other, &rim)
                     && other.hollow == rim.hollow
-                    && (other.radius - rim.radius).abs() < 5.0 * ALIKE * rim.radius
+                    && (other.radius - rim.radius).abs() < 5.0 * MAX_RIM_RADIUS_SPREAD * rim.radius
             };
             if !known.iter().chain(&found).any(is_known) {
                 found.push(rim);
@@ -83,13 +90,14 @@ pub(crate) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cyl
 
 fn is_coaxial(a: &Cylinder, b: &Cylinder) -> bool {
     let apart = a.point - b.point;
-    a.axis.cross(b.axis).length() < ALIKE
-        && (apart - a.axis * apart.dot(a.axis)).length() < 5.0 * ALIKE * a.radius.min(b.radius)
+    a.axis.cross(b.axis).length() < MAX_RIM_RADIUS_SPREAD
+        && (apart - a.axis * apart.dot(a.axis)).length()
+            < 5.0 * MAX_RIM_RADIUS_SPREAD * a.radius.min(b.radius)
 }
 
 /// A facet as a chord around an axis, if it is one.
-fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<Chord> {
-    if normal == DVec3::ZERO || normal.dot(about.axis).abs() > ALIKE {
+fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<RimChord> {
+    if normal == DVec3::ZERO || normal.dot(about.axis).abs() > MAX_RIM_RADIUS_SPREAD {
         return None;
     }
     let across = normal.cross(about.axis);
@@ -102,7 +110,7 @@ fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<
         let flat = p - about.axis * along;
         let (radius, side) = (flat.length(), flat.dot(across));
         radii = [radii[0].min(radius), radii[1].max(radius)];
-        if radii[1] - radii[0] > SAME * radii[1] {
+        if radii[1] - radii[0] > MAX_FACET_RADIUS_SPREAD * radii[1] {
             return None;
         }
         sides = [sides[0].min(side), sides[1].max(side)];
@@ -111,12 +119,13 @@ fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<
     }
     let (radius, half) = (radii[1], (sides[1] - sides[0]) / 2.0);
     let arc = 2.0 * atan2(half, out.abs());
-    let is_chord = half > 0.0 && (sides[0] + sides[1]).abs() < ALIKE * radius && arc < WIDEST;
-    is_chord.then_some(Chord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
+    let is_chord =
+        half > 0.0 && (sides[0] + sides[1]).abs() < MAX_RIM_RADIUS_SPREAD * radius && arc < MAX_FACET_ARC_RAD;
+    is_chord.then_some(RimChord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
 }
 
 /// The cylinder formed by chords around an axis.
-fn whole(chords: &[Chord], part: PartId, about: &Cylinder) -> Cylinder {
+fn whole(chords: &[RimChord], part: PartId, about: &Cylinder) -> Cylinder {
     let ends = chords.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], chord| {
         [low.min(chord.ends[0]), high.max(chord.ends[1])]
     });

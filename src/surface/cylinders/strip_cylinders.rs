@@ -14,24 +14,24 @@ use super::coaxial_rims::rims;
 pub use super::cylinder::Cylinder;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
-use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh, PartId};
+use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh, PartId};
 
 /// Minimum cosine between faces of one facet (0.06 degrees), and between adjacent strips of one cylinder (50
 /// degrees).
-const FLAT: f64 = 0.999_999_4;
-const SHARP: f64 = 0.642_787_6;
+const MIN_FACET_COSINE: f64 = 0.999_999_4;
+const MIN_STRIP_COSINE: f64 = 0.642_787_6;
 
 /// Maximum sine between parallel lines, and maximum difference of centres and radii as a share of the radius.
 /// Both cover single-precision coordinates.
-const PARALLEL: f64 = 1e-3;
-const SAME: f64 = 5e-3;
+const MAX_PARALLEL_SINE: f64 = 1e-3;
+const MAX_CIRCLE_OFFSET_OF_RADIUS: f64 = 5e-3;
 
 /// Maximum number of side lines of a strip. A facet with more is a face of a machined part.
-const MOST_LINES: usize = 64;
+const MAX_STRIP_LINES: usize = 64;
 
 /// Flat strip between two lines along an axis.
 #[derive(Debug, Clone, Copy)]
-struct Strip {
+struct FlatStrip {
     axis: DVec3,
     normal: DVec3,
     /// A point in its middle, and its width across the axis.
@@ -43,7 +43,7 @@ struct Strip {
 }
 
 /// Two adjacent strips, and the circle that has both as chords.
-struct Pair {
+struct StripPair {
     strips: [usize; 2],
     centre: DVec3,
     radius: f64,
@@ -64,8 +64,8 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
         _ => None,
     };
     let turn = |[a, b]: [u32; 2]| normals[a as usize].dot(normals[b as usize]);
-    let facets = Groups::new(mesh.triangles.len(), |join| {
-        for faces in (0..mesh.edges.len()).filter_map(two).filter(|faces| turn(*faces) > FLAT) {
+    let facets = DisjointSets::new(mesh.triangles.len(), |join| {
+        for faces in (0..mesh.edges.len()).filter_map(two).filter(|faces| turn(*faces) > MIN_FACET_COSINE) {
             join(faces[0], faces[1]);
         }
     });
@@ -74,7 +74,11 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let mut order: Vec<u32> = Vec::new();
     let facet = |face: u32| facets.of(face);
     for edge in 0..mesh.edges.len() {
-        let Some(faces) = two(edge).filter(|faces| (SHARP..=FLAT).contains(&turn(*faces))) else { continue };
+        let Some(faces) =
+            two(edge).filter(|faces| (MIN_STRIP_COSINE..=MIN_FACET_COSINE).contains(&turn(*faces)))
+        else {
+            continue;
+        };
         for face in faces {
             let own = lines.entry(facet(face)).or_default();
             if own.is_empty() {
@@ -87,7 +91,7 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     for face in 0..mesh.triangles.len() as u32 {
         first_face.entry(facet(face)).or_insert(face);
     }
-    let mut strips: Vec<Strip> = Vec::new();
+    let mut strips: Vec<FlatStrip> = Vec::new();
     let mut edges_of: Vec<Vec<usize>> = Vec::new();
     let mut part_of: Vec<PartId> = Vec::new();
     let mut at_edge: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
@@ -108,7 +112,7 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
         }
     }
     edges.sort_unstable();
-    let pairs: Vec<Pair> =
+    let pairs: Vec<StripPair> =
         edges.iter().flat_map(|edge| pairs_at(mesh, *edge, &at_edge[edge], &strips)).collect();
     let mut found = grouped(mesh, &pairs, (&strips, &edges_of), &part_of);
     let rims = rims(mesh, &normals, &facets, &found);
@@ -119,8 +123,8 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
 
 /// The strips that a facet forms, with their lines: one strip for each direction whose parallel lines all lie
 /// on two sides.
-fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usize>)> {
-    if lines.len() < 2 || lines.len() > MOST_LINES {
+fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(FlatStrip, Vec<usize>)> {
+    if lines.len() < 2 || lines.len() > MAX_STRIP_LINES {
         return Vec::new();
     }
     let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
@@ -137,7 +141,7 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usi
         }
         let mut along = Vec::new();
         for (n, edge) in lines.iter().enumerate() {
-            if way(*edge).cross(axis).length() < PARALLEL {
+            if way(*edge).cross(axis).length() < MAX_PARALLEL_SINE {
                 done[n] = true;
                 along.push(*edge);
             }
@@ -168,20 +172,20 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usi
         let tapers = differs && (a < c) == (b > d);
         let some = ends(along[0])[0];
         let middle = some + across * ((low + high) / 2.0 - some.dot(across));
-        strips.push((Strip { axis, normal, middle, width, ends: [least, most], tapers }, along));
+        strips.push((FlatStrip { axis, normal, middle, width, ends: [least, most], tapers }, along));
     }
     strips
 }
 
 /// The circles of each pair of strips at an edge.
-fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec<Pair> {
+fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[FlatStrip]) -> Vec<StripPair> {
     let mut pairs = Vec::new();
     let on = mesh.positions[mesh.edges.vertices[edge][0] as usize];
     for (k, a) in beside.iter().enumerate() {
         for b in &beside[..k] {
             let (one, other) = (&strips[*a], &strips[*b]);
             let axis = one.axis;
-            if axis.cross(other.axis).length() > PARALLEL {
+            if axis.cross(other.axis).length() > MAX_PARALLEL_SINE {
                 continue;
             }
             // Intersection of the perpendicular bisectors, seen along the axis.
@@ -195,7 +199,7 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec
             let centre = one.middle + one.normal * far;
             let radius = flat(on - centre).length();
             let hollow = flat(on - centre).dot(one.normal) < 0.0;
-            pairs.push(Pair { strips: [*a, *b], centre, radius, hollow });
+            pairs.push(StripPair { strips: [*a, *b], centre, radius, hollow });
         }
     }
     pairs
@@ -204,22 +208,22 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec
 /// Cylinders, as groups of pairs that share a strip and a circle.
 fn grouped(
     mesh: &Mesh,
-    pairs: &[Pair],
-    (strips, edges_of): (&[Strip], &[Vec<usize>]),
+    pairs: &[StripPair],
+    (strips, edges_of): (&[FlatStrip], &[Vec<usize>]),
     part_of: &[PartId],
 ) -> Vec<Cylinder> {
-    let agree = |a: &Pair, b: &Pair| {
+    let agree = |a: &StripPair, b: &StripPair| {
         let axis = strips[a.strips[0]].axis;
         let apart = a.centre - b.centre;
         let apart = (apart - axis * apart.dot(axis)).length();
-        let reach = SAME * a.radius.min(b.radius);
+        let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * a.radius.min(b.radius);
         a.hollow == b.hollow && apart < reach && (a.radius - b.radius).abs() < reach
     };
     let mut at_strip: Vec<Vec<usize>> = vec![Vec::new(); strips.len()];
     for (k, pair) in pairs.iter().enumerate() {
         pair.strips.iter().for_each(|strip| at_strip[*strip].push(k));
     }
-    let groups = Groups::new(pairs.len(), |join| {
+    let groups = DisjointSets::new(pairs.len(), |join| {
         for own in &at_strip {
             for (k, a) in own.iter().enumerate() {
                 for b in own[..k].iter().filter(|b| agree(&pairs[*a], &pairs[**b])) {
@@ -241,7 +245,7 @@ fn grouped(
             continue;
         }
         let axis = strips[of[0]].axis;
-        let mean = |value: &dyn Fn(&Pair) -> f64| {
+        let mean = |value: &dyn Fn(&StripPair) -> f64| {
             own.iter().map(|k| value(&pairs[*k])).sum::<f64>() / own.len() as f64
         };
         let centre = own.iter().map(|k| pairs[*k].centre).sum::<DVec3>() / own.len() as f64;
@@ -300,12 +304,14 @@ fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3,
     }
     let determinant = xx * yy - xy * xy;
     let to = mean + DVec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-    if !to.is_finite() || to.length() > SAME * radius {
+    if !to.is_finite() || to.length() > MAX_CIRCLE_OFFSET_OF_RADIUS * radius {
         return known();
     }
     let fitted = corners.iter().map(|p| flat(p).distance(to)).sum::<f64>() / count;
     let off = spread(to, fitted);
-    if (fitted - radius).abs() > SAME * radius || off > SAME * radius {
+    if (fitted - radius).abs() > MAX_CIRCLE_OFFSET_OF_RADIUS * radius
+        || off > MAX_CIRCLE_OFFSET_OF_RADIUS * radius
+    {
         return known();
     }
     (centre + across * to.x + along * to.y, fitted, off)
@@ -316,10 +322,10 @@ fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
     let body = |part: PartId| body_of(&mesh.bodies, part);
     let is_same = |known: &&mut Cylinder| {
         let apart = known.point - new.point;
-        let reach = SAME * new.radius;
+        let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * new.radius;
         body(known.part) == body(new.part)
             && known.hollow == new.hollow
-            && known.axis.cross(new.axis).length() < PARALLEL
+            && known.axis.cross(new.axis).length() < MAX_PARALLEL_SINE
             && (known.radius - new.radius).abs() < reach
             && (apart - new.axis * apart.dot(new.axis)).length() < reach
     };

@@ -15,7 +15,7 @@ pub(crate) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
 }
 
 /// Direction of the file normals, or of the face normals where the two deviate by more than 60 degrees.
-pub(crate) fn chosen(of_faces: DVec3, of_file: DVec3) -> DVec3 {
+pub(crate) fn preferred_normal(of_faces: DVec3, of_file: DVec3) -> DVec3 {
     let (of_faces, of_file) = (of_faces.normalize_or_zero(), of_file.normalize_or_zero());
     if of_file.dot(of_faces) > 0.5 { of_file } else { of_faces }
 }

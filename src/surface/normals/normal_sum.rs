@@ -20,7 +20,7 @@ pub(crate) struct NormalSum {
 }
 
 /// Maximum ratio of the areas around a vertex. Above it, the small faces form an edge strip.
-const UNEVEN: f64 = 6.0;
+const MAX_AREA_RATIO: f64 = 6.0;
 
 /// Contribution of a face to the normals at its corners.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +63,6 @@ impl NormalSum {
     /// The selected sum, not of unit length.
     #[inline]
     pub fn normal(&self) -> DVec3 {
-        if self.most * self.least > UNEVEN * UNEVEN { self.of_area } else { self.of_max }
+        if self.most * self.least > MAX_AREA_RATIO * MAX_AREA_RATIO { self.of_area } else { self.of_max }
     }
 }

@@ -8,10 +8,10 @@ use crate::mesh::{EdgeFaces, Mesh};
 use crate::surface::SmoothNormals;
 
 /// Minimum ratio between the length of a straight edge and the lengths next to it and after its end.
-const UNEVEN_LENGTHS: f64 = 4.0;
+const MIN_LENGTH_RATIO: f64 = 4.0;
 
 /// Minimum cosine between the end normals of a gentle edge: 15 degrees.
-pub const GENTLE_COSINE: f64 = 0.966;
+pub const MIN_GENTLE_COSINE: f64 = 0.966;
 
 /// Edges whose end normals differ little, away from separating edges.
 pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
@@ -19,7 +19,7 @@ pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
         let [a, b] = mesh.edges.vertices[edge].map(|vertex| vertex as usize);
         let is_parted = |vertex: usize| parted.get(vertex) == Some(&true);
-        smooth.normals[a].dot(smooth.normals[b]) > GENTLE_COSINE && !is_parted(a) && !is_parted(b)
+        smooth.normals[a].dot(smooth.normals[b]) > MIN_GENTLE_COSINE && !is_parted(a) && !is_parted(b)
     })
 }
 
@@ -35,11 +35,11 @@ pub(crate) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
         }
         let Some([a, b]) = smooth.across(mesh, edge) else { return false };
         let normals = [a, b].map(|v| smooth.normals[v as usize]);
-        if normals[0].dot(normals[1]) > GENTLE_COSINE {
+        if normals[0].dot(normals[1]) > MIN_GENTLE_COSINE {
             return false;
         }
         let [from, to] = [a, b].map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
-        let least = from.distance(to) / UNEVEN_LENGTHS;
+        let least = from.distance(to) / MIN_LENGTH_RATIO;
         if !mesh.edges.faces(edge).list().iter().any(|face| shortest_side(mesh, *face) < least) {
             return false;
         }

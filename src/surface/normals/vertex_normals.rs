@@ -3,17 +3,17 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::file_normals::{chosen, file_normals};
+use super::file_normals::{file_normals, preferred_normal};
 use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use super::straight_edges;
 use super::vertex_split;
 use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh, Share, share_count, shares};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{EdgeFaces, Mesh, VertexRange, range_count, vertex_ranges};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Maximum number of vertices per block.
-const SHARE: usize = 1 << 13;
+const MAX_VERTICES_PER_BLOCK: usize = 1 << 13;
 
 impl SmoothNormals {
     /// Normals of a mesh that is one curved surface without hard edges.
@@ -54,7 +54,8 @@ impl SmoothNormals {
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
         let faces = 0..mesh.triangles.len() as u32;
-        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(GRAIN).map(&is_rounded).collect();
+        let rounded: Vec<bool> =
+            faces.into_par_iter().with_min_len(MIN_TASK_ITEMS).map(&is_rounded).collect();
         if !rounded.contains(&true) {
             return Self::default();
         }
@@ -71,7 +72,7 @@ impl SmoothNormals {
             mesh.triangles.clone()
         } else {
             let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
-            mesh.triangles.par_iter().zip(&rounded).with_min_len(GRAIN).map(of).collect()
+            mesh.triangles.par_iter().zip(&rounded).with_min_len(MIN_TASK_ITEMS).map(of).collect()
         };
         let mut smooth = Self {
             normals: vertex_normals(mesh, |face| rounded[face]),
@@ -91,10 +92,10 @@ impl SmoothNormals {
 fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
     let count = mesh.positions.len();
     // The sums of a block fit in the cache. Faces at the border of a block are weighted once per block.
-    let shares = shares(count, &mesh.triangles, share_count(count, SHARE));
+    let shares = vertex_ranges(count, &mesh.triangles, range_count(count, MAX_VERTICES_PER_BLOCK));
     let mut normals = vec![DVec3::ZERO; count];
     let mut rest = &mut normals[..];
-    let work: Vec<(&Share, &mut [DVec3])> = shares
+    let work: Vec<(&VertexRange, &mut [DVec3])> = shares
         .iter()
         .map(|share| {
             let (own, others) = std::mem::take(&mut rest).split_at_mut(share.vertices.len());
@@ -127,7 +128,7 @@ fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVe
         let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
         let of_faces = sums.iter().map(NormalSum::normal);
         normals.iter_mut().zip(of_faces).enumerate().for_each(|(k, (normal, of_faces))| {
-            *normal = chosen(of_faces, of_file(k));
+            *normal = preferred_normal(of_faces, of_file(k));
         });
     });
     normals

@@ -3,14 +3,14 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::file_normals::{chosen, file_normals};
+use super::file_normals::{file_normals, preferred_normal};
 use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use crate::mesh::{FaceId, Mesh};
 
 /// Corner of a curved face at a vertex on a separating edge.
 #[derive(Clone, Copy)]
-struct Corner {
+struct FanCorner {
     vertex: u32,
     face: u32,
     /// Index of the corner in its face.
@@ -30,7 +30,7 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     cuts.iter().for_each(|[vertex, _]| is_parted[*vertex as usize] = true);
 
     let mut corners = corners(mesh, smooth, &is_parted);
-    let mut added = Added::default();
+    let mut added = AddedVertices::default();
     corners.sort_unstable_by_key(|c| (c.vertex, c.face));
     let mut sides: Vec<(u32, usize)> = Vec::new();
     let mut before: Vec<usize> = Vec::new();
@@ -54,7 +54,7 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
         }
         for fan in 0..around.len() {
             if before[fan] == fan {
-                let own: Vec<Corner> =
+                let own: Vec<FanCorner> =
                     (fan..around.len()).filter(|k| first(&before, *k) == fan).map(|k| around[k]).collect();
                 add(mesh, smooth, &mut added, (vertex, fan == 0), &own);
             }
@@ -69,14 +69,14 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
 
 /// New smooth vertices, numbered after the existing ones.
 #[derive(Default)]
-struct Added {
+struct AddedVertices {
     normals: Vec<DVec3>,
     vertices: Vec<u32>,
 }
 
-fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<Corner> {
+fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<FanCorner> {
     const CHUNK: usize = 1 << 12;
-    let found: Vec<Vec<Corner>> = mesh
+    let found: Vec<Vec<FanCorner>> = mesh
         .triangles
         .par_chunks(CHUNK)
         .with_max_len(1)
@@ -90,7 +90,7 @@ fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<Corne
                 }
                 for (which, vertex) in triangle.iter().enumerate() {
                     if is_parted[*vertex as usize] {
-                        found.push(Corner { vertex: *vertex, face, which: which as u8 });
+                        found.push(FanCorner { vertex: *vertex, face, which: which as u8 });
                     }
                 }
             }
@@ -111,9 +111,9 @@ fn first(before: &[usize], mut corner: usize) -> usize {
 fn add(
     mesh: &Mesh,
     smooth: &mut SmoothNormals,
-    added: &mut Added,
+    added: &mut AddedVertices,
     (vertex, keeps): (u32, bool),
-    fan: &[Corner],
+    fan: &[FanCorner],
 ) {
     let (mut of_faces, mut of_file) = (NormalSum::default(), DVec3::ZERO);
     for corner in fan {
@@ -123,7 +123,7 @@ fn add(
         }
         of_file += file_normals(mesh, corner.face as usize)[which];
     }
-    let normal = chosen(of_faces.normal(), of_file);
+    let normal = preferred_normal(of_faces.normal(), of_file);
     let id = if keeps { vertex } else { (smooth.vertices.len() + added.vertices.len()) as u32 };
     if keeps {
         smooth.normals[id as usize] = normal;

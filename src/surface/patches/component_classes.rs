@@ -13,92 +13,92 @@ use glam::Vec3;
 
 use super::group_sums::sums;
 use super::normal_validation::{leaning, leans};
-use super::planar_regions::{Planes, area};
-use super::sliver_bends::{Slender, bends_over_its_ends, longest_side};
-use super::surface_class::{Make, Origin, Verdict, Verdicts};
-use crate::mesh::components::disjoint_sets::{Groups, Numbered};
-use crate::mesh::{EdgeFaces, FirstEdges, Mesh, Turns};
-use crate::parallel::task_size::GRAIN;
+use super::planar_regions::{PlanarRegions, area};
+use super::sliver_bends::{SliverFace, bent_short_sides, longest_side};
+use super::surface_class::{ComponentClass, ComponentClasses, MeshSource, SurfaceClass};
+use crate::mesh::components::disjoint_sets::{DisjointSets, NumberedSets};
+use crate::mesh::{DihedralCosines, EdgeFaces, Mesh, VertexEdges};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum share of planar area for a machined component, without and with normals in the file. Measured on
 /// 160 models: scans have 0 to 6 %, most machined parts 10 % and more. Figures that are shaded round have
 /// similar shares.
-const MACHINED: f64 = 0.08;
-const MACHINED_SHADED: f64 = 0.1;
+const MIN_PLANAR_AREA_UNSHADED: f64 = 0.08;
+const MIN_PLANAR_AREA_SHADED: f64 = 0.1;
 /// Without normals, a component is also machined if more than this share of its area is coplanar with a
 /// neighbouring face. Fillets and dimples of any size do not matter. Noise gives scans an eighth.
-const MOST: f64 = 0.5;
+const MIN_LEVEL_AREA: f64 = 0.5;
 /// Without normals, a component is also machined above this share of flat edges. Strips that bend one way are
 /// halves of flat quads.
-const FEW_FLAT: f64 = 0.15;
+const MIN_FLAT_EDGES_UNSHADED: f64 = 0.15;
 /// The same share with normals. Armour and tools that are shaded round over sharp edges are distinguished
 /// from figures by their planar regions.
-const FEW_FLAT_SHADED: f64 = 0.08;
+const MIN_FLAT_EDGES_SHADED: f64 = 0.08;
 /// Cosine below which an edge is sharp: 60 degrees.
-const SHARP_COSINE: f32 = 0.5;
+const MAX_SHARP_COSINE: f32 = 0.5;
 /// Maximum share of sharp edges for which smooth shading describes the shape. Above it, the normals are
 /// intended for use with a bump map.
-const SHARP_SHADED: f64 = 0.1;
+const MAX_SHARP_EDGES_SHADED: f64 = 0.1;
 /// Minimum number of edges for a dense component, which is classified without shading. Coarse figures turn
 /// sharply at many edges.
-const DENSE: u32 = 2000;
+const MIN_DENSE_EDGES: u32 = 2000;
 /// Cosine above which an edge is nearly flat: one degree, ten times the limit of a flat edge. If turns are
 /// noise, a tenth of the nearly flat edges are flat.
-const NEARLY_FLAT_COSINE: f32 = 0.999_847_7;
+const MIN_NEARLY_FLAT_COSINE: f32 = 0.999_847_7;
 /// A component with many sharp edges and no normals is machined if flat edges are more than this many times
 /// as common as noise would make them. Decimated scans with as many sharp edges match the noise.
-const MEANT: f64 = 2.0;
-const BY_CHANCE: f64 = 0.1;
+const MIN_FLAT_OF_NOISE: f64 = 2.0;
+const FLAT_OF_NEARLY_FLAT_NOISE: f64 = 0.1;
 /// Components that are not dense also need this share of planar area, since coarse figures have a few flat
 /// quads. Alternatively more than the second share of their nearly flat edges must be flat. Figures have a
 /// third.
-const SOME_FLATS: f64 = 0.02;
-const SURELY_MEANT: f64 = 0.5;
+const MIN_SOME_PLANAR_AREA: f64 = 0.02;
+const MIN_FLAT_OF_NEARLY_FLAT: f64 = 0.5;
 /// Minimum share of sharp edges for flat edges to count as intended. Scans with planar regions, such as a cut
 /// base, have at most 1 %.
-const SHARP_BESIDE_FLATS: f64 = 0.05;
+const MIN_SHARP_EDGES_WITH_FLATS: f64 = 0.05;
 /// Factor for comparing areas: the rounding of sums depends on the order of faces.
-const AS_LARGE: f64 = 1.0 - 1e-9;
+const AREA_ROUNDING_FACTOR: f64 = 1.0 - 1e-9;
 /// Maximum share of sharp edges of a component that stays round next to machined ones, such as the spout of a
 /// pot.
-const HARDLY_SHARP: f64 = 0.01;
+const MAX_SHARP_EDGES_ROUND: f64 = 0.01;
 /// Maximum ratio of flat edges to those expected from noise, for a dense component that stays a scan in any
 /// case.
-const BY_CHANCE_AT_MOST: f64 = 1.5;
+const MAX_FLAT_OF_NOISE: f64 = 1.5;
 /// Minimum share of sharp edges that makes a component without normals machined. Figures have a sharp edge in
 /// six, coarse hair one in four.
-const MOSTLY_SHARP: f64 = 0.375;
+const MIN_SHARP_EDGES_MACHINED: f64 = 0.375;
 /// A scan is reclassified as machined if slivers bend over their ends along more than this share of the
 /// length of its faces, and at more than the second share of its short sides.
 ///
 /// Measured on 300 models: scans and figures have at most 1 %, a teapot 2 % (the tips of its lids), hulls and
 /// tessellated fillets 4 % and more. The second limit excludes components with a few long faces.
-const BENT: f64 = 0.03;
-const FEW_BENDS: f64 = 0.01;
+const MIN_SLIVER_BEND_LENGTH: f64 = 0.03;
+const MIN_SLIVER_BEND_SIDES: f64 = 0.01;
 /// Minimum number of edges for statistics. A smaller group is a block or a plate.
-pub(crate) const LEAST_EDGES: u32 = 60;
+pub(crate) const MIN_SAMPLE_EDGES: u32 = 60;
 /// Cosine above which a corner normal equals the face normal.
-const OWN_NORMAL_COSINE: f32 = 0.9999;
+const MIN_OWN_NORMAL_COSINE: f32 = 0.9999;
 /// Minimum share of curved faces, by the normals of the file. Below it the component is intended to be
 /// faceted.
-const FEW_CURVED: f64 = 0.05;
+const MIN_CURVED_FACES: f64 = 0.05;
 
 /// Cosine (80 degrees) below which a corner normal contradicts its face, and the share of such faces above
 /// which the normals of the whole component are rejected.
-const ASTRAY_COSINE: f32 = 0.17;
-const FEW_ASTRAY: f64 = 0.1;
+const MAX_ASTRAY_COSINE: f32 = 0.17;
+const MIN_ASTRAY_FACES: f64 = 0.1;
 
 /// Maximum share of faces whose normals all deviate by more than the surface turns. Above it the normals are
 /// rejected. Measured on 98 models: at most 0.18 with correct normals, 0.21 and more after the shape was
 /// turned or bent without them.
-const MANY_LEAN: f64 = 0.2;
+const MAX_LEANING_FACES: f64 = 0.2;
 
 /// Statistics of one component.
 #[derive(Debug, Clone, Copy, Default)]
-struct Count {
-    faces: FaceCount,
-    edges: EdgeCount,
-    bends: Bends,
+struct ComponentStats {
+    faces: FaceStats,
+    edges: EdgeStats,
+    bends: SliverBends,
     /// Faces whose normals in the file all deviate by more than the surface turns. Counted only if many
     /// deviate at all.
     leans: u32,
@@ -106,7 +106,7 @@ struct Count {
 
 /// Statistics of the faces of a component.
 #[derive(Debug, Clone, Copy, Default)]
-struct FaceCount {
+struct FaceStats {
     all: u32,
     curved: u32,
     with_normals: u32,
@@ -123,7 +123,7 @@ struct FaceCount {
 
 /// Statistics of the edges between two faces with area.
 #[derive(Debug, Clone, Copy, Default)]
-struct EdgeCount {
+struct EdgeStats {
     all: u32,
     flat: u32,
     nearly_flat: u32,
@@ -132,12 +132,12 @@ struct EdgeCount {
 
 /// Short sides where slivers bend, and the longest sides of these slivers, counted once per side.
 #[derive(Debug, Clone, Copy, Default)]
-struct Bends {
+struct SliverBends {
     all: u32,
     longest: f64,
 }
 
-impl AddAssign<&Count> for Count {
+impl AddAssign<&ComponentStats> for ComponentStats {
     fn add_assign(&mut self, other: &Self) {
         self.faces += &other.faces;
         self.edges += &other.edges;
@@ -146,7 +146,7 @@ impl AddAssign<&Count> for Count {
     }
 }
 
-impl AddAssign<&FaceCount> for FaceCount {
+impl AddAssign<&FaceStats> for FaceStats {
     #[inline]
     fn add_assign(&mut self, other: &Self) {
         self.all += other.all;
@@ -162,7 +162,7 @@ impl AddAssign<&FaceCount> for FaceCount {
     }
 }
 
-impl AddAssign<&EdgeCount> for EdgeCount {
+impl AddAssign<&EdgeStats> for EdgeStats {
     #[inline]
     fn add_assign(&mut self, other: &Self) {
         self.all += other.all;
@@ -172,7 +172,7 @@ impl AddAssign<&EdgeCount> for EdgeCount {
     }
 }
 
-impl AddAssign<&Bends> for Bends {
+impl AddAssign<&SliverBends> for SliverBends {
     #[inline]
     fn add_assign(&mut self, other: &Self) {
         self.all += other.all;
@@ -180,62 +180,64 @@ impl AddAssign<&Bends> for Bends {
     }
 }
 
-impl Count {
+impl ComponentStats {
     /// Classifies the component. With `all`, no component is faceted.
-    fn verdict(&self, all: bool) -> Verdict {
+    fn verdict(&self, all: bool) -> ComponentClass {
         let Self { faces, edges, .. } = self;
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
-        let faceted = faces.with_normals == faces.all && share(faces.curved, faces.all) < FEW_CURVED;
+        let faceted = faces.with_normals == faces.all && share(faces.curved, faces.all) < MIN_CURVED_FACES;
         let shaded = share(faces.with_normals, faces.all) > 0.5 && !faceted;
         let bare = !shaded && !faceted;
-        let few = if shaded { FEW_FLAT_SHADED } else { FEW_FLAT };
-        let pointed = share(edges.sharp, edges.all) > SHARP_SHADED;
-        let edged = edges.all >= DENSE && pointed;
+        let few = if shaded { MIN_FLAT_EDGES_SHADED } else { MIN_FLAT_EDGES_UNSHADED };
+        let pointed = share(edges.sharp, edges.all) > MAX_SHARP_EDGES_SHADED;
+        let edged = edges.all >= MIN_DENSE_EDGES && pointed;
         let armoured = shaded && edged;
-        let meant = f64::from(edges.flat) > MEANT * BY_CHANCE * f64::from(edges.nearly_flat);
-        let some_flats = faces.in_flats > SOME_FLATS * faces.area;
-        let surely = f64::from(edges.flat) > SURELY_MEANT * f64::from(edges.nearly_flat);
-        let has_corners = share(edges.sharp, edges.all) > SHARP_BESIDE_FLATS;
+        let meant = f64::from(edges.flat)
+            > MIN_FLAT_OF_NOISE * FLAT_OF_NEARLY_FLAT_NOISE * f64::from(edges.nearly_flat);
+        let some_flats = faces.in_flats > MIN_SOME_PLANAR_AREA * faces.area;
+        let surely = f64::from(edges.flat) > MIN_FLAT_OF_NEARLY_FLAT * f64::from(edges.nearly_flat);
+        let has_corners = share(edges.sharp, edges.all) > MIN_SHARP_EDGES_WITH_FLATS;
         let cornered = (has_corners && meant && (some_flats || surely))
-            || faces.level > MOST * faces.area
-            || share(edges.sharp, edges.all) > MOSTLY_SHARP;
+            || faces.level > MIN_LEVEL_AREA * faces.area
+            || share(edges.sharp, edges.all) > MIN_SHARP_EDGES_MACHINED;
         let machined = armoured
             || (!shaded && edged && meant)
             || (bare && cornered)
-            || faces.in_flats >= if bare { MACHINED } else { MACHINED_SHADED } * faces.area
+            || faces.in_flats
+                >= if bare { MIN_PLANAR_AREA_UNSHADED } else { MIN_PLANAR_AREA_SHADED } * faces.area
             || share(edges.flat, edges.all) > few;
-        let shape = if machined { Make::Machined } else { Make::Round };
-        let plain = faceted || edges.all < LEAST_EDGES;
+        let shape = if machined { SurfaceClass::Machined } else { SurfaceClass::Round };
+        let plain = faceted || edges.all < MIN_SAMPLE_EDGES;
         // Faceted components are drawn with their faces, but shaded as the round surface they approximate. If
         // all surfaces are to be round, the angles of a machined component show where it is not.
-        let astray = share(faces.astray, faces.all) >= FEW_ASTRAY;
-        let as_planes = faceted && shape == Make::Round;
-        let leans = share(self.leans, faces.all) > MANY_LEAN;
+        let astray = share(faces.astray, faces.all) >= MIN_ASTRAY_FACES;
+        let as_planes = faceted && shape == SurfaceClass::Round;
+        let leans = share(self.leans, faces.all) > MAX_LEANING_FACES;
         let believed = !(astray || leans || armoured || as_planes || (all && machined));
-        let make = if plain && !all { Make::Block } else { shape };
+        let make = if plain && !all { SurfaceClass::Faceted } else { shape };
         let origin = match (make, shaded) {
-            (Make::Round, false) => Origin::Scanned,
-            (Make::Round, true) => Origin::Modelled,
-            _ => Origin::Constructed,
+            (SurfaceClass::Round, false) => MeshSource::Scanned,
+            (SurfaceClass::Round, true) => MeshSource::Modelled,
+            _ => MeshSource::Constructed,
         };
-        Verdict { make, origin, believed }
+        ComponentClass { make, origin, believed }
     }
 
     /// Whether the component stays round next to machined ones: it has almost no sharp edges, or many edges
     /// with no more flat ones than noise explains.
     fn stays_round(&self) -> bool {
-        let EdgeCount { all, flat, nearly_flat, sharp } = self.edges;
-        let by_chance = BY_CHANCE * f64::from(nearly_flat);
-        f64::from(sharp) < HARDLY_SHARP * f64::from(all)
-            || (all >= DENSE && f64::from(flat) <= BY_CHANCE_AT_MOST * by_chance)
+        let EdgeStats { all, flat, nearly_flat, sharp } = self.edges;
+        let by_chance = FLAT_OF_NEARLY_FLAT_NOISE * f64::from(nearly_flat);
+        f64::from(sharp) < MAX_SHARP_EDGES_ROUND * f64::from(all)
+            || (all >= MIN_DENSE_EDGES && f64::from(flat) <= MAX_FLAT_OF_NOISE * by_chance)
     }
 }
 
 /// The connected components of a mesh. Depends on its edges only, so that it can run in parallel with other
 /// steps.
-pub(crate) fn pieces(mesh: &Mesh) -> Numbered {
-    let groups = Groups::new(mesh.triangles.len(), |join| {
-        (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).for_each(|edge| {
+pub(crate) fn pieces(mesh: &Mesh) -> NumberedSets {
+    let groups = DisjointSets::new(mesh.triangles.len(), |join| {
+        (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).for_each(|edge| {
             let list = mesh.edges.faces(edge);
             for pair in list.list().windows(2) {
                 join(pair[0], pair[1]);
@@ -251,13 +253,13 @@ pub(crate) fn pieces(mesh: &Mesh) -> Numbered {
 /// Scans may take the class of the largest component among these.
 pub(crate) fn verdicts(
     mesh: &Mesh,
-    turns: &Turns,
-    (planes, pieces): (&Planes, Numbered),
+    turns: &DihedralCosines,
+    (planes, pieces): (&PlanarRegions, NumberedSets),
     all: bool,
-) -> Verdicts {
+) -> ComponentClasses {
     let faces = mesh.triangles.len();
-    let Numbered { of_face: number, first } = &pieces;
-    let (of_faces, of_edges): (Vec<FaceCount>, Vec<EdgeCount>) = crate::parallel::join(
+    let NumberedSets { of_face: number, first } = &pieces;
+    let (of_faces, of_edges): (Vec<FaceStats>, Vec<EdgeStats>) = crate::parallel::join(
         || sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32)))),
         || {
             sums(first.len(), mesh.edges.len(), |edge| {
@@ -266,34 +268,36 @@ pub(crate) fn verdicts(
             })
         },
     );
-    let both = |(faces, edges)| Count { faces, edges, ..Count::default() };
-    let mut counts: Vec<Count> = of_faces.into_iter().zip(of_edges).map(both).collect();
+    let both = |(faces, edges)| ComponentStats { faces, edges, ..ComponentStats::default() };
+    let mut counts: Vec<ComponentStats> = of_faces.into_iter().zip(of_edges).map(both).collect();
     count_leaning(mesh, turns, number, &mut counts);
     let key = |face: u32| (mesh.body(face), mesh.face_material[face as usize]);
-    let mut together: BTreeMap<_, Count> = BTreeMap::new();
-    for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges.all < LEAST_EDGES) {
+    let mut together: BTreeMap<_, ComponentStats> = BTreeMap::new();
+    for (face, count) in first.iter().zip(&counts).filter(|(_, count)| count.edges.all < MIN_SAMPLE_EDGES) {
         *together.entry(key(*face)).or_default() += count;
     }
-    let verdict = |(face, count): (&u32, &Count)| {
-        let is_small = count.edges.all < LEAST_EDGES;
+    let verdict = |(face, count): (&u32, &ComponentStats)| {
+        let is_small = count.edges.all < MIN_SAMPLE_EDGES;
         let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
         judged.verdict(all)
     };
-    let mut verdicts: Vec<Verdict> = first.iter().zip(&counts).map(verdict).collect();
-    tessellated(mesh, turns, number, &mut counts, &mut verdicts);
+    let mut verdicts: Vec<ComponentClass> = first.iter().zip(&counts).map(verdict).collect();
+    reclassify_tessellated(mesh, turns, number, &mut counts, &mut verdicts);
     follow_largest(first.iter().map(|face| key(*face)), &counts, &mut verdicts);
-    Verdicts::new(verdicts, pieces)
+    ComponentClasses::new(verdicts, pieces)
 }
 
 /// Counts the faces whose normals all deviate by more than the surface turns, in components where many
 /// deviate.
-fn count_leaning(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count]) {
-    let many = |count: &Count| f64::from(count.faces.leaning) > MANY_LEAN * f64::from(count.faces.all);
+fn count_leaning(mesh: &Mesh, turns: &DihedralCosines, pieces: &[u32], counts: &mut [ComponentStats]) {
+    let many = |count: &ComponentStats| {
+        f64::from(count.faces.leaning) > MAX_LEANING_FACES * f64::from(count.faces.all)
+    };
     let asked: Vec<bool> = counts.iter().map(many).collect();
     if !asked.contains(&true) {
         return;
     }
-    let edges = FirstEdges::of(&mesh.edges, mesh.positions.len());
+    let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
     let lean: Vec<u32> = sums(counts.len(), mesh.triangles.len(), |face| {
         let piece = pieces[face];
         let cosine = asked[piece as usize].then(|| leaning_at(mesh, face as u32))??;
@@ -304,33 +308,39 @@ fn count_leaning(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count
 
 /// Reclassifies scans as machined if too many of their faces are long across bends. No surface is sampled in
 /// this way.
-fn tessellated(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count], verdicts: &mut [Verdict]) {
+fn reclassify_tessellated(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    pieces: &[u32],
+    counts: &mut [ComponentStats],
+    verdicts: &mut [ComponentClass],
+) {
     // Upper bound: every sliver bends over both ends.
     let asked: Vec<bool> = verdicts
         .iter()
         .zip(&*counts)
         .map(|(verdict, count)| {
-            verdict.origin == Origin::Scanned
-                && count.edges.all >= LEAST_EDGES
-                && count.faces.slender > BENT * count.faces.longest
+            verdict.origin == MeshSource::Scanned
+                && count.edges.all >= MIN_SAMPLE_EDGES
+                && count.faces.slender > MIN_SLIVER_BEND_LENGTH * count.faces.longest
         })
         .collect();
     if !asked.contains(&true) {
         return;
     }
-    let edges = FirstEdges::of(&mesh.edges, mesh.positions.len());
-    let bends: Vec<Bends> = sums(counts.len(), mesh.triangles.len(), |face| {
+    let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
+    let bends: Vec<SliverBends> = sums(counts.len(), mesh.triangles.len(), |face| {
         let piece = pieces[face];
-        let slender = asked[piece as usize].then(|| Slender::of(mesh, face as u32))??;
-        let all = bends_over_its_ends(mesh, (turns, &edges), face as u32, slender);
-        Some((piece, Bends { all, longest: f64::from(all) * slender.length }))
+        let slender = asked[piece as usize].then(|| SliverFace::of(mesh, face as u32))??;
+        let all = bent_short_sides(mesh, (turns, &edges), face as u32, slender);
+        Some((piece, SliverBends { all, longest: f64::from(all) * slender.length }))
     });
     counts.iter_mut().zip(bends).for_each(|(count, bends)| count.bends = bends);
     for (verdict, count) in verdicts.iter_mut().zip(&*counts) {
-        let Count { faces, bends, .. } = count;
-        let are_many = f64::from(bends.all) > FEW_BENDS * 2.0 * f64::from(faces.all);
-        if are_many && bends.longest > BENT * 2.0 * faces.longest {
-            (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
+        let ComponentStats { faces, bends, .. } = count;
+        let are_many = f64::from(bends.all) > MIN_SLIVER_BEND_SIDES * 2.0 * f64::from(faces.all);
+        if are_many && bends.longest > MIN_SLIVER_BEND_LENGTH * 2.0 * faces.longest {
+            (verdict.make, verdict.origin) = (SurfaceClass::Machined, MeshSource::Constructed);
         }
     }
 }
@@ -338,25 +348,34 @@ fn tessellated(mesh: &Mesh, turns: &Turns, pieces: &[u32], counts: &mut [Count],
 /// Reclassifies scans as machined where the largest component with the same key is machined, unless they are
 /// clearly round. Most of a part and material is made in one way, and a large component shows it better than
 /// a small one.
-fn follow_largest<K: Ord>(kin: impl Iterator<Item = K> + Clone, counts: &[Count], verdicts: &mut [Verdict]) {
+fn follow_largest<K: Ord>(
+    kin: impl Iterator<Item = K> + Clone,
+    counts: &[ComponentStats],
+    verdicts: &mut [ComponentClass],
+) {
     // Areas of the largest component that is not machined, and of the largest that is.
     let mut largest: BTreeMap<K, [f64; 2]> = BTreeMap::new();
     for (kin, (count, verdict)) in kin.clone().zip(counts.iter().zip(&*verdicts)) {
-        let most = &mut largest.entry(kin).or_default()[usize::from(verdict.make == Make::Machined)];
+        let most = &mut largest.entry(kin).or_default()[usize::from(verdict.make == SurfaceClass::Machined)];
         *most = most.max(count.faces.area);
     }
     for (kin, (count, verdict)) in kin.zip(counts.iter().zip(verdicts)) {
         let [other, machined] = largest.get(&kin).copied().unwrap_or_default();
-        let follows = machined > 0.0 && machined >= other * AS_LARGE;
-        if verdict.origin == Origin::Scanned && follows && !count.stays_round() {
-            (verdict.make, verdict.origin) = (Make::Machined, Origin::Constructed);
+        let follows = machined > 0.0 && machined >= other * AREA_ROUNDING_FACTOR;
+        if verdict.origin == MeshSource::Scanned && follows && !count.stays_round() {
+            (verdict.make, verdict.origin) = (SurfaceClass::Machined, MeshSource::Constructed);
         }
     }
 }
 
 /// Statistics of an edge between two faces with area, with one of its faces.
 #[inline]
-fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(u32, EdgeCount)> {
+fn of_edge(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    planes: &PlanarRegions,
+    edge: usize,
+) -> Option<(u32, EdgeStats)> {
     let cosine = turns.of_two(edge);
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
     // The cosine is zero next to a face without area.
@@ -364,26 +383,26 @@ fn of_edge(mesh: &Mesh, turns: &Turns, planes: &Planes, edge: usize) -> Option<(
         return None;
     }
     let flat = u32::from(planes.flat.contains(edge));
-    let nearly_flat = u32::from(cosine > NEARLY_FLAT_COSINE);
-    let sharp = u32::from(cosine < SHARP_COSINE);
-    Some((faces[0], EdgeCount { all: 1, flat, nearly_flat, sharp }))
+    let nearly_flat = u32::from(cosine > MIN_NEARLY_FLAT_COSINE);
+    let sharp = u32::from(cosine < MAX_SHARP_COSINE);
+    Some((faces[0], EdgeStats { all: 1, flat, nearly_flat, sharp }))
 }
 
 #[inline]
-fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
+fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> FaceStats {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
     let level = if planes.is_level(face) { area } else { 0.0 };
     let longest = longest_side(mesh, face);
-    let slender = if Slender::is(area, longest) { longest } else { 0.0 };
-    let mut count = FaceCount { all: 1, area, in_flats, level, longest, slender, ..FaceCount::default() };
+    let slender = if SliverFace::is(area, longest) { longest } else { 0.0 };
+    let mut count = FaceStats { all: 1, area, in_flats, level, longest, slender, ..FaceStats::default() };
     if let Some(ids) = mesh.corner_normals.get(face as usize) {
         let own = Vec3::from_array(mesh.face_normals[face as usize]);
         let normals = ids.map(|id| mesh.normals.get(id as usize));
-        let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < OWN_NORMAL_COSINE;
+        let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < MIN_OWN_NORMAL_COSINE;
         count.with_normals = u32::from(normals.iter().all(Option::is_some));
         count.curved = u32::from(normals.iter().flatten().any(|n| leaves(n)));
-        let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < ASTRAY_COSINE;
+        let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < MAX_ASTRAY_COSINE;
         count.astray = u32::from(normals.iter().flatten().any(|n| strays(n)));
         count.leaning = u32::from(leaning(own, normals).is_some());
     }

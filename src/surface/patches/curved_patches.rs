@@ -13,46 +13,46 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use crate::parallel::prelude::*;
 
-use super::component_classes::LEAST_EDGES;
+use super::component_classes::MIN_SAMPLE_EDGES;
 use super::group_sums::sums;
-use super::planar_regions::{Planes, area};
-use super::surface_class::Make;
+use super::planar_regions::{PlanarRegions, area};
+use super::surface_class::SurfaceClass;
 use crate::geometry::numbers::portable_math::acos;
-use crate::mesh::components::disjoint_sets::Groups;
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::components::disjoint_sets::DisjointSets;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Share, Turns, shares};
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexRange, vertex_ranges};
 
 /// Number of vertices per task, and number of tasks between two checks whether the sum is already sufficient.
-const BLOCK: usize = 1 << 15;
-const AT_ONCE: usize = 16;
+const VERTICES_PER_BLOCK: usize = 1 << 15;
+const BLOCKS_PER_ROUND: usize = 16;
 
 /// Minimum total curvature of a patch that bends both ways, radians: 1/12 of a sphere's.
-const FREE_FORM: f64 = 1.0;
+const MIN_TOTAL_CURVATURE_RAD: f64 = 1.0;
 /// Maximum angle defect, radians, that rounding causes at a vertex of a cylinder.
-const ROUNDING: f64 = 2e-4;
+const ANGLE_ROUNDING_RAD: f64 = 2e-4;
 /// Maximum share of flat edges in a curved patch. Flat quads have a third.
-const MANY_FLAT: f64 = 0.45;
+const MAX_FLAT_EDGES: f64 = 0.45;
 /// Maximum share of edges that turn by more than the second value (cosine of 15 degrees). A coarser patch of
 /// a machined part has no unambiguous smooth shape and is drawn as its faces are.
-const FEW_COARSE: f64 = 0.1;
-const COARSE_COSINE: f32 = 0.966;
+const MAX_SHARP_TURN_EDGES: f64 = 0.1;
+const MAX_SHARP_TURN_COSINE: f32 = 0.966;
 /// Maximum share of planar area in a curved patch.
-const FEW_FLATS: f64 = 0.1;
+const MAX_PLANAR_AREA: f64 = 0.1;
 /// Aspect ratio above which a face is elongated, and the maximum share of elongated faces by area. The
 /// surface between the ends of such faces is unknown.
-const LONG: f64 = 6.0;
-const FEW_LONG: f64 = 0.1;
+const MAX_FACE_ASPECT: f64 = 6.0;
+const MAX_ELONGATED_AREA: f64 = 0.1;
 
 /// Statistics of the edges inside one patch.
 #[derive(Debug, Clone, Copy, Default)]
-struct EdgeCount {
+struct PatchEdgeStats {
     edges: u32,
     flat: u32,
     coarse: u32,
 }
 
-impl AddAssign<&EdgeCount> for EdgeCount {
+impl AddAssign<&PatchEdgeStats> for PatchEdgeStats {
     fn add_assign(&mut self, other: &Self) {
         self.edges += other.edges;
         self.flat += other.flat;
@@ -60,24 +60,24 @@ impl AddAssign<&EdgeCount> for EdgeCount {
     }
 }
 
-impl EdgeCount {
+impl PatchEdgeStats {
     /// Whether the edges allow a curved patch.
     fn may_be_free_form(&self) -> bool {
-        self.edges >= LEAST_EDGES
-            && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
-            && f64::from(self.coarse) <= FEW_COARSE * f64::from(self.edges)
+        self.edges >= MIN_SAMPLE_EDGES
+            && f64::from(self.flat) <= MAX_FLAT_EDGES * f64::from(self.edges)
+            && f64::from(self.coarse) <= MAX_SHARP_TURN_EDGES * f64::from(self.edges)
     }
 }
 
 /// Statistics of the faces of one patch.
 #[derive(Debug, Clone, Copy, Default)]
-struct FaceCount {
+struct PatchFaceStats {
     area: f64,
     in_flats: f64,
     in_long: f64,
 }
 
-impl AddAssign<&FaceCount> for FaceCount {
+impl AddAssign<&PatchFaceStats> for PatchFaceStats {
     fn add_assign(&mut self, other: &Self) {
         self.area += other.area;
         self.in_flats += other.in_flats;
@@ -85,50 +85,50 @@ impl AddAssign<&FaceCount> for FaceCount {
     }
 }
 
-impl FaceCount {
+impl PatchFaceStats {
     /// Whether the faces allow a curved patch.
     fn may_be_free_form(&self) -> bool {
-        self.in_flats <= FEW_FLATS * self.area && self.in_long <= FEW_LONG * self.area
+        self.in_flats <= MAX_PLANAR_AREA * self.area && self.in_long <= MAX_ELONGATED_AREA * self.area
     }
 }
 
 /// Marks the faces of machined components that lie in patches which bend both ways.
-pub(crate) fn add_free_forms(
+pub(crate) fn add_curved_patches(
     mesh: &Mesh,
-    (turns, planes): (&Turns, &Planes),
-    makes: &[Make],
+    (turns, planes): (&DihedralCosines, &PlanarRegions),
+    makes: &[SurfaceClass],
     parts: impl Fn(usize) -> bool + Sync,
     rounded: &mut [bool],
 ) {
-    let machined = |face: u32| makes[face as usize] == Make::Machined;
+    let machined = |face: u32| makes[face as usize] == SurfaceClass::Machined;
     let inner = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces, same_way: false } if machined(faces[0]) && !parts(edge) => Some(faces),
         _ => None,
     };
-    let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
+    let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     // Planar regions alone form no curved patch.
     if !edges.clone().any(|edge| !planes.flat.contains(edge) && inner(edge).is_some()) {
         return;
     }
-    let groups = Groups::new(mesh.triangles.len(), |join| {
+    let groups = DisjointSets::new(mesh.triangles.len(), |join| {
         edges.clone().filter_map(inner).for_each(|[a, b]| join(a, b));
     });
     let patches = groups.numbered(|face| (!machined(face)).then_some(u32::MAX));
     let patch = |face: u32| patches.of_face[face as usize];
-    let of_edges: Vec<EdgeCount> = sums(patches.first.len(), mesh.edges.len(), |edge| {
+    let of_edges: Vec<PatchEdgeStats> = sums(patches.first.len(), mesh.edges.len(), |edge| {
         let [face, _] = inner(edge)?;
         let flat = u32::from(planes.flat.contains(edge));
-        let coarse = u32::from(turns.of_two(edge) < COARSE_COSINE);
-        Some((patch(face), EdgeCount { edges: 1, flat, coarse }))
+        let coarse = u32::from(turns.of_two(edge) < MAX_SHARP_TURN_COSINE);
+        Some((patch(face), PatchEdgeStats { edges: 1, flat, coarse }))
     });
-    let mut asked: Vec<bool> = of_edges.iter().map(EdgeCount::may_be_free_form).collect();
+    let mut asked: Vec<bool> = of_edges.iter().map(PatchEdgeStats::may_be_free_form).collect();
     if !asked.contains(&true) {
         return;
     }
     let asked_patch = |asked: &[bool], face: u32| {
         Some(patch(face)).filter(|patch| asked.get(*patch as usize) == Some(&true))
     };
-    let of_faces: Vec<FaceCount> = sums(patches.first.len(), mesh.triangles.len(), |face| {
+    let of_faces: Vec<PatchFaceStats> = sums(patches.first.len(), mesh.triangles.len(), |face| {
         let face = face as u32;
         Some((asked_patch(&asked, face)?, of_face(mesh, planes, face)))
     });
@@ -143,19 +143,19 @@ pub(crate) fn add_free_forms(
     });
     let of_patch = |face: u32| asked_patch(&asked, face);
     let bent = bent(mesh, of_patch, |vertex| !ends[vertex].load(Relaxed), &asked);
-    rounded.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, rounded)| {
+    rounded.par_iter_mut().enumerate().with_min_len(MIN_TASK_ITEMS).for_each(|(face, rounded)| {
         *rounded |= bent.get(patch(face as u32) as usize) == Some(&true);
     });
 }
 
 /// Statistics of one face.
-fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
+fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> PatchFaceStats {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
     let corners = mesh.corners(FaceId(face));
     let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
-    let in_long = if longest > LONG * 2.0 * area { area } else { 0.0 };
-    FaceCount { area, in_flats, in_long }
+    let in_long = if longest > MAX_FACE_ASPECT * 2.0 * area { area } else { 0.0 };
+    PatchFaceStats { area, in_flats, in_long }
 }
 
 /// Which patches of `asked` reach the minimum total curvature, summed over their inner vertices.
@@ -167,10 +167,14 @@ fn bent(
     is_inner: impl Fn(usize) -> bool + Sync,
     asked: &[bool],
 ) -> Vec<bool> {
-    let blocks = shares(mesh.positions.len(), &mesh.triangles, mesh.positions.len().div_ceil(BLOCK));
+    let blocks = vertex_ranges(
+        mesh.positions.len(),
+        &mesh.triangles,
+        mesh.positions.len().div_ceil(VERTICES_PER_BLOCK),
+    );
     let mut curvature = vec![0.0; asked.len()];
     let mut open = asked.iter().filter(|asked| **asked).count();
-    for some in blocks.chunks(AT_ONCE) {
+    for some in blocks.chunks(BLOCKS_PER_ROUND) {
         let found: Vec<Vec<(u32, f64)>> = some
             .par_iter()
             .with_max_len(1)
@@ -178,20 +182,20 @@ fn bent(
             .collect();
         for (patch, own) in found.into_iter().flatten() {
             let sum: &mut f64 = &mut curvature[patch as usize];
-            open -= usize::from(*sum < FREE_FORM && *sum + own >= FREE_FORM);
+            open -= usize::from(*sum < MIN_TOTAL_CURVATURE_RAD && *sum + own >= MIN_TOTAL_CURVATURE_RAD);
             *sum += own;
         }
         if open == 0 {
             break;
         }
     }
-    curvature.into_iter().map(|curvature| curvature >= FREE_FORM).collect()
+    curvature.into_iter().map(|curvature| curvature >= MIN_TOTAL_CURVATURE_RAD).collect()
 }
 
 /// Absolute angle defects at the vertices of a block, summed in runs of one patch.
 fn curvatures(
     mesh: &Mesh,
-    share: &Share,
+    share: &VertexRange,
     of_patch: impl Fn(u32) -> Option<u32>,
     is_inner: impl Fn(usize) -> bool,
 ) -> Vec<(u32, f64)> {
@@ -211,7 +215,7 @@ fn curvatures(
     }
     let mut runs: Vec<(u32, f64)> = Vec::new();
     for (patch, angles) in at.into_iter().filter_map(|(patch, angles)| Some((patch?, angles))) {
-        let own = ((std::f64::consts::TAU - angles).abs() - ROUNDING).max(0.0);
+        let own = ((std::f64::consts::TAU - angles).abs() - ANGLE_ROUNDING_RAD).max(0.0);
         match runs.last_mut() {
             Some((last, sum)) if *last == patch => *sum += own,
             _ => runs.push((patch, own)),

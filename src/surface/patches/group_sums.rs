@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 use crate::parallel::prelude::*;
 
 /// Number of items per task.
-const CHUNK: usize = 1 << 13;
+const ITEMS_PER_TASK: usize = 1 << 13;
 
 /// The sum of each group over all items. `adds` returns the contributions of an item, with their groups.
 ///
@@ -28,10 +28,10 @@ where
         runs.extend(last);
         runs
     };
-    let runs: Vec<Vec<(u32, T)>> = (0..items.div_ceil(CHUNK))
+    let runs: Vec<Vec<(u32, T)>> = (0..items.div_ceil(ITEMS_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
-        .map(|k| runs_of(k * CHUNK..((k + 1) * CHUNK).min(items)))
+        .map(|k| runs_of(k * ITEMS_PER_TASK..((k + 1) * ITEMS_PER_TASK).min(items)))
         .collect();
     let mut sums = vec![T::default(); groups];
     for (group, run) in runs.iter().flatten() {
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn every_item_is_added_to_its_groups_and_on_any_threads_alike() {
-        let items = 3 * CHUNK + 17;
+        let items = 3 * ITEMS_PER_TASK + 17;
         let adds = |k: usize| [((k / 1000 % 7) as u32, 1.0 / (k + 1) as f64), (7, 1.0)];
         let on = |threads| {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

@@ -8,12 +8,12 @@
 use glam::Vec3;
 
 use crate::geometry::numbers::portable_math::acos;
-use crate::mesh::{FirstEdges, Mesh, Turns};
+use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 
 /// Cosine of the deviation (10 degrees) that rounding, or a finer original model, can cause.
-const LEANING_COSINE: f32 = 0.985;
+const MAX_LEANING_COSINE: f32 = 0.985;
 /// The same angle, radians.
-const LEANING: f64 = 0.175;
+const MIN_LEANING_RAD: f64 = 0.175;
 
 /// Cosine of the smallest angle between a face and its corner normals, if all of them deviate. `None` if one
 /// does not, or if a corner has no normal.
@@ -24,12 +24,17 @@ pub(crate) fn leaning(own: Vec3, normals: [Option<&[f32; 3]>; 3]) -> Option<f32>
         // Normals may belong to either side of the face.
         most = most.max(Vec3::from_array(*normal?).dot(own).abs());
     }
-    (most < LEANING_COSINE && own != Vec3::ZERO).then_some(most)
+    (most < MAX_LEANING_COSINE && own != Vec3::ZERO).then_some(most)
 }
 
 /// Whether normals that deviate by at least the angle of `cosine` deviate by more than the surface turns at
 /// the sides of the face.
-pub(crate) fn leans(mesh: &Mesh, (turns, edges): (&Turns, &FirstEdges), face: u32, cosine: f32) -> bool {
+pub(crate) fn leans(
+    mesh: &Mesh,
+    (turns, edges): (&DihedralCosines, &VertexEdges),
+    face: u32,
+    cosine: f32,
+) -> bool {
     let [a, b, c] = mesh.triangles[face as usize];
     let turn = |[a, b]: [u32; 2]| {
         let cosine = edges.between(a, b).map_or(f32::NAN, |edge| turns.of_two(edge));
@@ -37,7 +42,7 @@ pub(crate) fn leans(mesh: &Mesh, (turns, edges): (&Turns, &FirstEdges), face: u3
         if cosine.is_nan() { 0.0 } else { acos(f64::from(cosine)) }
     };
     let most = [[a, b], [b, c], [c, a]].map(turn).into_iter().fold(0.0, f64::max);
-    acos(f64::from(cosine)) > LEANING + most
+    acos(f64::from(cosine)) > MIN_LEANING_RAD + most
 }
 
 #[cfg(test)]

@@ -5,28 +5,28 @@
 //! creases, and on machined parts the patches between hard edges with curvature inside.
 
 use super::component_classes::{pieces, verdicts};
-use super::curved_patches::add_free_forms;
-use super::planar_regions::{Planes, area};
-use super::surface_class::{Make, Origin, Verdicts};
+use super::curved_patches::add_curved_patches;
+use super::planar_regions::{PlanarRegions, area};
+use super::surface_class::{ComponentClasses, MeshSource, SurfaceClass};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh, Turns};
+use crate::mesh::{DihedralCosines, EdgeFaces, Mesh};
 use crate::surface::HardEdges;
-use crate::surface::creases::hard_edges::LOW_OF_HIGH;
-use crate::surface::creases::low_angle::narrow_fillets::narrow_roundings;
+use crate::surface::creases::hard_edges::LOW_THRESHOLD_OF_HIGH;
+use crate::surface::creases::low_angle::narrow_fillets::narrow_fillets;
 use crate::surface::creases::low_angle::shallow_creases::{shallow_creases, shallow_edges};
-use crate::surface::creases::low_angle::surface_trace::Walk;
+use crate::surface::creases::low_angle::surface_trace::SurfaceTracer;
 use crate::surface::normals::file_normals::file_cosines;
 
 /// Factor on the crease angle for round components.
-const ROUND: f64 = 1.5;
+const ROUND_CREASE_FACTOR: f64 = 1.5;
 
 /// Cosine (10 degrees) below which the outline of a planar region separates it from its surroundings.
-const RIM_COSINE: f32 = 0.985;
+const MAX_RIM_COSINE: f32 = 0.985;
 /// Cosine (20 degrees) below which a strip is separated from a wider face, and the minimum ratio of their
 /// widths.
-const STRIP_COSINE: f32 = 0.94;
-const STRIP: f64 = 6.0;
+const MAX_STRIP_COSINE: f32 = 0.94;
+const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;
 
 /// Classification of the surfaces of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -46,7 +46,7 @@ pub struct Patches {
     /// Whether each face belongs to a figure or scan, which is curved everywhere except at creases.
     pub figure: Vec<bool>,
     /// Source of the surface at each face.
-    pub origins: Vec<Origin>,
+    pub origins: Vec<MeshSource>,
     /// Connected component of each face; empty if there is only one.
     pub pieces: Vec<u32>,
     /// Whether the normals of the file, if any, describe the shape of each face.
@@ -58,7 +58,7 @@ impl Patches {
     /// as curved, and only the edges between surfaces are sought.
     #[must_use]
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
-        let (turns, planes, verdicts) = judged(mesh, all);
+        let (turns, planes, verdicts) = classify(mesh, all);
         let turns = &turns;
         let believed = verdicts.map(|verdict| verdict.believed);
         let makes = verdicts.map(|verdict| verdict.make);
@@ -67,11 +67,11 @@ impl Patches {
             || rims(mesh, turns, &planes, &makes),
         );
         let rounded_and_shallow = || {
-            let mut rounded = verdicts.map(|verdict| all || verdict.make == Make::Round);
-            if !all && verdicts.any(Make::Machined) {
+            let mut rounded = verdicts.map(|verdict| all || verdict.make == SurfaceClass::Round);
+            if !all && verdicts.any(SurfaceClass::Machined) {
                 let parts =
                     |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
-                add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
+                add_curved_patches(mesh, (turns, &planes), &makes, parts, &mut rounded);
             }
             // A figure with faceted normals bends at all edges.
             let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
@@ -88,7 +88,7 @@ impl Patches {
         });
         let hard = hard.with(mesh, &shallow);
         let origins = verdicts.map(|verdict| verdict.origin);
-        let figure = verdicts.map(|verdict| verdict.make == Make::Round);
+        let figure = verdicts.map(|verdict| verdict.make == SurfaceClass::Round);
         let pieces = verdicts.into_pieces();
         Self { hard, wrinkles, roundings, rims, rounded, figure, origins, pieces, believed }
     }
@@ -97,18 +97,18 @@ impl Patches {
 /// Edges that turn by more than `crease_deg` degrees, the source of each face, and the connected component of
 /// each face (empty if there is only one).
 #[must_use]
-pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u32>) {
-    let (turns, _, verdicts) = judged(mesh, false);
+pub fn classify_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<MeshSource>, Vec<u32>) {
+    let (turns, _, verdicts) = classify(mesh, false);
     let turns = &turns;
     let hard = HardEdges::above_with(mesh, turns, crease_deg);
     (hard, verdicts.map(|verdict| verdict.origin), verdicts.into_pieces())
 }
 
 /// Dihedral angles, planar regions, and the class of each component.
-fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
+fn classify(mesh: &Mesh, all: bool) -> (DihedralCosines, PlanarRegions, ComponentClasses) {
     let turned = || {
-        let turns = Turns::of(mesh);
-        let planes = Planes::new(mesh, &turns);
+        let turns = DihedralCosines::of(mesh);
+        let planes = PlanarRegions::new(mesh, &turns);
         (turns, planes)
     };
     let ((turns, planes), pieces) = crate::parallel::join(turned, || pieces(mesh));
@@ -121,13 +121,18 @@ fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
 /// Includes every sharp edge. On machined components, creases that would end inside the surface are extended:
 /// planar regions and strips cut out of a surface turn by varying angles. The second result holds the sharp
 /// edges of machined components that only a sliver causes.
-fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
-    let is_machined = |face: &u32| verdicts.of(*face).make == Make::Machined;
-    if !verdicts.any(Make::Machined) {
+fn sharp_edges(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    verdicts: &ComponentClasses,
+    crease_deg: f64,
+) -> (HardEdges, EdgeSet) {
+    let is_machined = |face: &u32| verdicts.of(*face).make == SurfaceClass::Machined;
+    if !verdicts.any(SurfaceClass::Machined) {
         return (HardEdges::above_with(mesh, turns, crease_deg), EdgeSet::default());
     }
-    let low_deg = ROUND * LOW_OF_HIGH * crease_deg;
-    HardEdges::above_and_on(mesh, turns, [crease_deg, low_deg], |edge| {
+    let low_deg = ROUND_CREASE_FACTOR * LOW_THRESHOLD_OF_HIGH * crease_deg;
+    HardEdges::above_with_extensions(mesh, turns, [crease_deg, low_deg], |edge| {
         mesh.edges.faces(edge).list().iter().all(is_machined)
     })
 }
@@ -137,14 +142,19 @@ fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64)
 /// On machined components every sharp edge is a crease. Faces of round components turn at every edge. There,
 /// sharp edges are creases if the normals of the file turn as well. Chains that turn by more and stand out
 /// from the noise are also creases.
-fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
-    let is_round = |face: u32| verdicts.of(face).make == Make::Round;
+fn hard_edges(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    verdicts: &ComponentClasses,
+    crease_deg: f64,
+) -> (HardEdges, EdgeSet) {
+    let is_round = |face: u32| verdicts.of(face).make == SurfaceClass::Round;
     let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
-    if !verdicts.any(Make::Round) {
+    if !verdicts.any(SurfaceClass::Round) {
         return above();
     }
-    let chains = HardEdges::find_with(mesh, turns, (ROUND * crease_deg).min(180.0), is_round);
-    if verdicts.all(Make::Round) && mesh.corner_normals.is_empty() {
+    let chains = HardEdges::find_with(mesh, turns, (ROUND_CREASE_FACTOR * crease_deg).min(180.0), is_round);
+    if verdicts.all(SurfaceClass::Round) && mesh.corner_normals.is_empty() {
         return (chains, EdgeSet::default());
     }
     let (above, wrinkles) = above();
@@ -165,29 +175,29 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) 
 /// Centre edges of narrow fillets, except on figures and scans, at `hard` edges and at `wrinkles`.
 fn roundings(
     mesh: &Mesh,
-    (turns, planes): (&Turns, &Planes),
-    verdicts: &Verdicts,
+    (turns, planes): (&DihedralCosines, &PlanarRegions),
+    verdicts: &ComponentClasses,
     (hard, wrinkles): (&HardEdges, &EdgeSet),
     crease_deg: f64,
 ) -> EdgeSet {
     let is_made = |face: &u32| {
         let verdict = verdicts.of(*face);
-        verdict.make != Make::Round && verdict.believed
+        verdict.make != SurfaceClass::Round && verdict.believed
     };
     let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_made) && !wrinkles.contains(edge);
     let asked = shallow_edges(mesh, turns, crease_deg, hard, may);
     if asked.is_empty() {
         return EdgeSet::default();
     }
-    let walk = Walk::new(mesh, (turns, &planes.flat), hard, crease_deg);
-    EdgeSet::default().with(&narrow_roundings(&walk, &asked), mesh.edges.len())
+    let walk = SurfaceTracer::new(mesh, (turns, &planes.flat), hard, crease_deg);
+    EdgeSet::default().with(&narrow_fillets(&walk, &asked), mesh.edges.len())
 }
 
 /// Borders of planar regions and of wide faces.
-fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet {
+fn rims(mesh: &Mesh, turns: &DihedralCosines, planes: &PlanarRegions, makes: &[SurfaceClass]) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
         let cosine = turns.of_two(edge);
-        if cosine > RIM_COSINE {
+        if cosine > MAX_RIM_COSINE {
             return false;
         }
         let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return false };
@@ -197,10 +207,10 @@ fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet 
         }
         // Slivers next to wide faces are random on scans, but intended on modelled surfaces.
         let shaded = |face: u32| mesh.corner_normals.get(face as usize).is_some_and(|n| n[0] != u32::MAX);
-        let modelled = faces.iter().all(|f| makes[*f as usize] == Make::Machined || shaded(*f));
-        cosine < STRIP_COSINE && modelled && {
+        let modelled = faces.iter().all(|f| makes[*f as usize] == SurfaceClass::Machined || shaded(*f));
+        cosine < MAX_STRIP_COSINE && modelled && {
             let [a, b] = faces.map(|face| width(mesh, edge, face));
-            a.max(b) > STRIP * a.min(b)
+            a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)
         }
     })
 }
@@ -286,9 +296,9 @@ mod tests {
     #[test]
     fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
         let origins = |straight: u32| Patches::new(&screw(straight), 40.0, false).origins;
-        assert!(origins(5).iter().all(|origin| *origin == Origin::Constructed));
+        assert!(origins(5).iter().all(|origin| *origin == MeshSource::Constructed));
         // Sharp edges without flat ones are those of a decimated scan.
-        assert!(origins(0).iter().all(|origin| *origin == Origin::Scanned));
+        assert!(origins(0).iter().all(|origin| *origin == MeshSource::Scanned));
     }
 
     /// Rough ground of 20 by 20 squares with heights up to `height`. It is level for `level` squares from one
@@ -370,16 +380,20 @@ mod tests {
             })
         };
         let (machined, rough, scan) = (ground(0.6, 6, 0.0), ground(0.8, 0, 0.0), screw(0));
-        assert_eq!(origins(&machined, 2.0, &rough), [Origin::Constructed; 2]);
+        assert_eq!(origins(&machined, 2.0, &rough), [MeshSource::Constructed; 2]);
         assert_eq!(
             origins(&rough, 2.0, &machined),
-            [Origin::Scanned, Origin::Constructed],
+            [MeshSource::Scanned, MeshSource::Constructed],
             "the largest stays"
         );
-        assert_eq!(origins(&machined, 2.0, &scan), [Origin::Constructed, Origin::Scanned], "dense");
+        assert_eq!(origins(&machined, 2.0, &scan), [MeshSource::Constructed, MeshSource::Scanned], "dense");
         // One edge in 200 is sharp.
         let gentle = ground(0.6, 0, 0.0);
-        assert_eq!(origins(&machined, 2.0, &gentle), [Origin::Constructed, Origin::Scanned], "gentle");
+        assert_eq!(
+            origins(&machined, 2.0, &gentle),
+            [MeshSource::Constructed, MeshSource::Scanned],
+            "gentle"
+        );
     }
 
     #[test]
@@ -394,7 +408,7 @@ mod tests {
     fn constructed(mesh: &Mesh) -> bool {
         let origins = Patches::new(mesh, 40.0, false).origins;
         assert!(origins.iter().all(|origin| *origin == origins[0]));
-        origins[0] == Origin::Constructed
+        origins[0] == MeshSource::Constructed
     }
 
     #[test]

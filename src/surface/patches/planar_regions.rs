@@ -1,4 +1,4 @@
-//! [`Planes`]: planar regions of a mesh, made of several coplanar faces.
+//! [`PlanarRegions`]: planar regions of a mesh, made of several coplanar faces.
 //!
 //! Machined parts have planar regions. Scans and figures have none: their triangles turn a little at almost
 //! every edge.
@@ -9,28 +9,28 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 
 use super::group_sums::sums;
-use crate::mesh::components::disjoint_sets::{Groups, Numbered};
+use crate::mesh::components::disjoint_sets::{DisjointSets, NumberedSets};
 use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum cosine of a flat edge: 0.1 degrees.
-const FLAT_COSINE: f32 = 0.999_998_5;
+const MIN_FLAT_COSINE: f32 = 0.999_998_5;
 /// Minimum number of faces of a planar region. Fewer may be coplanar at random: two halves of a quad, or
 /// three faces at a cut corner.
-const LEAST_FACES: u32 = 4;
+const MIN_REGION_FACES: u32 = 4;
 /// Minimum area of a compact region, as a share of its squared outline length. A circle has 0.08, a square
 /// 0.0625, a strip ten times longer than wide 0.02.
-const COMPACT: f64 = 0.025;
+const MIN_AREA_PER_SQUARED_OUTLINE: f64 = 0.025;
 
-/// In [`Planes::of_face`]: the face is in no planar region.
-const NONE: u32 = u32::MAX;
-/// In [`Planes::of_face`]: the face is coplanar with a neighbour, but the group is too small for a region.
-const FEW: u32 = u32::MAX - 1;
+/// In [`PlanarRegions::of_face`]: the face is in no planar region.
+const NO_REGION: u32 = u32::MAX;
+/// In [`PlanarRegions::of_face`]: the face is coplanar with a neighbour, but the group is too small for a region.
+const TOO_SMALL_REGION: u32 = u32::MAX - 1;
 
 /// The planar regions of a mesh.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Planes {
+pub(crate) struct PlanarRegions {
     /// Edges where the surface is flat.
     pub flat: EdgeSet,
     /// Planar region of each face.
@@ -39,11 +39,11 @@ pub(crate) struct Planes {
     compact: Vec<bool>,
 }
 
-impl Planes {
-    pub fn new(mesh: &Mesh, turns: &Turns) -> Self {
+impl PlanarRegions {
+    pub fn new(mesh: &Mesh, turns: &DihedralCosines) -> Self {
         let faces = mesh.triangles.len();
-        let flat = EdgeSet::collect(mesh.edges.len(), |edge| turns.of_two(edge) > FLAT_COSINE);
-        let groups = Groups::new(faces, |join| {
+        let flat = EdgeSet::collect(mesh.edges.len(), |edge| turns.of_two(edge) > MIN_FLAT_COSINE);
+        let groups = DisjointSets::new(faces, |join| {
             flat.par_for_each(|edge| {
                 if let EdgeFaces::Two { faces: [a, b], .. } = mesh.edges.faces(edge) {
                     join(a, b);
@@ -51,13 +51,14 @@ impl Planes {
             });
         });
         let sizes = sizes(&groups, faces);
-        let Numbered { of_face, first } = groups.numbered(|face| match sizes[face as usize].load(Relaxed) {
-            LEAST_FACES.. => None,
-            2.. => Some(FEW),
-            _ => Some(NONE),
-        });
+        let NumberedSets { of_face, first } =
+            groups.numbered(|face| match sizes[face as usize].load(Relaxed) {
+                MIN_REGION_FACES.. => None,
+                2.. => Some(TOO_SMALL_REGION),
+                _ => Some(NO_REGION),
+            });
         drop(sizes);
-        let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < FEW);
+        let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION);
         // Scans have no planar regions.
         let asked = |count: usize| if first.is_empty() { 0 } else { count };
         let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32)));
@@ -74,7 +75,8 @@ impl Planes {
             || sums(first.len(), asked(faces), area_of),
             || sums(first.len(), asked(mesh.edges.len()), bounded_by),
         );
-        let is_compact = |(area, outline): (f64, f64)| area >= COMPACT * outline * outline;
+        let is_compact =
+            |(area, outline): (f64, f64)| area >= MIN_AREA_PER_SQUARED_OUTLINE * outline * outline;
         let compact = areas.into_iter().zip(outlines).map(is_compact).collect();
         Self { flat, of_face, compact }
     }
@@ -82,13 +84,13 @@ impl Planes {
     /// The planar region that contains a face.
     #[inline]
     pub fn of(&self, face: u32) -> Option<u32> {
-        Some(self.of_face[face as usize]).filter(|flat| *flat < FEW)
+        Some(self.of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION)
     }
 
     /// Whether a face is coplanar with a neighbour.
     #[inline]
     pub fn is_level(&self, face: u32) -> bool {
-        self.of_face[face as usize] != NONE
+        self.of_face[face as usize] != NO_REGION
     }
 
     /// The planar region that contains a face, unless it is a strip.
@@ -99,8 +101,8 @@ impl Planes {
 }
 
 /// Number of faces in each group, stored at its smallest face.
-fn sizes(groups: &Groups, faces: usize) -> Vec<AtomicU32> {
-    let faces = (0..faces as u32).into_par_iter().with_min_len(GRAIN);
+fn sizes(groups: &DisjointSets, faces: usize) -> Vec<AtomicU32> {
+    let faces = (0..faces as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     let sizes: Vec<AtomicU32> = faces.clone().map(|_| AtomicU32::new(0)).collect();
     // Consecutive faces mostly belong to one group, so whole runs are added at once.
     let add = |(group, size): (u32, u32)| {

@@ -1,4 +1,4 @@
-//! [`Slender`]: sliver faces, and whether the surface bends along them.
+//! [`SliverFace`]: sliver faces, and whether the surface bends along them.
 //!
 //! Samplings of a round surface are denser across bends: faces may be long where the surface is straight, but
 //! are short where it bends. Tessellators of machined patches and convex hulls do not follow this. Their
@@ -6,32 +6,32 @@
 
 use super::planar_regions::area;
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::{FaceId, FirstEdges, Mesh, Turns};
+use crate::mesh::{DihedralCosines, FaceId, Mesh, VertexEdges};
 
 /// Cosine (40 degrees) below which an edge is a corner, not a bend.
-const CORNER_COSINE: f32 = 0.766;
+const MIN_BEND_COSINE: f32 = 0.766;
 /// The angle of such a corner, radians.
-const CORNER: f64 = 0.698;
+const MAX_BEND_RAD: f64 = 0.698;
 /// A face bends if the turn at its short side, as an arc over its length, rises above half its width. The
 /// rise is an eighth of the length times the angle.
-const BEND: f64 = 4.0;
+const BEND_OF_ASPECT: f64 = 4.0;
 /// Factor that covers rounding.
-const FAR: f64 = 1.0 + 1e-9;
+const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 
 /// Size of a face that is long enough to bend at less than a corner angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Slender {
+pub(crate) struct SliverFace {
     /// Longest side, world units.
     pub length: f64,
     /// Height over the longest side, world units.
     pub width: f64,
 }
 
-impl Slender {
+impl SliverFace {
     /// Whether a face with this area and longest side is a sliver.
     #[inline]
     pub fn is(area: f64, longest: f64) -> bool {
-        area > 0.0 && 2.0 * area * BEND < CORNER * longest * longest
+        area > 0.0 && 2.0 * area * BEND_OF_ASPECT < MAX_BEND_RAD * longest * longest
     }
 
     /// A face, if it is a sliver.
@@ -39,7 +39,9 @@ impl Slender {
         let [a, b, c] = mesh.corners(FaceId(face));
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         // Squared comparison: excludes most faces without square roots.
-        if (b - a).cross(c - a).length_squared() * BEND * BEND > FAR * (CORNER * longest).powi(2) {
+        if (b - a).cross(c - a).length_squared() * BEND_OF_ASPECT * BEND_OF_ASPECT
+            > ROUNDING_FACTOR * (MAX_BEND_RAD * longest).powi(2)
+        {
             return None;
         }
         let (area, length) = (area(mesh, face), longest_side(mesh, face));
@@ -55,18 +57,18 @@ pub(crate) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
 }
 
 /// Number of short sides (0 to 2) where the surface bends along a sliver.
-pub(crate) fn bends_over_its_ends(
+pub(crate) fn bent_short_sides(
     mesh: &Mesh,
-    (turns, edges): (&Turns, &FirstEdges),
+    (turns, edges): (&DihedralCosines, &VertexEdges),
     face: u32,
-    slender: Slender,
+    slender: SliverFace,
 ) -> u32 {
-    let least = cos(BEND * slender.width / slender.length) as f32;
+    let least = cos(BEND_OF_ASPECT * slender.width / slender.length) as f32;
     let [a, b, c] = mesh.triangles[face as usize];
     let bends = |[a, b]: [u32; 2]| {
         let [from, to] = [a, b].map(|v| mesh.positions[v as usize]);
         let is_short = from.distance(to) < slender.length;
-        let turns_less = |edge| (CORNER_COSINE..least).contains(&turns.of_two(edge));
+        let turns_less = |edge| (MIN_BEND_COSINE..least).contains(&turns.of_two(edge));
         is_short && edges.between(a, b).is_some_and(turns_less)
     };
     [[a, b], [b, c], [c, a]].into_iter().filter(|side| bends(*side)).count() as u32
@@ -76,7 +78,7 @@ pub(crate) fn bends_over_its_ends(
 mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::mesh::{Mesh, Soup};
-    use crate::surface::Origin;
+    use crate::surface::MeshSource;
     use crate::surface::{HardEdges, Patches};
     use glam::DVec3;
 
@@ -122,10 +124,10 @@ mod tests {
     #[test]
     fn faces_from_end_to_end_over_a_bend_are_of_no_scan() {
         let origins = |mesh: &Mesh| Patches::new(mesh, 40.0, false).origins;
-        let is = |origin: Origin| move |of_face: &Origin| *of_face == origin;
+        let is = |origin: MeshSource| move |of_face: &MeshSource| *of_face == origin;
         let (hull, scan) = (barrel(1, 1), barrel(24, 8));
-        assert!(origins(&hull).iter().all(is(Origin::Constructed)));
-        assert!(origins(&scan).iter().all(is(Origin::Scanned)));
+        assert!(origins(&hull).iter().all(is(MeshSource::Constructed)));
+        assert!(origins(&scan).iter().all(is(MeshSource::Scanned)));
         // The corners decide neither: there are none.
         assert_eq!([hull, scan].map(|mesh| HardEdges::above(&mesh, 40.0).count()), [0, 0]);
     }

@@ -1,18 +1,18 @@
-//! [`Verdicts`]: class of each connected component, looked up by face.
+//! [`ComponentClasses`]: class of each connected component, looked up by face.
 
 use crate::parallel::prelude::*;
 
-use crate::mesh::components::disjoint_sets::Numbered;
+use crate::mesh::components::disjoint_sets::NumberedSets;
 
 /// Minimum number of faces per task.
-const GRAIN: usize = 1 << 16;
+const MIN_FACES_PER_TASK: usize = 1 << 16;
 
 /// Class of a connected component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Make {
+pub(crate) enum SurfaceClass {
     /// Drawn as its faces are.
     #[default]
-    Block,
+    Faceted,
     /// Planar regions, with surfaces between them that may be curved.
     Machined,
     /// Curved everywhere except at creases.
@@ -21,7 +21,7 @@ pub(crate) enum Make {
 
 /// Source of a surface, as far as its mesh shows. It decides whether lines may be noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
-pub enum Origin {
+pub enum MeshSource {
     /// Constructed: all lines are intended.
     #[default]
     Constructed,
@@ -34,50 +34,50 @@ pub enum Origin {
 
 /// Class of a component, with the reliability of its normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Verdict {
-    pub make: Make,
-    pub origin: Origin,
+pub(crate) struct ComponentClass {
+    pub make: SurfaceClass,
+    pub origin: MeshSource,
     pub believed: bool,
 }
 
 /// Classes of the components of a mesh, and the component of each face.
 #[derive(Debug, Default)]
-pub(crate) struct Verdicts {
+pub(crate) struct ComponentClasses {
     /// One entry per component. Every component has a face.
-    of_pieces: Vec<Verdict>,
+    of_pieces: Vec<ComponentClass>,
     /// Component of each face.
     pieces: Vec<u32>,
 }
 
-impl Verdicts {
+impl ComponentClasses {
     /// Takes one class per component, in the order of component numbers.
-    pub fn new(of_pieces: Vec<Verdict>, pieces: Numbered) -> Self {
+    pub fn new(of_pieces: Vec<ComponentClass>, pieces: NumberedSets) -> Self {
         Self { of_pieces, pieces: pieces.of_face }
     }
 
     /// The class of the component that a face belongs to.
     #[inline]
-    pub fn of(&self, face: u32) -> &Verdict {
+    pub fn of(&self, face: u32) -> &ComponentClass {
         &self.of_pieces[self.pieces[face as usize] as usize]
     }
 
     /// Whether at least one component is of a class.
-    pub fn any(&self, make: Make) -> bool {
+    pub fn any(&self, make: SurfaceClass) -> bool {
         self.of_pieces.iter().any(|verdict| verdict.make == make)
     }
 
     /// Whether all components are of a class.
-    pub fn all(&self, make: Make) -> bool {
+    pub fn all(&self, make: SurfaceClass) -> bool {
         self.of_pieces.iter().all(|verdict| verdict.make == make)
     }
 
     /// Maps the class of each face.
-    pub fn map<T: Clone + Send + Sync>(&self, of: impl Fn(&Verdict) -> T + Sync) -> Vec<T> {
+    pub fn map<T: Clone + Send + Sync>(&self, of: impl Fn(&ComponentClass) -> T + Sync) -> Vec<T> {
         if let [only] = &self.of_pieces[..] {
             return vec![of(only); self.pieces.len()];
         }
         let of_face = |piece: &u32| of(&self.of_pieces[*piece as usize]);
-        self.pieces.par_iter().with_min_len(GRAIN).map(of_face).collect()
+        self.pieces.par_iter().with_min_len(MIN_FACES_PER_TASK).map(of_face).collect()
     }
 
     /// Component of each face, numbered in the order of their first faces; empty if there is at most one.
@@ -92,18 +92,27 @@ mod tests {
 
     #[test]
     fn faces_are_told_by_their_pieces() {
-        let make = |make| Verdict { make, ..Verdict::default() };
-        let numbered = |of_face: &[u32]| Numbered { of_face: of_face.to_vec(), first: Vec::new() };
-        let two = Verdicts::new(vec![make(Make::Round), make(Make::Machined)], numbered(&[0, 1, 1, 0]));
-        assert_eq!(two.of(2).make, Make::Machined);
-        assert!(two.any(Make::Machined) && !two.any(Make::Block) && !two.all(Make::Round));
-        assert_eq!(two.map(|verdict| verdict.make == Make::Round), [true, false, false, true]);
+        let make = |make| ComponentClass { make, ..ComponentClass::default() };
+        let numbered = |of_face: &[u32]| NumberedSets { of_face: of_face.to_vec(), first: Vec::new() };
+        let two = ComponentClasses::new(
+            vec![make(SurfaceClass::Round), make(SurfaceClass::Machined)],
+            numbered(&[0, 1, 1, 0]),
+        );
+        assert_eq!(two.of(2).make, SurfaceClass::Machined);
+        assert!(
+            two.any(SurfaceClass::Machined)
+                && !two.any(SurfaceClass::Faceted)
+                && !two.all(SurfaceClass::Round)
+        );
+        assert_eq!(two.map(|verdict| verdict.make == SurfaceClass::Round), [true, false, false, true]);
         assert_eq!(two.into_pieces(), [0, 1, 1, 0]);
-        let one = Verdicts::new(vec![make(Make::Round)], numbered(&[0, 0]));
-        assert!(one.all(Make::Round));
-        assert_eq!(one.map(|verdict| verdict.make), [Make::Round; 2]);
+        let one = ComponentClasses::new(vec![make(SurfaceClass::Round)], numbered(&[0, 0]));
+        assert!(one.all(SurfaceClass::Round));
+        assert_eq!(one.map(|verdict| verdict.make), [SurfaceClass::Round; 2]);
         assert!(one.into_pieces().is_empty());
-        let none = Verdicts::default();
-        assert!(none.all(Make::Round) && !none.any(Make::Round) && none.into_pieces().is_empty());
+        let none = ComponentClasses::default();
+        assert!(
+            none.all(SurfaceClass::Round) && !none.any(SurfaceClass::Round) && none.into_pieces().is_empty()
+        );
     }
 }

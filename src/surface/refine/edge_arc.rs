@@ -14,7 +14,7 @@ use crate::surface::SmoothNormals;
 
 /// Maximum sine of the angle between the arc and its edge. It limits the rise to 15 % of the edge length.
 /// Arcs over a hexagon need 13.4 %; steeper normals do not fit any surface through the ends.
-const STEEPEST: f64 = 0.55;
+const MAX_TANGENT_SINE: f64 = 0.55;
 
 /// Cubic Bézier curve over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ impl EdgeArc {
         let tangents = normals.map(|n| {
             let rise = n.dot(along);
             let across = (rise * (along * rise - n)).normalize_or_zero();
-            let rise = rise.abs().min(STEEPEST);
+            let rise = rise.abs().min(MAX_TANGENT_SINE);
             along * (1.0 - rise * rise).sqrt() + across * rise
         });
         let turn = tangents[0].dot(tangents[1]).clamp(-1.0, 1.0);

@@ -9,23 +9,23 @@ use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
 /// Maximum number of curved faces of a part that is always refined, because it is fast.
-const SMALL: usize = 20_000;
+const MAX_ALWAYS_REFINED_FACES: usize = 20_000;
 /// A larger part is dense enough if at most one edge in this number is marked. The rest are slivers, and
 /// rebuilding the part would cost more than they show.
-const FEW: usize = 500;
+const DENSE_EDGES_PER_MARK: usize = 500;
 
 /// Minimum deviation, in multiples of the wanted one, for which the wall thickness is checked. Less is not
 /// visible.
-const SWOLLEN: f64 = 6.0;
+const MIN_SWELLING_RATIO: f64 = 6.0;
 
 /// Number of edges in a run. Runs are examined or skipped as a whole.
-pub const RUN: usize = 16;
+pub const EDGES_PER_RUN: usize = 16;
 
 /// Number of runs per task.
-const CHUNK: usize = 1 << 8;
+const RUNS_PER_TASK: usize = 1 << 8;
 
 /// Decisions on the edges of a mesh.
-pub(crate) struct Marks {
+pub(crate) struct EdgeMarks {
     /// Smooth vertices at the ends of the edges to split.
     pub cut: Vec<[u32; 2]>,
     /// The edges to split.
@@ -36,7 +36,7 @@ pub(crate) struct Marks {
 
 /// Edge that may be split.
 #[derive(Clone, Copy)]
-struct Marked {
+struct MarkedEdge {
     edge: usize,
     /// Its smooth vertices.
     ends: [u32; 2],
@@ -55,7 +55,7 @@ pub(crate) fn marks(
         &(impl Fn([u32; 2], f64) -> bool + Sync),
     ),
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
-) -> Marks {
+) -> EdgeMarks {
     let mark = |edge: usize| {
         let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
         if smooth.gentle.contains(edge) && !may(mesh.edges.vertices[edge], a.distance_squared(b)) {
@@ -69,46 +69,48 @@ pub(crate) fn marks(
         let at = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
         let normal = |v: u32| smooth.normals[v as usize];
         let wanted = want([at(a), at(b)], [normal(a), normal(b)]);
-        (wanted > 1.0).then_some(Marked { edge, ends, wanted })
+        (wanted > 1.0).then_some(MarkedEdge { edge, ends, wanted })
     };
-    let runs = mesh.edges.len().div_ceil(RUN);
-    let marked: Vec<Vec<Marked>> = (0..runs.div_ceil(CHUNK))
+    let runs = mesh.edges.len().div_ceil(EDGES_PER_RUN);
+    let marked: Vec<Vec<MarkedEdge>> = (0..runs.div_ceil(RUNS_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|k| {
             let mut marked = Vec::new();
-            for run in (k * CHUNK..((k + 1) * CHUNK).min(runs)).filter(|run| is_asked(*run)) {
-                marked.extend((run * RUN..((run + 1) * RUN).min(mesh.edges.len())).filter_map(mark));
+            for run in (k * RUNS_PER_TASK..((k + 1) * RUNS_PER_TASK).min(runs)).filter(|run| is_asked(*run)) {
+                marked.extend(
+                    (run * EDGES_PER_RUN..((run + 1) * EDGES_PER_RUN).min(mesh.edges.len())).filter_map(mark),
+                );
             }
             marked
         })
         .collect();
     let marked = without_dense_parts(mesh, smooth, marked.concat());
     let swollen: Vec<(usize, [u32; 2])> =
-        marked.iter().filter(|m| m.wanted > SWOLLEN).map(|m| (m.edge, m.ends)).collect();
+        marked.iter().filter(|m| m.wanted > MIN_SWELLING_RATIO).map(|m| (m.edge, m.ends)).collect();
     let thin = wall_thickness::thin(mesh, smooth, &swollen);
-    let is_cut = |marked: &&Marked| thin.binary_search(&marked.edge).is_err();
+    let is_cut = |marked: &&MarkedEdge| thin.binary_search(&marked.edge).is_err();
     let (cut, edges) = marked.iter().filter(is_cut).map(|marked| (marked.ends, marked.edge as u32)).unzip();
-    Marks { cut, edges, thin }
+    EdgeMarks { cut, edges, thin }
 }
 
 /// Removes the edges of parts that are dense enough.
-fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Marked>) -> Vec<Marked> {
-    if marked.is_empty() || mesh.triangles.len() <= SMALL {
+fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<MarkedEdge>) -> Vec<MarkedEdge> {
+    if marked.is_empty() || mesh.triangles.len() <= MAX_ALWAYS_REFINED_FACES {
         return marked;
     }
     let part_of = |edge: usize| mesh.body(mesh.edges.faces(edge).list()[0]).index();
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
     let (mut faces, mut wanted) = (vec![0usize; parts], vec![0usize; parts]);
     marked.iter().for_each(|marked| wanted[part_of(marked.edge)] += 1);
-    let is_few = |wanted: usize, faces: usize| wanted <= faces * 3 / 2 / FEW;
+    let is_few = |wanted: usize, faces: usize| wanted <= faces * 3 / 2 / DENSE_EDGES_PER_MARK;
     if !wanted.iter().any(|wanted| *wanted > 0 && is_few(*wanted, mesh.triangles.len())) {
         return marked;
     }
     for (face, corners) in (0..).zip(&smooth.corners) {
         faces[mesh.body(face).index()] += usize::from(corners[0] != NO_NORMAL);
     }
-    let is_dense = |part: usize| faces[part] > SMALL && is_few(wanted[part], faces[part]);
+    let is_dense = |part: usize| faces[part] > MAX_ALWAYS_REFINED_FACES && is_few(wanted[part], faces[part]);
     marked.retain(|marked| !is_dense(part_of(marked.edge)));
     marked
 }

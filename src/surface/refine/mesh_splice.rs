@@ -12,14 +12,14 @@ use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, Overlay, P
 use crate::surface::SmoothNormals;
 
 /// Texture coordinates and colours of new corners are rounded to multiples of 1 over this.
-const UV_STEPS: f64 = 65536.0;
+const UV_STEPS_PER_UNIT: f64 = 65536.0;
 
 /// Above this number of faces, an owned mesh is processed sequentially, which limits peak memory.
-const MANY_FACES: usize = 500_000;
+const MAX_PARALLEL_FACES: usize = 500_000;
 
 /// Piece of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Facet {
+pub(crate) struct PieceTriangle {
     /// Its smooth vertices.
     pub corners: [u32; 3],
     /// Marks of the sides 0-1, 1-2, 2-0.
@@ -30,7 +30,7 @@ pub(crate) struct Facet {
 
 /// Mesh after some of its faces were cut.
 #[derive(Debug, Clone)]
-pub struct Refined {
+pub struct RefinedMesh {
     /// The finer mesh; its first vertices are those of the given one.
     pub mesh: Mesh,
     /// Its normals.
@@ -45,13 +45,13 @@ pub struct Refined {
 
 /// Subdivision of a mesh: new vertices, pieces and kept faces.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cuts {
+pub struct MeshCuts {
     /// Positions and normals of the new vertices.
     pub(crate) positions: Vec<DVec3>,
     pub(crate) normals: Vec<DVec3>,
     /// Pieces, in smooth vertices. New ones are numbered after those of the mesh.
-    pub(crate) pieces: Vec<Facet>,
-    pub(crate) kept: Kept,
+    pub(crate) pieces: Vec<PieceTriangle>,
+    pub(crate) kept: KeptFaces,
     /// Edges that stay straight.
     pub(crate) thin: Vec<usize>,
     /// Smooth vertices at the ends of new straight edges.
@@ -60,13 +60,13 @@ pub struct Cuts {
 
 /// Faces that stay unchanged.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Kept {
+pub(crate) struct KeptFaces {
     runs: Vec<Range<usize>>,
     count: usize,
     of: usize,
 }
 
-impl Kept {
+impl KeptFaces {
     /// All of `of` faces except those in `cut`, ascending.
     pub fn without(of: usize, cut: impl Iterator<Item = u32>) -> Self {
         let (mut runs, mut next, mut count) = (Vec::new(), 0, of);
@@ -158,7 +158,7 @@ macro_rules! part {
 }
 
 /// Builds the finer mesh. An owned mesh is modified instead of copied.
-pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
+pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: MeshCuts) -> RefinedMesh {
     let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
         Some(vertex) => *vertex,
@@ -171,44 +171,45 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cut
     };
     let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
     let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
-    let by_edges = || OfEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
-    let (of_edges, (mut mesh, mut smooth)) = if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MANY_FACES {
-        let of_edges = by_edges();
-        drop(edges);
-        (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
-    } else {
-        crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
-    };
+    let by_edges = || SplicedEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
+    let (of_edges, (mut mesh, mut smooth)) =
+        if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MAX_PARALLEL_FACES {
+            let of_edges = by_edges();
+            drop(edges);
+            (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
+        } else {
+            crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
+        };
     mesh.edges = of_edges.edges;
     (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
-    let Cuts { pieces, kept, .. } = &cuts;
+    let MeshCuts { pieces, kept, .. } = &cuts;
     let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
-    Refined { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
+    RefinedMesh { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
 }
 
 /// The parts of the finer mesh that are indexed by edge.
-struct OfEdges {
+struct SplicedEdges {
     edges: Edges,
     straight: EdgeSet,
     parting: EdgeSet,
-    /// See [`Refined::edges`].
+    /// See [`RefinedMesh::directed_edges`].
     ids: Vec<u32>,
 }
 
-impl OfEdges {
+impl SplicedEdges {
     fn new(
         edges: &Edges,
         [straight, parting]: [EdgeSet; 2],
-        (cuts, old, level): (&Cuts, usize, &[[u32; 2]]),
+        (cuts, old, level): (&MeshCuts, usize, &[[u32; 2]]),
         triangles: &[[u32; 3]],
     ) -> Self {
-        let Cuts { kept, thin, .. } = cuts;
+        let MeshCuts { kept, thin, .. } = cuts;
         let (before, vertices) = (edges.len(), old + cuts.positions.len());
         let (edges, ids) = edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
         let find = |[a, b]: &[u32; 2]| edges.vertices.binary_search(&[*a.min(b), *a.max(b)]).ok();
         let level: Vec<usize> = level.iter().filter_map(find).collect();
-        let straight = straight.with(thin, before).carried(&ids, edges.len()).with(&level, edges.len());
-        let parting = parting.carried(&ids, edges.len());
+        let straight = straight.with(thin, before).remapped(&ids, edges.len()).with(&level, edges.len());
+        let parting = parting.remapped(&ids, edges.len());
         Self { edges, straight, parting, ids }
     }
 }
@@ -217,11 +218,11 @@ impl OfEdges {
 fn of_faces(
     mut mesh: Cow<'_, Mesh>,
     mut smooth: Cow<'_, SmoothNormals>,
-    cuts: &Cuts,
+    cuts: &MeshCuts,
     triangles: &[[u32; 3]],
 ) -> (Mesh, SmoothNormals) {
-    let Cuts { pieces, kept, .. } = cuts;
-    let own = |piece: &Facet| piece.face as usize;
+    let MeshCuts { pieces, kept, .. } = cuts;
+    let own = |piece: &PieceTriangle| piece.face as usize;
     let old = mesh.positions.len();
     let at = |vertex: u32| match mesh.positions.get(vertex as usize) {
         Some(at) => *at,
@@ -292,7 +293,7 @@ fn extended<T: Copy>(list: Cow<'_, [T]>, more: &[T]) -> Vec<T> {
 /// coordinates, and for each corner an index into the old ones followed by the new ones.
 fn texture(
     mesh: &Mesh,
-    pieces: &[Facet],
+    pieces: &[PieceTriangle],
     triangles: &[[u32; 3]],
     at: impl Fn(u32) -> DVec3,
 ) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
@@ -300,7 +301,7 @@ fn texture(
         return (Vec::new(), Vec::new());
     }
     let mut uvs: Vec<[f32; 2]> = Vec::new();
-    let of_piece = |(piece, triangle): (&Facet, &[u32; 3])| {
+    let of_piece = |(piece, triangle): (&PieceTriangle, &[u32; 3])| {
         let own = mesh.corner_uvs[piece.face as usize].map(|uv| mesh.uvs.get(uv as usize).copied());
         let [Some(a), Some(b), Some(c)] = own else { return [u32::MAX; 3] };
         mixed(mesh, piece.face, triangle.map(&at), [a, b, c]).map(|uv| {
@@ -315,14 +316,14 @@ fn texture(
 /// Colours at the corners of the pieces, interpolated in their faces.
 fn colours(
     mesh: &Mesh,
-    pieces: &[Facet],
+    pieces: &[PieceTriangle],
     triangles: &[[u32; 3]],
     at: impl Fn(u32) -> DVec3,
 ) -> Vec<[[f32; 3]; 3]> {
     if mesh.corner_colours.is_empty() {
         return Vec::new();
     }
-    let of_piece = |(piece, triangle): (&Facet, &[u32; 3])| {
+    let of_piece = |(piece, triangle): (&PieceTriangle, &[u32; 3])| {
         mixed(mesh, piece.face, triangle.map(&at), mesh.corner_colours[piece.face as usize])
     };
     pieces.iter().zip(triangles).map(of_piece).collect()
@@ -335,7 +336,7 @@ fn mixed<const N: usize>(mesh: &Mesh, face: u32, points: [DVec3; 3], own: [[f32;
         std::array::from_fn(|k| {
             let exact: f64 = own.iter().zip(weights).map(|(own, w)| f64::from(own[k]) * w).sum();
             // Rounded, so that neighbours agree on a point that they interpolate in different planes.
-            ((exact * UV_STEPS).round() / UV_STEPS) as f32
+            ((exact * UV_STEPS_PER_UNIT).round() / UV_STEPS_PER_UNIT) as f32
         })
     })
 }

@@ -9,19 +9,21 @@ use std::borrow::Cow;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::edge_marks::{Marks, marks};
-use super::face_pieces::{CLOSED, Fate, Parted, Piece, STRAIGHT, Side, is_open};
-use super::mesh_splice::{Cuts, Facet, Kept, Refined, splice};
+use super::edge_marks::{EdgeMarks, marks};
+use super::face_pieces::{
+    CLOSED_SIDE, STRAIGHT_SIDE, SideState, SplitPieces, SubdividedPiece, SubdividedSide, is_open,
+};
+use super::mesh_splice::{KeptFaces, MeshCuts, PieceTriangle, RefinedMesh, splice};
 use crate::mesh::{EdgeMark, Mesh};
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 use crate::surface::patches::planar_regions::area;
 use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Maximum number of times an edge is halved: 256 pieces.
-const MOST_CUTS: usize = 8;
+const MAX_SPLIT_DEPTH: usize = 8;
 
 /// Number of pieces per task.
-const CHUNK: usize = 1 << 10;
+const PIECES_PER_TASK: usize = 1 << 10;
 
 /// The mesh and its normals after subdivision, or `None` where hardly any edge is split; see [`cuts`].
 #[must_use]
@@ -30,7 +32,7 @@ pub fn refined(
     smooth: &SmoothNormals,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
-) -> Option<Refined> {
+) -> Option<RefinedMesh> {
     let cuts = cuts(mesh, smooth, |_| true, is_long, |_, _| true, want)?;
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
@@ -53,25 +55,25 @@ pub fn cuts(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     may: impl Fn([u32; 2], f64) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
-) -> Option<Cuts> {
+) -> Option<MeshCuts> {
     if smooth.is_empty() {
         return None;
     }
-    let Marks { cut, edges, thin } = marks(mesh, smooth, (&is_asked, &is_long, &may), &want);
+    let EdgeMarks { cut, edges, thin } = marks(mesh, smooth, (&is_asked, &is_long, &may), &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
-    let mut work = Work::of(mesh, smooth, &cut);
+    let mut work = Subdivision::of(mesh, smooth, &cut);
     let (kept, mut open) = work.affected(&edges, &thin);
-    let mut done: Vec<Facet> = Vec::new();
+    let mut done: Vec<PieceTriangle> = Vec::new();
     let mut straight: Vec<[u32; 2]> = Vec::new();
-    for cuts in 0..MOST_CUTS {
+    for cuts in 0..MAX_SPLIT_DEPTH {
         if cuts > 0 {
             work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
         let parted = work.parted(&open);
         open.clear();
-        for Parted { open: left, whole, inner, straight: level } in parted {
+        for SplitPieces { open: left, whole, inner, straight: level } in parted {
             open.extend(left);
             done.extend(whole);
             work.sides.extend(inner);
@@ -82,11 +84,11 @@ pub fn cuts(
         }
     }
     done.extend(open.iter().map(|piece| piece.facet));
-    let Work { positions, normals, .. } = work;
-    Some(Cuts { positions, normals, pieces: done, kept, thin, straight })
+    let Subdivision { positions, normals, .. } = work;
+    Some(MeshCuts { positions, normals, pieces: done, kept, thin, straight })
 }
 
-struct Work<'a> {
+struct Subdivision<'a> {
     mesh: &'a Mesh,
     smooth: &'a SmoothNormals,
     /// Positions and normals of the new vertices, numbered after those of the mesh.
@@ -94,13 +96,13 @@ struct Work<'a> {
     normals: Vec<DVec3>,
     /// All sides that are or were open. Neighbours share a side by its index, so that no vertex is created
     /// twice.
-    sides: Vec<Side>,
+    sides: Vec<SubdividedSide>,
 }
 
-impl<'a> Work<'a> {
+impl<'a> Subdivision<'a> {
     /// Starts with the sides between some smooth vertices, which are split and get the first indices.
     fn of(mesh: &'a Mesh, smooth: &'a SmoothNormals, cut: &[[u32; 2]]) -> Self {
-        let sides = cut.iter().map(|[a, b]| Side::open(*a, *b)).collect();
+        let sides = cut.iter().map(|[a, b]| SubdividedSide::open(*a, *b)).collect();
         let mut work = Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), sides };
         work.cut(&(0..cut.len() as u32).collect::<Vec<_>>(), |_, _| true);
         work
@@ -135,27 +137,27 @@ impl<'a> Work<'a> {
             sides.par_iter().with_min_len(1 << 8).map(middle).collect();
         for (side, middle) in sides.iter().zip(middles) {
             let Some((position, normal)) = middle else {
-                self.sides[*side as usize].fate = Fate::Whole;
+                self.sides[*side as usize].fate = SideState::Whole;
                 continue;
             };
             let middle = (self.smooth.vertices.len() + self.normals.len()) as u32;
             let halves = self.sides.len() as u32;
             let [a, b] = self.sides[*side as usize].ends;
-            self.sides[*side as usize].fate = Fate::Cut { middle, halves };
-            self.sides.extend([Side::open(a, middle), Side::open(b, middle)]);
+            self.sides[*side as usize].fate = SideState::Cut { middle, halves };
+            self.sides.extend([SubdividedSide::open(a, middle), SubdividedSide::open(b, middle)]);
             self.positions.push(position);
             self.normals.push(normal);
         }
     }
 
     /// Decides on the open sides of pieces that are undecided.
-    fn decide(&mut self, pieces: &[Piece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+    fn decide(&mut self, pieces: &[SubdividedPiece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
         // Most sides belong to two pieces.
         let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
         for side in pieces.iter().flat_map(|piece| piece.sides).filter(is_open) {
             let fate = &mut self.sides[side as usize].fate;
-            if *fate == Fate::Open {
-                *fate = Fate::Whole;
+            if *fate == SideState::Open {
+                *fate = SideState::Whole;
                 asked.push(side);
             }
         }
@@ -164,7 +166,7 @@ impl<'a> Work<'a> {
 
     /// The faces that stay, and the first pieces: faces at the split edges `cut`, whose sides have the first
     /// indices. `thin` edges stay straight.
-    fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
+    fn affected(&self, cut: &[u32], thin: &[usize]) -> (KeptFaces, Vec<SubdividedPiece>) {
         let Self { mesh, smooth, .. } = self;
         // Few vertices are on straight edges, so most sides need no search.
         let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
@@ -196,30 +198,32 @@ impl<'a> Work<'a> {
             let face = at.first()?.0;
             let corners = smooth.corners_of(face)?;
             let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
-            let ends = [0, 1, 2].map(|k| Side::open(corners[k], corners[(k + 1) % 3]).ends);
+            let ends = [0, 1, 2].map(|k| SubdividedSide::open(corners[k], corners[(k + 1) % 3]).ends);
             let stay = ends.map(|ends| has_straight && is_straight(ends));
             let is_between = stay.iter().filter(|stays| **stays).count() > 1;
             let sides = [0, 1, 2].map(|k| {
                 match at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends[k]) {
                     Some((_, side)) => *side,
-                    None if stay[k] && (is_between || is_sliver(face, ends[k])) => STRAIGHT,
-                    None => CLOSED,
+                    None if stay[k] && (is_between || is_sliver(face, ends[k])) => STRAIGHT_SIDE,
+                    None => CLOSED_SIDE,
                 }
             });
-            let facet = Facet { corners, marks, face };
-            sides.iter().any(is_open).then_some(Piece { facet, sides })
+            let facet = PieceTriangle { corners, marks, face };
+            sides.iter().any(is_open).then_some(SubdividedPiece { facet, sides })
         };
-        let open: Vec<Piece> = at.par_chunk_by(|a, b| a.0 == b.0).filter_map(open_piece).collect();
-        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.facet.face));
+        let open: Vec<SubdividedPiece> = at.par_chunk_by(|a, b| a.0 == b.0).filter_map(open_piece).collect();
+        let kept = KeptFaces::without(mesh.triangles.len(), open.iter().map(|piece| piece.facet.face));
         (kept, open)
     }
 
     /// Middle vertices of the split sides of a piece, and the indices of their halves.
     #[inline]
-    fn cuts(&self, piece: &Piece) -> [Option<(u32, u32)>; 3] {
+    fn cuts(&self, piece: &SubdividedPiece) -> [Option<(u32, u32)>; 3] {
         let mut cuts = [None; 3];
         for (cut, side) in cuts.iter_mut().zip(piece.sides) {
-            if let Some(Side { fate: Fate::Cut { middle, halves }, .. }) = self.sides.get(side as usize) {
+            if let Some(SubdividedSide { fate: SideState::Cut { middle, halves }, .. }) =
+                self.sides.get(side as usize)
+            {
                 *cut = Some((*middle, *halves));
             }
         }
@@ -227,20 +231,21 @@ impl<'a> Work<'a> {
     }
 
     /// Cuts pieces whose sides are decided.
-    fn parted(&self, pieces: &[Piece]) -> Vec<Parted> {
+    fn parted(&self, pieces: &[SubdividedPiece]) -> Vec<SplitPieces> {
         // A piece gets one new inner side per split side.
-        let inner = |pieces: &[Piece]| {
+        let inner = |pieces: &[SubdividedPiece]| {
             pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
         };
-        let counts: Vec<usize> = pieces.par_chunks(CHUNK).with_max_len(1).map(inner).collect();
+        let counts: Vec<usize> = pieces.par_chunks(PIECES_PER_TASK).with_max_len(1).map(inner).collect();
         let mut first = self.sides.len();
         let of_chunk = |(pieces, count): (_, usize)| {
             first += count;
             (pieces, first - count)
         };
-        let chunks: Vec<(&[Piece], usize)> = pieces.chunks(CHUNK).zip(counts).map(of_chunk).collect();
-        let part = |(pieces, first): (&[Piece], usize)| {
-            let mut parted = Parted {
+        let chunks: Vec<(&[SubdividedPiece], usize)> =
+            pieces.chunks(PIECES_PER_TASK).zip(counts).map(of_chunk).collect();
+        let part = |(pieces, first): (&[SubdividedPiece], usize)| {
+            let mut parted = SplitPieces {
                 open: Vec::with_capacity(pieces.len() * 2),
                 whole: Vec::with_capacity(pieces.len() * 2),
                 inner: Vec::with_capacity(pieces.len() * 3),
@@ -254,7 +259,7 @@ impl<'a> Work<'a> {
 
     /// Cuts a piece by the pattern of its split sides. `first` is the index of the first new side of this
     /// batch.
-    fn split(&self, piece: &Piece, first: usize, out: &mut Parted) {
+    fn split(&self, piece: &SubdividedPiece, first: usize, out: &mut SplitPieces) {
         let cuts = self.cuts(piece);
         let count = cuts.iter().flatten().count();
         // Rotated so that side 0 is the only split side, or side 2 the only whole one.
@@ -263,26 +268,28 @@ impl<'a> Work<'a> {
             2 => (cuts.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
             _ => 0,
         };
-        let Piece { facet, sides } = piece.turned(turn);
-        let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED));
+        let SubdividedPiece { facet, sides } = piece.turned(turn);
+        let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED_SIDE));
         let m = |side: usize| cut(side).0;
         let [a, b, c] = facet.corners;
         // Whole sides were decided and stay. Halves and new sides may be split again.
-        let own = |side: usize| (if sides[side] == STRAIGHT { STRAIGHT } else { CLOSED }, facet.marks[side]);
+        let own = |side: usize| {
+            (if sides[side] == STRAIGHT_SIDE { STRAIGHT_SIDE } else { CLOSED_SIDE }, facet.marks[side])
+        };
         let half = |side: usize, end: u32| {
             let is_second = end != self.sides[sides[side] as usize].ends[0];
             (cut(side).1 + u32::from(is_second), facet.marks[side])
         };
         // The surface is also straight between two straight sides, and along a straight side of a sliver.
         // Otherwise the middle of a short side would rise over the full length of the long sides.
-        let is_level = (0..3).any(|side| sides[side] == STRAIGHT);
-        let new = |k: usize| (if is_level { STRAIGHT } else { (first + k) as u32 }, EdgeMark::Unmarked);
+        let is_level = (0..3).any(|side| sides[side] == STRAIGHT_SIDE);
+        let new = |k: usize| (if is_level { STRAIGHT_SIDE } else { (first + k) as u32 }, EdgeMark::Unmarked);
         let known = out.inner.len();
         let mut push = |corners: [u32; 3], sides: [(u32, EdgeMark); 3]| {
-            let facet = Facet { corners, marks: sides.map(|side| side.1), face: facet.face };
+            let facet = PieceTriangle { corners, marks: sides.map(|side| side.1), face: facet.face };
             let sides = sides.map(|side| side.0);
             if sides.iter().any(is_open) {
-                out.open.push(Piece { facet, sides });
+                out.open.push(SubdividedPiece { facet, sides });
             } else {
                 out.whole.push(facet);
             }
@@ -293,7 +300,7 @@ impl<'a> Work<'a> {
                 let across = new(known);
                 push([a, m(0), c], [half(0, a), across, own(2)]);
                 push([m(0), b, c], [half(0, b), own(1), across]);
-                out.inner.push(Side::open(m(0), c));
+                out.inner.push(SubdividedSide::open(m(0), c));
             }
             2 => {
                 let (across, rest) = (new(known), new(known + 1));
@@ -302,13 +309,13 @@ impl<'a> Work<'a> {
                 let diagonal = if length(a, m(1)) <= length(m(0), c) {
                     push([a, m(0), m(1)], [half(0, a), across, rest]);
                     push([a, m(1), c], [rest, half(1, c), own(2)]);
-                    Side::open(a, m(1))
+                    SubdividedSide::open(a, m(1))
                 } else {
                     push([a, m(0), c], [half(0, a), rest, own(2)]);
                     push([m(0), m(1), c], [across, half(1, c), rest]);
-                    Side::open(m(0), c)
+                    SubdividedSide::open(m(0), c)
                 };
-                out.inner.extend([Side::open(m(0), m(1)), diagonal]);
+                out.inner.extend([SubdividedSide::open(m(0), m(1)), diagonal]);
             }
             _ => {
                 let [at_a, at_b, at_c] = [0, 1, 2].map(|k| new(known + k));
@@ -316,7 +323,9 @@ impl<'a> Work<'a> {
                 push([m(0), b, m(1)], [half(0, b), half(1, b), at_b]);
                 push([m(2), m(1), c], [at_c, half(1, c), half(2, c)]);
                 push([m(0), m(1), m(2)], [at_b, at_c, at_a]);
-                out.inner.extend([[m(0), m(2)], [m(0), m(1)], [m(1), m(2)]].map(|[p, q]| Side::open(p, q)));
+                out.inner.extend(
+                    [[m(0), m(2)], [m(0), m(1)], [m(1), m(2)]].map(|[p, q]| SubdividedSide::open(p, q)),
+                );
             }
         }
         if is_level {
@@ -363,7 +372,7 @@ mod tests {
             let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
             if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
         };
-        let Refined { mesh: finer, smooth: normals, hosts, edges, .. } =
+        let RefinedMesh { mesh: finer, smooth: normals, hosts, edges, .. } =
             refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
         assert_eq!((mesh.triangles.len(), edges.len()), (20, 30));
         assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());
@@ -408,7 +417,7 @@ mod tests {
             assert!(!smooth.straight.is_empty(), "normals lean out at both its ends");
             let wanted =
                 |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
-            let Refined { mesh: finer, smooth, .. } =
+            let RefinedMesh { mesh: finer, smooth, .. } =
                 refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
             let widest =
                 finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);

@@ -7,18 +7,18 @@
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
-use super::segment_grid::near_faces;
+use super::segment_grid::faces_near_segments;
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
 use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Maximum rise of an arc, and maximum change of the thickness, as a share of the wall thickness.
-const HALF: f64 = 0.5;
+const MAX_RISE_OF_THICKNESS: f64 = 0.5;
 /// Offset of the ray start below the edge, in arc heights, so that the ray misses the adjacent faces.
-const INSIDE: f64 = 1e-3;
+const RAY_OFFSET_OF_RISE: f64 = 1e-3;
 
 /// Ray from below the middle of an edge to the opposite wall.
-struct Question {
+struct WallRay {
     edge: usize,
     start: DVec3,
     /// Normal in the middle of the arc.
@@ -27,14 +27,14 @@ struct Question {
     rise: f64,
 }
 
-impl Question {
+impl WallRay {
     fn of(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, ends: [u32; 2]) -> Self {
         let arc = EdgeArc::over(mesh, smooth, ends);
         let (height, normal) = (arc.height(), arc.middle_normal());
         let rise = height.dot(normal);
         let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-        let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
-        Self { edge, start, normal, reach: rise.abs() / HALF, rise }
+        let start = (a + b) / 2.0 - normal * (RAY_OFFSET_OF_RISE * rise.abs());
+        Self { edge, start, normal, reach: rise.abs() / MAX_RISE_OF_THICKNESS, rise }
     }
 }
 
@@ -43,12 +43,12 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
     if edges.is_empty() {
         return Vec::new();
     }
-    let questions: Vec<Question> =
-        edges.par_iter().map(|(edge, ends)| Question::of(mesh, smooth, *edge, *ends)).collect();
+    let questions: Vec<WallRay> =
+        edges.par_iter().map(|(edge, ends)| WallRay::of(mesh, smooth, *edge, *ends)).collect();
     let rays: Vec<[DVec3; 2]> = questions.iter().map(|q| [q.start, q.start - q.normal * q.reach]).collect();
-    let near = near_faces(mesh, &rays);
+    let near = faces_near_segments(mesh, &rays);
     let tree = RayTree::new(&only(mesh, &near));
-    let is_thin = |q: &Question| {
+    let is_thin = |q: &WallRay| {
         let own = mesh.body(mesh.edges.faces(q.edge).list()[0]);
         // The opposite wall is where the ray leaves the body; faces that touch the edge are excluded.
         let is_wall = |face: u32| {
@@ -61,7 +61,7 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
         };
         let behind = tree.first_met(q.start, -q.normal, q.reach, is_wall);
         behind.is_some_and(|(face, thickness)| {
-            (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > HALF * thickness
+            (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > MAX_RISE_OF_THICKNESS * thickness
         })
     };
     questions

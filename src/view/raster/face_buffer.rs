@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::parallel::prelude::*;
 
-use super::Screen;
-use super::depth_cell::{self, Cell, cell};
+use super::PixelGrid;
+use super::depth_cell::{self, DepthCell, depth_cell};
 
 /// Triangles per task.
-const TASK: usize = 1 << 13;
+const TRIANGLES_PER_TASK: usize = 1 << 13;
 
 /// Face nearest to the eye at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct FaceBuffer {
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    cells: Vec<Cell>,
+    cells: Vec<DepthCell>,
 }
 
 impl FaceBuffer {
@@ -26,23 +26,23 @@ impl FaceBuffer {
     /// The nearer face wins; of equally near faces, the one with the smaller id. Order and number of threads
     /// have no effect.
     #[must_use]
-    pub fn new(screen: &Screen) -> Self {
+    pub fn new(screen: &PixelGrid) -> Self {
         Self::of(screen, |_| true)
     }
 
     /// Draws the triangles of the faces for which `draws` is true, as [`FaceBuffer::new`] does.
     #[must_use]
-    pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
+    pub fn of(screen: &PixelGrid, draws: impl Fn(u32) -> bool + Sync) -> Self {
         let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
         let count = screen.triangle_count();
-        (0..count.div_ceil(TASK)).into_par_iter().with_max_len(1).for_each(|task| {
-            for id in task * TASK..((task + 1) * TASK).min(count) {
+        (0..count.div_ceil(TRIANGLES_PER_TASK)).into_par_iter().with_max_len(1).for_each(|task| {
+            for id in task * TRIANGLES_PER_TASK..((task + 1) * TRIANGLES_PER_TASK).min(count) {
                 let (corners, face) = screen.triangle(id);
                 if !draws(face) {
                     continue;
                 }
                 screen.cover(&corners, |pixel, nearness| {
-                    let own = cell(face, nearness);
+                    let own = depth_cell(face, nearness);
                     // Most triangles lose, and a load is cheaper than an atomic write.
                     if own > cells[pixel].load(Ordering::Relaxed) {
                         cells[pixel].fetch_max(own, Ordering::Relaxed);
@@ -73,7 +73,7 @@ impl FaceBuffer {
 mod tests {
     use glam::DVec3;
 
-    use super::super::row_bands::Bands;
+    use super::super::row_bands::RowBands;
     use super::*;
     use crate::mesh::{FaceId, Mesh, Soup};
     use crate::scene::{Camera, UpAxis};
@@ -97,7 +97,7 @@ mod tests {
     fn a_quad_of_two_triangles_has_no_hole() {
         let corners = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
         let (mesh, view) = from_above(&corners, &[[0, 1, 2], [0, 2, 3]]);
-        let screen = Screen::new(&mesh, &view);
+        let screen = PixelGrid::new(&mesh, &view);
         let buffer = FaceBuffer::new(&screen);
         let (left, right) = (view.points[0].x, view.points[1].x);
         let (top, bottom) = (view.points[2].y, view.points[0].y);
@@ -121,7 +121,7 @@ mod tests {
             let near = [[low, low, 1.], [high, low, 1.], [low, high, 1.]];
             let (mesh, view) = from_above(&[far, near].concat(), &[[0, 1, 2], [3, 4, 5]]);
             assert!(mesh.corners(FaceId(nearer))[0].z > 0.0);
-            let buffer = FaceBuffer::new(&Screen::new(&mesh, &view));
+            let buffer = FaceBuffer::new(&PixelGrid::new(&mesh, &view));
             let shown = faces(&buffer);
             let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();
             assert!(count(nearer) > 1000);
@@ -146,8 +146,8 @@ mod tests {
     #[test]
     fn bands_of_rows_show_what_the_buffer_does() {
         let (mesh, view) = crowd();
-        let screen = Screen::new(&mesh, &view);
-        let bands = Bands::new(&screen);
+        let screen = PixelGrid::new(&mesh, &view);
+        let bands = RowBands::new(&screen);
         let mut cells = vec![0; screen.columns * screen.rows];
         cells.chunks_mut(bands.pixels()).enumerate().for_each(|(band, cells)| bands.draw(band, cells));
         assert!(FaceBuffer::new(&screen).cells == cells);
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn threads_do_not_change_the_result() {
         let (mesh, view) = crowd();
-        let screen = Screen::new(&mesh, &view);
+        let screen = PixelGrid::new(&mesh, &view);
         let with = |threads: usize| {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| FaceBuffer::new(&screen))

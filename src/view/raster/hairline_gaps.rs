@@ -1,14 +1,14 @@
 //! Closing of hairline gaps: pixels between unconnected faces, through which other surfaces show.
 
-use super::normal_depth_maps::{Maps, NO_FRONT};
+use super::normal_depth_maps::{NO_FRONT, NormalDepthMaps};
 
 /// Widest gap that is closed, pixels.
-const WIDEST: usize = 2;
+const MAX_GAP_PIXELS: usize = 2;
 
 /// Smallest cosine of the angle between the normals (40 degrees) of two faces that may be one surface.
-const SAME_COSINE: f32 = 0.766;
+const MIN_SURFACE_COSINE: f32 = 0.766;
 
-impl Maps {
+impl NormalDepthMaps {
     /// Closes gaps of one or two pixels between faces that `may_gap`. Both sides must continue as one surface
     /// in front of the surface that shows between them.
     pub fn close_hairlines(&mut self, may_gap: impl Fn(u32) -> bool) {
@@ -35,7 +35,9 @@ impl Maps {
                 }
             }
         }
-        let near = |column: usize| column.saturating_sub(WIDEST)..(column + WIDEST + 1).min(self.columns);
+        let near = |column: usize| {
+            column.saturating_sub(MAX_GAP_PIXELS)..(column + MAX_GAP_PIXELS + 1).min(self.columns)
+        };
         let in_columns = (0..self.columns).map(|column| found[near(column)].contains(&true)).collect();
         (in_rows, in_columns)
     }
@@ -50,7 +52,8 @@ impl Maps {
             if !falls || !may_gap(self.faces[a]) {
                 continue;
             }
-            let gap = (1..=WIDEST.min(count - at - 1)).find(|gap| self.is_gap(a, step, *gap, may_gap));
+            let gap =
+                (1..=MAX_GAP_PIXELS.min(count - at - 1)).find(|gap| self.is_gap(a, step, *gap, may_gap));
             if let Some(gap) = gap {
                 let b = a + (gap + 1) * step;
                 for k in 1..=gap {
@@ -73,6 +76,6 @@ impl Maps {
         let fall = between - from.max(to);
         may_gap(self.faces[b])
             && fall > 2.0 * (from - to).abs()
-            && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > SAME_COSINE
+            && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > MIN_SURFACE_COSINE
     }
 }

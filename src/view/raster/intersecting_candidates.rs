@@ -13,14 +13,14 @@ use super::FaceBuffer;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Rows per task.
-const ROWS: usize = 16;
+const ROWS_PER_TASK: usize = 16;
 /// Largest number of candidates that is widened by the faces around them. This costs little and finds curves
 /// next to strips of several faces thinner than a pixel.
-const FEW_FACES: usize = 60_000;
+const MAX_WIDENED_FACES: usize = 60_000;
 /// Largest number of times the candidates are widened.
-const RINGS: usize = 3;
+const MAX_RINGS: usize = 3;
 /// Edges per task.
-const EDGES: usize = 1 << 15;
+const EDGES_PER_TASK: usize = 1 << 15;
 
 /// Whether each face of the mesh may meet another in a visible curve; false for faces without area.
 #[must_use]
@@ -30,8 +30,8 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     let mark = |marks: &[AtomicBool], face: u32| marks[face as usize].store(true, Ordering::Relaxed);
 
     let strangers = unmarked();
-    (0..buffer.rows.div_ceil(ROWS)).into_par_iter().with_max_len(1).for_each(|task| {
-        for row in task * ROWS..((task + 1) * ROWS).min(buffer.rows) {
+    (0..buffer.rows.div_ceil(ROWS_PER_TASK)).into_par_iter().with_max_len(1).for_each(|task| {
+        for row in task * ROWS_PER_TASK..((task + 1) * ROWS_PER_TASK).min(buffer.rows) {
             for_each_pair(mesh, buffer, row, |a, b| {
                 mark(&strangers, a);
                 mark(&strangers, b);
@@ -41,8 +41,8 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
 
     let near = unmarked();
     let edges = mesh.edges.len();
-    (0..edges.div_ceil(EDGES)).into_par_iter().with_max_len(1).for_each(|task| {
-        for edge in task * EDGES..((task + 1) * EDGES).min(edges) {
+    (0..edges.div_ceil(EDGES_PER_TASK)).into_par_iter().with_max_len(1).for_each(|task| {
+        for edge in task * EDGES_PER_TASK..((task + 1) * EDGES_PER_TASK).min(edges) {
             let spread = |faces: &[u32]| {
                 if faces.iter().any(|face| is_marked(&strangers, *face)) {
                     faces.iter().for_each(|face| mark(&near, *face));
@@ -56,8 +56,8 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
         }
     });
     let mut active: Vec<bool> = near.into_iter().map(AtomicBool::into_inner).collect();
-    for _ in 0..RINGS {
-        if active.iter().filter(|a| **a).count() > FEW_FACES {
+    for _ in 0..MAX_RINGS {
+        if active.iter().filter(|a| **a).count() > MAX_WIDENED_FACES {
             break;
         }
         add_ring(mesh, &mut active);

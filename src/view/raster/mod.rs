@@ -19,5 +19,5 @@ pub mod pixel_grid;
 mod row_bands;
 
 pub use face_buffer::FaceBuffer;
-pub use normal_depth_maps::{Maps, NO_FRONT};
-pub use pixel_grid::{Screen, ScreenPoint};
+pub use normal_depth_maps::{NO_FRONT, NormalDepthMaps};
+pub use pixel_grid::{PixelGrid, PixelPoint};

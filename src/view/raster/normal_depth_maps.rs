@@ -1,4 +1,4 @@
-//! [`Maps`]: the normals and the depth at each pixel of a view.
+//! [`NormalDepthMaps`]: the normals and the depth at each pixel of a view.
 //!
 //! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.1 and 3.4.2: images are made from the surface
 //! first, and edges are detected in them afterwards.
@@ -6,9 +6,9 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::Screen;
+use super::PixelGrid;
 use super::depth_cell::{front, nearness};
-use super::row_bands::Bands;
+use super::row_bands::RowBands;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
@@ -16,25 +16,25 @@ use crate::view::View;
 pub const NO_FRONT: u32 = u32::MAX;
 
 /// The depth of pixels that show no face.
-pub const FAR: f32 = 1.0;
+pub const BACKGROUND_DEPTH: f32 = 1.0;
 
 /// Largest number of pixels along the longer side of a map.
-pub const LONGEST_SIDE: f64 = 4096.0;
+pub const MAX_SIDE_PIXELS: f64 = 4096.0;
 
-/// Margin of the depth map in front of the nearest point, and [`BEHIND`] after the farthest, as shares of the
+/// Margin of the depth map in front of the nearest point, and [`DEPTH_MARGIN_BEHIND`] after the farthest, as shares of the
 /// depth range.
 ///
 /// The nearest point is not at depth 0, where a threshold proportional to depth would vanish. Background has
 /// a depth that no surface has.
-const BEFORE: f64 = 0.15;
-const BEHIND: f64 = 0.1;
+const DEPTH_MARGIN_IN_FRONT: f64 = 0.15;
+const DEPTH_MARGIN_BEHIND: f64 = 0.1;
 
 /// Normals computed at a time.
 const LANES: usize = 4;
 
 /// Nearest surface at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Maps {
+pub struct NormalDepthMaps {
     /// Pixels in a row.
     pub columns: usize,
     /// Number of rows.
@@ -52,16 +52,16 @@ pub struct Maps {
     pub planes: [f64; 2],
 }
 
-impl Maps {
+impl NormalDepthMaps {
     /// Draws the maps of a view with `per_unit` pixels per user unit, or fewer where a side would exceed 4096
     /// pixels.
     ///
     /// `normals` returns the normals at the corners of a face, on its outer side, in local space.
     #[must_use]
     pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
-        let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
-        let screen = Screen::of_side(mesh, view, side);
-        let bands = Bands::new(&screen);
+        let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, MAX_SIDE_PIXELS);
+        let screen = PixelGrid::of_side(mesh, view, side);
+        let bands = RowBands::new(&screen);
         let planes = planes(&screen, view);
         let (columns, rows) = (screen.columns, screen.rows);
         // Zeroed memory costs nothing until it is written, and each band writes its own part.
@@ -77,7 +77,7 @@ impl Maps {
         let per_depth = 1.0 / (planes[1] - planes[0]);
         let depth_at = |nearness: f32| {
             let depth = view.frame.depth_of(screen.image_nearness(nearness));
-            (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR)
+            (((depth - planes[0]) * per_depth) as f32).clamp(0.0, BACKGROUND_DEPTH)
         };
         let centre = |i: usize| (i as f64 + 0.5) / maps.scale;
         let across: Vec<f64> = (0..columns).map(centre).collect();
@@ -85,7 +85,7 @@ impl Maps {
         let of_band = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
         let of_band = of_band.zip(maps.depths.par_chunks_mut(band)).enumerate();
         of_band.for_each_init(
-            || (vec![0; band], LastShown::new()),
+            || (vec![0; band], FaceNormalCache::new()),
             |(cells, shown), (number, ((faces, band_normals), depths))| {
                 cells.fill(0);
                 bands.draw(number, cells);
@@ -97,7 +97,7 @@ impl Maps {
                         next = own.end;
                         let Some(face) = front(cells[0]) else {
                             faces[own.clone()].fill(NO_FRONT);
-                            depths[own].fill(FAR);
+                            depths[own].fill(BACKGROUND_DEPTH);
                             continue;
                         };
                         faces[own.clone()].fill(face);
@@ -105,7 +105,7 @@ impl Maps {
                         let across = &across[own.start - first..own.end - first];
                         on_face.along(across, centre(row), &mut band_normals[own.clone()]);
                         for (depth, cell) in depths[own].iter_mut().zip(cells) {
-                            *depth = nearness(*cell).map_or(FAR, depth_at);
+                            *depth = nearness(*cell).map_or(BACKGROUND_DEPTH, depth_at);
                         }
                     }
                 }
@@ -122,31 +122,31 @@ impl Maps {
 }
 
 /// World depths that correspond to 0 and 1 in the depth map.
-fn planes(screen: &Screen, view: &View) -> [f64; 2] {
+fn planes(screen: &PixelGrid, view: &View) -> [f64; 2] {
     let Some([near, far]) = screen.depths() else { return [0.0, 1.0] };
     // A flat object seen square on has no depth range.
     let range = (far - near).max(view.frame.px_at(far)).max(f64::MIN_POSITIVE);
-    [near - BEFORE * range, far + BEHIND * range]
+    [near - DEPTH_MARGIN_IN_FRONT * range, far + DEPTH_MARGIN_BEHIND * range]
 }
 
 /// Cache of face normals, one face per slot. The same faces recur in the next row.
-struct LastShown {
+struct FaceNormalCache {
     faces: Vec<u32>,
     normals: Vec<FaceNormals>,
 }
 
-impl LastShown {
+impl FaceNormalCache {
     /// Number of slots: a power of two, small enough for the CPU cache.
-    const SLOTS: usize = 1 << 10;
+    const CACHE_SLOTS: usize = 1 << 10;
 
     fn new() -> Self {
         let none = FaceNormals { weights: [[0.0; 3]; 3], normals: [DVec3::ZERO; 3] };
-        Self { faces: vec![NO_FRONT; Self::SLOTS], normals: vec![none; Self::SLOTS] }
+        Self { faces: vec![NO_FRONT; Self::CACHE_SLOTS], normals: vec![none; Self::CACHE_SLOTS] }
     }
 
     #[inline]
     fn of(&mut self, face: u32, make: impl FnOnce() -> FaceNormals) -> &FaceNormals {
-        let slot = face as usize % Self::SLOTS;
+        let slot = face as usize % Self::CACHE_SLOTS;
         if self.faces[slot] != face {
             self.faces[slot] = face;
             self.normals[slot] = make();

@@ -8,14 +8,14 @@ use std::collections::BinaryHeap;
 
 use crate::parallel::prelude::*;
 
-use super::{FaceBuffer, Screen};
+use super::{FaceBuffer, PixelGrid};
 
 /// Triangles per task.
-const TASK: usize = 1 << 13;
+const TRIANGLES_PER_TASK: usize = 1 << 13;
 
 /// Visible faces, in an order that paints what `buffer` shows. In a cycle, the farthest face comes first.
 #[must_use]
-pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
+pub fn back_to_front(screen: &PixelGrid, buffer: &FaceBuffer) -> Vec<u32> {
     let mut shown: Vec<u32> =
         (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel)).collect();
     shown.par_sort_unstable();
@@ -24,12 +24,12 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     // Nearness of each face, as bits that sort positive numbers, and pairs of faces painted over each other.
     let count = screen.triangle_count();
     type Task = (Vec<(usize, u32)>, Vec<[u32; 2]>);
-    let tasks: Vec<Task> = (0..count.div_ceil(TASK))
+    let tasks: Vec<Task> = (0..count.div_ceil(TRIANGLES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|task| {
             let (mut near, mut over) = (Vec::new(), Vec::new());
-            for id in task * TASK..((task + 1) * TASK).min(count) {
+            for id in task * TRIANGLES_PER_TASK..((task + 1) * TRIANGLES_PER_TASK).min(count) {
                 let (corners, face) = screen.triangle(id);
                 let Some(own) = slot(face) else { continue };
                 near.push((own, ((corners[0][2] + corners[1][2] + corners[2][2]) / 3.0).max(0.0).to_bits()));
@@ -121,7 +121,7 @@ mod tests {
         let mesh = Mesh::build(soup);
         let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.0);
         let view = View::new(&mesh, &camera);
-        let screen = Screen::new(&mesh, &view);
+        let screen = PixelGrid::new(&mesh, &view);
         let buffer = FaceBuffer::new(&screen);
         assert_eq!(back_to_front(&screen, &buffer), [0, 1]);
     }

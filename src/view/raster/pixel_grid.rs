@@ -1,4 +1,4 @@
-//! [`Screen`]: a view on a grid of pixels, and the pixels that a triangle covers.
+//! [`PixelGrid`]: a view on a grid of pixels, and the pixels that a triangle covers.
 //!
 //! Single precision is enough, because buffers only propose candidates. Nearness is scaled to the range 0 to
 //! 1 first, so that distant eyes lose no digits.
@@ -12,19 +12,19 @@ use crate::mesh::Mesh;
 use crate::view::View;
 
 /// Pixels along the longer side of the frame.
-const LONGER_SIDE: f64 = 1024.0;
+const DEFAULT_SIDE_PIXELS: f64 = 1024.0;
 /// Distance outside a triangle where a pixel centre still counts as covered, pixels. It exceeds rounding, so
 /// no pixel falls between two triangles.
-const SLACK: f32 = 1e-4;
+const COVER_MARGIN_PIXELS: f32 = 1e-4;
 /// Largest bounding box, in pixels, that is tested pixel by pixel.
-const FEW: i32 = 16;
+const MAX_SMALL_BOX_PIXELS: i32 = 16;
 
 /// Corner on the pixel grid: x to the right and y down in pixels, and nearness.
-pub type ScreenPoint = [f32; 3];
+pub type PixelPoint = [f32; 3];
 
 /// A view on a grid of pixels.
 #[derive(Debug, Clone)]
-pub struct Screen<'a> {
+pub struct PixelGrid<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     /// Pixels in a row.
@@ -37,19 +37,19 @@ pub struct Screen<'a> {
     farthest: f64,
     per_nearness: f64,
     /// Each vertex; x is NaN where the near plane cuts it off.
-    points: Vec<ScreenPoint>,
+    points: Vec<PixelPoint>,
 }
 
 /// Plane of a triangle over the pixels.
 #[derive(Debug, Clone, Copy)]
-struct ScreenPlane {
-    origin: ScreenPoint,
+struct PixelPlane {
+    origin: PixelPoint,
     /// Change of nearness per pixel to the right and down.
     slope: [f32; 2],
 }
 
-impl ScreenPlane {
-    fn new([a, b, c]: [ScreenPoint; 3]) -> Self {
+impl PixelPlane {
+    fn new([a, b, c]: [PixelPoint; 3]) -> Self {
         let (u, v) = (minus(b, a), minus(c, a));
         let area = u[0] * v[1] - u[1] * v[0];
         let per_area = 1.0 / area;
@@ -64,27 +64,27 @@ impl ScreenPlane {
 }
 
 #[inline]
-fn minus(a: ScreenPoint, b: ScreenPoint) -> ScreenPoint {
+fn minus(a: PixelPoint, b: PixelPoint) -> PixelPoint {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-impl<'a> Screen<'a> {
+impl<'a> PixelGrid<'a> {
     /// Screen of a view, about a thousand pixels along the longer side of the frame.
     #[must_use]
     pub fn new(mesh: &'a Mesh, view: &'a View) -> Self {
-        Self::of_side(mesh, view, LONGER_SIDE)
+        Self::of_side(mesh, view, DEFAULT_SIDE_PIXELS)
     }
 
     /// Screen of a view with `longer_side` pixels along the longer side of the frame.
     #[must_use]
     pub fn of_side(mesh: &'a Mesh, view: &'a View, longer_side: f64) -> Self {
-        const TASK: usize = 1 << 14;
+        const POINTS_PER_TASK: usize = 1 << 14;
         let none = || (f64::INFINITY, f64::NEG_INFINITY);
         // Comparisons with NaN are false, so cut-off points are ignored.
         let (farthest, nearest) = view
             .points
             .par_iter()
-            .with_min_len(TASK)
+            .with_min_len(POINTS_PER_TASK)
             .fold(none, |(low, high), p| {
                 (if p.z < low { p.z } else { low }, if p.z > high { p.z } else { high })
             })
@@ -101,13 +101,14 @@ impl<'a> Screen<'a> {
             per_nearness: if nearest > farthest { 1.0 / (nearest - farthest) } else { 0.0 },
             points: Vec::new(),
         };
-        screen.points = view.points.par_iter().with_min_len(TASK).map(|p| screen.point(*p)).collect();
+        screen.points =
+            view.points.par_iter().with_min_len(POINTS_PER_TASK).map(|p| screen.point(*p)).collect();
         screen
     }
 
     /// Screen point of a point of image space; x is NaN if the point is cut off.
     #[must_use]
-    pub fn point(&self, p: DVec3) -> ScreenPoint {
+    pub fn point(&self, p: DVec3) -> PixelPoint {
         let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
         [x as f32, (p.y * self.scale) as f32, ((p.z - self.farthest) * self.per_nearness) as f32]
     }
@@ -144,7 +145,7 @@ impl<'a> Screen<'a> {
     /// Corners of a triangle and the face it belongs to.
     #[inline]
     #[must_use]
-    pub fn triangle(&self, id: usize) -> ([ScreenPoint; 3], u32) {
+    pub fn triangle(&self, id: usize) -> ([PixelPoint; 3], u32) {
         match self.mesh.triangles.get(id) {
             Some(t) => (t.map(|v| self.points[v as usize]), id as u32),
             None => {
@@ -157,10 +158,10 @@ impl<'a> Screen<'a> {
     /// Pixels whose centres lie in the bounding box of a triangle: first column and one past the last, then
     /// the rows. `None` if there are none.
     #[inline]
-    fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
+    fn pixel_box(&self, [a, b, c]: &[PixelPoint; 3]) -> Option<[i32; 4]> {
         let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
-        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
-        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
+        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - COVER_MARGIN_PIXELS);
+        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + COVER_MARGIN_PIXELS);
         let (left, right) = (place(low(0), self.columns), place(high(0), self.columns));
         let (top, bottom) = (place(low(1), self.rows), place(high(1), self.rows));
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
@@ -168,29 +169,29 @@ impl<'a> Screen<'a> {
 
     /// Rows where a triangle may cover pixels; `None` if it covers none.
     #[inline]
-    pub(crate) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Option<Range<usize>> {
+    pub(crate) fn rows_of(&self, corners: &[PixelPoint; 3]) -> Option<Range<usize>> {
         self.pixel_box(corners).map(|[_, _, top, bottom]| top as usize..bottom as usize)
     }
 
     /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there.
     #[inline]
-    pub fn cover(&self, corners: &[ScreenPoint; 3], visit: impl FnMut(usize, f32)) {
+    pub fn cover(&self, corners: &[PixelPoint; 3], visit: impl FnMut(usize, f32)) {
         self.cover_within(0..self.rows, corners, visit);
     }
 
-    /// Calls `visit` with the pixels of some rows as [`Screen::cover`] does.
+    /// Calls `visit` with the pixels of some rows as [`PixelGrid::cover`] does.
     #[inline]
     pub(crate) fn cover_within(
         &self,
         rows: Range<usize>,
-        corners: &[ScreenPoint; 3],
+        corners: &[PixelPoint; 3],
         visit: impl FnMut(usize, f32),
     ) {
         let Some([left, right, top, bottom]) = self.pixel_box(corners) else { return };
         let within = [left, right, top.max(rows.start as i32), bottom.min(rows.end as i32)];
         // All rows of a triangle use the same method.
-        if (right - left) * (bottom - top) <= FEW {
-            self.cover_few(corners, within, visit);
+        if (right - left) * (bottom - top) <= MAX_SMALL_BOX_PIXELS {
+            self.cover_small_box(corners, within, visit);
         } else {
             self.cover_rows(corners, within, visit);
         }
@@ -198,9 +199,9 @@ impl<'a> Screen<'a> {
 
     /// Tests four pixels at a time. Nearly all triangles of a scan fit between two rows and columns.
     #[inline]
-    fn cover_few(
+    fn cover_small_box(
         &self,
-        &[a, b, c]: &[ScreenPoint; 3],
+        &[a, b, c]: &[PixelPoint; 3],
         [left, right, top, bottom]: [i32; 4],
         mut visit: impl FnMut(usize, f32),
     ) {
@@ -213,7 +214,7 @@ impl<'a> Screen<'a> {
         for row in (top..bottom).step_by(2) {
             for column in (left..right).step_by(2) {
                 let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
-                let quad = Quad { x: [x, x + 1.0, x, x + 1.0], y: [y, y, y + 1.0, y + 1.0] };
+                let quad = PixelQuad { x: [x, x + 1.0, x, x + 1.0], y: [y, y, y + 1.0, y + 1.0] };
                 let (at_a, by_a) = quad.side(b, c);
                 let (at_b, by_b) = quad.side(c, a);
                 let (at_c, by_c) = quad.side(a, b);
@@ -238,7 +239,7 @@ impl<'a> Screen<'a> {
     /// Covers row by row, using the columns inside all sides.
     fn cover_rows(
         &self,
-        &[a, b, c]: &[ScreenPoint; 3],
+        &[a, b, c]: &[PixelPoint; 3],
         [left, right, top, bottom]: [i32; 4],
         mut visit: impl FnMut(usize, f32),
     ) {
@@ -246,8 +247,8 @@ impl<'a> Screen<'a> {
         if area == 0.0 || !area.is_finite() {
             return;
         }
-        let plane = ScreenPlane::new([a, b, c]);
-        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Side::new(p, q, area));
+        let plane = PixelPlane::new([a, b, c]);
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| PixelSide::new(p, q, area));
         for row in top..bottom {
             let y = row as f32 + 0.5;
             let first = row as usize * self.columns;
@@ -260,17 +261,17 @@ impl<'a> Screen<'a> {
 }
 
 /// Centres of four pixels.
-struct Quad {
+struct PixelQuad {
     x: [f32; 4],
     y: [f32; 4],
 }
 
-impl Quad {
+impl PixelQuad {
     /// Twice the signed areas between a side and the centres, and whether the centres are on its inner side.
     #[inline]
-    fn side(&self, p: ScreenPoint, q: ScreenPoint) -> ([f32; 4], [bool; 4]) {
+    fn side(&self, p: PixelPoint, q: PixelPoint) -> ([f32; 4], [bool; 4]) {
         let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-        let least = -SLACK * (dx.abs() + dy.abs());
+        let least = -COVER_MARGIN_PIXELS * (dx.abs() + dy.abs());
         let mut areas = [0.0; 4];
         let mut inside = [false; 4];
         for i in 0..4 {
@@ -284,12 +285,12 @@ impl Quad {
 /// Clamps a nearness to the range of the three corners, which the planes of steep triangles leave within a
 /// pixel.
 #[inline]
-fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32 {
+fn within_corners(q: f32, a: PixelPoint, b: PixelPoint, c: PixelPoint) -> f32 {
     q.min(a[2].max(b[2]).max(c[2])).max(a[2].min(b[2]).min(c[2])).max(0.0)
 }
 
 /// Side of a triangle, oriented so that inside is the same for all three.
-struct Side {
+struct PixelSide {
     x: f64,
     y: f64,
     dx: f64,
@@ -297,19 +298,19 @@ struct Side {
     slack: f64,
 }
 
-impl Side {
+impl PixelSide {
     #[inline]
-    fn new(p: ScreenPoint, q: ScreenPoint, area: f32) -> Self {
+    fn new(p: PixelPoint, q: PixelPoint, area: f32) -> Self {
         let sign = f64::from(area.signum());
         let [x, y, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
         let (dx, dy) = ((qx - x) * sign, (qy - y) * sign);
-        Self { x, y, dx, dy, slack: f64::from(SLACK) * (dx.abs() + dy.abs()) }
+        Self { x, y, dx, dy, slack: f64::from(COVER_MARGIN_PIXELS) * (dx.abs() + dy.abs()) }
     }
 }
 
 /// Columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
 #[inline]
-fn span(sides: &[Side; 3], y: f64, left: f64, right: f64) -> Range<usize> {
+fn span(sides: &[PixelSide; 3], y: f64, left: f64, right: f64) -> Range<usize> {
     let (mut from, mut to) = (left, right);
     for side in sides {
         let room = side.dx * (y - side.y) + side.slack;

@@ -1,4 +1,4 @@
-//! [`Bands`]: the triangles of a screen sorted by bands of rows, so that bands can be drawn in parallel.
+//! [`RowBands`]: the triangles of a screen sorted by bands of rows, so that bands can be drawn in parallel.
 //!
 //! Sorting pays where pixels need more than their face right after drawing. A [`super::FaceBuffer`] alone is
 //! faster without.
@@ -7,34 +7,35 @@ use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::Screen;
-use super::depth_cell::{Cell, cell};
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::PixelGrid;
+use super::depth_cell::{DepthCell, depth_cell};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Rows per band: few enough for the CPU cache, and enough that most triangles lie in one band.
-const ROWS: usize = 16;
+const ROWS_PER_BAND: usize = 16;
 
 /// Triangles per task of the sort.
-const TASK: usize = 1 << 13;
+const TRIANGLES_PER_TASK: usize = 1 << 13;
 
 /// Triangles of a screen, by the bands of rows they overlap.
-pub(crate) struct Bands<'a> {
-    screen: &'a Screen<'a>,
+pub(crate) struct RowBands<'a> {
+    screen: &'a PixelGrid<'a>,
     /// One list per task, so no task waits for another.
-    triangles: Vec<Grouped<u32>>,
+    triangles: Vec<CsrLists<u32>>,
 }
 
-impl<'a> Bands<'a> {
-    pub fn new(screen: &'a Screen<'a>) -> Self {
+impl<'a> RowBands<'a> {
+    pub fn new(screen: &'a PixelGrid<'a>) -> Self {
         let count = screen.triangle_count();
         let of_task = |task: usize| {
             // Most triangles of a scan cover no pixel centre and are dropped here.
-            let covering = (task * TASK..((task + 1) * TASK).min(count)).filter_map(|id| {
-                let rows = screen.rows_of(&screen.triangle(id).0)?;
-                Some((id as u32, rows.start / ROWS..rows.end.div_ceil(ROWS)))
-            });
+            let covering = (task * TRIANGLES_PER_TASK..((task + 1) * TRIANGLES_PER_TASK).min(count))
+                .filter_map(|id| {
+                    let rows = screen.rows_of(&screen.triangle(id).0)?;
+                    Some((id as u32, rows.start / ROWS_PER_BAND..rows.end.div_ceil(ROWS_PER_BAND)))
+                });
             let covering: Vec<(u32, Range<usize>)> = covering.collect();
-            grouped(screen.rows.div_ceil(ROWS), |put| {
+            csr_lists(screen.rows.div_ceil(ROWS_PER_BAND), |put| {
                 for (id, bands) in &covering {
                     bands.clone().for_each(|band| put(band, *id));
                 }
@@ -42,30 +43,34 @@ impl<'a> Bands<'a> {
         };
         Self {
             screen,
-            triangles: (0..count.div_ceil(TASK)).into_par_iter().with_max_len(1).map(of_task).collect(),
+            triangles: (0..count.div_ceil(TRIANGLES_PER_TASK))
+                .into_par_iter()
+                .with_max_len(1)
+                .map(of_task)
+                .collect(),
         }
     }
 
     /// Number of pixels in a band; the last one may have fewer.
     pub fn pixels(&self) -> usize {
-        ROWS * self.screen.columns
+        ROWS_PER_BAND * self.screen.columns
     }
 
     /// Rows of a band.
     pub fn rows(&self, band: usize) -> Range<usize> {
-        band * ROWS..((band + 1) * ROWS).min(self.screen.rows)
+        band * ROWS_PER_BAND..((band + 1) * ROWS_PER_BAND).min(self.screen.rows)
     }
 
     /// Draws a band into `cells`, one per pixel, which must be zero at first.
     ///
     /// The nearer face wins; of equally near faces, the one with the smaller id. The order has no effect.
-    pub fn draw(&self, band: usize, cells: &mut [Cell]) {
+    pub fn draw(&self, band: usize, cells: &mut [DepthCell]) {
         let first = band * self.pixels();
         for id in self.triangles.iter().flat_map(|of_task| of_task.of(band)) {
             let (corners, face) = self.screen.triangle(*id as usize);
             self.screen.cover_within(self.rows(band), &corners, |pixel, nearness| {
                 let own = &mut cells[pixel - first];
-                *own = (*own).max(cell(face, nearness));
+                *own = (*own).max(depth_cell(face, nearness));
             });
         }
     }

@@ -3,24 +3,24 @@
 use glam::{DVec2, DVec3};
 use kurbo::Point;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
-use crate::geometry::plane::planar_distance::distance2;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::plane::planar_distance::segment_distance_squared;
 use crate::lines::image::{ImageLines, ImagePiece, ImagePoint};
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
 use crate::mesh::Mesh;
-use crate::surface::Origin;
+use crate::surface::MeshSource;
 use crate::view::View;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::tile_grid::TileGrid;
 
 /// Distance within which an image line duplicates a line of the surface, px of the frame.
-const SAME_PX: f64 = 1.5;
+const MAX_DUPLICATE_GAP_PX: f64 = 1.5;
 
 /// Largest sampling step along image lines, px.
-const STEP_PX: f64 = 1.0;
+const SAMPLE_STEP_PX: f64 = 1.0;
 
 /// Shortest remainder of an image line between lines of the surface that is kept, px.
-const REST_PX: f64 = 6.0;
+const MIN_REMAINDER_PX: f64 = 6.0;
 
 /// Adds image lines to a view map, and their segments to its feature lines.
 ///
@@ -57,7 +57,7 @@ pub fn join(
             silhouette: piece.silhouette,
             both_seen: piece.both_seen,
             smooth: true,
-            origin: Origin::Constructed,
+            origin: MeshSource::Constructed,
             strength: 180.0,
             part: piece.part,
             material: piece.material,
@@ -69,7 +69,7 @@ pub fn join(
             kind: LineKind::Image,
             both_seen: piece.both_seen,
             smooth: true,
-            origin: Origin::Constructed,
+            origin: MeshSource::Constructed,
             role: Role::Line,
             strength: 180.0,
             part: piece.part,
@@ -81,14 +81,14 @@ pub fn join(
 /// Parts of image lines without a visible line of the map next to them.
 fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
     let px = view.frame.px();
-    let drawn = Drawn::new(map, view);
+    let drawn = VisibleLines::new(map, view);
     let mut rest = ImageLines { lines: image.lines, ..ImageLines::default() };
     // Each continuous line is sampled in steps. Runs of steps without a line next to them are kept.
     for line in image.pieces.chunk_by(|a, b| a.line == b.line && a.ends[1] == b.ends[0]) {
         let mut steps: Vec<(ImagePoint, ImagePoint, ImagePiece)> = Vec::new();
         for piece in line {
             let [a, b] = piece.ends.map(|id| image.points[id as usize]);
-            let count = (a.position.distance(b.position) / (STEP_PX * px)).ceil().clamp(1.0, 1e4);
+            let count = (a.position.distance(b.position) / (SAMPLE_STEP_PX * px)).ceil().clamp(1.0, 1e4);
             for i in 0..count as usize {
                 let at = |k: usize| {
                     let t = k as f64 / count;
@@ -102,14 +102,16 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
         }
         let is_new: Vec<bool> = steps
             .iter()
-            .map(|(a, b, _)| drawn.distance2(a.position.midpoint(b.position)) > (SAME_PX * px).powi(2))
+            .map(|(a, b, _)| {
+                drawn.distance2(a.position.midpoint(b.position)) > (MAX_DUPLICATE_GAP_PX * px).powi(2)
+            })
             .collect();
         let mut at = 0;
         for run in is_new.chunk_by(|a, b| a == b) {
             let of_run = &steps[at..at + run.len()];
             at += run.len();
             let length: f64 = of_run.iter().map(|(a, b, _)| a.position.distance(b.position)).sum();
-            if run[0] && length >= REST_PX * px {
+            if run[0] && length >= MIN_REMAINDER_PX * px {
                 rest.points.push(of_run[0].0);
                 for (_, to, piece) in of_run {
                     let last = (rest.points.len() - 1) as u32;
@@ -123,13 +125,13 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
 }
 
 /// Visible lines of a map, in a grid for lookup by position.
-struct Drawn {
+struct VisibleLines {
     lines: Vec<[Point; 2]>,
     /// Lines that pass through or near each tile of the grid.
-    near: Option<(Grid, Grouped<u32>)>,
+    near: Option<(TileGrid, CsrLists<u32>)>,
 }
 
-impl Drawn {
+impl VisibleLines {
     fn new(map: &ViewMap, view: &View) -> Self {
         let at = |id: ViewVertexId| map.vertices[id.index()].position;
         let lines: Vec<[Point; 2]> = map
@@ -142,10 +144,10 @@ impl Drawn {
             return Self { lines, near: None };
         }
         let (width, height) = (view.frame.width, view.frame.height);
-        let across = (width.max(height) / (4.0 * SAME_PX * view.frame.px())) as u32;
-        let grid = Grid::new(DVec2::ZERO, DVec2::new(width, height), across.clamp(16, 1024));
-        let reach = SAME_PX * view.frame.px();
-        let near = grouped(grid.len(), |put| {
+        let across = (width.max(height) / (4.0 * MAX_DUPLICATE_GAP_PX * view.frame.px())) as u32;
+        let grid = TileGrid::new(DVec2::ZERO, DVec2::new(width, height), across.clamp(16, 1024));
+        let reach = MAX_DUPLICATE_GAP_PX * view.frame.px();
+        let near = csr_lists(grid.len(), |put| {
             for (id, [a, b]) in lines.iter().enumerate() {
                 for (dx, dy) in [(0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
                     let moved = |p: &Point| DVec3::new(p.x + dx * reach, p.y + dy * reach, 0.0);
@@ -162,7 +164,7 @@ impl Drawn {
         let at = Point::new(p.x, p.y);
         let of = |id: &u32| {
             let [a, b] = self.lines[*id as usize];
-            distance2(at, a, b)
+            segment_distance_squared(at, a, b)
         };
         near.of(grid.tile(grid.column(p.x), grid.row(p.y))).iter().map(of).fold(f64::INFINITY, f64::min)
     }

@@ -7,21 +7,21 @@ use kurbo::Point;
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::visibility::contours::contour_visibility::{self, Rounded, Smooth};
+use crate::visibility::contours::contour_visibility::{self, ContourVisibility, SmoothContours};
 use crate::visibility::contours::thin_folds;
-use crate::visibility::culling::view_occlusion::ViewCovers;
+use crate::visibility::culling::view_occlusion::ViewOcclusionBuffer;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use crate::visibility::occlusion::interval_sweep::{self, Layer};
+use crate::visibility::occlusion::interval_sweep::{self, HiddenInterval};
 use crate::visibility::overlap::coincident_lines;
 use crate::visibility::projection::image_segments::{ImageSegment, project};
-use crate::visibility::sweep::segment_pieces::{Cuts, Seen, SegmentPart};
-use crate::visibility::sweep::segment_visibility::{self, Visibility, decide_with};
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::sweep::segment_pieces::{CutSegments, SegmentOcclusion, SegmentPart};
+use crate::visibility::sweep::segment_visibility::{self, SegmentVisibility, decide_with};
+use crate::visibility::view_tolerances::ViewTolerances;
 
-const UNSET: u32 = u32::MAX;
+const NO_VERTEX: u32 = u32::MAX;
 
 /// Segments per task of the cutting step.
-const CHUNK: usize = 1 << 10;
+const SEGMENTS_PER_TASK: usize = 1 << 10;
 
 /// Hidden pieces that a view map keeps in addition to the visible ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,9 +46,9 @@ pub fn build_with(
     view: &View,
     lines: &FeatureLines,
     options: &LineOptions,
-    covers: Option<&ViewCovers>,
+    covers: Option<&ViewOcclusionBuffer>,
 ) -> ViewMap {
-    let asked = Asked::new(mesh, view, lines, options);
+    let asked = ProjectedLines::new(mesh, view, lines, options);
     let told = asked.decide(mesh, covers);
     asked.map(&told, None)
 }
@@ -66,7 +66,7 @@ pub fn build_through(
     options: &LineOptions,
 ) -> [ViewMap; 2] {
     let options = LineOptions { hidden: HiddenLines::None, ..options.clone() };
-    let asked = Asked::new(mesh, view, lines, &options);
+    let asked = ProjectedLines::new(mesh, view, lines, &options);
     let (front, behind) = (asked.decide(mesh, None), asked.decide(clear, None));
     [asked.map(&behind, None), asked.map(&behind, Some(&front))]
 }
@@ -77,79 +77,79 @@ pub(crate) fn of_hidden(
     view: &View,
     lines: &FeatureLines,
     segments: &[ImageSegment],
-    hidden: &[Vec<Layer>],
+    hidden: &[Vec<HiddenInterval>],
 ) -> ViewMap {
-    let limits = Limits::new(&view.frame);
-    let mut cuts = Cuts::default();
+    let limits = ViewTolerances::new(&view.frame);
+    let mut cuts = CutSegments::default();
     for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
-        cuts.add(id, segment, Seen { hidden, backed: &[] }, limits.piece, false);
+        cuts.add(id, segment, SegmentOcclusion { hidden, backed: &[] }, limits.piece, false);
     }
-    let mut builder = Builder::new(mesh, view, lines);
+    let mut builder = MapBuilder::new(mesh, view, lines);
     builder.add_all(segments, &cuts);
     let mut map = builder.map;
-    coincident_lines::remove(&mut map, limits.double, &view.frame, &mesh.extents);
+    coincident_lines::remove_coincident(&mut map, limits.double, &view.frame, &mesh.extents);
     map
 }
 
 /// Projected lines of a view, whose visibility can be computed.
-struct Asked<'a> {
+struct ProjectedLines<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     lines: &'a FeatureLines,
-    limits: Limits,
+    limits: ViewTolerances,
     segments: Vec<ImageSegment>,
     hidden: HiddenPieces,
 }
 
 /// Visibility of the lines with a given mesh in front of them.
-struct Told {
-    seen: Visibility,
-    rounded: Rounded,
+struct LineVisibility {
+    seen: SegmentVisibility,
+    rounded: ContourVisibility,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> ProjectedLines<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, options: &LineOptions) -> Self {
         let segments = project(mesh, view, lines);
         let none = options.hidden == HiddenLines::None;
         let hidden = if none { HiddenPieces::Contours } else { HiddenPieces::All };
-        Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, hidden }
+        Self { mesh, view, lines, limits: ViewTolerances::new(&view.frame), segments, hidden }
     }
 
-    fn decide(&self, mesh: &Mesh, covers: Option<&ViewCovers>) -> Told {
+    fn decide(&self, mesh: &Mesh, covers: Option<&ViewOcclusionBuffer>) -> LineVisibility {
         let Self { view, lines, limits, segments, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
         let is_round = segments.iter().any(|s| s.role != Role::Line);
         let (seen, smooth) = crate::parallel::join(
             || decide_with(mesh, view, segments, limits, counting, covers),
-            || is_round.then(|| Smooth::new(lines, segments, limits)),
+            || is_round.then(|| SmoothContours::new(lines, segments, limits)),
         );
-        let rounded = smooth.map_or_else(Rounded::default, |smooth| {
-            contour_visibility::decide(self.mesh, view, smooth, segments, &seen, limits, counting)
+        let rounded = smooth.map_or_else(ContourVisibility::default, |smooth| {
+            contour_visibility::decide_contours(self.mesh, view, smooth, segments, &seen, limits, counting)
         });
-        Told { seen, rounded }
+        LineVisibility { seen, rounded }
     }
 
     /// Builds the map of the visible pieces. With `but`, only of pieces that are not visible with that other
     /// mesh.
-    fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
+    fn map(&self, told: &LineVisibility, but: Option<&LineVisibility>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
         let (mut map, needles) = crate::parallel::join(
             || self.map_with_doubles(told, but),
-            || thin_folds::find(mesh, view, lines, &self.segments),
+            || thin_folds::find_thin_folds(mesh, view, lines, &self.segments),
         );
         map.tests = told.seen.tests;
         map.contours = told.rounded.counts;
-        map.seen_contours = told.rounded.seen.clone();
+        map.visible_contours = told.rounded.seen.clone();
         map.needles = needles;
-        coincident_lines::remove(&mut map, limits.double, &view.frame, &mesh.extents);
+        coincident_lines::remove_coincident(&mut map, limits.double, &view.frame, &mesh.extents);
         map
     }
 
-    fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
-        let ids: Vec<usize> = (0..self.segments.len()).step_by(CHUNK).collect();
-        let cuts: Vec<Cuts> =
+    fn map_with_doubles(&self, told: &LineVisibility, but: Option<&LineVisibility>) -> ViewMap {
+        let ids: Vec<usize> = (0..self.segments.len()).step_by(SEGMENTS_PER_TASK).collect();
+        let cuts: Vec<CutSegments> =
             ids.into_par_iter().with_max_len(1).map(|first| self.cuts(first, told, but)).collect();
-        let mut builder = Builder::new(self.mesh, self.view, self.lines);
+        let mut builder = MapBuilder::new(self.mesh, self.view, self.lines);
         // Reserved up front to avoid repeated copying. Most kept segments have a single piece.
         let drawn = cuts.iter().map(|cuts| cuts.segments.len()).sum::<usize>();
         builder.map.edges.reserve(drawn);
@@ -159,9 +159,9 @@ impl<'a> Asked<'a> {
     }
 
     /// Cuts one task's share of the segments, from `first` on, and keeps those with anything to draw.
-    fn cuts(&self, first: usize, told: &Told, but: Option<&Told>) -> Cuts {
-        let mut cuts = Cuts::default();
-        let end = (first + CHUNK).min(self.segments.len());
+    fn cuts(&self, first: usize, told: &LineVisibility, but: Option<&LineVisibility>) -> CutSegments {
+        let mut cuts = CutSegments::default();
+        let end = (first + SEGMENTS_PER_TASK).min(self.segments.len());
         for (i, segment) in (first..end).zip(&self.segments[first..end]) {
             let seen = told.of(i, segment.role);
             let mut drawn = told.draws(i, segment.role);
@@ -170,11 +170,14 @@ impl<'a> Asked<'a> {
                 None => seen,
                 Some(but) => {
                     let front = but.of(i, segment.role);
-                    let front =
-                        if but.draws(i, segment.role) { front.hidden } else { &segment_visibility::BURIED };
+                    let front = if but.draws(i, segment.role) {
+                        front.hidden
+                    } else {
+                        &segment_visibility::FULLY_HIDDEN
+                    };
                     drawn &= !front.is_empty();
                     left = interval_sweep::only_behind(front, seen.hidden);
-                    Seen { hidden: &left, backed: seen.backed }
+                    SegmentOcclusion { hidden: &left, backed: seen.backed }
                 }
             };
             if drawn {
@@ -189,26 +192,26 @@ impl<'a> Asked<'a> {
 
 /// Whether the hidden parts of a segment are kept in addition to the visible ones.
 fn keeps_hidden(hidden: HiddenPieces, segment: &ImageSegment, kind: LineKind) -> bool {
-    let is_witness = matches!(segment.role, Role::Witness { .. });
+    let is_witness = matches!(segment.role, Role::MeshContour { .. });
     !is_witness && (hidden == HiddenPieces::All || kind == LineKind::Contour)
 }
 
-impl Told {
+impl LineVisibility {
     /// Whether any part of a segment may be drawn.
     fn draws(&self, segment: usize, role: Role) -> bool {
         role == Role::Line || self.rounded.is_drawn(segment, role)
     }
 
     /// Hidden and backed intervals of a segment.
-    fn of(&self, segment: usize, role: Role) -> Seen<'_> {
+    fn of(&self, segment: usize, role: Role) -> SegmentOcclusion<'_> {
         if role == Role::Line {
-            return Seen { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
+            return SegmentOcclusion { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
         }
-        Seen { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
+        SegmentOcclusion { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
     }
 }
 
-struct Builder<'a> {
+struct MapBuilder<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     lines: &'a FeatureLines,
@@ -216,15 +219,15 @@ struct Builder<'a> {
     vertex_of_end: Vec<u32>,
 }
 
-impl<'a> Builder<'a> {
+impl<'a> MapBuilder<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines) -> Self {
-        let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
+        let vertex_of_end = vec![NO_VERTEX; mesh.positions.len() + lines.points.len()];
         let map = ViewMap { bodies: mesh.bodies.clone(), ..ViewMap::default() };
         Self { mesh, view, lines, map, vertex_of_end }
     }
 
     /// Adds the pieces of all cut segments.
-    fn add_all(&mut self, segments: &[ImageSegment], cuts: &Cuts) {
+    fn add_all(&mut self, segments: &[ImageSegment], cuts: &CutSegments) {
         let mut pieces = cuts.pieces.as_slice();
         for cut in &cuts.segments {
             let own;
@@ -266,7 +269,7 @@ impl<'a> Builder<'a> {
             return self.push_vertex(point, strength, ViewVertexKind::Frame);
         }
         let slot = segment.ends[end] as usize;
-        if self.vertex_of_end[slot] == UNSET {
+        if self.vertex_of_end[slot] == NO_VERTEX {
             self.vertex_of_end[slot] = self.map.vertices.len() as u32;
             self.push_vertex(point, strength, ViewVertexKind::Vertex);
         }

@@ -8,15 +8,15 @@ use crate::mesh::Mesh;
 use crate::scene::Camera;
 use crate::view::View;
 use crate::visibility::graph::ViewMap;
-use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
+use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::{ImageSegment, project};
 use crate::visibility::sweep::segment_visibility::decide;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Body, with the feature segments that must not be drawn over it, however near they are.
 #[derive(Debug)]
-pub struct Beside {
+pub struct BodyLines {
     /// Consecutive feature segments.
     pub segments: Range<u32>,
     /// Body that hides them.
@@ -26,19 +26,19 @@ pub struct Beside {
 /// Builds the view map of lines that are drawn where nothing hides them and they do not cross their own
 /// bodies.
 #[must_use]
-pub fn build_beside(
+pub fn build_motion_lines(
     mesh: &Mesh,
     view: &View,
     camera: &Camera,
     lines: &FeatureLines,
-    bodies: &[Beside],
+    bodies: &[BodyLines],
 ) -> ViewMap {
-    let limits = Limits::new(&view.frame);
+    let limits = ViewTolerances::new(&view.frame);
     let segments = project(mesh, view, lines);
     let seen = decide(mesh, view, &segments, &limits, false);
     let mut hidden: Vec<Vec<Interval>> =
         (0..segments.len()).map(|i| seen.hidden(i).iter().map(|layer| layer.interval).collect()).collect();
-    for Beside { segments: own, body } in bodies {
+    for BodyLines { segments: own, body } in bodies {
         let of_body = View::new(body, camera);
         // A line behind all of a body is hidden everywhere the body covers it in the image.
         let nearness = of_body.points.iter().map(|point| point.z).filter(|nearness| !nearness.is_nan());
@@ -61,10 +61,10 @@ pub fn build_beside(
     }
     let joined = hidden.iter_mut().zip(&segments).map(|(hidden, segment)| {
         let shortest = limits.piece / segment.length().max(limits.piece);
-        let mut layers: Vec<Layer> = Vec::new();
+        let mut layers: Vec<HiddenInterval> = Vec::new();
         sweep(hidden, &[], shortest, false, &mut layers);
         layers
     });
-    let hidden: Vec<Vec<Layer>> = joined.collect();
+    let hidden: Vec<Vec<HiddenInterval>> = joined.collect();
     of_hidden(mesh, view, lines, &segments, &hidden)
 }

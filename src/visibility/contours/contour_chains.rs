@@ -1,13 +1,13 @@
-//! [`Run`]: connected image segments of a smooth contour, measured by arc length.
+//! [`ContourChain`]: connected image segments of a smooth contour, measured by arc length.
 
 use crate::lines::{ContourCurve, FeatureLines};
 use crate::visibility::projection::image_segments::ImageSegment;
 
-const NONE: u32 = u32::MAX;
+const NO_SEGMENT: u32 = u32::MAX;
 
 /// Consecutive image segments of one contour.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Run {
+pub(crate) struct ContourChain {
     /// Image segments in order.
     pub segments: Vec<u32>,
     /// Arc length at the start of each segment, user units, and the total length.
@@ -18,7 +18,7 @@ pub(crate) struct Run {
     pub backward: Vec<bool>,
 }
 
-impl Run {
+impl ContourChain {
     pub fn length(&self) -> f64 {
         self.starts[self.segments.len()]
     }
@@ -39,21 +39,30 @@ impl Run {
 
 /// All runs of a view, curve by curve. A curve that turns back for less than `cusp` user units has no cusp
 /// there.
-pub(crate) fn runs(lines: &FeatureLines, segments: &[ImageSegment], cusp: f64) -> Vec<Run> {
-    let mut image_of = vec![NONE; lines.segments.len()];
+pub(crate) fn contour_chains(
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    cusp: f64,
+) -> Vec<ContourChain> {
+    let mut image_of = vec![NO_SEGMENT; lines.segments.len()];
     for (i, segment) in segments.iter().enumerate() {
         image_of[segment.source as usize] = i as u32;
     }
     lines.curves.iter().flat_map(|curve| of_curve(curve, &image_of, segments, cusp)).collect()
 }
 
-fn of_curve(curve: &ContourCurve, image_of: &[u32], segments: &[ImageSegment], cusp: f64) -> Vec<Run> {
+fn of_curve(
+    curve: &ContourCurve,
+    image_of: &[u32],
+    segments: &[ImageSegment],
+    cusp: f64,
+) -> Vec<ContourChain> {
     // Image segments with their advance, which is negative where the curve runs backward.
     let mut found: Vec<Vec<(u32, f32)>> = Vec::new();
     let mut joined = false;
     for (source, advance) in curve.segments.clone().zip(&curve.advance) {
         let id = image_of[source as usize];
-        if id == NONE {
+        if id == NO_SEGMENT {
             joined = false;
             continue;
         }
@@ -75,8 +84,8 @@ fn of_curve(curve: &ContourCurve, image_of: &[u32], segments: &[ImageSegment], c
                 length += segments[*id as usize].length();
                 starts.push(length);
             }
-            let backward = evened(&pieces, &starts, closed, cusp);
-            Run { segments: pieces.iter().map(|piece| piece.0).collect(), starts, closed, backward }
+            let backward = backward_pieces(&pieces, &starts, closed, cusp);
+            ContourChain { segments: pieces.iter().map(|piece| piece.0).collect(), starts, closed, backward }
         })
         .collect()
 }
@@ -85,7 +94,7 @@ fn of_curve(curve: &ContourCurve, image_of: &[u32], segments: &[ImageSegment], c
 ///
 /// Stretches that turn back for less than `cusp` user units are ripples of the mesh. The shortest is removed
 /// first, until none is left.
-fn evened(pieces: &[(u32, f32)], starts: &[f64], closed: bool, cusp: f64) -> Vec<bool> {
+fn backward_pieces(pieces: &[(u32, f32)], starts: &[f64], closed: bool, cusp: f64) -> Vec<bool> {
     let n = pieces.len();
     let mut backward: Vec<bool> = pieces.iter().map(|(_, advance)| *advance < 0.0).collect();
     // Each piece is weighted by its length in the image times its advance.

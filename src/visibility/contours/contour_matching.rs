@@ -1,4 +1,4 @@
-//! [`Court`]: matching of mesh contours to smooth contours.
+//! [`ContourMatcher`]: matching of mesh contours to smooth contours.
 //!
 //! The visibility of an edge of the mesh contour is known exactly, and the smooth contour runs near it. Each
 //! visible point of the edge is matched to the nearest place of a curve that
@@ -13,46 +13,46 @@
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
-use super::contour_chains::Run;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::contour_chains::ContourChain;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::lines::Role;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
-use crate::visibility::graph::{SeenContour, ViewVertexKind};
-use crate::visibility::occlusion::interval_sweep::Layer;
+use crate::visibility::graph::{ViewVertexKind, VisibleContour};
+use crate::visibility::occlusion::interval_sweep::HiddenInterval;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::sweep::segment_visibility::Visibility;
+use crate::visibility::sweep::segment_visibility::SegmentVisibility;
 use crate::visibility::tiles::aligned_grid::grid_over;
-use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::tile_grid::TileGrid;
 
 /// Largest distance of a curve that may stand for an edge, px. Smooth contour and mesh contour are closer
 /// together if the drawing is not coarser than its model.
-pub(crate) const REACH_PX: f64 = 2.5;
+pub(crate) const MAX_MATCH_DISTANCE_PX: f64 = 2.5;
 /// Sampling step along edges, px.
-const STEP_PX: f64 = 1.0;
+const SAMPLE_STEP_PX: f64 = 1.0;
 /// Distance below which a curve counts as the ink of an edge, px, even if it is matched to another.
-const INK_PX: f64 = 1.5;
+const MAX_INK_DISTANCE_PX: f64 = 1.5;
 /// Smallest cosine between the normals of an edge and its curve.
-const SAME_SIDE_COSINE: f32 = 0.2;
+const MIN_NORMAL_COSINE: f32 = 0.2;
 /// Largest difference in depth between an edge and its curve, in multiples of the longest sides of their
-/// faces, plus [`DEPTH_PX`] px.
+/// faces, plus [`MAX_DEPTH_GAP_PX`] px.
 ///
 /// Where a surface is seen edge-on, a shift of half a px is one of many px in depth.
-const DEPTH_OF_FACES: f64 = 2.0;
-const DEPTH_PX: f64 = 24.0;
+const MAX_DEPTH_GAP_FACES: f64 = 2.0;
+const MAX_DEPTH_GAP_PX: f64 = 24.0;
 /// Largest ratio between a step along a curve and the step along its edge, apart from the match distance. At
 /// a corner of the edges the nearest place jumps.
-const STRETCH: f64 = 4.0;
+const MAX_STRETCH: f64 = 4.0;
 /// Tiles across the page in the lookup of curves.
-const GRID: u32 = 256;
+const TILES_ACROSS: u32 = 256;
 
 /// Mesh contour segments per task.
-const CHUNK: usize = 64;
+const CONTOURS_PER_TASK: usize = 64;
 
 /// Visible or hidden span of a run, next to an edge of the mesh contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct CurveSpan {
     pub run: u32,
     /// Start and end, as places along the run.
     pub from: f64,
@@ -67,7 +67,7 @@ pub(crate) struct Told {
 
 /// Visible part of a mesh contour edge without a matching curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bare {
+pub(crate) struct UnmatchedSpan {
     /// Image segment.
     pub segment: u32,
     pub from: f64,
@@ -77,36 +77,36 @@ pub(crate) struct Bare {
 
 /// Result of the matching.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Testimony {
+pub(crate) struct MatchResult {
     /// Visible (count 0) and hidden spans of runs.
-    pub told: Vec<Told>,
+    pub told: Vec<CurveSpan>,
     /// Visible parts without a curve, in the order of segments.
-    pub bare: Vec<Bare>,
+    pub bare: Vec<UnmatchedSpan>,
     /// Visible parts of all mesh contours, with or without a curve.
-    pub seen: Vec<SeenContour>,
+    pub seen: Vec<VisibleContour>,
 }
 
 /// Input of the matching.
-pub(crate) struct Court<'a> {
+pub(crate) struct ContourMatcher<'a> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
     pub segments: &'a [ImageSegment],
-    pub runs: &'a [Run],
-    pub sought: Sought,
+    pub runs: &'a [ContourChain],
+    pub curve_index: CurveIndex,
     pub px: f64,
 }
 
 /// Pieces of curves in a grid, for lookup by position.
-pub(crate) struct Sought {
-    grid: Grid,
+pub(crate) struct CurveIndex {
+    grid: TileGrid,
     /// Run, and index within the run, of the pieces in each tile.
-    pieces: Grouped<(u32, u32)>,
+    pieces: CsrLists<(u32, u32)>,
 }
 
-impl Sought {
-    pub fn new(segments: &[ImageSegment], runs: &[Run]) -> Self {
-        let grid = grid_over(segments.iter(), GRID);
-        let pieces = grouped(grid.len(), |put| {
+impl CurveIndex {
+    pub fn new(segments: &[ImageSegment], runs: &[ContourChain]) -> Self {
+        let grid = grid_over(segments.iter(), TILES_ACROSS);
+        let pieces = csr_lists(grid.len(), |put| {
             for (r, run) in runs.iter().enumerate() {
                 for (k, id) in run.segments.iter().enumerate() {
                     let segment = &segments[*id as usize];
@@ -120,28 +120,28 @@ impl Sought {
 
 /// Place on a run.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct CurvePosition {
     pub run: u32,
     /// Arc length along the run, user units.
     pub at: f64,
 }
 
-impl Court<'_> {
+impl ContourMatcher<'_> {
     /// Matches all mesh contours. Hidden spans are included only with `hidden`.
-    pub fn hear(&self, seen: &Visibility, hidden: bool) -> Testimony {
+    pub fn match_contours(&self, seen: &SegmentVisibility, hidden: bool) -> MatchResult {
         let count = self.segments.len();
-        let heard: Vec<Testimony> = (0..count.div_ceil(CHUNK))
+        let heard: Vec<MatchResult> = (0..count.div_ceil(CONTOURS_PER_TASK))
             .into_par_iter()
             .with_max_len(1)
             .map(|chunk| {
-                let mut testimony = Testimony::default();
-                for id in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                    self.hear_one(id as u32, seen, hidden, &mut testimony);
+                let mut testimony = MatchResult::default();
+                for id in chunk * CONTOURS_PER_TASK..((chunk + 1) * CONTOURS_PER_TASK).min(count) {
+                    self.match_contour(id as u32, seen, hidden, &mut testimony);
                 }
                 testimony
             })
             .collect();
-        let mut all = Testimony::default();
+        let mut all = MatchResult::default();
         for one in heard {
             all.told.extend(one.told);
             all.seen.extend(one.seen);
@@ -150,13 +150,13 @@ impl Court<'_> {
         all
     }
 
-    fn hear_one(&self, id: u32, seen: &Visibility, hidden: bool, out: &mut Testimony) {
+    fn match_contour(&self, id: u32, seen: &SegmentVisibility, hidden: bool, out: &mut MatchResult) {
         let segment = &self.segments[id as usize];
-        let Role::Witness { convex, .. } = segment.role else { return };
+        let Role::MeshContour { convex, .. } = segment.role else { return };
         let layers = seen.hidden(id as usize);
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
-        let end = Layer {
+        let end = HiddenInterval {
             interval: Interval {
                 start: 1.0,
                 end: 1.0,
@@ -168,7 +168,7 @@ impl Court<'_> {
         for layer in layers.iter().chain([&end]) {
             let Interval { start, end, start_kind, end_kind } = layer.interval;
             if start > at {
-                let whole = Told {
+                let whole = CurveSpan {
                     run: 0,
                     from: at,
                     to: start,
@@ -177,16 +177,16 @@ impl Court<'_> {
                     count: 0,
                 };
                 let ends = [at, start].map(|t| segment.at(t).truncate());
-                out.seen.push(SeenContour { ends, segment: segment.source });
+                out.seen.push(VisibleContour { ends, segment: segment.source });
                 for piece in backed_pieces(&whole, seen.backed(id as usize)) {
-                    self.follow(id, convex, &piece, out);
+                    self.match_part(id, convex, &piece, out);
                 }
             }
             if hidden && layer.count > 0 && end > start {
                 let kinds = [start_kind, end_kind];
                 let piece =
-                    Told { run: 0, from: start, to: end, kinds, silhouette: false, count: layer.count };
-                self.follow(id, convex, &piece, out);
+                    CurveSpan { run: 0, from: start, to: end, kinds, silhouette: false, count: layer.count };
+                self.match_part(id, convex, &piece, out);
             }
             (at, kind) = (end, end_kind);
         }
@@ -194,9 +194,9 @@ impl Court<'_> {
 
     /// Matches a part of a mesh contour edge to the curves. Its `from` and `to` are parameters of the
     /// segment.
-    fn follow(&self, id: u32, convex: bool, piece: &Told, out: &mut Testimony) {
+    fn match_part(&self, id: u32, convex: bool, piece: &CurveSpan, out: &mut MatchResult) {
         let segment = &self.segments[id as usize];
-        let steps = ((piece.to - piece.from) * segment.length() / (STEP_PX * self.px)).ceil().max(1.0);
+        let steps = ((piece.to - piece.from) * segment.length() / (SAMPLE_STEP_PX * self.px)).ceil().max(1.0);
         let t =
             |k: f64| if k >= steps { piece.to } else { piece.from + (piece.to - piece.from) * (k / steps) };
         let mut last = self.nearest(segment, convex, segment.at(piece.from));
@@ -209,11 +209,11 @@ impl Court<'_> {
                         if k == 0 { piece.kinds[0] } else { ViewVertexKind::Vertex },
                         if f64::from(k + 1) >= steps { piece.kinds[1] } else { ViewVertexKind::Vertex },
                     ];
-                    let way = STRETCH * (to - from) * segment.length() + REACH_PX * self.px;
-                    self.tell(p, q, way, kinds, piece, out);
+                    let way = MAX_STRETCH * (to - from) * segment.length() + MAX_MATCH_DISTANCE_PX * self.px;
+                    self.add_curve_span(p, q, way, kinds, piece, out);
                 }
                 _ if piece.count == 0 => {
-                    out.bare.push(Bare { segment: id, from, to, silhouette: piece.silhouette });
+                    out.bare.push(UnmatchedSpan { segment: id, from, to, silhouette: piece.silhouette });
                 }
                 _ => {}
             }
@@ -222,14 +222,14 @@ impl Court<'_> {
     }
 
     /// Adds the span between two places of a run, if it is no longer than `most`.
-    fn tell(
+    fn add_curve_span(
         &self,
-        p: Place,
-        q: Place,
+        p: CurvePosition,
+        q: CurvePosition,
         most: f64,
         kinds: [ViewVertexKind; 2],
-        piece: &Told,
-        out: &mut Testimony,
+        piece: &CurveSpan,
+        out: &mut MatchResult,
     ) {
         let run = &self.runs[p.run as usize];
         if p.run != q.run || run.between(p.at, q.at) > most {
@@ -237,26 +237,26 @@ impl Court<'_> {
         }
         let (from, to, kinds) =
             if p.at <= q.at { (p.at, q.at, kinds) } else { (q.at, p.at, [kinds[1], kinds[0]]) };
-        let told = Told { run: p.run, kinds, ..*piece };
+        let told = CurveSpan { run: p.run, kinds, ..*piece };
         if run.closed && to - from > run.length() / 2.0 {
             // The span crosses the seam of the closed run.
             let inner = ViewVertexKind::Vertex;
-            out.told.push(Told { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
-            out.told.push(Told { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
+            out.told.push(CurveSpan { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
+            out.told.push(CurveSpan { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
         } else {
-            out.told.push(Told { from, to, ..told });
+            out.told.push(CurveSpan { from, to, ..told });
         }
     }
 
     /// Nearest place of a curve that may stand for a mesh contour edge at one of its points.
-    pub fn place(&self, witness: &ImageSegment, p: DVec3) -> Option<Place> {
+    pub fn place(&self, witness: &ImageSegment, p: DVec3) -> Option<CurvePosition> {
         match witness.role {
-            Role::Witness { convex, .. } => self.nearest(witness, convex, p),
+            Role::MeshContour { convex, .. } => self.nearest(witness, convex, p),
             _ => None,
         }
     }
 
-    fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<Place> {
+    fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<CurvePosition> {
         let normal = |face: u32| Vec3::from_array(self.mesh.face_normals[face as usize]);
         let outward = (normal(witness.hosts[0]) + normal(witness.hosts[1])).normalize_or_zero();
         let body = |face: u32| self.mesh.body(face);
@@ -264,8 +264,8 @@ impl Court<'_> {
         let reach_own = self.reach(witness.hosts[0]).max(self.reach(witness.hosts[1]));
         let per_px =
             if self.view.frame.perspective { depth.abs() } else { 1.0 } / self.view.frame.scale * self.px;
-        let mut best: Option<(f64, Place)> = None;
-        self.each_near(p, REACH_PX * self.px, |away, r, k, place| {
+        let mut best: Option<(f64, CurvePosition)> = None;
+        self.each_near(p, MAX_MATCH_DISTANCE_PX * self.px, |away, r, k, place| {
             if best.as_ref().is_some_and(|(least, other)| {
                 away.total_cmp(least).then(r.cmp(&other.run)).then(place.total_cmp(&other.at)).is_ge()
             }) {
@@ -276,14 +276,14 @@ impl Court<'_> {
             let host = curve.hosts[0];
             if run.backward[k] == convex
                 || body(host) != own_body
-                || outward.dot(normal(host)) < SAME_SIDE_COSINE
+                || outward.dot(normal(host)) < MIN_NORMAL_COSINE
             {
                 return;
             }
             let t = (place - run.starts[k]) / (run.starts[k + 1] - run.starts[k]).max(f64::MIN_POSITIVE);
             let gap = (self.view.frame.depth_of(curve.at(t).z) - depth).abs();
-            if gap <= DEPTH_OF_FACES * (reach_own + self.reach(host)) + DEPTH_PX * per_px {
-                best = Some((away, Place { run: r, at: place }));
+            if gap <= MAX_DEPTH_GAP_FACES * (reach_own + self.reach(host)) + MAX_DEPTH_GAP_PX * per_px {
+                best = Some((away, CurvePosition { run: r, at: place }));
             }
         });
         best.map(|(_, place)| place)
@@ -291,16 +291,16 @@ impl Court<'_> {
 
     /// Whether a visible part of a curve passes a point of the image within ink distance. `is_seen` takes a
     /// run and a place along it.
-    pub fn is_inked(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
+    pub fn has_ink_near(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
         let mut inked = false;
-        self.each_near(p, INK_PX * self.px, |_, r, _, place| inked = inked || is_seen(r, place));
+        self.each_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, place| inked = inked || is_seen(r, place));
         inked
     }
 
     /// Calls `visit(squared distance, run, index in it, place along it)` for the nearest points of all curve
     /// pieces within a distance.
     fn each_near(&self, p: DVec3, reach: f64, mut visit: impl FnMut(f64, u32, usize, f64)) {
-        let Sought { grid, pieces } = &self.sought;
+        let CurveIndex { grid, pieces } = &self.curve_index;
         for (tile, _) in grid.tiles_of(grid.tile_box(p - reach, p + reach)) {
             for (r, k) in pieces.of(tile) {
                 let run = &self.runs[*r as usize];
@@ -326,7 +326,7 @@ impl Court<'_> {
 }
 
 /// Splits a visible part where background begins or ends next to it.
-fn backed_pieces(whole: &Told, backed: &[Interval]) -> Vec<Told> {
+fn backed_pieces(whole: &CurveSpan, backed: &[Interval]) -> Vec<CurveSpan> {
     let mut pieces = Vec::with_capacity(1);
     let mut at = whole.from;
     let inner = ViewVertexKind::Backdrop;
@@ -336,7 +336,7 @@ fn backed_pieces(whole: &Told, backed: &[Interval]) -> Vec<Told> {
                 if from > whole.from { inner } else { whole.kinds[0] },
                 if to < whole.to { inner } else { whole.kinds[1] },
             ];
-            pieces.push(Told { from, to, kinds, silhouette, ..*whole });
+            pieces.push(CurveSpan { from, to, kinds, silhouette, ..*whole });
         }
     };
     for interval in backed {

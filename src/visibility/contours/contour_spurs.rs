@@ -1,4 +1,4 @@
-//! [`Teeth`]: contour spurs, where the mesh contour leaves the smooth contour for a few edges and returns to
+//! [`ContourSpurs`]: contour spurs, where the mesh contour leaves the smooth contour for a few edges and returns to
 //! the same place.
 //!
 //! Thin faces seen edge-on stick out of the contour like saw teeth, and often only one side of a tooth is
@@ -6,24 +6,25 @@
 
 use crate::parallel::prelude::*;
 
-use super::contour_matching::{Court, Place};
+use super::contour_matching::{ContourMatcher, CurvePosition};
 use crate::lines::Role;
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Largest number of edges of a spur.
-const MOST_EDGES: usize = 12;
+const MAX_SPUR_EDGES: usize = 12;
 
 /// Graph of the mesh contour, visible and hidden parts alike.
-pub(crate) struct Teeth<'a> {
-    court: &'a Court<'a>,
+pub(crate) struct ContourSpurs<'a> {
+    court: &'a ContourMatcher<'a>,
     segments: &'a [ImageSegment],
     /// Vertices with the mesh contour segments that end there, sorted by vertex.
     ends: Vec<(u32, u32)>,
 }
 
-impl<'a> Teeth<'a> {
-    pub fn new(court: &'a Court<'a>, segments: &'a [ImageSegment]) -> Self {
-        let witnesses = segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::Witness { .. }));
+impl<'a> ContourSpurs<'a> {
+    pub fn new(court: &'a ContourMatcher<'a>, segments: &'a [ImageSegment]) -> Self {
+        let witnesses =
+            segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::MeshContour { .. }));
         let mut ends: Vec<(u32, u32)> =
             witnesses.flat_map(|(id, s)| s.ends.map(|end| (end, id as u32))).collect();
         ends.par_sort_unstable();
@@ -42,11 +43,11 @@ impl<'a> Teeth<'a> {
     }
 
     /// First place on a curve along the mesh contour from one end of a segment, with the distance to it.
-    fn walk(&self, id: u32, end: usize) -> Option<(Place, f64)> {
+    fn walk(&self, id: u32, end: usize) -> Option<(CurvePosition, f64)> {
         let mut way = 0.0;
         let (mut at, mut vertex) = (id, self.segments[id as usize].ends[end]);
         let mut passed = vec![id];
-        while passed.len() <= MOST_EDGES {
+        while passed.len() <= MAX_SPUR_EDGES {
             let segment = &self.segments[at as usize];
             let point = if segment.ends[0] == vertex { segment.a } else { segment.b };
             if let Some(place) = self.court.place(segment, point) {

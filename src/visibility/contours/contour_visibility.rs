@@ -1,75 +1,75 @@
-//! [`Rounded`]: the drawn parts of the contours of rounded surfaces.
+//! [`ContourVisibility`]: the drawn parts of the contours of rounded surfaces.
 //!
 //! A smooth contour is drawn where the mesh contour matched to it is visible. Visible parts of the mesh
 //! contour without a smooth contour are drawn themselves.
 
 use crate::parallel::prelude::*;
 
-use super::contour_chains::{Run, runs};
-use super::contour_matching::{Bare, Court, REACH_PX, Sought, Told};
-use super::contour_spurs::Teeth;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::contour_chains::{ContourChain, contour_chains};
+use super::contour_matching::{ContourMatcher, CurveIndex, CurveSpan, MAX_MATCH_DISTANCE_PX, UnmatchedSpan};
+use super::contour_spurs::ContourSpurs;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::tolerance;
 use crate::lines::{FeatureLines, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::visibility::graph::{ContourCounts, SeenContour, ViewVertexKind};
-use crate::visibility::occlusion::interval_sweep::Layer;
+use crate::visibility::graph::{ContourCounts, ViewVertexKind, VisibleContour};
+use crate::visibility::occlusion::interval_sweep::HiddenInterval;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::sweep::segment_visibility::Visibility;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::sweep::segment_visibility::SegmentVisibility;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Largest gap between visible spans of a curve that is closed, px. Such gaps come from sampling the mesh
 /// contour, which is visible without gaps.
-const GAP_PX: f64 = 1.0;
+const MAX_JOIN_GAP_PX: f64 = 1.0;
 
 /// Drawn parameter ranges of smooth contours and mesh contours, by image segment.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rounded {
+pub(crate) struct ContourVisibility {
     /// Undrawn parts of each image segment of a rounded surface, ascending.
-    pub hidden: Grouped<Layer>,
+    pub hidden: CsrLists<HiddenInterval>,
     /// Where a surface lies next to it on the outer side, ascending.
-    pub backed: Grouped<Interval>,
+    pub backed: CsrLists<Interval>,
     /// Whether each segment is a mesh contour with a drawn part.
     bare: Vec<bool>,
     pub counts: ContourCounts,
     /// Visible parts of the mesh contour.
-    pub seen: Vec<SeenContour>,
+    pub seen: Vec<VisibleContour>,
 }
 
-impl Rounded {
+impl ContourVisibility {
     /// Whether any part of an image segment of a rounded surface may be drawn.
     pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
-        role == Role::Curve || self.bare[segment]
+        role == Role::SmoothContour || self.bare[segment]
     }
 }
 
 /// Drawn parts of smooth contours and mesh contours, in the order of discovery.
 #[derive(Debug, Default)]
-struct Found {
-    hidden: Vec<(u32, Layer)>,
+struct ContourPieces {
+    hidden: Vec<(u32, HiddenInterval)>,
     backed: Vec<(u32, Interval)>,
     /// Mesh contour segments with a drawn part.
     bare: Vec<u32>,
     counts: ContourCounts,
 }
 
-impl Found {
+impl ContourPieces {
     /// Groups the results by image segment.
-    fn sorted(self, segments: usize, seen: Vec<SeenContour>) -> Rounded {
+    fn sorted(self, segments: usize, seen: Vec<VisibleContour>) -> ContourVisibility {
         let mut bare = vec![false; segments];
         self.bare.iter().for_each(|segment| bare[*segment as usize] = true);
         let hidden = by_segment(segments, &self.hidden, |layer| layer.interval.start);
         let backed = by_segment(segments, &self.backed, |interval| interval.start);
-        Rounded { hidden, backed, bare, counts: self.counts, seen }
+        ContourVisibility { hidden, backed, bare, counts: self.counts, seen }
     }
 }
 
 /// Groups values by segment, sorted by their start.
-fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -> f64) -> Grouped<T> {
+fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -> f64) -> CsrLists<T> {
     let mut sorted =
-        grouped(segments, |put| found.iter().for_each(|(segment, value)| put(*segment as usize, *value)));
+        csr_lists(segments, |put| found.iter().for_each(|(segment, value)| put(*segment as usize, *value)));
     for segment in 0..segments {
         sorted.of_mut(segment).sort_by(|a, b| start(a).total_cmp(&start(b)));
     }
@@ -77,30 +77,30 @@ fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -
 }
 
 /// Smooth contours in the image, indexed for lookup.
-pub(crate) struct Smooth {
-    runs: Vec<Run>,
-    sought: Sought,
+pub(crate) struct SmoothContours {
+    runs: Vec<ContourChain>,
+    sought: CurveIndex,
 }
 
-impl Smooth {
-    pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &Limits) -> Self {
-        let runs = runs(lines, segments, tolerance::CUSP_PX * limits.px);
-        Self { sought: Sought::new(segments, &runs), runs }
+impl SmoothContours {
+    pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &ViewTolerances) -> Self {
+        let runs = contour_chains(lines, segments, tolerance::MIN_CUSP_PX * limits.px);
+        Self { sought: CurveIndex::new(segments, &runs), runs }
     }
 }
 
 /// Computes the drawn parts of smooth contours and mesh contours from the visibility of the mesh contours.
-pub(crate) fn decide(
+pub(crate) fn decide_contours(
     mesh: &Mesh,
     view: &View,
-    Smooth { runs, sought }: Smooth,
+    SmoothContours { runs, sought }: SmoothContours,
     segments: &[ImageSegment],
-    seen: &Visibility,
-    limits: &Limits,
+    seen: &SegmentVisibility,
+    limits: &ViewTolerances,
     counting: bool,
-) -> Rounded {
-    let court = Court { mesh, view, segments, runs: &runs, sought, px: limits.px };
-    let mut testimony = court.hear(seen, counting);
+) -> ContourVisibility {
+    let court = ContourMatcher { mesh, view, segments, runs: &runs, curve_index: sought, px: limits.px };
+    let mut testimony = court.match_contours(seen, counting);
     testimony.told.par_sort_by(|a, b| {
         a.run
             .cmp(&b.run)
@@ -108,17 +108,17 @@ pub(crate) fn decide(
             .then(b.to.total_cmp(&a.to))
             .then(a.kinds.cmp(&b.kinds))
     });
-    let mut found = Found::default();
+    let mut found = ContourPieces::default();
     found.counts.curves = runs.len() as u64;
-    let mut seen_of_run: Vec<Vec<Told>> = Vec::with_capacity(runs.len());
+    let mut seen_of_run: Vec<Vec<CurveSpan>> = Vec::with_capacity(runs.len());
     let mut told = testimony.told.as_slice();
     for (r, run) in runs.iter().enumerate() {
         let count = told.partition_point(|t| t.run as usize == r);
         let (own, rest) = told.split_at(count);
         told = rest;
-        let visible = joined(own.iter().filter(|t| t.count == 0), GAP_PX * limits.px);
-        let silhouette = joined(own.iter().filter(|t| t.silhouette), GAP_PX * limits.px);
-        found.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
+        let visible = joined(own.iter().filter(|t| t.count == 0), MAX_JOIN_GAP_PX * limits.px);
+        let silhouette = joined(own.iter().filter(|t| t.silhouette), MAX_JOIN_GAP_PX * limits.px);
+        found.add_run(run, [&visible, &silhouette, own], MAX_MATCH_DISTANCE_PX * limits.px);
         seen_of_run.push(visible);
     }
     found.add_bare(&court, segments, &testimony.bare, &seen_of_run);
@@ -126,8 +126,8 @@ pub(crate) fn decide(
 }
 
 /// Merges spans that overlap or nearly meet; they must be sorted by start.
-fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
-    let mut joined: Vec<Told> = Vec::new();
+fn joined<'a>(pieces: impl Iterator<Item = &'a CurveSpan>, gap: f64) -> Vec<CurveSpan> {
+    let mut joined: Vec<CurveSpan> = Vec::new();
     for piece in pieces {
         match joined.last_mut() {
             Some(last) if piece.from <= last.to + gap => {
@@ -143,12 +143,12 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
 }
 
 /// Visible spans of each run, ascending.
-struct SeenRuns<'a> {
-    runs: &'a [Run],
-    pieces: &'a [Vec<Told>],
+struct VisibleChains<'a> {
+    runs: &'a [ContourChain],
+    pieces: &'a [Vec<CurveSpan>],
 }
 
-impl SeenRuns<'_> {
+impl VisibleChains<'_> {
     fn at(&self, run: u32, place: f64) -> bool {
         let pieces = &self.pieces[run as usize];
         let next = pieces.partition_point(|t| t.to < place);
@@ -164,25 +164,31 @@ impl SeenRuns<'_> {
     }
 }
 
-impl Found {
+impl ContourPieces {
     /// Adds the visible parts of the mesh contour without a smooth contour.
     ///
     /// Parts with visible ink near them are left out, and so are ripples of the mesh with other surface
     /// behind them.
-    fn add_bare(&mut self, court: &Court, segments: &[ImageSegment], bare: &[Bare], seen: &[Vec<Told>]) {
-        let seen = SeenRuns { runs: court.runs, pieces: seen };
-        let teeth = Teeth::new(court, segments);
+    fn add_bare(
+        &mut self,
+        court: &ContourMatcher,
+        segments: &[ImageSegment],
+        bare: &[UnmatchedSpan],
+        seen: &[Vec<CurveSpan>],
+    ) {
+        let seen = VisibleChains { runs: court.runs, pieces: seen };
+        let teeth = ContourSpurs::new(court, segments);
         let is_ripple = |id: u32| {
-            matches!(segments[id as usize].role, Role::Witness { fold: true, .. })
+            matches!(segments[id as usize].role, Role::MeshContour { fold: true, .. })
                 || teeth.holds(id, |run, from, to| seen.between(run, from, to))
         };
-        let mut drawn: Vec<Bare> = Vec::new();
+        let mut drawn: Vec<UnmatchedSpan> = Vec::new();
         for own in bare.chunk_by(|a, b| a.segment == b.segment) {
             let segment = &segments[own[0].segment as usize];
             let mut ripple = None;
             for piece in own {
                 let middle = segment.at((piece.from + piece.to) / 2.0);
-                if court.is_inked(middle, |run, place| seen.at(run, place)) {
+                if court.has_ink_near(middle, |run, place| seen.at(run, place)) {
                     continue;
                 }
                 if !piece.silhouette && *ripple.get_or_insert_with(|| is_ripple(piece.segment)) {
@@ -209,7 +215,7 @@ impl Found {
     }
 
     /// Adds the hidden parts of a run: everything outside its visible spans.
-    fn add_run(&mut self, run: &Run, [visible, silhouette, told]: [&[Told]; 3], cusp: f64) {
+    fn add_run(&mut self, run: &ContourChain, [visible, silhouette, told]: [&[CurveSpan]; 3], cusp: f64) {
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
         // A contour end that no line covers is a cusp if the contour turns back in the image there.
@@ -234,7 +240,13 @@ impl Found {
         }
     }
 
-    fn hide(&mut self, run: &Run, [from, to]: [f64; 2], kinds: [ViewVertexKind; 2], told: &[Told]) {
+    fn hide(
+        &mut self,
+        run: &ContourChain,
+        [from, to]: [f64; 2],
+        kinds: [ViewVertexKind; 2],
+        told: &[CurveSpan],
+    ) {
         // Parts without a match are behind at least one surface.
         let count = |from: f64, to: f64| {
             let hidden = told.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
@@ -244,20 +256,20 @@ impl Found {
         each_part(run, from, to, |segment, start, end| {
             let interval = Interval { start, end, start_kind: kinds[0], end_kind: kinds[1] };
             let count = if counted { count(from, to) } else { 1 };
-            self.hidden.push((segment, Layer { interval, count }));
+            self.hidden.push((segment, HiddenInterval { interval, count }));
         });
     }
 
     /// Adds the undrawn parts of a mesh contour segment: everything outside its unmatched visible spans.
-    fn add_witness(&mut self, bare: &[Bare]) {
+    fn add_witness(&mut self, bare: &[UnmatchedSpan]) {
         let inner = ViewVertexKind::Vertex;
         let mut at = 0.0;
         let segment = bare[0].segment;
-        let end = Bare { segment, from: 1.0, to: 1.0, silhouette: true };
+        let end = UnmatchedSpan { segment, from: 1.0, to: 1.0, silhouette: true };
         for piece in bare.iter().chain([&end]) {
             if piece.from > at {
                 let interval = Interval { start: at, end: piece.from, start_kind: inner, end_kind: inner };
-                self.hidden.push((segment, Layer { interval, count: 1 }));
+                self.hidden.push((segment, HiddenInterval { interval, count: 1 }));
             }
             if !piece.silhouette {
                 let kind = ViewVertexKind::Backdrop;
@@ -271,7 +283,7 @@ impl Found {
 }
 
 /// Calls `visit(image segment, from, to)` for the segment parts between two places of a run.
-fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(u32, f64, f64)) {
+fn each_part(run: &ContourChain, from: f64, to: f64, mut visit: impl FnMut(u32, f64, f64)) {
     if to <= from {
         return;
     }

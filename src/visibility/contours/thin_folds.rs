@@ -13,13 +13,13 @@ use crate::view::View;
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Smallest ratio of length to width of a thin fold.
-const SLENDER: f64 = 3.0;
+const MIN_ASPECT: f64 = 3.0;
 
 /// Smallest cosine (26 degrees) between a fold and a line that continues it.
-const SAME_WAY_COSINE: f64 = 0.9;
+const MIN_CONTINUATION_COSINE: f64 = 0.9;
 
 /// Two sides of a fold and the vertex where they meet.
-struct Needle {
+struct ThinFold {
     /// Image segments of the sides.
     sides: [u32; 2],
     tip: u32,
@@ -30,8 +30,13 @@ struct Needle {
 }
 
 /// Finds the feature segments that are sides of thin folds, ascending.
-pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<u32> {
-    let shortest = SLENDER * tolerance::NEEDLE_PX * view.frame.px();
+pub(crate) fn find_thin_folds(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+) -> Vec<u32> {
+    let shortest = MIN_ASPECT * tolerance::THIN_FOLD_PX * view.frame.px();
     let is_side = |s: &ImageSegment| {
         lines.segments[s.source as usize].kind == LineKind::Contour
             && s.role == Role::Line
@@ -46,9 +51,9 @@ pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[I
     ends.sort_unstable();
     let pairs = ends.chunk_by(|a, b| a.0 == b.0).filter(|ends| ends.len() == 2);
     let of_pair =
-        |ends: &[(u32, u32)]| needle(mesh, view, lines, segments, [ends[0].1, ends[1].1], ends[0].0);
-    let needles: Vec<Needle> = pairs.filter_map(of_pair).collect();
-    let goes_on = going_on(&needles, lines, segments);
+        |ends: &[(u32, u32)]| thin_fold(mesh, view, lines, segments, [ends[0].1, ends[1].1], ends[0].0);
+    let needles: Vec<ThinFold> = pairs.filter_map(of_pair).collect();
+    let goes_on = continued(&needles, lines, segments);
     let bare = needles.iter().zip(goes_on).filter(|(_, goes_on)| !goes_on);
     let sides = bare.flat_map(|(needle, _)| needle.sides.map(|id| segments[id as usize].source));
     let mut found: Vec<u32> = sides.filter(|source| lines.segments[*source as usize].smooth).collect();
@@ -61,7 +66,7 @@ pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[I
 /// towards the tip.
 ///
 /// In the second case the three contours are one line that doubles back.
-fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
+fn continued(needles: &[ThinFold], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
     let mut goes_on = vec![false; needles.len()];
     let mut places: Vec<(u32, u32)> = Vec::new();
     for (needle, id) in needles.iter().zip(0..) {
@@ -83,8 +88,8 @@ fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment])
                 let (way, back) = (ends[1 - k] - ends[k], -needle.along);
                 let is_contour = lines.segments[segment.source as usize].kind == LineKind::Contour;
                 // A shorter line is the base of the fold.
-                let same_way = SLENDER * way.length() > back.length()
-                    && way.dot(back) > SAME_WAY_COSINE * way.length() * back.length();
+                let same_way = MIN_ASPECT * way.length() > back.length()
+                    && way.dot(back) > MIN_CONTINUATION_COSINE * way.length() * back.length();
                 goes_on[*of as usize] |= *end == needle.tip || (is_contour && same_way);
             }
         }
@@ -93,14 +98,14 @@ fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment])
 }
 
 /// Thin fold of two contours that end in one vertex, if they are the sides of a fold within one pen stroke.
-fn needle(
+fn thin_fold(
     mesh: &Mesh,
     view: &View,
     lines: &FeatureLines,
     segments: &[ImageSegment],
     sides: [u32; 2],
     tip: u32,
-) -> Option<Needle> {
+) -> Option<ThinFold> {
     let (frame, px) = (&view.frame, view.frame.px());
     let pair = sides.map(|id| &segments[id as usize]);
     let far = pair.map(|s| usize::from(s.ends[0] == tip));
@@ -110,16 +115,17 @@ fn needle(
     });
     let lengths = along.map(DVec2::length);
     let across = along[0].perp_dot(along[1]).abs();
-    if along[0].dot(along[1]) <= 0.0 || across > tolerance::NEEDLE_PX * px * lengths[0].max(lengths[1]) {
+    if along[0].dot(along[1]) <= 0.0 || across > tolerance::THIN_FOLD_PX * px * lengths[0].max(lengths[1]) {
         return None;
     }
     let feet = [0, 1].map(|k| pair[k].ends[far[k]]);
     let [p, q] = feet.map(|foot| lines.position(mesh, foot));
     let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
-    let is_slender = base <= tolerance::NEEDLE_BASE_PX * px && SLENDER * base <= lengths[0].min(lengths[1]);
+    let is_slender =
+        base <= tolerance::THIN_FOLD_BASE_PX * px && MIN_ASPECT * base <= lengths[0].min(lengths[1]);
     // A spike has two ridges as sides, and no back.
     let folds = || is_ridge(mesh, lines, pair[0]) != is_ridge(mesh, lines, pair[1]);
-    (is_slender && folds()).then_some(Needle { sides, tip, feet, along: along[0] })
+    (is_slender && folds()).then_some(ThinFold { sides, tip, feet, along: along[0] })
 }
 
 /// Whether the second face at an edge falls away behind the outer side of the first.

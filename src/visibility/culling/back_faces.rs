@@ -1,4 +1,4 @@
-//! [`FarSides`]: groups of faces that form the back of a body.
+//! [`BackFaces`]: groups of faces that form the back of a body.
 //!
 //! 1. Where the surface folds in the image, one of the two groups at the fold is behind the other.
 //! 2. A group is a back if the folds where it is behind are longer than those where it is in front.
@@ -10,28 +10,28 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use crate::parallel::prelude::*;
 
-use crate::mesh::components::disjoint_sets::Groups;
+use crate::mesh::components::disjoint_sets::DisjointSets;
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
 
 /// Fixed-point steps per user unit. Unlike floating-point sums, integer sums do not depend on their order.
-const PARTS: f64 = 16.0;
+const FIXED_POINT_STEPS_PER_UNIT: f64 = 16.0;
 /// Groups of faces between folds of the image, and which of them are backs of bodies.
-pub(crate) struct FarSides {
-    groups: Groups,
+pub(crate) struct BackFaces {
+    groups: DisjointSets,
     /// By the first face of a group: the length of the folds where it is behind its neighbour, minus that of
     /// the folds where it is in front.
     behind: Vec<AtomicI32>,
 }
 
-impl FarSides {
+impl BackFaces {
     /// Classifies `groups` of faces that are connected across the `inner` edges, where the image does not
     /// fold.
-    pub fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: Groups) -> Self {
+    pub fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: DisjointSets) -> Self {
         let behind: Vec<AtomicI32> = mesh.triangles.par_iter().map(|_| AtomicI32::new(0)).collect();
-        let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
+        let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         outer.filter(|edge| !inner.contains(*edge)).for_each(|edge| {
             let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(edge) else { return };
             let [first, second] = faces.map(|face| groups.of(face));
@@ -39,7 +39,7 @@ impl FarSides {
                 && first != second
             {
                 let (near, far) = if second_is_nearer { (second, first) } else { (first, second) };
-                let length = (length * PARTS) as i32;
+                let length = (length * FIXED_POINT_STEPS_PER_UNIT) as i32;
                 behind[far as usize].fetch_add(length, Relaxed);
                 behind[near as usize].fetch_sub(length, Relaxed);
             }
@@ -82,13 +82,13 @@ fn fold(mesh: &Mesh, view: &View, edge: usize, faces: [u32; 2]) -> Option<(bool,
 mod tests {
     use glam::{DVec2, DVec3};
 
-    use super::super::occluder_fusion::Expanses;
+    use super::super::occluder_fusion::FusedOccluders;
     use crate::mesh::{FaceId, Mesh, Soup};
     use crate::scene::Camera;
     use crate::view::View;
-    use crate::visibility::occlusion::tiled_triangles::Triangles;
-    use crate::visibility::tiles::tile_grid::Grid;
-    use crate::visibility::view_tolerances::Limits;
+    use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
+    use crate::visibility::tiles::tile_grid::TileGrid;
+    use crate::visibility::view_tolerances::ViewTolerances;
 
     type Triangle = [DVec3; 3];
 
@@ -99,10 +99,10 @@ mod tests {
         let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
         let camera = Camera::three_quarter().with_frame(200.0, 200.0).fit_points(&faces.concat(), 0.05);
         let view = View::new(&mesh, &camera);
-        let limits = Limits::new(&view.frame);
-        let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), 32);
-        let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
-        let expanses = Expanses::new(&triangles, grid.cell);
+        let limits = ViewTolerances::new(&view.frame);
+        let grid = TileGrid::new(DVec2::ZERO, DVec2::splat(200.0), 32);
+        let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+        let expanses = FusedOccluders::new(&triangles, grid.cell);
         let of_face = |face: u32| {
             let world = mesh.corners(FaceId(face)).map(|p| p + mesh.origin);
             let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);

@@ -8,10 +8,10 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Bound for the error of single precision, as a share of the terms of a function.
-const ROUNDING: f64 = 1e-6;
+const RELATIVE_ROUNDING: f64 = 1e-6;
 
 /// Area of the image where [`EdgeFunctions`] are evaluated.
 #[derive(Debug, Clone, Copy, Default)]
@@ -50,7 +50,7 @@ pub(crate) struct EdgeFunctions {
 impl EdgeFunctions {
     /// Edge functions of a triangle in image space, for the points of a window.
     #[inline]
-    pub(crate) fn new(corners: &[DVec3; 3], window: &Window, limits: &Limits) -> Self {
+    pub(crate) fn new(corners: &[DVec3; 3], window: &Window, limits: &ViewTolerances) -> Self {
         let [a, b, c] = corners.map(DVec3::truncate);
         let sign = (b - a).perp_dot(c - a).signum();
         let mut made = Self { x: [0.0; 4], y: [0.0; 4], at_middle: [1.0; 4] };
@@ -58,7 +58,8 @@ impl EdgeFunctions {
             let side = (next - corner) * sign;
             let at_middle = side.perp_dot(window.middle - corner);
             let size = side.x.abs() + side.y.abs();
-            let raised = at_middle + limits.cover * size + ROUNDING * (at_middle.abs() + window.reach * size);
+            let raised =
+                at_middle + limits.cover * size + RELATIVE_ROUNDING * (at_middle.abs() + window.reach * size);
             (made.x[k], made.y[k], made.at_middle[k]) = (-side.y as f32, side.x as f32, raised as f32);
         }
         made
@@ -66,7 +67,7 @@ impl EdgeFunctions {
 
     /// Whether two points, and so all points between them, are outside the same side.
     #[inline]
-    pub(crate) fn are_beyond_a_side(&self, a: [f32; 2], b: [f32; 2]) -> bool {
+    pub(crate) fn are_outside_a_side(&self, a: [f32; 2], b: [f32; 2]) -> bool {
         let mut beyond = false;
         for k in 0..4 {
             let at = |p: [f32; 2]| self.x[k] * p[0] + self.y[k] * p[1] + self.at_middle[k];
@@ -94,7 +95,7 @@ mod tests {
             ..Soup::default()
         };
         let view = View::new(&Mesh::build(soup), &Camera::three_quarter());
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         let mut dice = Dice::new(11);
         let [mut told, mut left, mut covering] = [0; 3];
         // From triangles much smaller than the window to triangles with corners far outside it, near the
@@ -111,7 +112,7 @@ mod tests {
                     let along = [0.2, 0.7].map(|t| corners[0].lerp(corners[1], t).truncate());
                     let [p, q] = if round % 2 == 0 { anywhere } else { along };
                     let Some([a, b]) = window.both([p, q]) else { continue };
-                    let beyond = EdgeFunctions::new(&corners, &window, &limits).are_beyond_a_side(a, b);
+                    let beyond = EdgeFunctions::new(&corners, &window, &limits).are_outside_a_side(a, b);
                     let covers = covered(p, q, &corners, &limits).is_some();
                     assert!(!(beyond && covers), "{size} {far}: {p} {q} {corners:?}");
                     told += u32::from(beyond);

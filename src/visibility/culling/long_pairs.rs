@@ -6,76 +6,83 @@
 
 use crate::parallel::prelude::*;
 
-use super::longest_interval::{NO_RUN, longer};
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::longest_interval::{NO_INTERVAL, longer};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::visibility::graph::ViewVertexKind;
-use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
-use crate::visibility::occlusion::occlusion_input::{Compared, Item};
+use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
+use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
 use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop};
-use crate::visibility::occlusion::tiled_triangles::{Occluder, Reach};
+use crate::visibility::occlusion::tiled_triangles::{Occluder, OccluderBounds};
 use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Smallest number of tiles over a long line or triangle.
-const TILES: u16 = 16;
+const MIN_LONG_TILES: u16 = 16;
 /// Lowest number of pairs over all tiles that justifies the separate comparison.
-const MANY: u64 = 1 << 22;
+const MIN_PAIRS: u64 = 1 << 22;
 /// Marks the absence of a number.
-const NONE: u32 = u32::MAX;
+const NO_NUMBER: u32 = u32::MAX;
 
 /// Intervals that long triangles hide of long lines.
 #[derive(Debug)]
 pub(crate) struct LongPairs {
-    /// Number of each segment among the long ones; [`NONE`] for the others.
+    /// Number of each segment among the long ones; [`NO_NUMBER`] for the others.
     numbers: Vec<u32>,
     is_long: Vec<bool>,
-    known: Vec<Known>,
+    known: Vec<KnownOcclusion>,
     /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
 
 /// Results of one segment, ascending and without overlap.
 #[derive(Debug, Default)]
-struct Known {
-    hidden: Vec<Layer>,
+struct KnownOcclusion {
+    hidden: Vec<HiddenInterval>,
     /// Where a long triangle lies next to the segment, for each of its [`OuterSides`].
-    backed: [Vec<Layer>; 2],
+    backed: [Vec<HiddenInterval>; 2],
     tests: u64,
 }
 
 impl LongPairs {
     /// Compares all long pairs; `None` if there are too few of them.
-    pub fn find(compared: &Compared, items: &Grouped<Item>, occluders: &Grouped<u32>) -> Option<Self> {
+    pub fn find(
+        compared: &OcclusionInput,
+        items: &CsrLists<TileSegment>,
+        occluders: &CsrLists<u32>,
+    ) -> Option<Self> {
         let tiles = 0..occluders.count();
         let pairs = |tile: usize| items.of(tile).len() as u64 * occluders.of(tile).len() as u64;
-        if tiles.clone().map(pairs).sum::<u64>() < MANY {
+        if tiles.clone().map(pairs).sum::<u64>() < MIN_PAIRS {
             return None;
         }
         let open = |tile: usize| items.of(tile).iter().filter(|item| item.end > item.start);
         let segment_spans = spans(compared.segments.len(), tiles.clone().flat_map(open).map(|i| i.segment));
         let triangle_spans =
             spans(compared.triangles.count(), tiles.clone().flat_map(|tile| occluders.of(tile)).copied());
-        let is_long: Vec<bool> = triangle_spans.iter().map(|span| *span >= TILES).collect();
+        let is_long: Vec<bool> = triangle_spans.iter().map(|span| *span >= MIN_LONG_TILES).collect();
         let long_items =
-            |tile: usize| open(tile).filter(|item| segment_spans[item.segment as usize] >= TILES);
+            |tile: usize| open(tile).filter(|item| segment_spans[item.segment as usize] >= MIN_LONG_TILES);
         let long_ids = |tile: usize| occluders.of(tile).iter().filter(|id| is_long[**id as usize]);
         let pairs = |tile: usize| long_items(tile).count() as u64 * long_ids(tile).count() as u64;
-        if tiles.clone().map(pairs).sum::<u64>() < MANY {
+        if tiles.clone().map(pairs).sum::<u64>() < MIN_PAIRS {
             return None;
         }
-        let segments = numbered(segment_spans.iter().map(|span| *span >= TILES));
-        let long = Long::new(compared, &is_long, tiles.clone().map(long_ids));
-        let stays = grouped(segments.list.len(), |put| {
+        let segments = numbered(segment_spans.iter().map(|span| *span >= MIN_LONG_TILES));
+        let long = LongTriangles::new(compared, &is_long, tiles.clone().map(long_ids));
+        let stays = csr_lists(segments.list.len(), |put| {
             for tile in tiles.clone() {
-                for &Item { segment, start, end } in long_items(tile) {
-                    put(segments.numbers[segment as usize] as usize, Stay { tile: tile as u32, start, end });
+                for &TileSegment { segment, start, end } in long_items(tile) {
+                    put(
+                        segments.numbers[segment as usize] as usize,
+                        TileSpan { tile: tile as u32, start, end },
+                    );
                 }
             }
         });
-        let known: Vec<Known> = (0..segments.list.len())
+        let known: Vec<KnownOcclusion> = (0..segments.list.len())
             .into_par_iter()
             .map_init(
-                || Seen { marks: vec![0; long.triangles.len()], last: 0 },
+                || TestMarks { marks: vec![0; long.triangles.len()], last: 0 },
                 |seen, k| {
                     let segment = &compared.segments[segments.list[k] as usize];
                     long.compare(segment, stays.of(k), seen)
@@ -88,7 +95,7 @@ impl LongPairs {
 
     /// Whether a segment is one of the long ones.
     pub fn has(&self, segment: u32) -> bool {
-        self.numbers[segment as usize] != NONE
+        self.numbers[segment as usize] != NO_NUMBER
     }
 
     /// Whether a triangle is one of the long ones.
@@ -97,23 +104,23 @@ impl LongPairs {
     }
 
     /// Hidden parts of an item.
-    pub fn hidden(&self, item: &Item) -> impl Iterator<Item = Layer> {
+    pub fn hidden(&self, item: &TileSegment) -> impl Iterator<Item = HiddenInterval> {
         self.known(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
     }
 
     /// Parts of an item that a long triangle lies next to, on one of its outer sides.
-    pub fn backed(&self, item: &Item, side: usize) -> impl Iterator<Item = Interval> {
+    pub fn backed(&self, item: &TileSegment, side: usize) -> impl Iterator<Item = Interval> {
         let known = self.known(item.segment).into_iter();
         known.flat_map(move |known| within(&known.backed[side], *item)).map(|layer| layer.interval)
     }
 
-    fn known(&self, segment: u32) -> Option<&Known> {
+    fn known(&self, segment: u32) -> Option<&KnownOcclusion> {
         self.known.get(self.numbers[segment as usize] as usize)
     }
 }
 
 /// Ascending layers, clipped to an item.
-fn within(layers: &[Layer], item: Item) -> impl Iterator<Item = Layer> {
+fn within(layers: &[HiddenInterval], item: TileSegment) -> impl Iterator<Item = HiddenInterval> {
     let first = layers.partition_point(|layer| layer.interval.end <= item.start);
     let of_item = layers[first..].iter().take_while(move |layer| layer.interval.start < item.end);
     of_item.map(move |layer| {
@@ -140,57 +147,57 @@ fn spans(count: usize, numbers: impl Iterator<Item = u32>) -> Vec<u16> {
 }
 
 /// Subset of a list, and the number of each list entry in the subset.
-struct Numbered {
+struct IndexedSubset {
     list: Vec<u32>,
     numbers: Vec<u32>,
 }
 
-fn numbered(chosen: impl Iterator<Item = bool>) -> Numbered {
+fn numbered(chosen: impl Iterator<Item = bool>) -> IndexedSubset {
     let mut list = Vec::new();
     let numbers = chosen.zip(0u32..).map(|(is_chosen, id)| {
         list.extend(is_chosen.then_some(id));
-        if is_chosen { list.len() as u32 - 1 } else { NONE }
+        if is_chosen { list.len() as u32 - 1 } else { NO_NUMBER }
     });
     let numbers = numbers.collect();
-    Numbered { list, numbers }
+    IndexedSubset { list, numbers }
 }
 
 /// Part of a segment, with the tile that contains it.
 #[derive(Debug, Clone, Copy)]
-struct Stay {
+struct TileSpan {
     tile: u32,
     start: f64,
     end: f64,
 }
 
 /// Long triangles, nearest first.
-struct Long<'a> {
-    compared: &'a Compared<'a>,
-    triangles: Vec<(Reach, Occluder)>,
+struct LongTriangles<'a> {
+    compared: &'a OcclusionInput<'a>,
+    triangles: Vec<(OccluderBounds, Occluder)>,
     /// Numbers of the triangles in each tile, ascending.
     of_tile: Vec<Vec<u32>>,
 }
 
 /// For each triangle, the last segment it was compared with.
-struct Seen {
+struct TestMarks {
     marks: Vec<u32>,
     last: u32,
 }
 
-impl<'a> Long<'a> {
+impl<'a> LongTriangles<'a> {
     fn new<'i>(
-        compared: &'a Compared<'a>,
+        compared: &'a OcclusionInput<'a>,
         is_long: &[bool],
         tiles: impl Iterator<Item = impl Iterator<Item = &'i u32>>,
     ) -> Self {
         let all = compared.triangles;
-        let mut triangles: Vec<(Reach, Occluder)> = (0u32..)
+        let mut triangles: Vec<(OccluderBounds, Occluder)> = (0u32..)
             .zip(is_long)
             .filter(|(_, is_long)| **is_long)
             .map(|(id, _)| (all.reach(id), all.occluder(id)))
             .collect();
         triangles.sort_by(|(a, _), (b, _)| b.nearest.total_cmp(&a.nearest).then(a.id.cmp(&b.id)));
-        let mut numbers = vec![NONE; is_long.len()];
+        let mut numbers = vec![NO_NUMBER; is_long.len()];
         for (number, (reach, _)) in (0u32..).zip(&triangles) {
             numbers[reach.id as usize] = number;
         }
@@ -204,12 +211,13 @@ impl<'a> Long<'a> {
     }
 
     /// Compares a segment with the long triangles of its tiles.
-    fn compare(&self, segment: &ImageSegment, stays: &[Stay], seen: &mut Seen) -> Known {
-        let mut known = Known::default();
+    fn compare(&self, segment: &ImageSegment, stays: &[TileSpan], seen: &mut TestMarks) -> KnownOcclusion {
+        let mut known = KnownOcclusion::default();
         let mut found = self.hidden(segment, stays, seen, &mut known.tests);
         sweep(&mut found, &[], 0.0, self.compared.counting, &mut known.hidden);
-        let is_buried =
-            |known: &Known| known.hidden.iter().any(|l| l.interval.start <= 0.0 && l.interval.end >= 1.0);
+        let is_buried = |known: &KnownOcclusion| {
+            known.hidden.iter().any(|l| l.interval.start <= 0.0 && l.interval.end >= 1.0)
+        };
         if segment.bounds && !is_buried(&known) {
             for (number, side) in OuterSides::of(segment, self.compared.triangles).open() {
                 let mut found = self.backed(side, stays, &known.hidden, seen);
@@ -224,13 +232,13 @@ impl<'a> Long<'a> {
     fn hidden(
         &self,
         segment: &ImageSegment,
-        stays: &[Stay],
-        seen: &mut Seen,
+        stays: &[TileSpan],
+        seen: &mut TestMarks,
         tests: &mut u64,
     ) -> Vec<Interval> {
-        let Compared { triangles, limits, counting, .. } = *self.compared;
+        let OcclusionInput { triangles, limits, counting, .. } = *self.compared;
         let mut hidden = Vec::new();
-        let mut run = NO_RUN;
+        let mut run = NO_INTERVAL;
         seen.last += 1;
         for stay in stays {
             let is_hidden = |run: (f64, f64)| !counting && run.0 <= stay.start && run.1 >= stay.end;
@@ -258,10 +266,16 @@ impl<'a> Long<'a> {
     }
 
     /// Ranges where triangles lie next to a segment on one side.
-    fn backed(&self, side: &OuterSide, stays: &[Stay], hidden: &[Layer], seen: &mut Seen) -> Vec<Interval> {
+    fn backed(
+        &self,
+        side: &OuterSide,
+        stays: &[TileSpan],
+        hidden: &[HiddenInterval],
+        seen: &mut TestMarks,
+    ) -> Vec<Interval> {
         let limits = self.compared.limits;
         let mut backed = Vec::new();
-        let mut run = NO_RUN;
+        let mut run = NO_INTERVAL;
         seen.last += 1;
         for stay in stays {
             let has = |start: f64, end: f64| start <= stay.start && end >= stay.end;
@@ -295,13 +309,13 @@ mod tests {
     use crate::mesh::{Mesh, Soup};
     use crate::scene::{Camera, UpAxis};
     use crate::view::View;
-    use crate::visibility::occlusion::tiled_triangles::Triangles;
+    use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
     use crate::visibility::sweep::segment_visibility::decide;
     use crate::visibility::tiles::aligned_grid::grid_over;
-    use crate::visibility::view_tolerances::Limits;
+    use crate::visibility::view_tolerances::ViewTolerances;
 
     /// Triangles of each fan.
-    const NEEDLES: u32 = 400;
+    const TRIANGLES_PER_FAN: u32 = 400;
 
     /// Two fans of needle-shaped triangles that intersect and cross in the image.
     fn fans() -> Mesh {
@@ -312,8 +326,10 @@ mod tests {
         ] {
             let first = soup.positions.len() as u32;
             soup.positions.push(from);
-            soup.positions.extend((0..=NEEDLES).map(|k| low.lerp(high, f64::from(k) / f64::from(NEEDLES))));
-            soup.triangles.extend((1..=NEEDLES).map(|k| [first, first + k, first + k + 1]));
+            soup.positions.extend(
+                (0..=TRIANGLES_PER_FAN).map(|k| low.lerp(high, f64::from(k) / f64::from(TRIANGLES_PER_FAN))),
+            );
+            soup.triangles.extend((1..=TRIANGLES_PER_FAN).map(|k| [first, first + k, first + k + 1]));
         }
         Mesh::build(soup)
     }
@@ -324,7 +340,7 @@ mod tests {
         let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
         let camera = Camera::azimuth_elevation(0.0, 25.0, UpAxis::Z).fit_points(&points, 0.1);
         let view = View::new(&mesh, &camera);
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         let segments: Vec<ImageSegment> = mesh
             .edges
             .vertices
@@ -347,7 +363,7 @@ mod tests {
             })
             .collect();
         let grid = grid_over(segments.iter(), 1);
-        let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+        let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
         let all: Vec<Occluder> = (0..triangles.count() as u32).map(|id| triangles.occluder(id)).collect();
         let [plain, counted] =
             [false, true].map(|counting| decide(&mesh, &view, &segments, &limits, counting));
@@ -369,7 +385,7 @@ mod tests {
                     continue;
                 }
                 let wanted = intervals.iter().filter(|i| i.start < t && i.end > t).count();
-                let has = |layer: &&Layer| layer.interval.start < t && layer.interval.end > t;
+                let has = |layer: &&HiddenInterval| layer.interval.start < t && layer.interval.end > t;
                 let found = counted.hidden(i).iter().find(has).map_or(0, |layer| usize::from(layer.count));
                 assert_eq!(found, wanted, "{i} at {t}");
                 assert_eq!(plain.hidden(i).iter().any(|layer| has(&layer)), wanted > 0, "{i} at {t}");

@@ -1,7 +1,7 @@
 //! Longest range covered by ranges that arrive one after the other.
 
 /// Empty range of parameters.
-pub(crate) const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+pub(crate) const NO_INTERVAL: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// Union of two ranges if they meet, otherwise the longer one.
 #[inline]

@@ -1,12 +1,12 @@
-//! [`Slope`]: a lower bound of the nearness of a triangle over the squares of a grid row.
+//! [`NearnessBound`]: a lower bound of the nearness of a triangle over the squares of a grid row.
 
 use glam::{DVec2, DVec3};
 
 use crate::view::Frame;
-use crate::visibility::view_tolerances::{Limits, Slack};
+use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Value of a square that nothing fills.
-pub(crate) const OPEN: f32 = f32::NEG_INFINITY;
+pub(crate) const UNCOVERED: f32 = f32::NEG_INFINITY;
 
 /// Sets a value to the nearer of two.
 #[inline]
@@ -18,7 +18,12 @@ pub(crate) fn raise(own: &mut f32, other: f32) {
 /// Difference in nearness that certainly hides: twice the touching tolerance at the nearest corner of the
 /// triangle.
 #[inline]
-pub(crate) fn step(points: &[DVec3; 3], limits: &Limits, slack: &Slack, frame: &Frame) -> f64 {
+pub(crate) fn step(
+    points: &[DVec3; 3],
+    limits: &ViewTolerances,
+    slack: &FaceTolerances,
+    frame: &Frame,
+) -> f64 {
     2.0 * limits.step(points[0].z.max(points[1].z).max(points[2].z), slack, false, frame)
 }
 
@@ -26,7 +31,7 @@ pub(crate) fn step(points: &[DVec3; 3], limits: &Limits, slack: &Slack, frame: &
 ///
 /// In single precision, and below the exact value.
 #[derive(Clone, Copy)]
-pub(crate) struct Slope {
+pub(crate) struct NearnessBound {
     /// Change of the nearness with x and y, per user unit.
     slope: DVec2,
     /// Point of the image, with the bound for a square centred there.
@@ -36,18 +41,18 @@ pub(crate) struct Slope {
 }
 
 /// Bound for the rounding of a sum, its terms, a product and its factor: six times 2⁻²⁴ for values up to 1.
-const ROUNDING: f64 = 5e-7;
+const RELATIVE_ROUNDING: f64 = 5e-7;
 /// Magnitude below which numbers have fewer digits.
-const LEAST: f64 = 1e-37;
+const MIN_MAGNITUDE: f64 = 1e-37;
 /// Magnitude above which numbers overflow.
-const MOST: f64 = 1e37;
+const MAX_MAGNITUDE: f64 = 1e37;
 
-impl Slope {
+impl NearnessBound {
     /// Bound for a triangle over squares that meet it and have the half side `half`, lowered by `step`.
     ///
     /// The plane of a thin triangle is unreliable, so its farthest corner counts.
     #[inline]
-    pub(crate) fn new(points: &[DVec3; 3], half: f64, step: f64, limits: &Limits) -> Self {
+    pub(crate) fn new(points: &[DVec3; 3], half: f64, step: f64, limits: &ViewTolerances) -> Self {
         let (u, v) = (points[1] - points[0], points[2] - points[0]);
         let area = u.truncate().perp_dot(v.truncate());
         let is_thin = area.abs() <= limits.height * u.truncate().length().max(v.truncate().length());
@@ -69,11 +74,11 @@ impl Slope {
     /// `most` is an upper bound for the magnitude of every sum and partial sum to be evaluated.
     #[inline]
     fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
-        if most < MOST {
-            let less = ROUNDING * most + LEAST;
+        if most < MAX_MAGNITUDE {
+            let less = RELATIVE_ROUNDING * most + MIN_MAGNITUDE;
             Self { slope, base: base - DVec3::Z * less, least: (least - less) as f32 }
         } else {
-            Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), least: OPEN }
+            Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), least: UNCOVERED }
         }
     }
 
@@ -103,7 +108,7 @@ mod tests {
             let slope = DVec2::new(part(n, 0), part(n, 1)) * scale;
             let base = DVec3::new(part(n, 2), part(n, 3), part(n, 4) * scale);
             let least = (part(n, 5) - 1.0) * scale;
-            let plane = Slope::of_plane(slope, base, least, 8.0 * scale);
+            let plane = NearnessBound::of_plane(slope, base, least, 8.0 * scale);
             let (centre, side) = (DVec2::new(part(n, 6), part(n, 7)), 0.01);
             for (k, found) in plane.over(centre, side, 100).enumerate() {
                 let at = centre + DVec2::X * side * k as f64 - base.truncate();
@@ -114,8 +119,8 @@ mod tests {
         }
         // The bound is loose only where numbers are too small or too large.
         assert!(apart < 400_000 / 4, "{apart}");
-        let far = Slope::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
-        assert_eq!(far.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [OPEN; 3]);
+        let far = NearnessBound::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
+        assert_eq!(far.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [UNCOVERED; 3]);
     }
 
     #[test]
@@ -124,7 +129,7 @@ mod tests {
             raise(&mut own, other);
             own
         };
-        assert_eq!([raised(OPEN, -2.0), raised(-2.0, -3.0), raised(-3.0, -2.0)], [-2.0; 3]);
-        assert_eq!([raised(1.0, f32::NAN), raised(1.0, OPEN)], [1.0; 2]);
+        assert_eq!([raised(UNCOVERED, -2.0), raised(-2.0, -3.0), raised(-3.0, -2.0)], [-2.0; 3]);
+        assert_eq!([raised(1.0, f32::NAN), raised(1.0, UNCOVERED)], [1.0; 2]);
     }
 }

@@ -1,4 +1,4 @@
-//! [`Expanses`]: large occluders fused from faces across edges where the image of the surface does not fold.
+//! [`FusedOccluders`]: large occluders fused from faces across edges where the image of the surface does not fold.
 //!
 //! 1. Neighbouring faces with the same winding in the image are joined (union-find).
 //! 2. A group fills every square that it meets and that none of its border edges passes.
@@ -11,46 +11,46 @@ use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
-use super::back_faces::FarSides;
-use super::nearness_bound::{OPEN, Slope, raise, step};
-use crate::geometry::lists::csr_lists::{Grouped, grouped, grouped_pairs};
-use crate::mesh::components::disjoint_sets::Groups;
+use super::back_faces::BackFaces;
+use super::nearness_bound::{NearnessBound, UNCOVERED, raise, step};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists, csr_lists_from_pairs};
+use crate::mesh::components::disjoint_sets::DisjointSets;
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
-use crate::visibility::occlusion::tiled_triangles::Triangles;
-use crate::visibility::tiles::tile_grid::{Grid, TileBox};
-use crate::visibility::tiles::triangle_columns::Sides;
-use crate::visibility::view_tolerances::{Limits, Slack};
+use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
+use crate::visibility::tiles::tile_grid::{TileBox, TileGrid};
+use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Margin within which a face may meet a square, as a share of the square's side.
-const MEETS: f64 = 1e-4;
-/// Margin within which a border edge passes a square, as a share of its side. More than twice [`MEETS`].
-const ENDS: f64 = 1e-2;
+const FACE_MARGIN_CELLS: f64 = 1e-4;
+/// Margin within which a border edge passes a square, as a share of its side. More than twice [`FACE_MARGIN_CELLS`].
+const BORDER_MARGIN_CELLS: f64 = 1e-2;
 /// Largest mean face area of a group, in squares. Larger faces fill most of the squares on their own.
-const LARGE_FACE: f64 = 16.0;
+const MAX_MEAN_FACE_AREA_CELLS: f64 = 16.0;
 /// Largest number of squares in the bounding box of a group, per face. Each group may also use its share of
-/// [`SQUARES`].
-const SQUARES_OF_FACE: usize = 64;
-const SQUARES: usize = 4_000_000;
+/// [`CELL_BUDGET`].
+const MAX_CELLS_PER_FACE: usize = 64;
+const CELL_BUDGET: usize = 4_000_000;
 
 /// Groups of fused faces that may fill a square.
-pub(crate) struct Expanses {
+pub(crate) struct FusedOccluders {
     /// Faces of each group.
-    faces: Grouped<u32>,
+    faces: CsrLists<u32>,
     /// Border edges of each group.
-    ends: Grouped<u32>,
-    far: FarSides,
+    ends: CsrLists<u32>,
+    far: BackFaces,
 }
 
-impl Expanses {
-    pub fn new(triangles: &Triangles, cell: f64) -> Self {
-        let Triangles { mesh, view, .. } = *triangles;
+impl FusedOccluders {
+    pub fn new(triangles: &TiledTriangles, cell: f64) -> Self {
+        let TiledTriangles { mesh, view, .. } = *triangles;
         let turns: Vec<i8> = (0..mesh.triangles.len())
             .into_par_iter()
-            .with_min_len(GRAIN)
-            .map(|face| turn(mesh, view, face as u32))
+            .with_min_len(MIN_TASK_ITEMS)
+            .map(|face| winding(mesh, view, face as u32))
             .collect();
         let runs_on = |edge: usize| match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces: [a, b], same_way: false } => {
@@ -60,22 +60,22 @@ impl Expanses {
             _ => None,
         };
         let inner = EdgeSet::collect(mesh.edges.len(), |edge| runs_on(edge).is_some());
-        let groups = Groups::new(mesh.triangles.len(), |join| {
+        let groups = DisjointSets::new(mesh.triangles.len(), |join| {
             inner.par_for_each(|edge| {
                 if let Some([a, b]) = runs_on(edge) {
                     join(a, b);
                 }
             });
         });
-        let far = FarSides::new(mesh, view, &inner, groups);
+        let far = BackFaces::new(mesh, view, &inner, groups);
         let ids = Self::large(view, mesh, &turns, &far, cell);
-        let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
-        let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NONE);
+        let count = ids.iter().filter(|id| **id != NO_GROUP).max().map_or(0, |id| *id as usize + 1);
+        let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NO_GROUP);
         let of_face = |face: u32| of(face).map(|id| (id as usize, face));
         let (faces, ends) = crate::parallel::join(
-            || grouped_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
+            || csr_lists_from_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
             || {
-                grouped(count, |put| {
+                csr_lists(count, |put| {
                     for edge in (0..mesh.edges.len()).filter(|edge| !inner.contains(*edge)) {
                         let mut last = None;
                         for id in mesh.edges.faces(edge).list().iter().filter_map(|face| of(*face)) {
@@ -90,16 +90,16 @@ impl Expanses {
         Self { faces, ends, far }
     }
 
-    /// Indices of the usable groups, by root face; [`NONE`] for all other faces.
+    /// Indices of the usable groups, by root face; [`NO_GROUP`] for all other faces.
     ///
     /// A usable group is not the back of a body, is at least as large as a square, and respects the limits on
     /// box size and face area.
-    fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &FarSides, cell: f64) -> Vec<u32> {
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &BackFaces, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
-        let mut ids = vec![NONE; turns.len()];
+        let mut ids = vec![NO_GROUP; turns.len()];
         for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.holds(*face as u32)) {
             let id = &mut ids[far.group(face as u32) as usize];
-            if *id == NONE {
+            if *id == NO_GROUP {
                 *id = found.len() as u32;
                 found.push((
                     face as u32,
@@ -118,15 +118,15 @@ impl Expanses {
                 *bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
             }
         }
-        let share = SQUARES / found.len().max(1);
+        let share = CELL_BUDGET / found.len().max(1);
         let mut next = 0;
         for (root, [left, top, right, bottom], count, area) in found {
             let (width, height) = (f64::from(right - left) / cell, f64::from(bottom - top) / cell);
-            let most = (SQUARES_OF_FACE * count as usize + share) as f64;
-            let is_fine = area <= LARGE_FACE * cell * cell * f64::from(count);
+            let most = (MAX_CELLS_PER_FACE * count as usize + share) as f64;
+            let is_fine = area <= MAX_MEAN_FACE_AREA_CELLS * cell * cell * f64::from(count);
             let is_wanted =
                 is_fine && width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= most;
-            ids[root as usize] = if is_wanted { next } else { NONE };
+            ids[root as usize] = if is_wanted { next } else { NO_GROUP };
             next += u32::from(is_wanted);
         }
         ids
@@ -146,12 +146,12 @@ impl Expanses {
     pub fn add(
         &self,
         expanse: usize,
-        triangles: &Triangles,
-        squares: &Grid,
+        triangles: &TiledTriangles,
+        squares: &TileGrid,
         buffer: &mut Vec<f32>,
         cover: &mut [f32],
     ) {
-        let Triangles { mesh, view, limits, .. } = *triangles;
+        let TiledTriangles { mesh, view, limits, .. } = *triangles;
         let corners = |face: u32| mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let all = self.faces.of(expanse).iter().flat_map(|face| corners(*face));
         let (low, high) =
@@ -160,9 +160,9 @@ impl Expanses {
         if own.is_empty() {
             return;
         }
-        let filled = &mut Filled::new(squares, own, buffer);
+        let filled = &mut FillBuffer::new(squares, own, buffer);
         for face in self.faces.of(expanse) {
-            let slack = Slack::of(mesh.extent(FaceId(*face)));
+            let slack = FaceTolerances::of(mesh.extent(FaceId(*face)));
             let corners = corners(*face);
             filled.meet(&corners, step(&corners, limits, &slack, &view.frame), limits);
         }
@@ -176,27 +176,27 @@ impl Expanses {
             for (cover, least) in
                 cover[first..first + width].iter_mut().zip(&filled.least[place..place + width])
             {
-                raise(cover, if *least < f32::INFINITY { *least } else { OPEN });
+                raise(cover, if *least < f32::INFINITY { *least } else { UNCOVERED });
             }
         }
     }
 }
 
-const NONE: u32 = u32::MAX;
+const NO_GROUP: u32 = u32::MAX;
 
 /// Squares in the bounding box of a group.
 ///
 /// `least` holds the nearness of the farthest face that meets each square: ∞ if none does, −∞ where the group
 /// ends.
-struct Filled<'a> {
-    squares: &'a Grid,
+struct FillBuffer<'a> {
+    squares: &'a TileGrid,
     own: TileBox,
     width: usize,
     least: &'a mut [f32],
 }
 
-impl<'a> Filled<'a> {
-    fn new(squares: &'a Grid, own: TileBox, buffer: &'a mut Vec<f32>) -> Self {
+impl<'a> FillBuffer<'a> {
+    fn new(squares: &'a TileGrid, own: TileBox, buffer: &'a mut Vec<f32>) -> Self {
         let width = usize::from(own.right - own.left) + 1;
         let height = usize::from(own.bottom - own.top) + 1;
         buffer.clear();
@@ -208,17 +208,19 @@ impl<'a> Filled<'a> {
         usize::from(row - self.own.top) * self.width + usize::from(column - self.own.left)
     }
 
-    fn meet(&mut self, points: &[DVec3; 3], step: f64, limits: &Limits) {
+    fn meet(&mut self, points: &[DVec3; 3], step: f64, limits: &ViewTolerances) {
         let (squares, cell) = (self.squares, self.squares.cell);
         let low = points[0].min(points[1]).min(points[2]);
         let high = points[0].max(points[1]).max(points[2]);
-        let tiles = squares.tile_box(low - cell * MEETS, high + cell * MEETS).within(self.own);
+        let tiles = squares
+            .tile_box(low - cell * FACE_MARGIN_CELLS, high + cell * FACE_MARGIN_CELLS)
+            .within(self.own);
         if tiles.is_empty() {
             return;
         }
-        let half = cell * (0.5 + 2.0 * MEETS);
-        let slope = Slope::new(points, half, step, limits);
-        let sides = (tiles.area() > 1).then(|| Sides::new(points));
+        let half = cell * (0.5 + 2.0 * FACE_MARGIN_CELLS);
+        let slope = NearnessBound::new(points, half, step, limits);
+        let sides = (tiles.area() > 1).then(|| TriangleHalfPlanes::new(points));
         for row in tiles.top..=tiles.bottom {
             let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
             let columns = sides.as_ref().map_or(whole, |sides| sides.columns(squares, tiles, row, half));
@@ -235,7 +237,7 @@ impl<'a> Filled<'a> {
 
     /// Marks the squares that a border edge passes.
     fn end(&mut self, [a, b]: [DVec2; 2]) {
-        let (squares, reach) = (self.squares, self.squares.cell * ENDS);
+        let (squares, reach) = (self.squares, self.squares.cell * BORDER_MARGIN_CELLS);
         let (low, high) = (a.min(b) - reach, a.max(b) + reach);
         let tiles = squares.tile_box(low.extend(0.0), high.extend(0.0)).within(self.own);
         if tiles.is_empty() {
@@ -263,7 +265,7 @@ impl<'a> Filled<'a> {
 }
 
 /// Winding of a face in the image, 1 or −1; 0 if the near plane cuts it or it has no area.
-fn turn(mesh: &Mesh, view: &View, face: u32) -> i8 {
+fn winding(mesh: &Mesh, view: &View, face: u32) -> i8 {
     let points = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
     if points.iter().any(|p| p.z.is_nan()) || mesh.is_degenerate(FaceId(face)) {
         return 0;
@@ -321,12 +323,12 @@ mod tests {
     #[test]
     fn squares_are_filled_as_far_as_told() {
         let (mesh, view) = scene();
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         for across in [20, 64, 100] {
-            let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), across);
-            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
-            let expanses = Expanses::new(&triangles, grid.cell);
-            let mut cover = vec![OPEN; grid.len()];
+            let grid = TileGrid::new(DVec2::ZERO, DVec2::splat(200.0), across);
+            let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let expanses = FusedOccluders::new(&triangles, grid.cell);
+            let mut cover = vec![UNCOVERED; grid.len()];
             for expanse in 0..expanses.count() {
                 expanses.add(expanse, &triangles, &grid, &mut Vec::new(), &mut cover);
             }

@@ -1,4 +1,4 @@
-//! [`Covers`]: an occlusion buffer over small squares of the image, in two levels like a hierarchical
+//! [`OcclusionBuffer`]: an occlusion buffer over small squares of the image, in two levels like a hierarchical
 //! Z-buffer.
 //!
 //! 1. A triangle, or a group of fused faces, that fills a whole square hides everything behind it there.
@@ -15,38 +15,38 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::nearness_bound::{OPEN, Slope, raise, step};
-use super::occluder_fusion::Expanses;
-use crate::parallel::task_size::GRAIN;
-use crate::visibility::occlusion::tiled_triangles::{Triangles, corners};
+use super::nearness_bound::{NearnessBound, UNCOVERED, raise, step};
+use super::occluder_fusion::FusedOccluders;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::visibility::occlusion::tiled_triangles::{TiledTriangles, corners};
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::squares_per_tile;
-use crate::visibility::tiles::tile_grid::Grid;
-use crate::visibility::tiles::triangle_columns::Sides;
-use crate::visibility::view_tolerances::{Limits, Slack};
+use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Mean number of surface layers over the page above which the buffer saves more than it costs.
-const LAYERS: f64 = 3.0;
+const MIN_MEAN_LAYERS: f64 = 3.0;
 /// A triangle is big if its area reaches that of a square with this side, as a share of the grid's longer
 /// side.
-const BIG_FACE: f64 = 1.0 / 180.0;
+const MIN_BIG_FACE_SIDE_SHARE: f64 = 1.0 / 180.0;
 /// Mean number of layers of big triangles that justifies the buffer for the search for intersections alone.
-const BIG_LAYERS: f64 = 1.0;
+const MIN_BIG_FACE_LAYERS: f64 = 1.0;
 /// Lowest number of triangles for an early buffer. In smaller meshes, finding all intersections costs no
 /// more.
-const MANY: usize = 100_000;
+const MIN_TRIANGLES: usize = 100_000;
 /// Largest number of tasks that fill buffers of the whole page at the same time.
-const MOST_SHARES: usize = 8;
+const MAX_TASKS: usize = 8;
 /// Triangles or fused occluders per block of work.
-const BLOCK: usize = 32;
+const OCCLUDERS_PER_BLOCK: usize = 32;
 /// Largest number of tiles tested for a triangle before its squares are.
-const MOST_TILES: u32 = 64;
+const MAX_TILES_TESTED: u32 = 64;
 
 /// Nearness limits per square and per tile: everything farther is hidden. −∞ where nothing is hidden.
 #[derive(Debug, Clone)]
-pub struct Covers {
-    tiles: Grid,
-    squares: Grid,
+pub struct OcclusionBuffer {
+    tiles: TileGrid,
+    squares: TileGrid,
     /// One per square, row by row. In single precision, never nearer than the exact value.
     of_square: Vec<f32>,
     /// Farthest value of the squares of each tile.
@@ -55,17 +55,17 @@ pub struct Covers {
     nearest: Vec<f32>,
 }
 
-impl Covers {
+impl OcclusionBuffer {
     /// Fills the buffer, if it is likely to save more than it costs.
     ///
     /// The result does not depend on the number of threads, because each square keeps the nearest value.
     #[must_use]
-    pub fn find(triangles: &Triangles) -> Self {
-        if triangles.mean_layers() < LAYERS {
+    pub fn find(triangles: &TiledTriangles) -> Self {
+        if triangles.mean_layers() < MIN_MEAN_LAYERS {
             return Self::none(triangles.grid);
         }
         let squares = squares_of(triangles);
-        let expanses = Expanses::new(triangles, squares.cell);
+        let expanses = FusedOccluders::new(triangles, squares.cell);
         let is_far = |id: u32| (id as usize) < triangles.mesh.triangles.len() && expanses.is_far_side(id);
         let large = large_ones(triangles, squares.cell, |id| !is_far(id));
         Self::of(triangles, squares, &large, Some(&expanses))
@@ -76,30 +76,36 @@ impl Covers {
     /// Equals [`find`](Self::find) where there are enough layers. With fewer layers, only big triangles are
     /// used.
     #[must_use]
-    pub fn find_soon(triangles: &Triangles) -> Self {
-        if triangles.mean_layers() >= LAYERS {
+    pub fn find_before_lines(triangles: &TiledTriangles) -> Self {
+        if triangles.mean_layers() >= MIN_MEAN_LAYERS {
             return Self::find(triangles);
         }
-        if triangles.count() < MANY {
+        if triangles.count() < MIN_TRIANGLES {
             return Self::none(triangles.grid);
         }
         let squares = squares_of(triangles);
         let tiles = triangles.grid;
-        let side = BIG_FACE * tiles.cell * f64::from(tiles.columns.max(tiles.rows));
+        let side = MIN_BIG_FACE_SIDE_SHARE * tiles.cell * f64::from(tiles.columns.max(tiles.rows));
         let big = large_ones(triangles, squares.cell, |id| triangles.area(id) >= side * side);
-        if triangles.layers_of(big.iter().copied()) < BIG_LAYERS {
+        if triangles.layers_of(big.iter().copied()) < MIN_BIG_FACE_LAYERS {
             return Self::none(triangles.grid);
         }
         Self::of(triangles, squares, &big, None)
     }
 
     /// Fills the buffer with large triangles and fused occluders.
-    fn of(triangles: &Triangles, squares: Grid, large: &[u32], expanses: Option<&Expanses>) -> Self {
+    fn of(
+        triangles: &TiledTriangles,
+        squares: TileGrid,
+        large: &[u32],
+        expanses: Option<&FusedOccluders>,
+    ) -> Self {
         let per_tile = squares.columns / triangles.grid.columns;
         // Free threads take the next block. Fused occluders come first, because one may be as large as all
         // the rest.
-        let expanse_count = expanses.map_or(0, Expanses::count);
-        let (of_expanses, of_large) = (expanse_count.div_ceil(BLOCK), large.len().div_ceil(BLOCK));
+        let expanse_count = expanses.map_or(0, FusedOccluders::count);
+        let (of_expanses, of_large) =
+            (expanse_count.div_ceil(OCCLUDERS_PER_BLOCK), large.len().div_ceil(OCCLUDERS_PER_BLOCK));
         let next = AtomicUsize::new(0);
         let of_share = |_: usize| {
             let (mut cover, mut buffer) = (Vec::new(), Vec::new());
@@ -108,23 +114,27 @@ impl Covers {
                 if block >= of_expanses + of_large {
                     break;
                 }
-                cover.resize(squares.len(), OPEN);
+                cover.resize(squares.len(), UNCOVERED);
                 if let Some(expanses) = expanses.filter(|_| block < of_expanses) {
-                    for expanse in block * BLOCK..((block + 1) * BLOCK).min(expanse_count) {
+                    for expanse in
+                        block * OCCLUDERS_PER_BLOCK..((block + 1) * OCCLUDERS_PER_BLOCK).min(expanse_count)
+                    {
                         expanses.add(expanse, triangles, &squares, &mut buffer, &mut cover);
                     }
                     continue;
                 }
-                for id in large[(block - of_expanses) * BLOCK..].iter().take(BLOCK) {
+                for id in
+                    large[(block - of_expanses) * OCCLUDERS_PER_BLOCK..].iter().take(OCCLUDERS_PER_BLOCK)
+                {
                     let (points, face) = corners(triangles.mesh, triangles.view, *id);
-                    let slack = Slack::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
+                    let slack = FaceTolerances::of(triangles.mesh.extent(crate::mesh::FaceId(face)));
                     let (frame, limits) = (&triangles.view.frame, triangles.limits);
                     add(&points, &squares, step(&points, limits, &slack, frame), limits, &mut cover);
                 }
             }
             (!cover.is_empty()).then_some(cover)
         };
-        let shares = rayon_core::current_num_threads().min(MOST_SHARES);
+        let shares = rayon_core::current_num_threads().min(MAX_TASKS);
         let mut covers: Vec<Vec<f32>> =
             (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
@@ -135,7 +145,7 @@ impl Covers {
                 let other = &other[first..first + own.len()];
                 own.iter_mut().zip(other).for_each(|(own, other)| raise(own, *other));
             }
-            let mut spans = vec![[f32::INFINITY, OPEN]; triangles.grid.columns as usize];
+            let mut spans = vec![[f32::INFINITY, UNCOVERED]; triangles.grid.columns as usize];
             for squares in own.chunks(squares.columns as usize) {
                 for ([least, most], squares) in spans.iter_mut().zip(squares.chunks(per_tile as usize)) {
                     for cover in squares {
@@ -154,13 +164,13 @@ impl Covers {
 
     /// Empty buffer, which hides nothing. Used where all layers must be counted.
     #[must_use]
-    pub fn none(grid: &Grid) -> Self {
+    pub fn none(grid: &TileGrid) -> Self {
         Self {
             tiles: *grid,
             squares: *grid,
             of_square: Vec::new(),
-            of_tile: vec![f64::from(OPEN); grid.len()],
-            nearest: vec![OPEN; grid.len()],
+            of_tile: vec![f64::from(UNCOVERED); grid.len()],
+            nearest: vec![UNCOVERED; grid.len()],
         }
     }
 
@@ -174,13 +184,13 @@ impl Covers {
     ///
     /// False if the box meets more than `most` squares; true if it meets none.
     #[must_use]
-    pub fn hide(&self, points: &[DVec3; 3], most: u32) -> bool {
+    pub fn hides_triangle(&self, points: &[DVec3; 3], most: u32) -> bool {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         // The tiles settle most cases.
         let tiles = self.tiles.tile_box(low, high);
-        let mut tells_all = tiles.area() <= MOST_TILES;
-        for (tile, _) in self.tiles.tiles_of(tiles).take(MOST_TILES as usize) {
+        let mut tells_all = tiles.area() <= MAX_TILES_TESTED;
+        for (tile, _) in self.tiles.tiles_of(tiles).take(MAX_TILES_TESTED as usize) {
             if high.z >= f64::from(self.nearest[tile]) {
                 return false;
             }
@@ -196,7 +206,7 @@ impl Covers {
 
     /// Whether a part of a segment inside one tile is behind the buffer in all squares it passes.
     #[must_use]
-    pub fn bury(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
+    pub fn hides_segment_part(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
         if self.of_square.is_empty() {
             return false;
         }
@@ -217,21 +227,21 @@ impl Covers {
     }
 }
 
-fn squares_of(triangles: &Triangles) -> Grid {
+fn squares_of(triangles: &TiledTriangles) -> TileGrid {
     triangles.grid.refined(squares_per_tile(triangles.mesh.triangles.len()))
 }
 
-fn large_ones(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+fn large_ones(triangles: &TiledTriangles, cell: f64, holds: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     (0..triangles.count() as u32)
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .filter(|id| is_large(triangles, *id, cell) && holds(*id))
         .collect()
 }
 
 /// Whether a triangle is large enough in the image to fill a square, and not cut by the near plane.
 #[inline]
-fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
+fn is_large(triangles: &TiledTriangles, id: u32, cell: f64) -> bool {
     let (p, face) = corners(triangles.mesh, triangles.view, id);
     let low = p[0].min(p[1]).min(p[2]);
     let high = p[0].max(p[1]).max(p[2]);
@@ -244,7 +254,13 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
 }
 
 /// Raises the value of each square that a triangle fills to the triangle's nearness there, less `step`.
-pub(crate) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limits, cover: &mut [f32]) {
+pub(crate) fn add(
+    points: &[DVec3; 3],
+    squares: &TileGrid,
+    step: f64,
+    limits: &ViewTolerances,
+    cover: &mut [f32],
+) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
     if high.x - low.x < squares.cell || high.y - low.y < squares.cell {
@@ -258,9 +274,9 @@ pub(crate) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limit
     if area * area <= longest * squares.cell.max(limits.height).powi(2) {
         return;
     }
-    let sides = Sides::new(points);
+    let sides = TriangleHalfPlanes::new(points);
     let half = squares.cell / 2.0;
-    let slope = Slope::new(points, half, step, limits);
+    let slope = NearnessBound::new(points, half, step, limits);
     let tiles = squares.tile_box(low, high);
     if tiles.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! [`NearTiles`]: lookup of the triangles over a few tiles, by blocks of triangles.
+//! [`TriangleBlocks`]: lookup of the triangles over a few tiles, by blocks of triangles.
 //!
 //! Gaps are queried several times per view. Faces are stored in spatial order, so the squares that each block
 //! of faces meets are computed once for all queries. Most blocks are then skipped as a whole.
@@ -6,39 +6,39 @@
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::visibility::occlusion::tiled_triangles::{Triangles, corners};
-use crate::visibility::tiles::tile_grid::{Grid, TileBox};
+use crate::visibility::occlusion::tiled_triangles::{TiledTriangles, corners};
+use crate::visibility::tiles::tile_grid::{TileBox, TileGrid};
 use crate::visibility::tiles::tile_set::TileSet;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Squares along the longer side of the frame.
-const SQUARES: u32 = 256;
+const CELLS_ACROSS: u32 = 256;
 
 /// Triangles per block.
-const BLOCK: usize = 32;
+const TRIANGLES_PER_BLOCK: usize = 32;
 
 /// Squares of the frame that the bounding box of each block of triangles meets.
 #[derive(Debug)]
-pub struct NearTiles {
-    grid: Grid,
+pub struct TriangleBlocks {
+    grid: TileGrid,
     blocks: Vec<TileBox>,
 }
 
-impl NearTiles {
+impl TriangleBlocks {
     /// Computes the squares of all blocks of a view.
     #[must_use]
-    pub fn new(mesh: &Mesh, view: &View, limits: &Limits) -> Self {
+    pub fn new(mesh: &Mesh, view: &View, limits: &ViewTolerances) -> Self {
         let size = DVec2::new(view.frame.width, view.frame.height);
         // Lines end at the frame, up to rounding.
-        let grid = Grid::new(-DVec2::splat(limits.px), size + limits.px, SQUARES);
-        let triangles = Triangles { mesh, view, grid: &grid, limits };
+        let grid = TileGrid::new(-DVec2::splat(limits.px), size + limits.px, CELLS_ACROSS);
+        let triangles = TiledTriangles { mesh, view, grid: &grid, limits };
         let (count, slack) = (triangles.count(), triangles.slack());
         let of_block = |block: usize| {
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            for id in block * BLOCK..((block + 1) * BLOCK).min(count) {
+            for id in block * TRIANGLES_PER_BLOCK..((block + 1) * TRIANGLES_PER_BLOCK).min(count) {
                 let (points, _) = corners(mesh, view, id as u32);
                 // Faces cut by the near plane are represented by their clipped parts, at the end of the list.
                 if points.iter().all(|p| !p.z.is_nan()) {
@@ -48,25 +48,29 @@ impl NearTiles {
             }
             if low.x <= high.x { grid.tile_box(low - slack, high + slack) } else { TileBox::EMPTY }
         };
-        let blocks = (0..count.div_ceil(BLOCK)).into_par_iter().with_min_len(1 << 7).map(of_block).collect();
+        let blocks = (0..count.div_ceil(TRIANGLES_PER_BLOCK))
+            .into_par_iter()
+            .with_min_len(1 << 7)
+            .map(of_block)
+            .collect();
         Self { grid, blocks }
     }
 
     /// Ids of the triangles over each wanted tile, ascending, by the number of the tile in `wanted`.
     ///
-    /// Equals [`Triangles::fill`] without a cover.
+    /// Equals [`TiledTriangles::fill`] without a cover.
     #[must_use]
-    pub(crate) fn fill(&self, triangles: &Triangles, wanted: &TileSet) -> Grouped<u32> {
+    pub(crate) fn fill(&self, triangles: &TiledTriangles, wanted: &TileSet) -> CsrLists<u32> {
         let found = match self.squares(triangles, wanted) {
             Some(squares) => triangles.pairs_of(&self.over(&squares, triangles.count()), wanted),
             None => triangles.pairs(triangles.tile_boxes(), wanted, None),
         };
         let numbered = |(tile, id): &(u32, u32)| (wanted.number(*tile as usize), *id);
-        grouped_pairs(wanted.count(), found.iter().flatten().map(numbered))
+        csr_lists_from_pairs(wanted.count(), found.iter().flatten().map(numbered))
     }
 
     /// Squares whose triangles may reach a wanted tile; `None` if a tile is outside the frame.
-    fn squares(&self, triangles: &Triangles, wanted: &TileSet) -> Option<TileSet> {
+    fn squares(&self, triangles: &TiledTriangles, wanted: &TileSet) -> Option<TileSet> {
         let (grid, own) = (triangles.grid, &self.grid);
         // Margin between a tile and a triangle whose bounding box meets it, and a little for rounding.
         let slack = (grid.cell.max(own.cell) * 1e-3).max(4.0 * triangles.limits.beside);
@@ -88,7 +92,10 @@ impl NearTiles {
     fn over(&self, squares: &TileSet, count: usize) -> Vec<u32> {
         let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && squares.has_any(**tiles);
         let near = self.blocks.iter().enumerate().filter(is_near);
-        near.flat_map(|(k, _)| (k * BLOCK) as u32..((k + 1) * BLOCK).min(count) as u32).collect()
+        near.flat_map(|(k, _)| {
+            (k * TRIANGLES_PER_BLOCK) as u32..((k + 1) * TRIANGLES_PER_BLOCK).min(count) as u32
+        })
+        .collect()
     }
 }
 
@@ -118,12 +125,12 @@ mod tests {
     #[test]
     fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
         let (mesh, view) = scene();
-        let limits = Limits::new(&view.frame);
-        let near = NearTiles::new(&mesh, &view, &limits);
+        let limits = ViewTolerances::new(&view.frame);
+        let near = TriangleBlocks::new(&mesh, &view, &limits);
         let mut wholly_near = 0;
         for (low, high) in [(100.0, 400.0), (0.0, 1000.0), (-50.0, 200.0), (480.0, 481.0)] {
-            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), 64);
-            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let grid = TileGrid::new(DVec2::splat(low), DVec2::splat(high), 64);
+            let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
             // Many tiles all over the grid, and single tiles, mostly with few blocks.
             let single = (0..60).map(|k| (k * 4097 / 60, usize::MAX));
             for (first, step) in std::iter::once((0, 37)).chain(single) {

@@ -1,4 +1,4 @@
-//! [`ViewCovers`]: an occlusion buffer made before the lines of a view are known, and the faces it hides.
+//! [`ViewOcclusionBuffer`]: an occlusion buffer made before the lines of a view are known, and the faces it hides.
 //!
 //! A face behind the buffer in all squares that it may meet is out of sight, and so is every line on it.
 //! Where only visible lines are drawn, its intersections need not be computed.
@@ -6,45 +6,46 @@
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::occlusion_buffer::Covers;
+use super::occlusion_buffer::OcclusionBuffer;
 use crate::mesh::Mesh;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
-use crate::visibility::occlusion::tiled_triangles::Triangles;
+use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
 use crate::visibility::tiles::aligned_grid::{grid_over_box, tiles_across};
-use crate::visibility::tiles::tile_grid::Grid;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Largest number of squares tested for a face.
-const MOST_SQUARES: u32 = 256;
+const MAX_FACE_CELLS: u32 = 256;
 
 /// Occlusion buffer of a view, with its grid of tiles.
 #[derive(Debug, Clone)]
-pub struct ViewCovers {
-    pub(crate) grid: Grid,
-    pub(crate) covers: Covers,
+pub struct ViewOcclusionBuffer {
+    pub(crate) grid: TileGrid,
+    pub(crate) covers: OcclusionBuffer,
 }
 
-impl ViewCovers {
+impl ViewOcclusionBuffer {
     /// Fills the buffer with everything on the page; `None` where it would cost more than it saves.
     #[must_use]
     pub fn of(mesh: &Mesh, view: &View) -> Option<Self> {
         let (low, high) = box_on_page(view)?;
         let grid = grid_over_box(low, high, tiles_across(mesh.triangles.len()));
-        let limits = Limits::new(&view.frame);
-        let covers = Covers::find_soon(&Triangles { mesh, view, grid: &grid, limits: &limits });
+        let limits = ViewTolerances::new(&view.frame);
+        let covers =
+            OcclusionBuffer::find_before_lines(&TiledTriangles { mesh, view, grid: &grid, limits: &limits });
         (!covers.is_empty()).then_some(Self { grid, covers })
     }
 
     /// Whether each face is certainly out of sight: behind the buffer or off the page. Faces cut by the near
     /// plane are not.
     #[must_use]
-    pub fn out_of_sight(&self, mesh: &Mesh, view: &View) -> Vec<bool> {
+    pub fn occluded_faces(&self, mesh: &Mesh, view: &View) -> Vec<bool> {
         let is_hidden = |triangle: &[u32; 3]| {
             let points = triangle.map(|v| view.points[v as usize]);
-            !points.iter().any(|p| p.z.is_nan()) && self.covers.hide(&points, MOST_SQUARES)
+            !points.iter().any(|p| p.z.is_nan()) && self.covers.hides_triangle(&points, MAX_FACE_CELLS)
         };
-        mesh.triangles.par_iter().with_min_len(GRAIN).map(is_hidden).collect()
+        mesh.triangles.par_iter().with_min_len(MIN_TASK_ITEMS).map(is_hidden).collect()
     }
 }
 
@@ -58,7 +59,7 @@ fn box_on_page(view: &View) -> Option<(DVec2, DVec2)> {
     let (low, high) = view
         .points
         .par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .filter(|p| !p.z.is_nan())
         .fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
         .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));

@@ -5,7 +5,7 @@ use crate::visibility::graph::ViewVertexKind;
 
 /// Piece of a segment behind a number of surfaces. The count is never 0, because visible parts have no entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Layer {
+pub struct HiddenInterval {
     /// Parameter range, with the reasons for its ends.
     pub interval: Interval,
     /// Number of surfaces in front.
@@ -19,10 +19,10 @@ pub struct Layer {
 /// counts are 1.
 pub fn sweep(
     hidden: &mut Vec<Interval>,
-    known: &[Layer],
+    known: &[HiddenInterval],
     shortest: f64,
     counting: bool,
-    layers: &mut Vec<Layer>,
+    layers: &mut Vec<HiddenInterval>,
 ) {
     if hidden.is_empty() && known.is_empty() {
         return;
@@ -36,12 +36,12 @@ pub fn sweep(
 }
 
 /// Hides everything except the parts that `front` hides and `behind` does not. Both lists are ascending.
-pub fn only_behind(front: &[Layer], behind: &[Layer]) -> Vec<Layer> {
+pub fn only_behind(front: &[HiddenInterval], behind: &[HiddenInterval]) -> Vec<HiddenInterval> {
     let mut hidden = Vec::new();
     let mut push = |start: (f64, ViewVertexKind), end: (f64, ViewVertexKind)| {
         if end.0 > start.0 {
             let interval = Interval { start: start.0, end: end.0, start_kind: start.1, end_kind: end.1 };
-            hidden.push(Layer { interval, count: 1 });
+            hidden.push(HiddenInterval { interval, count: 1 });
         }
     };
     let begin = (0.0, ViewVertexKind::TJunction);
@@ -62,7 +62,7 @@ pub fn only_behind(front: &[Layer], behind: &[Layer]) -> Vec<Layer> {
     hidden
 }
 
-fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<Layer>) {
+fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<HiddenInterval>) {
     hidden.sort_by(|a, b| a.start.total_cmp(&b.start).then(b.end.total_cmp(&a.end)));
     let mut run = hidden[0];
     for next in &hidden[1..] {
@@ -71,14 +71,19 @@ fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<Layer>) 
                 (run.end, run.end_kind) = (next.end, next.end_kind);
             }
         } else {
-            push(Layer { interval: run, count: 1 }, shortest, layers);
+            push(HiddenInterval { interval: run, count: 1 }, shortest, layers);
             run = *next;
         }
     }
-    push(Layer { interval: run, count: 1 }, shortest, layers);
+    push(HiddenInterval { interval: run, count: 1 }, shortest, layers);
 }
 
-fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &mut Vec<Layer>) {
+fn sweep_counting(
+    hidden: &[Interval],
+    known: &[HiddenInterval],
+    shortest: f64,
+    layers: &mut Vec<HiddenInterval>,
+) {
     let mut events: Vec<(f64, i32, ViewVertexKind)> = Vec::with_capacity((hidden.len() + known.len()) * 2);
     let known = known.iter().map(|layer| (&layer.interval, i32::from(layer.count)));
     for (h, count) in hidden.iter().map(|h| (h, 1)).chain(known) {
@@ -99,7 +104,7 @@ fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &
         }
         if before > 0 && before != count {
             let interval = Interval { start: at.0, end: t, start_kind: at.1, end_kind: kind };
-            push(Layer { interval, count: before as u16 }, shortest, layers);
+            push(HiddenInterval { interval, count: before as u16 }, shortest, layers);
         }
         if before != count {
             at = (t, kind);
@@ -123,7 +128,7 @@ fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &
     layers.truncate(kept);
 }
 
-fn push(layer: Layer, shortest: f64, layers: &mut Vec<Layer>) {
+fn push(layer: HiddenInterval, shortest: f64, layers: &mut Vec<HiddenInterval>) {
     if layer.interval.end - layer.interval.start > shortest {
         layers.push(layer);
     }

@@ -7,12 +7,12 @@
 use glam::{DVec2, DVec3};
 
 use super::interval_sweep::sweep;
-use super::tiled_triangles::{Occluder, Triangles};
+use super::tiled_triangles::{Occluder, TiledTriangles};
 use super::triangle_occlusion::{Interval, covered};
 use crate::visibility::graph::ViewVertexKind;
 use crate::visibility::projection::host_sides::HostedLine;
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Segment shifted slightly to one side.
 #[derive(Debug, Clone, Copy)]
@@ -27,8 +27,8 @@ pub(crate) struct OuterSides(pub [Option<OuterSide>; 2]);
 
 impl OuterSides {
     /// Open sides of a segment; none if it has no length or no own face.
-    pub(crate) fn of(segment: &ImageSegment, triangles: &Triangles) -> Self {
-        let Triangles { mesh, view, limits, .. } = triangles;
+    pub(crate) fn of(segment: &ImageSegment, triangles: &TiledTriangles) -> Self {
+        let TiledTriangles { mesh, view, limits, .. } = triangles;
         let ImageSegment { a, b, ends, hosts, .. } = *segment;
         let hosted = HostedLine { line: [a, b], ends, hosts };
         let Some(across) = hosted.across() else { return Self::default() };
@@ -55,7 +55,7 @@ impl OuterSide {
 
     /// Range of the segment's parameter where a triangle lies next to it on this side.
     #[inline]
-    pub(crate) fn range(&self, triangle: &Occluder, limits: &Limits) -> Option<(f64, f64)> {
+    pub(crate) fn range(&self, triangle: &Occluder, limits: &ViewTolerances) -> Option<(f64, f64)> {
         covered(self.line[0], self.line[1], &triangle.corners, limits)
     }
 }

@@ -1,4 +1,4 @@
-//! [`Triangles`]: the triangles over each tile that may hide something there.
+//! [`TiledTriangles`]: the triangles over each tile that may hide something there.
 //!
 //! Only tiles with undecided segments are filled, and only with triangles in front of the occlusion buffer
 //! (see [`crate::visibility::culling::occlusion_buffer`]).
@@ -6,18 +6,18 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::{FaceId, Mesh};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
-use crate::visibility::tiles::tile_grid::{Around, Grid, TileBox};
+use crate::visibility::tiles::tile_grid::{TileBox, TileGrid, TileReach};
 use crate::visibility::tiles::tile_set::TileSet;
-use crate::visibility::tiles::triangle_columns::Sides;
-use crate::visibility::view_tolerances::{Limits, Slack};
+use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Bounds of a triangle in the image, enough to reject most comparisons.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub struct OccluderBounds {
     /// Minimum x, maximum x, minimum y and maximum y in the image, rounded outward.
     pub bounds: [f32; 4],
     /// Maximum nearness, rounded towards the eye.
@@ -36,20 +36,20 @@ pub struct Occluder {
     /// Corners in image space.
     pub corners: [DVec3; 3],
     /// Tolerances for touching it, independent of the view.
-    pub slack: Slack,
+    pub slack: FaceTolerances,
 }
 
 /// The triangles of a view over a grid of tiles.
 #[derive(Debug, Clone, Copy)]
-pub struct Triangles<'a> {
+pub struct TiledTriangles<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
     /// The view of it.
     pub view: &'a View,
     /// The tiles.
-    pub grid: &'a Grid,
+    pub grid: &'a TileGrid,
     /// The tolerances of the view.
-    pub limits: &'a Limits,
+    pub limits: &'a ViewTolerances,
 }
 
 /// Corners in image space and face of a triangle id.
@@ -65,7 +65,7 @@ pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
     }
 }
 
-impl Triangles<'_> {
+impl TiledTriangles<'_> {
     /// Number of faces plus clipped parts of faces.
     pub(crate) fn count(&self) -> usize {
         self.mesh.triangles.len() + self.view.clipped.len()
@@ -82,14 +82,15 @@ impl Triangles<'_> {
     pub fn tile_boxes(&self) -> Vec<TileBox> {
         // A vertex is a corner of six triangles on average, so its range of tiles is computed once.
         let slack = self.slack();
-        let of_vertex = |p: &DVec3| if p.z.is_nan() { Around::CUT } else { self.grid.around(*p, slack) };
-        let vertices: Vec<Around> = self.view.points.par_iter().with_min_len(GRAIN).map(of_vertex).collect();
+        let of_vertex = |p: &DVec3| if p.z.is_nan() { TileReach::CUT } else { self.grid.around(*p, slack) };
+        let vertices: Vec<TileReach> =
+            self.view.points.par_iter().with_min_len(MIN_TASK_ITEMS).map(of_vertex).collect();
         let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
             Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
-            Some(t) => self.grid.tiles_within(Around::of_all(t.map(|v| vertices[v as usize]))),
+            Some(t) => self.grid.tiles_within(TileReach::of_all(t.map(|v| vertices[v as usize]))),
             None => self.tile_box(id as u32),
         };
-        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(of_triangle).collect()
+        (0..self.count()).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(of_triangle).collect()
     }
 
     /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
@@ -139,22 +140,26 @@ impl Triangles<'_> {
             face,
             ids: self.mesh.triangles[face as usize],
             corners,
-            slack: Slack::of(self.mesh.extent(FaceId(face))),
+            slack: FaceTolerances::of(self.mesh.extent(FaceId(face))),
         }
     }
 
     /// Bounds of the triangle with this id.
     #[inline]
     #[must_use]
-    pub fn reach(&self, id: u32) -> Reach {
+    pub fn reach(&self, id: u32) -> OccluderBounds {
         let (corners, _) = corners(self.mesh, self.view, id);
         let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
-        Reach { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
+        OccluderBounds { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
     }
 
     /// Bounds of all triangles.
-    pub(crate) fn reaches(&self) -> Vec<Reach> {
-        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(|id| self.reach(id as u32)).collect()
+    pub(crate) fn reaches(&self) -> Vec<OccluderBounds> {
+        (0..self.count())
+            .into_par_iter()
+            .with_min_len(MIN_TASK_ITEMS)
+            .map(|id| self.reach(id as u32))
+            .collect()
     }
 
     /// Face that a triangle belongs to.
@@ -170,9 +175,9 @@ impl Triangles<'_> {
     ///
     /// Takes `boxes` by value, so they are freed before the result is built.
     #[must_use]
-    pub(crate) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> Grouped<u32> {
+    pub(crate) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> CsrLists<u32> {
         let found = self.pairs(boxes, wanted, Some(cover));
-        grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
+        csr_lists_from_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
     }
 
     /// Pairs of wanted tile and triangle; in each tile in the order of the triangles.
@@ -206,7 +211,7 @@ impl Triangles<'_> {
             ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, None, &mut pairs));
             pairs
         };
-        ids.par_chunks(GRAIN).with_max_len(1).map(of_chunk).collect()
+        ids.par_chunks(MIN_TASK_ITEMS).with_max_len(1).map(of_chunk).collect()
     }
 
     /// Adds a pair of tile and triangle for each wanted tile where the triangle may matter.
@@ -244,7 +249,7 @@ impl Triangles<'_> {
         }
         let (points, _) = corners(self.mesh, self.view, id);
         let nearest = points[0].z.max(points[1].z).max(points[2].z);
-        let sides = Sides::new(&points);
+        let sides = TriangleHalfPlanes::new(&points);
         let reach = self.grid.cell / 2.0 * (1.0 + 1e-5) + 2.0 * self.limits.beside;
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
@@ -297,11 +302,11 @@ mod tests {
         // The camera is among the triangles, so some are behind the eye and some are cut.
         let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
         let view = View::new(&mesh, &camera);
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         assert!(!view.clipped.is_empty() && view.points.iter().any(|p| p.z.is_nan()));
         for (low, high, across) in [(100.0, 400.0, 64), (-2000.0, 3000.0, 300), (480.0, 481.0, 7)] {
-            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), across);
-            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let grid = TileGrid::new(DVec2::splat(low), DVec2::splat(high), across);
+            let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
             let boxes = triangles.tile_boxes();
             assert!(
                 boxes.iter().any(|tiles| !tiles.is_empty()) && boxes.iter().any(|tiles| tiles.is_empty())

@@ -19,7 +19,7 @@ use super::tiled_triangles::Occluder;
 use crate::view::Frame;
 use crate::visibility::graph::ViewVertexKind;
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Part of a segment's parameter range, with the reason for each end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ pub struct Interval {
 /// covered.
 #[inline]
 #[must_use]
-pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Option<(f64, f64)> {
+pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &ViewTolerances) -> Option<(f64, f64)> {
     let [a, b, c] = corners.map(DVec3::truncate);
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
@@ -93,7 +93,7 @@ pub fn hidden_interval(
     (from, to): (f64, f64),
     triangle: &Occluder,
     frame: &Frame,
-    limits: &Limits,
+    limits: &ViewTolerances,
 ) -> Option<Interval> {
     let corners = &triangle.corners;
     let shared = segment.ends.map(|end| triangle.ids.iter().position(|id| *id == end));

@@ -11,26 +11,26 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
-use crate::mesh::Extents;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::mesh::MeshMetrics;
 use crate::view::Frame;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::tile_grid::TileGrid;
 
 /// Lines shorter than this multiple of the distance have no reliable direction and are left alone.
-const SHORTEST_SHARE: f64 = 8.0;
+const MIN_LENGTH_PER_DISTANCE: f64 = 8.0;
 
 /// Share of the distance within which lines with a common vertex coincide. The two sides of a T-vertex do;
 /// the folds of a contour hardly ever do.
-const JOINED_SHARE: f64 = 1e-3;
+const SHARED_NODE_DISTANCE_SHARE: f64 = 1e-3;
 
 /// Lines per task of the grid traversal.
-const WALKED: usize = 1 << 11;
+const LINES_PER_TASK: usize = 1 << 11;
 
 /// Removes the parts of visible edges that lie within `within` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
-pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) {
+pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) {
     let perspective = frame.perspective;
     let covered = find_covered(map, within, frame, extents);
     if covered.is_empty() {
@@ -46,20 +46,20 @@ pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) 
         if ranges.is_empty() {
             edges.push(*edge);
         } else {
-            cut(&mut map.vertices, &mut edges, edge, &mut ranges, within, perspective);
+            cut_edge(&mut map.vertices, &mut edges, edge, &mut ranges, within, perspective);
         }
     }
     map.edges = edges;
 }
 
 /// Parameter ranges of edges that another edge covers, sorted by edge and start.
-fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) -> Vec<(u32, (f64, f64))> {
+fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) -> Vec<(u32, (f64, f64))> {
     let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
     let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
-    let of_edge = |id: &u32| (*id, Line::of(map, &map.edges[*id as usize]));
-    let mut lines: Vec<(u32, Line)> = seen.par_iter().with_min_len(1 << 10).map(of_edge).collect();
+    let of_edge = |id: &u32| (*id, EdgeLine::of(map, &map.edges[*id as usize]));
+    let mut lines: Vec<(u32, EdgeLine)> = seen.par_iter().with_min_len(1 << 10).map(of_edge).collect();
     drop(seen);
-    lines.retain(|(_, line)| line.length > SHORTEST_SHARE * within);
+    lines.retain(|(_, line)| line.length > MIN_LENGTH_PER_DISTANCE * within);
     if lines.is_empty() {
         return Vec::new();
     }
@@ -69,13 +69,13 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) ->
         .map(|(_, line)| line.ends())
         .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
     let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
-    let grid = Grid::new(low.truncate(), high.truncate(), across);
+    let grid = TileGrid::new(low.truncate(), high.truncate(), across);
     let walked: Vec<Vec<(u32, u32)>> = lines
-        .par_chunks(WALKED)
+        .par_chunks(LINES_PER_TASK)
         .enumerate()
         .map(|(chunk, lines)| {
             let mut passed = Vec::with_capacity(2 * lines.len());
-            for ((_, line), number) in lines.iter().zip((chunk * WALKED) as u32..) {
+            for ((_, line), number) in lines.iter().zip((chunk * LINES_PER_TASK) as u32..) {
                 let [p, q] = line.ends();
                 grid.walk(p, q, |tile, _, _| passed.push((tile as u32, number)));
             }
@@ -83,13 +83,13 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) ->
         })
         .collect();
     let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
-    let in_tile = grouped_pairs(grid.len(), passed);
+    let in_tile = csr_lists_from_pairs(grid.len(), passed);
     drop(walked);
-    let among = Among { map, extents, frame, within, lines, grid, in_tile };
+    let among = CoincidenceSearch { map, extents, frame, within, lines, grid, in_tile };
     let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
         .into_par_iter()
         .with_min_len(256)
-        .map_init(Near::default, |near, k| among.covered_with(k, near))
+        .map_init(NearbyLines::default, |near, k| among.covered_with(k, near))
         .flatten_iter()
         .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
@@ -97,20 +97,20 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) ->
 }
 
 /// Lines long enough to have a direction, with the grid tiles they pass.
-struct Among<'a> {
+struct CoincidenceSearch<'a> {
     map: &'a ViewMap,
-    extents: &'a Extents,
+    extents: &'a MeshMetrics,
     frame: &'a Frame,
     within: f64,
     /// Indices of edges, ascending, with their lines.
-    lines: Vec<(u32, Line)>,
-    grid: Grid,
-    in_tile: Grouped<u32>,
+    lines: Vec<(u32, EdgeLine)>,
+    grid: TileGrid,
+    in_tile: CsrLists<u32>,
 }
 
-impl Among<'_> {
+impl CoincidenceSearch<'_> {
     /// Ranges of one line and the lines before it that cover each other.
-    fn covered_with(&self, number: usize, near: &mut Near) -> Vec<(u32, (f64, f64))> {
+    fn covered_with(&self, number: usize, near: &mut NearbyLines) -> Vec<(u32, (f64, f64))> {
         let Self { map, extents, within, lines, .. } = self;
         let (id, line) = &lines[number];
         let edge = &map.edges[*id as usize];
@@ -146,14 +146,14 @@ impl Among<'_> {
         };
         // NaN at the eye itself, which `f64::max` ignores.
         let rounding = edges.map(shift).into_iter().fold(0.0, f64::max);
-        (self.within * JOINED_SHARE).max(rounding.min(self.within))
+        (self.within * SHARED_NODE_DISTANCE_SHARE).max(rounding.min(self.within))
     }
 
     /// Collects the earlier lines that may coincide with a line, ascending.
     ///
     /// Such a line passes a tile of the line itself or of one of its parallels at distance `within`, because
     /// tiles are convex.
-    fn find_near(&self, number: usize, Near { tiles, lines }: &mut Near) {
+    fn find_near(&self, number: usize, NearbyLines { tiles, lines }: &mut NearbyLines) {
         let (_, line) = &self.lines[number];
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
         tiles.clear();
@@ -182,13 +182,13 @@ impl Among<'_> {
 
 /// Candidates near a line. The buffers are reused for the next line.
 #[derive(Default)]
-struct Near {
+struct NearbyLines {
     tiles: Vec<usize>,
     lines: Vec<u32>,
 }
 
 /// Compares two coincident edges; the lesser one is kept. Of touching parts, the smaller one keeps the line.
-pub(crate) fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
+pub(crate) fn precedence(map: &ViewMap, extents: &MeshMetrics, one: &ViewEdge, other: &ViewEdge) -> Ordering {
     let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
     let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
     let place = |edge: &ViewEdge| {
@@ -208,13 +208,13 @@ pub(crate) fn vector(p: Point) -> DVec3 {
 }
 
 /// Edge in the image.
-pub(crate) struct Line {
+pub(crate) struct EdgeLine {
     pub start: Point,
     pub along: Vec2,
     pub length: f64,
 }
 
-impl Line {
+impl EdgeLine {
     pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         let start = map.vertices[edge.start.index()].position;
         let d = map.vertices[edge.end.index()].position - start;
@@ -297,7 +297,7 @@ impl Line {
 }
 
 /// Appends the parts of an edge outside the given ranges.
-pub(crate) fn cut(
+pub(crate) fn cut_edge(
     vertices: &mut Vec<ViewVertex>,
     edges: &mut Vec<ViewEdge>,
     edge: &ViewEdge,
@@ -344,16 +344,16 @@ mod tests {
     use crate::lines::LineKind;
     use crate::mesh::{MaterialId, PartId};
     use crate::scene::{Camera, NamedView, Projection, UpAxis};
-    use crate::surface::Origin;
+    use crate::surface::MeshSource;
 
-    type Drawn = ((f64, f64), (f64, f64), LineKind);
+    type TestLine = ((f64, f64), (f64, f64), LineKind);
 
     fn frame() -> Frame {
         let camera = Camera::named(NamedView::Front, UpAxis::Y).with_frame(1000.0, 1000.0);
         Frame::new(&camera.with_projection(Projection::Orthographic { height: 1.0 }), DVec3::ZERO)
     }
 
-    fn map(lines: &[Drawn]) -> ViewMap {
+    fn map(lines: &[TestLine]) -> ViewMap {
         let mut map = ViewMap::default();
         for (i, (a, b, kind)) in lines.iter().enumerate() {
             for p in [a, b] {
@@ -373,7 +373,7 @@ mod tests {
                 silhouette: false,
                 both_seen: false,
                 smooth: false,
-                origin: Origin::default(),
+                origin: MeshSource::default(),
                 strength: 180.0,
                 part: PartId(0),
                 material: MaterialId(0),
@@ -384,7 +384,7 @@ mod tests {
     }
 
     fn lengths(map: &ViewMap) -> Vec<(LineKind, f64)> {
-        map.edges.iter().map(|e| (e.kind, Line::of(map, e).length.round())).collect()
+        map.edges.iter().map(|e| (e.kind, EdgeLine::of(map, e).length.round())).collect()
     }
 
     #[test]
@@ -394,7 +394,7 @@ mod tests {
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, &frame(), &Extents::default());
+        remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
         let (k, c) = (LineKind::Crease, LineKind::Contour);
         assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
@@ -406,7 +406,7 @@ mod tests {
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
-        remove(&mut m, 0.005, &frame(), &Extents::default());
+        remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
         assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 
@@ -417,10 +417,10 @@ mod tests {
             let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
             ((x, y), (x + 7.0, y + 3.0), LineKind::Crease)
         };
-        let count = 2 * WALKED + 300;
-        let lines: Vec<Drawn> = (0..count).chain(count - 50..count).map(row).collect();
+        let count = 2 * LINES_PER_TASK + 300;
+        let lines: Vec<TestLine> = (0..count).chain(count - 50..count).map(row).collect();
         let mut m = map(&lines);
-        remove(&mut m, 0.005, &frame(), &Extents::default());
+        remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
         assert_eq!(m.edges.len(), count);
         let left: std::collections::BTreeSet<usize> = m
             .edges

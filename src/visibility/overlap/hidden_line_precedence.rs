@@ -14,27 +14,27 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use kurbo::Vec2;
 
-use super::coincident_lines::{Line, cut, precedence, vector};
-use super::smooth_chains::smooth_lines;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::coincident_lines::{EdgeLine, cut_edge, precedence, vector};
+use super::smooth_chains::smooth_chains;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
-use crate::mesh::Extents;
+use crate::mesh::MeshMetrics;
 use crate::visibility::graph::{ViewEdge, ViewMap};
-use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::tile_grid::TileGrid;
 
 /// Smallest tile side, in multiples of the widest reach. An edge within reach of a line is then in the tiles
 /// of the line shifted by that reach.
-const CELL_OF_DISTANCE: f64 = 2.0;
+const MIN_CELL_PER_REACH: f64 = 2.0;
 
 /// A range of an edge's parameter, 0 to 1.
-type Range = (f64, f64);
+type ParameterRange = (f64, f64);
 
 /// Ink of the lines on the page.
 pub struct Ink<'a> {
     /// Half the ink width of an edge, user units; 0 if it is unknown. At least [`BEHIND_INK_PX`] is used.
     pub half_width: &'a (dyn Fn(&ViewEdge) -> f64 + Sync),
     /// Sizes of the parts, which decide between parts in one place.
-    pub extents: &'a Extents,
+    pub extents: &'a MeshMetrics,
     /// Whether depth varies along a line as in perspective.
     pub perspective: bool,
     /// A px in user units.
@@ -45,7 +45,7 @@ pub struct Ink<'a> {
 ///
 /// All edges of the map count as drawn.
 #[must_use]
-pub fn apart(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
+pub fn without_hidden_in_ink(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
     let behind = find(map, ink);
     if behind.iter().all(Vec::is_empty) {
         return None;
@@ -57,19 +57,19 @@ pub fn apart(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
         if ranges.is_empty() {
             edges.push(*edge);
         } else {
-            cut(&mut vertices, &mut edges, edge, &mut ranges, within, ink.perspective);
+            cut_edge(&mut vertices, &mut edges, edge, &mut ranges, within, ink.perspective);
         }
     }
     Some(ViewMap { vertices, edges, ..map.clone() })
 }
 
 /// Ranges of each edge that lie in the ink of others.
-fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
-    let lines: Vec<Line> = map.edges.iter().map(|edge| Line::of(map, edge)).collect();
+fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<ParameterRange>> {
+    let lines: Vec<EdgeLine> = map.edges.iter().map(|edge| EdgeLine::of(map, edge)).collect();
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = lines
         .iter()
-        .map(Line::ends)
+        .map(EdgeLine::ends)
         .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
     let size = (high - low).max_element();
     if !size.is_finite() || map.edges.iter().all(|edge| edge.invisibility == 0) {
@@ -78,26 +78,26 @@ fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
     let half_width = |edge: &ViewEdge| (ink.half_width)(edge).max(BEHIND_INK_PX * ink.px);
     let reaches: Vec<f64> = map.edges.par_iter().with_min_len(256).map(half_width).collect();
     let widest = reaches.iter().copied().fold(0.0, f64::max);
-    let most = (size / (CELL_OF_DISTANCE * widest)).max(1.0) as u32;
+    let most = (size / (MIN_CELL_PER_REACH * widest)).max(1.0) as u32;
     let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024).min(most);
-    let grid = Grid::new(low.truncate(), high.truncate(), across);
-    let in_tile = grouped(grid.len(), |put| {
+    let grid = TileGrid::new(low.truncate(), high.truncate(), across);
+    let in_tile = csr_lists(grid.len(), |put| {
         for (line, number) in lines.iter().zip(0..) {
             let [p, q] = line.ends();
             grid.walk(p, q, |tile, _, _| put(tile, number));
         }
     });
-    let among = Among { map, reaches, widest, lines, grid, in_tile, ink };
-    let found: Vec<Found> =
+    let among = InkSearch { map, reaches, widest, lines, grid, in_tile, ink };
+    let found: Vec<NearbyEdges> =
         (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.around(edge)).collect();
     among.resolve(found)
 }
 
 /// Edges near a hidden edge.
 #[derive(Default)]
-struct Found {
+struct NearbyEdges {
     /// Ranges along visible edges, within their ink.
-    behind: Vec<Range>,
+    behind: Vec<ParameterRange>,
     /// Whether all of it lies in the ink of visible edges.
     within: bool,
     /// Hidden edges that precede it and run along it.
@@ -105,26 +105,26 @@ struct Found {
 }
 
 /// All edges of a map, in a grid of tiles.
-struct Among<'a> {
+struct InkSearch<'a> {
     map: &'a ViewMap,
     ink: &'a Ink<'a>,
     /// Half the ink width of each edge.
     reaches: Vec<f64>,
     widest: f64,
     /// One per edge.
-    lines: Vec<Line>,
-    grid: Grid,
-    in_tile: Grouped<u32>,
+    lines: Vec<EdgeLine>,
+    grid: TileGrid,
+    in_tile: CsrLists<u32>,
 }
 
-impl Among<'_> {
+impl InkSearch<'_> {
     /// Edges near an edge; none near a visible one.
-    fn around(&self, number: usize) -> Found {
+    fn around(&self, number: usize) -> NearbyEdges {
         let (edge, line) = (&self.map.edges[number], &self.lines[number]);
         if edge.invisibility == 0 || line.length == 0.0 {
-            return Found { within: edge.invisibility > 0, ..Found::default() };
+            return NearbyEdges { within: edge.invisibility > 0, ..NearbyEdges::default() };
         }
-        let mut found = Found::default();
+        let mut found = NearbyEdges::default();
         let mut covered = Vec::new();
         for other in self.near(line).into_iter().filter(|other| *other as usize != number) {
             let (its, reach) = (&self.lines[other as usize], self.reaches[other as usize]);
@@ -155,9 +155,9 @@ impl Among<'_> {
     }
 
     /// Ranges that each edge loses, after those before it have lost theirs.
-    fn resolve(&self, mut found: Vec<Found>) -> Vec<Vec<Range>> {
-        let mut lost: Vec<Vec<Range>> = vec![Vec::new(); found.len()];
-        for line in smooth_lines(self.map) {
+    fn resolve(&self, mut found: Vec<NearbyEdges>) -> Vec<Vec<ParameterRange>> {
+        let mut lost: Vec<Vec<ParameterRange>> = vec![Vec::new(); found.len()];
+        for line in smooth_chains(self.map) {
             if line.iter().all(|edge| found[*edge as usize].within) {
                 line.iter().for_each(|edge| found[*edge as usize].behind = vec![(0.0, 1.0)]);
             }
@@ -169,7 +169,7 @@ impl Among<'_> {
             .collect();
         order.par_sort_by(|a, b| self.order(*a, *b));
         for number in order {
-            let Found { behind, before, .. } = std::mem::take(&mut found[number as usize]);
+            let NearbyEdges { behind, before, .. } = std::mem::take(&mut found[number as usize]);
             let line = &self.lines[number as usize];
             let mut ranges = behind;
             for other in before {
@@ -191,7 +191,7 @@ impl Among<'_> {
     ///
     /// Edges that are not parallel count only if the line is short enough to cross their ink lengthwise. The
     /// lookup is complete, because tiles are convex and wider than the reach.
-    fn near(&self, line: &Line) -> Vec<u32> {
+    fn near(&self, line: &EdgeLine) -> Vec<u32> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.widest;
         let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
         let reach = if is_short { line.along * self.widest } else { Vec2::ZERO };
@@ -210,7 +210,7 @@ impl Among<'_> {
 }
 
 /// Complement of sorted, disjoint ranges in the parameter range 0 to 1.
-fn rest(lost: &[Range]) -> Vec<Range> {
+fn rest(lost: &[ParameterRange]) -> Vec<ParameterRange> {
     let mut left = Vec::with_capacity(lost.len() + 1);
     let mut at = 0.0;
     for (from, to) in lost.iter().copied().chain([(1.0, 1.0)]) {
@@ -222,14 +222,14 @@ fn rest(lost: &[Range]) -> Vec<Range> {
     left
 }
 
-fn is_parallel(line: &Line, other: &Line) -> bool {
+fn is_parallel(line: &EdgeLine, other: &EdgeLine) -> bool {
     other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
 }
 
 /// Sorted ranges, where ranges that overlap or are at most `gap` apart are merged.
-fn joined(mut ranges: Vec<Range>, gap: f64) -> Vec<Range> {
+fn joined(mut ranges: Vec<ParameterRange>, gap: f64) -> Vec<ParameterRange> {
     ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut joined: Vec<Range> = Vec::with_capacity(ranges.len());
+    let mut joined: Vec<ParameterRange> = Vec::with_capacity(ranges.len());
     for (from, to) in ranges {
         match joined.last_mut() {
             Some(last) if from <= last.1 + gap => last.1 = last.1.max(to),
@@ -240,7 +240,7 @@ fn joined(mut ranges: Vec<Range>, gap: f64) -> Vec<Range> {
 }
 
 /// Range of a line's parameter (0 to 1) along which a parallel line is within `within`.
-fn along(line: &Line, other: &Line, within: f64) -> Option<Range> {
+fn along(line: &EdgeLine, other: &EdgeLine, within: f64) -> Option<ParameterRange> {
     let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
     let (mut a, mut b) = (place(other.start), place(other.end()));
     if a.0 > b.0 {

@@ -116,11 +116,11 @@ fn project_one(
     }
     let bounds = match segment.kind {
         // The background next to a smooth contour comes from the mesh contour matched to it.
-        _ if segment.role == Role::Curve => false,
+        _ if segment.role == Role::SmoothContour => false,
         LineKind::Contour | LineKind::Border => true,
         LineKind::Crease | LineKind::Material | LineKind::Intersection => {
             let hosted = HostedLine { line: [a, b], ends: segment.ends, hosts: segment.hosts };
-            hosted.may_bound(mesh, view, tolerance::BESIDE_PX * view.frame.px())
+            hosted.may_bound(mesh, view, tolerance::BACKGROUND_PROBE_PX * view.frame.px())
         }
         _ => false,
     };

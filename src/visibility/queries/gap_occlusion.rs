@@ -1,4 +1,4 @@
-//! [`Ahead`]: whether a straight gap between two lines passes behind a surface of another component.
+//! [`GapOcclusion`]: whether a straight gap between two lines passes behind a surface of another component.
 
 use std::sync::OnceLock;
 
@@ -6,47 +6,47 @@ use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 
-use crate::geometry::lists::csr_lists::{grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{csr_lists, csr_lists_from_pairs};
 use crate::lines::{FeatureLines, NO_FACE, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
-use crate::visibility::contours::contour_matching::REACH_PX;
-use crate::visibility::culling::triangle_blocks::NearTiles;
-use crate::visibility::graph::SeenContour;
-use crate::visibility::occlusion::occlusion_input::Item;
-use crate::visibility::occlusion::tiled_triangles::{Occluder, Triangles};
+use crate::visibility::contours::contour_matching::MAX_MATCH_DISTANCE_PX;
+use crate::visibility::culling::triangle_blocks::TriangleBlocks;
+use crate::visibility::graph::VisibleContour;
+use crate::visibility::occlusion::occlusion_input::TileSegment;
+use crate::visibility::occlusion::tiled_triangles::{Occluder, TiledTriangles};
 use crate::visibility::occlusion::triangle_occlusion::hidden_interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::grid_over;
 use crate::visibility::tiles::tile_set::TileSet;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Tiles along the longer side of the grid for the lookup of triangles. Tiles are small because gaps are
 /// short and every triangle of a tile is compared.
-const TILES: u32 = 256;
+const TILES_ACROSS: u32 = 256;
 /// Tiles per task.
 const TILES_PER_TASK: usize = 8;
 /// Largest distance between the bounding boxes of a triangle and a gap that are still compared, user units.
-const BESIDE: f64 = 1e-4;
+const BOX_MARGIN_UNITS: f64 = 1e-4;
 /// Marks an end of a gap, which is not a feature end.
 const NO_END: u32 = u32::MAX;
 
 /// Surfaces that may hide gaps between the lines of a view map.
 #[derive(Debug)]
-pub struct Ahead<'a> {
+pub struct GapOcclusion<'a> {
     mesh: &'a Mesh,
     pieces: &'a [u32],
     view: &'a View,
     lines: &'a FeatureLines,
-    seen: &'a [SeenContour],
+    seen: &'a [VisibleContour],
     moved: Vec2,
     /// Built on the first query.
-    near: OnceLock<NearTiles>,
+    near: OnceLock<TriangleBlocks>,
 }
 
 /// Straight gap in the image between two points of lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Way {
+pub struct GapSegment {
     /// Start and end, user units on the page.
     pub ends: [Point; 2],
     /// Depths of the ends along the optical axis, world units.
@@ -55,7 +55,7 @@ pub struct Way {
     pub segments: [u32; 2],
 }
 
-impl<'a> Ahead<'a> {
+impl<'a> GapOcclusion<'a> {
     /// Prepares queries against all surfaces of `mesh` in front of the `lines` of a view.
     ///
     /// `pieces` holds the connected component of each face, and is empty if there is only one. `seen` lists
@@ -66,7 +66,7 @@ impl<'a> Ahead<'a> {
         (mesh, pieces): (&'a Mesh, &'a [u32]),
         view: &'a View,
         lines: &'a FeatureLines,
-        seen: &'a [SeenContour],
+        seen: &'a [VisibleContour],
         moved: Vec2,
     ) -> Self {
         Self { mesh, pieces, view, lines, seen, moved, near: OnceLock::new() }
@@ -79,27 +79,29 @@ impl<'a> Ahead<'a> {
     /// gap touches. A surface in front of the gap does not count either where the mesh contour is visible
     /// next to the gap.
     #[must_use]
-    pub fn hides(&self, ways: &[Way]) -> Vec<bool> {
+    pub fn occluded_gaps(&self, ways: &[GapSegment]) -> Vec<bool> {
         if self.pieces.is_empty() || ways.is_empty() {
             return vec![false; ways.len()];
         }
         let Self { mesh, view, .. } = self;
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
-        let grid = grid_over(segments.iter(), TILES);
+        let grid = grid_over(segments.iter(), TILES_ACROSS);
         // Gaps are few and short, so only the tiles they pass through are numbered.
-        let mut items: Vec<(usize, Item)> = Vec::new();
+        let mut items: Vec<(usize, TileSegment)> = Vec::new();
         for (s, segment) in segments.iter().zip(0..) {
-            grid.walk(s.a, s.b, |tile, start, end| items.push((tile, Item { segment, start, end })));
+            grid.walk(s.a, s.b, |tile, start, end| items.push((tile, TileSegment { segment, start, end })));
         }
         let wanted = TileSet::new(&grid, items.iter().map(|(tile, _)| *tile));
-        let items =
-            grouped_pairs(wanted.count(), items.iter().map(|(tile, item)| (wanted.number(*tile), *item)));
-        let triangles = Triangles { mesh, view, grid: &grid, limits: &limits };
+        let items = csr_lists_from_pairs(
+            wanted.count(),
+            items.iter().map(|(tile, item)| (wanted.number(*tile), *item)),
+        );
+        let triangles = TiledTriangles { mesh, view, grid: &grid, limits: &limits };
         let occluders = self.near(&limits).fill(&triangles, &wanted);
-        let reach = DVec2::splat(REACH_PX * limits.px);
-        let seen = grouped(wanted.count(), |put| {
+        let reach = DVec2::splat(MAX_MATCH_DISTANCE_PX * limits.px);
+        let seen = csr_lists(wanted.count(), |put| {
             for seen in self.seen {
                 let [a, b] = seen.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
@@ -112,12 +114,15 @@ impl<'a> Ahead<'a> {
             .into_par_iter()
             .with_min_len(TILES_PER_TASK)
             .map(|tile| {
-                let over: Vec<Over> =
-                    occluders.of(tile).iter().map(|id| Over::from(triangles.occluder(*id))).collect();
-                let around = Around { ahead: self, limits: &limits, over: &over, seen: seen.of(tile) };
-                let is_behind = |item: &&Item| {
+                let over: Vec<BoxedOccluder> = occluders
+                    .of(tile)
+                    .iter()
+                    .map(|id| BoxedOccluder::from(triangles.occluder(*id)))
+                    .collect();
+                let around = GapTile { ahead: self, limits: &limits, over: &over, seen: seen.of(tile) };
+                let is_behind = |item: &&TileSegment| {
                     let way = item.segment as usize;
-                    around.hides(&segments[way], (item.start, item.end), own[way])
+                    around.occludes_gap_part(&segments[way], (item.start, item.end), own[way])
                 };
                 items.of(tile).iter().filter(is_behind).map(|item| item.segment).collect()
             })
@@ -127,13 +132,13 @@ impl<'a> Ahead<'a> {
         hidden
     }
 
-    fn near(&self, limits: &Limits) -> &NearTiles {
+    fn near(&self, limits: &ViewTolerances) -> &TriangleBlocks {
         if let Some(near) = self.near.get() {
             return near;
         }
         // Built outside the lock, so it may be built twice. Waiting for another thread here could deadlock,
         // because that thread may run this very task while it builds.
-        let made = NearTiles::new(self.mesh, self.view, limits);
+        let made = TriangleBlocks::new(self.mesh, self.view, limits);
         self.near.get_or_init(|| made)
     }
 
@@ -142,7 +147,7 @@ impl<'a> Ahead<'a> {
         self.pieces.get(hosts[0] as usize).copied().unwrap_or(u32::MAX)
     }
 
-    fn image(&self, way: &Way) -> ImageSegment {
+    fn image(&self, way: &GapSegment) -> ImageSegment {
         let point = |k: usize| {
             let at = way.ends[k] - self.moved;
             DVec3::new(at.x, at.y, self.view.frame.nearness_of(way.depths[k]))
@@ -161,13 +166,13 @@ impl<'a> Ahead<'a> {
 }
 
 /// Triangle with its bounding box in the image.
-struct Over {
+struct BoxedOccluder {
     whole: Occluder,
     low: DVec2,
     high: DVec2,
 }
 
-impl From<Occluder> for Over {
+impl From<Occluder> for BoxedOccluder {
     fn from(whole: Occluder) -> Self {
         let [a, b, c] = whole.corners.map(DVec3::truncate);
         Self { whole, low: a.min(b).min(c), high: a.max(b).max(c) }
@@ -175,32 +180,32 @@ impl From<Occluder> for Over {
 }
 
 /// Triangles and contours around one tile of the image.
-struct Around<'a> {
-    ahead: &'a Ahead<'a>,
-    limits: &'a Limits,
+struct GapTile<'a> {
+    ahead: &'a GapOcclusion<'a>,
+    limits: &'a ViewTolerances,
     /// Triangles over the tile.
-    over: &'a [Over],
+    over: &'a [BoxedOccluder],
     /// Visible parts of the mesh contour in the tile or within the match distance of it.
-    seen: &'a [SeenContour],
+    seen: &'a [VisibleContour],
 }
 
-impl Around<'_> {
+impl GapTile<'_> {
     /// Whether a triangle of another component hides the part of a gap in the tile.
-    fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
+    fn occludes_gap_part(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
         let Self { ahead, limits, over, .. } = self;
-        let is_own = |over: &Over| own.contains(&ahead.pieces[over.whole.face as usize]);
+        let is_own = |over: &BoxedOccluder| own.contains(&ahead.pieces[over.whole.face as usize]);
         let ends = [part.0, part.1].map(|t| way.at(t).truncate());
-        let (low, high) = (ends[0].min(ends[1]) - BESIDE, ends[0].max(ends[1]) + BESIDE);
-        let meets = |over: &&Over| over.low.cmple(high).all() && over.high.cmpge(low).all();
+        let (low, high) = (ends[0].min(ends[1]) - BOX_MARGIN_UNITS, ends[0].max(ends[1]) + BOX_MARGIN_UNITS);
+        let meets = |over: &&BoxedOccluder| over.low.cmple(high).all() && over.high.cmpge(low).all();
         over.iter().filter(meets).filter(|over| !is_own(over)).any(|other| {
             let hidden = hidden_interval(way, part, &other.whole, &ahead.view.frame, limits)
                 .filter(|hidden| (hidden.end - hidden.start) * way.length() > limits.piece);
             let Some(hidden) = hidden else { return false };
             let middle = way.at((hidden.start + hidden.end) / 2.0).truncate();
-            let nearness_of = |over: &Over| nearness(&over.whole.corners, middle);
+            let nearness_of = |over: &BoxedOccluder| nearness(&over.whole.corners, middle);
             let seen = nearness_of(other);
             let is_covered = || over.iter().any(|own| is_own(own) && nearness_of(own) > seen);
-            !is_covered() && !self.is_seen_beside(way, middle, own)
+            !is_covered() && !self.is_contour_visible_near(way, middle, own)
         })
     }
 
@@ -208,7 +213,7 @@ impl Around<'_> {
     ///
     /// It is if the contour crosses the normal of the gap there, no farther away than a smooth contour may be
     /// from its mesh contour.
-    fn is_seen_beside(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
+    fn is_contour_visible_near(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
         let along = (way.b - way.a).truncate();
         let across = along.perp().normalize_or_zero();
         self.seen.iter().any(|seen| {
@@ -216,7 +221,9 @@ impl Around<'_> {
             let (before, behind) = (from.dot(along), to.dot(along));
             let crosses = before * behind <= 0.0 && before != behind;
             let away = || from.lerp(to, before / (before - behind)).dot(across).abs();
-            crosses && away() <= REACH_PX * self.limits.px && own.contains(&self.ahead.piece(seen.segment))
+            crosses
+                && away() <= MAX_MATCH_DISTANCE_PX * self.limits.px
+                && own.contains(&self.ahead.piece(seen.segment))
         })
     }
 }

@@ -8,13 +8,13 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
 /// Nearest face at a point of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Front {
+pub struct FrontFace {
     /// Index of the face.
     pub face: u32,
     /// Nearness of the face at the point, in image space.
@@ -22,17 +22,17 @@ pub struct Front {
 }
 
 /// Faces per task.
-const TASK: usize = 1 << 12;
+const FACES_PER_TASK: usize = 1 << 12;
 
 /// Mean number of points per cell of the grid.
-const POINTS_A_CELL: usize = 2;
+const POINTS_PER_CELL: usize = 2;
 
 /// Margin of the bounding-box test, as a share of the coordinates. About a thousand times the rounding error
 /// of the side test.
-const ROUNDING_OF_SIDES: f64 = 1e-12;
+const SIDE_ROUNDING_SHARE: f64 = 1e-12;
 
 /// Largest number of cells across the image.
-const MOST_CELLS: usize = 512;
+const MAX_CELLS_ACROSS: usize = 512;
 
 /// Finds the nearest face at each point (user units); `None` where there is no face.
 ///
@@ -40,16 +40,16 @@ const MOST_CELLS: usize = 512;
 /// of equally near faces, the one with the smaller id. The number of threads has no effect. Where surfaces of
 /// different colours overlap in one plane, the top one is returned: see [`Overlay`](crate::mesh::Overlay).
 #[must_use]
-pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Front>> {
+pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<FrontFace>> {
     let Some(grid) = PointGrid::new(points) else { return Vec::new() };
     let whole = mesh.triangles.len();
     let count = whole + view.clipped.len();
-    let tasks: Vec<Vec<(u32, Front)>> = (0..count.div_ceil(TASK))
+    let tasks: Vec<Vec<(u32, FrontFace)>> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|task| {
             let mut hits = Vec::new();
-            for id in task * TASK..((task + 1) * TASK).min(count) {
+            for id in task * FACES_PER_TASK..((task + 1) * FACES_PER_TASK).min(count) {
                 match id.checked_sub(whole) {
                     None => {
                         let t = mesh.triangles[id];
@@ -67,11 +67,11 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
             hits
         })
         .collect();
-    let mut fronts: Vec<Option<Front>> = vec![None; points.len()];
+    let mut fronts: Vec<Option<FrontFace>> = vec![None; points.len()];
     for (point, hit) in tasks.iter().flatten() {
         let front = &mut fronts[*point as usize];
         let nearer =
-            |f: &Front| hit.nearness > f.nearness || (hit.nearness == f.nearness && hit.face < f.face);
+            |f: &FrontFace| hit.nearness > f.nearness || (hit.nearness == f.nearness && hit.face < f.face);
         if front.as_ref().is_none_or(nearer) {
             *front = Some(*hit);
         }
@@ -96,24 +96,24 @@ struct PointGrid {
     across: usize,
     /// Points of each cell with their indices, row by row, so that the cells of a face in one row are
     /// contiguous.
-    cells: Grouped<(DVec2, u32)>,
+    cells: CsrLists<(DVec2, u32)>,
 }
 
 impl PointGrid {
     fn new(points: &[DVec2]) -> Option<Self> {
         let first = *points.first()?;
         let (low, high) = points.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
-        let across = ((points.len() / POINTS_A_CELL) as f64).sqrt() as usize;
-        let across = across.clamp(1, MOST_CELLS);
+        let across = ((points.len() / POINTS_PER_CELL) as f64).sqrt() as usize;
+        let across = across.clamp(1, MAX_CELLS_ACROSS);
         let size = high - low;
         let per_unit = |size: f64| if size > 0.0 { across as f64 / size } else { 0.0 };
         let cells_per_unit = DVec2::new(per_unit(size.x), per_unit(size.y));
-        let grid = Self { low, high, cells_per_unit, across, cells: Grouped::default() };
+        let grid = Self { low, high, cells_per_unit, across, cells: CsrLists::default() };
         let in_cell = |(i, p): (usize, &DVec2)| {
             let [x, y] = grid.cell(*p);
             (y * across + x, (*p, i as u32))
         };
-        let cells = grouped_pairs(across * across, points.iter().enumerate().map(in_cell));
+        let cells = csr_lists_from_pairs(across * across, points.iter().enumerate().map(in_cell));
         Some(Self { cells, ..grid })
     }
 
@@ -132,7 +132,7 @@ impl PointGrid {
     }
 
     /// Adds the points that a triangle covers.
-    fn cover(&self, corners: &[DVec3; 3], ids: [u32; 3], face: u32, hits: &mut Vec<(u32, Front)>) {
+    fn cover(&self, corners: &[DVec3; 3], ids: [u32; 3], face: u32, hits: &mut Vec<(u32, FrontFace)>) {
         if corners.iter().any(|c| c.z.is_nan()) {
             return;
         }
@@ -155,7 +155,7 @@ impl PointGrid {
         };
         // Most points of these cells are outside the bounding box, which is cheaper to test than the sides.
         // The margin exceeds the rounding error of the side test.
-        let margin = low.abs().max(high.abs()) * ROUNDING_OF_SIDES;
+        let margin = low.abs().max(high.abs()) * SIDE_ROUNDING_SHARE;
         let (low, high) = (low - margin, high + margin);
         for row in rows {
             let first = row * self.across;
@@ -167,7 +167,7 @@ impl PointGrid {
                 if weights.iter().all(|w| *w >= 0.0) {
                     let sum: f64 = weights.iter().sum();
                     let nearness: f64 = (0..3).map(|k| corners[k].z * (weights[k] / sum)).sum();
-                    hits.push((*point, Front { face, nearness }));
+                    hits.push((*point, FrontFace { face, nearness }));
                 }
             }
         }

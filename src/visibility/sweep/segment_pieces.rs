@@ -1,16 +1,16 @@
-//! [`Cuts`]: segments cut into visible and hidden pieces.
+//! [`CutSegments`]: segments cut into visible and hidden pieces.
 
 use super::segment_visibility;
 use crate::lines::Role;
 use crate::visibility::graph::ViewVertexKind;
-use crate::visibility::occlusion::interval_sweep::Layer;
+use crate::visibility::occlusion::interval_sweep::HiddenInterval;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Hidden and backed intervals of one segment.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen<'a> {
-    pub hidden: &'a [Layer],
+pub(crate) struct SegmentOcclusion<'a> {
+    pub hidden: &'a [HiddenInterval],
     pub backed: &'a [Interval],
 }
 
@@ -25,31 +25,38 @@ pub(crate) struct SegmentPart {
 
 /// Segments with at least one kept piece, in order, and their pieces one after the other.
 #[derive(Default)]
-pub(crate) struct Cuts {
-    pub segments: Vec<Cut>,
+pub(crate) struct CutSegments {
+    pub segments: Vec<CutSegment>,
     pub pieces: Vec<SegmentPart>,
 }
 
 /// Cut segment: its index and its number of pieces.
-pub(crate) struct Cut {
+pub(crate) struct CutSegment {
     pub segment: usize,
     pub count: usize,
     pub keeps_hidden: bool,
 }
 
-impl Cuts {
+impl CutSegments {
     /// Cuts a segment and keeps it, unless nothing of it is visible and hidden pieces are not kept.
-    pub fn add(&mut self, id: usize, segment: &ImageSegment, seen: Seen, shortest: f64, keeps_hidden: bool) {
+    pub fn add(
+        &mut self,
+        id: usize,
+        segment: &ImageSegment,
+        seen: SegmentOcclusion,
+        shortest: f64,
+        keeps_hidden: bool,
+    ) {
         // Most lines behind walls are hidden throughout.
-        if !keeps_hidden && seen.hidden == segment_visibility::BURIED {
+        if !keeps_hidden && seen.hidden == segment_visibility::FULLY_HIDDEN {
             return;
         }
         let first = self.pieces.len();
         // The background next to a smooth contour comes from the mesh contour matched to it.
-        let bounds = segment.bounds || segment.role == Role::Curve;
+        let bounds = segment.bounds || segment.role == Role::SmoothContour;
         cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
         if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
-            self.segments.push(Cut { segment: id, count: self.pieces.len() - first, keeps_hidden });
+            self.segments.push(CutSegment { segment: id, count: self.pieces.len() - first, keeps_hidden });
         } else {
             self.pieces.truncate(first);
         }
@@ -59,7 +66,13 @@ impl Cuts {
 /// Cuts a segment where its invisibility changes.
 ///
 /// If it `bounds` a surface, the visible parts are also cut where background begins or ends next to them.
-fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
+fn cut_segment(
+    segment: &ImageSegment,
+    seen: SegmentOcclusion,
+    bounds: bool,
+    shortest: f64,
+    out: &mut Vec<SegmentPart>,
+) {
     let shortest = shortest / segment.length().max(shortest);
     let mut at = 0.0;
     for layer in seen.hidden {
@@ -85,7 +98,7 @@ fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, 
 
 fn visible(
     out: &mut Vec<SegmentPart>,
-    seen: Seen,
+    seen: SegmentOcclusion,
     bounds: bool,
     start: f64,
     end: f64,
@@ -132,12 +145,16 @@ mod tests {
         Interval { start, end, start_kind: KIND, end_kind: KIND }
     }
 
-    fn layer(start: f64, end: f64, count: u16) -> Layer {
-        Layer { interval: interval(start, end), count }
+    fn layer(start: f64, end: f64, count: u16) -> HiddenInterval {
+        HiddenInterval { interval: interval(start, end), count }
     }
 
     /// Start, end, layers in front and silhouette flag of each piece of each kept segment.
-    fn kept(bounds: bool, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
+    fn kept(
+        bounds: bool,
+        keeps_hidden: bool,
+        hidden: &[&[HiddenInterval]],
+    ) -> Vec<Vec<(f64, f64, u16, bool)>> {
         let segment = ImageSegment {
             a: DVec3::ZERO,
             b: DVec3::new(100.0, 0.0, 0.0),
@@ -148,12 +165,18 @@ mod tests {
             bounds,
             role: Role::Line,
         };
-        let mut cuts = Cuts::default();
+        let mut cuts = CutSegments::default();
         for (id, hidden) in hidden.iter().enumerate() {
-            cuts.add(id, &segment, Seen { hidden, backed: &[interval(0.7, 0.8)] }, 0.1, keeps_hidden);
+            cuts.add(
+                id,
+                &segment,
+                SegmentOcclusion { hidden, backed: &[interval(0.7, 0.8)] },
+                0.1,
+                keeps_hidden,
+            );
         }
         let mut rest = cuts.pieces.as_slice();
-        let pieces = |cut: &Cut| {
+        let pieces = |cut: &CutSegment| {
             let own;
             (own, rest) = rest.split_at(cut.count);
             assert_eq!(cut.keeps_hidden, keeps_hidden);
@@ -166,7 +189,7 @@ mod tests {
 
     #[test]
     fn lines_are_cut_where_something_hides_them_and_those_of_an_outline_where_background_ends() {
-        let hidden: [&[Layer]; 1] = [&[layer(0.2, 0.6, 2)]];
+        let hidden: [&[HiddenInterval]; 1] = [&[layer(0.2, 0.6, 2)]];
         let inner = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
         assert_eq!(kept(false, false, &hidden), [inner]);
         let outline = [
@@ -181,8 +204,8 @@ mod tests {
 
     #[test]
     fn of_what_is_hidden_all_over_nothing_is_kept_unless_it_is_asked_for() {
-        let hidden: [&[Layer]; 4] = [
-            &segment_visibility::BURIED,
+        let hidden: [&[HiddenInterval]; 4] = [
+            &segment_visibility::FULLY_HIDDEN,
             &[],
             &[layer(0.0, 0.5, 1), layer(0.5, 1.0, 2)],
             &[layer(0.0, 0.9995, 3)],

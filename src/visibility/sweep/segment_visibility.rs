@@ -1,4 +1,4 @@
-//! [`Visibility`]: the hidden parts of all segments, and the number of surfaces in front of each.
+//! [`SegmentVisibility`]: the hidden parts of all segments, and the number of surfaces in front of each.
 //!
 //! Invisibility counts every surface layer between a line and the eye, facing or averted. So a line behind a
 //! closed box is behind two layers.
@@ -19,54 +19,54 @@ use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::tile_comparison::{Context, Memory, TileResult};
-use super::tile_segments::Items;
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use super::tile_comparison::{TileContext, TileResult, TileScratch};
+use super::tile_segments::TileSegments;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::lines::Role;
 use crate::mesh::Mesh;
-use crate::parallel::scratch_pool::Spare;
+use crate::parallel::scratch_pool::ScratchPool;
 use crate::view::View;
 use crate::visibility::culling::long_pairs::LongPairs;
-use crate::visibility::culling::occlusion_buffer::Covers;
-use crate::visibility::culling::view_occlusion::ViewCovers;
+use crate::visibility::culling::occlusion_buffer::OcclusionBuffer;
+use crate::visibility::culling::view_occlusion::ViewOcclusionBuffer;
 use crate::visibility::graph::ViewVertexKind;
-use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
-use crate::visibility::occlusion::occlusion_input::{Compared, Item};
-use crate::visibility::occlusion::tiled_triangles::Triangles;
+use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
+use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
+use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::{grid_over, tiles_across};
 use crate::visibility::tiles::tile_set::TileSet;
-use crate::visibility::view_tolerances::Limits;
+use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Largest visible share of a segment that still counts as hidden from end to end.
-const WHOLE_SLACK: f64 = 1e-9;
+const MAX_VISIBLE_SHARE: f64 = 1e-9;
 
 /// Hidden from end to end.
-pub(crate) const BURIED: [Layer; 1] = [whole(0.0, 1.0)];
+pub(crate) const FULLY_HIDDEN: [HiddenInterval; 1] = [whole(0.0, 1.0)];
 
-const fn whole(start: f64, end: f64) -> Layer {
+const fn whole(start: f64, end: f64) -> HiddenInterval {
     let kind = ViewVertexKind::TJunction;
-    Layer { interval: Interval { start, end, start_kind: kind, end_kind: kind }, count: 1 }
+    HiddenInterval { interval: Interval { start, end, start_kind: kind, end_kind: kind }, count: 1 }
 }
 
 /// Visibility of all segments.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Visibility {
+pub struct SegmentVisibility {
     /// Whether each segment is hidden from end to end by at least one layer; only where layers are not
     /// counted.
     buried: Vec<bool>,
-    hidden: Grouped<Layer>,
-    backed: Grouped<Interval>,
+    hidden: CsrLists<HiddenInterval>,
+    backed: CsrLists<Interval>,
     /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
 
-impl Visibility {
+impl SegmentVisibility {
     /// Hidden pieces of a segment with their counts, ascending.
     #[must_use]
-    pub fn hidden(&self, segment: usize) -> &[Layer] {
-        if self.buried[segment] { &BURIED } else { self.hidden.of(segment) }
+    pub fn hidden(&self, segment: usize) -> &[HiddenInterval] {
+        if self.buried[segment] { &FULLY_HIDDEN } else { self.hidden.of(segment) }
     }
 
     /// Ranges of a segment with a surface next to them on the outer side, ascending. Only for segments that
@@ -85,9 +85,9 @@ pub fn decide(
     mesh: &Mesh,
     view: &View,
     segments: &[ImageSegment],
-    limits: &Limits,
+    limits: &ViewTolerances,
     counting: bool,
-) -> Visibility {
+) -> SegmentVisibility {
     decide_with(mesh, view, segments, limits, counting, None)
 }
 
@@ -97,27 +97,27 @@ pub(crate) fn decide_with(
     mesh: &Mesh,
     view: &View,
     segments: &[ImageSegment],
-    limits: &Limits,
+    limits: &ViewTolerances,
     counting: bool,
-    known: Option<&ViewCovers>,
-) -> Visibility {
-    let asked = || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::Curve);
+    known: Option<&ViewOcclusionBuffer>,
+) -> SegmentVisibility {
+    let asked = || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::SmoothContour);
     if asked().next().is_none() {
         return gather(segments, limits, &[], &[]);
     }
     let grid = grid_over(asked().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
-    let triangles = Triangles { mesh, view, grid: &grid, limits };
+    let triangles = TiledTriangles { mesh, view, grid: &grid, limits };
     let items = || {
         let known = known.filter(|known| known.grid == grid);
         let covers = match known {
-            _ if counting => Cow::Owned(Covers::none(&grid)),
+            _ if counting => Cow::Owned(OcclusionBuffer::none(&grid)),
             Some(known) => Cow::Borrowed(&known.covers),
-            None => Cow::Owned(Covers::find(&triangles)),
+            None => Cow::Owned(OcclusionBuffer::find(&triangles)),
         };
-        (Items::new(segments, &grid, &covers), covers)
+        (TileSegments::new(segments, &grid, &covers), covers)
     };
     let ((items, covers), boxes) = crate::parallel::join(items, || triangles.tile_boxes());
-    let Items { open: items, buried } = items;
+    let TileSegments { open: items, buried } = items;
     let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
     let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
 
@@ -126,14 +126,14 @@ pub(crate) fn decide_with(
     let reaches = if several { triangles.reaches() } else { Vec::new() };
     let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
 
-    let compared = Compared { triangles: &triangles, segments, limits, counting };
+    let compared = OcclusionInput { triangles: &triangles, segments, limits, counting };
     let long = LongPairs::find(&compared, &items, &occluders);
-    let context = Context { compared, long: long.as_ref() };
-    const TILES: usize = 64;
-    let decided = |memory: &mut Memory, tiles: Range<usize>| {
+    let context = TileContext { compared, long: long.as_ref() };
+    const TILES_PER_TASK: usize = 64;
+    let decided = |memory: &mut TileScratch, tiles: Range<usize>| {
         let mut result = TileResult::default();
         for tile in tiles {
-            let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
+            let mut decide = |items: &[TileSegment], ids: &mut dyn Iterator<Item = &u32>| {
                 if !items.is_empty() {
                     memory.triangles.replace(ids.map(reach), &grid, tile, limits);
                     context.decide_tile(items, memory, &grid, tile, &mut result);
@@ -143,7 +143,7 @@ pub(crate) fn decide_with(
             match &long {
                 None => decide(items, &mut ids.iter()),
                 Some(long) => {
-                    let (of_long, others): (Vec<Item>, Vec<Item>) =
+                    let (of_long, others): (Vec<TileSegment>, Vec<TileSegment>) =
                         items.iter().partition(|item| long.has(item.segment));
                     decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
                     decide(&others, &mut ids.iter());
@@ -154,11 +154,15 @@ pub(crate) fn decide_with(
         result
     };
     // Some tiles are crowded and most are not, so tasks are small and buffers are lent to them.
-    let memories = Spare::default();
-    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
+    let memories = ScratchPool::default();
+    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
-        .map(|k| memories.lend(|memory| decided(memory, k * TILES..((k + 1) * TILES).min(grid.len()))))
+        .map(|k| {
+            memories.lend(|memory| {
+                decided(memory, k * TILES_PER_TASK..((k + 1) * TILES_PER_TASK).min(grid.len()))
+            })
+        })
         .collect();
     let long_tests = long.as_ref().map_or(0, |long| long.tests);
     // Freed first, because sorting the results takes the same amount of memory again.
@@ -171,10 +175,10 @@ pub(crate) fn decide_with(
 /// Gathers the results of all tiles by segment and joins them there.
 fn gather(
     segments: &[ImageSegment],
-    limits: &Limits,
-    buried_items: &[Item],
+    limits: &ViewTolerances,
+    buried_items: &[TileSegment],
     results: &[TileResult],
-) -> Visibility {
+) -> SegmentVisibility {
     let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
     let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.whole));
     // The parts of a segment divide its parameter range. So a segment is entirely hidden if its hidden parts
@@ -183,19 +187,22 @@ fn gather(
     for item in wholes() {
         length[item.segment as usize] += item.end - item.start;
     }
-    let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
+    let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - MAX_VISIBLE_SHARE).collect();
     let open = |segment: u32| !buried[segment as usize];
     let hidden = || {
-        let of_item = |item: &Item| (item.segment, whole(item.start, item.end));
+        let of_item = |item: &TileSegment| (item.segment, whole(item.start, item.end));
         let pieces = results.iter().flat_map(|r| &r.hidden).copied();
         let found = wholes().map(of_item).chain(pieces).filter(|(segment, _)| open(*segment));
-        let hidden = grouped_pairs(segments.len(), found.map(|(segment, layer)| (segment as usize, layer)));
+        let hidden =
+            csr_lists_from_pairs(segments.len(), found.map(|(segment, layer)| (segment as usize, layer)));
         hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))
     };
     let backed = || {
         let pairs = results.iter().flat_map(|r| &r.backed);
-        let backed =
-            grouped_pairs(segments.len(), pairs.map(|(segment, interval)| (*segment as usize, *interval)));
+        let backed = csr_lists_from_pairs(
+            segments.len(),
+            pairs.map(|(segment, interval)| (*segment as usize, *interval)),
+        );
         backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
             // Near a corner, the outer side may graze a face that only shares the vertex.
@@ -206,11 +213,11 @@ fn gather(
         })
     };
     let (hidden, backed) = crate::parallel::join(hidden, backed);
-    Visibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
+    SegmentVisibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
 }
 
 /// Joins touching pieces of equal count and drops those shorter than rounding.
-fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
+fn join_layers(layers: &mut Vec<HiddenInterval>, shortest: f64) {
     layers.sort_by(|a, b| a.interval.start.total_cmp(&b.interval.start));
     join_touching(layers, shortest);
     layers.retain(|l| l.interval.end - l.interval.start > shortest);
@@ -220,7 +227,7 @@ fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
 }
 
 /// Joins neighbours of equal count with a gap of at most `gap` between them.
-fn join_touching(layers: &mut Vec<Layer>, gap: f64) {
+fn join_touching(layers: &mut Vec<HiddenInterval>, gap: f64) {
     let mut last = 0;
     for i in 1..layers.len() {
         let layer = layers[i];

@@ -2,37 +2,37 @@
 
 use glam::DVec3;
 
-use crate::geometry::lists::csr_lists::grouped;
+use crate::geometry::lists::csr_lists::csr_lists;
 use crate::visibility::culling::long_pairs::LongPairs;
-use crate::visibility::culling::longest_interval::{NO_RUN, longer};
-use crate::visibility::culling::nearness_bound::{OPEN, step};
+use crate::visibility::culling::longest_interval::{NO_INTERVAL, longer};
+use crate::visibility::culling::nearness_bound::{UNCOVERED, step};
 use crate::visibility::culling::occlusion_buffer;
-use crate::visibility::culling::tile_occluders::{LookedUp, TileTriangles};
-use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
-use crate::visibility::occlusion::occlusion_input::{Compared, Item};
+use crate::visibility::culling::tile_occluders::{LoadedTriangle, TileOccluders};
+use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
+use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
 use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
-use crate::visibility::occlusion::tiled_triangles::Reach;
+use crate::visibility::occlusion::tiled_triangles::OccluderBounds;
 use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::tiles::tile_grid::Grid;
-use crate::visibility::tiles::triangle_columns::Sides;
+use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
 
 /// Lists up to this length are neither sorted nor subdivided.
-const FEW: usize = 32;
+const MAX_UNSORTED_TRIANGLES: usize = 32;
 /// Largest number of pairs per segment and triangle of a tile before it is subdivided.
-const CROWD: usize = 64;
+const MAX_PAIRS_PER_ENTRY: usize = 64;
 /// Finer tiles along each side of a subdivided tile.
-const FINER: u32 = 8;
+const SUBDIVISIONS_PER_SIDE: u32 = 8;
 /// Largest growth factor of the number of pairs for keeping a subdivision.
-const IN_VAIN: usize = 2;
+const MAX_PAIR_GROWTH: usize = 2;
 
 /// Results of a run of tiles.
 #[derive(Debug, Default)]
 pub(crate) struct TileResult {
     /// Segment parts that are hidden from end to end.
-    pub(crate) whole: Vec<Item>,
+    pub(crate) whole: Vec<TileSegment>,
     /// Hidden pieces of the other segment parts.
-    pub(crate) hidden: Vec<(u32, Layer)>,
+    pub(crate) hidden: Vec<(u32, HiddenInterval)>,
     /// Where a segment that may bound a surface has no background next to it.
     pub(crate) backed: Vec<(u32, Interval)>,
     /// Number of comparisons between a segment and a triangle.
@@ -50,72 +50,78 @@ impl TileResult {
 
 /// Input shared by all tiles.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Context<'a> {
-    pub(crate) compared: Compared<'a>,
+pub(crate) struct TileContext<'a> {
+    pub(crate) compared: OcclusionInput<'a>,
     /// Results known for long lines; their parts are only compared with the other triangles.
     pub(crate) long: Option<&'a LongPairs>,
 }
 
 /// Buffers that a worker reuses from tile to tile.
 #[derive(Debug, Default)]
-pub(crate) struct Memory {
+pub(crate) struct TileScratch {
     /// The triangles of the tile.
-    pub(crate) triangles: TileTriangles,
+    pub(crate) triangles: TileOccluders,
     /// 0, 1, 2 and so on.
     numbers: Vec<u32>,
     /// Buffers for the comparison of one segment part.
-    found: Found,
+    found: SegmentScratch,
 }
 
 /// Intervals found for one segment part, before they are merged.
 #[derive(Debug, Default)]
-struct Found {
+struct SegmentScratch {
     hidden: Vec<Interval>,
     /// Layers known to hide it before the comparison.
-    known: Vec<Layer>,
-    layers: Vec<Layer>,
+    known: Vec<HiddenInterval>,
+    layers: Vec<HiddenInterval>,
 }
 
 /// Triangles of a tile to compare.
 #[derive(Clone, Copy)]
-struct Entries<'a> {
+struct TriangleChoice<'a> {
     chosen: &'a [u32],
     /// Whether they are sorted, nearest first.
     ordered: bool,
 }
 
-impl Context<'_> {
+impl TileContext<'_> {
     /// Compares the segment parts of a tile of a grid with its triangles.
     pub(crate) fn decide_tile(
         &self,
-        items: &[Item],
-        memory: &mut Memory,
-        grid: &Grid,
+        items: &[TileSegment],
+        memory: &mut TileScratch,
+        grid: &TileGrid,
         tile: usize,
         result: &mut TileResult,
     ) {
         let count = memory.triangles.reaches.len();
         let mut numbers = std::mem::take(&mut memory.numbers);
         numbers.extend(numbers.len() as u32..count as u32);
-        let entries = Entries { chosen: &numbers[..count], ordered: false };
+        let entries = TriangleChoice { chosen: &numbers[..count], ordered: false };
         self.decide(items, memory, entries, (grid, tile), result);
         memory.numbers = numbers;
     }
 
     fn decide(
         &self,
-        items: &[Item],
-        memory: &mut Memory,
-        entries: Entries,
-        (grid, tile): (&Grid, usize),
+        items: &[TileSegment],
+        memory: &mut TileScratch,
+        entries: TriangleChoice,
+        (grid, tile): (&TileGrid, usize),
         result: &mut TileResult,
     ) {
-        let Compared { segments, limits, counting, .. } = self.compared;
+        let OcclusionInput { segments, limits, counting, .. } = self.compared;
         let count = entries.chosen.len();
-        if count > FEW
-            && items.len() * count > CROWD * (items.len() + count)
+        if count > MAX_UNSORTED_TRIANGLES
+            && items.len() * count > MAX_PAIRS_PER_ENTRY * (items.len() + count)
             && grid.cell > limits.beside * 64.0
-            && self.decide_finer(items, memory, entries, &grid.of_tile(tile, FINER), result)
+            && self.decide_subdivided(
+                items,
+                memory,
+                entries,
+                &grid.of_tile(tile, SUBDIVISIONS_PER_SIDE),
+                result,
+            )
         {
             return;
         }
@@ -123,14 +129,14 @@ impl Context<'_> {
         let mut entries = entries;
         // Sorting pays with many lines and many triangles, because a hidden line then meets its occluder
         // first.
-        if !counting && count > FEW && items.len() > FEW / 4 {
+        if !counting && count > MAX_UNSORTED_TRIANGLES && items.len() > MAX_UNSORTED_TRIANGLES / 4 {
             sorted = nearest_first(&memory.triangles.reaches, entries.chosen);
-            entries = Entries { chosen: &sorted, ordered: true };
+            entries = TriangleChoice { chosen: &sorted, ordered: true };
         }
-        let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut memory.found);
+        let SegmentScratch { mut hidden, mut known, mut layers } = std::mem::take(&mut memory.found);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &segments[item.segment as usize];
-            let is_whole = |l: &Layer| l.interval.start <= item.start && l.interval.end >= item.end;
+            let is_whole = |l: &HiddenInterval| l.interval.start <= item.start && l.interval.end >= item.end;
             known.clear();
             known.extend(self.long.iter().flat_map(|long| long.hidden(item)));
             if !counting && known.iter().any(is_whole) {
@@ -157,7 +163,7 @@ impl Context<'_> {
                 self.gather_backed(segment, item, &mut memory.triangles, entries, result);
             }
         }
-        memory.found = Found { hidden, known, layers };
+        memory.found = SegmentScratch { hidden, known, layers };
     }
 
     /// Subdivides a crowded tile: where a dense model is small on the page, the grid over the page does not
@@ -165,26 +171,26 @@ impl Context<'_> {
     ///
     /// Returns false and decides nothing where lines and triangles lie along each other, because they would
     /// only meet more often.
-    fn decide_finer(
+    fn decide_subdivided(
         &self,
-        items: &[Item],
-        memory: &mut Memory,
-        entries: Entries,
-        grid: &Grid,
+        items: &[TileSegment],
+        memory: &mut TileScratch,
+        entries: TriangleChoice,
+        grid: &TileGrid,
         result: &mut TileResult,
     ) -> bool {
-        let Compared { triangles, segments, limits, counting } = self.compared;
+        let OcclusionInput { triangles, segments, limits, counting } = self.compared;
         let before = result.whole.len();
-        let mut cover = vec![OPEN; grid.len()];
+        let mut cover = vec![UNCOVERED; grid.len()];
         if !counting {
             for entry in entries.chosen {
-                let whole = &memory.triangles.look_up(*entry, triangles).whole;
+                let whole = &memory.triangles.load_triangle(*entry, triangles).whole;
                 let frame = &triangles.view.frame;
                 let step = step(&whole.corners, limits, &whole.slack, frame);
                 occlusion_buffer::add(&whole.corners, grid, step, limits, &mut cover);
             }
         }
-        let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
+        let mut fine: Vec<(u32, TileSegment)> = Vec::with_capacity(items.len() * 2);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &segments[item.segment as usize];
             let (a, b) = (segment.at(item.start), segment.at(item.end));
@@ -192,7 +198,7 @@ impl Context<'_> {
             let (first_fine, first_whole) = (fine.len(), result.whole.len());
             grid.walk(a, b, |tile, t0, t1| {
                 let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
-                let part = Item { start: at(t0), end: at(t1), ..*item };
+                let part = TileSegment { start: at(t0), end: at(t1), ..*item };
                 if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < f64::from(cover[tile]) {
                     result.whole.push(part);
                 } else {
@@ -204,52 +210,53 @@ impl Context<'_> {
                 result.whole.push(*item);
             }
         }
-        let fine_items = grouped(grid.len(), |put| {
+        let fine_items = csr_lists(grid.len(), |put| {
             for (tile, item) in &fine {
                 put(*tile as usize, *item);
             }
         });
-        let fine_pairs = self.finer_pairs(&mut memory.triangles, entries, grid, |tile, nearest| {
+        let fine_pairs = self.subdivided_pairs(&mut memory.triangles, entries, grid, |tile, nearest| {
             nearest >= f64::from(cover[tile]) && !fine_items.of(tile).is_empty()
         });
-        let fine_entries = grouped(grid.len(), |put| {
+        let fine_entries = csr_lists(grid.len(), |put| {
             for (tile, entry) in &fine_pairs {
                 put(*tile as usize, *entry);
             }
         });
         let pairs = |tile: usize| fine_items.of(tile).len() * fine_entries.of(tile).len();
-        if (0..grid.len()).map(pairs).sum::<usize>() > IN_VAIN * items.len() * entries.chosen.len() {
+        if (0..grid.len()).map(pairs).sum::<usize>() > MAX_PAIR_GROWTH * items.len() * entries.chosen.len() {
             result.whole.truncate(before);
             return false;
         }
         for tile in 0..grid.len() {
             let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
             if !items.is_empty() {
-                self.decide(items, memory, Entries { chosen, ordered: false }, (grid, tile), result);
+                self.decide(items, memory, TriangleChoice { chosen, ordered: false }, (grid, tile), result);
             }
         }
         true
     }
 
     /// Pairs of finer tile and triangle that may overlap, where `is_wanted(tile, nearness)`.
-    fn finer_pairs(
+    fn subdivided_pairs(
         &self,
-        all: &mut TileTriangles,
-        entries: Entries,
-        grid: &Grid,
+        all: &mut TileOccluders,
+        entries: TriangleChoice,
+        grid: &TileGrid,
         is_wanted: impl Fn(usize, f64) -> bool,
     ) -> Vec<(u32, u32)> {
-        let Compared { triangles, limits, .. } = self.compared;
+        let OcclusionInput { triangles, limits, .. } = self.compared;
         let slack = 2.0 * limits.beside;
         let reach = grid.cell / 2.0 * (1.0 + 1e-5) + slack;
         let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
         for entry in entries.chosen {
-            let Reach { bounds, nearest, .. } = all.reaches[*entry as usize];
+            let OccluderBounds { bounds, nearest, .. } = all.reaches[*entry as usize];
             let [left, right, top, bottom] = bounds.map(f64::from);
             let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
             let tiles = grid.tile_box(low - slack, high + slack);
             // The bounding box of a needle-shaped triangle contains many tiles that the triangle misses.
-            let sides = (tiles.area() > 4).then(|| Sides::new(&all.look_up(*entry, triangles).whole.corners));
+            let sides = (tiles.area() > 4)
+                .then(|| TriangleHalfPlanes::new(&all.load_triangle(*entry, triangles).whole.corners));
             for row in tiles.top..=tiles.bottom {
                 let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
                 let columns = sides.as_ref().map_or(whole, |sides| sides.columns(grid, tiles, row, reach));
@@ -268,13 +275,13 @@ impl Context<'_> {
     fn gather_hidden(
         &self,
         segment: &ImageSegment,
-        item: &Item,
-        all: &mut TileTriangles,
-        entries: Entries,
+        item: &TileSegment,
+        all: &mut TileOccluders,
+        entries: TriangleChoice,
         hidden: &mut Vec<Interval>,
         tests: &mut u64,
     ) -> bool {
-        let Compared { triangles, limits, counting, .. } = self.compared;
+        let OcclusionInput { triangles, limits, counting, .. } = self.compared;
         let (p, q) = (segment.at(item.start), segment.at(item.end));
         let (low, high) = (p.min(q), p.max(q));
         let bounds = [
@@ -285,7 +292,7 @@ impl Context<'_> {
         ];
         let farthest = (low.z as f32).next_down();
         let ends = all.window.both([p, q].map(DVec3::truncate));
-        let mut run = NO_RUN;
+        let mut run = NO_INTERVAL;
         for entry in entries.chosen {
             let reach = &all.reaches[*entry as usize];
             if reach.nearest < farthest {
@@ -302,8 +309,8 @@ impl Context<'_> {
                 continue;
             }
             *tests += 1;
-            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
                 continue;
             }
             let range = (item.start, item.end);
@@ -328,20 +335,20 @@ impl Context<'_> {
     fn gather_backed(
         &self,
         segment: &ImageSegment,
-        item: &Item,
-        all: &mut TileTriangles,
-        entries: Entries,
+        item: &TileSegment,
+        all: &mut TileOccluders,
+        entries: TriangleChoice,
         result: &mut TileResult,
     ) {
         let sides = OuterSides::of(segment, self.compared.triangles);
         let mut open = sides.open();
         match (open.next(), open.next()) {
             (None, _) => result.backed.push((item.segment, backdrop(item.start, item.end))),
-            (Some(side), None) => self.gather_beside(side, item, all, entries, &mut result.backed),
+            (Some(side), None) => self.gather_backdrop(side, item, all, entries, &mut result.backed),
             (Some(first), Some(second)) => {
                 let [first, second] = [first, second].map(|side| {
                     let mut found = Vec::new();
-                    self.gather_beside(side, item, all, entries, &mut found);
+                    self.gather_backdrop(side, item, all, entries, &mut found);
                     found.into_iter().map(|(_, interval)| interval).collect()
                 });
                 result
@@ -352,20 +359,20 @@ impl Context<'_> {
     }
 
     /// Collects the ranges where a surface lies next to a segment on one side.
-    fn gather_beside(
+    fn gather_backdrop(
         &self,
         (number, side): (usize, &OuterSide),
-        item: &Item,
-        all: &mut TileTriangles,
-        entries: Entries,
+        item: &TileSegment,
+        all: &mut TileOccluders,
+        entries: TriangleChoice,
         backed: &mut Vec<(u32, Interval)>,
     ) {
-        let Compared { triangles, segments, limits, .. } = self.compared;
+        let OcclusionInput { triangles, segments, limits, .. } = self.compared;
         let segment = &segments[item.segment as usize];
         let beside = side.beside(segment.at(item.start), segment.at(item.end));
         let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
         let ends = all.window.both(beside);
-        let mut run = NO_RUN;
+        let mut run = NO_INTERVAL;
         for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
             backed.push((item.segment, interval));
             run = longer(run, (interval.start, interval.end));
@@ -379,8 +386,8 @@ impl Context<'_> {
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
                 continue;
             }
             let Some((start, end)) = side.range(whole, limits) else { continue };
@@ -394,7 +401,7 @@ impl Context<'_> {
 }
 
 /// Some of the triangles, nearest first; equally near ones in their order.
-fn nearest_first(reaches: &[Reach], chosen: &[u32]) -> Vec<u32> {
+fn nearest_first(reaches: &[OccluderBounds], chosen: &[u32]) -> Vec<u32> {
     // Bits that sort by falling nearness, above the index in the tile.
     let key = |entry: &u32| {
         let bits = reaches[*entry as usize].nearest.to_bits();

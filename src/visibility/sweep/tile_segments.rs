@@ -1,56 +1,69 @@
-//! [`Items`]: the parts of all segments in each tile, except those behind the occlusion buffer.
+//! [`TileSegments`]: the parts of all segments in each tile, except those behind the occlusion buffer.
 
 use crate::parallel::prelude::*;
 
-use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::lines::Role;
-use crate::visibility::culling::occlusion_buffer::Covers;
-use crate::visibility::occlusion::occlusion_input::Item;
+use crate::visibility::culling::occlusion_buffer::OcclusionBuffer;
+use crate::visibility::occlusion::occlusion_input::TileSegment;
 use crate::visibility::projection::image_segments::ImageSegment;
-use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::tile_grid::TileGrid;
 
 /// Segments per task.
-const CHUNK: usize = 1 << 10;
+const SEGMENTS_PER_TASK: usize = 1 << 10;
 
 /// Parts of all segments whose visibility is computed.
 #[derive(Debug)]
-pub(crate) struct Items {
+pub(crate) struct TileSegments {
     /// Parts that must be compared with triangles, by tile.
-    pub open: Grouped<Item>,
+    pub open: CsrLists<TileSegment>,
     /// Parts behind the occlusion buffer; a single one for a segment that is entirely behind it.
-    pub buried: Vec<Item>,
+    pub buried: Vec<TileSegment>,
 }
 
 /// Parts of the segments of one task; open parts come with their tiles.
 #[derive(Default)]
-struct Walked {
-    open: Vec<(u32, Item)>,
-    buried: Vec<Item>,
+struct TraversedSegments {
+    open: Vec<(u32, TileSegment)>,
+    buried: Vec<TileSegment>,
 }
 
-impl Items {
+impl TileSegments {
     /// Splits all segments at tile borders. Smooth contours are skipped, because they take their visibility
     /// from the mesh contour.
-    pub fn new(segments: &[ImageSegment], grid: &Grid, covers: &Covers) -> Self {
-        let walked: Vec<Walked> = (0..segments.len().div_ceil(CHUNK))
+    pub fn new(segments: &[ImageSegment], grid: &TileGrid, covers: &OcclusionBuffer) -> Self {
+        let walked: Vec<TraversedSegments> = (0..segments.len().div_ceil(SEGMENTS_PER_TASK))
             .into_par_iter()
             .with_max_len(1)
-            .map(|k| walked(segments, k * CHUNK..((k + 1) * CHUNK).min(segments.len()), grid, covers))
+            .map(|k| {
+                walked(
+                    segments,
+                    k * SEGMENTS_PER_TASK..((k + 1) * SEGMENTS_PER_TASK).min(segments.len()),
+                    grid,
+                    covers,
+                )
+            })
             .collect();
         let pairs = walked.iter().flat_map(|walked| &walked.open).map(|(tile, item)| (*tile as usize, *item));
-        let open = grouped_pairs(grid.len(), pairs);
+        let open = csr_lists_from_pairs(grid.len(), pairs);
         let buried = walked.iter().flat_map(|walked| &walked.buried).copied().collect();
         Self { open, buried }
     }
 }
 
-fn walked(segments: &[ImageSegment], some: std::ops::Range<usize>, grid: &Grid, covers: &Covers) -> Walked {
-    let Walked { mut open, mut buried } = Walked::default();
-    for (segment, s) in some.map(|k| (k as u32, &segments[k])).filter(|(_, s)| s.role != Role::Curve) {
+fn walked(
+    segments: &[ImageSegment],
+    some: std::ops::Range<usize>,
+    grid: &TileGrid,
+    covers: &OcclusionBuffer,
+) -> TraversedSegments {
+    let TraversedSegments { mut open, mut buried } = TraversedSegments::default();
+    for (segment, s) in some.map(|k| (k as u32, &segments[k])).filter(|(_, s)| s.role != Role::SmoothContour)
+    {
         let before = (open.len(), buried.len());
         grid.walk(s.a, s.b, |tile, start, end| {
-            let item = Item { segment, start, end };
-            if covers.bury(s, tile, start, end) {
+            let item = TileSegment { segment, start, end };
+            if covers.hides_segment_part(s, tile, start, end) {
                 buried.push(item);
             } else {
                 open.push((tile as u32, item));
@@ -58,10 +71,10 @@ fn walked(segments: &[ImageSegment], some: std::ops::Range<usize>, grid: &Grid, 
         });
         if open.len() == before.0 && buried.len() > before.1 {
             buried.truncate(before.1);
-            buried.push(Item { segment, start: 0.0, end: 1.0 });
+            buried.push(TileSegment { segment, start: 0.0, end: 1.0 });
         }
     }
-    Walked { open, buried }
+    TraversedSegments { open, buried }
 }
 
 #[cfg(test)]
@@ -73,10 +86,10 @@ mod tests {
     use crate::mesh::{Mesh, Soup};
     use crate::scene::{Camera, UpAxis};
     use crate::view::View;
-    use crate::visibility::occlusion::tiled_triangles::Triangles;
-    use crate::visibility::view_tolerances::Limits;
+    use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
+    use crate::visibility::view_tolerances::ViewTolerances;
 
-    const SIDE: f64 = 200.0;
+    const FRAME_SIDE: f64 = 200.0;
 
     fn part(n: u64, axis: u64) -> f64 {
         hash(axis, &[n]) as f64 / u64::MAX as f64
@@ -94,7 +107,9 @@ mod tests {
         let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
         let view = View::new(
             &mesh,
-            &Camera::azimuth_elevation(0.0, 0.0, UpAxis::Y).with_frame(SIDE, SIDE).fit_points(&points, 0.05),
+            &Camera::azimuth_elevation(0.0, 0.0, UpAxis::Y)
+                .with_frame(FRAME_SIDE, FRAME_SIDE)
+                .fit_points(&points, 0.05),
         );
         (mesh, view)
     }
@@ -104,8 +119,9 @@ mod tests {
         let depths = || view.points.iter().map(|p| p.z);
         let (far, near) =
             (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
-        let point =
-            |n: u64| DVec3::new(part(n, 0) * SIDE, part(n, 1) * SIDE, far + (near - far) * part(n, 2));
+        let point = |n: u64| {
+            DVec3::new(part(n, 0) * FRAME_SIDE, part(n, 1) * FRAME_SIDE, far + (near - far) * part(n, 2))
+        };
         let segment = |n: u64| {
             let a = point(2 * n);
             ImageSegment {
@@ -116,7 +132,7 @@ mod tests {
                 hosts: [u32::MAX; 2],
                 source: n as u32,
                 bounds: false,
-                role: if n.is_multiple_of(10) { Role::Curve } else { Role::Line },
+                role: if n.is_multiple_of(10) { Role::SmoothContour } else { Role::Line },
             }
         };
         (0..count).map(segment).collect()
@@ -125,14 +141,15 @@ mod tests {
     #[test]
     fn items_part_each_line_and_what_is_buried_lies_behind_the_nearest_plate() {
         let (mesh, view) = plates();
-        let limits = Limits::new(&view.frame);
+        let limits = ViewTolerances::new(&view.frame);
         let nearest = view.points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
-        let segments = segments(&view, 3 * CHUNK as u64);
-        let grid = Grid::new(DVec2::ZERO, DVec2::splat(SIDE), 32);
-        let found = Covers::find(&Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits });
+        let segments = segments(&view, 3 * SEGMENTS_PER_TASK as u64);
+        let grid = TileGrid::new(DVec2::ZERO, DVec2::splat(FRAME_SIDE), 32);
+        let found =
+            OcclusionBuffer::find(&TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits });
         assert!(!found.is_empty());
-        for covers in [Covers::none(&grid), found] {
-            let Items { open, buried } = Items::new(&segments, &grid, &covers);
+        for covers in [OcclusionBuffer::none(&grid), found] {
+            let TileSegments { open, buried } = TileSegments::new(&segments, &grid, &covers);
             let mut parts = vec![0.0; segments.len()];
             for tile in 0..grid.len() {
                 let mut last = 0;

@@ -2,14 +2,14 @@
 
 use glam::{DVec2, DVec3};
 
-use super::tile_grid::Grid;
+use super::tile_grid::TileGrid;
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Grid over the bounding box of some segments.
 ///
 /// Tiles are a power of two wide and lie on multiples of their width, so they rarely move when lines change.
-pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, across: u32) -> Grid {
+pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, across: u32) -> TileGrid {
     let around = segments.fold(None, |around: Option<(DVec3, DVec3)>, s| {
         let (low, high) = around.unwrap_or((s.a, s.a));
         Some((low.min(s.a).min(s.b), high.max(s.a).max(s.b)))
@@ -19,14 +19,14 @@ pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, ac
 }
 
 /// Grid over a box, with the same alignment.
-pub(crate) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
+pub(crate) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> TileGrid {
     let size = (high - low).max_element();
     if !(size > 0.0 && size.is_finite()) {
-        return Grid::new(low, high, across);
+        return TileGrid::new(low, high, across);
     }
     // Gives 0.7 to 1.4 times the requested number of tiles.
     let cell = power_of_two_above(size / f64::from(across) * std::f64::consts::FRAC_1_SQRT_2);
-    Grid::of_cells((low / cell).floor() * cell, high, cell)
+    TileGrid::of_cells((low / cell).floor() * cell, high, cell)
 }
 
 /// Tiles across the page for a number of triangles. Denser meshes get smaller tiles; crowded tiles are

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 /// Square tiles that cover a part of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
+pub struct TileGrid {
     /// Number of tiles from left to right.
     pub columns: u32,
     /// Number of tiles from top to bottom.
@@ -69,12 +69,12 @@ impl TileBox {
 ///
 /// The ranges of several points combine to that of their bounding box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Around {
+pub(crate) struct TileReach {
     from: [u16; 2],
     to: [u16; 2],
 }
 
-impl Around {
+impl TileReach {
     /// Range of a point without image position; makes every combined range empty.
     pub const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
 
@@ -87,10 +87,10 @@ impl Around {
     }
 }
 
-impl Grid {
+impl TileGrid {
     /// Range of a point with a margin of `slack` to all sides.
     #[inline]
-    pub(crate) fn around(&self, point: DVec3, slack: f64) -> Around {
+    pub(crate) fn around(&self, point: DVec3, slack: f64) -> TileReach {
         let last = self.corner(self.columns, self.rows);
         let place = |x: f64, first: f64, last: f64, tile: u32, count: u32| {
             if x < first {
@@ -104,12 +104,12 @@ impl Grid {
         let column = |x: f64| place(x, self.origin.x, last.x, self.column(x), self.columns);
         let row = |y: f64| place(y, self.origin.y, last.y, self.row(y), self.rows);
         let (low, high) = (point - slack, point + slack);
-        Around { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
+        TileReach { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
     }
 
     /// Tiles in a range; equals [`Self::tile_box`] of the bounding box of its points and margins.
     #[inline]
-    pub(crate) fn tiles_within(&self, around: Around) -> TileBox {
+    pub(crate) fn tiles_within(&self, around: TileReach) -> TileBox {
         let ([left, top], [right, bottom]) = (around.from, around.to);
         let (columns, rows) = (self.columns as u16, self.rows as u16);
         let is_off = right == 0 || left > columns || bottom == 0 || top > rows;
@@ -272,8 +272,8 @@ impl Grid {
 mod tests {
     use super::*;
 
-    fn grid() -> Grid {
-        Grid::new(DVec2::ZERO, DVec2::new(100.0, 60.0), 10)
+    fn grid() -> TileGrid {
+        TileGrid::new(DVec2::ZERO, DVec2::new(100.0, 60.0), 10)
     }
 
     #[test]

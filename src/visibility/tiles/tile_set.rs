@@ -1,24 +1,28 @@
 //! [`TileSet`]: a set of tiles of a grid, with ranks and queries by block.
 
-use super::tile_grid::{Grid, TileBox};
-use crate::geometry::lists::rank_bitset::Ranks;
+use super::tile_grid::{TileBox, TileGrid};
+use crate::geometry::lists::rank_bitset::RankBitset;
 
 /// Set of tiles of a grid, numbered row by row.
 #[derive(Debug)]
 pub(crate) struct TileSet {
     /// Rows begin at whole words.
-    held: Ranks,
+    held: RankBitset,
     columns: usize,
     stride: usize,
 }
 
 impl TileSet {
     /// Set of the listed tiles, in any order and with repetitions.
-    pub fn new(grid: &Grid, listed: impl IntoIterator<Item = usize>) -> Self {
+    pub fn new(grid: &TileGrid, listed: impl IntoIterator<Item = usize>) -> Self {
         let columns = grid.columns as usize;
         let stride = columns.next_multiple_of(64);
         let place = |tile: usize| tile / columns * stride + tile % columns;
-        Self { held: Ranks::new(grid.rows as usize * stride, listed.into_iter().map(place)), columns, stride }
+        Self {
+            held: RankBitset::new(grid.rows as usize * stride, listed.into_iter().map(place)),
+            columns,
+            stride,
+        }
     }
 
     /// Number of tiles.
@@ -73,7 +77,7 @@ mod tests {
     fn blocks_meet_the_tiles_that_they_hold() {
         // With 3 and with 150 columns, so rows take one word or several.
         for (size, of) in [((3.0, 50.0), 9), ((50.0, 3.0), 40), ((150.0, 20.0), 100), ((150.0, 150.0), 3)] {
-            let grid = Grid::of_cells(DVec2::ZERO, DVec2::from(size) - 0.5, 1.0);
+            let grid = TileGrid::of_cells(DVec2::ZERO, DVec2::from(size) - 0.5, 1.0);
             let is_held = |tile: &usize| hash(1, &[*tile as u64]).is_multiple_of(of);
             let plain: Vec<usize> = (0..grid.len()).filter(is_held).collect();
             let set = TileSet::new(&grid, plain.iter().copied());

@@ -1,16 +1,16 @@
-//! [`Sides`]: the sides of a triangle in the image as half planes, and the squares of a grid row inside them.
+//! [`TriangleHalfPlanes`]: the sides of a triangle in the image as half planes, and the squares of a grid row inside them.
 
 use glam::{DVec2, DVec3};
 
-use super::tile_grid::{Grid, TileBox};
+use super::tile_grid::{TileBox, TileGrid};
 
 /// The three sides of a projected triangle as inward half planes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sides([Side; 3]);
+pub(crate) struct TriangleHalfPlanes([SideHalfPlane; 3]);
 
 /// Inward half plane n·x + d > 0, solved for x.
 #[derive(Debug, Clone, Copy)]
-struct Side {
+struct SideHalfPlane {
     /// −1 if x must be greater, 1 if it must be less, 0 if n has no x component.
     way: f64,
     /// x at y = 0 and its growth with y. Without x component of n: d and the y component.
@@ -20,7 +20,7 @@ struct Side {
     aside: f64,
 }
 
-impl Side {
+impl SideHalfPlane {
     fn new(n: DVec2, d: f64) -> Self {
         let aside = n.x.abs() + n.y.abs();
         let solved = Self { way: -n.x.signum(), at: -d / n.x, along: -n.y / n.x, aside: aside / n.x };
@@ -32,13 +32,13 @@ impl Side {
     }
 }
 
-impl Sides {
+impl TriangleHalfPlanes {
     pub(crate) fn new(points: &[DVec3; 3]) -> Self {
         let [a, b, c] = points.map(DVec3::truncate);
         let sign = (b - a).perp_dot(c - a).signum();
         let side = |p: DVec2, q: DVec2| {
             let normal = (q - p).perp() * sign;
-            Side::new(normal, -normal.dot(p))
+            SideHalfPlane::new(normal, -normal.dot(p))
         };
         Self([side(a, b), side(b, c), side(c, a)])
     }
@@ -49,7 +49,13 @@ impl Sides {
     /// A square with half side h and centre c is entirely inside a side n·x + d > 0 if n·c + d > h (|nx| +
     /// |ny|). This is solved for the x of the centre, row by row.
     #[inline]
-    pub(crate) fn columns(&self, grid: &Grid, tiles: TileBox, row: u16, reach: f64) -> std::ops::Range<u32> {
+    pub(crate) fn columns(
+        &self,
+        grid: &TileGrid,
+        tiles: TileBox,
+        row: u16,
+        reach: f64,
+    ) -> std::ops::Range<u32> {
         let corner = grid.corner(0, u32::from(row));
         let y = corner.y + grid.cell / 2.0;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -87,11 +93,11 @@ mod tests {
     #[test]
     fn columns_are_those_of_looking_at_each_square() {
         let mut dice = Dice::new(3);
-        let grid = Grid::new(DVec2::ZERO, DVec2::splat(64.0), 64);
+        let grid = TileGrid::new(DVec2::ZERO, DVec2::splat(64.0), 64);
         let (mut filled, mut met) = (0, 0);
         for _ in 0..300 {
             let points = [0; 3].map(|_| dice.point(40.0) + DVec3::splat(32.0));
-            let sides = Sides::new(&points);
+            let sides = TriangleHalfPlanes::new(&points);
             let [a, b, c] = points.map(DVec3::truncate);
             let way = (b - a).perp_dot(c - a).signum();
             // Smallest distance of a point from the sides, positive inside.

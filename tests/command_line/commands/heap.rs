@@ -6,10 +6,10 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 /// Bytes of the heap that are marked for huge pages (`hg`) in `/proc/<process>/smaps`.
-fn in_large_pages(process: u32) -> u64 {
+fn huge_page_heap_bytes(process: u32) -> u64 {
     let maps = fs::read_to_string(format!("/proc/{process}/smaps")).unwrap_or_default();
     let (mut heap, mut size, mut large) = (false, 0, 0);
     for line in maps.lines() {
@@ -25,12 +25,12 @@ fn in_large_pages(process: u32) -> u64 {
 }
 
 #[test]
-fn the_heap_is_in_large_pages() {
+fn the_heap_uses_huge_pages() {
     if !Path::new("/sys/kernel/mm/transparent_hugepage").exists() {
         eprintln!("skipped: this system has no large pages");
         return;
     }
-    let folder = Folder::new("heap");
+    let folder = TestFolder::new("heap");
     let mut command = folder.command(&["draw", "-", "a.svg", "--format", "obj"]);
     // The program waits for a model on standard input.
     let mut child =
@@ -39,7 +39,7 @@ fn the_heap_is_in_large_pages() {
     let mut large = 0;
     while large == 0 && start.elapsed() < Duration::from_secs(20) {
         std::thread::sleep(Duration::from_millis(5));
-        large = in_large_pages(child.id());
+        large = huge_page_heap_bytes(child.id());
     }
     drop(child.stdin.take());
     let _ = child.wait();

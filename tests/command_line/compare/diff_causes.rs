@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 /// Writes `<name>-new.glb`: an example model with its glTF document edited.
-fn model(folder: &Folder, name: &str, edit: impl Fn(&mut Value)) {
+fn write_edited_model(folder: &TestFolder, name: &str, edit: impl Fn(&mut Value)) {
     let path = format!("{}/examples/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
     let bytes = std::fs::read(path).unwrap();
     let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
@@ -24,15 +24,15 @@ fn model(folder: &Folder, name: &str, edit: impl Fn(&mut Value)) {
 }
 
 /// Index of the named entry in a list of the glTF document.
-fn place(document: &Value, list: &str, name: &str) -> usize {
+fn index_of(document: &Value, list: &str, name: &str) -> usize {
     let list = document[list].as_array().unwrap();
     list.iter().position(|entry| entry["name"] == name).unwrap()
 }
 
 /// An edit that moves a node.
-fn moved(name: &str, by: [f64; 3]) -> impl Fn(&mut Value) {
+fn move_node(name: &str, by: [f64; 3]) -> impl Fn(&mut Value) {
     move |document| {
-        let node = place(document, "nodes", name);
+        let node = index_of(document, "nodes", name);
         let was = document["nodes"][node]["translation"].clone();
         let at = |axis: usize| was[axis].as_f64().unwrap_or(0.0) + by[axis];
         document["nodes"][node]["translation"] = json!([at(0), at(1), at(2)]);
@@ -40,67 +40,75 @@ fn moved(name: &str, by: [f64; 3]) -> impl Fn(&mut Value) {
 }
 
 /// An edit that removes the mesh of a node.
-fn gone(name: &str) -> impl Fn(&mut Value) {
+fn remove_mesh(name: &str) -> impl Fn(&mut Value) {
     move |document| {
-        let node = place(document, "nodes", name);
+        let node = index_of(document, "nodes", name);
         // A node without a mesh draws nothing.
         document["nodes"][node].as_object_mut().unwrap().remove("mesh");
     }
 }
 
 /// An edit that changes the base colour of a material.
-fn recoloured(name: &str, colour: [f64; 3]) -> impl Fn(&mut Value) {
+fn recolour_material(name: &str, colour: [f64; 3]) -> impl Fn(&mut Value) {
     move |document| {
-        let material = place(document, "materials", name);
+        let material = index_of(document, "materials", name);
         let [r, g, b] = colour;
         document["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"] = json!([r, g, b, 1.0]);
     }
 }
 
 /// The findings in the output, one per line, without the summary at the end.
-fn sentences(told: &str) -> Vec<&str> {
+fn finding_lines(told: &str) -> Vec<&str> {
     let mut lines: Vec<&str> = told.lines().collect();
     lines.pop();
     lines
 }
 
 #[test]
-fn an_edit_of_a_model_is_one_sentence() {
-    let folder = Folder::new("diff-causes-models");
+fn one_model_edit_is_reported_as_one_finding() {
+    let folder = TestFolder::new("diff-causes-models");
     type Edit = Box<dyn Fn(&mut Value)>;
     let edits: [(&str, Edit, &str); 6] = [
-        ("pump", Box::new(gone("filler-plug")), "removed    part `filler-plug`: all its 22 marks"),
-        ("pump", Box::new(recoloured("brass", [0.1, 0.2, 0.8])), "restyled   material `brass`: colour #"),
+        ("pump", Box::new(remove_mesh("filler-plug")), "removed    part `filler-plug`: all its 22 marks"),
         (
             "pump",
-            Box::new(moved("terminal-box", [0.0, 0.0, 6.0])),
+            Box::new(recolour_material("brass", [0.1, 0.2, 0.8])),
+            "restyled   material `brass`: colour #",
+        ),
+        (
+            "pump",
+            Box::new(move_node("terminal-box", [0.0, 0.0, 6.0])),
             "moved      `terminal-box` 0.268 px right, 8.88 px up; also changed around it: ",
         ),
         (
             "street",
-            Box::new(moved("chimney-15", [0.3, 0.0, 0.0])),
+            Box::new(move_node("chimney-15", [0.3, 0.0, 0.0])),
             "moved      `chimney-15` 5.41 px right, 1.11 px down; also changed around it: ",
         ),
-        ("street", Box::new(gone("chimney-15")), "removed    part `chimney-15`: all its 8 marks"),
-        ("street", Box::new(recoloured("tile", [0.5, 0.1, 0.1])), "restyled   material `tile`: colour #"),
+        ("street", Box::new(remove_mesh("chimney-15")), "removed    part `chimney-15`: all its 8 marks"),
+        (
+            "street",
+            Box::new(recolour_material("tile", [0.5, 0.1, 0.1])),
+            "restyled   material `tile`: colour #",
+        ),
     ];
     for (name, edit, wanted) in edits {
-        model(&folder, name, edit);
+        write_edited_model(&folder, name, edit);
         let old = format!("{}/examples/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
         let told = folder.ligne(&format!("diff {old} {name}-new.glb --style toon"));
-        told.ends(1);
-        let lines = sentences(&told.out);
+        told.expect_status(1);
+        let lines = finding_lines(&told.out);
         assert!(lines.len() == 1 && lines[0].starts_with(wanted), "{wanted}: {}", told.out);
         let all = folder.ligne(&format!("diff {old} {name}-new.glb --style toon --all"));
-        assert!(sentences(&all.out).len() > 2, "{}", all.out);
+        assert!(finding_lines(&all.out).len() > 2, "{}", all.out);
     }
 }
 
 #[test]
-fn an_edit_of_a_whole_drawing_is_one_sentence() {
-    let folder = Folder::new("diff-causes-drawings");
+fn one_edit_of_a_whole_drawing_is_reported_as_one_finding() {
+    let folder = TestFolder::new("diff-causes-drawings");
     let street = format!("{}/examples/models/street.glb", env!("CARGO_MANIFEST_DIR"));
-    folder.ligne(&format!("draw {street} old.svg --style technical")).done();
+    folder.ligne(&format!("draw {street} old.svg --style technical")).expect_success();
     let old = folder.text("old.svg");
     let (start, end) = (old.find("<title>").unwrap(), old.rfind("</svg>").unwrap());
     let within = |transform: &str| {
@@ -138,10 +146,10 @@ fn an_edit_of_a_whole_drawing_is_one_sentence() {
     for (new, wanted) in edits {
         folder.write("new.svg", &new);
         let told = folder.ligne("diff old.svg new.svg");
-        told.ends(1);
-        let lines = sentences(&told.out);
+        told.expect_status(1);
+        let lines = finding_lines(&told.out);
         assert!(lines.len() == 1 && lines[0].starts_with(wanted), "{wanted}: {}", told.out);
     }
-    folder.ligne("diff old.svg new.svg --ignore labels").ends(0).says("the same");
-    folder.ligne("diff old.svg new.svg --ignore shapes").ends(2).says("cannot be ignored");
+    folder.ligne("diff old.svg new.svg --ignore labels").expect_status(0).expect_output("the same");
+    folder.ligne("diff old.svg new.svg --ignore shapes").expect_status(2).expect_output("cannot be ignored");
 }

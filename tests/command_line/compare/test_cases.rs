@@ -1,39 +1,39 @@
 //! `ligne test`: approved drawings, detected changes, tolerances, and JUnit and HTML reports.
 
-use crate::folder::{Folder, Run};
+use crate::folder::{RunResult, TestFolder};
 use usvg::roxmltree::{Document, Node};
 
-const VIEW: &str = "model = '../cubes.obj'\nazimuth = 30\nsize = 300\n";
+const CASE_TOML: &str = "model = '../cubes.obj'\nazimuth = 30\nsize = 300\n";
 
 /// A folder with two approved cases, `cases/ink` and `cases/deep/toon`.
-fn approved(name: &str) -> Folder {
-    let folder = Folder::new(name);
+fn folder_with_approved_cases(name: &str) -> TestFolder {
+    let folder = TestFolder::new(name);
     folder.write("cubes.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl blue\nKd 0.1 0.1 0.8\n");
-    folder.write("cubes.obj", &painted("blue"));
-    folder.write("cases/ink.toml", VIEW);
+    folder.write("cubes.obj", &cubes_with_materials("blue"));
+    folder.write("cases/ink.toml", CASE_TOML);
     folder.write("cases/deep/toon.toml", "model = '../../cubes.obj'\nstyle = 'toon'\nsize = 200\n");
-    folder.ligne("test cases --bless").done();
+    folder.ligne("test cases --bless").expect_success();
     folder
 }
 
 /// The cubes as OBJ, with a red base and a knob of the given material.
-fn painted(knob: &str) -> String {
+fn cubes_with_materials(knob: &str) -> String {
     let text = crate::folder::CUBES.replacen("o base", "mtllib cubes.mtl\no base\nusemtl red", 1);
     text.replacen("o knob", &format!("o knob\nusemtl {knob}"), 1)
 }
 
 /// Checks that some drawings differ without errors, and returns standard output.
-fn failing(run: &Run) -> &str {
+fn expect_differences(run: &RunResult) -> &str {
     assert_eq!((run.status, run.err.as_str()), (Some(1), ""), "{run:?}");
     &run.out
 }
 
 #[test]
-fn what_is_blessed_passes() {
-    let folder = Folder::with_cubes("test-bless");
-    folder.write("cases/ink.toml", VIEW);
+fn blessed_drawings_pass() {
+    let folder = TestFolder::with_cubes("test-bless");
+    folder.write("cases/ink.toml", CASE_TOML);
     let run = folder.ligne("test cases");
-    let out = failing(&run);
+    let out = expect_differences(&run);
     assert!(
         out.starts_with("new      ink: cases/ink.svg is not approved yet\n1 case: 0 passed, 1 is new\n"),
         "{out}"
@@ -41,117 +41,119 @@ fn what_is_blessed_passes() {
     assert!(out.contains("--bless"), "{out}");
     assert_eq!(folder.names_in("cases"), ["ink.toml"]);
     let blessed = folder.ligne("test cases --bless");
-    assert!(blessed.done().out.starts_with("blessed  ink: "), "{blessed:?}");
+    assert!(blessed.expect_success().out.starts_with("blessed  ink: "), "{blessed:?}");
     assert_eq!(folder.names_in("cases"), ["ink.svg", "ink.toml"]);
-    folder.ligne("draw cubes.obj wanted.svg --azimuth 30 --size 300").done();
+    folder.ligne("draw cubes.obj wanted.svg --azimuth 30 --size 300").expect_success();
     assert_eq!(folder.text("cases/ink.svg"), folder.text("wanted.svg"));
-    assert_eq!(folder.ligne("test cases").done().out, "passed   ink\n1 case: 1 passed\n");
-    assert_eq!(folder.ligne("test cases --quiet").done().out, "");
-    assert_eq!(folder.ligne("test cases/ink.toml").done().out, "passed   ink\n1 case: 1 passed\n");
+    assert_eq!(folder.ligne("test cases").expect_success().out, "passed   ink\n1 case: 1 passed\n");
+    assert_eq!(folder.ligne("test cases --quiet").expect_success().out, "");
+    assert_eq!(folder.ligne("test cases/ink.toml").expect_success().out, "passed   ink\n1 case: 1 passed\n");
     // Drawings that pass are not rewritten.
     let touched = folder.text("cases/ink.svg") + "<!-- mine -->";
     folder.write("cases/ink.svg", &touched);
-    assert_eq!(folder.ligne("test cases --bless").done().out, "passed   ink\n1 case: 1 passed\n");
+    assert_eq!(folder.ligne("test cases --bless").expect_success().out, "passed   ink\n1 case: 1 passed\n");
     assert_eq!(folder.text("cases/ink.svg"), touched);
 }
 
 #[test]
-fn a_machine_may_not_bless() {
-    let folder = approved("test-ci");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+fn bless_is_refused_in_ci() {
+    let folder = folder_with_approved_cases("test-ci");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 60\n"));
     let before = folder.text("cases/ink.svg");
     let run = folder.run_with(&[("CI", "true")], "test cases --bless");
-    run.refused("error: --bless: drawings cannot be approved in CI");
+    run.expect_refusal("error: --bless: drawings cannot be approved in CI");
     assert_eq!(folder.text("cases/ink.svg"), before);
-    failing(&folder.run_with(&[("CI", "true")], "test cases"));
-    folder.run_with(&[("CI", "")], "test cases --bless").done();
+    expect_differences(&folder.run_with(&[("CI", "true")], "test cases"));
+    folder.run_with(&[("CI", "")], "test cases --bless").expect_success();
     assert_ne!(folder.text("cases/ink.svg"), before);
 }
 
 #[test]
-fn a_camera_moved_by_a_fifth_of_a_degree_is_seen() {
-    let folder = approved("test-camera");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 30.2\n"));
+fn a_camera_turn_of_a_fifth_of_a_degree_is_detected() {
+    let folder = folder_with_approved_cases("test-camera");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 30.2\n"));
     let run = folder.ligne("test cases");
-    let out = failing(&run);
+    let out = expect_differences(&run);
     assert!(out.contains("passed   deep/toon\ndiffers  ink: "), "{out}");
     assert!(out.contains("base") && out.contains("knob"), "{out}");
     assert!(out.contains("2 cases: 1 passed, 1 differs\n"), "{out}");
     // The tolerance of a case applies to that case.
-    folder.write("cases/ink.toml", &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = '5px'\n"));
-    folder.ligne("test cases").done();
+    folder.write("cases/ink.toml", &(CASE_TOML.replace("= 30\n", "= 30.2\n") + "tolerance = '5px'\n"));
+    folder.ligne("test cases").expect_success();
     folder.write(
         "cases/ink.toml",
-        &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = { default = 5, contour = '0.01px' }\n"),
+        &(CASE_TOML.replace("= 30\n", "= 30.2\n") + "tolerance = { default = 5, contour = '0.01px' }\n"),
     );
-    failing(&folder.ligne("test cases"));
+    expect_differences(&folder.ligne("test cases"));
 }
 
 #[test]
-fn the_tolerance_of_the_project_counts() {
-    let folder = approved("test-project");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 30.2\n"));
+fn config_tolerance_applies_unless_the_case_sets_one() {
+    let folder = folder_with_approved_cases("test-project");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 30.2\n"));
     // Drawing defaults in `ligne.toml` do not apply to cases.
     folder.write(
         "ligne.toml",
         "[draw]\nstyle = 'technical'\nazimuth = 5\n[diff]\ntolerance = { lines = '5px' }\n",
     );
-    folder.ligne("test cases").done();
-    failing(&folder.ligne("test cases --no-config"));
-    failing(&folder.ligne("--no-config test cases"));
-    folder
-        .write("cases/ink.toml", &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = { lines = '0.1px' }\n"));
-    failing(&folder.ligne("test cases"));
+    folder.ligne("test cases").expect_success();
+    expect_differences(&folder.ligne("test cases --no-config"));
+    expect_differences(&folder.ligne("--no-config test cases"));
+    folder.write(
+        "cases/ink.toml",
+        &(CASE_TOML.replace("= 30\n", "= 30.2\n") + "tolerance = { lines = '0.1px' }\n"),
+    );
+    expect_differences(&folder.ligne("test cases"));
     folder.write("ligne.toml", "[diff]\ntolerance = { lines = 'wide' }\n");
-    folder.ligne("test cases").refused("ligne.toml: line 2: `wide` is not a tolerance");
+    folder.ligne("test cases").expect_refusal("ligne.toml: line 2: `wide` is not a tolerance");
     folder.write("ligne.toml", "[diff]\ntolerence = 1\n");
     folder
         .ligne("test cases")
-        .refused("ligne.toml: line 2: unknown key `tolerence`; did you mean `tolerance`?");
+        .expect_refusal("ligne.toml: line 2: unknown key `tolerence`; did you mean `tolerance`?");
 }
 
 #[test]
-fn a_part_left_out_is_named() {
-    let folder = approved("test-part");
+fn an_added_or_removed_part_is_named() {
+    let folder = folder_with_approved_cases("test-part");
     folder.write(
         "cases/ink.toml",
-        &(VIEW.to_owned() + "hide = 'knob'\ncamera = '../camera.json'\n").replace("azimuth = 30\n", ""),
+        &(CASE_TOML.to_owned() + "hide = 'knob'\ncamera = '../camera.json'\n").replace("azimuth = 30\n", ""),
     );
-    folder.write("camera.json", CAMERA);
-    folder.ligne("test cases --bless").done();
+    folder.write("camera.json", CAMERA_JSON);
+    folder.ligne("test cases --bless").expect_success();
     let whole = folder.text("cases/ink.toml").replace("hide = 'knob'\n", "");
     folder.write("cases/ink.toml", &whole);
     let run = folder.ligne("test cases");
-    let out = failing(&run);
+    let out = expect_differences(&run);
     let lines: Vec<&str> = out.lines().filter(|line| line.starts_with("         ")).collect();
     assert!(lines.iter().any(|line| line.contains("knob")), "{out}");
-    folder.ligne("test cases --bless").done();
+    folder.ligne("test cases --bless").expect_success();
     folder.write("cases/ink.toml", &(whole + "hide = 'knob'\n"));
     let run = folder.ligne("test cases");
-    let out = failing(&run);
+    let out = expect_differences(&run);
     assert!(out.lines().any(|line| line.starts_with("         ") && line.contains("knob")), "{out}");
 }
 
 /// A camera that frames both cubes, even when one is hidden.
-const CAMERA: &str = r#"{"type":"perspective","eye":[6,5,9],"target":[0,0.75,0],"up":[0,1,0],"fov_y_deg":35,
+const CAMERA_JSON: &str = r#"{"type":"perspective","eye":[6,5,9],"target":[0,0.75,0],"up":[0,1,0],"fov_y_deg":35,
     "width_px":300,"height_px":300}"#;
 
 #[test]
-fn another_colour_is_seen() {
-    let folder = approved("test-colour");
+fn a_changed_colour_is_detected() {
+    let folder = folder_with_approved_cases("test-colour");
     folder.write("cubes.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl blue\nKd 0.1 0.7 0.8\n");
     let run = folder.ligne("test cases");
-    let out = failing(&run);
+    let out = expect_differences(&run);
     assert!(out.contains("differs  deep/toon: ") && out.contains("passed   ink\n"), "{out}");
     let lines: Vec<&str> = out.lines().filter(|line| line.starts_with("         ")).collect();
     assert!(!lines.is_empty() && lines.iter().all(|line| line.contains("knob")), "{out}");
 }
 
 #[test]
-fn broken_cases_fail_and_hinder_blessing() {
-    let folder = approved("test-broken");
+fn broken_cases_fail_and_prevent_blessing() {
+    let folder = folder_with_approved_cases("test-broken");
     let before = folder.text("cases/ink.svg");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 60\n"));
     let faults = [
         (
             "model = '../cubes.obj'\nazimut = 3\n",
@@ -193,48 +195,54 @@ fn broken_cases_fail_and_hinder_blessing() {
 }
 
 #[test]
-fn wrong_calls_are_refused() {
-    let folder = approved("test-calls");
+fn wrong_test_arguments_are_refused() {
+    let folder = folder_with_approved_cases("test-calls");
     folder.write("empty/readme.txt", "nothing");
-    folder.ligne("test empty").refused("error: empty: this folder contains no case");
-    folder.ligne("test nowhere").refused("nowhere: there is no such folder");
-    folder.ligne("test cases --only none").refused("no case has a matching name");
-    folder.ligne("test cases --report none/a.html").refused("create the folder first");
-    folder.ligne("test cases --report-all").refused("--html");
+    folder.ligne("test empty").expect_refusal("error: empty: this folder contains no case");
+    folder.ligne("test nowhere").expect_refusal("nowhere: there is no such folder");
+    folder.ligne("test cases --only none").expect_refusal("no case has a matching name");
+    folder.ligne("test cases --report none/a.html").expect_refusal("create the folder first");
+    folder.ligne("test cases --report-all").expect_refusal("--html");
 }
 
 #[test]
-fn only_some_and_what_is_passed_over() {
-    let folder = approved("test-only");
+fn only_selects_cases_and_unrelated_files_are_skipped() {
+    let folder = folder_with_approved_cases("test-only");
     folder.write("cases/_sheets/mine.toml", "extends = 'ink'\n");
     folder.write("cases/.hidden.toml", "x");
     folder.write("cases/ligne.toml", "[draw]\nstyle = 'toon'\n");
-    folder.write("cases/ink.toml", &(VIEW.to_owned() + "style = '_sheets/mine.toml'\n"));
+    folder.write("cases/ink.toml", &(CASE_TOML.to_owned() + "style = '_sheets/mine.toml'\n"));
     let run = folder.ligne("test cases --threads 1");
-    assert_eq!(run.done().out, "passed   deep/toon\npassed   ink\n2 cases: 2 passed\n");
-    assert_eq!(folder.ligne("test cases --only deep/*").done().out, "passed   deep/toon\n1 case: 1 passed\n");
+    assert_eq!(run.expect_success().out, "passed   deep/toon\npassed   ink\n2 cases: 2 passed\n");
+    assert_eq!(
+        folder.ligne("test cases --only deep/*").expect_success().out,
+        "passed   deep/toon\n1 case: 1 passed\n"
+    );
     folder.write("cases/deep/old.svg", "<svg/>");
     let run = folder.ligne("test cases");
-    assert!(run.done().err.starts_with("warning: cases/deep/old.svg: no case uses this drawing"), "{run:?}");
+    assert!(
+        run.expect_success().err.starts_with("warning: cases/deep/old.svg: no case uses this drawing"),
+        "{run:?}"
+    );
     // A case may name its drawing file.
     folder.write(
         "cases/deep/named.toml",
         "model = '../../cubes.obj'\nstyle = 'toon'\nsize = 200\ndrawing = 'old.svg'\n",
     );
     folder.write("cases/deep/old.svg", &folder.text("cases/deep/toon.svg"));
-    assert_eq!(folder.ligne("test cases").done().err, "");
+    assert_eq!(folder.ligne("test cases").expect_success().err, "");
 }
 
 /// Child elements with this name.
-fn children<'a>(node: Node<'a, 'a>, name: &str) -> Vec<Node<'a, 'a>> {
+fn child_elements<'a>(node: Node<'a, 'a>, name: &str) -> Vec<Node<'a, 'a>> {
     node.children().filter(|child| child.has_tag_name(name)).collect()
 }
 
 #[test]
-fn junit_tells_passes_failures_and_errors() {
-    let folder = approved("test-junit");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
-    folder.write("cases/new.toml", VIEW);
+fn junit_reports_passes_failures_and_errors() {
+    let folder = folder_with_approved_cases("test-junit");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 60\n"));
+    folder.write("cases/new.toml", CASE_TOML);
     folder.write("cases/broken & <wrong>.toml", "model = '../none.obj'\n");
     let run = folder.ligne("test cases --junit results.xml");
     assert_eq!(run.status, Some(2), "{run:?}");
@@ -242,10 +250,10 @@ fn junit_tells_passes_failures_and_errors() {
     let document = Document::parse(&text).expect("XML");
     let suites = document.root_element();
     assert_eq!(suites.tag_name().name(), "testsuites");
-    let suite = children(suites, "testsuite")[0];
+    let suite = child_elements(suites, "testsuite")[0];
     let count = |name: &str| suite.attribute(name).unwrap_or_default().to_owned();
     assert_eq!(["tests", "failures", "errors", "skipped"].map(count), ["4", "2", "1", "0"]);
-    let cases = children(suite, "testcase");
+    let cases = child_elements(suite, "testcase");
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = cases.iter().map(name).collect();
     assert_eq!(names, ["broken & <wrong>", "deep/toon", "ink", "new"]);
@@ -272,11 +280,11 @@ fn junit_tells_passes_failures_and_errors() {
 }
 
 #[test]
-fn the_page_shows_before_after_and_difference() {
-    let folder = approved("test-page");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
-    folder.write("cases/new.toml", VIEW);
-    failing(&folder.ligne("test cases --report page.html"));
+fn html_report_shows_before_after_and_difference() {
+    let folder = folder_with_approved_cases("test-page");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 60\n"));
+    folder.write("cases/new.toml", CASE_TOML);
+    expect_differences(&folder.ligne("test cases --report page.html"));
     let html = folder.text("page.html");
     let document =
         Document::parse(html.strip_prefix("<!DOCTYPE html>\n").expect("a doctype")).expect("well-formed");
@@ -297,7 +305,7 @@ fn the_page_shows_before_after_and_difference() {
         !html.contains("http:") && !html.contains("https:") && !html.contains("<script"),
         "asks for nothing"
     );
-    failing(&folder.ligne("test cases --report page.html --report-all"));
+    expect_differences(&folder.ligne("test cases --report page.html --report-all"));
     let html = folder.text("page.html");
     let document =
         Document::parse(html.strip_prefix("<!DOCTYPE html>\n").expect("a doctype")).expect("well-formed");
@@ -305,17 +313,17 @@ fn the_page_shows_before_after_and_difference() {
 }
 
 #[test]
-fn drawings_that_fail_are_kept_while_they_fail() {
-    let folder = approved("test-output");
-    folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 60\n"));
+fn failing_drawings_are_kept_until_they_pass() {
+    let folder = folder_with_approved_cases("test-output");
+    folder.write("cases/ink.toml", &CASE_TOML.replace("= 30\n", "= 60\n"));
     folder.write("cases/deep/new.toml", "model = '../../cubes.obj'\n");
-    failing(&folder.ligne("test cases --output out"));
+    expect_differences(&folder.ligne("test cases --output out"));
     assert_eq!(folder.names_in("out"), ["deep", "ink.actual.svg", "ink.diff.svg"]);
     assert_eq!(folder.names_in("out/deep"), ["new.actual.svg"]);
-    folder.ligne("draw cubes.obj wanted.svg --azimuth 60 --size 300").done();
+    folder.ligne("draw cubes.obj wanted.svg --azimuth 60 --size 300").expect_success();
     assert_eq!(folder.text("out/ink.actual.svg"), folder.text("wanted.svg"));
     Document::parse(&folder.text("out/ink.diff.svg")).expect("XML");
-    folder.ligne("test cases --bless --output out").done();
+    folder.ligne("test cases --bless --output out").expect_success();
     assert_eq!(folder.names_in("out"), ["deep"]);
     assert!(folder.names_in("out/deep").is_empty());
 }

@@ -13,7 +13,7 @@ use std::process::Command;
 use std::thread;
 
 use super::links_and_examples::{documents, read, root};
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 /// A fenced block of a page.
 struct Block<'a> {
@@ -24,7 +24,7 @@ struct Block<'a> {
 }
 
 /// All fenced blocks of a Markdown page, in order.
-fn blocks(page: &str) -> Vec<Block<'_>> {
+fn fenced_blocks(page: &str) -> Vec<Block<'_>> {
     let mut found: Vec<Block> = Vec::new();
     let mut is_open = false;
     for (number, line) in page.lines().enumerate() {
@@ -49,12 +49,12 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
 }
 
 /// Copies a folder with all subfolders.
-fn copy(from: &Path, to: &Path) {
+fn copy_folder(from: &Path, to: &Path) {
     fs::create_dir_all(to).unwrap();
     for entry in fs::read_dir(from).unwrap().flatten() {
         let target = to.join(entry.file_name());
         if entry.path().is_dir() {
-            copy(&entry.path(), &target)
+            copy_folder(&entry.path(), &target)
         } else {
             fs::copy(entry.path(), target).unwrap();
         }
@@ -77,14 +77,14 @@ fn is_installed(program: &str) -> bool {
 /// Runs the blocks of a page. Returns the failures and the number of blocks that ran.
 fn run_page(page: &str, with_slow: bool) -> (Vec<String>, usize) {
     let text = read(page);
-    let blocks = blocks(&text);
+    let blocks = fenced_blocks(&text);
     let is_command = |block: &&Block| block.language == "sh";
     let (mut faults, mut count) = (Vec::new(), 0);
     if !blocks.iter().any(|block| is_command(&block)) {
         return (faults, count);
     }
-    let folder = Folder::new("documented");
-    copy(&root().join("examples"), &folder.path("examples"));
+    let folder = TestFolder::new("documented");
+    copy_folder(&root().join("examples"), &folder.path("examples"));
     for block in &blocks {
         if let Some(name) = block.words.iter().find_map(|word| word.strip_prefix("file=")) {
             folder.write(name, &block.text);
@@ -137,21 +137,21 @@ fn run_all(with_slow: bool) {
 
 #[cfg(unix)]
 #[test]
-fn commands_of_the_pages_run_as_written() {
+fn documented_commands_run_as_written() {
     run_all(false);
 }
 
 #[cfg(unix)]
 #[test]
 #[ignore = "long: the slow commands as well"]
-fn all_commands_of_the_pages_run_as_written() {
+fn all_documented_commands_including_slow_ones_run_as_written() {
     run_all(true);
 }
 
 #[test]
-fn blocks_are_found_with_their_words() {
+fn fenced_blocks_are_parsed_with_their_words() {
     let page = "a\n```sh slow needs=vpype\nls\n```\n```toml file=a.toml\nb = 1\n```\n";
-    let found = blocks(page);
+    let found = fenced_blocks(page);
     assert_eq!(found.len(), 2);
     assert_eq!((found[0].line, found[0].language, found[0].text.as_str()), (2, "sh", "ls\n"));
     assert_eq!(found[0].words, ["slow", "needs=vpype"]);

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 /// Limits for all documents together.
 const MAX_MEAN_WORDS: f64 = 15.0;
@@ -13,13 +13,13 @@ const MAX_LONG_SHARE: f64 = 0.04;
 const MAX_PHRASES_PER_1000: f64 = 1.0;
 
 /// Longer sentences count as long.
-const LONG_SENTENCE: usize = 30;
+const MAX_SENTENCE_WORDS: usize = 30;
 
 /// Shorter sentences are labels and do not count.
-const SHORTEST_SENTENCE: usize = 3;
+const MIN_SENTENCE_WORDS: usize = 3;
 
 /// Phrases that have a plain equivalent. Words are separated by single spaces.
-const PHRASES: [&str; 52] = [
+const HARD_PHRASES: [&str; 52] = [
     "is told",
     "are told",
     "was told",
@@ -75,14 +75,14 @@ const PHRASES: [&str; 52] = [
 ];
 
 /// Words that may follow `What` at the start of a sentence, because they form a question.
-const QUESTIONS: [&str; 9] = ["is", "are", "does", "do", "happens", "if", "to", "can", "should"];
+const QUESTION_WORDS: [&str; 9] = ["is", "are", "does", "do", "happens", "if", "to", "can", "should"];
 
 /// Pages directly in `docs/` that are measured.
 const TOP_PAGES: [&str; 4] = ["index.md", "gallery.md", "troubleshooting.md", "glossary.md"];
 
 /// Counts of a text.
 #[derive(Debug, Default, Clone, Copy)]
-struct Measure {
+struct TextStatistics {
     words: usize,
     sentences: usize,
     words_in_sentences: usize,
@@ -90,7 +90,7 @@ struct Measure {
     phrases: usize,
 }
 
-impl Measure {
+impl TextStatistics {
     fn add(&mut self, other: Self) {
         self.words += other.words;
         self.sentences += other.sentences;
@@ -113,14 +113,14 @@ impl Measure {
 }
 
 /// Replaces every text between two marks with `with`.
-fn without(text: &str, mark: &str, with: &str) -> String {
+fn replace_between(text: &str, mark: &str, with: &str) -> String {
     let parts = text.split(mark).enumerate();
     parts.map(|(number, part)| if number % 2 == 0 { part } else { with }).collect()
 }
 
 /// The paragraphs, list items and table cells of a page, without code, pictures and link targets.
 fn paragraphs(markdown: &str) -> Vec<String> {
-    let text = without(&without(markdown, "```", ""), "`", "x");
+    let text = replace_between(&replace_between(markdown, "```", ""), "`", "x");
     // The target of a link is between `](` and `)`.
     let mut plain = String::new();
     for (number, part) in text.split("](").enumerate() {
@@ -174,10 +174,10 @@ fn sentences(paragraph: &str) -> Vec<&str> {
 }
 
 /// The hard phrases in a sentence.
-fn phrases(sentence: &str) -> Vec<String> {
+fn hard_phrases(sentence: &str) -> Vec<String> {
     let words = words(sentence);
     let text = format!(" {} ", words.join(" "));
-    let mut found: Vec<String> = PHRASES
+    let mut found: Vec<String> = HARD_PHRASES
         .iter()
         .filter(|phrase| text.contains(&format!(" {phrase} ")))
         .map(|phrase| (*phrase).to_owned())
@@ -185,24 +185,24 @@ fn phrases(sentence: &str) -> Vec<String> {
     let is_capital = sentence.trim_start().starts_with("What ");
     if let [_, second, ..] = words.as_slice()
         && is_capital
-        && !QUESTIONS.contains(&second.as_str())
+        && !QUESTION_WORDS.contains(&second.as_str())
     {
         found.push("What as the subject".to_owned());
     }
     found
 }
 
-fn measure(markdown: &str) -> Measure {
-    let mut all = Measure::default();
+fn measure(markdown: &str) -> TextStatistics {
+    let mut all = TextStatistics::default();
     for paragraph in paragraphs(markdown) {
         for sentence in sentences(&paragraph) {
             let count = words(sentence).len();
             all.words += count;
-            all.phrases += phrases(sentence).len();
-            if count >= SHORTEST_SENTENCE {
+            all.phrases += hard_phrases(sentence).len();
+            if count >= MIN_SENTENCE_WORDS {
                 all.sentences += 1;
                 all.words_in_sentences += count;
-                all.long += usize::from(count > LONG_SENTENCE);
+                all.long += usize::from(count > MAX_SENTENCE_WORDS);
             }
         }
     }
@@ -238,7 +238,7 @@ fn documents() -> Vec<PathBuf> {
 
 #[test]
 fn documents_are_written_in_plain_words() {
-    let mut all = Measure::default();
+    let mut all = TextStatistics::default();
     let mut worst = Vec::new();
     for page in documents() {
         let own = measure(&fs::read_to_string(&page).expect("a document"));
@@ -255,7 +255,7 @@ fn documents_are_written_in_plain_words() {
     let is_plain = mean <= MAX_MEAN_WORDS && long <= MAX_LONG_SHARE && phrases <= MAX_PHRASES_PER_1000;
     assert!(
         is_plain,
-        "{mean:.1} words per sentence (at most {MAX_MEAN_WORDS}), {:.1} % of sentences over {LONG_SENTENCE} words (at most {:.0} %), \
+        "{mean:.1} words per sentence (at most {MAX_MEAN_WORDS}), {:.1} % of sentences over {MAX_SENTENCE_WORDS} words (at most {:.0} %), \
          {phrases:.1} phrases per 1,000 words (at most {MAX_PHRASES_PER_1000}); worst:\n{}",
         100.0 * long,
         100.0 * MAX_LONG_SHARE,
@@ -265,25 +265,27 @@ fn documents_are_written_in_plain_words() {
 
 #[test]
 fn help_is_written_in_plain_words() {
-    let folder = Folder::new("language");
-    let program = folder.run(&["--help"]).done().out.clone();
+    let folder = TestFolder::new("language");
+    let program = folder.run(&["--help"]).expect_success().out.clone();
     let (_, list) = program.split_once("Commands:\n").expect("a list of commands");
     let commands =
         list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
     let mut texts = vec![program.clone()];
     texts.extend(
-        commands.filter(|name| *name != "help").map(|name| folder.run(&[name, "--help"]).done().out.clone()),
+        commands
+            .filter(|name| *name != "help")
+            .map(|name| folder.run(&[name, "--help"]).expect_success().out.clone()),
     );
     assert!(texts.len() > 10, "{} texts", texts.len());
     for line in texts.iter().flat_map(|text| text.lines()) {
-        assert!(phrases(line).is_empty(), "{:?} in: {line}", phrases(line));
+        assert!(hard_phrases(line).is_empty(), "{:?} in: {line}", hard_phrases(line));
         let longest = sentences(line).into_iter().map(|sentence| words(sentence).len()).max();
-        assert!(longest.is_none_or(|count| count <= LONG_SENTENCE), "too long: {line}");
+        assert!(longest.is_none_or(|count| count <= MAX_SENTENCE_WORDS), "too long: {line}");
     }
 }
 
 #[test]
-fn the_measure_counts_sentences_and_phrases() {
+fn text_statistics_count_sentences_and_phrases() {
     let page = "# A heading is not counted at all\n\nOne two three. Four five `code, is told`.\n\n- Six seven eight\n\n\
                 | a | What it hides is nobody's business |\n| --- | --- |\n\n```sh\nligne tells so many\n```\n[a link](beyond.md) here\n";
     let measure = measure(page);
@@ -293,8 +295,8 @@ fn the_measure_counts_sentences_and_phrases() {
         "{measure:?}"
     );
     assert_eq!(measure.phrases, 2, "{measure:?}");
-    let long = "word ".repeat(LONG_SENTENCE + 1);
+    let long = "word ".repeat(MAX_SENTENCE_WORDS + 1);
     assert_eq!(self::measure(&long).long, 1);
-    assert_eq!(phrases("What is a crease?"), Vec::<String>::new());
-    assert_eq!(phrases("The file tells its format."), ["tells"]);
+    assert_eq!(hard_phrases("What is a crease?"), Vec::<String>::new());
+    assert_eq!(hard_phrases("The file tells its format."), ["tells"]);
 }

@@ -73,7 +73,7 @@ fn anchor(heading: &str) -> String {
 }
 
 #[test]
-fn links_lead_to_files() {
+fn links_lead_to_existing_files_and_headings() {
     let mut links = 0;
     for document in &documents() {
         let folder = Path::new(document).parent().unwrap_or(Path::new(""));
@@ -94,7 +94,7 @@ fn links_lead_to_files() {
 
 /// Every page is reachable by links from the README.
 #[test]
-fn every_page_can_be_reached() {
+fn every_page_is_linked_from_the_readme() {
     let mut reached = vec![root().join("README.md").canonicalize().unwrap()];
     let mut at = 0;
     while let Some(page) = reached.get(at).cloned() {
@@ -118,7 +118,7 @@ fn every_page_can_be_reached() {
 }
 
 #[test]
-fn the_readme_is_short() {
+fn the_readme_and_the_changelog_are_short() {
     let words = read("README.md").split_whitespace().count();
     assert!(words <= 700, "{words} words");
     let lines = read("CHANGELOG.md").lines().count();
@@ -126,7 +126,7 @@ fn the_readme_is_short() {
 }
 
 #[test]
-fn tests_that_documents_name_are_there() {
+fn tests_named_in_documents_exist() {
     let code = sources("src") + &sources("tests");
     let mut names = 0;
     for document in ["docs/dev/architecture.md", "docs/explanation/exactness.md"] {
@@ -145,7 +145,7 @@ fn tests_that_documents_name_are_there() {
 }
 
 #[test]
-fn options_in_the_pages_are_there() {
+fn options_named_in_documents_exist() {
     let help: String = ["draw", "animate", "diff", "fmt", "test", "info", "lod", "styles", "page"]
         .map(|command| {
             let help = Command::new(env!("CARGO_BIN_EXE_ligne")).args([command, "--help"]).output().unwrap();
@@ -174,7 +174,7 @@ fn options_in_the_pages_are_there() {
 }
 
 #[test]
-fn examples_are_listed() {
+fn all_examples_are_listed_in_their_readme() {
     let index = read("examples/README.md");
     for entry in fs::read_dir(root().join("examples")).unwrap().flatten() {
         let path = entry.path();

@@ -7,23 +7,23 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::links_and_examples::documents;
-use crate::folder::{Folder, Run};
+use crate::folder::{RunResult, TestFolder};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
-fn pictures_are_what_is_drawn() {
+fn documentation_pictures_are_current() {
     let report = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pictures.html");
     let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
     command.args(["test", "docs/pictures/cases", "--quiet", "--report"]).arg(&report).current_dir(root());
-    let run = Run::new(command.output().expect("the program runs"));
+    let run = RunResult::new(command.output().expect("the program runs"));
     assert_eq!(run.status, Some(0), "see {}:\n{}{}", report.display(), run.out, run.err);
 }
 
 #[test]
-fn every_svg_picture_of_the_pages_is_a_case() {
+fn every_documentation_svg_has_a_test_case() {
     let mut cases = String::new();
     for entry in fs::read_dir(root().join("docs/pictures/cases")).expect("cases").flatten() {
         cases += &fs::read_to_string(entry.path()).expect("a case");
@@ -45,24 +45,24 @@ fn every_svg_picture_of_the_pages_is_a_case() {
 }
 
 /// A case that draws the pump, with angles or with a camera that stays fixed when parts are hidden.
-const CASE: &str = "model = '../pump.glb'\nprecision = 2\n";
-const ANGLES: &str = "azimuth = 35\nelevation = 22\nsize = 500\n";
-const CAMERA: &str = r#"{"type":"perspective","eye":[1.1,0.55,1.25],"target":[0.2,-0.03,0],"up":[0,1,0],"fov_y_deg":26,
+const CASE_TOML: &str = "model = '../pump.glb'\nprecision = 2\n";
+const VIEW_TOML: &str = "azimuth = 35\nelevation = 22\nsize = 500\n";
+const CAMERA_JSON: &str = r#"{"type":"perspective","eye":[1.1,0.55,1.25],"target":[0.2,-0.03,0],"up":[0,1,0],"fov_y_deg":26,
     "width_px":500,"height_px":500}"#;
 
 /// A folder whose drawing is approved with one case file, which is then replaced by `case`.
-fn pump(name: &str, approved: &str, case: &str) -> Folder {
-    let folder = Folder::new(name);
+fn folder_with_pump_case(name: &str, approved: &str, case: &str) -> TestFolder {
+    let folder = TestFolder::new(name);
     fs::copy(root().join("examples/models/pump.glb"), folder.path("pump.glb")).expect("the pump");
-    folder.write("camera.json", CAMERA);
+    folder.write("camera.json", CAMERA_JSON);
     folder.write("cases/pump.toml", approved);
-    folder.ligne("test cases --bless").done();
+    folder.ligne("test cases --bless").expect_success();
     folder.write("cases/pump.toml", case);
     folder
 }
 
 /// All findings of the one case that differs, one per line.
-fn findings(folder: &Folder) -> Vec<String> {
+fn findings(folder: &TestFolder) -> Vec<String> {
     let run = folder.ligne("test cases --junit results.xml");
     assert_eq!(run.status, Some(1), "{run:?}");
     let text = folder.text("results.xml");
@@ -72,17 +72,17 @@ fn findings(folder: &Folder) -> Vec<String> {
 }
 
 #[test]
-fn a_bolt_that_is_gone_is_named() {
-    let approved = format!("{CASE}camera = '../camera.json'\n");
-    let folder = pump("pump-bolt", &approved, &format!("{approved}hide = 'frame-bolt-3'\n"));
+fn a_missing_bolt_is_named() {
+    let approved = format!("{CASE_TOML}camera = '../camera.json'\n");
+    let folder = folder_with_pump_case("pump-bolt", &approved, &format!("{approved}hide = 'frame-bolt-3'\n"));
     let told = findings(&folder);
     assert!(told.len() == 1 && told[0].starts_with("removed    part `frame-bolt-3`: all its "), "{told:#?}");
 }
 
 #[test]
-fn a_camera_turned_by_a_fifth_of_a_degree_is_seen() {
-    let approved = format!("{CASE}{ANGLES}");
-    let folder = pump("pump-camera", &approved, &approved.replace("35", "35.2"));
+fn a_camera_turn_of_a_fifth_of_a_degree_is_reported_once() {
+    let approved = format!("{CASE_TOML}{VIEW_TOML}");
+    let folder = folder_with_pump_case("pump-camera", &approved, &approved.replace("35", "35.2"));
     let told = findings(&folder);
     let is_one = told.len() == 1 && told[0].contains("seen from another side: ");
     assert!(is_one, "{told:#?}");
@@ -92,10 +92,10 @@ fn a_camera_turned_by_a_fifth_of_a_degree_is_seen() {
 }
 
 #[test]
-fn one_colour_is_told_by_the_parts_that_have_it() {
-    let approved = format!("{CASE}camera = '../camera.json'\nstyle = 'toon'\n");
+fn a_changed_material_colour_names_its_parts() {
+    let approved = format!("{CASE_TOML}camera = '../camera.json'\nstyle = 'toon'\n");
     let case = format!("{approved}[[set.fills.material]]\nname = 'orange rubber'\ncolour = '#3355ee'\n");
-    let folder = pump("pump-colour", &approved, &case);
+    let folder = folder_with_pump_case("pump-colour", &approved, &case);
     let told = findings(&folder);
     let one = |line: &String| {
         line.starts_with("restyled   ") && line.contains("`coupling-star`") && line.contains("colour #")

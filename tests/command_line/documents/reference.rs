@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 #[test]
-fn the_reference_is_current() {
+fn command_line_reference_is_current() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference/command-line.md");
-    let page = Folder::new("reference").ligne("man --markdown").done().out.clone();
+    let page = TestFolder::new("reference").ligne("man --markdown").expect_success().out.clone();
     let written = fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
     let difference = page.lines().zip(written.lines()).find(|(new, old)| new != old);
     assert!(

@@ -3,20 +3,21 @@
 
 use serde_json::Value;
 
-use crate::folder::{CUBES, Folder};
+use crate::folder::{CUBES, TestFolder};
 
 /// Far from the cubes: a face with collinear vertices, one with a repeated vertex, and a line without length.
-const FAR: &str = "v 5000 10 3\nv 5001 11 4\nv 5002 12 5\nf 17 18 19\nf 17 17 18\nl 19 19\n";
+const DISTANT_DEGENERATE_OBJ: &str =
+    "v 5000 10 3\nv 5001 11 4\nv 5002 12 5\nf 17 18 19\nf 17 17 18\nl 19 19\n";
 
 /// An SVG drawing without its title.
-fn body(svg: &str) -> String {
+fn without_title(svg: &str) -> String {
     svg.lines().filter(|line| !line.starts_with("<title>")).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
-fn what_is_left_out_counts_in_no_frame() {
-    let folder = Folder::with_cubes("left-out");
-    folder.write("far.obj", &format!("{CUBES}{FAR}"));
+fn degenerate_faces_do_not_affect_framing() {
+    let folder = TestFolder::with_cubes("left-out");
+    folder.write("far.obj", &format!("{CUBES}{DISTANT_DEGENERATE_OBJ}"));
     for options in [
         "",
         "--view front",
@@ -26,16 +27,16 @@ fn what_is_left_out_counts_in_no_frame() {
         "--section z --view front",
         "--explode y",
     ] {
-        folder.ligne(&format!("draw cubes.obj a.svg {options}")).done();
+        folder.ligne(&format!("draw cubes.obj a.svg {options}")).expect_success();
         let run = folder.ligne(&format!("draw far.obj b.svg {options}"));
         // The section removes the side with the degenerate faces, so no warning is expected.
-        let is_told = run.done().err.contains("without area");
+        let is_told = run.expect_success().err.contains("without area");
         assert_eq!(is_told, !options.starts_with("--section"), "{run:?}");
-        assert_eq!(body(&folder.text("a.svg")), body(&folder.text("b.svg")), "{options}");
+        assert_eq!(without_title(&folder.text("a.svg")), without_title(&folder.text("b.svg")), "{options}");
     }
     let film = |model: &str| {
-        folder.ligne(&format!("animate {model} {model}-%d.svg --turntable 3 --size 200")).done();
-        (0..3).map(|k| body(&folder.text(&format!("{model}-{k}.svg")))).collect::<Vec<_>>()
+        folder.ligne(&format!("animate {model} {model}-%d.svg --turntable 3 --size 200")).expect_success();
+        (0..3).map(|k| without_title(&folder.text(&format!("{model}-{k}.svg")))).collect::<Vec<_>>()
     };
     assert_eq!(film("cubes.obj"), film("far.obj"));
     // A sheet shows the name of its model, so both models are called `m.obj`.
@@ -44,17 +45,17 @@ fn what_is_left_out_counts_in_no_frame() {
     let sheet = |name: &str, model: &str| {
         folder.write(&format!("{name}/m.obj"), model);
         folder.write(&format!("{name}/m.toml"), page);
-        folder.ligne(&format!("page {name}/m.toml {name}.svg")).done();
+        folder.ligne(&format!("page {name}/m.toml {name}.svg")).expect_success();
         folder.text(&format!("{name}.svg"))
     };
-    assert_eq!(sheet("cubes", CUBES), sheet("far", &format!("{CUBES}{FAR}")));
+    assert_eq!(sheet("cubes", CUBES), sheet("far", &format!("{CUBES}{DISTANT_DEGENERATE_OBJ}")));
 }
 
 #[test]
-fn info_says_what_is_left_out_and_where() {
-    let folder = Folder::with_cubes("left-out-info");
-    folder.write("far.obj", &format!("{CUBES}{FAR}v 1 2 3\n"));
-    let text = folder.ligne("info far.obj").done().out.clone();
+fn info_reports_degenerate_faces_and_their_position() {
+    let folder = TestFolder::with_cubes("left-out-info");
+    folder.write("far.obj", &format!("{CUBES}{DISTANT_DEGENERATE_OBJ}v 1 2 3\n"));
+    let text = folder.ligne("info far.obj").expect_success().out.clone();
     for wanted in [
         "24 triangles, 16 vertices\n  2 x 3.5 x 2, from (-1, -1, -1) to (1, 2.5, 1)\n",
         "  1 vertex that no face or line uses\n",
@@ -63,7 +64,8 @@ fn info_says_what_is_left_out_and_where() {
     ] {
         assert!(text.contains(wanted), "{text}");
     }
-    let json: Value = serde_json::from_str(&folder.ligne("info far.obj --json").done().out).expect("JSON");
+    let json: Value =
+        serde_json::from_str(&folder.ligne("info far.obj --json").expect_success().out).expect("JSON");
     let left_out =
         serde_json::json!([{ "part": "knob", "faces": 2, "lines": 1, "first_at": [5000.0, 10.0, 3.0] }]);
     assert_eq!((&json["left_out"], &json["unused_vertices"]), (&left_out, &Value::from(1)));
@@ -71,28 +73,31 @@ fn info_says_what_is_left_out_and_where() {
 }
 
 #[test]
-fn a_corner_without_a_place_is_named_and_what_needs_it_is_left_out() {
-    let folder = Folder::with_cubes("no-place");
+fn faces_with_unreadable_vertices_are_dropped_with_a_warning() {
+    let folder = TestFolder::with_cubes("no-place");
     folder.write("one.obj", &CUBES.replacen("v -1 1 -1\n", "v -1 1 ?\n", 1));
     let run = folder.ligne("draw one.obj one.svg");
     let told = "line 5: `?` is not a number; 3 faces left out, with such a corner";
-    assert!(run.done().err.contains(told), "{run:?}");
+    assert!(run.expect_success().err.contains(told), "{run:?}");
     let svg = folder.text("one.svg");
-    folder.ligne("draw cubes.obj all.svg").done();
+    folder.ligne("draw cubes.obj all.svg").expect_success();
     assert!(svg.contains("<path") && svg != folder.text("all.svg"));
     folder.write("none.obj", "v [0] [0] [0]\nv [1] [0] [0]\nv [0] [1] [0]\nf 1 2 3\n");
     let run = folder.ligne("draw none.obj none.svg");
-    run.refused(
+    run.expect_refusal(
         "line 1: `[0]` is not a number; 2 more like it; 1 face left out, with such a corner; nothing to draw",
     );
     assert!(!folder.names().contains(&"none.svg".to_owned()));
 }
 
 #[test]
-fn empty_drawings_say_why() {
-    let folder = Folder::with_cubes("empty");
+fn empty_drawings_report_the_reason() {
+    let folder = TestFolder::with_cubes("empty");
     folder.write("needle.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-    folder.write("two.obj", &format!("o needle\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n{}", cubes_after(3)));
+    folder.write(
+        "two.obj",
+        &format!("o needle\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n{}", cubes_with_index_offset(3)),
+    );
     for (call, wanted) in [
         ("draw needle.obj", "the drawing is empty: no face has an area"),
         ("draw two.obj --only needle", "--only and --hide leave nothing else to draw than needle"),
@@ -108,12 +113,12 @@ fn empty_drawings_say_why() {
         let mut words: Vec<&str> = call.split_whitespace().collect();
         words.push("a.svg");
         let run = folder.run(&words);
-        assert!(run.done().err.contains(wanted), "{run:?}");
+        assert!(run.expect_success().err.contains(wanted), "{run:?}");
     }
 }
 
 /// The cubes as OBJ, with indices that start after some vertices of another part.
-fn cubes_after(vertices: usize) -> String {
+fn cubes_with_index_offset(vertices: usize) -> String {
     let moved = |line: &str| match line.strip_prefix("f ") {
         Some(face) => {
             let corners = face
@@ -127,8 +132,8 @@ fn cubes_after(vertices: usize) -> String {
 }
 
 #[test]
-fn pictures_and_libraries_are_found_by_their_names() {
-    let folder = Folder::new("pictures");
+fn textures_and_material_libraries_are_found_by_file_name() {
+    let folder = TestFolder::new("pictures");
     let png = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/trellis-hole.png"));
     let png = png.expect("a picture of this project");
     folder.write("Maps/a.txt", "");
@@ -146,9 +151,10 @@ fn pictures_and_libraries_are_found_by_their_names() {
         "texture ..\\..\\Wall.Png of material `b` is not there; wall.png is used",
         "texture /etc/passwd of material `c` lies outside the model's folder, where no file has its name; it is left out",
     ] {
-        assert!(run.done().err.contains(wanted), "{run:?}");
+        assert!(run.expect_success().err.contains(wanted), "{run:?}");
     }
-    let json: Value = serde_json::from_str(&folder.ligne("info q.obj --json").done().out).expect("JSON");
+    let json: Value =
+        serde_json::from_str(&folder.ligne("info q.obj --json").expect_success().out).expect("JSON");
     assert_eq!(json["materials"][0]["texture"], "Maps/Wall.PNG");
     assert!(json["materials"][0]["texture_size"].is_array(), "{json}");
 }

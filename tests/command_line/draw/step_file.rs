@@ -11,9 +11,9 @@ pub struct StepBox {
 
 /// The entities of a STEP file, numbered from 1.
 #[derive(Default)]
-struct Lines(Vec<String>);
+struct StepEntities(Vec<String>);
 
-impl Lines {
+impl StepEntities {
     /// Appends an entity and returns its number, such as `#7`.
     fn add(&mut self, text: &str) -> String {
         let number = format!("#{}", self.0.len() + 1);
@@ -116,8 +116,8 @@ impl Lines {
 }
 
 /// An assembly `stand` of boxes, with lengths in mm or in inches.
-pub fn step(boxes: &[StepBox], in_inches: bool) -> String {
-    let mut lines = Lines::default();
+pub fn step_assembly(boxes: &[StepBox], in_inches: bool) -> String {
+    let mut lines = StepEntities::default();
     let application = lines.add("APPLICATION_CONTEXT('automotive design')");
     let millimetre = lines.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
     let factor = lines.add(&format!("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),{millimetre})"));
@@ -175,7 +175,7 @@ pub fn step(boxes: &[StepBox], in_inches: bool) -> String {
 
 /// A box of this size in metres, as GLB in the layout of Open CASCADE: the mesh is in a child of the
 /// product's node, and that child is named by a reference.
-pub fn glb(product: &str, size: [f32; 3]) -> Vec<u8> {
+pub fn converted_glb(product: &str, size: [f32; 3]) -> Vec<u8> {
     let corner = |corner: usize| [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { size[axis] } else { 0.0 });
     let positions = (0..8).flat_map(corner).flat_map(f32::to_le_bytes);
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];

@@ -4,26 +4,26 @@ use std::process::Command;
 
 use ligne::diff::canonical_svg;
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 /// The hot-spot layer of a drawing, and the drawing without that layer.
-fn parted(svg: &str) -> (&str, String) {
+fn split_hotspots(svg: &str) -> (&str, String) {
     let begin = svg.find("<g id=\"hotspots\"").expect("hot-spots");
     let end = begin + svg[begin..].find("</g>\n").expect("an end") + 5;
     (&svg[begin..end], format!("{}{}", &svg[..begin], &svg[end..]))
 }
 
 #[test]
-fn hotspots_are_a_layer_on_top_and_change_nothing_else() {
-    let folder = Folder::with_cubes("hotspots");
+fn hotspots_add_a_top_layer_and_change_nothing_else() {
+    let folder = TestFolder::with_cubes("hotspots");
     for style in ["ink", "technical", "toon", "pencil", "plotter --page A5", "toon --group part"] {
         let draw = |out: &str, more: &str| {
-            folder.ligne(&format!("draw cubes.obj {out} --style {style} {more}")).done();
+            folder.ligne(&format!("draw cubes.obj {out} --style {style} {more}")).expect_success();
         };
         draw("plain.svg", "");
         draw("spots.svg", "--hotspots");
         let (plain, spots) = (folder.text("plain.svg"), folder.text("spots.svg"));
-        let (layer, rest) = parted(&spots);
+        let (layer, rest) = split_hotspots(&spots);
         assert_eq!(rest, plain, "{style}");
         assert!(spots.ends_with(&format!("{layer}</svg>\n")), "{style}");
         assert!(layer.contains("fill=\"none\" pointer-events=\"all\""));
@@ -33,20 +33,20 @@ fn hotspots_are_a_layer_on_top_and_change_nothing_else() {
         }
         assert_eq!(canonical_svg(&spots, None).as_deref(), Ok(spots.as_str()), "{style}");
         // Hot-spots are invisible: they change neither the comparison nor the pixels.
-        folder.ligne("diff plain.svg spots.svg").done();
+        folder.ligne("diff plain.svg spots.svg").expect_success();
         draw("plain.png", "");
         draw("spots.png", "--hotspots");
         assert_eq!(folder.read("plain.png"), folder.read("spots.png"), "{style}");
     }
-    folder.ligne("draw cubes.obj plain.pdf").done();
-    folder.ligne("draw cubes.obj spots.pdf --hotspots").done();
+    folder.ligne("draw cubes.obj plain.pdf").expect_success();
+    folder.ligne("draw cubes.obj spots.pdf --hotspots").expect_success();
     assert_eq!(folder.read("plain.pdf"), folder.read("spots.pdf"));
 }
 
 #[test]
-fn the_browser_finds_the_part_under_each_point() {
-    let folder = Folder::with_cubes("hotspots-browser");
-    folder.ligne("draw cubes.obj spots.svg --hotspots --view front --size 400").done();
+fn hotspots_give_the_browser_the_part_under_each_point() {
+    let folder = TestFolder::with_cubes("hotspots-browser");
+    folder.ligne("draw cubes.obj spots.svg --hotspots --view front --size 400").expect_success();
     let page = format!(
         "<!DOCTYPE html><body style=\"margin:0\">{}<p id=found></p><script>\
          const at = (x, y) => document.elementFromPoint(x, y)?.dataset.part ?? 'none';\
@@ -69,10 +69,10 @@ fn the_browser_finds_the_part_under_each_point() {
 }
 
 #[test]
-fn hotspots_of_a_drawing_with_a_title_are_buttons() {
-    let folder = Folder::with_cubes("hotspots-titled");
+fn hotspots_of_titled_drawings_are_accessible_buttons() {
+    let folder = TestFolder::with_cubes("hotspots-titled");
     let drawn = |more: &str| {
-        folder.ligne(&format!("draw cubes.obj a.svg --style toon --hotspots {more}")).done();
+        folder.ligne(&format!("draw cubes.obj a.svg --style toon --hotspots {more}")).expect_success();
         let svg = folder.text("a.svg");
         assert_eq!(canonical_svg(&svg, None).as_deref(), Ok(svg.as_str()), "{more}");
         svg
@@ -99,8 +99,8 @@ fn hotspots_of_a_drawing_with_a_title_are_buttons() {
 
 /// The script in the documentation handles clicks and keys in drawings with id prefixes.
 #[test]
-fn the_recipe_of_the_documentation_works_with_prefixes() {
-    let folder = Folder::with_cubes("hotspots-recipe");
+fn documented_hotspot_script_works_with_id_prefixes() {
+    let folder = TestFolder::with_cubes("hotspots-recipe");
     let documentation = include_str!("../../../docs/how-to/web.md");
     // The page is given as its head and its tail. The drawings go between them.
     let part = |name: &str| {
@@ -114,7 +114,7 @@ fn the_recipe_of_the_documentation_works_with_prefixes() {
         let call = format!(
             "draw cubes.obj a.svg --hotspots --title Cubes --view front --size 400 --id-prefix {prefix}"
         );
-        folder.ligne(&call).done();
+        folder.ligne(&call).expect_success();
         drawings += &folder.text("a.svg");
     }
     let page = format!(
@@ -146,8 +146,8 @@ fn the_recipe_of_the_documentation_works_with_prefixes() {
 }
 
 #[test]
-fn a_model_without_names_has_a_warning_in_place_of_hotspots() {
-    let folder = Folder::with_cubes("hotspots-none");
+fn a_model_without_part_names_gets_a_warning_instead_of_hotspots() {
+    let folder = TestFolder::with_cubes("hotspots-none");
     folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let run = folder.ligne("draw bare.obj a.svg --hotspots --view front");
     let named = folder.text("a.svg").contains("id=\"hotspots\"");
@@ -155,8 +155,8 @@ fn a_model_without_names_has_a_warning_in_place_of_hotspots() {
 }
 
 #[test]
-fn readers_of_screens_are_told_title_and_description() {
-    let folder = Folder::with_cubes("title");
+fn screen_readers_get_title_and_description() {
+    let folder = TestFolder::with_cubes("title");
     let run = folder.run(&[
         "draw",
         "cubes.obj",
@@ -168,30 +168,30 @@ fn readers_of_screens_are_told_title_and_description() {
         "--id-prefix",
         "x-",
     ]);
-    run.done();
+    run.expect_success();
     let svg = folder.text("a.svg");
     assert!(svg.contains("role=\"img\" aria-labelledby=\"x-title x-desc\""), "{svg}");
     assert!(svg.contains(
         "<title id=\"x-title\">Two &lt;cubes&gt;</title>\n<desc id=\"x-desc\">One on the other</desc>"
     ));
     assert_eq!(canonical_svg(&svg, None).as_deref(), Ok(svg.as_str()));
-    folder.run(&["draw", "cubes.obj", "b.svg", "--desc", "Cubes"]).done();
+    folder.run(&["draw", "cubes.obj", "b.svg", "--desc", "Cubes"]).expect_success();
     assert!(
         folder.text("b.svg").contains("<title id=\"title\">cubes</title>\n<desc id=\"desc\">Cubes</desc>")
     );
-    folder.ligne("draw cubes.obj c.svg").done();
+    folder.ligne("draw cubes.obj c.svg").expect_success();
     assert!(!folder.text("c.svg").contains("role="));
 }
 
 #[test]
-fn ink_takes_the_colour_of_the_text_around_it() {
-    let folder = Folder::with_cubes("ink");
+fn ink_current_color_follows_the_surrounding_text() {
+    let folder = TestFolder::with_cubes("ink");
     for (style, ink) in [("ink", "#1a1a1a"), ("plotter", "#000"), ("patent", "#000"), ("stipple", "#1a1a1a")]
     {
         let call = format!("draw cubes.obj a.svg --style {style} --background none");
-        folder.ligne(&call).done();
+        folder.ligne(&call).expect_success();
         let plain = folder.text("a.svg");
-        folder.ligne(&format!("{call} --ink currentColor -o a.png")).done();
+        folder.ligne(&format!("{call} --ink currentColor -o a.png")).expect_success();
         let current = folder.text("a.svg");
         assert!(current.contains("=\"currentColor\""), "{style}");
         assert!(!current.contains(&format!("=\"{ink}\"")), "{style}");
@@ -207,26 +207,26 @@ fn ink_takes_the_colour_of_the_text_around_it() {
 }
 
 #[test]
-fn svgz_is_svg_packed() {
-    let folder = Folder::with_cubes("svgz");
-    folder.ligne("draw cubes.obj a.svg --style toon -o a.svgz -o b.svgz").done();
+fn svgz_is_gzipped_svg() {
+    let folder = TestFolder::with_cubes("svgz");
+    folder.ligne("draw cubes.obj a.svg --style toon -o a.svgz -o b.svgz").expect_success();
     assert_eq!(folder.read("a.svgz"), folder.read("b.svgz"));
     assert!(folder.read("a.svgz").starts_with(&[0x1f, 0x8b, 8]));
     assert!(folder.read("a.svgz").len() * 2 < folder.read("a.svg").len());
     if let Ok(unpacked) = Command::new("gzip").arg("-dc").arg(folder.path("a.svgz")).output() {
         assert_eq!(unpacked.stdout, folder.read("a.svg"));
     }
-    folder.ligne("diff a.svg a.svgz").done();
-    folder.ligne("fmt --check a.svgz").done();
-    folder.ligne("fmt a.svgz -o c.svg").done();
+    folder.ligne("diff a.svg a.svgz").expect_success();
+    folder.ligne("fmt --check a.svgz").expect_success();
+    folder.ligne("fmt a.svgz -o c.svg").expect_success();
     assert_eq!(folder.text("c.svg"), folder.text("a.svg"));
 }
 
 #[test]
-fn colours_and_views_are_understood_as_they_are_typed() {
-    let folder = Folder::with_cubes("typed");
+fn colour_and_view_values_accept_alternative_spellings() {
+    let folder = TestFolder::with_cubes("typed");
     let drawn = |more: &str| {
-        folder.ligne(&format!("draw cubes.obj a.svg {more}")).done();
+        folder.ligne(&format!("draw cubes.obj a.svg {more}")).expect_success();
         folder.text("a.svg")
     };
     assert_eq!(drawn("--background Teal"), drawn("--background #008080"));
@@ -244,12 +244,12 @@ fn colours_and_views_are_understood_as_they_are_typed() {
 }
 
 #[test]
-fn a_sheet_shows_a_model_in_all_styles() {
-    let folder = Folder::with_cubes("sheet");
+fn styles_sheet_shows_the_model_in_every_style() {
+    let folder = TestFolder::with_cubes("sheet");
     let listed = folder.ligne("styles");
-    folder.ligne("styles --sheet all.svg cubes.obj").done();
+    folder.ligne("styles --sheet all.svg cubes.obj").expect_success();
     let svg = folder.text("all.svg");
-    for line in listed.done().out.lines() {
+    for line in listed.expect_success().out.lines() {
         let name = line.split(' ').next().unwrap_or_default();
         assert!(svg.contains(&format!("<title>{name}</title>")), "{name}");
         assert!(svg.contains(&format!("inkscape:label=\"{name}\"")), "{name}");
@@ -259,7 +259,7 @@ fn a_sheet_shows_a_model_in_all_styles() {
     ids.sort_unstable();
     ids.dedup();
     assert_eq!(ids.len(), count);
-    folder.ligne("styles --sheet all.png cubes.obj").done();
+    folder.ligne("styles --sheet all.png cubes.obj").expect_success();
     assert!(folder.read("all.png").starts_with(b"\x89PNG"));
     assert_eq!(folder.ligne("styles --sheet all.svg").status, Some(2));
     assert_eq!(folder.ligne("styles --sheet all.svg none.obj").status, Some(2));

@@ -1,15 +1,15 @@
 //! Errors about style keys and options: suggestions, both spellings of "colour", and no internal type names.
 
-use crate::folder::{Folder, Run};
+use crate::folder::{RunResult, TestFolder};
 
 /// Draws the cubes with one style key set.
-fn draw(folder: &Folder, set: &str) -> Run {
+fn draw_with_key(folder: &TestFolder, set: &str) -> RunResult {
     folder.run(&["draw", "cubes.obj", "a.svg", "--set", set])
 }
 
 #[test]
-fn suggestions_search_all_keys() {
-    let folder = Folder::with_cubes("keys-suggested");
+fn unknown_keys_get_suggestions_from_all_tables() {
+    let folder = TestFolder::with_cubes("keys-suggested");
     for (set, wanted) in [
         ("crease_deg=30", "unknown key `crease_deg`; did you mean `lines.crease_deg`?"),
         ("crease-deg=30", "did you mean `lines.crease_deg`?"),
@@ -34,23 +34,23 @@ fn suggestions_search_all_keys() {
         ("fills.steps=0.5", "`0.5` does not fit here; write a whole number from 1 to 1024"),
         ("pen=3", "`3` does not fit here; write a table"),
     ] {
-        draw(&folder, set).refused(&format!("--set {set}: "));
-        draw(&folder, set).refused(wanted);
+        draw_with_key(&folder, set).expect_refusal(&format!("--set {set}: "));
+        draw_with_key(&folder, set).expect_refusal(wanted);
     }
     folder.write("mine.toml", "[pen]\ncrease_deg = 20\n");
     folder
         .ligne("draw cubes.obj a.svg --style mine.toml")
-        .refused("mine.toml: line 2: unknown key `crease_deg`; did you mean `lines.crease_deg`?");
+        .expect_refusal("mine.toml: line 2: unknown key `crease_deg`; did you mean `lines.crease_deg`?");
     folder.write("mine.toml", "[lines]\nhidden = true\n");
-    folder.ligne("draw cubes.obj a.svg --style mine.toml").refused(
+    folder.ligne("draw cubes.obj a.svg --style mine.toml").expect_refusal(
         "mine.toml: line 2: `true` does not fit here; write one of none, dashed, solid\n 2 | hidden = true",
     );
     assert!(!folder.names().contains(&"a.svg".to_owned()));
 }
 
 #[test]
-fn unknown_options_lead_to_keys() {
-    let folder = Folder::with_cubes("keys-options");
+fn unknown_options_suggest_the_style_key() {
+    let folder = TestFolder::with_cubes("keys-options");
     for (option, wanted) in [
         ("--hidden", "'--hidden' is a key of the style: --set lines.hidden=…"),
         ("--crease-deg", "--set lines.crease_deg=…"),
@@ -58,8 +58,8 @@ fn unknown_options_lead_to_keys() {
         ("--color=red", "--set pen.colour=…"),
         ("--pen.width", "--set pen.width=…"),
     ] {
-        folder.run(&["draw", "cubes.obj", "a.svg", option]).refused(wanted);
-        folder.run(&["animate", "cubes.obj", "a.svg", option]).refused(wanted);
+        folder.run(&["draw", "cubes.obj", "a.svg", option]).expect_refusal(wanted);
+        folder.run(&["animate", "cubes.obj", "a.svg", option]).expect_refusal(wanted);
     }
     // Commands without styles and unknown words get no such suggestion.
     let plain = |words: &[&str]| assert!(!folder.run(words).err.contains("key of the style"), "{words:?}");
@@ -69,8 +69,9 @@ fn unknown_options_lead_to_keys() {
 
 #[test]
 fn american_spelling_is_accepted_everywhere() {
-    let folder = Folder::with_cubes("keys-color");
-    let svg = |words: &str| folder.ligne(&format!("draw cubes.obj - --quiet {words}")).done().out.clone();
+    let folder = TestFolder::with_cubes("keys-color");
+    let svg =
+        |words: &str| folder.ligne(&format!("draw cubes.obj - --quiet {words}")).expect_success().out.clone();
     let red = svg("--set pen.colour=#ff0000");
     assert!(red.contains("#ff0000") || red.contains("#f00"));
     assert_eq!(svg("--set pen.color=#ff0000"), red);
@@ -85,23 +86,25 @@ fn american_spelling_is_accepted_everywhere() {
     assert_eq!(svg("--center 0,0,0 --page A5 --scale 10:1"), centred);
     // Test cases and page files.
     folder.write("cases/a.toml", "model = '../cubes.obj'\nset = { pen.color = '#ff0000' }\n");
-    folder.ligne("test cases --bless").done();
+    folder.ligne("test cases --bless").expect_success();
     assert!(folder.text("cases/a.svg").contains("#ff0000") || folder.text("cases/a.svg").contains("#f00"));
     let page = "[page]\nkind = 'comic'\nsize = [80, 80]\nset = ['pen.color=#ff0000']\nlettering.color = '#00ff00'\n\
                 [[page.panel]]\nmodel = { file = 'cubes.obj', color = '#0000ff' }\nsound = [{ text = 'Bang', color = '#123456' }]\n";
     folder.write("american.toml", page);
     folder.write("british.toml", &page.replace("color", "colour"));
-    folder.ligne("page american.toml american.svg").done();
-    folder.ligne("page british.toml british.svg").done();
+    folder.ligne("page american.toml american.svg").expect_success();
+    folder.ligne("page british.toml british.svg").expect_success();
     let text = |name: &str| folder.text(name).replace(name.trim_end_matches(".svg"), "");
     assert_eq!(text("american.svg"), text("british.svg"));
     folder.write("both.toml", "pen.color = '#ff0000'\npen.colour = '#00ff00'\n");
-    folder.ligne("draw cubes.obj a.svg --style both.toml").refused("`colour` is given twice; leave one out");
+    folder
+        .ligne("draw cubes.obj a.svg --style both.toml")
+        .expect_refusal("`colour` is given twice; leave one out");
 }
 
 #[test]
-fn internals_do_not_leak_into_errors() {
-    let folder = Folder::with_cubes("keys-leaks");
+fn errors_contain_no_internal_type_names() {
+    let folder = TestFolder::with_cubes("keys-leaks");
     let leaks = [
         "struct ",
         "enum ",
@@ -120,7 +123,7 @@ fn internals_do_not_leak_into_errors() {
         "floating point",
         "expected `",
     ];
-    let clean = |run: &Run, text: &str| {
+    let clean = |run: &RunResult, text: &str| {
         assert_eq!(run.status, Some(2), "{text}: {run:?}");
         let message = run.err.lines().next().unwrap_or_default();
         let leak = leaks.iter().find(|leak| message.contains(*leak));
@@ -208,22 +211,22 @@ fn internals_do_not_leak_into_errors() {
         folder.write("c.json", text);
         let run = folder.ligne("draw cubes.obj a.svg --camera c.json");
         clean(&run, text);
-        run.refused(wanted);
+        run.expect_refusal(wanted);
     }
     folder.write("levels.json", "{\"faces\": 3}");
     let levels = "animate cubes.obj a.gif --turntable 2 --size 20 --levels levels.json";
-    folder.ligne(levels).refused("levels.json: this is not a list of face counts");
+    folder.ligne(levels).expect_refusal("levels.json: this is not a list of face counts");
     folder.write("levels.json", "{\"faces\"");
     let run = folder.ligne(levels);
     clean(&run, "levels");
-    run.refused("levels.json: line 1, column 8: this is not JSON: ");
+    run.expect_refusal("levels.json: line 1, column 8: this is not JSON: ");
     folder.write(
         "scene.gltf",
         "{\"asset\": {\"version\": \"2.0\"}, \"cameras\": [{\"type\": \"perspective\", \"perspective\": 3}]}",
     );
     let run = folder.ligne("draw scene.gltf a.svg");
     clean(&run, "gltf");
-    run.refused("scene.gltf: JSON line 1 column ");
+    run.expect_refusal("scene.gltf: JSON line 1 column ");
     assert_eq!(run.err.matches("line 1").count(), 1, "the position is given once: {run:?}");
-    run.refused("`3` does not fit here; write a table");
+    run.expect_refusal("`3` does not fit here; write a table");
 }

@@ -1,20 +1,20 @@
 //! `ligne.toml` and environment variables: same bytes as options, precedence, and positions of errors.
 
-use crate::folder::{Folder, Run};
+use crate::folder::{RunResult, TestFolder};
 
 /// Checks that keys in `ligne.toml` and options on the command line give the same bytes.
-fn same_as_typed(name: &str, config: &str, typed: &str) {
-    let folder = Folder::with_cubes(name);
-    folder.ligne(&format!("draw cubes.obj typed.svg {typed}")).done();
+fn assert_config_equals_options(name: &str, config: &str, typed: &str) {
+    let folder = TestFolder::with_cubes(name);
+    folder.ligne(&format!("draw cubes.obj typed.svg {typed}")).expect_success();
     folder.write("ligne.toml", config);
-    folder.ligne("draw cubes.obj configured.svg").done();
+    folder.ligne("draw cubes.obj configured.svg").expect_success();
     assert_eq!(folder.text("typed.svg"), folder.text("configured.svg"), "{config}");
-    folder.ligne("draw cubes.obj plain.svg --no-config").done();
+    folder.ligne("draw cubes.obj plain.svg --no-config").expect_success();
     assert_ne!(folder.text("typed.svg"), folder.text("plain.svg"), "{config}: nothing to configure");
 }
 
 #[test]
-fn keys_mean_what_options_mean() {
+fn config_keys_equal_command_line_options() {
     let pairs = [
         ("style = 'technical'", "--style technical"),
         ("view = 'iso'", "--view iso"),
@@ -45,42 +45,42 @@ fn keys_mean_what_options_mean() {
         ("style = 'sketch'\nseed = 7", "--style sketch --seed 7"),
     ];
     for (i, (keys, typed)) in pairs.iter().enumerate() {
-        same_as_typed(&format!("config-same-{i}"), &format!("[draw]\n{keys}\n"), typed);
+        assert_config_equals_options(&format!("config-same-{i}"), &format!("[draw]\n{keys}\n"), typed);
     }
 }
 
 /// The SVG text of the cubes, drawn with these variables and options.
-fn drawn(folder: &Folder, variables: &[(&str, &str)], words: &str) -> String {
-    folder.run_with(variables, &format!("draw cubes.obj {words} - --quiet")).done().out.clone()
+fn draw_cubes(folder: &TestFolder, variables: &[(&str, &str)], words: &str) -> String {
+    folder.run_with(variables, &format!("draw cubes.obj {words} - --quiet")).expect_success().out.clone()
 }
 
 #[test]
-fn a_flag_wins_over_a_variable_and_that_over_the_file() {
-    let folder = Folder::with_cubes("config-order");
-    let style = |name: &str| drawn(&folder, &[], &format!("--no-config --style {name}"));
+fn options_override_variables_and_variables_override_the_file() {
+    let folder = TestFolder::with_cubes("config-order");
+    let style = |name: &str| draw_cubes(&folder, &[], &format!("--no-config --style {name}"));
     let (ink, technical, plotter, patent) =
         (style("ink"), style("technical"), style("plotter"), style("patent"));
     folder.write("ligne.toml", "[draw]\nstyle = 'technical'\n");
     let variable = [("LIGNE_STYLE", "plotter")];
-    assert_eq!(drawn(&folder, &[], ""), technical);
-    assert_eq!(drawn(&folder, &variable, ""), plotter);
-    assert_eq!(drawn(&folder, &variable, "--style patent"), patent);
-    assert_eq!(drawn(&folder, &variable, "--no-config"), plotter);
-    assert_eq!(drawn(&folder, &[("LIGNE_STYLE", "")], "--no-config"), ink);
-    assert_eq!(drawn(&folder, &[("LIGNE_THREADS", "1")], "--style ink"), ink);
+    assert_eq!(draw_cubes(&folder, &[], ""), technical);
+    assert_eq!(draw_cubes(&folder, &variable, ""), plotter);
+    assert_eq!(draw_cubes(&folder, &variable, "--style patent"), patent);
+    assert_eq!(draw_cubes(&folder, &variable, "--no-config"), plotter);
+    assert_eq!(draw_cubes(&folder, &[("LIGNE_STYLE", "")], "--no-config"), ink);
+    assert_eq!(draw_cubes(&folder, &[("LIGNE_THREADS", "1")], "--style ink"), ink);
     let wrong = folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg");
-    wrong.refused("LIGNE_THREADS: `many` does not fit here");
+    wrong.expect_refusal("LIGNE_THREADS: `many` does not fit here");
     folder
         .run_with(&[("LIGNE_STYLE", "inc")], "draw cubes.obj a.svg")
-        .refused("LIGNE_STYLE: there is no style `inc`");
+        .expect_refusal("LIGNE_STYLE: there is no style `inc`");
     // A variable that an option overrides is not validated.
-    folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg --threads 1").done();
+    folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg --threads 1").expect_success();
 }
 
 #[test]
-fn a_flag_displaces_what_it_excludes() {
-    let folder = Folder::with_cubes("config-displaced");
-    let plain = |words: &str| drawn(&folder, &[], &format!("--no-config {words}"));
+fn options_replace_conflicting_config_keys() {
+    let folder = TestFolder::with_cubes("config-displaced");
+    let plain = |words: &str| draw_cubes(&folder, &[], &format!("--no-config {words}"));
     let pairs = [
         ("view = 'iso'", "--azimuth 10", "--azimuth 10"),
         ("azimuth = 80", "--view top", "--view top"),
@@ -99,13 +99,13 @@ fn a_flag_displaces_what_it_excludes() {
     let wanted = pairs.map(|(_, _, meant)| plain(meant));
     for ((keys, typed, _), wanted) in pairs.iter().zip(wanted) {
         folder.write("ligne.toml", &format!("[draw]\n{keys}\n"));
-        assert_eq!(drawn(&folder, &[], typed), wanted, "{keys} with {typed}");
+        assert_eq!(draw_cubes(&folder, &[], typed), wanted, "{keys} with {typed}");
     }
 }
 
 #[test]
-fn the_file_is_found_upward_and_its_paths_are_its_own() {
-    let folder = Folder::with_cubes("config-upward");
+fn config_is_found_in_parent_folders_and_its_paths_are_relative_to_it() {
+    let folder = TestFolder::with_cubes("config-upward");
     folder.write("styles/mine.toml", "extends = 'ink'\npen.width = 4\n");
     folder.write(
         "camera.json",
@@ -119,28 +119,28 @@ fn the_file_is_found_upward_and_its_paths_are_its_own() {
     folder.write("deep/er/cubes.obj", crate::folder::CUBES);
     let keys = "style = 'styles/mine.toml'\ncamera = 'camera.json'\nset = { pen.brush.file = 'brush.svg' }";
     folder.write("ligne.toml", &format!("[draw]\n{keys}\n"));
-    folder.ligne("draw cubes.obj above.svg").done();
-    let below = |words: &[&str]| -> Run {
+    folder.ligne("draw cubes.obj above.svg").expect_success();
+    let below = |words: &[&str]| -> RunResult {
         let output =
             folder.command(words).current_dir(folder.path("deep/er")).output().expect("the program runs");
-        Run::new(output)
+        RunResult::new(output)
     };
-    below(&["draw", "cubes.obj", "below.svg"]).done();
+    below(&["draw", "cubes.obj", "below.svg"]).expect_success();
     assert_eq!(folder.text("above.svg"), folder.text("deep/er/below.svg"));
     assert!(folder.text("above.svg").contains("viewBox=\"0 0 60 40\""));
     assert!(folder.text("above.svg").contains("data-axis"), "a brush draws outlines");
     // Only the nearest file applies.
     folder.write("deep/ligne.toml", "");
-    below(&["draw", "cubes.obj", "plain.svg"]).done();
+    below(&["draw", "cubes.obj", "plain.svg"]).expect_success();
     assert!(folder.text("deep/er/plain.svg").contains("viewBox=\"0 0 1000 1000\""));
     folder.write("deep/ligne.toml", "[draw]\nstlye = 'ink'\n");
     below(&["draw", "cubes.obj", "no.svg"])
-        .refused("../ligne.toml: line 2: unknown key `stlye`; did you mean `style`?");
+        .expect_refusal("../ligne.toml: line 2: unknown key `stlye`; did you mean `style`?");
 }
 
 #[test]
-fn faults_are_shown_with_file_line_and_caret() {
-    let folder = Folder::with_cubes("config-faults");
+fn config_errors_show_file_line_and_caret() {
+    let folder = TestFolder::with_cubes("config-faults");
     folder.write("sheet.toml", "pen.width = 'wide'\n");
     let faults = [
         ("[drow]\n", "line 1: unknown key `drow`; did you mean `draw`?"),
@@ -172,22 +172,22 @@ fn faults_are_shown_with_file_line_and_caret() {
     for (text, wanted) in faults {
         folder.write("ligne.toml", text);
         let run = folder.ligne("draw cubes.obj a.svg");
-        run.refused(&format!("ligne.toml: {wanted}"));
+        run.expect_refusal(&format!("ligne.toml: {wanted}"));
     }
     // Errors inside a style sheet name the style sheet.
     folder.write("ligne.toml", "[draw]\nstyle = 'sheet.toml'\n");
-    folder.ligne("draw cubes.obj a.svg").refused("error: sheet.toml: line 1: ");
-    folder.ligne("draw cubes.obj a.svg --no-config").done();
+    folder.ligne("draw cubes.obj a.svg").expect_refusal("error: sheet.toml: line 1: ");
+    folder.ligne("draw cubes.obj a.svg --no-config").expect_success();
     // Help and `ligne info` work with a broken file.
-    folder.ligne("draw --help").done();
-    folder.ligne("info cubes.obj").done();
+    folder.ligne("draw --help").expect_success();
+    folder.ligne("info cubes.obj").expect_success();
 }
 
 #[test]
-fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
-    let folder = Folder::with_cubes("config-diff");
-    folder.ligne("draw cubes.obj a.svg --azimuth 30 --size 300").done();
-    folder.ligne("draw cubes.obj b.svg --azimuth 30.2 --size 300").done();
+fn diff_reads_tolerance_and_draw_options_from_the_config() {
+    let folder = TestFolder::with_cubes("config-diff");
+    folder.ligne("draw cubes.obj a.svg --azimuth 30 --size 300").expect_success();
+    folder.ligne("draw cubes.obj b.svg --azimuth 30.2 --size 300").expect_success();
     let status = |words: &str| folder.ligne(&format!("diff {words}")).status;
     assert_eq!(status("a.svg b.svg"), Some(1));
     folder.write("ligne.toml", "[diff]\ntolerance = { default = '0.01px', lines = 5 }\n");
@@ -202,13 +202,13 @@ fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
     assert!(folder.ligne("diff b.svg cubes.obj").out.contains("knob"));
     assert_eq!(status("b.svg cubes.obj --azimuth 30.2"), Some(0));
     folder.write("ligne.toml", &format!("{draw}\n[diff]\ntolerance = 'wide'\n"));
-    folder.ligne("diff a.svg b.svg").refused("ligne.toml: line 7: `wide` is not a tolerance");
+    folder.ligne("diff a.svg b.svg").expect_refusal("ligne.toml: line 7: `wide` is not a tolerance");
 }
 
 #[test]
-fn the_manual_has_its_sections() {
-    let folder = Folder::new("config-man");
-    let page = folder.ligne("man").done().out.replace("\\-", "-");
+fn the_manual_page_has_all_sections() {
+    let folder = TestFolder::new("config-man");
+    let page = folder.ligne("man").expect_success().out.replace("\\-", "-");
     for wanted in [
         ".TH LIGNE 1",
         ".SH NAME",
@@ -224,10 +224,10 @@ fn the_manual_has_its_sections() {
     ] {
         assert!(page.contains(wanted), "{wanted} in {page}");
     }
-    let draw = folder.ligne("man draw").done().out.replace("\\-", "-");
+    let draw = folder.ligne("man draw").expect_success().out.replace("\\-", "-");
     assert!(
         draw.contains(".TH LIGNE-DRAW 1") && draw.contains("--elevation") && draw.contains("LIGNE_STYLE")
     );
-    assert!(!folder.ligne("man info").done().out.contains("LIGNE_STYLE"));
-    folder.ligne("man drow").refused("did you mean `draw`?");
+    assert!(!folder.ligne("man info").expect_success().out.contains("LIGNE_STYLE"));
+    folder.ligne("man drow").expect_refusal("did you mean `draw`?");
 }

@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 #[test]
 fn keys_are_listed_with_type_default_and_values() {
-    let folder = Folder::new("keys-list");
-    let list = |glob: &str| folder.run(&["styles", "--keys", glob]).done().out.clone();
+    let folder = TestFolder::new("keys-list");
+    let list = |glob: &str| folder.run(&["styles", "--keys", glob]).expect_success().out.clone();
     assert_eq!(
         list("lines.crease_deg"),
         "lines.crease_deg  number  40  Edges whose faces turn by more than this are creases (0 to 180 deg)\n"
@@ -22,7 +22,7 @@ fn keys_are_listed_with_type_default_and_values() {
     // All rows align their columns.
     let column = |line: &&str| line.find("length");
     assert!(lines.iter().all(|line| column(line) == column(&lines[0])), "{pens}");
-    let all = folder.ligne("styles --keys").done().out.clone();
+    let all = folder.ligne("styles --keys").expect_success().out.clone();
     for key in [
         "extends ",
         "light.sources[].kind ",
@@ -35,15 +35,15 @@ fn keys_are_listed_with_type_default_and_values() {
     assert_eq!(list("pen.color"), list("pen.colour"));
     folder
         .ligne("styles --keys creese_deg")
-        .refused("no style key matches `creese_deg`; did you mean `lines.crease_deg`?");
-    folder.ligne("styles ink --keys").refused("cannot be used with");
-    folder.ligne("styles --json").refused("--keys");
+        .expect_refusal("no style key matches `creese_deg`; did you mean `lines.crease_deg`?");
+    folder.ligne("styles ink --keys").expect_refusal("cannot be used with");
+    folder.ligne("styles --json").expect_refusal("--keys");
 }
 
 #[test]
 fn keys_are_listed_as_json() {
-    let folder = Folder::new("keys-json");
-    let json = folder.ligne("styles --keys --json").done().out.clone();
+    let folder = TestFolder::new("keys-json");
+    let json = folder.ligne("styles --keys --json").expect_success().out.clone();
     let keys: Vec<serde_json::Value> = serde_json::from_str(&json).unwrap();
     assert!(keys.len() > 700, "{}", keys.len());
     let find = |path: &str| keys.iter().find(|key| key["key"] == path).unwrap_or_else(|| panic!("{path}"));
@@ -63,26 +63,30 @@ fn keys_are_listed_as_json() {
 }
 
 #[test]
-fn a_complete_sheet_draws_the_same() {
-    let folder = Folder::with_cubes("keys-all");
+fn a_complete_style_sheet_draws_the_same() {
+    let folder = TestFolder::with_cubes("keys-all");
     for style in ["ink", "pencil", "gooch"] {
-        let sheet = folder.run(&["styles", style, "--all"]).done().out.clone();
+        let sheet = folder.run(&["styles", style, "--all"]).expect_success().out.clone();
         folder.write("all.toml", &sheet);
         let draw = |style: &str| {
-            folder.run(&["draw", "cubes.obj", "-", "--quiet", "--style", style]).done().out.clone()
+            folder.run(&["draw", "cubes.obj", "-", "--quiet", "--style", style]).expect_success().out.clone()
         };
         assert_eq!(draw("all.toml"), draw(style), "{style}");
         assert!(sheet.contains("\n[lines.inside]\n") && sheet.contains("crease_deg = 40"), "{sheet}");
     }
     folder.write("mine.toml", "extends = 'ink'\nlines.crease_deg = 12\n");
-    folder.ligne("styles mine.toml --all").done().says("crease_deg = 12  # Edges whose faces");
-    folder.ligne("styles inkk --all").refused("there is no style `inkk`; did you mean `ink`?");
+    folder
+        .ligne("styles mine.toml --all")
+        .expect_success()
+        .expect_output("crease_deg = 12  # Edges whose faces");
+    folder.ligne("styles inkk --all").expect_refusal("there is no style `inkk`; did you mean `ink`?");
 }
 
 #[test]
-fn the_reference_of_style_keys_is_current() {
+fn style_key_reference_is_current() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference/style-keys.md");
-    let page = Folder::new("keys-reference").ligne("styles --keys --reference").done().out.clone();
+    let page =
+        TestFolder::new("keys-reference").ligne("styles --keys --reference").expect_success().out.clone();
     let written = fs::read_to_string(&path).unwrap_or_default();
     assert!(
         written == page,
@@ -99,10 +103,10 @@ fn the_reference_of_style_keys_is_current() {
 }
 
 #[test]
-fn shells_complete_the_keys_of_set() {
-    let folder = Folder::new("keys-completions");
+fn completions_offer_style_keys_for_set() {
+    let folder = TestFolder::new("keys-completions");
     for shell in ["bash", "zsh", "fish"] {
-        let script = folder.run(&["completions", shell]).done().out.clone();
+        let script = folder.run(&["completions", shell]).expect_success().out.clone();
         for key in ["lines.crease_deg=", "pen.silhouette.hand.passes=", "fills.thresholds="] {
             assert!(script.contains(key), "{shell}: {key}");
         }
@@ -119,15 +123,16 @@ fn shells_complete_the_keys_of_set() {
         assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "lines.crease_deg=");
     }
     // The help does not list style keys.
-    assert!(!folder.ligne("draw --help").done().out.contains("pen.silhouette.hand"));
+    assert!(!folder.ligne("draw --help").expect_success().out.contains("pen.silhouette.hand"));
 }
 
 #[test]
 fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
-    let folder = Folder::with_cubes("keys-units");
+    let folder = TestFolder::with_cubes("keys-units");
     let warnings = |words: &str| -> Vec<String> {
         let run = folder.ligne(&format!("draw cubes.obj a.svg {words}"));
-        let lines = run.done().err.lines().filter(|line| line.contains(" is px")).map(ToOwned::to_owned);
+        let lines =
+            run.expect_success().err.lines().filter(|line| line.contains(" is px")).map(ToOwned::to_owned);
         lines.collect()
     };
     let one = warnings("--page A4 --set pen.width=0.35");
@@ -156,7 +161,7 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
     assert!(warnings("--page A4 --style mine.toml")[0].contains("pen.contour.width: 0.5 is px"));
     for name in ["ink", "pencil", "comic"] {
         for all in ["", "--all"] {
-            let copy = folder.ligne(&format!("styles {name} {all}")).done().out.clone();
+            let copy = folder.ligne(&format!("styles {name} {all}")).expect_success().out.clone();
             folder.write("copy.toml", &copy);
             assert_eq!(warnings("--page A4 --style copy.toml"), [""; 0], "{name} {all}");
         }
@@ -165,7 +170,7 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
     // Settings in `ligne.toml` and in page files raise it, too.
     folder
         .ligne("draw cubes.obj b.svg --page A4 --set pen.width=0.35 --strict")
-        .refused("pen.width: 0.35 is px");
+        .expect_refusal("pen.width: 0.35 is px");
     let many = folder
         .ligne("draw cubes.obj cubes.obj --out-dir out --view front,top --page A4 --set pen.width=0.35");
     let many_warnings = many.err.matches(" is px").count();
@@ -177,20 +182,20 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
                 [[page.panel]]\nmodel = 'cubes.obj'\n[[page.panel]]\nmodel = 'cubes.obj'\n";
     folder.write("page.toml", page);
     let run = folder.ligne("page page.toml page.svg");
-    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    assert_eq!(run.expect_success().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
     folder.write("sheet.toml", "[page]\nkind = 'sheet'\nmodel = 'cubes.obj'\nset = ['pen.width=0.35']\n");
     let run = folder.ligne("page sheet.toml sheet.svg");
-    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    assert_eq!(run.expect_success().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
     folder.write("sheet.toml", "[page]\nkind = 'sheet'\nmodel = 'cubes.obj'\n");
-    assert!(!folder.ligne("page sheet.toml sheet.svg").done().err.contains(" is px"));
+    assert!(!folder.ligne("page sheet.toml sheet.svg").expect_success().err.contains(" is px"));
 }
 
 #[test]
-fn many_models_are_warned_about_once() {
-    let folder = Folder::with_cubes("keys-units-many");
+fn a_batch_raises_the_unit_warning_once() {
+    let folder = TestFolder::with_cubes("keys-units-many");
     folder.write("other.obj", crate::folder::CUBES);
     let words = "draw cubes.obj other.obj --out-dir out --page A4 --set pen.width=0.35";
     let run = folder.ligne(words);
-    assert_eq!(run.done().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
-    folder.ligne(&format!("{words} --strict")).refused("pen.width: 0.35 is px");
+    assert_eq!(run.expect_success().err.matches("pen.width: 0.35 is px").count(), 1, "{run:?}");
+    folder.ligne(&format!("{words} --strict")).expect_refusal("pen.width: 0.35 is px");
 }

@@ -2,18 +2,18 @@
 
 use std::process::Command;
 
-use crate::folder::Folder;
+use crate::folder::TestFolder;
 
 #[test]
-fn releases_and_lengths_are_as_asked() {
-    let folder = Folder::with_cubes("dxf");
-    folder.ligne("draw cubes.obj a.dxf --view iso").done();
+fn dxf_options_set_release_and_lengths() {
+    let folder = TestFolder::with_cubes("dxf");
+    folder.ligne("draw cubes.obj a.dxf --view iso").expect_success();
     assert!(folder.text("a.dxf").contains("AC1009"));
-    folder.ligne("draw cubes.obj b.dxf --view iso --dxf 2000 --dxf-length model").done();
+    folder.ligne("draw cubes.obj b.dxf --view iso --dxf 2000 --dxf-length model").expect_success();
     let modern = folder.text("b.dxf");
     assert!(modern.contains("AC1015") && modern.contains("$INSUNITS\r\n70\r\n0\r\n"));
     assert_ne!(folder.text("a.dxf"), modern);
-    folder.ligne("draw cubes.obj c.dxf --view iso --threads 1").done();
+    folder.ligne("draw cubes.obj c.dxf --view iso --threads 1").expect_success();
     assert_eq!(folder.read("a.dxf"), folder.read("c.dxf"));
     // A perspective drawing has no true lengths.
     let run = folder.ligne("draw cubes.obj d.dxf --dxf-length model");
@@ -24,10 +24,12 @@ fn releases_and_lengths_are_as_asked() {
 
 /// Drawings in model lengths line up: lines of a part have the same coordinates as in the whole model.
 #[test]
-fn lengths_of_the_model_are_from_its_origin() {
-    let folder = Folder::with_cubes("dxf-origin");
+fn dxf_model_lengths_are_measured_from_the_model_origin() {
+    let folder = TestFolder::with_cubes("dxf-origin");
     let corners = |line: &str| -> Vec<[i64; 2]> {
-        folder.ligne(&format!("draw cubes.obj a.dxf --style technical --dxf-length model {line}")).done();
+        folder
+            .ligne(&format!("draw cubes.obj a.dxf --style technical --dxf-length model {line}"))
+            .expect_success();
         let text = folder.text("a.dxf");
         let lines: Vec<&str> = text.split("\r\n").skip_while(|line| *line != "ENTITIES").skip(1).collect();
         let pairs: Vec<(&str, &str)> = lines.chunks_exact(2).map(|pair| (pair[0].trim(), pair[1])).collect();
@@ -48,8 +50,8 @@ fn lengths_of_the_model_are_from_its_origin() {
 }
 
 #[test]
-fn what_is_left_out_is_told() {
-    let folder = Folder::with_cubes("dxf-fills");
+fn older_dxf_releases_warn_about_dropped_fills() {
+    let folder = TestFolder::with_cubes("dxf-fills");
     let run = folder.ligne("draw cubes.obj a.dxf --style toon");
     assert!(run.err.contains("--dxf 2000 keeps fills"), "{}", run.err);
     let run = folder.ligne("draw cubes.obj b.dxf --style toon --dxf 2000");
@@ -59,11 +61,11 @@ fn what_is_left_out_is_told() {
 /// The audit of ezdxf finds no errors and fixes nothing.
 #[test]
 fn ezdxf_finds_no_error() {
-    let folder = Folder::with_cubes("dxf-audit");
+    let folder = TestFolder::with_cubes("dxf-audit");
     for (name, more) in
         [("a", "--style technical"), ("b", "--style toon --dxf 2000"), ("c", "--style pencil --dxf 2000")]
     {
-        folder.ligne(&format!("draw cubes.obj {name}.dxf {more}")).done();
+        folder.ligne(&format!("draw cubes.obj {name}.dxf {more}")).expect_success();
     }
     folder.write(
         "audit.py",

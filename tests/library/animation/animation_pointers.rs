@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use ligne::animate::{Animator, Moment};
+use ligne::animate::{Animator, FrameSpec};
 use ligne::animation::{Playing, Rigged};
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{Page, Unit};
@@ -11,25 +11,25 @@ use ligne::scene::{Alpha, LightKind, Projection};
 use ligne::{Camera, Scene, Style, SvgOptions, pipeline};
 use serde_json::{Value, json};
 
-use crate::support::readers::plain_gltf::Plain;
-use crate::support::scenes::pointer_board::Board;
+use crate::support::readers::plain_gltf::ReferenceGltf;
+use crate::support::scenes::pointer_board::PointerFile;
 
-fn opened(board: &Board) -> (Rigged, Plain) {
-    (Rigged::open(&board.0).unwrap(), Plain::open(&board.0))
+fn open_with_both_readers(board: &PointerFile) -> (Rigged, ReferenceGltf) {
+    (Rigged::open(&board.0).unwrap(), ReferenceGltf::open(&board.0))
 }
 
-const TIMES: [f64; 7] = [-1.0, 0.0, 0.4, 1.0, 1.9, 3.0, 4.0];
+const TIMES_S: [f64; 7] = [-1.0, 0.0, 0.4, 1.0, 1.9, 3.0, 4.0];
 
-fn near(a: f64, b: f64) -> bool {
+fn is_close(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-6
 }
 
 #[test]
-fn lenses_are_what_an_independent_evaluation_says() {
+fn animated_lenses_match_an_independent_evaluation() {
     let (yfov, znear) = ("/cameras/0/perspective/yfov", "/cameras/0/perspective/znear");
     let aspect = "/cameras/0/perspective/aspectRatio";
     let (xmag, ymag) = ("/cameras/1/orthographic/xmag", "/cameras/1/orthographic/ymag");
-    let board = Board::new(
+    let board = PointerFile::new(
         "lenses",
         &[
             (yfov, "LINEAR", &[0.5, 1.0, 0.25]),
@@ -40,35 +40,38 @@ fn lenses_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = opened(&board);
+    let (rigged, plain) = open_with_both_readers(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
-    for time in TIMES {
-        let own = |pointer: &str| plain.pointed(0, pointer, time)[0];
+    for time in TIMES_S {
+        let own = |pointer: &str| plain.pointer_value(0, pointer, time)[0];
         let playing = [Playing::all(0, time)];
         let cameras = rigged.cameras(&playing).unwrap();
         assert_eq!(cameras, rigged.posed(&playing).unwrap().cameras);
         let [eye, plan] = [0, 1].map(|number| cameras[number].camera);
         let Projection::Perspective { fov_y_deg } = eye.projection else { panic!("{eye:?}") };
-        assert!(near(fov_y_deg, own(yfov).to_degrees()), "{time}: {fov_y_deg}");
-        assert!(near(eye.near.unwrap(), own(znear)) && near(eye.width / eye.height, own(aspect)), "{eye:?}");
+        assert!(is_close(fov_y_deg, own(yfov).to_degrees()), "{time}: {fov_y_deg}");
+        assert!(
+            is_close(eye.near.unwrap(), own(znear)) && is_close(eye.width / eye.height, own(aspect)),
+            "{eye:?}"
+        );
         let Projection::Orthographic { height } = plan.projection else { panic!("{plan:?}") };
-        assert!(near(height, 2.0 * own(ymag)), "{time}: {height}");
-        assert!(near(plan.width / plan.height, own(xmag) / own(ymag)), "{plan:?}");
+        assert!(is_close(height, 2.0 * own(ymag)), "{time}: {height}");
+        assert!(is_close(plan.width / plan.height, own(xmag) / own(ymag)), "{plan:?}");
     }
     // With weight 0.5 the lens is halfway between rest and the clip. Without a clip the cameras are those of
     // the file.
     let half = rigged.cameras(&[Playing { clip: 0, time: 1.0, weight: 0.5 }]).unwrap()[0].camera.projection;
     let Projection::Perspective { fov_y_deg } = half else { panic!("{half:?}") };
-    assert!(near(fov_y_deg, 0.75_f64.to_degrees()), "{fov_y_deg}");
+    assert!(is_close(fov_y_deg, 0.75_f64.to_degrees()), "{fov_y_deg}");
     assert_eq!(rigged.posed(&[]).unwrap().cameras, Scene::open(&board.0).unwrap().cameras);
 }
 
 #[test]
-fn lights_are_what_an_independent_evaluation_says() {
+fn animated_lights_match_an_independent_evaluation() {
     let of = |path: &str| format!("/extensions/KHR_lights_punctual/lights/{path}");
     let pointers = [of("1/color"), of("1/intensity"), of("1/range"), of("1/spot/outerConeAngle")];
     let [colour, intensity, range, outer] = pointers.each_ref().map(String::as_str);
-    let board = Board::new(
+    let board = PointerFile::new(
         "lights",
         &[
             (colour, "LINEAR", &[1., 0.5, 0.25, 0., 1., 0., 1., 1., 1.]),
@@ -78,27 +81,27 @@ fn lights_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = opened(&board);
+    let (rigged, plain) = open_with_both_readers(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
-    for time in TIMES {
-        let own = |pointer: &str| plain.pointed(0, pointer, time);
+    for time in TIMES_S {
+        let own = |pointer: &str| plain.pointer_value(0, pointer, time);
         let scene = rigged.posed(&[Playing::all(0, time)]).unwrap();
         assert_eq!(scene.lights[0], rigged.scene.lights[0], "nothing moves the sun");
         let spot = &scene.lights[1];
-        assert!(spot.colour.iter().zip(own(colour)).all(|(a, b)| near(f64::from(*a), b)), "{spot:?}");
-        assert!(near(spot.intensity, own(intensity)[0]) && near(spot.range.unwrap(), own(range)[0]));
+        assert!(spot.colour.iter().zip(own(colour)).all(|(a, b)| is_close(f64::from(*a), b)), "{spot:?}");
+        assert!(is_close(spot.intensity, own(intensity)[0]) && is_close(spot.range.unwrap(), own(range)[0]));
         let LightKind::Spot { inner_angle, outer_angle, .. } = spot.kind else { panic!("{spot:?}") };
-        assert!(near(inner_angle, 0.1) && near(outer_angle, own(outer)[0]), "{spot:?}");
+        assert!(is_close(inner_angle, 0.1) && is_close(outer_angle, own(outer)[0]), "{spot:?}");
     }
     let LightKind::Spot { outer_angle, .. } = rigged.scene.lights[1].kind else { panic!() };
-    assert!(near(outer_angle, FRAC_PI_4));
+    assert!(is_close(outer_angle, FRAC_PI_4));
 }
 
 #[test]
-fn materials_are_what_an_independent_evaluation_says() {
+fn animated_materials_match_an_independent_evaluation() {
     let (base, glow) = ("/materials/0/pbrMetallicRoughness/baseColorFactor", "/materials/0/emissiveFactor");
     let (cutoff, faint) = ("/materials/1/alphaCutoff", "/materials/1/pbrMetallicRoughness/baseColorFactor");
-    let board = Board::new(
+    let board = PointerFile::new(
         "materials",
         &[
             (base, "LINEAR", &[0.5, 0.25, 0.125, 1., 1., 0., 0., 1., 0., 0., 1., 0.5]),
@@ -108,10 +111,10 @@ fn materials_are_what_an_independent_evaluation_says() {
         ],
         |_| {},
     );
-    let (rigged, plain) = opened(&board);
+    let (rigged, plain) = open_with_both_readers(&board);
     assert!(rigged.scene.warnings.is_empty(), "{:?}", rigged.scene.warnings.lines());
-    for time in TIMES {
-        let own = |pointer: &str| plain.pointed(0, pointer, time);
+    for time in TIMES_S {
+        let own = |pointer: &str| plain.pointer_value(0, pointer, time);
         let scene = rigged.posed(&[Playing::all(0, time)]).unwrap();
         let linear =
             |v: &[f64], alpha: f32| Colour::from_linear([v[0] as f32, v[1] as f32, v[2] as f32, alpha]);
@@ -120,7 +123,7 @@ fn materials_are_what_an_independent_evaluation_says() {
         let (level, alpha) = (own(cutoff)[0], own(faint)[3]);
         assert_eq!(scene.materials[1].colour, linear(&own(faint), f32::from(u8::from(alpha >= level))));
         match scene.materials[1].alpha {
-            Alpha::Mask { cutoff } => assert!(near(f64::from(cutoff), level / alpha), "{time}: {cutoff}"),
+            Alpha::Mask { cutoff } => assert!(is_close(f64::from(cutoff), level / alpha), "{time}: {cutoff}"),
             other => assert!(other == Alpha::Opaque && level == 0.0, "{time}: {other:?}"),
         }
     }
@@ -129,7 +132,7 @@ fn materials_are_what_an_independent_evaluation_says() {
 
 /// SVG of a time of clip 0, seen by the first camera of the file: rendered alone, and as a frame of an
 /// `Animator`.
-fn drawn(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
+fn render_alone_and_as_frame(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
     let style = Style::load(style, &[]).unwrap();
     let playing = vec![Playing::all(0, time)];
     let scene = rigged.posed(&playing).unwrap();
@@ -138,42 +141,43 @@ fn drawn(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
     let alone = svg(&pipeline::render(&scene, &camera, &style).unwrap());
     let page = Page { width: 300.0, height: 200.0, unit: Unit::Px, background: style.background };
     let animator = Animator::new(rigged, &style);
-    let frame = |time: f64| Moment { playing: vec![Playing::all(0, time)], camera, page };
+    let frame = |time: f64| FrameSpec { playing: vec![Playing::all(0, time)], camera, page };
     // A frame drawn earlier must not change the result.
     animator.draw(&frame(2.9)).unwrap();
     [alone, svg(&animator.draw(&frame(time)).unwrap().0)]
 }
 
 #[test]
-fn drawings_show_colours_lenses_and_lights() {
+fn drawings_show_animated_colours_lenses_and_lights() {
     let base = "/materials/0/pbrMetallicRoughness/baseColorFactor";
     let flat = |red: f32, blue: f32| [red, 0.0, blue, 1.0];
     let colours = [flat(1.0, 0.0), flat(0.0, 1.0), flat(1.0, 1.0)].concat();
-    let board = Board::new("drawn", &[(base, "STEP", &colours)], |_| {});
-    let (rigged, _) = opened(&board);
+    let board = PointerFile::new("drawn", &[(base, "STEP", &colours)], |_| {});
+    let (rigged, _) = open_with_both_readers(&board);
     for (time, colour) in [(0.0, [255, 0, 0]), (1.0, [0, 0, 255]), (3.0, [255, 0, 255])] {
-        for svg in drawn(&rigged, "flat", time) {
+        for svg in render_alone_and_as_frame(&rigged, "flat", time) {
             // The lights of the file darken the colour slightly.
             let is_near = |fill: Colour| {
                 [fill.r, fill.g, fill.b].iter().zip(colour).all(|(is, wanted)| is.abs_diff(wanted) < 2)
             };
-            assert!(fills(&svg).into_iter().any(is_near), "{time}: no {colour:?} in {svg}");
+            assert!(fill_colours(&svg).into_iter().any(is_near), "{time}: no {colour:?} in {svg}");
         }
     }
-    let board = Board::new("zoomed", &[("/cameras/0/perspective/yfov", "LINEAR", &[0.5, 1.0, 0.5])], |_| {});
-    let (rigged, _) = opened(&board);
-    let [near, far] = [0.0, 1.0].map(|time| drawn(&rigged, "ink", time));
+    let board =
+        PointerFile::new("zoomed", &[("/cameras/0/perspective/yfov", "LINEAR", &[0.5, 1.0, 0.5])], |_| {});
+    let (rigged, _) = open_with_both_readers(&board);
+    let [near, far] = [0.0, 1.0].map(|time| render_alone_and_as_frame(&rigged, "ink", time));
     assert_ne!(near[0], far[0]);
     assert_ne!(near[1], far[1]);
     let pointer = "/extensions/KHR_lights_punctual/lights/1/color";
-    let board = Board::new("lit", &[(pointer, "STEP", &[1., 0., 0., 0., 0., 1., 0., 1., 0.])], |_| {});
-    let (rigged, _) = opened(&board);
+    let board = PointerFile::new("lit", &[(pointer, "STEP", &[1., 0., 0., 0., 0., 1., 0., 1., 0.])], |_| {});
+    let (rigged, _) = open_with_both_readers(&board);
     let [red, blue] = [0.0, 1.0].map(|time| rigged.posed(&[Playing::all(0, time)]).unwrap().lights[1].colour);
     assert_eq!([red, blue], [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
 }
 
 /// Fill colours of all paths of an SVG.
-fn fills(svg: &str) -> Vec<Colour> {
+fn fill_colours(svg: &str) -> Vec<Colour> {
     let values = svg.split(" fill=\"").skip(1).filter_map(|rest| rest.split('"').next());
     values.filter_map(Colour::parse).collect()
 }
@@ -201,8 +205,8 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         ("none", "/cameras/x/perspective/yfov", one, "not drawn"),
         ("root", "", one, "not drawn"),
     ] {
-        let board = Board::new(name, &[(pointer, "LINEAR", numbers)], |_| {});
-        let (rigged, _) = opened(&board);
+        let board = PointerFile::new(name, &[(pointer, "LINEAR", numbers)], |_| {});
+        let (rigged, _) = open_with_both_readers(&board);
         let lines = rigged.scene.warnings.lines();
         assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
         let (posed, stored) =
@@ -212,7 +216,7 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         assert_eq!(posed.materials, stored.materials, "{name}");
     }
     // Values that are invalid for a lens or a light leave the stored value as well.
-    let board = Board::new(
+    let board = PointerFile::new(
         "beyond",
         &[
             ("/cameras/0/perspective/yfov", "LINEAR", &[-1.0, 9.0, 0.0]),
@@ -221,7 +225,7 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         ],
         |_| {},
     );
-    let (rigged, _) = opened(&board);
+    let (rigged, _) = open_with_both_readers(&board);
     for time in [0.0, 1.0, 3.0] {
         let scene = rigged.posed(&[Playing::all(0, time)]).unwrap();
         assert_eq!(
@@ -231,20 +235,20 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
     }
 }
 
-fn hidden(file: &mut Value, node: usize) {
+fn hide_node(file: &mut Value, node: usize) {
     file["nodes"][node]["extensions"]["KHR_node_visibility"] = json!({"visible": false});
 }
 
 #[test]
-fn what_is_hidden_at_rest_is_there_while_a_clip_shows_it() {
+fn nodes_hidden_at_rest_are_visible_while_a_clip_shows_them() {
     let shows = "/nodes/1/extensions/KHR_node_visibility/visible";
     let lamp = "/nodes/5/extensions/KHR_node_visibility/visible";
     let moved = [(shows, "STEP", &[0.0, 1.0, 0.0][..]), (lamp, "STEP", &[0.0, 1.0, 0.0])];
-    let board = Board::new("shown", &moved, |file| {
-        hidden(file, 1);
-        hidden(file, 5);
+    let board = PointerFile::new("shown", &moved, |file| {
+        hide_node(file, 1);
+        hide_node(file, 5);
     });
-    let (rigged, _) = opened(&board);
+    let (rigged, _) = open_with_both_readers(&board);
     let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
     let stored = Scene::open(&board.0).unwrap();
     assert_eq!((names(&stored), stored.lights.len()), (vec!["left".to_owned()], 1));
@@ -256,7 +260,8 @@ fn what_is_hidden_at_rest_is_there_while_a_clip_shows_it() {
     }
     assert_eq!(names(&rigged.posed(&[Playing::all(0, 1.0)]).unwrap()), ["left", "right"]);
     // Frames contain the node only while the clip shows it. A clip with weight 0 shows nothing.
-    let paths = |time: f64| drawn(&rigged, "ink", time).map(|svg| svg.matches("<path").count());
+    let paths =
+        |time: f64| render_alone_and_as_frame(&rigged, "ink", time).map(|svg| svg.matches("<path").count());
     assert!(paths(1.0).iter().zip(paths(0.0)).all(|(shown, hidden)| *shown > hidden));
     assert_eq!(paths(0.0), paths(3.0));
     let silent = Playing { clip: 0, time: 1.0, weight: 0.0 };
@@ -264,29 +269,30 @@ fn what_is_hidden_at_rest_is_there_while_a_clip_shows_it() {
     let style = Style::default();
     let camera = Camera::three_quarter().fit(&rigged.scene);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-    let still = Animator::new(&rigged, &style).draw(&Moment { playing: Vec::new(), camera, page }).unwrap().0;
+    let still =
+        Animator::new(&rigged, &style).draw(&FrameSpec { playing: Vec::new(), camera, page }).unwrap().0;
     let mut marks = still.layers.iter().flat_map(|layer| &layer.marks);
     assert!(marks.all(|mark| mark.provenance.part.as_deref() == Some("left")));
 }
 
 #[test]
-fn what_hangs_on_hidden_nodes_is_shown_with_them() {
+fn children_of_hidden_nodes_are_shown_with_them() {
     let shows = "/nodes/0/extensions/KHR_node_visibility/visible";
-    let board = Board::new("hanging", &[(shows, "STEP", &[0.0, 1.0, 0.0])], |file| {
-        hidden(file, 0);
+    let board = PointerFile::new("hanging", &[(shows, "STEP", &[0.0, 1.0, 0.0])], |file| {
+        hide_node(file, 0);
         file["scenes"][0]["nodes"] = json!([0, 2, 3, 4, 5]);
         file["nodes"][0]["children"] = json!([1]);
     });
-    let (rigged, _) = opened(&board);
+    let (rigged, _) = open_with_both_readers(&board);
     let count = |time: f64| rigged.posed(&[Playing::all(0, time)]).unwrap().parts.len();
     assert_eq!([0.0, 1.0, 3.0].map(count), [0, 2, 0]);
     // A child with its own hidden flag stays hidden when the clip shows only its parent.
-    let board = Board::new("child", &[(shows, "STEP", &[0.0, 1.0, 0.0])], |file| {
-        hidden(file, 0);
-        hidden(file, 1);
+    let board = PointerFile::new("child", &[(shows, "STEP", &[0.0, 1.0, 0.0])], |file| {
+        hide_node(file, 0);
+        hide_node(file, 1);
         file["scenes"][0]["nodes"] = json!([0, 2, 3, 4, 5]);
         file["nodes"][0]["children"] = json!([1]);
     });
-    let (rigged, _) = opened(&board);
+    let (rigged, _) = open_with_both_readers(&board);
     assert_eq!(rigged.posed(&[Playing::all(0, 1.0)]).unwrap().parts.len(), 1);
 }

@@ -6,7 +6,7 @@ use std::io::Cursor;
 
 use glam::DAffine3;
 use kurbo::Shape;
-use ligne::animate::{Animator, Moment, Timeline, Trace, Turntable, fade, reach};
+use ligne::animate::{Animator, FrameSpec, StrokeTrace, Timeline, Turntable, fade, film_points};
 use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Drawing, LayerKind, Page, Paint, Unit};
 use ligne::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
@@ -15,34 +15,34 @@ use ligne::motion::FadeBy;
 use ligne::pipeline::Prepared;
 use ligne::{Camera, Style, SvgOptions};
 
-const SIDE: f64 = 300.0;
+const PAGE_SIDE_PX: f64 = 300.0;
 
 fn crane() -> Rigged {
     Rigged::open("examples/models/crane.glb").unwrap()
 }
 
 fn page() -> Page {
-    Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None }
+    Page { width: PAGE_SIDE_PX, height: PAGE_SIDE_PX, unit: Unit::Px, background: None }
 }
 
 /// Moments of the crane's clip at `fps` frames per second. One camera frames all poses.
-fn moments(crane: &Rigged, fps: f64) -> Vec<Moment> {
+fn moments(crane: &Rigged, fps: f64) -> Vec<FrameSpec> {
     let [from, to] = crane.rig.clips[0].span();
     let timeline = Timeline::between(from, to, fps).unwrap();
     let playing = |frame: usize| vec![Playing::all(0, timeline.time(frame))];
     let poses: Vec<_> = timeline.drawn().map(|frame| (playing(frame), DAffine3::IDENTITY)).collect();
-    let points = reach(crane, &poses).unwrap();
-    let camera = Camera::three_quarter().with_frame(SIDE, SIDE).fit_points(&points, 0.05);
-    timeline.drawn().map(|frame| Moment { playing: playing(frame), camera, page: page() }).collect()
+    let points = film_points(crane, &poses).unwrap();
+    let camera = Camera::three_quarter().with_frame(PAGE_SIDE_PX, PAGE_SIDE_PX).fit_points(&points, 0.05);
+    timeline.drawn().map(|frame| FrameSpec { playing: playing(frame), camera, page: page() }).collect()
 }
 
-fn drawings(moments: &[Moment], crane: &Rigged, style: &Style) -> Vec<Drawing> {
+fn drawings(moments: &[FrameSpec], crane: &Rigged, style: &Style) -> Vec<Drawing> {
     let animator = Animator::new(crane, style);
     moments.iter().map(|moment| animator.draw(moment).unwrap().0).collect()
 }
 
 /// Stroke length in px by stroke identity.
-fn strokes(drawing: &Drawing) -> BTreeMap<u64, f64> {
+fn stroke_lengths(drawing: &Drawing) -> BTreeMap<u64, f64> {
     let mut strokes = BTreeMap::new();
     for layer in drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines) {
         for mark in &layer.marks {
@@ -53,7 +53,7 @@ fn strokes(drawing: &Drawing) -> BTreeMap<u64, f64> {
 }
 
 #[test]
-fn a_frame_depends_on_nothing_but_its_moment() {
+fn frames_depend_only_on_their_moment() {
     let (crane, style) = (crane(), Style::load("sketch", &[]).unwrap());
     let moments = moments(&crane, 2.0);
     let svg = |drawing: &Drawing| drawing.to_svg(&SvgOptions::default());
@@ -68,7 +68,7 @@ fn a_frame_depends_on_nothing_but_its_moment() {
 }
 
 #[test]
-fn what_follows_from_the_rest_is_what_would_be_made_from_the_start() {
+fn frames_from_the_rest_pose_equal_fresh_drawings() {
     let crane = crane();
     for name in ["ink", "toon"] {
         let style = Style::load(name, &[]).unwrap();
@@ -90,10 +90,10 @@ fn what_follows_from_the_rest_is_what_would_be_made_from_the_start() {
 }
 
 #[test]
-fn every_stroke_of_a_frame_has_a_name_of_its_own_and_keeps_it() {
+fn strokes_have_unique_identities_that_persist_between_frames() {
     let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
     let frames: Vec<BTreeMap<u64, f64>> =
-        drawings(&moments(&crane, 24.0)[..24], &crane, &style).iter().map(strokes).collect();
+        drawings(&moments(&crane, 24.0)[..24], &crane, &style).iter().map(stroke_lengths).collect();
     let (mut kept, mut all) = (0.0, 0.0);
     for pair in frames.windows(2) {
         assert!(!pair[0].contains_key(&0), "a stroke without a name");
@@ -111,7 +111,7 @@ fn every_stroke_of_a_frame_has_a_name_of_its_own_and_keeps_it() {
 }
 
 #[test]
-fn tremor_stays_on_the_model() {
+fn tremor_of_static_parts_does_not_change_between_frames() {
     // The base of the crane does not move. In consecutive frames at least three quarters of its lines must be
     // identical.
     let style = Style::load("ink", &["pen.hand.tremor=3".to_owned()]);
@@ -131,19 +131,19 @@ fn tremor_stays_on_the_model() {
 }
 
 #[test]
-fn strokes_that_come_and_go_fade() {
+fn appearing_and_disappearing_strokes_fade() {
     let crane = crane();
     // Variable-width outlines and plain strokes, faded by width and by opacity.
     for (sheet, by) in [("ink", FadeBy::Width), ("sketch", FadeBy::Width), ("sketch", FadeBy::Opacity)] {
         let style = Style::load(sheet, &[]).unwrap();
         let drawings = drawings(&moments(&crane, 12.0), &crane, &style);
-        let traces: Vec<Trace> = drawings.iter().map(Trace::of).collect();
-        let names: Vec<BTreeMap<u64, f64>> = drawings.iter().map(strokes).collect();
-        const FAR: usize = 3;
+        let traces: Vec<StrokeTrace> = drawings.iter().map(StrokeTrace::of).collect();
+        let names: Vec<BTreeMap<u64, f64>> = drawings.iter().map(stroke_lengths).collect();
+        const FADE_FRAMES: usize = 3;
         let (mut faded, mut others, mut joined) = (0, 0, 0);
         for frame in 0..drawings.len() {
             let at = |by: isize| frame.checked_add_signed(by).filter(|frame| *frame < drawings.len());
-            let pairs = || (1..=FAR as isize).map(|far| [at(-far), at(far)]);
+            let pairs = || (1..=FADE_FRAMES as isize).map(|far| [at(-far), at(far)]);
             let around: Vec<_> = pairs().map(|pair| pair.map(|frame| frame.map(|k| &traces[k]))).collect();
             let mut drawing = drawings[frame].clone();
             fade(&mut drawing, &around, by);
@@ -189,28 +189,33 @@ fn strokes_that_come_and_go_fade() {
 }
 
 #[test]
-fn a_turntable_sees_all_of_a_model_from_all_sides() {
+fn turntables_frame_the_model_from_all_sides() {
     let rigged = Rigged::open("examples/models/gear.obj").unwrap();
     let table = Turntable::round(&rigged.scene, 8);
     let poses: Vec<_> = (0..8).map(|step| (Vec::new(), table.turn(8 - step))).collect();
-    let points = reach(&rigged, &poses).unwrap();
-    let first = Camera::three_quarter_of(rigged.scene.up).with_frame(SIDE, SIDE).fit_points(&points, 0.05);
+    let points = film_points(&rigged, &poses).unwrap();
+    let first = Camera::three_quarter_of(rigged.scene.up)
+        .with_frame(PAGE_SIDE_PX, PAGE_SIDE_PX)
+        .fit_points(&points, 0.05);
     let style = Style::default();
     let animator = Animator::new(&rigged, &style);
     let mut touched = 0.0_f64;
     for step in 0..8 {
         let camera = table.camera(&first, step);
-        let (drawing, _) = animator.draw(&Moment { playing: Vec::new(), camera, page: page() }).unwrap();
+        let (drawing, _) = animator.draw(&FrameSpec { playing: Vec::new(), camera, page: page() }).unwrap();
         let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
         let bounds = marks.map(|mark| mark.path.bounding_box()).reduce(|a, b| a.union(b)).unwrap();
-        assert!(bounds.x0 > 0.0 && bounds.y0 > 0.0 && bounds.x1 < SIDE && bounds.y1 < SIDE, "{bounds:?}");
+        assert!(
+            bounds.x0 > 0.0 && bounds.y0 > 0.0 && bounds.x1 < PAGE_SIDE_PX && bounds.y1 < PAGE_SIDE_PX,
+            "{bounds:?}"
+        );
         touched = touched.max(bounds.width().max(bounds.height()));
     }
-    assert!(touched > 0.85 * SIDE, "{touched}");
+    assert!(touched > 0.85 * PAGE_SIDE_PX, "{touched}");
 }
 
 /// Paths of one frame of an SVG film, with every `<use>` resolved.
-fn resolved(film: &str, frame: usize) -> Vec<String> {
+fn resolve_film_frame(film: &str, frame: usize) -> Vec<String> {
     let text = film.replace("xlink:href", "href");
     let document = usvg::roxmltree::Document::parse(&text).unwrap();
     let by_id = |id: &str| document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
@@ -246,7 +251,7 @@ fn resolved(film: &str, frame: usize) -> Vec<String> {
 }
 
 #[test]
-fn an_animated_svg_shows_its_frames() {
+fn animated_svg_shows_the_frames_it_was_given() {
     for name in ["ink", "toon", "comic"] {
         let (crane, style) = (crane(), Style::load(name, &[]).unwrap());
         let drawings = drawings(&moments(&crane, 3.0), &crane, &style);
@@ -260,7 +265,11 @@ fn an_animated_svg_shows_its_frames() {
             alone.push(drawing, 1);
             let alone = alone.finish();
             single += alone.len();
-            assert_eq!(resolved(&film, number), resolved(&alone, 0), "{name}, frame {number}");
+            assert_eq!(
+                resolve_film_frame(&film, number),
+                resolve_film_frame(&alone, 0),
+                "{name}, frame {number}"
+            );
         }
         assert!(film.len() < single, "{name}: {} of {single}", film.len());
         usvg::Tree::from_str(&film, &usvg::Options::default()).unwrap();
@@ -268,7 +277,7 @@ fn an_animated_svg_shows_its_frames() {
 }
 
 #[test]
-fn what_does_not_move_is_written_once() {
+fn animated_svg_stores_unchanged_frames_once() {
     let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
     let moments = moments(&crane, 3.0);
     let animator = Animator::new(&crane, &style);
@@ -285,16 +294,16 @@ fn what_does_not_move_is_written_once() {
 fn pixels(style: &str, background: bool) -> Vec<Pixels> {
     let set = format!("page.background={}", if background { "#fdf6e3" } else { "none" });
     let (crane, style) = (crane(), Style::load(style, &[set]).unwrap());
-    let moments: Vec<Moment> = moments(&crane, 2.0)
+    let moments: Vec<FrameSpec> = moments(&crane, 2.0)
         .into_iter()
-        .map(|moment| Moment { page: Page { background: style.background, ..moment.page }, ..moment })
+        .map(|moment| FrameSpec { page: Page { background: style.background, ..moment.page }, ..moment })
         .collect();
     let drawings = drawings(&moments, &crane, &style);
     drawings.iter().map(|drawing| drawing.to_pixels(&PngOptions::default()).unwrap()).collect()
 }
 
 /// Canvas of a GIF player after each picture, and the delay of the picture in hundredths of a second.
-fn played(bytes: Vec<u8>) -> Vec<(Vec<u8>, u32)> {
+fn play_gif(bytes: Vec<u8>) -> Vec<(Vec<u8>, u32)> {
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(Cursor::new(bytes)).unwrap();
@@ -323,13 +332,13 @@ fn played(bytes: Vec<u8>) -> Vec<(Vec<u8>, u32)> {
 }
 
 #[test]
-fn gif_is_read_back_with_its_times() {
+fn gif_films_read_back_with_their_delays() {
     for background in [true, false] {
         let frames = pixels("ink", background);
         let mut film = GifFilm::new(Vec::new(), 24.0);
         frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
         assert_eq!(film.left_out(), 0);
-        let shown = played(film.finish().unwrap());
+        let shown = play_gif(film.finish().unwrap());
         assert_eq!(shown.len(), frames.len());
         let mut clear = 0;
         for ((screen, _), wanted) in shown.iter().zip(&frames) {
@@ -350,7 +359,7 @@ fn gif_is_read_back_with_its_times() {
 /// GIF delays are at least 0.02 s. At higher frame rates pictures are left out. The total time and the start
 /// times of the others stay exact.
 #[test]
-fn gif_lasts_as_long_as_its_frames() {
+fn gif_films_keep_their_duration_at_any_frame_rate() {
     let picture = |k: u32| {
         let rgba = (0..16_u32).flat_map(|pixel| [(k * 7 + pixel) as u8, (k / 8) as u8, 9, 255]).collect();
         Pixels { width: 4, height: 4, rgba, dpi: 96.0 }
@@ -369,7 +378,7 @@ fn gif_lasts_as_long_as_its_frames() {
         let mut film = GifFilm::new(Vec::new(), fps);
         (0..frames).for_each(|k| film.push(&picture(k), 1).unwrap());
         let left_out = film.left_out();
-        let shown = played(film.finish().unwrap());
+        let shown = play_gif(film.finish().unwrap());
         assert_eq!(shown.len() as u64 + left_out, u64::from(frames), "{fps}");
         assert_eq!(left_out > 0, fps > 50.0 && frames > 1, "{fps}");
         assert!(shown.iter().all(|(_, delay)| *delay >= 2), "{fps}");
@@ -386,7 +395,7 @@ fn gif_lasts_as_long_as_its_frames() {
 }
 
 #[test]
-fn png_is_read_back_exactly() {
+fn apng_films_read_back_exactly() {
     let frames = pixels("ink", false);
     let mut bytes = Vec::new();
     let mut film = ApngFilm::new(&mut bytes, 24.0, frames.len() as u32);
@@ -394,7 +403,7 @@ fn png_is_read_back_exactly() {
     film.finish().unwrap();
     let mut reader = png::Decoder::new(Cursor::new(&bytes)).read_info().unwrap();
     assert_eq!(reader.info().animation_control().unwrap().num_frames as usize, frames.len());
-    let side = SIDE as usize;
+    let side = PAGE_SIDE_PX as usize;
     let mut screen = vec![0_u8; side * side * 4];
     let mut seconds = 0.0;
     for wanted in &frames {
@@ -416,7 +425,7 @@ fn png_is_read_back_exactly() {
 }
 
 #[test]
-fn webp_is_read_back_exactly() {
+fn webp_films_read_back_exactly() {
     let frames = pixels("ink", false);
     let mut film = WebpFilm::new(24.0);
     frames.iter().for_each(|frame| film.push(frame, 5).unwrap());
@@ -425,7 +434,7 @@ fn webp_is_read_back_exactly() {
     assert!(decoder.is_animated() && decoder.has_alpha());
     assert_eq!(
         (decoder.num_frames() as usize, decoder.dimensions()),
-        (frames.len(), (SIDE as u32, SIDE as u32))
+        (frames.len(), (PAGE_SIDE_PX as u32, PAGE_SIDE_PX as u32))
     );
     let mut milliseconds = 0;
     for wanted in &frames {
@@ -439,7 +448,7 @@ fn webp_is_read_back_exactly() {
 }
 
 #[test]
-fn frames_of_another_size_are_refused() {
+fn film_frames_of_another_size_are_refused() {
     let [a, b] =
         [8, 9].map(|width| Pixels { width, height: 4, rgba: vec![255; width as usize * 16], dpi: 96.0 });
     let mut gif = GifFilm::new(Vec::new(), 12.0);

@@ -10,21 +10,21 @@ use ligne::scene::Geometry;
 use ligne::{Scene, SvgOptions, render};
 
 use crate::support::pipeline::perspective;
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::moving_boxes::*;
 use crate::support::scenes::solids::cuboid;
 
 #[test]
-fn what_goes_straight_leaves_straight_lines_of_the_right_length() {
+fn straight_motion_leaves_straight_lines_of_the_right_length() {
     // Slightly rotated: no corner travels behind another one.
     let slant = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.2, 0.1);
-    let solid = unit_box().moved(|p| slant * p);
+    let solid = unit_cube().moved(|p| slant * p);
     let speed = DVec3::new(1.2, 0.6, 0.0);
-    let model = rigged(vec![solid.clone()], vec![going(0, speed)]);
-    let (camera, time) = (before(), 1.5);
-    let eye = Eye::new(&camera);
-    let style = style(&["motion.over=true", "motion.lines=8", "chain.tidy=0"]);
-    let scene = scene_at(&model, time, &style);
+    let model = rig_solids(vec![solid.clone()], vec![translation_channel(0, speed)]);
+    let (camera, time) = (front_camera(), 1.5);
+    let eye = TextbookCamera::new(&camera);
+    let style = motion_style(&["motion.over=true", "motion.lines=8", "chain.tidy=0"]);
+    let scene = posed_scene(&model, time, &style);
     let movers = scene.movers.as_ref().unwrap();
     assert_eq!((movers.len(), movers[0].trails.len()), (1, 8));
     for trail in &movers[0].trails {
@@ -32,40 +32,41 @@ fn what_goes_straight_leaves_straight_lines_of_the_right_length() {
         assert!(solid.positions.iter().any(|p| p.distance(start) < 1e-9), "{start}");
         assert_eq!(trail.points.len(), 81);
     }
-    let drawing = drawn(&model, time, &camera, &style);
-    let drawn = lines(&drawing);
-    let way = eye.image(-speed * BACK) - eye.image(DVec3::ZERO);
+    let drawing = draw_at(&model, time, &camera, &style);
+    let drawn = motion_lines(&drawing);
+    let way = eye.project(-speed * DEFAULT_TRAIL_SECONDS) - eye.project(DVec3::ZERO);
     for mark in &drawn {
-        let start = along(mark)[0];
+        let start = points_along(mark)[0];
         let beside = |p: Point| (p - start).cross(way).abs() / way.hypot();
-        assert!(along(mark).into_iter().all(|p| beside(p) < 1e-3), "{:?}", mark.path);
+        assert!(points_along(mark).into_iter().all(|p| beside(p) < 1e-3), "{:?}", mark.path);
     }
-    // One line ends where each corner was `BACK` seconds ago. A line in front of the box starts at its
+    // One line ends where each corner was `DEFAULT_TRAIL_SECONDS` seconds ago. A line in front of the box starts at its
     // corner.
     let mut whole = 0;
     for corner in &solid.positions {
-        let [from, to] = [time, time - BACK].map(|time| eye.image(*corner + speed * time));
-        let own: Vec<_> = drawn.iter().filter(|mark| ends(mark, way)[1].distance(to) < 1e-3).collect();
+        let [from, to] = [time, time - DEFAULT_TRAIL_SECONDS].map(|time| eye.project(*corner + speed * time));
+        let own: Vec<_> =
+            drawn.iter().filter(|mark| motion_line_ends(mark, way)[1].distance(to) < 1e-3).collect();
         assert_eq!(own.len(), 1, "{to:?}");
-        whole += usize::from(ends(own[0], way)[0].distance(from) < 1e-3);
+        whole += usize::from(motion_line_ends(own[0], way)[0].distance(from) < 1e-3);
     }
     assert!(whole >= 2, "{whole}");
-    assert!((way.hypot() - 100.0 * speed.length() * BACK).abs() < 1e-9);
+    assert!((way.hypot() - 100.0 * speed.length() * DEFAULT_TRAIL_SECONDS).abs() < 1e-9);
 }
 
 #[test]
-fn lines_begin_where_their_body_ends() {
+fn motion_lines_begin_at_the_outline_of_their_body() {
     let speed = DVec3::X * 2.0;
-    let model = rigged(vec![unit_box()], vec![going(0, speed)]);
+    let model = rig_solids(vec![unit_cube()], vec![translation_channel(0, speed)]);
     let camera = perspective(DVec3::new(0.0, 0.0, 12.0), DVec3::ZERO, 50.0);
-    let eye = Eye::new(&camera);
-    let drawing = drawn(&model, 1.0, &camera, &style(&["motion.lines=8"]));
-    let drawn = lines(&drawing);
-    let [back, front] = [-0.5, 0.5].map(|z| eye.image(DVec3::new(1.5, 0.0, z)).x);
+    let eye = TextbookCamera::new(&camera);
+    let drawing = draw_at(&model, 1.0, &camera, &motion_style(&["motion.lines=8"]));
+    let drawn = motion_lines(&drawing);
+    let [back, front] = [-0.5, 0.5].map(|z| eye.project(DVec3::new(1.5, 0.0, z)).x);
     // Lines of corners that follow each other on the same path overlap in part and are drawn once.
-    let starts: Vec<Point> = drawn.iter().map(|mark| ends(mark, LEFT)[0]).collect();
+    let starts: Vec<Point> = drawn.iter().map(|mark| motion_line_ends(mark, TRAIL_LEFT)[0]).collect();
     assert!(starts.iter().all(|start| start.x < front + 2e-3), "{starts:?} {front}");
-    for height in [0.5, -0.5].map(|y| eye.image(DVec3::new(1.5, y, 0.5)).y) {
+    for height in [0.5, -0.5].map(|y| eye.project(DVec3::new(1.5, y, 0.5)).y) {
         let first = starts.iter().filter(|start| (start.y - height).abs() < 1e-2).map(|start| start.x);
         assert!((first.fold(0.0, f64::max) - front).abs() < 2e-3, "{starts:?} {front}");
     }
@@ -73,54 +74,57 @@ fn lines_begin_where_their_body_ends() {
 }
 
 #[test]
-fn what_turns_leaves_arcs() {
-    for (solid, degrees) in [(cuboid(DVec3::splat(-1.5), DVec3::splat(1.5)), 90.0), (unit_box(), 150.0)] {
-        let model = rigged(vec![solid.clone()], vec![turning(0, degrees)]);
-        let style = style(&["motion.over=true", "motion.lines=8", "motion.speed=0.1"]);
-        let camera = before();
-        let drawing = drawn(&model, 2.03, &camera, &style);
-        let drawn = lines(&drawing);
+fn rotating_bodies_leave_arcs() {
+    for (solid, degrees) in [(cuboid(DVec3::splat(-1.5), DVec3::splat(1.5)), 90.0), (unit_cube(), 150.0)] {
+        let model = rig_solids(vec![solid.clone()], vec![rotation_channel(0, degrees)]);
+        let style = motion_style(&["motion.over=true", "motion.lines=8", "motion.speed=0.1"]);
+        let camera = front_camera();
+        let drawing = draw_at(&model, 2.03, &camera, &style);
+        let drawn = motion_lines(&drawing);
         let radius = 100.0 * solid.positions[0].truncate().length();
         let middle = Point::new(500.0, 500.0);
         assert!(!drawn.is_empty());
         for mark in &drawn {
-            let points = along(mark);
+            let points = points_along(mark);
             for point in &points {
                 assert!((point.distance(middle) - radius).abs() < 0.1, "{} {radius}", point.distance(middle));
             }
             let curves = mark.path.elements().len();
             assert!(curves < 12, "a smooth curve of {curves} pieces");
         }
-        let arcs = drawn.iter().map(|mark| along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>());
+        let arcs =
+            drawn.iter().map(|mark| points_along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>());
         let longest = arcs.fold(0.0, f64::max);
-        let whole = radius * (degrees * BACK).to_radians();
+        let whole = radius * (degrees * DEFAULT_TRAIL_SECONDS).to_radians();
         assert!((longest - whole).abs() < 0.2, "{longest} {whole}");
     }
     // Lines end where the direction of travel differs by more than 60 degrees from the current one.
-    let model = rigged(vec![unit_box()], vec![turning(0, 150.0)]);
-    let style = style(&["motion.over=true", "motion.turn=60", "motion.speed=0"]);
-    for mark in lines(&drawn(&model, 2.0, &before(), &style)) {
+    let model = rig_solids(vec![unit_cube()], vec![rotation_channel(0, 150.0)]);
+    let style = motion_style(&["motion.over=true", "motion.turn=60", "motion.speed=0"]);
+    for mark in motion_lines(&draw_at(&model, 2.0, &front_camera(), &style)) {
         let angle =
-            along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>() / (50.0 * 2.0_f64.sqrt());
+            points_along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>() / (50.0 * 2.0_f64.sqrt());
         assert!(angle < 61_f64.to_radians(), "{}", angle.to_degrees());
     }
     // The centre of a body that rotates about it has no path.
-    let own = self::style(&["motion.path=body", "motion.speed=0"]);
-    assert!(lines(&drawn(&model, 2.0, &before(), &own)).is_empty());
+    let own = self::motion_style(&["motion.path=body", "motion.speed=0"]);
+    assert!(motion_lines(&draw_at(&model, 2.0, &front_camera(), &own)).is_empty());
 }
 
 #[test]
-fn what_is_before_lines_hides_them_exactly() {
+fn motion_lines_are_hidden_exactly_behind_occluders() {
     let board = cuboid(DVec3::new(0.1, -3.0, 2.0), DVec3::new(0.6, 3.0, 2.1));
-    let model = rigged(vec![unit_box(), board], vec![going(0, DVec3::X * 3.0)]);
-    let style = style(&["motion.lines=8", "motion.speed=1", "lines.hidden=dashed"]);
+    let model = rig_solids(vec![unit_cube(), board], vec![translation_channel(0, DVec3::X * 3.0)]);
+    let style = motion_style(&["motion.lines=8", "motion.speed=1", "lines.hidden=dashed"]);
     // The box is at x = 3 now, and was at x = 0.5 at the far end of its lines, with its left side at x = 0.
     // The lines pass behind the board.
-    let drawing = drawn(&model, 1.0, &before(), &style);
-    let drawn = lines(&drawing);
+    let drawing = draw_at(&model, 1.0, &front_camera(), &style);
+    let drawn = motion_lines(&drawing);
     for height in [450.0, 550.0] {
-        let own =
-            drawn.iter().map(|mark| ends(mark, LEFT)).filter(|[start, _]| (start.y - height).abs() < 1e-2);
+        let own = drawn
+            .iter()
+            .map(|mark| motion_line_ends(mark, TRAIL_LEFT))
+            .filter(|[start, _]| (start.y - height).abs() < 1e-2);
         let mut pieces: Vec<[f64; 2]> = own.map(|[a, b]| [a.x.min(b.x), a.x.max(b.x)]).collect();
         pieces.sort_by(|a, b| a[0].total_cmp(&b[0]));
         pieces.dedup_by(|next, last| {
@@ -132,7 +136,7 @@ fn what_is_before_lines_hides_them_exactly() {
             pieces.len(),
             2,
             "{pieces:?} {:?}",
-            drawn.iter().map(|m| ends(m, LEFT)).collect::<Vec<_>>()
+            drawn.iter().map(|m| motion_line_ends(m, TRAIL_LEFT)).collect::<Vec<_>>()
         );
         for (x, expected) in pieces.iter().flatten().zip([500.0, 510.0, 560.0, 750.0]) {
             assert!((x - expected).abs() < 1e-2, "{pieces:?}");
@@ -141,9 +145,9 @@ fn what_is_before_lines_hides_them_exactly() {
 }
 
 /// Whether the ray through an image point hits a triangle nearer than `depth`.
-fn is_covered(eye: &Eye, at: Point, depth: f64, triangles: &[[DVec3; 3]]) -> bool {
-    let (near, far) = (eye.world(at, 0.0), eye.world(at, 1.0));
-    let (from, way) = if eye.perspective { (eye.eye, far - eye.eye) } else { (near, far - near) };
+fn is_covered(eye: &TextbookCamera, at: Point, depth: f64, triangles: &[[DVec3; 3]]) -> bool {
+    let (near, far) = (eye.unproject(at, 0.0), eye.unproject(at, 1.0));
+    let (from, way) = if eye.perspective { (eye.position, far - eye.position) } else { (near, far - near) };
     triangles.iter().any(|[a, b, c]| {
         let (u, v) = (*b - *a, *c - *a);
         let p = way.cross(v);
@@ -166,9 +170,9 @@ fn world_triangles(scene: &Scene, part: usize) -> Vec<[DVec3; 3]> {
 }
 
 #[test]
-fn lines_are_drawn_where_rays_say_so() {
+fn visibility_of_motion_lines_matches_rays() {
     let model = Rigged::open("examples/models/brick.glb").unwrap();
-    let own = style(&["motion.parts=['brick', 'fist-*', 'hat']", "chain.tidy=0", "motion.lines=3"]);
+    let own = motion_style(&["motion.parts=['brick', 'fist-*', 'hat']", "chain.tidy=0", "motion.lines=3"]);
     let (mut seen, mut hidden) = (0, 0);
     for (time, eye_at) in [
         (0.7, DVec3::new(0.5, 1.7, 6.4)),
@@ -177,11 +181,11 @@ fn lines_are_drawn_where_rays_say_so() {
         (1.5, DVec3::new(1.0, 4.0, -5.0)),
     ] {
         let camera = perspective(eye_at, DVec3::new(0.05, 1.2, 0.0), 40.0);
-        let eye = Eye::new(&camera);
-        let scene = scene_at(&model, time, &own);
+        let eye = TextbookCamera::new(&camera);
+        let scene = posed_scene(&model, time, &own);
         let all: Vec<[DVec3; 3]> = (0..scene.parts.len()).flat_map(|p| world_triangles(&scene, p)).collect();
         let drawing = render(&scene, &camera, &own).unwrap();
-        let drawn: Vec<Point> = lines(&drawing).into_iter().flat_map(along).collect();
+        let drawn: Vec<Point> = motion_lines(&drawing).into_iter().flat_map(points_along).collect();
         let near = |at: Point| drawn.iter().any(|p| p.distance(at) < 0.5);
         let movers = scene.movers.as_ref().unwrap();
         let trails: Vec<(usize, &ligne::scene::Trail)> =
@@ -190,7 +194,7 @@ fn lines_are_drawn_where_rays_say_so() {
             let body = world_triangles(&scene, *part);
             for pair in trail.points.array_windows::<2>().step_by(2) {
                 let middle = pair[0].midpoint(pair[1]);
-                let (at, depth) = (eye.image(middle), eye.depth(middle));
+                let (at, depth) = (eye.project(middle), eye.depth(middle));
                 if !(5.0..995.0).contains(&at.x) || !(5.0..995.0).contains(&at.y) {
                     continue;
                 }
@@ -203,7 +207,7 @@ fn lines_are_drawn_where_rays_say_so() {
                 let firm =
                     around.map(|a| at + kurbo::Vec2::new(cos(a), sin(a)) * 2.5).all(|p| covered(p) == truth);
                 let crowded = trails.iter().enumerate().any(|(other, (_, t))| {
-                    other != number && t.points.iter().any(|p| eye.image(*p).distance(at) < 6.0)
+                    other != number && t.points.iter().any(|p| eye.project(*p).distance(at) < 6.0)
                 });
                 if !firm || crowded {
                     continue;
@@ -217,11 +221,11 @@ fn lines_are_drawn_where_rays_say_so() {
 }
 
 #[test]
-fn lines_begin_at_the_same_vertices_all_the_time() {
+fn motion_lines_keep_their_vertices_over_time() {
     let speed = DVec3::new(1.0, 0.3, -0.2);
-    let model = rigged(vec![unit_box()], vec![going(0, speed)]);
+    let model = rig_solids(vec![unit_cube()], vec![translation_channel(0, speed)]);
     let starts = |time: f64, changes: &[&str]| -> Vec<DVec3> {
-        let scene = scene_at(&model, time, &style(changes));
+        let scene = posed_scene(&model, time, &motion_style(changes));
         let trails = &scene.movers.as_ref().unwrap()[0].trails;
         trails.iter().map(|trail| (2.0 * (trail.points[0] - speed * time)).round() + DVec3::ZERO).collect()
     };
@@ -232,10 +236,12 @@ fn lines_begin_at_the_same_vertices_all_the_time() {
     // A larger line count keeps the lines of a smaller one.
     assert_eq!(starts(0.5, &[])[..4], first);
     // The vertex order of the file has no effect.
-    let mut solid = unit_box();
+    let mut solid = unit_cube();
     solid.positions.reverse();
     solid.triangles.iter_mut().for_each(|t| *t = t.map(|v| 7 - v));
-    let other = rigged(vec![solid], vec![going(0, speed)]);
-    let svg = |model: &Rigged| drawn(model, 1.0, &before(), &style(&[])).to_svg(&SvgOptions::default());
+    let other = rig_solids(vec![solid], vec![translation_channel(0, speed)]);
+    let svg = |model: &Rigged| {
+        draw_at(model, 1.0, &front_camera(), &motion_style(&[])).to_svg(&SvgOptions::default())
+    };
     assert_eq!(svg(&model), svg(&other));
 }

@@ -10,11 +10,11 @@ use ligne::animation::{Playing, Rigged};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use serde_json::{Value, json};
 
-use crate::support::readers::plain_gltf::Plain;
+use crate::support::readers::plain_gltf::ReferenceGltf;
 use crate::support::readers::shared_folder;
 
 /// World-space vertices of each part.
-fn points(scene: &Scene) -> Vec<Vec<DVec3>> {
+fn world_points(scene: &Scene) -> Vec<Vec<DVec3>> {
     let of = |part: &ligne::scene::Part| {
         let positions = &scene.geometries[part.geometry].positions;
         positions.iter().map(|p| part.world_from_part.transform_point3(*p)).collect()
@@ -24,8 +24,8 @@ fn points(scene: &Scene) -> Vec<Vec<DVec3>> {
 
 /// Largest distance of posed vertices from the plain evaluator, and largest motion from rest. Both are
 /// relative to the size of the model, and cover several times of each clip.
-fn farthest(path: &Path, most_clips: usize) -> (f64, f64) {
-    let (rigged, plain) = (Rigged::open(path).unwrap(), Plain::open(path));
+fn max_pose_error_and_motion(path: &Path, most_clips: usize) -> (f64, f64) {
+    let (rigged, plain) = (Rigged::open(path).unwrap(), ReferenceGltf::open(path));
     let far = |a: &[Vec<DVec3>], b: &[Vec<DVec3>]| {
         assert_eq!(a.len(), b.len(), "{}", path.display());
         let pairs = a.iter().zip(b).flat_map(|(a, b)| {
@@ -34,18 +34,18 @@ fn farthest(path: &Path, most_clips: usize) -> (f64, f64) {
         });
         pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
     };
-    let rest = points(&rigged.scene);
+    let rest = world_points(&rigged.scene);
     let all = || rest.iter().flatten();
     let low = all().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let size = all().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p)).distance(low);
-    let mut worst = far(&rest, &plain.points(None)) / size;
+    let mut worst = far(&rest, &plain.posed_vertices(None)) / size;
     let mut moved = 0.0_f64;
     for (number, clip) in rigged.rig.clips.iter().enumerate().take(most_clips) {
         let [from, to] = clip.span();
         for share in [-0.5, 0.0, 0.213, 0.5, 0.77, 1.0, 1.5] {
             let time = from + (to - from) * share;
-            let posed = points(&rigged.posed(&[Playing::all(number, time)]).unwrap());
-            worst = worst.max(far(&posed, &plain.points(Some((number, time)))) / size);
+            let posed = world_points(&rigged.posed(&[Playing::all(number, time)]).unwrap());
+            worst = worst.max(far(&posed, &plain.posed_vertices(Some((number, time)))) / size);
             moved = moved.max(far(&posed, &rest) / size);
         }
     }
@@ -53,7 +53,7 @@ fn farthest(path: &Path, most_clips: usize) -> (f64, f64) {
 }
 
 #[test]
-fn shared_models_are_posed_as_an_independent_evaluation_says() {
+fn poses_of_shared_models_match_an_independent_evaluation() {
     for (name, clips) in [
         ("animated/Fox.glb", 3),
         ("animated/CesiumMan.glb", 1),
@@ -63,7 +63,7 @@ fn shared_models_are_posed_as_an_independent_evaluation_says() {
         ("animated/MorphStressTest.gltf", 3),
     ] {
         let Some(path) = shared_folder::find(name) else { continue };
-        let (far, moved) = farthest(&path, clips);
+        let (far, moved) = max_pose_error_and_motion(&path, clips);
         assert!(far < 1e-5, "{name}: {far:e}");
         assert!(moved > 0.01, "{name} hardly moves: {moved}");
     }
@@ -71,9 +71,9 @@ fn shared_models_are_posed_as_an_independent_evaluation_says() {
 
 /// Temporary glTF file: an arm with two joints, a morph target and a flag. Its clips use all channel types
 /// and interpolations.
-struct Arm(PathBuf);
+struct ArmFile(PathBuf);
 
-impl Arm {
+impl ArmFile {
     fn new(name: &str, change: impl FnOnce(&mut Value)) -> Self {
         let mut bytes: Vec<u8> = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -178,26 +178,26 @@ impl Arm {
     }
 }
 
-impl Drop for Arm {
+impl Drop for ArmFile {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.0);
     }
 }
 
 #[test]
-fn an_arm_is_posed_as_an_independent_evaluation_says() {
-    let arm = Arm::new("posed", |_| {});
-    let (far, moved) = farthest(&arm.0, 2);
+fn poses_of_an_arm_match_an_independent_evaluation() {
+    let arm = ArmFile::new("posed", |_| {});
+    let (far, moved) = max_pose_error_and_motion(&arm.0, 2);
     assert!(far < 1e-6, "{far:e}");
     assert!(moved > 0.1, "{moved}");
 }
 
 #[test]
-fn clips_that_play_together_share_what_they_move() {
-    let arm = Arm::new("shared", |_| {});
+fn simultaneous_clips_blend_by_weight() {
+    let arm = ArmFile::new("shared", |_| {});
     let rigged = Rigged::open(&arm.0).unwrap();
-    let at = |playing: &[Playing]| points(&rigged.posed(playing).unwrap());
-    let rest = points(&rigged.scene);
+    let at = |playing: &[Playing]| world_points(&rigged.posed(playing).unwrap());
+    let rest = world_points(&rigged.scene);
     assert_eq!(at(&[]), rest);
     let (bend, swell) = (Playing::all(0, 1.3), Playing::all(1, 1.3));
     let of = |playing: Playing, weight: f64| Playing { weight, ..playing };
@@ -217,7 +217,7 @@ fn clips_that_play_together_share_what_they_move() {
 #[test]
 fn broken_animations_leave_the_stored_pose_and_a_warning() {
     let warned = |name: &str, change: &dyn Fn(&mut Value), expected: &str| {
-        let arm = Arm::new(name, |file| change(file));
+        let arm = ArmFile::new(name, |file| change(file));
         let rigged = Rigged::open(&arm.0).unwrap();
         let lines = rigged.scene.warnings.lines();
         assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
@@ -246,7 +246,7 @@ fn broken_animations_leave_the_stored_pose_and_a_warning() {
     let pointer =
         json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/materials/0/x"}}});
     warned("pointer", &|file| channel(file, "target", pointer.clone()), "not drawn");
-    let arm = Arm::new("errors", |_| {});
+    let arm = ArmFile::new("errors", |_| {});
     let rigged = Rigged::open(&arm.0).unwrap();
     for playing in
         [Playing::all(2, 0.0), Playing::all(0, f64::NAN), Playing { clip: 0, time: 0.0, weight: -1.0 }]
@@ -256,7 +256,7 @@ fn broken_animations_leave_the_stored_pose_and_a_warning() {
 }
 
 /// Appends numbers in a new buffer and returns the index of their accessor.
-fn append(file: &mut Value, shape: &str, width: usize, numbers: &[f32]) -> usize {
+fn append_accessor(file: &mut Value, shape: &str, width: usize, numbers: &[f32]) -> usize {
     let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
     let mut add = |list: &str, value: Value| {
         let list = file[list].as_array_mut().unwrap();
@@ -271,10 +271,10 @@ fn append(file: &mut Value, shape: &str, width: usize, numbers: &[f32]) -> usize
 }
 
 #[test]
-fn keys_that_are_no_numbers_or_fall_back_are_left_out() {
+fn channels_with_invalid_keys_are_left_out() {
     let arm = |name: &str, key: &str, shape: &str, width: usize, numbers: &[f32]| {
-        Arm::new(name, |file| {
-            let accessor = append(file, shape, width, numbers);
+        ArmFile::new(name, |file| {
+            let accessor = append_accessor(file, shape, width, numbers);
             file["animations"][1]["samplers"][0][key] = json!(accessor);
         })
     };
@@ -288,34 +288,36 @@ fn keys_that_are_no_numbers_or_fall_back_are_left_out() {
         let lines = rigged.scene.warnings.lines();
         assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
         // The weights keep their stored values. All other channels still play.
-        let all = Arm::new(&format!("{name}-whole"), |file| {
+        let all = ArmFile::new(&format!("{name}-whole"), |file| {
             file["animations"][1]["channels"].as_array_mut().unwrap().remove(0);
         });
         let other = Rigged::open(&all.0).unwrap();
-        let at = |rigged: &Rigged| points(&rigged.posed(&[Playing::all(1, 1.5)]).unwrap());
+        let at = |rigged: &Rigged| world_points(&rigged.posed(&[Playing::all(1, 1.5)]).unwrap());
         assert_eq!(at(&rigged), at(&other), "{name}");
     }
 }
 
 #[test]
-fn a_clip_of_no_length_and_one_of_a_million_keys_play() {
-    let still = Arm::new("no-length", |file| {
-        let (time, value) = (append(file, "SCALAR", 1, &[1.0]), append(file, "SCALAR", 1, &[0.75]));
+fn clips_of_zero_length_and_of_a_million_keys_play() {
+    let still = ArmFile::new("no-length", |file| {
+        let (time, value) =
+            (append_accessor(file, "SCALAR", 1, &[1.0]), append_accessor(file, "SCALAR", 1, &[0.75]));
         let clip = &mut file["animations"][1];
         clip["samplers"] = json!([{"input": time, "output": value}]);
         clip["channels"] = json!([{"sampler": 0, "target": {"node": 3, "path": "weights"}}]);
     });
     let rigged = Rigged::open(&still.0).unwrap();
     assert_eq!(rigged.rig.clips[1].span(), [1.0, 1.0]);
-    let at = |rigged: &Rigged, time: f64| points(&rigged.posed(&[Playing::all(1, time)]).unwrap());
+    let at = |rigged: &Rigged, time: f64| world_points(&rigged.posed(&[Playing::all(1, time)]).unwrap());
     assert_eq!(at(&rigged, 1.0), at(&rigged, -7.0));
     assert_eq!(at(&rigged, 1.0), at(&rigged, 1e9));
-    assert_ne!(at(&rigged, 1.0), points(&rigged.scene));
-    let many = Arm::new("many-keys", |file| {
+    assert_ne!(at(&rigged, 1.0), world_points(&rigged.scene));
+    let many = ArmFile::new("many-keys", |file| {
         // Weight that grows linearly from 0 at 0 s to 1 at 10 s.
         let times: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-5).collect();
         let values: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-6).collect();
-        let (time, value) = (append(file, "SCALAR", 1, &times), append(file, "SCALAR", 1, &values));
+        let (time, value) =
+            (append_accessor(file, "SCALAR", 1, &times), append_accessor(file, "SCALAR", 1, &values));
         let clip = &mut file["animations"][1];
         clip["samplers"] = json!([{"input": time, "output": value}]);
         clip["channels"] = json!([{"sampler": 0, "target": {"node": 3, "path": "weights"}}]);
@@ -337,15 +339,15 @@ fn skins_without_joints_are_refused_by_name() {
         ("joints-nowhere", json!({"joints": [0, 77]}), "joint 77 is not a node of the file"),
         ("joints-missing", json!({}), "`joints` is missing; add \"joints\": …"),
     ] {
-        let arm = Arm::new(name, |file| file["skins"][0] = skin);
+        let arm = ArmFile::new(name, |file| file["skins"][0] = skin);
         let error = Rigged::open(&arm.0).unwrap_err().to_string();
         assert!(error.contains(expected), "{name}: {error}");
     }
 }
 
 #[test]
-fn pointers_move_nodes_and_hide_them() {
-    let arm = Arm::new("pointers", |file| {
+fn animation_pointers_move_and_hide_nodes() {
+    let arm = ArmFile::new("pointers", |file| {
         let pointer =
             |to: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": to}}});
         file["animations"][0]["channels"][0]["target"] = pointer("/nodes/1/rotation");
@@ -355,10 +357,10 @@ fn pointers_move_nodes_and_hide_them() {
         file["animations"][1]["samplers"][0] = swells;
     });
     let rigged = Rigged::open(&arm.0).unwrap();
-    let plain = Arm::new("plain", |_| {});
+    let plain = ArmFile::new("plain", |_| {});
     let same = Rigged::open(&plain.0).unwrap();
     let bend = [Playing::all(0, 0.8)];
-    assert_eq!(points(&rigged.posed(&bend).unwrap()), points(&same.posed(&bend).unwrap()));
+    assert_eq!(world_points(&rigged.posed(&bend).unwrap()), world_points(&same.posed(&bend).unwrap()));
     // The elbow is hidden at first, and the flag with it.
     let names = |time: f64| {
         let scene = rigged.posed(&[Playing::all(1, time)]).unwrap();

@@ -13,9 +13,9 @@ use ligne::pipeline::render_reported;
 use ligne::scene::Projection;
 use ligne::{Camera, Scene, Style};
 
-use crate::support::readers::dxf_reader::{Entity, entities, pairs};
+use crate::support::readers::dxf_reader::{Entity, entities, group_codes};
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::obj;
+use crate::support::scenes::sheet_models::obj_text;
 use crate::support::scenes::solids::Solid;
 
 /// Planar outline with the centres and radii of its arcs.
@@ -40,7 +40,7 @@ fn circle(centre: [f64; 2], radius: f64, count: u32, begin: f64) -> Outline {
 }
 
 /// Rectangle with rounded corners of `chords` chords each. It is a slot if its height is two radii.
-fn rounded([width, height]: [f64; 2], centre: [f64; 2], radius: f64, chords: u32) -> Outline {
+fn rounded_rectangle([width, height]: [f64; 2], centre: [f64; 2], radius: f64, chords: u32) -> Outline {
     let (x, y) = (width / 2.0 - radius, height / 2.0 - radius);
     let mut own = Outline { corners: Vec::new(), arcs: Vec::new(), is_circle: false };
     for (quarter, [a, b]) in [[x, y], [-x, y], [-x, -y], [x, -y]].into_iter().enumerate() {
@@ -120,7 +120,7 @@ fn scene(solids: &[Solid], written: usize) -> Scene {
             (format!("part-{k}"), solid.clone().moved(rounded))
         })
         .collect();
-    let mut scene = Scene::from_bytes(obj(&parts).as_bytes(), ModelFormat::Obj).expect("a scene");
+    let mut scene = Scene::from_bytes(obj_text(&parts).as_bytes(), ModelFormat::Obj).expect("a scene");
     scene.up = ligne::scene::UpAxis::Z;
     scene
 }
@@ -143,7 +143,7 @@ fn view(scene: &Scene, scale: f64, [width, height]: [f64; 2], middle: [f64; 2]) 
 }
 
 /// Distance from a point to the nearest drawn path.
-fn off(drawing: &Drawing, p: Point) -> f64 {
+fn distance_to_drawing(drawing: &Drawing, p: Point) -> f64 {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let segments = marks.flat_map(|mark| mark.path.segments());
     segments.map(|segment| segment.nearest(p, 1e-9).distance_sq).fold(f64::INFINITY, f64::min).sqrt()
@@ -184,7 +184,12 @@ fn round_entities(entities: &[Entity]) -> Vec<([f64; 2], f64, bool)> {
 
 /// Draws the solids and asserts that every corner lies on a line and that the DXF file has exactly the
 /// expected circles and arcs.
-fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, page): (usize, f64, [f64; 2])) {
+fn assert_circles_and_arcs(
+    name: &str,
+    outlines: &[Outline],
+    solids: &[Solid],
+    (written, scale, page): (usize, f64, [f64; 2]),
+) {
     let scene = scene(solids, written);
     let all = || outlines.iter().flat_map(|outline| &outline.corners);
     let span = |axis: usize| {
@@ -195,14 +200,14 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
     let (drawing, camera) = view(&scene, scale, page, middle);
     for [x, y] in all() {
         let at = Point::new(page[0] / 2.0 + (x - middle[0]) * scale, page[1] / 2.0 - (y - middle[1]) * scale);
-        let off = off(&drawing, at);
+        let off = distance_to_drawing(&drawing, at);
         assert!(off < 0.02, "{name}: a corner is off by {off}");
     }
     // In model units, relative to the origin of the model.
     let [right, up, _] = camera.axes();
     let origin = [page[0] / 2.0 - camera.eye.dot(right) * scale, page[1] / 2.0 + camera.eye.dot(up) * scale];
     let options = DxfOptions::default().with_length(DxfLength::Model(scale)).with_origin(origin);
-    let found = round_entities(&entities(&pairs(&drawing.to_dxf(&options))));
+    let found = round_entities(&entities(&group_codes(&drawing.to_dxf(&options))));
     let wanted: Vec<([f64; 2], f64, bool)> = outlines
         .iter()
         .flat_map(|own| own.arcs.iter().map(|(centre, radius)| (*centre, *radius, own.is_circle)))
@@ -223,10 +228,10 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
     }
 }
 
-const PAGES: [[f64; 2]; 3] = [[210.0, 297.0], [420.0, 297.0], [841.0, 594.0]];
+const PAGE_SIZES_MM: [[f64; 2]; 3] = [[210.0, 297.0], [420.0, 297.0], [841.0, 594.0]];
 
 #[test]
-fn circles_of_16_corners_and_more_are_circles() {
+fn polygons_of_16_corners_or_more_become_circles() {
     let mut dice = Dice::new(31);
     for round in 0..100 {
         let scale = [1.0, 0.5, 2.0, 0.1, 0.2, 5.0][dice.below(6)];
@@ -242,13 +247,13 @@ fn circles_of_16_corners_and_more_are_circles() {
             solids.push(ring(&outer, &inner));
             outlines.extend([outer, inner]);
         }
-        let way = (dice.below(5), scale, PAGES[dice.below(3)]);
-        check(&format!("{round}: {way:?}"), &outlines, &solids, way);
+        let way = (dice.below(5), scale, PAGE_SIZES_MM[dice.below(3)]);
+        assert_circles_and_arcs(&format!("{round}: {way:?}"), &outlines, &solids, way);
     }
 }
 
 #[test]
-fn slots_and_rounded_corners_have_arcs() {
+fn slots_and_rounded_corners_become_arcs() {
     let mut dice = Dice::new(32);
     for round in 0..100 {
         let scale = [1.0, 0.5, 2.0, 0.1, 5.0][dice.below(5)];
@@ -258,32 +263,32 @@ fn slots_and_rounded_corners_have_arcs() {
         let height =
             if dice.below(2) == 0 { 2.0 * radius } else { 2.0 * radius + dice.between(2.0, 20.0) / scale };
         let width = 2.0 * radius + dice.between(3.0, 90.0) / scale;
-        let outline = rounded([width, height], place, radius, chords);
-        let way = (dice.below(5), scale, PAGES[dice.below(3)]);
+        let outline = rounded_rectangle([width, height], place, radius, chords);
+        let way = (dice.below(5), scale, PAGE_SIZES_MM[dice.below(3)]);
         let solid = prism(&outline);
-        check(&format!("{round}: {chords} {way:?}"), &[outline], &[solid], way);
+        assert_circles_and_arcs(&format!("{round}: {chords} {way:?}"), &[outline], &[solid], way);
     }
 }
 
 #[test]
-fn polygons_and_ellipses_are_no_circles() {
+fn coarse_polygons_and_ellipses_do_not_become_circles() {
     let mut dice = Dice::new(33);
     for count in [6, 8, 12, 15] {
         let nut = circle([dice.between(-50.0, 50.0), 7.0], 12.0, count, 0.1);
-        let drawing = view(&scene(&[prism(&nut)], 4), 1.0, PAGES[0], nut.arcs[0].0).0;
-        let found = round_entities(&entities(&pairs(&drawing.to_dxf(&DxfOptions::default()))));
+        let drawing = view(&scene(&[prism(&nut)], 4), 1.0, PAGE_SIZES_MM[0], nut.arcs[0].0).0;
+        let found = round_entities(&entities(&group_codes(&drawing.to_dxf(&DxfOptions::default()))));
         assert!(found.is_empty(), "{count}: {found:?}");
     }
     for written in 0..5 {
         for count in [48, 200, 720] {
             let mut oval = circle([0.0, 0.0], 40.0, count, 0.0);
             oval.corners.iter_mut().for_each(|p| p[1] *= 0.7);
-            let drawing = view(&scene(&[prism(&oval)], written), 1.0, PAGES[0], [0.0; 2]).0;
+            let drawing = view(&scene(&[prism(&oval)], written), 1.0, PAGE_SIZES_MM[0], [0.0; 2]).0;
             let cubics =
                 drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.path.segments().count());
             assert!(cubics.sum::<usize>() < 80, "{written}: {count}");
             for [x, y] in &oval.corners {
-                let off = off(&drawing, Point::new(105.0 + x, 148.5 - y));
+                let off = distance_to_drawing(&drawing, Point::new(105.0 + x, 148.5 - y));
                 assert!(off < 0.02, "{written}: {count}: {off}");
             }
         }
@@ -292,7 +297,7 @@ fn polygons_and_ellipses_are_no_circles() {
 
 /// The visible part of a partly hidden circle is an arc.
 #[test]
-fn hidden_circles_leave_arcs() {
+fn partly_hidden_circles_leave_arcs() {
     let mut dice = Dice::new(34);
     for round in 0..30 {
         let count = [32, 48, 64, 90][dice.below(4)];
@@ -302,8 +307,8 @@ fn hidden_circles_leave_arcs() {
         let from = 3.0 + radius * dice.between(-0.7, 0.7);
         let block = crate::support::scenes::sheet_models::block([from, -30.0, 6.0], [40.0, 30.0, 8.0]);
         let scene = scene(&[prism(&disc), block], dice.below(5));
-        let (drawing, _) = view(&scene, 1.0, PAGES[0], [0.0; 2]);
-        let own = entities(&pairs(&drawing.to_dxf(&DxfOptions::default())));
+        let (drawing, _) = view(&scene, 1.0, PAGE_SIZES_MM[0], [0.0; 2]);
+        let own = entities(&group_codes(&drawing.to_dxf(&DxfOptions::default())));
         let arcs: Vec<f64> =
             own.iter().filter(|entity| entity.kind == "ARC").map(|entity| entity.number(40)).collect();
         let visible = arcs.iter().filter(|length| (*length - radius).abs() < 0.005).count();
@@ -313,17 +318,19 @@ fn hidden_circles_leave_arcs() {
 
 /// Views of one model at other scales and in other frames have the same DXF coordinates.
 #[test]
-fn files_in_lengths_of_the_model_register() {
+fn dxf_files_in_model_units_share_coordinates() {
     let whole = circle([31.5, -12.25], 6.0, 32, 0.0);
-    let other = rounded([50.0, 30.0], [140.0, 60.0], 4.0, 6);
+    let other = rounded_rectangle([50.0, 30.0], [140.0, 60.0], 4.0, 6);
     let both = scene(&[prism(&whole), prism(&other)], 4);
-    for (scale, page, middle) in [(1.0, PAGES[0], [60.0, 20.0]), (0.5, PAGES[1], [-20.0, 3.7])] {
+    for (scale, page, middle) in
+        [(1.0, PAGE_SIZES_MM[0], [60.0, 20.0]), (0.5, PAGE_SIZES_MM[1], [-20.0, 3.7])]
+    {
         let (drawing, camera) = view(&both, scale, page, middle);
         let [right, up, _] = camera.axes();
         let origin =
             [page[0] / 2.0 - camera.eye.dot(right) * scale, page[1] / 2.0 + camera.eye.dot(up) * scale];
         let options = DxfOptions::default().with_length(DxfLength::Model(scale)).with_origin(origin);
-        let found = round_entities(&entities(&pairs(&drawing.to_dxf(&options))));
+        let found = round_entities(&entities(&group_codes(&drawing.to_dxf(&options))));
         let hole = found.iter().find(|(_, _, is_circle)| *is_circle).expect("a circle");
         assert!((hole.0[0] - 31.5).abs() < 1e-5 && (hole.0[1] + 12.25).abs() < 1e-5, "{hole:?}");
     }

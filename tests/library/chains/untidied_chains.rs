@@ -1,21 +1,21 @@
 //! Chains without smoothing, simplification, tidying or fitting cover exactly the visible lines of the view
 //! map.
 
-use crate::support::measures::segment_sets::{doubled, length, uncovered};
-use crate::support::pipeline::{counting, stages};
+use crate::support::measures::segment_sets::{doubled_length, total_length, uncovered_length};
+use crate::support::pipeline::{exact_options_with_hidden, run_stages};
 use crate::support::properties::subject;
-use crate::support::properties::table::{CAMERAS, KINDS};
+use crate::support::properties::table::{CAMERA_KINDS, SCENE_KINDS};
 use ligne::chains::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
 use ligne::lines::HiddenLines;
 
 #[test]
-fn plain_chains_are_the_visible_lines_each_once() {
+fn untidied_chains_cover_each_visible_line_once() {
     let off = Length::px(0.0);
     let options =
         ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
-    for subject in subject::random(&KINDS, &CAMERAS, 15) {
-        let drawn = stages(&subject.scene, &subject.camera, &counting());
+    for subject in subject::random_subjects(&SCENE_KINDS, &CAMERA_KINDS, 15) {
+        let drawn = run_stages(&subject.scene, &subject.camera, &exact_options_with_hidden());
         let chains = chains::link(&drawn.map, &options, Unit::Px, HiddenLines::None);
         let mut inked = Vec::new();
         for chain in chains.iter().filter(|c| c.invisibility == 0) {
@@ -24,13 +24,17 @@ fn plain_chains_are_the_visible_lines_each_once() {
                 inked.push([*last, *first]);
             }
         }
-        let visible = drawn.visible();
-        let lost = uncovered(&visible, &inked, 1e-6);
-        let added = uncovered(&inked, &visible, 1e-6);
+        let visible = drawn.visible_segments();
+        let lost = uncovered_length(&visible, &inked, 1e-6);
+        let added = uncovered_length(&inked, &visible, 1e-6);
         let name = &subject.name;
-        assert!(lost <= 0.05 && added <= 0.05, "{name}: {lost} lost, {added} added of {}", length(&visible));
-        let (twice, before) = (doubled(&inked, 1e-4), doubled(&visible, 1e-4));
+        assert!(
+            lost <= 0.05 && added <= 0.05,
+            "{name}: {lost} lost, {added} added of {}",
+            total_length(&visible)
+        );
+        let (twice, before) = (doubled_length(&inked, 1e-4), doubled_length(&visible, 1e-4));
         assert!(twice <= before + 0.05, "{name}: {twice} drawn twice, {before} before chaining");
-        assert!((length(&inked) - length(&visible)).abs() <= 0.1, "{name}");
+        assert!((total_length(&inked) - total_length(&visible)).abs() <= 0.1, "{name}");
     }
 }

@@ -56,7 +56,7 @@ fn a_drawing_is_approved_once_and_compared_from_then_on() {
 }
 
 #[test]
-fn drawings_of_one_name_are_written_side_by_side() {
+fn drawings_of_the_same_name_are_written_to_different_files() {
     let told = ["here", "there"].map(|place| {
         let folder = folder(place);
         check(&drawing(50.0), "lid", &folder, "", &Approval::None).unwrap_err()
@@ -66,7 +66,7 @@ fn drawings_of_one_name_are_written_side_by_side() {
 }
 
 #[test]
-fn order_and_tolerance_are_forgiven() {
+fn order_and_differences_within_tolerance_are_accepted() {
     let folder = folder("forgiven");
     check(&drawing(50.0), "lid", &folder, "", &Approval::Bless).unwrap();
     let mut turned = drawing(50.0);
@@ -84,6 +84,6 @@ fn order_and_tolerance_are_forgiven() {
 
 #[test]
 #[should_panic(expected = "no approved drawing")]
-fn the_macro_panics() {
+fn assert_drawing_panics_without_an_approved_drawing() {
     assert_drawing!(drawing(50.0), "no-such-drawing");
 }

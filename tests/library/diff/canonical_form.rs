@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::support::measures::canonical_checks::{assert_same_picture, assert_text, form};
+use crate::support::measures::canonical_checks::{assert_same_picture, assert_same_text, canonical_form};
 use crate::support::pipeline::scene;
 use crate::support::scenes::solids::{cuboid, sphere, torus};
 use glam::DVec3;
@@ -49,17 +49,17 @@ fn drawings() -> Vec<(String, Drawing)> {
 }
 
 #[test]
-fn what_is_drawn_is_in_the_form() {
+fn exported_svg_is_in_canonical_form() {
     for (name, drawing) in drawings() {
         for precision in (0..=8).map(Some).chain([None]) {
             for group in [Grouping::Layer, Grouping::Part] {
                 let options = SvgOptions::default().grouped_by(group);
                 let options = precision.map_or(options.clone(), |decimals| options.with_precision(decimals));
                 let svg = drawing.to_svg(&options);
-                assert_text(&form(&svg), &svg, &format!("{name}, {options:?}"));
+                assert_same_text(&canonical_form(&svg), &svg, &format!("{name}, {options:?}"));
                 if let Some(precision) = precision {
                     let named = canonical_svg(&svg, Some(precision)).unwrap();
-                    assert_text(&named, &svg, &format!("{name}, {options:?}, precision given"));
+                    assert_same_text(&named, &svg, &format!("{name}, {options:?}, precision given"));
                 }
             }
         }
@@ -68,7 +68,7 @@ fn what_is_drawn_is_in_the_form() {
 
 /// Rewrites an SVG as another program might: it shuffles neighbours with equal paint, reverses lines, starts
 /// rings at another point, and writes absolute coordinates.
-fn otherwise(svg: &str, decimals: usize) -> String {
+fn rewrite_equivalently(svg: &str, decimals: usize) -> String {
     let paint = |line: &str| {
         let word =
             |name: &str| line.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
@@ -95,17 +95,17 @@ fn otherwise(svg: &str, decimals: usize) -> String {
         }
         if line.starts_with("<path") {
             let (fill, dashed) = (fill(line), line.contains("dasharray"));
-            let mut line = rewritten(
+            let mut line = rewrite_path_attribute(
                 line,
                 " d=\"",
                 |path| match (fill, dashed) {
                     (_, true) => path.clone(),
-                    (true, false) => path_turned(path, false),
-                    (false, false) => path_turned(path, true),
+                    (true, false) => turn_subpaths(path, false),
+                    (false, false) => turn_subpaths(path, true),
                 },
                 decimals,
             );
-            line = rewritten(&line, " data-axis=\"", |path| path_turned(path, true), decimals);
+            line = rewrite_path_attribute(&line, " data-axis=\"", |path| turn_subpaths(path, true), decimals);
             let key = paint(&line);
             lines.push((line, Some(key)));
         } else {
@@ -121,7 +121,12 @@ fn otherwise(svg: &str, decimals: usize) -> String {
     out
 }
 
-fn rewritten(line: &str, open: &str, change: impl Fn(&BezPath) -> BezPath, decimals: usize) -> String {
+fn rewrite_path_attribute(
+    line: &str,
+    open: &str,
+    change: impl Fn(&BezPath) -> BezPath,
+    decimals: usize,
+) -> String {
     let Some((before, rest)) = line.split_once(open) else { return line.to_owned() };
     let (data, after) = rest.split_once('"').unwrap();
     let path = change(&BezPath::from_svg(data).unwrap());
@@ -141,7 +146,7 @@ fn rewritten(line: &str, open: &str, change: impl Fn(&BezPath) -> BezPath, decim
 }
 
 /// Starts each closed subpath one segment later. With `reversed`, it also reverses every subpath.
-fn path_turned(path: &BezPath, reversed: bool) -> BezPath {
+fn turn_subpaths(path: &BezPath, reversed: bool) -> BezPath {
     let mut out = BezPath::new();
     let elements = path.elements();
     for subpath in elements.chunk_by(|_, next| !matches!(next, PathEl::MoveTo(_))) {
@@ -171,7 +176,7 @@ fn path_turned(path: &BezPath, reversed: bool) -> BezPath {
 }
 
 #[test]
-fn other_ways_of_writing_come_back() {
+fn equivalent_rewrites_have_the_same_canonical_form() {
     let mut changed = 0;
     for (name, drawing) in drawings() {
         if drawing.layers.iter().any(|layer| layer.ordered) {
@@ -180,10 +185,10 @@ fn other_ways_of_writing_come_back() {
         for (group, decimals) in [(Grouping::Layer, 2), (Grouping::Part, 4)] {
             let options = SvgOptions::default().with_precision(decimals).grouped_by(group);
             let svg = drawing.to_svg(&options);
-            let other = otherwise(&svg, decimals.into());
+            let other = rewrite_equivalently(&svg, decimals.into());
             changed += usize::from(other.lines().zip(svg.lines()).filter(|(a, b)| a != b).count() > 5);
             // The precision is given because it cannot be inferred if all numbers end in zero.
-            assert_text(&canonical_svg(&other, Some(decimals)).unwrap(), &svg, &name);
+            assert_same_text(&canonical_svg(&other, Some(decimals)).unwrap(), &svg, &name);
             assert_same_picture(&other, &svg, &name);
         }
     }
@@ -191,7 +196,7 @@ fn other_ways_of_writing_come_back() {
 }
 
 #[test]
-fn pictures_of_the_documents_stay_the_same() {
+fn canonical_form_keeps_the_pictures_of_the_docs() {
     let mut pictures = 0;
     for folder in ["docs/pictures", "tests/golden"] {
         for entry in fs::read_dir(root().join(folder)).unwrap().flatten() {
@@ -201,10 +206,10 @@ fn pictures_of_the_documents_stay_the_same() {
             }
             let svg = fs::read_to_string(&path).unwrap();
             let name = path.display().to_string();
-            let once = form(&svg);
-            assert_text(&form(&once), &once, &name);
+            let once = canonical_form(&svg);
+            assert_same_text(&canonical_form(&once), &once, &name);
             let coarse = canonical_svg(&svg, Some(1)).unwrap();
-            assert_text(&canonical_svg(&coarse, Some(1)).unwrap(), &coarse, &name);
+            assert_same_text(&canonical_svg(&coarse, Some(1)).unwrap(), &coarse, &name);
             if svg.len() < 150_000 {
                 assert_same_picture(&svg, &once, &name);
             }
@@ -230,7 +235,7 @@ fn changed_lines(a: &str, b: &str) -> usize {
 }
 
 #[test]
-fn a_small_change_of_the_model_is_a_small_change_of_the_text() {
+fn small_model_changes_change_few_lines_of_svg() {
     let cube = |i: usize, side: f64| {
         let (x, y) = ((i % 6) as f64 * 2.0, (i / 6) as f64 * 2.0);
         cuboid(DVec3::new(x, y, 0.0), DVec3::new(x + side, y + side, side))
@@ -254,7 +259,7 @@ fn a_small_change_of_the_model_is_a_small_change_of_the_text() {
     // The order of parts does not change the text.
     let mut changed = cubes;
     changed.reverse();
-    assert_text(&drawn(&changed), &before, "the same parts in another order");
+    assert_same_text(&drawn(&changed), &before, "the same parts in another order");
     // A part that grows changes its own lines and few others.
     changed[15].1 = 1.2;
     let lines = changed_lines(&before, &drawn(&changed));

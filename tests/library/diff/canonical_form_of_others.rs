@@ -1,7 +1,7 @@
 //! Canonical form of SVG files by other programs and of random paths: expected texts, idempotence and equal
 //! pictures.
 
-use crate::support::measures::canonical_checks::{assert_same_picture, form};
+use crate::support::measures::canonical_checks::{assert_same_picture, canonical_form};
 use ligne::diff::canonical_svg;
 
 fn svg(inside: &str) -> String {
@@ -17,7 +17,7 @@ const ROUNDED: &str = "<path d=\"M9 20h-8\"/><path d=\"M9 10h-8\"/>";
 const FORM: &str = "<path d=\"M1 10h8\"/><path d=\"M1 20h8\"/>";
 
 #[test]
-fn files_of_others_keep_what_may_make_a_difference() {
+fn canonical_form_keeps_everything_that_may_change_the_picture() {
     let line = "fill=\"none\" stroke=\"#000\"";
     let lines = |paths: &str| format!("<g {line}>{paths}</g>");
     let as_it_is = |text: &str| (text.to_owned(), text.to_owned());
@@ -138,9 +138,9 @@ fn files_of_others_keep_what_may_make_a_difference() {
     ];
     for (before, after) in cases {
         let (before, after) = (svg(&before), svg(&after));
-        let found = form(&before);
+        let found = canonical_form(&before);
         assert_eq!(found, after, "of {before}");
-        assert_eq!(form(&found), found);
+        assert_eq!(canonical_form(&found), found);
         if !before.contains("99999999") {
             assert_same_picture(&before, &after, &before);
         }
@@ -148,7 +148,7 @@ fn files_of_others_keep_what_may_make_a_difference() {
 }
 
 #[test]
-fn declarations_and_entities_stay() {
+fn canonical_form_keeps_declarations_and_entities() {
     let declared = "<?xml version=\"1.0\"?>\n<!DOCTYPE svg [<!ENTITY ns \"http://x\"><!ENTITY two '<path d=\"M9 9L1 9\"/><path d=\"M9 1L1 1\"/>'>]>\n";
     let body = |paths: &str| {
         format!(
@@ -159,9 +159,12 @@ fn declarations_and_entities_stay() {
     };
     let before = body("&two;<path d=\"M9 20L1 20\"/> &two; <path d=\"M9&#32;10L1&#10;10\"/>");
     let after = body("&two;<path d=\"M1 20h8\"/> &two; <path d=\"M1 10h8\"/>");
-    assert_eq!(form(&before), after);
+    assert_eq!(canonical_form(&before), after);
     let marked = format!("\u{feff}{}", svg(TWO));
-    assert_eq!(form(&marked), format!("\u{feff}{}", svg("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>")));
+    assert_eq!(
+        canonical_form(&marked),
+        format!("\u{feff}{}", svg("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>"))
+    );
 }
 
 /// Xorshift random numbers.
@@ -200,7 +203,7 @@ impl Random {
 }
 
 #[test]
-fn the_form_of_the_form_is_itself() {
+fn canonical_form_is_idempotent() {
     let mut random = Random(88_172_645_463_325_252);
     let paints = [
         "fill=\"none\" stroke=\"#000\" stroke-width=\".3\"",

@@ -21,7 +21,7 @@ fn rows(part: &str, third: f64) -> String {
 }
 
 #[test]
-fn a_part_with_another_name_is_renamed_once() {
+fn a_renamed_part_is_one_finding() {
     let diff = compare(&rows("lid", 120.0), &rows("cover", 120.0));
     assert_eq!(verdicts(&diff), ["relabelled"], "{:#?}", diff.lines());
     assert!(diff.lines()[0].contains("part lid → cover"), "{:#?}", diff.lines());
@@ -36,7 +36,7 @@ fn a_part_with_another_name_is_renamed_once() {
 }
 
 #[test]
-fn a_hole_that_went_far_is_a_hole_that_moved() {
+fn a_hole_moved_far_is_one_finding() {
     let part = |x: f64| {
         format!(
             r##"<g data-part="lid" fill="none" stroke="#000"><path class="contour" d="M20 20H480V480H20Z"/>
@@ -52,7 +52,7 @@ fn a_hole_that_went_far_is_a_hole_that_moved() {
 }
 
 #[test]
-fn a_pen_is_one_sentence() {
+fn a_changed_pen_is_one_finding() {
     let parts = |attribute: &str| -> String {
         let part =
             |i: usize| rows(&format!("part {i}"), 90.0).replace("M30.25", &format!("M{}.25", 30 + 9 * i));
@@ -70,7 +70,7 @@ fn a_pen_is_one_sentence() {
 }
 
 #[test]
-fn marks_that_coincide_are_recoloured_one_by_one() {
+fn coincident_marks_are_restyled_one_by_one() {
     let body = r##"<g data-part="screw" fill="none"><path class="crease" stroke="#000" stroke-dasharray="14 4" d="M50 50H110"/>
         <path class="crease" stroke="#000" d="M110 54V50H50V54z"/></g>"##;
     let diff = compare(body, &body.replace("#000", "#06c"));
@@ -78,7 +78,7 @@ fn marks_that_coincide_are_recoloured_one_by_one() {
 }
 
 #[test]
-fn another_side_is_one_sentence() {
+fn another_camera_is_one_finding() {
     // Each part shifts by a different amount, as parts at different depths do.
     let parts = |turn: f64| -> String {
         let part = |i: usize| {
@@ -105,7 +105,7 @@ fn another_side_is_one_sentence() {
 }
 
 #[test]
-fn a_stroke_cut_by_another_outline_is_shorter() {
+fn a_shortened_stroke_outline_is_reported_as_shorter() {
     let stroke = |to: f64| {
         format!(
             r##"<path class="stroke" data-part="plate" data-axis="M50 50H250" data-width="1" fill="#333" d="M50 49.5H{to}V50.5H50z"/>"##

@@ -82,7 +82,7 @@ fn compare(before: &str, after: &str) -> Diff {
 }
 
 /// The same lines in random order, some of them reversed, flattened or split into two marks.
-fn disguised(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
+fn rewrite_equivalently(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
     let mut out = Vec::new();
     for line in lines {
         let mut path = line.path.clone();
@@ -113,14 +113,14 @@ fn disguised(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
 }
 
 #[test]
-fn disguises_are_seen_through() {
+fn equivalent_drawings_compare_as_equal() {
     for seed in 0..60 {
         let mut dice = Dice::new(seed);
         let lines = random_lines(&mut dice, 60);
         let before = svg(&lines, 3);
         let again = compare(&before, &(before.clone() + "\n"));
         assert!(again.is_same(), "{:#?}", again.lines());
-        let after = svg(&disguised(&lines, &mut dice), 5);
+        let after = svg(&rewrite_equivalently(&lines, &mut dice), 5);
         let diff = compare(&before, &after);
         assert!(diff.is_same(), "seed {seed}: {:#?}", diff.lines());
         assert!(compare(&after, &before).is_same(), "seed {seed}, backwards");
@@ -128,7 +128,7 @@ fn disguises_are_seen_through() {
 }
 
 #[test]
-fn a_shift_is_told_as_such() {
+fn a_shift_is_reported_as_moved_by_its_length() {
     for seed in 0..40 {
         let mut dice = Dice::new(seed);
         let lines = random_lines(&mut dice, 25);
@@ -138,7 +138,7 @@ fn a_shift_is_told_as_such() {
             .iter()
             .map(|line| Line { path: Affine::translate(way) * line.path.clone(), ..line.clone() })
             .collect();
-        let diff = compare(&svg(&lines, 4), &svg(&disguised(&moved, &mut dice), 4));
+        let diff = compare(&svg(&lines, 4), &svg(&rewrite_equivalently(&moved, &mut dice), 4));
         assert!(!diff.findings.is_empty());
         for finding in &diff.findings {
             assert_eq!(finding.verdict, Verdict::Moved, "seed {seed}: {:#?}", diff.lines());
@@ -149,7 +149,7 @@ fn a_shift_is_told_as_such() {
 }
 
 /// The lines with some removed, widened, moved or scaled, and with two lines added.
-fn changed(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
+fn edit_randomly(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
     let mut out = random_lines(dice, 2);
     for line in lines {
         let mut line = line.clone();
@@ -170,11 +170,11 @@ fn changed(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
 }
 
 #[test]
-fn differences_mirror() {
+fn findings_mirror_when_the_inputs_are_swapped() {
     for seed in 0..60 {
         let mut dice = Dice::new(seed);
         let lines = random_lines(&mut dice, 40);
-        let (before, after) = (svg(&lines, 3), svg(&changed(&lines, &mut dice), 3));
+        let (before, after) = (svg(&lines, 3), svg(&edit_randomly(&lines, &mut dice), 3));
         let told = |diff: &Diff, mirrored: bool| {
             let mut all: Vec<(Verdict, String, i64)> = diff
                 .findings
@@ -209,7 +209,7 @@ fn differences_mirror() {
 }
 
 /// Largest distance from points of one path to the other, by brute force.
-fn brute_force(one: &BezPath, other: &BezPath) -> f64 {
+fn brute_force_distance(one: &BezPath, other: &BezPath) -> f64 {
     let points = |path: &BezPath| {
         let mut points: Vec<Point> = Vec::new();
         for segment in path.segments() {
@@ -234,7 +234,7 @@ fn brute_force(one: &BezPath, other: &BezPath) -> f64 {
 }
 
 #[test]
-fn distances_are_those_of_brute_force() {
+fn distances_match_brute_force() {
     let (mut near, mut far) = (0, 0);
     for seed in 0..300 {
         let mut dice = Dice::new(seed);
@@ -250,7 +250,8 @@ fn distances_are_those_of_brute_force() {
                 Affine::translate((dice.between(-reach, reach), dice.between(-reach, reach))) * *element
             })
             .collect();
-        let distance = brute_force(&line.path, &bent.path).max(brute_force(&bent.path, &line.path));
+        let distance =
+            brute_force_distance(&line.path, &bent.path).max(brute_force_distance(&bent.path, &line.path));
         let diff = compare(&svg(std::slice::from_ref(&line), 2), &svg(std::slice::from_ref(&bent), 6));
         let tolerance = diff.tolerance_px;
         assert!((tolerance - 0.02).abs() < 1e-12);

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::scenes::random_dice::Dice;
 use ligne::diff::{self, DiffOptions, Picture, View};
 
-fn inside(text: &str) -> String {
+fn svg_with(text: &str) -> String {
     format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"100\">{text}</svg>")
 }
 
@@ -16,7 +16,7 @@ fn refusal(svg: &str) -> Option<String> {
 }
 
 #[test]
-fn what_cannot_be_read_is_refused_by_name() {
+fn unreadable_files_are_refused_with_the_reason() {
     let path = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>";
     let levels = |count: usize| {
         let mut text = format!("<g id=\"g0\">{path}</g>");
@@ -24,39 +24,39 @@ fn what_cannot_be_read_is_refused_by_name() {
             text +=
                 &format!("<g id=\"g{level}\">{}</g>", format!("<use href=\"#g{}\"/>", level - 1).repeat(10));
         }
-        inside(&text)
+        svg_with(&text)
     };
-    let entity = |value: &str, text: &str| format!("<!DOCTYPE svg [{value}]>{}", inside(text));
+    let entity = |value: &str, text: &str| format!("<!DOCTYPE svg [{value}]>{}", svg_with(text));
     let cases = [
         ("nothing", String::new(), "empty"),
         ("a model", "solid lid\nfacet normal 0 0 1".to_owned(), "not SVG"),
         ("JSON", "{\"same\": true}".to_owned(), "not SVG"),
         ("a page", "<!DOCTYPE html><html><body/></html>".to_owned(), "`html`"),
-        ("cut off", inside(path)[..90].to_owned(), "line 1"),
+        ("cut off", svg_with(path)[..90].to_owned(), "line 1"),
         (
             "no size",
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"0\" height=\"-4\"/>".to_owned(),
             "size",
         ),
-        ("deep nesting", inside(&("<g>".repeat(100_000) + path + &"</g>".repeat(100_000))), "256 deep"),
+        ("deep nesting", svg_with(&("<g>".repeat(100_000) + path + &"</g>".repeat(100_000))), "256 deep"),
         ("references that multiply", levels(12), "multiply"),
-        ("a reference to itself", inside("<g id=\"a\"><use href=\"#a\"/></g>"), "refers to itself"),
+        ("a reference to itself", svg_with("<g id=\"a\"><use href=\"#a\"/></g>"), "refers to itself"),
         ("entities of entities", entity("<!ENTITY a \"x\"><!ENTITY b \"&a;&a;\">", "&b;"), "entities"),
-        ("an unknown entity", inside("&lol;"), "well-formed"),
-        ("a giant number", inside("<path stroke=\"#000\" d=\"M0 0L1e30 5\"/>"), "1e30"),
+        ("an unknown entity", svg_with("&lol;"), "well-formed"),
+        ("a giant number", svg_with("<path stroke=\"#000\" d=\"M0 0L1e30 5\"/>"), "1e30"),
         (
             "a giant width",
-            inside("<path stroke=\"#000\" stroke-width=\"99999999999\" d=\"M0 0L1 5\"/>"),
+            svg_with("<path stroke=\"#000\" stroke-width=\"99999999999\" d=\"M0 0L1 5\"/>"),
             "out of range",
         ),
         (
             "giant steps",
-            inside(&format!("<path stroke=\"#000\" d=\"M0 0{}\"/>", "l9999999 0".repeat(200))),
+            svg_with(&format!("<path stroke=\"#000\" d=\"M0 0{}\"/>", "l9999999 0".repeat(200))),
             "from the page",
         ),
         (
             "a giant transform",
-            inside(&format!("<g transform=\"scale(99999999)\">{path}</g>")),
+            svg_with(&format!("<g transform=\"scale(99999999)\">{path}</g>")),
             "from the page",
         ),
     ];
@@ -68,7 +68,7 @@ fn what_cannot_be_read_is_refused_by_name() {
 }
 
 #[test]
-fn what_is_merely_odd_is_compared() {
+fn unusual_but_valid_files_are_compared() {
     let cases = [
         ("a billion dashes", "<path stroke=\"#000\" stroke-dasharray=\"1e-6 1e-6\" d=\"M0 0L1000000 5\"/>".to_owned()),
         ("many lengths of dashes", format!("<path stroke=\"#000\" stroke-dasharray=\"{}\" d=\"M0 0H9\"/>", "1 ".repeat(200_000))),
@@ -81,10 +81,10 @@ fn what_is_merely_odd_is_compared() {
         ("path data that breaks off", "<path stroke=\"#000\" d=\"M0 0L5 5 Lx\"/>".to_owned()),
         ("an axis that is none", "<path data-axis=\"nonsense\" data-width=\"wide\" d=\"M0 0H5V5z\"/>".to_owned()),
     ];
-    let plain = Picture::from_svg(&inside("<path stroke=\"#000\" d=\"M0 0L9 9\"/>")).unwrap();
+    let plain = Picture::from_svg(&svg_with("<path stroke=\"#000\" d=\"M0 0L9 9\"/>")).unwrap();
     let options = DiffOptions::default().with_pixels();
     for (what, text) in cases {
-        let picture = Picture::from_svg(&inside(&text)).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let picture = Picture::from_svg(&svg_with(&text)).unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(diff::compare(&picture, &picture, &options).is_same(), "{what}");
         let told = diff::compare(&plain, &picture, &options);
         assert!(!told.findings.is_empty(), "{what}");
@@ -149,12 +149,12 @@ fn mutated_drawings_never_panic() {
 
 /// A naive matcher searches all ancestors again for each step of a selector, with combinatorial cost.
 #[test]
-fn selectors_that_nest_are_matched_in_one_pass() {
+fn deep_descendant_selectors_are_matched_in_bounded_time() {
     let groups = |count: usize, inner: &str| "<g>".repeat(count) + inner + &"</g>".repeat(count);
     let path = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>";
     for (rules, count) in [(1, 60), (2000, 200)] {
         let sheet = format!("x {}path{{stroke:red}}", "g ".repeat(40)).repeat(rules);
-        let svg = inside(&format!("<style>{sheet} g g path{{stroke:#00f}}</style>{}", groups(count, path)));
+        let svg = svg_with(&format!("<style>{sheet} g g path{{stroke:#00f}}</style>{}", groups(count, path)));
         let picture = Picture::from_svg(&svg).unwrap();
         assert_eq!(picture.shapes.last().unwrap().ink.paint.to_string(), "#0000ff");
         let again = Picture::from_svg(&svg.replace("M0 0", "M0 1")).unwrap();
@@ -163,31 +163,31 @@ fn selectors_that_nest_are_matched_in_one_pass() {
         assert!(ligne::diff::canonical_svg(&svg, None).is_ok());
     }
     let many = format!("<style>{}</style>{}", "*{fill:red}".repeat(20_000), path.repeat(20_000));
-    let told = refusal(&inside(&many)).unwrap();
+    let told = refusal(&svg_with(&many)).unwrap();
     assert!(told.contains("style rules"), "{told}");
 }
 
 /// Repeated declarations, which take quadratic time in a naive reader.
 #[test]
-fn styles_that_repeat_themselves_are_read_once() {
+fn repeated_declarations_are_read_in_bounded_time() {
     let paths = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>".repeat(1000);
     let own = format!("<g style=\"{}\">{paths}</g>", "stroke:red;stroke:#00f;".repeat(100_000));
     let sheets = format!("<style>{}</style>{paths}", "path{stroke:#00f}".repeat(1000));
     for text in [own, sheets] {
-        let picture = Picture::from_svg(&inside(&text)).unwrap();
+        let picture = Picture::from_svg(&svg_with(&text)).unwrap();
         assert!(picture.shapes.len() >= 1000);
     }
     let names: String = (0..50_000).map(|i| format!("p{i}:1;")).collect();
-    let told = refusal(&inside(&format!("<g style=\"{names}\">{paths}</g>"))).unwrap();
+    let told = refusal(&svg_with(&format!("<g style=\"{names}\">{paths}</g>"))).unwrap();
     assert!(told.contains("declarations in a style") && told.contains(';'), "{told}");
 }
 
 /// Thousands of coincident or nearly coincident paths, which a naive comparison matches pairwise.
 #[test]
-fn paths_on_each_other_are_compared_once() {
+fn coincident_paths_are_compared_in_bounded_time() {
     let many = |d: &dyn Fn(usize) -> String, colour: &str| {
         let paths: String = (0..10_000).map(|i| format!("<path d=\"{}\"/>", d(i))).collect();
-        inside(&format!("<g fill=\"none\" stroke=\"{colour}\">{paths}</g>"))
+        svg_with(&format!("<g fill=\"none\" stroke=\"{colour}\">{paths}</g>"))
     };
     let read = |svg: &str| Picture::from_svg(svg).unwrap();
     let same = |_: usize| "M10 10L60 40 90 20".to_owned();

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_svg::{Scene, same_pair, seen_pair};
+use crate::support::scenes::random_svg::{SvgScene, changed_picture_pair, equal_picture_pair};
 use ligne::diff::{self, Diff, DiffOptions, Ignore, Picture, Stage, Verdict};
 use resvg::{tiny_skia, usvg};
 
@@ -42,82 +42,82 @@ kinds! {
     a_blur_with_another_number: differs,
         r##"<filter id="f"><feGaussianBlur stdDeviation="2"/></filter><rect x="40" y="30" width="50" height="40" fill="#639" filter="url(#f)"/>"##,
         r##"<filter id="f"><feGaussianBlur stdDeviation="3"/></filter><rect x="40" y="30" width="50" height="40" fill="#639" filter="url(#f)"/>"##;
-    a_clip_at_the_other_mark: differs,
+    a_clip_on_another_mark: differs,
         r##"<clipPath id="c"><rect x="30" y="30" width="60" height="25"/></clipPath><circle cx="45" cy="50" r="22" fill="#b22" clip-path="url(#c)"/><circle cx="95" cy="50" r="22" fill="#22b"/>"##,
         r##"<clipPath id="c"><rect x="30" y="30" width="60" height="25"/></clipPath><circle cx="45" cy="50" r="22" fill="#b22"/><circle cx="95" cy="50" r="22" fill="#22b" clip-path="url(#c)"/>"##;
-    a_clip_in_shares_of_the_box: differs,
+    a_clip_in_bounding_box_units: differs,
         r##"<clipPath id="c" clipPathUnits="objectBoundingBox"><path d="M0 0H.5V1H0z"/></clipPath><rect x="20" y="20" width="90" height="60" fill="#a50" clip-path="url(#c)"/>"##,
         r##"<clipPath id="c" clipPathUnits="objectBoundingBox"><path d="M0 0H.52V1H0z"/></clipPath><rect x="20" y="20" width="90" height="60" fill="#a50" clip-path="url(#c)"/>"##;
-    a_mask_by_alpha_not_light: differs,
+    an_alpha_mask_instead_of_a_luminance_mask: differs,
         r##"<mask id="m"><circle cx="60" cy="50" r="25" fill="#c00"/></mask><rect x="20" y="20" width="90" height="60" fill="#06c" mask="url(#m)"/>"##,
         r##"<mask id="m" mask-type="alpha"><circle cx="60" cy="50" r="25" fill="#c00"/></mask><rect x="20" y="20" width="90" height="60" fill="#06c" mask="url(#m)"/>"##;
-    the_rule_of_a_clip: differs,
+    a_clip_with_another_clip_rule: differs,
         r##"<clipPath id="c"><path d="M20 20H110V90H20zM50 40H80V70H50z"/></clipPath><rect width="160" height="120" fill="#06c" clip-path="url(#c)"/>"##,
         r##"<clipPath id="c"><path clip-rule="evenodd" d="M20 20H110V90H20zM50 40H80V70H50z"/></clipPath><rect width="160" height="120" fill="#06c" clip-path="url(#c)"/>"##;
-    the_order_of_two_lines: differs,
+    the_paint_order_of_two_lines: differs,
         r##"<g fill="none" stroke-width="5"><path stroke="#c00" d="M20 20L120 90"/><path stroke="#06c" d="M20 90L120 20"/></g>"##,
         r##"<g fill="none" stroke-width="5"><path stroke="#06c" d="M20 90L120 20"/><path stroke="#c00" d="M20 20L120 90"/></g>"##;
     a_line_over_or_under_a_spot: differs,
         r##"<path d="M10 50H150" stroke="#111" stroke-width="3"/><circle cx="24" cy="50" r="6" fill="#fa0"/>"##,
         r##"<circle cx="24" cy="50" r="6" fill="#fa0"/><path d="M10 50H150" stroke="#111" stroke-width="3"/>"##;
-    a_hole_that_is_painted_shut: differs,
+    a_hole_closed_by_its_winding: differs,
         r##"<path fill="#383" d="M20 20H120V100H20zM50 40V80H90V40z"/>"##,
         r##"<path fill="#383" d="M20 20H120V100H20zM50 40H90V80H50z"/>"##;
-    a_corner_that_is_cut_in_two: differs,
+    a_line_join_split_into_two_lines: differs,
         r##"<path fill="none" stroke="#a0a" stroke-width="12" d="M20 90L70 20 120 90"/>"##,
         r##"<path fill="none" stroke="#a0a" stroke-width="12" d="M20 90L70 20M70 20L120 90"/>"##;
-    a_pen_that_is_squeezed: differs,
+    a_stroke_under_a_non_uniform_scale: differs,
         r##"<path fill="none" stroke="#a00" stroke-width="6" d="M20 20H120V90"/>"##,
         r##"<path fill="none" stroke="#a00" stroke-width="6" transform="scale(3 .3333333)" d="M6.6666667 60H40V270"/>"##;
     dashes_from_the_other_end: differs,
         r##"<path fill="none" stroke="#a00" stroke-width="3" stroke-dasharray="10 5" d="M20 20H117"/>"##,
         r##"<path fill="none" stroke="#a00" stroke-width="3" stroke-dasharray="10 5" d="M117 20H20"/>"##;
-    half_covers_joined: differs,
+    translucent_fills_merged_into_one_path: differs,
         r##"<path fill="#a00" opacity=".5" d="M20 20H80V80H20z"/><path fill="#a00" opacity=".5" d="M50 40H120V90H50z"/>"##,
         r##"<path fill="#a00" opacity=".5" d="M20 20H80V80H20zM50 40H120V90H50z"/>"##;
-    a_picture_seen_through: differs,
+    an_image_with_another_opacity: differs,
         r##"<image x="20" y="20" width="60" height="40" href="data:image/png;base64,AAAA"/>"##,
         r##"<image x="20" y="20" width="60" height="40" opacity=".4" href="data:image/png;base64,AAAA"/>"##;
-    a_picture_turned_in_its_box: differs,
+    an_image_rotated_in_its_box: differs,
         r##"<image x="20" y="20" width="60" height="40" href="data:image/png;base64,AAAA"/>"##,
         r##"<image x="20" y="20" width="60" height="40" transform="rotate(180 50 40)" href="data:image/png;base64,AAAA"/>"##;
-    a_picture_fitted_otherwise: differs,
+    an_image_with_another_aspect_ratio_rule: differs,
         r##"<image x="20" y="20" width="60" height="40" href="data:image/png;base64,AAAA"/>"##,
         r##"<image x="20" y="20" width="60" height="40" preserveAspectRatio="none" href="data:image/png;base64,AAAA"/>"##;
-    letters_wider_apart: differs,
+    another_letter_spacing: differs,
         r##"<text x="20" y="50" font-size="14">Valve</text>"##,
         r##"<text x="20" y="50" font-size="14" style="letter-spacing:2px">Valve</text>"##;
-    letters_of_a_piece_slanted: differs,
+    italics_in_a_tspan: differs,
         r##"<text x="20" y="50">Valve <tspan>12</tspan></text>"##,
         r##"<text x="20" y="50">Valve <tspan font-style="italic">12</tspan></text>"##;
     a_group_that_is_isolated: differs,
         r##"<rect width="90" height="90" fill="#48c"/><g><rect x="40" y="40" width="90" height="60" fill="#ec6" style="mix-blend-mode:multiply"/></g>"##,
         r##"<rect width="90" height="90" fill="#48c"/><g style="isolation:isolate"><rect x="40" y="40" width="90" height="60" fill="#ec6" style="mix-blend-mode:multiply"/></g>"##;
-    edges_that_are_sharp: differs,
+    crisp_edges: differs,
         r##"<path fill="#060" d="M20 20L120 45 60 95z"/>"##,
         r##"<path fill="#060" shape-rendering="crispEdges" d="M20 20L120 45 60 95z"/>"##;
-    a_blot_at_a_drawn_line: differs,
+    a_blot_on_a_stroke_outline: differs,
         r##"<path data-axis="M20 50H120" data-width="2" fill="#333" d="M20 49H120V51H20z"/>"##,
         r##"<path data-axis="M20 50H120" data-width="2" fill="#333" d="M20 49H120V51H20zM60 20H90V50H60z"/>"##;
-    a_colour_of_the_next_number: differs,
+    a_colour_that_differs_by_one: differs,
         r##"<circle cx="60" cy="50" r="30" fill="#336699"/>"##,
         r##"<circle cx="60" cy="50" r="30" fill="#346699"/>"##;
-    a_straight_line_that_is_filled: same,
+    a_straight_line_with_a_fill: same,
         r##"<line x1="20" y1="30" x2="120" y2="90" stroke="#333" fill="#333"/>"##,
         r##"<line x1="20" y1="30" x2="120" y2="90" stroke="#333" fill="none"/>"##;
-    a_gradient_written_otherwise: same,
+    an_equivalent_gradient: same,
         r##"<linearGradient id="g"><stop stop-color="#046" stop-opacity=".5"/><stop offset="1" stop-color="#fc8"/><stop offset="1" stop-color="#fc8"/></linearGradient><circle cx="60" cy="50" r="30" fill="url(#g)"/>"##,
         r##"<linearGradient id="g"><stop stop-color="rgba(0,68,102,.5)"/><stop offset="1" stop-color="#fc8"/></linearGradient><circle cx="60" cy="50" r="30" fill="url(#g)"/>"##;
-    two_equal_stops_and_the_colour: same,
+    a_gradient_of_one_colour: same,
         r##"<linearGradient id="g"><stop stop-color="#046"/><stop offset="1" stop-color="#046"/></linearGradient><circle cx="60" cy="50" r="30" fill="url(#g)"/>"##,
         r##"<circle cx="60" cy="50" r="30" fill="#046"/>"##;
-    a_pattern_written_otherwise: same,
+    an_equivalent_pattern: same,
         r##"<pattern id="p" width="8" height="8" patternUnits="userSpaceOnUse"><path d="M2 2h4v4h-4z" fill="#070"/></pattern><rect x="20" y="20" width="90" height="60" fill="url(#p)"/>"##,
         r##"<pattern id="p" width="8" height="8" patternUnits="userSpaceOnUse"><path d="M0 0h4v4h-4z" transform="translate(2 2)" fill="#070"/></pattern><rect x="20" y="20" width="90" height="60" fill="url(#p)"/>"##;
-    a_clip_at_the_group_or_at_each: same,
+    a_clip_on_a_group_or_on_its_children: same,
         r##"<clipPath id="c"><circle cx="65" cy="55" r="30"/></clipPath><g clip-path="url(#c)"><rect x="20" y="20" width="40" height="60" fill="#a50"/><rect x="70" y="20" width="40" height="60" fill="#05a"/></g>"##,
         r##"<clipPath id="c"><circle cx="65" cy="55" r="30"/></clipPath><rect x="20" y="20" width="40" height="60" fill="#a50" clip-path="url(#c)"/><rect x="70" y="20" width="40" height="60" fill="#05a" clip-path="url(#c)"/>"##;
-    dashes_said_twice: same,
+    a_repeated_dash_array: same,
         r##"<path fill="none" stroke="#a00" stroke-width="3" stroke-dasharray="9 4" d="M20 20H117V80"/>"##,
         r##"<path fill="none" stroke="#a00" stroke-width="3" stroke-dasharray="9 4 9 4" d="M20 20H117V80"/>"##;
     a_dash_longer_than_the_line: same,
@@ -126,16 +126,16 @@ kinds! {
     dashes_drawn_one_by_one: same,
         r##"<path fill="none" stroke="#a00" stroke-width="3" stroke-dasharray="20 10" d="M20 20H100"/>"##,
         r##"<path fill="none" stroke="#a00" stroke-width="3" d="M20 20H40M50 20H70M80 20H100"/>"##;
-    a_picture_in_lines: same,
+    an_image_with_wrapped_base64: same,
         r##"<image x="20" y="20" width="60" height="40" href="data:image/png;base64,AAAABBBBCCCC"/>"##,
         "<image x=\"20\" y=\"20\" width=\"60\" height=\"40\" href=\"data:image/png;base64,AAAA\n  BBBB\n  CCCC\"/>";
-    a_picture_of_nothing: same,
+    an_image_without_a_source: same,
         r##"<circle cx="60" cy="50" r="30" fill="#046"/>"##,
         r##"<circle cx="60" cy="50" r="30" fill="#046"/><image x="20" y="20" width="60" height="40"/>"##;
     a_title_in_a_text: same,
         r##"<text x="20" y="50">Valve</text>"##,
         r##"<text x="20" y="50"><title>a name</title>Valve</text>"##;
-    a_mark_behind_another: same,
+    a_fully_covered_mark: same,
         r##"<circle cx="60" cy="50" r="20" fill="#a00"/><rect x="10" y="10" width="120" height="90" fill="#eee"/>"##,
         r##"<rect x="10" y="10" width="120" height="90" fill="#eee"/>"##;
     a_stroke_as_its_outline: same,
@@ -144,7 +144,7 @@ kinds! {
 }
 
 #[test]
-fn what_is_not_read_is_named() {
+fn unsupported_svg_features_are_named() {
     for (body, words) in [
         (
             r#"<foreignObject width="90" height="40"><p xmlns="http://www.w3.org/1999/xhtml">open</p></foreignObject>"#,
@@ -171,7 +171,7 @@ fn what_is_not_read_is_named() {
 }
 
 #[test]
-fn names_and_hidden_orders_are_labels() {
+fn hidden_paint_order_is_a_label() {
     let marks = |first: &str, second: &str| {
         page(&format!(r##"{first}{second}<rect x="10" y="10" width="120" height="90" fill="#eee"/>"##))
     };
@@ -194,7 +194,7 @@ fn names_and_hidden_orders_are_labels() {
 }
 
 #[test]
-fn a_place_that_looks_different_is_told() {
+fn findings_name_the_place_of_a_changed_blend_mode() {
     let diff = compare(
         &page(
             r##"<rect x="20" y="20" width="40" height="40" fill="#c33"/><rect x="20" y="20" width="40" height="40" fill="#36c" style="mix-blend-mode:multiply"/>"##,
@@ -210,7 +210,7 @@ fn a_place_that_looks_different_is_told() {
 /// With widths ignored, a corner drawn as two lines equals one bent line, because pens of other programs end
 /// differently.
 #[test]
-fn a_corner_in_two_lines_is_one_where_widths_do_not_count() {
+fn split_corners_are_equal_when_widths_are_ignored() {
     let pen = r##"<g fill="none" stroke="#000" stroke-width="3">"##;
     let whole = page(&format!(r#"{pen}<path d="M20 20H90.5L40 97"/></g>"#));
     let cut = page(&format!(r#"{pen}<path d="M20 20H90.5"/><path d="M90.5 20L40 97"/></g>"#));
@@ -239,27 +239,27 @@ fn picture_by_librsvg(svg: &str) -> Option<tiny_skia::Pixmap> {
 }
 
 /// Number of pixels that differ by more than a quarter of the range from black to white.
-fn pixels_that_differ([a, b]: [tiny_skia::Pixmap; 2]) -> usize {
+fn differing_pixels([a, b]: [tiny_skia::Pixmap; 2]) -> usize {
     let pairs = a.data().chunks_exact(4).zip(b.data().chunks_exact(4));
     pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 64)).count()
 }
 
 /// Asserts that verdicts on random pairs match their pictures. Pairs with odd seeds are changed.
-fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) -> tiny_skia::Pixmap) {
+fn assert_verdicts_match_pictures(seeds: std::ops::Range<u64>, picture: impl Fn(&str) -> tiny_skia::Pixmap) {
     let (mut changed, mut unchanged, mut loudest, mut faintest) = (0, 0, 0u8, 255u8);
     for seed in seeds {
         let mut dice = Dice::new(seed);
-        let scene = Scene::random(&mut dice);
+        let scene = SvgScene::random(&mut dice);
         if seed % 2 == 0 {
-            let (before, after, way) = same_pair(&scene, &mut dice);
+            let (before, after, way) = equal_picture_pair(&scene, &mut dice);
             let diff = compare(&before, &after);
             assert!(diff.is_same(), "seed {seed}, {way}: {:#?}\n{before}\n{after}", diff.lines());
             loudest = loudest.max(diff.pixels.map_or(0, |pixels| pixels.largest));
             unchanged += 1;
         } else {
-            let (before, after, way) = seen_pair(&scene, &mut dice);
+            let (before, after, way) = changed_picture_pair(&scene, &mut dice);
             // Less than one px² of the page changes visibly.
-            if pixels_that_differ([&before, &after].map(|svg| picture(svg))) < 16 {
+            if differing_pixels([&before, &after].map(|svg| picture(svg))) < 16 {
                 continue;
             }
             let diff = compare(&before, &after);
@@ -274,28 +274,28 @@ fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) 
 }
 
 #[test]
-fn random_pairs_are_judged_as_seen() {
-    pairs_are_judged_as_seen(0..200, picture);
+fn verdicts_on_random_pairs_match_their_pictures() {
+    assert_verdicts_match_pictures(0..200, picture);
 }
 
 #[test]
 #[ignore = "takes minutes: .ci/nightly"]
-fn ten_thousand_random_pairs_are_judged_as_seen() {
-    pairs_are_judged_as_seen(1000..1000 + pairs(), picture);
+fn verdicts_on_ten_thousand_random_pairs_match_their_pictures() {
+    assert_verdicts_match_pictures(1000..1000 + long_run_pairs(), picture);
 }
 
 /// Number of pairs in the long runs: `LIGNE_PAIRS`, by default 10,000.
-fn pairs() -> u64 {
+fn long_run_pairs() -> u64 {
     std::env::var("LIGNE_PAIRS").map_or(10_000, |count| count.parse().expect("a number of pairs"))
 }
 
 #[test]
 #[ignore = "takes minutes: .ci/nightly"]
-fn ten_thousand_random_pairs_are_judged_as_librsvg_sees_them() {
+fn verdicts_on_ten_thousand_random_pairs_match_librsvg() {
     if picture_by_librsvg(&page("")).is_none() {
         eprintln!("skipped: rsvg-convert is not installed");
         return;
     }
     let picture = |svg: &str| picture_by_librsvg(svg).expect("a picture by rsvg-convert");
-    pairs_are_judged_as_seen(20_000..20_000 + pairs(), picture);
+    assert_verdicts_match_pictures(20_000..20_000 + long_run_pairs(), picture);
 }

@@ -38,7 +38,7 @@ fn edited(from: &str, to: &str) -> String {
 }
 
 /// All findings in one line, sorted, such as `moved crease of plate`.
-fn told(diff: &Diff) -> String {
+fn findings_text(diff: &Diff) -> String {
     let mut words: Vec<String> = diff
         .findings
         .iter()
@@ -54,7 +54,7 @@ const FRAME: &str = r#"stroke-width="2.2" d="M10 10h80v80h-80z""#;
 
 /// Edits that do not change the picture.
 #[test]
-fn what_looks_the_same_is_the_same() {
+fn edits_that_keep_the_picture_compare_as_equal() {
     let flat: String = (0..=64)
         .map(|i| {
             let t = f64::from(i) / 64.0;
@@ -185,7 +185,7 @@ fn what_looks_the_same_is_the_same() {
 
 /// Edits that change the picture, with the expected findings forwards and backwards.
 #[test]
-fn what_differs_is_told_as_a_person_would() {
+fn visible_edits_have_the_expected_findings() {
     let line = "<path class=\"crease\" data-part=\"plate\" d=\"M20.25 20.5l60 1.25\"/>\n";
     let bolt = "<path class=\"contour\" data-part=\"bolt\" stroke-width=\"1.6\" stroke-dasharray=\"4 2\" d=\"M170 10v80\"/>\n";
     let edits: Vec<(&str, String, &str, &str)> = vec![
@@ -225,15 +225,15 @@ fn what_differs_is_told_as_a_person_would() {
     ];
     for (what, after, forth, back) in &edits {
         let diff = compare(BASE, after);
-        assert_eq!(&told(&diff), forth, "{what}: {:#?}", diff.lines());
+        assert_eq!(&findings_text(&diff), forth, "{what}: {:#?}", diff.lines());
         assert!(!diff.is_same() && diff.same_at.is_none(), "{what}");
-        assert_eq!(&told(&compare(after, BASE)), back, "{what}, backwards");
+        assert_eq!(&findings_text(&compare(after, BASE)), back, "{what}, backwards");
     }
 }
 
 /// Details of findings: distances, growth and changed properties.
 #[test]
-fn findings_say_how_far_and_what() {
+fn findings_report_distances_growth_and_changes() {
     for d in [0.05, 0.5, 5.0] {
         let after = edited(CREASE, &format!("d=\"M20.25 {}l60 1.25\"", 20.5 + d));
         let diff = compare(BASE, &after);
@@ -263,7 +263,7 @@ fn findings_say_how_far_and_what() {
 }
 
 #[test]
-fn a_shifted_page_is_told_in_one_line() {
+fn a_shifted_page_is_reported_as_moved() {
     let after = BASE.replace("viewBox=\"0 0 200 100\"", "viewBox=\"-3 -4 200 100\"");
     let diff = compare(BASE, &after);
     assert!(diff.findings.iter().all(|finding| finding.verdict == Verdict::Moved), "{:#?}", diff.lines());
@@ -274,13 +274,13 @@ fn a_shifted_page_is_told_in_one_line() {
 }
 
 #[test]
-fn tolerances_are_by_class_and_layer() {
+fn tolerances_apply_by_class_and_layer() {
     let after = BASE
         .replace(CREASE, r#"d="M20.25 20.6l60 1.25""#)
         .replace("M120 30h30v30h-30z", "M120.1 30h30v30h-30z");
     let with = |text: &str| {
         let options = DiffOptions::default().within(Tolerances::parse(text).unwrap());
-        told(&compare_with(BASE, &after, &options))
+        findings_text(&compare_with(BASE, &after, &options))
     };
     assert_eq!(with("0.2px"), "");
     assert_eq!(with("lines=0.05mm"), "moved fills of bolt");
@@ -302,18 +302,22 @@ fn stacked() -> (String, String) {
 }
 
 #[test]
-fn what_lies_over_what_is_told() {
+fn changed_stacking_order_is_reported() {
     let (over, swapped) = stacked();
     assert!(
-        told(&compare(&over, &swapped)).starts_with("restacked fills of "),
+        findings_text(&compare(&over, &swapped)).starts_with("restacked fills of "),
         "{}",
-        told(&compare(&over, &swapped))
+        findings_text(&compare(&over, &swapped))
     );
     // The whole line layer under the fills.
     let lines = BASE.find("<g id=\"lines\"").unwrap();
     let fills = BASE.find("<g id=\"fills\"").unwrap();
     let under = [&BASE[..fills], &BASE[lines..BASE.len() - 7], &BASE[fills..lines], "</svg>\n"].concat();
-    assert!(told(&compare(BASE, &under)).contains("restacked"), "{}", told(&compare(BASE, &under)));
+    assert!(
+        findings_text(&compare(BASE, &under)).contains("restacked"),
+        "{}",
+        findings_text(&compare(BASE, &under))
+    );
 }
 
 #[test]
@@ -326,10 +330,13 @@ fn pixels_are_compared_on_demand() {
 }
 
 #[test]
-fn a_part_that_is_gone_did_not_become_its_neighbour() {
+fn removed_parts_are_not_matched_with_their_neighbours() {
     let bolt = "<path class=\"crease\" data-part=\"bolt\" d=\"M125 35c5 5 10 5 20 0\"/>";
     let washer = "<path class=\"crease\" data-part=\"washer\" d=\"M125 37c5 5 10 5 20 0\"/>";
-    assert_eq!(told(&compare(BASE, &edited(bolt, washer))), "added crease of washer, removed crease of bolt");
+    assert_eq!(
+        findings_text(&compare(BASE, &edited(bolt, washer))),
+        "added crease of washer, removed crease of bolt"
+    );
     let gone = edited(bolt, "")
         .replace("<path class=\"contour\" data-part=\"bolt\" stroke-width=\"1.6\" stroke-dasharray=\"4 2\" d=\"M170 10v80\"/>", "")
         .replace(r##"<path class="tone-0" data-part="bolt" data-material="zinc" data-tone="0" fill="#9ea3a8" d="M120 30h30v30h-30z"/>"##, "");

@@ -10,8 +10,11 @@ use crate::support::pipeline::scene;
 use crate::support::properties::bound::Bound;
 use crate::support::properties::option_set::{INK, INK_MESH};
 use crate::support::properties::subject::Subject;
-use crate::support::references::drawing_judge::{COARSE, EXACT, Limits, MIXED, ROUND, judge, judge_ink};
-use crate::support::references::line_visibility::{State, Truth};
+use crate::support::references::drawing_judge::{
+    COARSE_MODEL_LIMITS, FLAT_MODEL_LIMITS, MIXED_MODEL_LIMITS, ROUND_MODEL_LIMITS, ShareLimits,
+    compare_ink_with_reference, compare_with_reference,
+};
+use crate::support::references::line_visibility::{ReferenceLines, SampleVisibility};
 use crate::support::scenes::solids::{Solid, cuboid, tube};
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -23,38 +26,38 @@ use ligne::style::Style;
 use rayon::prelude::*;
 
 /// Example models with their limits, and whether they are closed and machined.
-const MODELS: [(&str, Limits, bool); 18] = [
-    ("bear.ply", COARSE, false),
-    ("bevels.obj", EXACT, true),
-    ("biplane.obj", EXACT, false),
-    ("bracket.stl", EXACT, true),
-    ("castle.obj", EXACT, false),
-    ("drum.obj", EXACT, true),
-    ("elbow.obj", EXACT, true),
-    ("gear.obj", EXACT, true),
-    ("goose.obj", COARSE, false),
+const MODELS: [(&str, ShareLimits, bool); 18] = [
+    ("bear.ply", COARSE_MODEL_LIMITS, false),
+    ("bevels.obj", FLAT_MODEL_LIMITS, true),
+    ("biplane.obj", FLAT_MODEL_LIMITS, false),
+    ("bracket.stl", FLAT_MODEL_LIMITS, true),
+    ("castle.obj", FLAT_MODEL_LIMITS, false),
+    ("drum.obj", FLAT_MODEL_LIMITS, true),
+    ("elbow.obj", FLAT_MODEL_LIMITS, true),
+    ("gear.obj", FLAT_MODEL_LIMITS, true),
+    ("goose.obj", COARSE_MODEL_LIMITS, false),
     // Its shell has few faces and is drawn rounder than its mesh.
-    ("helmet.obj", Limits { tolerance: 12.0, ..EXACT }, false),
-    ("horn.obj", EXACT, false),
-    ("knot.ply", ROUND, false),
-    ("pump.glb", EXACT, true),
-    ("rack.stl", EXACT, true),
-    ("shaft.obj", EXACT, true),
-    ("shelf.ply", MIXED, false),
-    ("street.glb", EXACT, true),
-    ("teapot.obj", ROUND, false),
+    ("helmet.obj", ShareLimits { tolerance: 12.0, ..FLAT_MODEL_LIMITS }, false),
+    ("horn.obj", FLAT_MODEL_LIMITS, false),
+    ("knot.ply", ROUND_MODEL_LIMITS, false),
+    ("pump.glb", FLAT_MODEL_LIMITS, true),
+    ("rack.stl", FLAT_MODEL_LIMITS, true),
+    ("shaft.obj", FLAT_MODEL_LIMITS, true),
+    ("shelf.ply", MIXED_MODEL_LIMITS, false),
+    ("street.glb", FLAT_MODEL_LIMITS, true),
+    ("teapot.obj", ROUND_MODEL_LIMITS, false),
 ];
 
 /// Known failures by model, view and contours. This list may only get shorter. The belly of the goose is
 /// drawn more than 15 px rounder than its faces. Tidying removes the end of the drum's shaft.
-const SHORT: [(&str, usize, Contours); 2] =
+const KNOWN_FAILURES: [(&str, usize, Contours); 2] =
     [("goose.obj", 1, Contours::Auto), ("drum.obj", 1, Contours::Smooth)];
 
 /// Azimuth and elevation in degrees, and whether the view is parallel.
 const VIEWS: [(f64, f64, bool); 3] = [(35.0, 25.0, false), (-60.0, 10.0, false), (20.0, 35.0, true)];
 
 fn camera(scene: &Scene, (azimuth, elevation, parallel): (f64, f64, bool)) -> Camera {
-    let all = triangle_scene::Polygons::of(scene);
+    let all = triangle_scene::TriangleScene::of(scene);
     let low = all.points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = all.points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
     let (middle, radius) = (low.midpoint(high), low.distance(high) / 2.0);
@@ -83,12 +86,16 @@ fn ink_style(contours: Contours) -> Style {
 }
 
 /// Draws the wanted models in all views and fails with one line per drawing outside its limits.
-fn all_models(contours: Contours, wanted: impl Fn(bool) -> bool, limits: impl Fn(Limits) -> Limits + Sync) {
-    let jobs: Vec<(&str, Limits, (f64, f64, bool))> = MODELS
+fn assert_models_within_limits(
+    contours: Contours,
+    wanted: impl Fn(bool) -> bool,
+    limits: impl Fn(ShareLimits) -> ShareLimits + Sync,
+) {
+    let jobs: Vec<(&str, ShareLimits, (f64, f64, bool))> = MODELS
         .iter()
         .filter(|(_, _, machined)| wanted(*machined))
         .flat_map(|(name, limits, _)| VIEWS.iter().enumerate().map(|(k, view)| (k, (*name, *limits, *view))))
-        .filter(|(k, (name, ..))| !SHORT.contains(&(*name, *k, contours)))
+        .filter(|(k, (name, ..))| !KNOWN_FAILURES.contains(&(*name, *k, contours)))
         .map(|(_, job)| job)
         .collect();
     let short: Vec<String> = jobs
@@ -98,8 +105,9 @@ fn all_models(contours: Contours, wanted: impl Fn(bool) -> bool, limits: impl Fn
             let camera = camera(&scene, *view);
             let drawing = render(&scene, &camera, &ink_style(contours)).unwrap();
             let limits = limits(*own);
-            let verdict = judge(&Truth::of(&scene, &camera), &drawing, limits.tolerance);
-            let words = limits.short(&verdict);
+            let verdict =
+                compare_with_reference(&ReferenceLines::of(&scene, &camera), &drawing, limits.tolerance);
+            let words = limits.violations(&verdict);
             (!words.is_empty()).then(|| format!("{name} {view:?}: {}", words.join(", ")))
         })
         .collect();
@@ -107,48 +115,49 @@ fn all_models(contours: Contours, wanted: impl Fn(bool) -> bool, limits: impl Fn
 }
 
 #[test]
-fn models_are_drawn_right_along_the_mesh() {
-    all_models(Contours::Mesh, |_| true, |limits| limits);
+fn models_are_drawn_right_with_mesh_contours() {
+    assert_models_within_limits(Contours::Mesh, |_| true, |limits| limits);
 }
 
 #[test]
 fn models_are_drawn_right_by_default() {
-    all_models(Contours::Auto, |_| true, |limits| limits);
+    assert_models_within_limits(Contours::Auto, |_| true, |limits| limits);
 }
 
 #[test]
-fn machined_models_are_drawn_right_when_all_is_smooth() {
-    let smooth = |limits: Limits| Limits { contour: 0.0, crease: 0.0, off: 1.0, ..limits };
-    all_models(Contours::Smooth, |machined| machined, smooth);
+fn machined_models_are_drawn_right_with_smooth_contours() {
+    let smooth = |limits: ShareLimits| ShareLimits { contour: 0.0, crease: 0.0, off: 1.0, ..limits };
+    assert_models_within_limits(Contours::Smooth, |machined| machined, smooth);
 }
 
 #[test]
-fn the_judge_sees_what_is_hidden_lost_and_made_up() {
+fn drawing_judge_detects_hidden_lost_and_invented_ink() {
     let scene = open("shaft.obj");
     let camera = camera(&scene, VIEWS[0]);
-    let truth = Truth::of(&scene, &camera);
-    let seen = truth.stretches(|place| place.state == State::Visible);
-    let right = judge_ink(&truth, &seen, 0.1);
-    assert_eq!(EXACT.short(&right), Vec::<String>::new());
+    let truth = ReferenceLines::of(&scene, &camera);
+    let seen = truth.segments_where(|place| place.state == SampleVisibility::Visible);
+    let right = compare_ink_with_reference(&truth, &seen, 0.1);
+    assert_eq!(FLAT_MODEL_LIMITS.violations(&right), Vec::<String>::new());
     let length =
         |strokes: &[[kurbo::Point; 2]]| strokes.iter().map(|[a, b]| (*b - *a).hypot2().sqrt()).sum::<f64>();
 
-    let hidden = truth.stretches(|place| place.state == State::Hidden);
+    let hidden = truth.segments_where(|place| place.state == SampleVisibility::Hidden);
     let all = [seen.clone(), hidden.clone()].concat();
-    let leaking = judge_ink(&truth, &all, 0.1);
+    let leaking = compare_ink_with_reference(&truth, &all, 0.1);
     assert!((leaking.leak.share - length(&hidden) / length(&all)).abs() < 0.05, "{leaking:?}");
     assert!(leaking.through.share > 0.1 && leaking.off.share < 1e-6, "{leaking:?}");
 
-    let inner = truth.stretches(|place| place.state == State::Visible && !place.is_outline);
-    let lost = judge_ink(&truth, &inner, 0.1);
+    let inner =
+        truth.segments_where(|place| place.state == SampleVisibility::Visible && !place.is_silhouette);
+    let lost = compare_ink_with_reference(&truth, &inner, 0.1);
     assert!(lost.outline.share < 0.1 && lost.leak.share < 1e-6, "{lost:?}");
 
     let made_up = [seen, vec![[kurbo::Point::new(2.0, 2.0), kurbo::Point::new(2.0, 900.0)]]].concat();
-    assert!(judge_ink(&truth, &made_up, 0.1).off.share > 0.01);
+    assert!(compare_ink_with_reference(&truth, &made_up, 0.1).off.share > 0.01);
 }
 
 #[test]
-fn flat_faces_are_drawn_by_default_as_along_the_mesh() {
+fn flat_faces_have_mesh_contours_by_default() {
     let models = [
         ("box", scene([cuboid(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 0.5))])),
         ("prism", scene([tube(6, 1, 1.0, 1.0)])),
@@ -167,14 +176,14 @@ fn flat_faces_are_drawn_by_default_as_along_the_mesh() {
 /// Convex hull of a barrel with steep lids. Its faces reach from rim to rim and from the rims to the tips,
 /// and no two are coplanar.
 fn hull() -> Solid {
-    const AROUND: u32 = 40;
+    const CORNER_COUNT: u32 = 40;
     let mut hull = Solid { positions: vec![DVec3::Z * -3.4, DVec3::Z * 3.4], ..Solid::default() };
-    for (k, end) in (0..AROUND).flat_map(|k| [(k, -1.0), (k, 1.0)]) {
-        let turn = std::f64::consts::TAU * (f64::from(k) + 0.25 * end) / f64::from(AROUND);
+    for (k, end) in (0..CORNER_COUNT).flat_map(|k| [(k, -1.0), (k, 1.0)]) {
+        let turn = std::f64::consts::TAU * (f64::from(k) + 0.25 * end) / f64::from(CORNER_COUNT);
         hull.positions.push(DVec3::new(cos(turn), sin(turn), 2.0 * end));
     }
-    for k in 0..AROUND {
-        let [a, b, c, d] = [0, 2, 1, 3].map(|corner| 2 + (2 * k + corner) % (2 * AROUND));
+    for k in 0..CORNER_COUNT {
+        let [a, b, c, d] = [0, 2, 1, 3].map(|corner| 2 + (2 * k + corner) % (2 * CORNER_COUNT));
         hull.triangles.extend([[0, b, a], [1, c, d], [a, b, c], [b, d, c]]);
     }
     hull
@@ -186,7 +195,11 @@ fn hulls_keep_the_outline_of_their_faces() {
     for view in VIEWS {
         let camera = camera(&model, view);
         let drawing = render(&model, &camera, &ink_style(Contours::Auto)).unwrap();
-        let words = EXACT.short(&judge(&Truth::of(&model, &camera), &drawing, EXACT.tolerance));
+        let words = FLAT_MODEL_LIMITS.violations(&compare_with_reference(
+            &ReferenceLines::of(&model, &camera),
+            &drawing,
+            FLAT_MODEL_LIMITS.tolerance,
+        ));
         assert!(words.is_empty(), "{view:?}: {}", words.join(", "));
     }
 }
@@ -194,8 +207,8 @@ fn hulls_keep_the_outline_of_their_faces() {
 /// Four six-sided studs in front of a wall. Normals at the rim are averaged over the adjacent cap faces, so
 /// the caps look round. The sides run to a point behind the wall.
 fn studs() -> Scene {
-    const HIGH: f64 = 0.38;
-    const DEEP: f64 = 3.5;
+    const CAP_HEIGHT: f64 = 0.38;
+    const TIP_DEPTH: f64 = 3.5;
     let (mut points, mut normals, mut faces) = (String::new(), String::new(), String::new());
     let (mut corners, mut ways) = (0, 0);
     let mut add = |triangle: [DVec3; 3], leaning: [DVec3; 3]| {
@@ -217,7 +230,7 @@ fn studs() -> Scene {
             let turn = std::f64::consts::TAU * k as f64 / 6.0;
             DVec3::new(cos(turn), sin(turn), 0.0)
         };
-        let [top, tip] = [DVec3::Z * HIGH, DVec3::Z * -DEEP];
+        let [top, tip] = [DVec3::Z * CAP_HEIGHT, DVec3::Z * -TIP_DEPTH];
         let of_face = |k: usize| flat([rim(k), rim(k + 1), top])[0];
         let of_corner = |k: usize| of_face(k) + of_face(k + 5);
         for k in 0..6 {
@@ -236,20 +249,20 @@ fn studs() -> Scene {
 /// At a rim the sides face away from the camera. The refined cap bulges, so its last faces face away as well.
 /// That is the end of the cap, not a ripple of the surface.
 #[test]
-fn rounded_caps_keep_their_rims_before_a_wall() {
+fn rounded_caps_keep_their_rims_in_front_of_a_wall() {
     let model = studs();
     for view in VIEWS {
         let camera = camera(&model, view);
         let drawing = render(&model, &camera, &ink_style(Contours::Auto)).unwrap();
         // Caps are drawn rounder than their faces.
-        let verdict = judge(&Truth::of(&model, &camera), &drawing, 8.0);
+        let verdict = compare_with_reference(&ReferenceLines::of(&model, &camera), &drawing, 8.0);
         assert!(verdict.contour.share > 0.98 && verdict.outline.share > 0.98, "{view:?}: {verdict:?}");
         assert!(verdict.leak.share < 0.002, "{view:?}: {verdict:?}");
     }
 }
 
 #[test]
-fn rounded_models_are_drawn_otherwise() {
+fn round_models_are_not_drawn_with_mesh_contours() {
     let model = open("knot.ply");
     let subject = Subject::new("knot", model.clone(), Camera::three_quarter().fit(&model));
     let [auto, mesh] = [INK, INK_MESH].map(|way| way.draw(&subject));

@@ -4,27 +4,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::support::readers::example_files::{
-    Glb, Part, Point, bytes, path, read_obj, read_ply, read_stl, welded,
+    Coordinates, FilePart, Glb, example_bytes, example_path, read_obj, read_ply, read_stl, weld_points,
 };
 
 #[allow(dead_code)]
 #[path = "../../../examples/make_stress/scenes.rs"]
 mod scenes;
 
-fn minus(a: Point, b: Point) -> Point {
+fn minus(a: Coordinates, b: Coordinates) -> Coordinates {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-fn cross(a: Point, b: Point) -> Point {
+fn cross(a: Coordinates, b: Coordinates) -> Coordinates {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+fn dot(a: Coordinates, b: Coordinates) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Number of occurrences of each directed edge.
-fn edges(part: &Part) -> BTreeMap<(usize, usize), usize> {
+fn directed_edges(part: &FilePart) -> BTreeMap<(usize, usize), usize> {
     let mut edges = BTreeMap::new();
     for [a, b, c] in &part.faces {
         for edge in [(*a, *b), (*b, *c), (*c, *a)] {
@@ -35,7 +35,7 @@ fn edges(part: &Part) -> BTreeMap<(usize, usize), usize> {
 }
 
 /// Faces of each connected component, by union-find.
-fn pieces(part: &Part) -> Vec<Vec<[usize; 3]>> {
+fn components(part: &FilePart) -> Vec<Vec<[usize; 3]>> {
     let mut leader: Vec<usize> = (0..part.points.len()).collect();
     fn root(leader: &mut [usize], mut id: usize) -> usize {
         while leader[id] != id {
@@ -58,12 +58,12 @@ fn pieces(part: &Part) -> Vec<Vec<[usize; 3]>> {
 }
 
 /// Six times the signed volume between the faces and a point.
-fn volume(part: &Part, faces: &[[usize; 3]], origin: Point) -> f64 {
+fn volume_times_six(part: &FilePart, faces: &[[usize; 3]], origin: Coordinates) -> f64 {
     let corner = |id: usize| minus(part.points[id], origin);
     faces.iter().map(|[a, b, c]| dot(corner(*a), cross(corner(*b), corner(*c)))).sum()
 }
 
-fn assert_no_flat_triangles(part: &Part) {
+fn assert_no_flat_triangles(part: &FilePart) {
     for face in &part.faces {
         let [a, b, c] = face.map(|corner| part.points[corner]);
         let [u, v, w] = [minus(b, a), minus(c, b), minus(a, c)];
@@ -76,15 +76,15 @@ fn assert_no_flat_triangles(part: &Part) {
 
 /// Asserts that each edge has two faces of opposite direction, every component faces outwards, and no
 /// triangle is degenerate.
-fn assert_solid(part: &Part) {
+fn assert_solid(part: &FilePart) {
     assert!(!part.faces.is_empty(), "{} is empty", part.name);
-    let edges = edges(part);
+    let edges = directed_edges(part);
     for ((a, b), count) in &edges {
         assert_eq!((*count, edges.get(&(*b, *a))), (1, Some(&1)), "edge {a} {b} of {}", part.name);
     }
-    for faces in pieces(part) {
+    for faces in components(part) {
         assert!(
-            volume(part, &faces, part.points[faces[0][0]]) > 0.0,
+            volume_times_six(part, &faces, part.points[faces[0][0]]) > 0.0,
             "a piece of {} is inside out",
             part.name
         );
@@ -93,12 +93,12 @@ fn assert_solid(part: &Part) {
 }
 
 #[test]
-fn teapot_is_open_only_where_newell_left_it_open() {
+fn teapot_parts_have_the_expected_borders() {
     let parts = read_obj("teapot.obj");
     let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
     assert_eq!(names, ["body", "lid", "handle", "spout"]);
     for (part, borders) in parts.iter().zip([1, 1, 2, 2]) {
-        let edges = edges(part);
+        let edges = directed_edges(part);
         assert!(edges.values().all(|count| *count == 1), "{} is not turned one way", part.name);
         let open: BTreeMap<usize, usize> =
             edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).copied().collect();
@@ -117,7 +117,7 @@ fn teapot_is_open_only_where_newell_left_it_open() {
         let middle = std::array::from_fn(|k| {
             open.keys().map(|&id| part.points[id][k]).sum::<f64>() / open.len() as f64
         });
-        assert!(volume(part, &part.faces, middle) > 0.0, "{} is inside out", part.name);
+        assert!(volume_times_six(part, &part.faces, middle) > 0.0, "{} is inside out", part.name);
         assert_no_flat_triangles(part);
     }
     let triangles: usize = parts.iter().map(|part| part.faces.len()).sum();
@@ -129,19 +129,19 @@ fn gear_is_one_solid() {
     let parts = read_obj("gear.obj");
     assert_eq!((parts.len(), parts[0].name.as_str()), (1, "gear"));
     assert_solid(&parts[0]);
-    assert_eq!(pieces(&parts[0]).len(), 1);
+    assert_eq!(components(&parts[0]).len(), 1);
     // One bore and six holes: Euler characteristic 2 - 2 * 7.
-    let (faces, edges) = (parts[0].faces.len() as i64, edges(&parts[0]).len() as i64 / 2);
+    let (faces, edges) = (parts[0].faces.len() as i64, directed_edges(&parts[0]).len() as i64 / 2);
     assert_eq!(parts[0].points.len() as i64 - edges + faces, -12);
 }
 
 #[test]
 fn bracket_is_one_solid() {
-    let part = welded(&read_stl("bracket.stl"));
+    let part = weld_points(&read_stl("bracket.stl"));
     assert_solid(&part);
-    assert_eq!(pieces(&part).len(), 1);
+    assert_eq!(components(&part).len(), 1);
     // Two holes in the base, five in the wall.
-    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    let (faces, edges) = (part.faces.len() as i64, directed_edges(&part).len() as i64 / 2);
     assert_eq!(part.points.len() as i64 - edges + faces, -12);
 }
 
@@ -149,7 +149,7 @@ fn bracket_is_one_solid() {
 fn knot_is_one_solid() {
     let part = read_ply("knot.ply");
     assert_solid(&part);
-    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    let (faces, edges) = (part.faces.len() as i64, directed_edges(&part).len() as i64 / 2);
     assert_eq!(part.points.len() as i64 - edges + faces, 0);
 }
 
@@ -157,8 +157,8 @@ fn knot_is_one_solid() {
 fn bear_is_one_coarse_solid() {
     let part = read_ply("bear.ply");
     assert_solid(&part);
-    assert_eq!(pieces(&part).len(), 1);
-    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(components(&part).len(), 1);
+    let (faces, edges) = (part.faces.len() as i64, directed_edges(&part).len() as i64 / 2);
     assert_eq!(part.points.len() as i64 - edges + faces, 2);
     assert!((500..900).contains(&faces), "{faces} faces");
 }
@@ -172,9 +172,9 @@ fn castle_is_made_of_named_solids() {
     for name in ["keep", "gatehouse", "steps", "wall-front", "tower-south-east-roof", "keep-flag"] {
         assert!(names.contains(name), "no part {name}");
     }
-    let library = String::from_utf8(bytes("castle.mtl")).unwrap();
+    let library = String::from_utf8(example_bytes("castle.mtl")).unwrap();
     let known: BTreeSet<&str> = library.lines().filter_map(|line| line.strip_prefix("newmtl ")).collect();
-    let text = String::from_utf8(bytes("castle.obj")).unwrap();
+    let text = String::from_utf8(example_bytes("castle.obj")).unwrap();
     let used: BTreeSet<&str> = text.lines().filter_map(|line| line.strip_prefix("usemtl ")).collect();
     assert_eq!(known, used);
 }
@@ -183,7 +183,7 @@ fn castle_is_made_of_named_solids() {
 fn assert_meshes_solid(glb: &Glb) {
     for mesh in glb.list("meshes") {
         let name = mesh["name"].as_str().unwrap().to_owned();
-        let mut part = Part { name, points: Vec::new(), faces: Vec::new() };
+        let mut part = FilePart { name, points: Vec::new(), faces: Vec::new() };
         for primitive in mesh["primitives"].as_array().unwrap() {
             let attributes = &primitive["attributes"];
             part.points.extend(glb.points(&attributes["POSITION"]));
@@ -194,7 +194,7 @@ fn assert_meshes_solid(glb: &Glb) {
                 assert!(normals.all(|n| (n.map(|v| v * v).iter().sum::<f64>() - 1.0).abs() < 1e-4));
             }
         }
-        assert_solid(&welded(&part));
+        assert_solid(&weld_points(&part));
     }
 }
 
@@ -224,7 +224,7 @@ fn drive_is_made_of_named_solids_and_is_small() {
     for name in ["housing", "disc-2", "ring-pin-12", "input-shaft", "output-flange", "cap-screw-6"] {
         assert!(names.contains(name), "no node {name}");
     }
-    assert!(bytes("drive.glb").len() < 300_000, "{} bytes", bytes("drive.glb").len());
+    assert!(example_bytes("drive.glb").len() < 300_000, "{} bytes", example_bytes("drive.glb").len());
 }
 
 #[test]
@@ -234,18 +234,21 @@ fn machines_are_made_of_solids() {
     {
         let parts = read_obj(name);
         assert_eq!(parts.len(), count, "parts of {name}");
-        parts.iter().for_each(|part| assert_solid(&welded(part)));
+        parts.iter().for_each(|part| assert_solid(&weld_points(part)));
     }
     let elbow = read_obj("elbow.obj").remove(0);
     // A bore and twelve holes.
-    assert_eq!(elbow.points.len() as i64 - edges(&elbow).len() as i64 / 2 + elbow.faces.len() as i64, -24);
-    let rack = welded(&read_stl("rack.stl"));
+    assert_eq!(
+        elbow.points.len() as i64 - directed_edges(&elbow).len() as i64 / 2 + elbow.faces.len() as i64,
+        -24
+    );
+    let rack = weld_points(&read_stl("rack.stl"));
     assert_solid(&rack);
-    assert_eq!(pieces(&rack).len(), 8);
+    assert_eq!(components(&rack).len(), 8);
     let shelf = read_ply("shelf.ply");
     assert_solid(&shelf);
-    assert_eq!(pieces(&shelf).len(), 5);
-    assert!(pieces(&shelf).iter().any(|piece| piece.len() > 4500), "a scan");
+    assert_eq!(components(&shelf).len(), 5);
+    assert!(components(&shelf).iter().any(|piece| piece.len() > 4500), "a scan");
 }
 
 #[test]
@@ -253,9 +256,9 @@ fn helmet_is_one_part_of_four_materials() {
     let parts = read_obj("helmet.obj");
     assert_eq!(parts.len(), 1);
     assert_solid(&parts[0]);
-    let text = String::from_utf8(bytes("helmet.obj")).unwrap();
+    let text = String::from_utf8(example_bytes("helmet.obj")).unwrap();
     assert_eq!(text.lines().filter(|line| line.starts_with("usemtl ")).count(), 4);
-    let library = String::from_utf8(bytes("helmet.mtl")).unwrap();
+    let library = String::from_utf8(example_bytes("helmet.mtl")).unwrap();
     assert_eq!(library.lines().filter(|line| line.starts_with("newmtl ")).count(), 4);
 }
 
@@ -269,10 +272,10 @@ fn street_is_made_of_many_solids_without_normals() {
 }
 
 #[test]
-fn crane_is_made_of_solids_that_turn_and_come_back() {
+fn crane_is_made_of_solids_and_its_clip_loops() {
     let glb = Glb::read("crane.glb");
     assert_meshes_solid(&glb);
-    let rigged = ligne::animation::Rigged::open(path("crane.glb")).unwrap();
+    let rigged = ligne::animation::Rigged::open(example_path("crane.glb")).unwrap();
     let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
     assert_eq!((clip.name.as_str(), clip.span(), clip.channels.len()), ("lift", [0.0, 4.0], 4));
     let at = |time: f64| {
@@ -291,10 +294,10 @@ fn crane_is_made_of_solids_that_turn_and_come_back() {
 }
 
 #[test]
-fn brick_is_made_of_solids_and_flies_as_it_was_thrown() {
+fn brick_is_made_of_solids_and_flies_along_a_parabola() {
     let glb = Glb::read("brick.glb");
     assert_meshes_solid(&glb);
-    let rigged = ligne::animation::Rigged::open(path("brick.glb")).unwrap();
+    let rigged = ligne::animation::Rigged::open(example_path("brick.glb")).unwrap();
     let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
     assert_eq!((clip.name.as_str(), clip.span()), ("fly", [0.0, 1.5]));
     let marked: Vec<&str> =
@@ -309,18 +312,18 @@ fn brick_is_made_of_solids_and_flies_as_it_was_thrown() {
 }
 
 #[test]
-fn horn_is_a_sheet_with_two_mouths_and_solids() {
+fn horn_is_an_open_sheet_with_two_borders_and_solids() {
     let parts = read_obj("horn.obj");
     parts[1..].iter().for_each(assert_solid);
-    let edges = edges(&parts[0]);
+    let edges = directed_edges(&parts[0]);
     assert!(edges.values().all(|count| *count == 1));
     // Mouthpiece and bell: a border of 28 edges each.
     assert_eq!(edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).count(), 2 * 28);
 }
 
 #[test]
-fn biplane_has_doubled_skins() {
-    let parts: Vec<Part> = read_obj("biplane.obj").iter().map(welded).collect();
+fn biplane_has_double_sided_sheets() {
+    let parts: Vec<FilePart> = read_obj("biplane.obj").iter().map(weld_points).collect();
     let part = |name: &str| parts.iter().find(|part| part.name == name).unwrap();
     for name in ["fuselage", "cowling", "cowling-paint", "struts", "wheels"] {
         assert_solid(part(name));
@@ -342,10 +345,10 @@ fn lowest_first(mut face: [usize; 3]) -> [usize; 3] {
 }
 
 #[test]
-fn stress_scenes_have_their_size() {
+fn stress_scenes_have_the_expected_triangle_counts() {
     let part = |scene: scenes::Triangles| {
         let faces = scene.faces.iter().map(|face| face.map(|corner| corner as usize)).collect();
-        Part { name: "scene".to_owned(), points: scene.points, faces }
+        FilePart { name: "scene".to_owned(), points: scene.points, faces }
     };
     let city = part(scenes::city(20));
     assert_eq!(city.faces.len(), 12 * 20 * 20);
@@ -356,7 +359,7 @@ fn stress_scenes_have_their_size() {
     let sponge = part(scenes::menger(2));
     // A Menger sponge of level n has 2 * 20^n + 4 * 8^n visible squares.
     assert_eq!(sponge.faces.len(), 2 * (2 * 400 + 4 * 64));
-    let edges = edges(&sponge);
+    let edges = directed_edges(&sponge);
     assert!(edges.iter().all(|((a, b), count)| edges.get(&(*b, *a)) == Some(count)));
     let terrain = part(scenes::terrain(32));
     assert_eq!(terrain.faces.len(), 2 * 32 * 32);
@@ -367,7 +370,7 @@ fn stress_scenes_have_their_size() {
 }
 
 #[test]
-fn all_models_together_are_small() {
+fn example_models_are_small_in_total() {
     let names = [
         "teapot.obj",
         "gear.obj",
@@ -393,6 +396,6 @@ fn all_models_together_are_small() {
         "shelf.ply",
         "rack.stl",
     ];
-    let sum: usize = names.iter().map(|name| bytes(name).len()).sum();
+    let sum: usize = names.iter().map(|name| example_bytes(name).len()).sum();
     assert!(sum < 3_900_000, "{sum} bytes");
 }

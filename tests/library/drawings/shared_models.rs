@@ -11,9 +11,9 @@ use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
 /// Largest model of the short runs, in triangles.
-const MOST_TRIANGLES: usize = 60_000;
+const MAX_SHORT_RUN_TRIANGLES: usize = 60_000;
 
-fn files(folder: &Path) -> Vec<PathBuf> {
+fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(folder) = folders.pop() {
@@ -61,13 +61,13 @@ fn is_sound(drawing: &Drawing) -> bool {
 }
 
 #[test]
-fn every_model_is_drawn() {
+fn every_shared_model_is_drawn() {
     let Some(folder) = shared_folder::folder() else { return };
     let all = is_long();
     let bad = folder.join("bad");
     let mut faults = Vec::new();
     let mut drawn = 0;
-    for path in files(&folder).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
+    for path in files_below(&folder).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
         // Large files take long to read in debug builds.
         if !all && std::fs::metadata(path).is_ok_and(|data| data.len() > 4_000_000) {
             continue;
@@ -91,7 +91,7 @@ fn every_model_is_drawn() {
                 continue;
             }
         };
-        if !all && scene.triangle_count() > MOST_TRIANGLES {
+        if !all && scene.triangle_count() > MAX_SHORT_RUN_TRIANGLES {
             continue;
         }
         let (drawing, warnings) = draw(&scene);
@@ -109,7 +109,7 @@ fn every_model_is_drawn() {
 }
 
 /// Expected result for a broken file, by the README of the models.
-enum Wanted {
+enum ExpectedResult {
     /// Error that contains one of these words, in upper or lower case.
     Error(&'static [&'static str]),
     /// Drawing with a warning that contains one of these words.
@@ -120,8 +120,8 @@ enum Wanted {
     Either,
 }
 
-fn wanted(name: &str) -> Wanted {
-    use Wanted::{Either, Error, Picture, Warning};
+fn expected_result(name: &str) -> ExpectedResult {
+    use ExpectedResult::{Either, Error, Picture, Warning};
     match name {
         "ok-cube.glb" | "latin1-and-bom.obj" => Picture,
         "empty-scene.gltf" | "only-comments.obj" | "vertices-only.obj" => Error(&["nothing to draw"]),
@@ -149,10 +149,10 @@ fn wanted(name: &str) -> Wanted {
 }
 
 #[test]
-fn broken_files_are_refused_or_saved() {
+fn broken_shared_files_are_refused_or_repaired() {
     let Some(folder) = shared_folder::folder() else { return };
     let mut faults = Vec::new();
-    let broken: Vec<PathBuf> = files(&folder.join("bad"))
+    let broken: Vec<PathBuf> = files_below(&folder.join("bad"))
         .into_iter()
         .filter(|p| is_model(p) || p.extension().is_some_and(|e| e == "xyz"))
         .collect();
@@ -161,22 +161,22 @@ fn broken_files_are_refused_or_saved() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let result = Scene::open(&path).map(|scene| draw(&scene));
         let holds = |text: &str, words: &[&str]| words.iter().any(|w| text.to_lowercase().contains(w));
-        let fault = match (wanted(&name), &result) {
-            (Wanted::Error(words), Err(error)) if !holds(&error.to_string(), words) => {
+        let fault = match (expected_result(&name), &result) {
+            (ExpectedResult::Error(words), Err(error)) if !holds(&error.to_string(), words) => {
                 Some(format!("none of {words:?} in '{error}'"))
             }
             (_, Err(error)) if !error.to_string().contains(&name) => {
                 Some(format!("no file named in '{error}'"))
             }
-            (Wanted::Error(_) | Wanted::Either, Err(_)) => None,
+            (ExpectedResult::Error(_) | ExpectedResult::Either, Err(_)) => None,
             (_, Err(error)) => Some(format!("refused: {error}")),
-            (Wanted::Error(_), Ok((drawing, warnings))) => {
+            (ExpectedResult::Error(_), Ok((drawing, warnings))) => {
                 Some(format!("drawn with {} marks and {warnings:?}", marks(drawing)))
             }
             (_, Ok((drawing, _))) if !is_sound(drawing) => Some("the SVG is not sound".to_owned()),
-            (Wanted::Either, Ok(_)) => None,
+            (ExpectedResult::Either, Ok(_)) => None,
             (_, Ok((drawing, _))) if marks(drawing) == 0 => Some("an empty drawing".to_owned()),
-            (Wanted::Warning(words), Ok((_, warnings))) if !holds(&warnings.join("; "), words) => {
+            (ExpectedResult::Warning(words), Ok((_, warnings))) if !holds(&warnings.join("; "), words) => {
                 Some(format!("none of {words:?} in {warnings:?}"))
             }
             (_, Ok(_)) => None,

@@ -22,7 +22,7 @@ fn draw(prepared: &Prepared, camera: &Camera) -> Drawing {
 
 /// Covers a light fixed to the world, whose shadows all views share, and a light fixed to the camera.
 #[test]
-fn shadows_that_views_share_are_those_of_each_view() {
+fn shared_shadows_equal_those_of_single_views() {
     let castle = model("castle.obj");
     let fixed = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1] }]";
     let moving = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1], space = \"camera\" }]";
@@ -44,7 +44,7 @@ fn shadows_that_views_share_are_those_of_each_view() {
 /// `Prepared::of_scene` consumes its scene and must draw the same as `Prepared::for_camera`, for styles that
 /// use parts, materials and textures.
 #[test]
-fn a_scene_that_is_used_up_is_drawn_as_one_that_is_kept() {
+fn consumed_scenes_give_the_same_drawing_as_kept_ones() {
     for (name, style, sets) in [
         ("castle.obj", "ink", [].as_slice()),
         ("castle.obj", "comic", &["fills.cast_shadows=true"]),

@@ -18,14 +18,14 @@ fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
 
-fn seen(name: &str) -> (Scene, Camera) {
+fn open_with_camera(name: &str) -> (Scene, Camera) {
     let scene = Scene::open(model(name)).expect("an example model");
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     (scene, camera)
 }
 
 fn drawn(name: &str, style: &Style, stage: Stage) -> Drawing {
-    let (scene, camera) = seen(name);
+    let (scene, camera) = open_with_camera(name);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
     render_reported(&scene, &camera, style, page, Some(stage)).unwrap().0
 }
@@ -34,7 +34,7 @@ fn marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
     drawing.layers.iter().flat_map(|layer| &layer.marks)
 }
 
-fn count(drawing: &Drawing, class: &str) -> usize {
+fn count_class(drawing: &Drawing, class: &str) -> usize {
     marks(drawing).filter(|mark| mark.provenance.classes.contains(&class)).count()
 }
 
@@ -55,7 +55,7 @@ fn every_stage_of_every_example_model_is_drawn() {
 }
 
 #[test]
-fn stages_are_the_same_with_one_thread_and_with_two() {
+fn stage_drawings_do_not_depend_on_thread_count() {
     let style = Style::load("suggestive", &[]).expect("a built-in style");
     let with = |threads: usize, stage: Stage| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -67,20 +67,20 @@ fn stages_are_the_same_with_one_thread_and_with_two() {
 }
 
 #[test]
-fn field_has_both_sides_and_the_line_between() {
+fn field_stage_draws_facing_bands_and_the_zero_set() {
     let style = Style::default();
     let bear = drawn("bear.ply", &style, Stage::Field);
-    assert_eq!(count(&bear, "zero-set"), 1);
-    assert!(count(&bear, "facing") > 50 && count(&bear, "flat") == 0);
+    assert_eq!(count_class(&bear, "zero-set"), 1);
+    assert!(count_class(&bear, "facing") > 50 && count_class(&bear, "flat") == 0);
     let gear = drawn("gear.obj", &style, Stage::Field);
-    assert!(count(&gear, "flat") > 0 && count(&gear, "zero-set") == 0);
+    assert!(count_class(&gear, "flat") > 0 && count_class(&gear, "zero-set") == 0);
     let svg = bear.to_svg(&SvgOptions::default());
     assert!(svg.contains("<title>n·v 0.8 to 1.0</title></path>"));
 }
 
 #[test]
-fn surfaces_are_cut_where_contours_are_traced() {
-    let (scene, camera) = seen("bear.ply");
+fn surfaces_are_cut_exactly_at_traced_contours() {
+    let (scene, camera) = open_with_camera("bear.ply");
     let options = &Style::default().lines;
     let surface = lines::Surface::new(Mesh::build(scene.to_soup()), options).finer_for(&camera);
     let view = View::new(&surface.mesh, &camera);
@@ -99,29 +99,29 @@ fn surfaces_are_cut_where_contours_are_traced() {
 }
 
 #[test]
-fn zeros_turn_back_and_have_witnesses() {
+fn zeros_stage_has_forward_backward_and_witness_marks() {
     let knot = drawn("knot.ply", &Style::default(), Stage::Zeros);
-    assert!(count(&knot, "forward") > 0 && count(&knot, "backward") > 0);
-    assert!(count(&knot, "witness") > 0);
+    assert!(count_class(&knot, "forward") > 0 && count_class(&knot, "backward") > 0);
+    assert!(count_class(&knot, "witness") > 0);
 }
 
 #[test]
-fn strengths_name_their_step() {
+fn strengths_stage_names_the_step_of_each_crease() {
     let pump = drawn("pump.glb", &Style::default(), Stage::Strengths);
     let notes: Vec<&str> = marks(&pump).filter_map(|mark| mark.provenance.note.as_deref()).collect();
     assert!(notes.contains(&"crease that turns by 90 to 120 degrees"), "{notes:?}");
     let style = Style::load("suggestive", &[]).expect("a built-in style");
-    assert!(count(&drawn("bear.ply", &style, Stage::Strengths), "suggestive") > 1);
+    assert!(count_class(&drawn("bear.ply", &style, Stage::Strengths), "suggestive") > 1);
 }
 
 #[test]
-fn removed_has_nothing_where_nothing_is_tidied() {
+fn removed_stage_is_empty_without_tidying() {
     let pump = drawn("pump.glb", &Style::default(), Stage::Removed);
     let (removed, noted) =
-        (count(&pump, "removed"), marks(&pump).filter(|m| m.provenance.note.is_some()).count());
+        (count_class(&pump, "removed"), marks(&pump).filter(|m| m.provenance.note.is_some()).count());
     assert!(removed > 0);
     assert_eq!(removed, noted);
     let sets = ["chain.tidy=0".to_owned(), "lines.contours=mesh".to_owned()];
     let plain = Style::load("ink", &sets).expect("a built-in style");
-    assert_eq!(count(&drawn("pump.glb", &plain, Stage::Removed), "removed"), 0);
+    assert_eq!(count_class(&drawn("pump.glb", &plain, Stage::Removed), "removed"), 0);
 }

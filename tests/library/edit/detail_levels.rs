@@ -21,7 +21,7 @@ fn example(name: &str) -> Scene {
 }
 
 /// The scene simplified to at most `most` faces, and its number of faces.
-fn at(scene: &Scene, most: u64) -> (Scene, u64) {
+fn simplified_to(scene: &Scene, most: u64) -> (Scene, u64) {
     let detail = Detail::of(scene);
     let mut levels = detail.levels();
     let faces = levels.seek(scene, most).unwrap();
@@ -31,7 +31,7 @@ fn at(scene: &Scene, most: u64) -> (Scene, u64) {
 }
 
 /// Scene with one part.
-fn of(geometry: Geometry) -> Scene {
+fn one_part_scene(geometry: Geometry) -> Scene {
     let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
     Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
 }
@@ -50,7 +50,7 @@ fn grid(side: u32, place: impl Fn(f64, f64) -> DVec3) -> Geometry {
 }
 
 /// Two geometries merged into one. Only positions and triangles are merged.
-fn joined(mut one: Geometry, other: &Geometry) -> Geometry {
+fn merged_geometry(mut one: Geometry, other: &Geometry) -> Geometry {
     let first = one.positions.len() as u32;
     one.positions.extend(&other.positions);
     one.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
@@ -61,7 +61,7 @@ fn faces(geometry: &Geometry) -> impl Iterator<Item = [DVec3; 3]> {
     geometry.triangles.iter().map(|corners| corners.map(|corner| geometry.positions[corner as usize]))
 }
 
-fn area([a, b, c]: [DVec3; 3]) -> DVec3 {
+fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a) / 2.0
 }
 
@@ -76,7 +76,7 @@ fn all_bits(scene: &Scene) -> Vec<String> {
 }
 
 #[test]
-fn levels_are_the_same_from_above_and_below() {
+fn detail_levels_do_not_depend_on_seek_direction() {
     for name in ["horn.obj", "bear.ply", "castle.obj", "pump.glb", "picnic.obj", "shelf.ply", "street.glb"] {
         let scene = example(name);
         let full = scene.triangle_count() as u64;
@@ -116,13 +116,13 @@ fn levels_are_the_same_from_above_and_below() {
 }
 
 #[test]
-fn a_flat_grid_goes_to_two_triangles() {
+fn a_flat_grid_simplifies_to_two_triangles() {
     let turn = Dice::new(5).turn();
     for place in [DVec3::ZERO, DVec3::new(4e5, -2e5, 7.0)] {
-        let scene = of(grid(24, |x, y| turn * DVec3::new(3.0 * x, y, 0.0) + place));
-        let (coarse, faces_left) = at(&scene, 2);
+        let scene = one_part_scene(grid(24, |x, y| turn * DVec3::new(3.0 * x, y, 0.0) + place));
+        let (coarse, faces_left) = simplified_to(&scene, 2);
         assert_eq!(faces_left, 2);
-        let whole: DVec3 = faces(&coarse.geometries[0]).map(area).sum();
+        let whole: DVec3 = faces(&coarse.geometries[0]).map(area_vector).sum();
         assert!((whole - turn * DVec3::Z * 3.0).length() < 1e-9);
         assert_eq!(coarse.geometries[0].positions.len(), 4, "only the corners are left");
     }
@@ -135,8 +135,8 @@ fn a_cube_keeps_twelve_triangles_and_eight_corners() {
         let (right, up) = normal.any_orthonormal_pair();
         grid(8, move |x, y| normal + right * (2.0 * x - 1.0) + up * (2.0 * y - 1.0))
     };
-    let cube = sides.map(of_side).into_iter().reduce(|cube, side| joined(cube, &side)).unwrap();
-    let (coarse, faces_left) = at(&of(cube), 12);
+    let cube = sides.map(of_side).into_iter().reduce(|cube, side| merged_geometry(cube, &side)).unwrap();
+    let (coarse, faces_left) = simplified_to(&one_part_scene(cube), 12);
     assert_eq!(faces_left, 12);
     let cube = &coarse.geometries[0];
     let volume: f64 = faces(cube).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
@@ -145,34 +145,36 @@ fn a_cube_keeps_twelve_triangles_and_eight_corners() {
 }
 
 #[test]
-fn the_border_of_an_open_sheet_stays() {
+fn simplification_keeps_the_border_of_an_open_sheet() {
     let wave = |x: f64, y: f64| {
         DVec3::new(x, y, 0.05 * ligne::geometry::numbers::portable_math::sin(9.0 * x + 4.0 * y))
     };
-    let scene = of(grid(40, wave));
-    let (coarse, faces_left) = at(&scene, 320);
+    let scene = one_part_scene(grid(40, wave));
+    let (coarse, faces_left) = simplified_to(&scene, 320);
     assert!(faces_left > 310, "{faces_left}");
     // The projection from above is still the whole square.
-    let above: f64 = faces(&coarse.geometries[0]).map(|face| area(face).z).sum();
+    let above: f64 = faces(&coarse.geometries[0]).map(|face| area_vector(face).z).sum();
     assert!((above - 1.0).abs() < 1e-12, "{above}");
 }
 
 #[test]
-fn the_crease_of_an_angle_stays() {
+fn simplification_keeps_the_crease_of_a_bent_sheet() {
     let bent = |x: f64, y: f64| if x < 0.5 { DVec3::new(x, y, 0.0) } else { DVec3::new(0.5, y, x - 0.5) };
-    let (coarse, faces_left) = at(&of(grid(20, bent)), 4);
+    let (coarse, faces_left) = simplified_to(&one_part_scene(grid(20, bent)), 4);
     assert_eq!(faces_left, 4);
-    let whole: f64 = faces(&coarse.geometries[0]).map(|face| area(face).length()).sum();
+    let whole: f64 = faces(&coarse.geometries[0]).map(|face| area_vector(face).length()).sum();
     assert!((whole - 1.0).abs() < 1e-12, "{whole}");
 }
 
 /// Two adjacent unit squares. `change` gives the right one other texture coordinates, colours or materials.
-fn parted(change: impl Fn(&mut Geometry, &dyn Fn(usize) -> bool)) -> Scene {
-    let mut geometry =
-        joined(grid(12, |x, y| DVec3::new(x, y, 0.0)), &grid(12, |x, y| DVec3::new(1.0 + x, y, 0.0)));
+fn two_squares(change: impl Fn(&mut Geometry, &dyn Fn(usize) -> bool)) -> Scene {
+    let mut geometry = merged_geometry(
+        grid(12, |x, y| DVec3::new(x, y, 0.0)),
+        &grid(12, |x, y| DVec3::new(1.0 + x, y, 0.0)),
+    );
     let half = geometry.positions.len() / 2;
     change(&mut geometry, &|vertex| vertex >= half);
-    let mut scene = of(geometry);
+    let mut scene = one_part_scene(geometry);
     let material = Material { texture: Some("picture.png".to_owned()), ..Material::default() };
     scene.materials = vec![material.clone(), material];
     scene
@@ -183,19 +185,19 @@ fn is_right(face: [DVec3; 3]) -> bool {
 }
 
 #[test]
-fn seams_of_pictures_colours_and_materials_stay() {
-    let pictured = parted(|geometry, is_right| {
+fn simplification_keeps_texture_colour_and_material_seams() {
+    let pictured = two_squares(|geometry, is_right| {
         let uv = |(vertex, p): (usize, &DVec3)| {
             [p.x as f32 + if is_right(vertex) { 5.0 } else { 0.0 }, p.y as f32]
         };
         geometry.uvs = geometry.positions.iter().enumerate().map(uv).collect();
         geometry.corner_uvs = geometry.triangles.clone();
     });
-    let coloured = parted(|geometry, is_right| {
+    let coloured = two_squares(|geometry, is_right| {
         let colour = |vertex| if is_right(vertex) { [1.0, 0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0, 1.0] };
         geometry.colours = (0..geometry.positions.len()).map(colour).collect();
     });
-    let painted = parted(|geometry, is_right| {
+    let painted = two_squares(|geometry, is_right| {
         let material = |corners: &[u32; 3]| u32::from(is_right(corners[0] as usize));
         geometry.triangle_material = geometry.triangles.iter().map(material).collect();
     });
@@ -216,12 +218,12 @@ fn seams_of_pictures_colours_and_materials_stay() {
     for (what, scene) in
         [("pictures", pictured), ("colours", coloured), ("materials", painted), ("parts", parts)]
     {
-        let (coarse, faces_left) = at(&scene, 4);
+        let (coarse, faces_left) = simplified_to(&scene, 4);
         assert_eq!(faces_left, 4, "{what}");
         let mut whole = 0.0;
         for geometry in &coarse.geometries {
             for (k, face) in faces(geometry).enumerate() {
-                whole += area(face).z;
+                whole += area_vector(face).z;
                 let right = is_right(face);
                 for (corner, p) in face.iter().enumerate() {
                     if !geometry.corner_uvs.is_empty() {
@@ -243,36 +245,36 @@ fn seams_of_pictures_colours_and_materials_stay() {
 }
 
 #[test]
-fn surfaces_that_are_no_surfaces_are_simplified_too() {
+fn non_manifold_and_degenerate_meshes_are_simplified() {
     let flat = || grid(10, |x, y| DVec3::new(x, y, 0.0));
     // The same sheet twice, once with reversed winding.
     let mut turned = flat();
     turned.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
-    let (coarse, faces_left) = at(&of(joined(flat(), &turned)), 4);
+    let (coarse, faces_left) = simplified_to(&one_part_scene(merged_geometry(flat(), &turned)), 4);
     assert_eq!((faces_left, coarse.geometries[0].triangles.len()), (4, 4));
     // Three sheets with a common edge (non-manifold).
-    let fins = joined(
-        joined(flat(), &grid(10, |x, y| DVec3::new(-x, y, 0.0))),
+    let fins = merged_geometry(
+        merged_geometry(flat(), &grid(10, |x, y| DVec3::new(-x, y, 0.0))),
         &grid(10, |x, y| DVec3::new(0.0, y, x)),
     );
-    let (coarse, faces_left) = at(&of(fins), 6);
+    let (coarse, faces_left) = simplified_to(&one_part_scene(fins), 6);
     assert_eq!(faces_left, 6);
-    let whole: f64 = faces(&coarse.geometries[0]).map(|face| area(face).length()).sum();
+    let whole: f64 = faces(&coarse.geometries[0]).map(|face| area_vector(face).length()).sum();
     assert!((whole - 3.0).abs() < 1e-12, "{whole}");
     // Faces of zero area and faces with invalid indices.
     let mut broken = flat();
     broken.triangles.extend([[0, 0, 1], [3, 4, 3], [0, 1, 99_999]]);
-    let detail = Detail::of(&of(broken.clone()));
-    assert!(detail.levels().seek(&of(broken), 203).unwrap() <= 203);
+    let detail = Detail::of(&one_part_scene(broken.clone()));
+    assert!(detail.levels().seek(&one_part_scene(broken), 203).unwrap() <= 203);
     // Empty scene.
     assert_eq!(Detail::of(&Scene::default()).levels().deepest(), 0);
 }
 
 #[test]
-fn instances_share_one_budget() {
+fn instances_share_one_face_budget() {
     let ball = example("horn.obj").geometries.remove(0);
     let count = ball.triangles.len() as u64;
-    let mut scene = of(ball.clone());
+    let mut scene = one_part_scene(ball.clone());
     scene.geometries.push(ball);
     for k in 1..4 {
         let place = DAffine3::from_scale_rotation_translation(
@@ -282,7 +284,7 @@ fn instances_share_one_budget() {
         );
         scene.parts.push(Part { name: format!("small {k}"), geometry: 1, world_from_part: place });
     }
-    let (coarse, faces_left) = at(&scene, count);
+    let (coarse, faces_left) = simplified_to(&scene, count);
     let left: Vec<u64> = coarse.geometries.iter().map(|geometry| geometry.triangles.len() as u64).collect();
     assert_eq!(faces_left, left[0] + 3 * left[1]);
     assert!(faces_left <= count && faces_left + 6 > count, "{faces_left}");
@@ -294,7 +296,7 @@ fn instances_share_one_budget() {
 }
 
 #[test]
-fn any_number_of_threads_finds_the_same() {
+fn simplification_does_not_depend_on_thread_count() {
     for name in ["knot.ply", "castle.obj"] {
         let scene = example(name);
         let with = |threads| {
@@ -306,7 +308,7 @@ fn any_number_of_threads_finds_the_same() {
 }
 
 #[test]
-fn poses_are_simplified_alike() {
+fn poses_share_the_detail_levels_of_the_rest_pose() {
     let crane =
         Rigged::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models/crane.glb")).unwrap();
     let detail = Detail::of(&crane.scene);
@@ -323,7 +325,7 @@ fn poses_are_simplified_alike() {
 }
 
 #[test]
-fn files_are_read_as_written_and_only_for_their_model() {
+fn detail_files_read_back_exactly_and_only_for_their_model() {
     for name in ["horn.obj", "castle.obj", "pump.glb", "picnic.obj", "shelf.ply"] {
         let scene = example(name);
         let detail = Detail::of(&scene);
@@ -337,7 +339,7 @@ fn files_are_read_as_written_and_only_for_their_model() {
 }
 
 #[test]
-fn damaged_files_are_refused() {
+fn damaged_detail_files_are_refused() {
     let scene = example("bear.ply");
     let detail = Detail::of(&scene);
     let bytes = detail.to_bytes(&scene);
@@ -368,7 +370,7 @@ fn damaged_files_are_refused() {
 }
 
 /// Squared distance from a point to a triangle.
-fn from_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+fn distance_squared_to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let normal = (b - a).cross(c - a);
     let inside = |p: DVec3, q: DVec3, at: DVec3| (q - p).cross(at - p).dot(normal) >= 0.0;
     if inside(a, b, p) && inside(b, c, p) && inside(c, a, p) && normal != DVec3::ZERO {
@@ -382,16 +384,17 @@ fn from_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
 }
 
 #[test]
-fn a_tenth_of_the_faces_lies_near_the_whole() {
+fn models_with_a_tenth_of_the_faces_stay_near_the_original() {
     // Largest root mean square distance relative to the size of the model: 1.5 times the measured value.
     for (name, bound) in [("horn.obj", 5.4e-3), ("knot.ply", 3e-3), ("teapot.obj", 4.3e-3)] {
         let scene = example(name);
-        let (coarse, _) = at(&scene, scene.triangle_count() as u64 / 10);
+        let (coarse, _) = simplified_to(&scene, scene.triangle_count() as u64 / 10);
         let (low, high) = scene.bounds().unwrap();
         let left: Vec<[DVec3; 3]> = coarse.geometries.iter().flat_map(faces).collect();
         let points: Vec<DVec3> = scene.geometries.iter().flat_map(faces).flatten().step_by(7).collect();
-        let nearest =
-            |p: &DVec3| left.iter().map(|face| from_triangle(*p, *face)).fold(f64::INFINITY, f64::min);
+        let nearest = |p: &DVec3| {
+            left.iter().map(|face| distance_squared_to_triangle(*p, *face)).fold(f64::INFINITY, f64::min)
+        };
         let mean = points.iter().map(nearest).sum::<f64>() / points.len() as f64;
         let rms = mean.sqrt() / high.distance(low);
         println!("{name}: {rms:e}");
@@ -400,7 +403,7 @@ fn a_tenth_of_the_faces_lies_near_the_whole() {
 }
 
 #[test]
-fn shared_models_go_down_and_up() {
+fn shared_models_are_restored_exactly_after_simplification() {
     for name in [
         "organic/stanford-bunny.obj",
         "mechanical/2CylinderEngine.glb",

@@ -44,16 +44,16 @@ fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
     scene.parts.iter().map(of).collect()
 }
 
-fn along(axis: DVec3, factor: f64) -> Explosion {
+fn explosion_along(axis: DVec3, factor: f64) -> Explosion {
     Explosion { axis: Some(axis), factor, ..Explosion::default() }
 }
 
 #[test]
-fn stacked_parts_keep_their_order_and_come_apart() {
+fn stacked_parts_keep_their_order_when_exploded() {
     let plate = |k: f64| block([-2.0, -2.0, k], [2.0, 2.0, k + 1.0]);
     let scene = assembly(&[("c", plate(2.0)), ("a", plate(0.0)), ("b", plate(1.0)), ("d", plate(3.0))]);
     for axis in [DVec3::Z, DVec3::NEG_Z] {
-        let ways = explode(&scene, &along(axis, 1.0));
+        let ways = explode(&scene, &explosion_along(axis, 1.0));
         let apart = boxes(&moved(scene.clone(), &ways));
         let order = [1, 2, 0, 3];
         for pair in order.windows(2) {
@@ -64,12 +64,12 @@ fn stacked_parts_keep_their_order_and_come_apart() {
         assert_eq!(ways.offsets.iter().filter(|way| **way == DVec3::ZERO).count(), 1);
     }
     // A factor of 2 doubles the gaps.
-    let far = boxes(&moved(scene.clone(), &explode(&scene, &along(DVec3::Z, 2.0))));
+    let far = boxes(&moved(scene.clone(), &explode(&scene, &explosion_along(DVec3::Z, 2.0))));
     assert!((far[2][0].z - far[1][1].z - 0.08 * 48f64.sqrt()).abs() < 1e-9);
 }
 
 #[test]
-fn parts_come_off_on_the_side_that_is_free() {
+fn exploded_parts_move_towards_their_free_side() {
     // A pot with its contents, a lid and a foot.
     let mut pot = frame(2.0, 3.0, 0.0, 4.0);
     pot.add(block([-3.0, -3.0, -1.0], [3.0, 3.0, 0.0]));
@@ -79,12 +79,12 @@ fn parts_come_off_on_the_side_that_is_free() {
         ("lid", block([-3.0, -3.0, 4.0], [3.0, 3.0, 5.0])),
         ("foot", block([-1.0, -1.0, -3.0], [1.0, 1.0, -1.0])),
     ]);
-    let ways = explode(&scene, &along(DVec3::Z, 1.0));
+    let ways = explode(&scene, &explosion_along(DVec3::Z, 1.0));
     let apart = boxes(&moved(scene.clone(), &ways));
     assert_eq!(ways.offsets[1], DVec3::ZERO);
     assert!(apart[0][0].z > apart[1][1].z && apart[2][0].z > apart[0][1].z && apart[3][1].z < apart[1][0].z);
     // Along x the pot blocks its contents, so they move in another direction.
-    let ways = explode(&scene, &along(DVec3::X, 1.0));
+    let ways = explode(&scene, &explosion_along(DVec3::X, 1.0));
     assert!(ways.offsets[0].x == 0.0 && ways.offsets[0].length() > 0.0, "{ways:?}");
     // Without an axis, the z axis is found.
     let found = explode(&scene, &Explosion::default());
@@ -92,14 +92,14 @@ fn parts_come_off_on_the_side_that_is_free() {
 }
 
 #[test]
-fn what_stands_in_a_bore_comes_out_of_it() {
+fn parts_in_a_bore_leave_by_the_nearer_end() {
     let scene = assembly(&[
         ("bearing", block([-1.0, -1.0, 2.0], [1.0, 1.0, 3.0])),
         ("case", frame(1.0, 3.0, 0.0, 4.0)),
         ("bush", block([-1.0, -1.0, 0.5], [1.0, 1.0, 1.0])),
         ("post", block([4.0, -1.0, 0.0], [5.0, 1.0, 4.0])),
     ]);
-    let ways = explode(&scene, &along(DVec3::Z, 1.0));
+    let ways = explode(&scene, &explosion_along(DVec3::Z, 1.0));
     let apart = boxes(&moved(scene.clone(), &ways));
     // Each part leaves the bore by the nearer end. The post next to the case stays.
     assert!(apart[0][0].z > apart[1][1].z && apart[2][1].z < apart[1][0].z, "{ways:?}");
@@ -107,17 +107,17 @@ fn what_stands_in_a_bore_comes_out_of_it() {
 }
 
 #[test]
-fn a_bolt_comes_out_by_its_head_though_its_hole_is_missing() {
+fn a_bolt_leaves_by_its_head_without_a_modelled_hole() {
     let mut bolt = block([-0.5, -0.5, -2.0], [0.5, 0.5, 1.0]);
     bolt.add(block([-1.0, -1.0, 1.0], [1.0, 1.0, 1.5]));
     let scene = assembly(&[("base", block([-4.0, -4.0, -3.0], [4.0, 4.0, 1.0])), ("bolt", bolt)]);
-    let ways = explode(&scene, &along(DVec3::Z, 1.0));
+    let ways = explode(&scene, &explosion_along(DVec3::Z, 1.0));
     assert_eq!(ways.offsets[0], DVec3::ZERO);
     assert!(ways.offsets[1].z > 3.0, "{ways:?}");
 }
 
 #[test]
-fn no_two_parts_overlap_on_the_axis_where_they_overlap_across_it() {
+fn parts_that_overlap_across_the_axis_separate_along_it() {
     let mut dice = Dice::new(3);
     for round in 0..20 {
         let mut parts = Vec::new();
@@ -131,7 +131,7 @@ fn no_two_parts_overlap_on_the_axis_where_they_overlap_across_it() {
         }
         let scene = assembly(&dice.shuffled(parts));
         let before = boxes(&scene);
-        let apart = boxes(&moved(scene.clone(), &explode(&scene, &along(DVec3::Z, 1.0))));
+        let apart = boxes(&moved(scene.clone(), &explode(&scene, &explosion_along(DVec3::Z, 1.0))));
         for a in 0..apart.len() {
             for b in 0..a {
                 let overlap = apart[a][1].min(apart[b][1]) - apart[a][0].max(apart[b][0]);
@@ -146,12 +146,12 @@ fn no_two_parts_overlap_on_the_axis_where_they_overlap_across_it() {
 }
 
 #[test]
-fn trails_lead_from_where_parts_were() {
+fn trail_lines_start_at_the_original_positions() {
     let scene = assembly(&[
         ("under", block([-2.0, -2.0, 0.0], [2.0, 2.0, 1.0])),
         ("over", block([-1.0, -1.0, 1.0], [1.0, 1.0, 2.0])),
     ]);
-    let ways = explode(&scene, &along(DVec3::Z, 1.0));
+    let ways = explode(&scene, &explosion_along(DVec3::Z, 1.0));
     let drawn = with_trails(scene, &ways);
     let trail = drawn.parts.last().expect("a part");
     assert_eq!(trail.name, TRAIL);
@@ -177,7 +177,7 @@ fn stack(place: impl Fn(DVec3) -> DVec3) -> Vec<(&'static str, Solid)> {
 }
 
 #[test]
-fn sub_assemblies_come_apart_along_their_own_axis() {
+fn sub_assemblies_explode_along_their_own_axis() {
     let mut dice = Dice::new(57);
     for round in 0..12 {
         let turn = DQuat::from_axis_angle(dice.direction(), dice.between(0.3, 1.2));
@@ -200,18 +200,18 @@ fn sub_assemblies_come_apart_along_their_own_axis() {
 }
 
 #[test]
-fn nothing_is_pulled_through_what_holds_it() {
+fn parts_are_not_pulled_through_their_retainers() {
     // The stud overlaps the nut slightly, as modelled threads do.
     let parts = stack(|p| p);
     for axis in [DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)] {
-        let ways = explode(&assembly(&parts), &along(axis, 1.0));
+        let ways = explode(&assembly(&parts), &explosion_along(axis, 1.0));
         let between = ways.offsets[4] - ways.offsets[3];
         assert!(between.cross(DVec3::Z).length() < 1e-9 && between.z > 0.0, "{axis}: {ways:?}");
     }
 }
 
 #[test]
-fn what_blocks_is_seen_however_thin_it_is() {
+fn thin_parts_block_others() {
     // A pin under a hook, both much thinner than a hundredth of their plate.
     for side in [0.5, 0.05, 0.005] {
         let mut hook = block([side, 0.0, 0.0], [2.0 * side, side, 3.0]);
@@ -221,13 +221,13 @@ fn what_blocks_is_seen_however_thin_it_is() {
             ("pin", block([0.0, 0.0, 0.0], [side, side, 1.0])),
             ("hook", hook),
         ]);
-        let ways = explode(&scene, &along(DVec3::Z, 1.0));
+        let ways = explode(&scene, &explosion_along(DVec3::Z, 1.0));
         assert!(ways.offsets[2].z > ways.offsets[1].z && ways.offsets[1].z > 0.0, "{side}: {ways:?}");
     }
 }
 
 #[test]
-fn what_is_told_of_parts_is_done() {
+fn part_settings_override_the_explosion() {
     let scene = assembly(&stack(|p| p));
     let ways = |told: Vec<PartExplosion>| {
         explode(&scene, &Explosion { axis: Some(DVec3::Z), parts: told, ..Explosion::default() }).offsets
@@ -270,7 +270,7 @@ fn what_is_told_of_parts_is_done() {
 }
 
 #[test]
-fn a_drive_is_taken_apart() {
+fn most_parts_of_a_drive_move_when_exploded() {
     let Some(path) = shared_folder::find("cad/drive.glb") else { return };
     let scene = Scene::open(path).expect("a model");
     let ways = explode(&scene, &Explosion::default());

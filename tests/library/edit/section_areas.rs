@@ -7,14 +7,14 @@ use glam::{DVec2, DVec3};
 use ligne::drawing::{LayerKind, Page, Unit};
 use ligne::edit::section::{Plane, Section, cut};
 use ligne::kurbo::{ParamCurve as _, PathEl, Point};
-use ligne::pipeline::{Prepared, hatched};
+use ligne::pipeline::{Prepared, with_cut_hatching};
 use ligne::scene::{Geometry, NamedView, Part, Projection};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::scenes::solids::{Solid, cuboid};
 
 /// Segment where a triangle crosses the plane, in plane coordinates. Material is always on the same side.
-struct Outline {
+struct SectionEdge {
     from: DVec2,
     to: DVec2,
     part: usize,
@@ -22,12 +22,12 @@ struct Outline {
 
 /// Section outlines of all parts. Where parts overlap, the part with the lowest `rank`, the smallest volume,
 /// owns the area.
-struct Slice {
-    outlines: Vec<Outline>,
+struct ReferenceSection {
+    outlines: Vec<SectionEdge>,
     rank: Vec<usize>,
 }
 
-fn slice(scene: &Scene, plane: &Plane) -> Slice {
+fn reference_section(scene: &Scene, plane: &Plane) -> ReferenceSection {
     let mut outlines = Vec::new();
     let mut volumes = vec![0.0_f64; scene.parts.len()];
     for (number, part) in scene.parts.iter().enumerate() {
@@ -63,7 +63,7 @@ fn slice(scene: &Scene, plane: &Plane) -> Slice {
                 }
             }
             if let [Some(from), Some(to)] = ends {
-                outlines.push(Outline { from, to, part: number });
+                outlines.push(SectionEdge { from, to, part: number });
             }
         }
     }
@@ -71,10 +71,10 @@ fn slice(scene: &Scene, plane: &Plane) -> Slice {
     order.sort_by(|a, b| volumes[*a].abs().total_cmp(&volumes[*b].abs()));
     let mut rank = vec![0; order.len()];
     order.iter().enumerate().for_each(|(k, part)| rank[*part] = k);
-    Slice { outlines, rank }
+    ReferenceSection { outlines, rank }
 }
 
-impl Slice {
+impl ReferenceSection {
     fn owner(&self, turns: &BTreeMap<usize, i32>) -> Option<usize> {
         turns
             .iter()
@@ -86,8 +86,8 @@ impl Slice {
     /// Exact area of each part. Between consecutive heights of corners and crossings, outlines are straight
     /// and keep their order.
     fn areas(&self) -> BTreeMap<usize, f64> {
-        let span = |o: &Outline| (o.from.y.min(o.to.y), o.from.y.max(o.to.y));
-        let mut order: Vec<&Outline> = self.outlines.iter().filter(|o| o.from.y != o.to.y).collect();
+        let span = |o: &SectionEdge| (o.from.y.min(o.to.y), o.from.y.max(o.to.y));
+        let mut order: Vec<&SectionEdge> = self.outlines.iter().filter(|o| o.from.y != o.to.y).collect();
         order.sort_by(|a, b| span(a).0.total_cmp(&span(b).0));
         let mut heights: Vec<f64> = order.iter().flat_map(|o| [o.from.y, o.to.y]).collect();
         for (k, a) in order.iter().enumerate() {
@@ -103,7 +103,7 @@ impl Slice {
         heights.sort_by(f64::total_cmp);
         heights.dedup();
         let mut areas = BTreeMap::new();
-        let (mut active, mut next): (Vec<&Outline>, usize) = (Vec::new(), 0);
+        let (mut active, mut next): (Vec<&SectionEdge>, usize) = (Vec::new(), 0);
         for pair in heights.windows(2) {
             while next < order.len() && span(order[next]).0 <= pair[0] {
                 active.push(order[next]);
@@ -111,8 +111,9 @@ impl Slice {
             }
             active.retain(|o| span(o).1 >= pair[1]);
             let y = (pair[0] + pair[1]) / 2.0;
-            let across = |o: &Outline| o.from.x + (o.to.x - o.from.x) * (y - o.from.y) / (o.to.y - o.from.y);
-            let mut row: Vec<(f64, &Outline)> = active.iter().map(|o| (across(o), *o)).collect();
+            let across =
+                |o: &SectionEdge| o.from.x + (o.to.x - o.from.x) * (y - o.from.y) / (o.to.y - o.from.y);
+            let mut row: Vec<(f64, &SectionEdge)> = active.iter().map(|o| (across(o), *o)).collect();
             row.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut turns: BTreeMap<usize, i32> = BTreeMap::new();
             for pieces in row.windows(2) {
@@ -147,7 +148,7 @@ fn example(name: &str) -> Scene {
 }
 
 /// Vertical plane slightly off the shaft axes. No face of the models lies in it.
-fn beside(z: f64) -> Plane {
+fn plane_near_axes(z: f64) -> Plane {
     Plane::new(DVec3::new(0.0, 0.0, z), DVec3::Z).expect("a direction")
 }
 
@@ -164,12 +165,12 @@ fn area(section: &Section) -> f64 {
 }
 
 #[test]
-fn cut_faces_of_assemblies_are_exact() {
+fn cut_areas_of_assemblies_are_exact() {
     for name in ["pump.glb", "drive.glb"] {
         let scene = example(name);
         for z in [1e-4, 7.3e-3] {
-            let plane = beside(z);
-            let wanted = areas_by_name(&scene, slice(&scene, &plane).areas());
+            let plane = plane_near_axes(z);
+            let wanted = areas_by_name(&scene, reference_section(&scene, &plane).areas());
             let section = cut(scene.clone(), &plane, &[]);
             assert!(section.scene.warnings.is_empty(), "{}", section.scene.warnings);
             let own = section.faces.iter().map(|faces| (faces.part, faces.area));
@@ -189,18 +190,18 @@ fn cut_faces_of_assemblies_are_exact() {
 }
 
 /// Largest distance of a hatch line from its part, px. Narrower areas count as the neighbour.
-const NEAR: f64 = 0.5;
+const MAX_OFFSET_PX: f64 = 0.5;
 
 #[test]
-fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
+fn hatch_lines_of_cut_faces_lie_in_their_part() {
     for name in ["pump.glb", "drive.glb"] {
         let scene = example(name);
-        let plane = beside(1e-4);
-        let slice = slice(&scene, &plane);
+        let plane = plane_near_axes(1e-4);
+        let slice = reference_section(&scene, &plane);
         let camera = Camera::named(NamedView::Front, scene.up).fit(&scene);
         let camera = Camera { width: 2.0 * camera.width, height: 2.0 * camera.height, ..camera };
         let section = cut(scene.clone(), &plane, &[]);
-        let style = hatched(&Style::preset("technical").expect("a style"), &section);
+        let style = with_cut_hatching(&Style::preset("technical").expect("a style"), &section);
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
         let (drawing, _) =
             Prepared::new(&section.scene, &style).draw(&camera, page, None).expect("a drawing");
@@ -242,7 +243,7 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
                         })
                     };
                     let found = owner(0.0, 0.0);
-                    let steps = (1..=8).map(|k| NEAR * f64::from(k) / 8.0);
+                    let steps = (1..=8).map(|k| MAX_OFFSET_PX * f64::from(k) / 8.0);
                     let is_own = found == Some(part) || steps.into_iter().any(is_near);
                     assert!(is_own, "{name} at {at:?}, {share}: {found:?}, not {part}");
                 }
@@ -253,7 +254,7 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
     }
 }
 
-fn part(scene: &mut Scene, name: &str, solid: Solid) {
+fn add_part(scene: &mut Scene, name: &str, solid: Solid) {
     let geometry = scene.geometries.len();
     let Solid { positions, triangles } = solid;
     scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
@@ -270,12 +271,12 @@ fn bolted(bolt_first: bool) -> Scene {
     if bolt_first {
         parts.reverse();
     }
-    parts.into_iter().for_each(|(name, solid)| part(&mut scene, name, solid));
+    parts.into_iter().for_each(|(name, solid)| add_part(&mut scene, name, solid));
     scene
 }
 
 #[test]
-fn a_bolt_in_a_plate_has_what_lies_in_both() {
+fn a_bolt_owns_its_overlap_with_a_plate() {
     let plane = Plane::new(DVec3::new(0.0, 0.25, 0.0), DVec3::NEG_Y).expect("a direction");
     for bolt_first in [false, true] {
         let section = cut(bolted(bolt_first), &plane, &[]);
@@ -290,7 +291,7 @@ fn a_bolt_in_a_plate_has_what_lies_in_both() {
 }
 
 /// Width and sorted end points (in tenths of a px) of each line segment in a front view.
-fn drawn(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
+fn line_segments(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
     let camera = Camera {
         width: 100.0,
         height: 100.0,
@@ -317,12 +318,12 @@ fn drawn(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
 }
 
 #[test]
-fn the_border_between_cut_parts_is_one_wide_line_and_nothing_is_drawn_within() {
+fn borders_between_cut_parts_are_single_wide_lines() {
     let plane = Plane::new(DVec3::new(0.0, 0.25, 0.0), DVec3::NEG_Y).expect("a direction");
     let mut style = Style::preset("technical").expect("a style");
     style.lines.hidden = ligne::lines::HiddenLines::None;
     let section = cut(bolted(false), &plane, &[]);
-    let lines = drawn(&section.scene, &hatched(&style, &section));
+    let lines = line_segments(&section.scene, &with_cut_hatching(&style, &section));
     // 10 px per unit, in tenths of a px, y down from the centre. The plate has a lower edge at z = -1, two
     // sides, and an upper edge at z = 1 next to the bolt head. The bolt is outlined all round.
     let point = |x: f64, z: f64| [(500.0 + x * 100.0) as i64, (500.0 - z * 100.0) as i64];

@@ -10,7 +10,7 @@ use ligne::drawing::{Drawing, LayerKind, Page, Unit};
 use ligne::edit::section::{Plane, Section, cut};
 use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
 use ligne::kurbo::{ParamCurveArclen as _, PathEl, Point};
-use ligne::pipeline::{Prepared, hatched_for};
+use ligne::pipeline::{Prepared, with_cut_hatching_for};
 use ligne::scene::{Geometry, Part};
 use ligne::{Camera, Scene, Style};
 
@@ -38,13 +38,13 @@ fn drawn(mut section: Section, preset: &str) -> Drawing {
     let camera = orthographic(DVec3::NEG_Y * 50.0, DVec3::ZERO, 10.0).with_frame(1000.0, 1000.0);
     let camera = Camera { up: DVec3::Z, ..camera };
     let style = Style::preset(preset).expect("a style");
-    let style = hatched_for(&style, &mut section.scene, &mut section.faces, &[camera]);
+    let style = with_cut_hatching_for(&style, &mut section.scene, &mut section.faces, &[camera]);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
     Prepared::new(&section.scene, &style).draw(&camera, page, None).expect("a drawing").0
 }
 
 /// Total length of the visible lines, px.
-fn ink(drawing: &Drawing) -> f64 {
+fn ink_length(drawing: &Drawing) -> f64 {
     let lines = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     let paths = lines.flat_map(|layer| &layer.marks).flat_map(|mark| mark.path.segments());
     paths.map(|segment| segment.arclen(1e-6)).sum()
@@ -85,7 +85,7 @@ fn across_y(at: f64) -> Plane {
 }
 
 #[test]
-fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
+fn overlapping_shells_have_one_section_outline() {
     let mut dice = Dice::new(573);
     for round in 0..12 {
         // A stepped shaft of overlapping prisms, all shells of one part. Their corners lie in the plane or
@@ -120,14 +120,14 @@ fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
             assert!(section.scene.warnings.is_empty(), "{round} at {at}: {}", section.scene.warnings);
             let found = area(&section);
             assert!((found - exact).abs() < 4e-3 * exact, "{round} at {at}: {found} instead of {exact}");
-            let found = ink(&drawn(section, "ink"));
+            let found = ink_length(&drawn(section, "ink"));
             assert!((found - outline).abs() < 0.01 * outline, "{round} at {at}: {found} px of {outline}");
         }
     }
 }
 
 #[test]
-fn boxes_are_cut_alike_through_their_faces_and_a_little_beside_them() {
+fn sections_through_and_near_box_faces_have_equal_areas() {
     let mut dice = Dice::new(574);
     for round in 0..30 {
         // Boxes with integer corners in one part. Many of their faces lie in the plane.
@@ -168,7 +168,7 @@ fn boxes_are_cut_alike_through_their_faces_and_a_little_beside_them() {
 }
 
 #[test]
-fn a_face_in_the_plane_within_another_shell_is_no_line() {
+fn coplanar_faces_inside_another_shell_draw_no_line() {
     let big = cuboid(DVec3::new(-3.0, -3.0, -3.0), DVec3::new(3.0, 3.0, 3.0));
     let small = cuboid(DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 2.0, 1.0));
     let beside = cuboid(DVec3::new(2.0, 0.0, -1.0), DVec3::new(4.0, 2.0, 1.0));
@@ -176,12 +176,12 @@ fn a_face_in_the_plane_within_another_shell_is_no_line() {
     one.add(small.clone());
     let section = cut(scene_of([one.clone()]), &across_y(0.0), &[]);
     assert!((area(&section) - 36.0).abs() < 1e-9);
-    assert!((ink(&drawn(section, "ink")) - 2400.0).abs() < 2.0);
+    assert!((ink_length(&drawn(section, "ink")) - 2400.0).abs() < 2.0);
     // A second shell that is half outside. Its outer half is not a cut face, and its border is drawn.
     one.add(beside);
     let section = cut(scene_of([one]), &across_y(0.0), &[]);
     assert!((area(&section) - 36.0).abs() < 1e-9);
-    let found = ink(&drawn(section, "ink"));
+    let found = ink_length(&drawn(section, "ink"));
     assert!((found - 2800.0).abs() < 3.0, "{found}");
     // Where two parts overlap, the smaller one owns the area.
     let section = cut(scene_of([big, small]), &across_y(0.0), &[]);
@@ -190,7 +190,7 @@ fn a_face_in_the_plane_within_another_shell_is_no_line() {
 }
 
 #[test]
-fn small_gaps_of_surfaces_are_closed_and_others_are_left_open() {
+fn small_surface_gaps_are_closed_and_large_ones_stay_open() {
     // A box with its upper side moved up by `by`.
     let opened = |by: f64| {
         let mut solid = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
@@ -216,12 +216,12 @@ fn small_gaps_of_surfaces_are_closed_and_others_are_left_open() {
         assert!(warnings.iter().any(|line| line.contains("do not close")), "{warnings:?}");
         let drawing = drawn(section, "technical");
         assert!(drawing.layers.iter().all(|layer| layer.kind != LayerKind::Hatching));
-        assert!(ink(&drawing) > 700.0);
+        assert!(ink_length(&drawing) > 700.0);
     }
 }
 
 /// Part name and angle in degrees of each hatch line.
-fn angles(drawing: &Drawing) -> Vec<(String, f64)> {
+fn hatch_angles(drawing: &Drawing) -> Vec<(String, f64)> {
     let hatching = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Hatching);
     let mut found = Vec::new();
     for mark in hatching.flat_map(|layer| &layer.marks) {
@@ -243,13 +243,13 @@ fn angles(drawing: &Drawing) -> Vec<(String, f64)> {
     found
 }
 
-fn between(a: f64, b: f64) -> f64 {
+fn angle_between(a: f64, b: f64) -> f64 {
     let apart = (a - b).rem_euclid(180.0);
     apart.min(180.0 - apart)
 }
 
 #[test]
-fn hatching_is_never_parallel_to_long_sides_and_neighbours_differ() {
+fn hatching_avoids_long_sides_and_differs_between_neighbours() {
     let mut dice = Dice::new(575);
     for round in 0..40 {
         let degrees = if round < 8 { f64::from(round) * 22.5 } else { dice.between(0.0, 180.0) };
@@ -261,16 +261,24 @@ fn hatching_is_never_parallel_to_long_sides_and_neighbours_differ() {
         let section = cut(scene_of([one, other]), &across_y(0.1), &[]);
         let kinds: Vec<usize> = section.faces.iter().map(|faces| faces.kind).collect();
         assert_eq!(kinds.len(), 2);
-        let lines = angles(&drawn(section, "technical"));
+        let lines = hatch_angles(&drawn(section, "technical"));
         assert!(lines.len() > 10);
         for (name, angle) in &lines {
-            assert!(between(*angle, degrees) > 9.99, "{round}: {name} at {angle}, its sides at {degrees}");
+            assert!(
+                angle_between(*angle, degrees) > 9.99,
+                "{round}: {name} at {angle}, its sides at {degrees}"
+            );
         }
         // Neighbours differ in angle or spacing.
         let of =
             |name: &str| lines.iter().filter(|line| line.0 == name).map(|line| line.1).collect::<Vec<_>>();
         let [a, b] = ["part 0", "part 1"].map(of);
-        assert!(between(a[0], b[0]) > 5.0 || a.len().abs_diff(b.len()) > 3, "{round}: {} and {}", a[0], b[0]);
+        assert!(
+            angle_between(a[0], b[0]) > 5.0 || a.len().abs_diff(b.len()) > 3,
+            "{round}: {} and {}",
+            a[0],
+            b[0]
+        );
     }
 }
 
@@ -281,10 +289,10 @@ fn parts_without_long_sides_are_hatched_at_45_degrees() {
         // Turns the axis to y.
         solid = solid.moved(|p| DVec3::new(p.y, p.x, -p.z));
         let section = cut(scene_of([solid]), &across_y(0.1), &[]);
-        let lines = angles(&drawn(section, "technical"));
-        assert!(lines.len() > 20 && lines.iter().all(|line| between(line.1, 45.0) < 0.01), "{lines:?}");
+        let lines = hatch_angles(&drawn(section, "technical"));
+        assert!(lines.len() > 20 && lines.iter().all(|line| angle_between(line.1, 45.0) < 0.01), "{lines:?}");
     }
     let upright = cuboid(DVec3::new(-1.0, -1.0, -3.0), DVec3::new(1.0, 1.0, 3.0));
-    let lines = angles(&drawn(cut(scene_of([upright]), &across_y(0.1), &[]), "technical"));
-    assert!(lines.iter().all(|line| between(line.1, 45.0) < 0.01));
+    let lines = hatch_angles(&drawn(cut(scene_of([upright]), &across_y(0.1), &[]), "technical"));
+    assert!(lines.iter().all(|line| angle_between(line.1, 45.0) < 0.01));
 }

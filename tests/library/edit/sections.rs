@@ -11,7 +11,7 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::kurbo::{PathEl, Point};
 use ligne::load::ModelFormat;
 use ligne::mesh::{EdgeFaces, FaceId, Mesh};
-use ligne::pipeline::{Prepared, hatched};
+use ligne::pipeline::{Prepared, with_cut_hatching};
 use ligne::scene::{Geometry, NamedView, Part, UpAxis};
 use ligne::{Camera, Scene, Style};
 
@@ -21,7 +21,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::round_solids::icosphere;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
-fn part(scene: &mut Scene, name: &str, solid: Solid) {
+fn add_part(scene: &mut Scene, name: &str, solid: Solid) {
     let geometry = scene.geometries.len();
     let Solid { positions, triangles } = solid;
     scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
@@ -30,7 +30,7 @@ fn part(scene: &mut Scene, name: &str, solid: Solid) {
 
 fn scene_of(solid: Solid) -> Scene {
     let mut scene = Scene::default();
-    part(&mut scene, "solid", solid);
+    add_part(&mut scene, "solid", solid);
     scene
 }
 
@@ -116,7 +116,7 @@ fn area_by_rows(solid: &Solid, plane: &Plane, half: f64, rows: u32) -> f64 {
 }
 
 #[test]
-fn cut_faces_are_as_large_as_in_closed_form() {
+fn cut_areas_match_closed_forms() {
     let close = |section: &Section, exact: f64| {
         let found = area(section);
         assert!((found - exact).abs() <= 1e-9 * exact, "{found} instead of {exact}");
@@ -157,7 +157,7 @@ fn cut_faces_are_as_large_as_in_closed_form() {
 }
 
 #[test]
-fn a_ball_in_a_ball_is_a_hollow_if_the_two_are_wound_against_each_other() {
+fn nested_balls_of_opposite_winding_are_hollow() {
     let equator = |radius: f64| 16.0 * sin(TAU / 32.0) * radius * radius;
     let camera = Camera { width: 300.0, height: 300.0, ..Camera::three_quarter_of(UpAxis::Y) };
     let styles = ["toon", "pencil", "pencil-object", "technical"];
@@ -184,7 +184,7 @@ fn a_ball_in_a_ball_is_a_hollow_if_the_two_are_wound_against_each_other() {
 }
 
 #[test]
-fn cut_faces_are_as_large_as_rows_of_rays_say() {
+fn cut_areas_match_rows_of_rays() {
     let mut dice = Dice::new(11);
     for round in 0..8 {
         let mut solid = torus(18, 12, 3.0, 1.2);
@@ -200,7 +200,7 @@ fn cut_faces_are_as_large_as_rows_of_rays_say() {
 }
 
 #[test]
-fn both_halves_are_closed_and_make_up_the_whole() {
+fn both_halves_are_closed_and_sum_to_the_whole() {
     let mut dice = Dice::new(5);
     let solids =
         [cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), torus(24, 12, 3.0, 1.0), icosphere(3), prism(7, 1.5)];
@@ -226,7 +226,7 @@ fn both_halves_are_closed_and_make_up_the_whole() {
 }
 
 #[test]
-fn what_lies_in_the_plane_is_cut_once() {
+fn coplanar_vertices_edges_and_faces_are_cut_once() {
     // Vertices, edges and faces of these solids lie in the plane.
     let block = || cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     let on_top = plane(DVec3::Z, DVec3::Z);
@@ -269,7 +269,7 @@ fn what_lies_in_the_plane_is_cut_once() {
 }
 
 #[test]
-fn open_surfaces_are_left_open_and_counted() {
+fn open_section_outlines_are_left_open_and_counted() {
     let mut open = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     // Two triangles of one side are missing.
     open.triangles.truncate(10);
@@ -281,13 +281,13 @@ fn open_surfaces_are_left_open_and_counted() {
 }
 
 #[test]
-fn parts_stay_whole_where_they_are_told_to_and_neighbours_differ() {
+fn uncut_parts_stay_whole_and_cut_neighbours_differ() {
     let mut scene = Scene::default();
-    part(&mut scene, "left", cuboid(DVec3::new(-2.0, -1.0, -1.0), DVec3::new(0.0, 1.0, 1.0)));
-    part(&mut scene, "right", cuboid(DVec3::new(0.0, -1.0, -1.0), DVec3::new(2.0, 1.0, 1.0)));
-    part(&mut scene, "bolt 1", cuboid(DVec3::new(-3.0, -0.1, -0.1), DVec3::new(3.0, 0.1, 0.1)));
-    part(&mut scene, "above", cuboid(DVec3::new(0.0, 0.0, 2.0), DVec3::new(1.0, 1.0, 3.0)));
-    part(&mut scene, "far", cuboid(DVec3::new(9.0, -1.0, -1.0), DVec3::new(10.0, 1.0, 1.0)));
+    add_part(&mut scene, "left", cuboid(DVec3::new(-2.0, -1.0, -1.0), DVec3::new(0.0, 1.0, 1.0)));
+    add_part(&mut scene, "right", cuboid(DVec3::new(0.0, -1.0, -1.0), DVec3::new(2.0, 1.0, 1.0)));
+    add_part(&mut scene, "bolt 1", cuboid(DVec3::new(-3.0, -0.1, -0.1), DVec3::new(3.0, 0.1, 0.1)));
+    add_part(&mut scene, "above", cuboid(DVec3::new(0.0, 0.0, 2.0), DVec3::new(1.0, 1.0, 3.0)));
+    add_part(&mut scene, "far", cuboid(DVec3::new(9.0, -1.0, -1.0), DVec3::new(10.0, 1.0, 1.0)));
     let section = cut(scene, &plane(DVec3::ZERO, DVec3::Z), &[Glob::new("bolt*")]);
     let names: Vec<&str> = section.scene.parts.iter().map(|part| part.name.as_str()).collect();
     assert_eq!(names, ["left", "right", "bolt 1", "far"]);
@@ -298,7 +298,7 @@ fn parts_stay_whole_where_they_are_told_to_and_neighbours_differ() {
 }
 
 #[test]
-fn placed_and_mirrored_parts_are_cut_where_they_stand() {
+fn transformed_and_mirrored_parts_are_cut_in_place() {
     let mut scene = scene_of(cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)));
     scene.parts[0].world_from_part = DAffine3::from_scale_rotation_translation(
         DVec3::new(2.0, -1.0, 3.0),
@@ -312,7 +312,7 @@ fn placed_and_mirrored_parts_are_cut_where_they_stand() {
 }
 
 #[test]
-fn models_that_are_closed_stay_closed() {
+fn halves_of_closed_models_sum_to_the_whole() {
     for name in ["cad/bracket.glb", "cad/drive.glb", "cad/gear.stl"] {
         let Some(path) = shared_folder::find(name) else { continue };
         let scene = Scene::open(&path).expect("a model");
@@ -330,17 +330,17 @@ fn models_that_are_closed_stay_closed() {
 }
 
 #[test]
-fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
+fn hatch_lines_lie_in_material_at_the_angle_of_their_part() {
     let mut scene = Scene { up: UpAxis::Z, ..Scene::default() };
     let mut pipe = prism(48, 2.0);
     pipe.add(inside_out(prism(48, 1.0)));
-    part(&mut scene, "pipe", pipe);
-    part(&mut scene, "core", prism(48, 0.8));
+    add_part(&mut scene, "pipe", pipe);
+    add_part(&mut scene, "core", prism(48, 0.8));
     let whole = scene.clone();
     let section = cut(scene, &plane(DVec3::ZERO, DVec3::Z), &[]);
     let camera = Camera::named(NamedView::Top, UpAxis::Z).fit(&whole);
     for preset in ["ink", "technical", "toon", "pencil"] {
-        let style = hatched(&Style::preset(preset).expect("a style"), &section);
+        let style = with_cut_hatching(&Style::preset(preset).expect("a style"), &section);
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
         let prepared = Prepared::new(&section.scene, &style);
         let (drawing, _) = prepared.draw(&camera, page, None).expect("a drawing");
@@ -385,7 +385,7 @@ fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
 }
 
 #[test]
-fn files_hold_what_is_cut() {
+fn stl_models_with_unshared_vertices_are_cut_closed() {
     // Each triangle has its own corners, as in STL.
     let solid = torus(20, 10, 3.0, 1.0);
     let mut stl = vec![0u8; 80];

@@ -7,17 +7,17 @@ use ligne::drawing::{Drawing, LayerKind, Paint};
 use ligne::export::{DxfLength, DxfOptions, DxfVersion};
 use ligne::{Camera, Scene, Style, render};
 
-use crate::support::readers::dxf_reader::{entities, pairs};
+use crate::support::readers::dxf_reader::{entities, group_codes};
 
 /// Entity of a DXF file as a dense polyline.
-struct Inked {
+struct EntityPath {
     layer: String,
     part: Option<String>,
     points: Vec<Point>,
 }
 
 /// Points along a polyline segment with a DXF bulge.
-fn along(from: Point, to: Point, bulge: f64) -> Vec<Point> {
+fn bulge_points(from: Point, to: Point, bulge: f64) -> Vec<Point> {
     let steps = if bulge == 0.0 { 1 } else { 400 };
     let turn = 4.0 * kurbo::Vec2::new(1.0, bulge).atan2();
     let chord = to - from;
@@ -36,9 +36,9 @@ fn along(from: Point, to: Point, bulge: f64) -> Vec<Point> {
     (0..=steps).map(point).collect()
 }
 
-fn inked(bytes: &[u8]) -> Vec<Inked> {
-    let entities = entities(&pairs(bytes));
-    let mut inked: Vec<Inked> = Vec::new();
+fn read_entity_paths(bytes: &[u8]) -> Vec<EntityPath> {
+    let entities = entities(&group_codes(bytes));
+    let mut inked: Vec<EntityPath> = Vec::new();
     let mut open: Vec<(Point, f64)> = Vec::new();
     let mut closed = false;
     let run = |corners: &[(Point, f64)], closed: bool| {
@@ -46,7 +46,7 @@ fn inked(bytes: &[u8]) -> Vec<Inked> {
         corners
             .iter()
             .zip(ends)
-            .flat_map(|((from, bulge), (to, _))| along(*from, *to, *bulge))
+            .flat_map(|((from, bulge), (to, _))| bulge_points(*from, *to, *bulge))
             .collect::<Vec<_>>()
     };
     for entity in &entities {
@@ -58,7 +58,7 @@ fn inked(bytes: &[u8]) -> Vec<Inked> {
             "CIRCLE" => kurbo::Circle::new(at(10), entity.number(40))
                 .to_path(1e-5)
                 .segments()
-                .flat_map(chopped)
+                .flat_map(sample_curve)
                 .collect(),
             "ARC" => {
                 let sweep = (entity.number(51) - entity.number(50)).rem_euclid(360.0).to_radians();
@@ -69,7 +69,7 @@ fn inked(bytes: &[u8]) -> Vec<Inked> {
                     sweep,
                     0.0,
                 );
-                arc.to_path(1e-5).segments().flat_map(chopped).collect()
+                arc.to_path(1e-5).segments().flat_map(sample_curve).collect()
             }
             "LWPOLYLINE" => {
                 let mut corners: Vec<(Point, f64)> = Vec::new();
@@ -86,7 +86,7 @@ fn inked(bytes: &[u8]) -> Vec<Inked> {
             }
             "POLYLINE" => {
                 (open, closed) = (Vec::new(), entity.number(70) == 1.0);
-                inked.push(Inked { layer, part, points: Vec::new() });
+                inked.push(EntityPath { layer, part, points: Vec::new() });
                 continue;
             }
             "VERTEX" => {
@@ -100,12 +100,12 @@ fn inked(bytes: &[u8]) -> Vec<Inked> {
             "HATCH" => continue,
             other => panic!("{other}"),
         };
-        inked.push(Inked { layer, part, points });
+        inked.push(EntityPath { layer, part, points });
     }
     inked
 }
 
-fn chopped(segment: kurbo::PathSeg) -> Vec<Point> {
+fn sample_curve(segment: kurbo::PathSeg) -> Vec<Point> {
     (0..=64).map(|k| segment.eval(f64::from(k) / 64.0)).collect()
 }
 
@@ -126,10 +126,10 @@ fn strokes(drawing: &Drawing) -> impl Iterator<Item = (LayerKind, &ligne::drawin
     marks.filter(|(_, mark)| matches!(mark.paint, Paint::Stroke(_)))
 }
 
-const MM: f64 = 25.4 / 96.0;
+const MM_PER_PX: f64 = 25.4 / 96.0;
 
 #[test]
-fn every_stroke_is_there_once_and_nothing_else() {
+fn dxf_contains_each_stroke_once_and_nothing_else() {
     for (model, style) in [
         ("examples/models/bracket.stl", "technical"),
         ("examples/models/gear.obj", "ink"),
@@ -137,8 +137,9 @@ fn every_stroke_is_there_once_and_nothing_else() {
     ] {
         let (drawing, _) = drawn(model, style);
         for version in [DxfVersion::R12, DxfVersion::R2000] {
-            let told = inked(&drawing.to_dxf(&DxfOptions::default().with_version(version)));
-            let wanted: f64 = strokes(&drawing).map(|(_, mark)| mark.path.perimeter(1e-4)).sum::<f64>() * MM;
+            let told = read_entity_paths(&drawing.to_dxf(&DxfOptions::default().with_version(version)));
+            let wanted: f64 =
+                strokes(&drawing).map(|(_, mark)| mark.path.perimeter(1e-4)).sum::<f64>() * MM_PER_PX;
             let found: f64 = told.iter().map(|one| length(&one.points)).sum();
             assert!((wanted - found).abs() < 2e-3 * wanted, "{model}: {wanted} mm drawn, {found} mm written");
             let paths: Vec<Vec<kurbo::PathSeg>> =
@@ -150,7 +151,7 @@ fn every_stroke_is_there_once_and_nothing_else() {
                         .iter()
                         .step_by(16)
                         .map(|p| {
-                            let p = Point::new(p.x / MM, drawing.page.height - p.y / MM);
+                            let p = Point::new(p.x / MM_PER_PX, drawing.page.height - p.y / MM_PER_PX);
                             path.iter()
                                 .map(|s| s.nearest(p, 1e-6).distance_sq)
                                 .fold(f64::INFINITY, f64::min)
@@ -170,13 +171,13 @@ fn every_stroke_is_there_once_and_nothing_else() {
 }
 
 #[test]
-fn curves_are_arcs_and_not_chopped() {
+fn dxf_curves_are_arcs_instead_of_chords() {
     // A gear seen along its axis, with circular holes.
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Top, scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &Style::default().to_scale()).expect("a drawing");
     let dxf = drawing.to_dxf(&DxfOptions::default());
-    let entities = entities(&pairs(&dxf));
+    let entities = entities(&group_codes(&dxf));
     let vertices = entities.iter().filter(|entity| entity.kind == "VERTEX").count();
     let elements: usize = strokes(&drawing).map(|(_, mark)| mark.path.elements().len()).sum();
     assert!(entities.iter().any(|entity| entity.kind == "CIRCLE"), "no circle");
@@ -184,9 +185,9 @@ fn curves_are_arcs_and_not_chopped() {
 }
 
 #[test]
-fn lines_are_in_layers_by_their_kind_and_know_their_parts() {
+fn dxf_lines_have_layers_by_kind_and_part_names() {
     let (drawing, _) = drawn("examples/models/pump.glb", "technical");
-    let told = inked(&drawing.to_dxf(&DxfOptions::default()));
+    let told = read_entity_paths(&drawing.to_dxf(&DxfOptions::default()));
     let layers: BTreeSet<&str> = told.iter().map(|one| one.layer.as_str()).collect();
     for layer in ["SILHOUETTE", "CREASE", "HIDDEN-CREASE"] {
         assert!(layers.contains(layer), "{layers:?}");
@@ -195,7 +196,7 @@ fn lines_are_in_layers_by_their_kind_and_know_their_parts() {
     assert!(parts.contains("terminal-box"), "{parts:?}");
     // Hidden lines have a line type with gaps, visible ones a continuous type.
     let bytes = drawing.to_dxf(&DxfOptions::default());
-    let pairs = pairs(&bytes);
+    let pairs = group_codes(&bytes);
     let type_of = |layer: &str| {
         let at = pairs
             .windows(2)
@@ -207,7 +208,7 @@ fn lines_are_in_layers_by_their_kind_and_know_their_parts() {
 }
 
 #[test]
-fn lengths_are_those_of_the_page_or_of_the_model() {
+fn dxf_lengths_in_model_units_match_the_model() {
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Front, scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &Style::default()).expect("a drawing");
@@ -215,7 +216,7 @@ fn lengths_are_those_of_the_page_or_of_the_model() {
         panic!("parallel")
     };
     let options = DxfOptions::default().with_length(DxfLength::Model(camera.height / height));
-    let told = inked(&drawing.to_dxf(&options));
+    let told = read_entity_paths(&drawing.to_dxf(&options));
     let xs = || told.iter().flat_map(|one| one.points.iter().map(|point| point.x));
     let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
     let points = ligne::scene::cameras::framing::world_points(&scene);
@@ -228,7 +229,7 @@ fn lengths_are_those_of_the_page_or_of_the_model() {
 }
 
 #[test]
-fn fills_are_hatches_of_release_2000_alone() {
+fn fills_are_hatches_in_dxf_r2000_only() {
     let (drawing, _) = drawn("examples/models/gear.obj", "toon");
     let old = DxfOptions::default();
     let new = old.clone().with_version(DxfVersion::R2000);
@@ -240,7 +241,7 @@ fn fills_are_hatches_of_release_2000_alone() {
     let fills = fills.count();
     assert!(fills > 0);
     let hatches = |options: &DxfOptions| {
-        entities(&pairs(&drawing.to_dxf(options))).iter().filter(|e| e.kind == "HATCH").count()
+        entities(&group_codes(&drawing.to_dxf(options))).iter().filter(|e| e.kind == "HATCH").count()
     };
     assert_eq!((hatches(&old), drawing.left_out_of_dxf(&old)), (0, fills));
     assert_eq!((hatches(&new), drawing.left_out_of_dxf(&new)), (fills, 0));
@@ -248,9 +249,9 @@ fn fills_are_hatches_of_release_2000_alone() {
 
 /// Handles are unique in the file and smaller than `$HANDSEED`.
 #[test]
-fn handles_are_each_given_once() {
+fn dxf_handles_are_unique() {
     let (drawing, _) = drawn("examples/models/pump.glb", "technical");
-    let pairs = pairs(&drawing.to_dxf(&DxfOptions::default().with_version(DxfVersion::R2000)));
+    let pairs = group_codes(&drawing.to_dxf(&DxfOptions::default().with_version(DxfVersion::R2000)));
     let mut seen = BTreeSet::new();
     let mut seed = String::new();
     for pair in pairs.windows(2) {

@@ -26,12 +26,12 @@ fn pixels(svg: &str) -> Pixmap {
 }
 
 /// Ids of the part groups in an SVG.
-fn groups(svg: &str) -> Vec<&str> {
+fn part_group_ids(svg: &str) -> Vec<&str> {
     svg.split("<g id=\"part-").skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
 
 #[test]
-fn the_picture_is_that_of_layers() {
+fn grouping_by_part_does_not_change_the_picture() {
     let sets: [(&str, &str, &[&str]); 6] = [
         ("pump.glb", "toon", &[]),
         ("pump.glb", "comic", &[]),
@@ -51,14 +51,19 @@ fn the_picture_is_that_of_layers() {
 }
 
 #[test]
-fn a_part_is_one_group_where_that_changes_nothing() {
+fn parts_have_few_groups() {
     let svg = by_part(&drawn("examples/models/pump.glb", "ink", &[]));
     let names: BTreeSet<&str> =
         svg.split("data-part=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-    assert_eq!(groups(&svg).len(), names.len());
+    assert_eq!(part_group_ids(&svg).len(), names.len());
     // Lines lie over the fills of neighbours, so most parts need two groups and few need more.
     let svg = by_part(&drawn("examples/models/pump.glb", "toon", &[]));
-    assert!(groups(&svg).len() <= 3 * names.len(), "{} of {}", groups(&svg).len(), names.len());
-    let unique: BTreeSet<&str> = groups(&svg).into_iter().collect();
-    assert_eq!(unique.len(), groups(&svg).len());
+    assert!(
+        part_group_ids(&svg).len() <= 3 * names.len(),
+        "{} of {}",
+        part_group_ids(&svg).len(),
+        names.len()
+    );
+    let unique: BTreeSet<&str> = part_group_ids(&svg).into_iter().collect();
+    assert_eq!(unique.len(), part_group_ids(&svg).len());
 }

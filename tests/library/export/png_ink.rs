@@ -8,18 +8,19 @@ use kurbo::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
 use ligne::colour::pixel_picture::Picture;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{
-    Cap, Drawing, ImagePaint, ImagePiece, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, Shows,
-    StrokePaint, Unit,
+    Cap, Drawing, ImagePaint, ImagePiece, Join, Layer, LayerKind, Mark, Page, Paint, PieceContent,
+    Provenance, StrokePaint, Unit,
 };
 use ligne::export::Resolution;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::{PngOptions, SvgOptions};
 
-const SIZE: f64 = 120.0;
+const PAGE_SIDE_PX: f64 = 120.0;
 
 /// White page with marks.
 fn drawing(marks: Vec<Mark>) -> Drawing {
-    let page = Page { width: SIZE, height: SIZE, unit: Unit::Px, background: Some(Colour::WHITE) };
+    let page =
+        Page { width: PAGE_SIDE_PX, height: PAGE_SIDE_PX, unit: Unit::Px, background: Some(Colour::WHITE) };
     Drawing::new("ink", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
 }
 
@@ -52,13 +53,13 @@ fn ink(marks: Vec<Mark>) -> f64 {
     darkness(marks, 1.0).iter().sum()
 }
 
-fn at(angle: f64) -> Vec2 {
+fn direction(angle: f64) -> Vec2 {
     Vec2::new(cos(angle), sin(angle))
 }
 
 /// Line of 90 px at an angle, `shift` px off the centre of the page.
 fn line(degrees: f64, shift: f64) -> BezPath {
-    let way = at(degrees.to_radians());
+    let way = direction(degrees.to_radians());
     let middle = Point::new(60.0, 60.0) + Vec2::new(-way.y, way.x) * shift;
     let mut path = BezPath::new();
     path.move_to(middle - way * 45.0);
@@ -66,11 +67,11 @@ fn line(degrees: f64, shift: f64) -> BezPath {
     path
 }
 
-const WIDTHS: [f64; 14] = [0.2, 0.3, 0.45, 0.6, 0.8, 0.95, 1.0, 1.01, 1.1, 1.2, 1.5, 2.0, 2.7, 4.3];
+const WIDTHS_PX: [f64; 14] = [0.2, 0.3, 0.45, 0.6, 0.8, 0.95, 1.0, 1.01, 1.1, 1.2, 1.5, 2.0, 2.7, 4.3];
 
 #[test]
-fn lines_have_the_ink_of_their_width_at_all_slants() {
-    for width in WIDTHS {
+fn lines_have_the_ink_of_their_width_at_all_angles() {
+    for width in WIDTHS_PX {
         for step in 0..=24 {
             for shift in [0.0, 0.13, 0.37, 0.5] {
                 let degrees = 7.5 * f64::from(step);
@@ -83,7 +84,7 @@ fn lines_have_the_ink_of_their_width_at_all_slants() {
 }
 
 #[test]
-fn ink_grows_evenly_with_the_width() {
+fn ink_grows_linearly_with_line_width() {
     for degrees in [0.0, 17.0, 45.0, 90.0] {
         let inks: Vec<f64> =
             (4..60).map(|k| ink(vec![stroke(line(degrees, 0.2), f64::from(k) * 0.05, &[])])).collect();
@@ -95,7 +96,7 @@ fn ink_grows_evenly_with_the_width() {
 }
 
 #[test]
-fn a_circle_is_even_all_round() {
+fn circle_strokes_have_even_ink() {
     for width in [0.3, 0.7, 1.0, 1.1, 1.6] {
         let circle = Circle::new((60.0, 60.0), 40.3).to_path(1e-3);
         let dark = darkness(vec![stroke(circle, width, &[])], 1.0);
@@ -127,7 +128,7 @@ fn dashes_have_the_ink_of_their_lengths() {
 }
 
 #[test]
-fn fills_have_their_area_where_the_page_cuts_them() {
+fn fills_clipped_by_the_page_have_exact_area() {
     let black = |path: BezPath| mark(path, Paint::Fill(Colour::BLACK));
     let half = Circle::new((0.0, 60.0), 30.0).to_path(1e-3);
     assert!((ink(vec![black(half)]) - PI * 450.0).abs() < 1.5);
@@ -151,8 +152,8 @@ fn picture(dark: impl Fn(usize) -> u8) -> Arc<Picture> {
 
 /// Image stroke of 8 by 80 px at an angle. Its pieces extend by 1 px along the stroke and by 0.5 px across
 /// it.
-fn brushed(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
-    let way = at(degrees.to_radians());
+fn image_stroke(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
+    let way = direction(degrees.to_radians());
     let across = Vec2::new(-way.y, way.x);
     let start = Point::new(60.0, 60.0) - way * 40.0 - across * 4.0;
     let to_page = Affine::new([way.x, way.y, across.x, across.y, start.x, start.y]);
@@ -160,16 +161,16 @@ fn brushed(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
     let long = 80.0 / pieces as f64;
     let piece = |k: usize| ImagePiece {
         outline: area(long * k as f64 - 1.0, long * (k + 1) as f64 + 1.0, 0.5),
-        shows: Shows::Pixels(to_page * Affine::scale_non_uniform(80.0 / 320.0, 8.0 / 32.0)),
+        shows: PieceContent::Pixels(to_page * Affine::scale_non_uniform(80.0 / 320.0, 8.0 / 32.0)),
     };
     let image = ImagePaint { picture: Arc::clone(picture), pieces: (0..pieces).map(piece).collect() };
     mark(area(0.0, 80.0, 0.0), Paint::Image(image))
 }
 
 /// Smallest and largest darkness well inside the stroke.
-fn within(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
-    let side = (SIZE * scale) as usize;
-    let way = at(degrees.to_radians());
+fn darkness_range(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
+    let side = (PAGE_SIDE_PX * scale) as usize;
+    let way = direction(degrees.to_radians());
     let inner = darkness(vec![mark], scale).into_iter().enumerate().filter_map(|(k, dark)| {
         let [x, y] = [k % side, k / side].map(|place| (place as f64 + 0.5) / scale);
         let from = Point::new(x, y) - Point::new(60.0, 60.0);
@@ -180,39 +181,39 @@ fn within(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
 }
 
 #[test]
-fn pictures_are_averaged_along_the_axis_that_shrinks() {
+fn image_strokes_are_averaged_along_the_minified_axis() {
     // Streaks of two rows of ink and two of paper. One px has four rows across and four columns along.
     let streaks = picture(|row| if row % 4 < 2 { 255 } else { 0 });
     for degrees in [0.0, 20.0, 45.0, 77.0, 90.0] {
-        let (low, high) = within(brushed(&streaks, degrees, 1), degrees, 1.0);
+        let (low, high) = darkness_range(image_stroke(&streaks, degrees, 1), degrees, 1.0);
         assert!(low > 0.44 && high < 0.56, "{degrees}: {low} to {high}");
     }
     // One px of the page shows a tenth of a column and four rows.
-    let mut long = brushed(&streaks, 45.0, 1);
+    let mut long = image_stroke(&streaks, 45.0, 1);
     if let Paint::Image(image) = &mut long.paint {
         let few: Vec<Colour> = image.picture.pixels.chunks(320).flat_map(|row| row[..8].to_vec()).collect();
         image.picture = Arc::new(Picture { width: 8, height: 32, pixels: few });
         for piece in &mut image.pieces {
-            if let Shows::Pixels(to_page) = &mut piece.shows {
+            if let PieceContent::Pixels(to_page) = &mut piece.shows {
                 *to_page *= Affine::scale_non_uniform(40.0, 1.0);
             }
         }
     }
-    let (low, high) = within(long, 45.0, 1.0);
+    let (low, high) = darkness_range(long, 45.0, 1.0);
     assert!(low > 0.44 && high < 0.56, "{low} to {high}");
 }
 
 #[test]
-fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
+fn pieces_of_translucent_image_strokes_blend_evenly() {
     let grey = picture(|_| 143);
     for degrees in [0.0, 33.0, 45.0] {
         for scale in [1.0, 4.0] {
-            let (low, high) = within(brushed(&grey, degrees, 7), degrees, scale);
+            let (low, high) = darkness_range(image_stroke(&grey, degrees, 7), degrees, scale);
             assert!(high - low < 0.02 && (low - 143.0 / 255.0).abs() < 0.02, "{degrees}: {low} to {high}");
         }
     }
     // SVG and PDF paint the stroke in its colour through a mask of opaque pieces.
-    let drawing = drawing(vec![brushed(&grey, 33.0, 7), brushed(&grey, 45.0, 3)]);
+    let drawing = drawing(vec![image_stroke(&grey, 33.0, 7), image_stroke(&grey, 45.0, 3)]);
     let svg = drawing.to_svg(&SvgOptions::default());
     assert_eq!(svg.matches("<mask ").count(), 2, "{svg}");
     assert_eq!(svg.matches("mask=\"url(#").count(), 2);
@@ -224,7 +225,7 @@ fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
         assert_eq!(text.matches("/Luminosity").count(), 2);
     }
     // Opaque pictures and single pieces need only a clip path.
-    for mark in [brushed(&picture(|_| 255), 33.0, 7), brushed(&grey, 33.0, 1)] {
+    for mark in [image_stroke(&picture(|_| 255), 33.0, 7), image_stroke(&grey, 33.0, 1)] {
         let svg = self::drawing(vec![mark]).to_svg(&SvgOptions::default());
         assert!(!svg.contains("<mask ") && svg.contains("clip-path="), "{svg}");
     }

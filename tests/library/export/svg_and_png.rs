@@ -9,7 +9,7 @@ use ligne::drawing::{
 };
 use ligne::export::{Grouping, PngOptions, Resolution, SvgOptions};
 
-use crate::support::readers::pdf_reader::take_apart;
+use crate::support::readers::pdf_reader::split_pdf_streams;
 
 fn stroke(width: f64, colour: Colour) -> Paint {
     Paint::Stroke(StrokePaint {
@@ -93,7 +93,7 @@ impl Random {
 }
 
 /// Control points of each segment, rounded to `step`, without zero-length lines.
-fn pieces(path: &BezPath, step: f64) -> Vec<Vec<Point>> {
+fn rounded_segments(path: &BezPath, step: f64) -> Vec<Vec<Point>> {
     let round = |p: Point| Point::new((p.x / step).round() * step, (p.y / step).round() * step);
     path.segments()
         .map(|segment| match segment {
@@ -132,8 +132,8 @@ fn paths_read_back_within_half_the_written_precision() {
         assert_eq!(written.len(), paths.len());
         let step = 10f64.powi(-i32::from(precision));
         for (data, path) in written.iter().zip(&paths) {
-            let read = pieces(&BezPath::from_svg(data).unwrap(), step);
-            let drawn = pieces(path, step);
+            let read = rounded_segments(&BezPath::from_svg(data).unwrap(), step);
+            let drawn = rounded_segments(path, step);
             assert_eq!(read.len(), drawn.len(), "{data}\n{}", path.to_svg());
             for (read, drawn) in read.iter().flatten().zip(drawn.iter().flatten()) {
                 let off = (read.x - drawn.x).abs().max((read.y - drawn.y).abs());
@@ -144,7 +144,7 @@ fn paths_read_back_within_half_the_written_precision() {
 }
 
 #[test]
-fn another_reader_sees_the_same_paths() {
+fn usvg_reads_the_same_paths() {
     let mut random = Random(2);
     let paths: Vec<BezPath> = (0..100).map(|_| random.path()).collect();
     let marks = paths.iter().map(|path| Mark {
@@ -184,7 +184,7 @@ fn another_reader_sees_the_same_paths() {
 }
 
 #[test]
-fn a_document_to_the_byte() {
+fn svg_documents_match_expected_bytes() {
     let grey = Colour { r: 0x80, g: 0x80, b: 0x80, a: 51 };
     let mut hidden = mark("M1 1L9 1", stroke(0.5, grey), &["crease"], Some("a<b"));
     hidden.provenance.invisibility = 3;
@@ -254,7 +254,7 @@ fn a_document_to_the_byte() {
 }
 
 #[test]
-fn names_that_look_alike_get_different_ids() {
+fn part_names_with_equal_slugs_get_different_ids() {
     let marks = ["a b", "a-b", "a\u{1}b", "ä", "ö"]
         .map(|part| mark("M0 0L1 1", stroke(1.0, Colour::BLACK), &["crease"], Some(part)));
     let svg = drawing(marks.to_vec()).to_svg(&SvgOptions::default().grouped_by(Grouping::Part));
@@ -266,7 +266,7 @@ fn names_that_look_alike_get_different_ids() {
 }
 
 #[test]
-fn layers_of_pens_are_numbered() {
+fn pen_layers_are_numbered() {
     let layer = |pen: &str| Layer {
         kind: LayerKind::Lines,
         pen: Some(pen.into()),
@@ -283,7 +283,7 @@ fn layers_of_pens_are_numbered() {
 }
 
 #[test]
-fn bytes_do_not_depend_on_threads() {
+fn svg_bytes_do_not_depend_on_thread_count() {
     let mut random = Random(3);
     let marks: Vec<Mark> = (0..9000)
         .map(|i| Mark {
@@ -330,7 +330,7 @@ fn png_has_the_size_and_the_ink_of_the_drawing() {
 }
 
 #[test]
-fn pictures_without_pixels_or_with_too_many_are_refused() {
+fn png_sizes_without_pixels_or_with_too_many_are_refused() {
     let drawing = drawing(vec![]);
     for resolution in [
         Resolution::Dpi(0.0),
@@ -354,7 +354,7 @@ fn pdf_has_the_page_the_layers_and_the_ink_of_the_drawing() {
     drawing.layers[0].pen = Some("1 0.5 mm #000000".to_owned());
     let pdf = drawing.to_pdf();
     assert_eq!(pdf, drawing.to_pdf());
-    let (content, rest) = take_apart(&pdf);
+    let (content, rest) = split_pdf_streams(&pdf);
     assert_eq!(
         content.replace('\n', " "),
         "q .75 0 0 -.75 0 60 cm 4 M /OC /L0 BDC /A255 gs 1 1 1 rg 0 0 100 80 re f EMC \
@@ -369,23 +369,23 @@ fn pdf_has_the_page_the_layers_and_the_ink_of_the_drawing() {
 }
 
 #[test]
-fn pdf_pages_are_as_large_as_the_paper() {
+fn pdf_pages_have_the_size_of_the_paper() {
     let mut drawing = drawing(Vec::new());
     drawing.layers.clear();
     drawing.page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
-    let text = take_apart(&drawing.to_pdf()).1;
+    let text = split_pdf_streams(&drawing.to_pdf()).1;
     let (_, sides) = text.split_once("/MediaBox [0 0 ").expect("the page has a size");
     let sides: Vec<f64> =
         sides.split([' ', ']']).take(2).map(|side| side.parse().expect("a number")).collect();
     // A4 in points, within single precision.
     assert!((sides[0] - 595.275_59).abs() < 1e-3 && (sides[1] - 841.889_76).abs() < 1e-3, "{sides:?}");
     drawing.page = Page { width: 38_400.0, height: 100.0, unit: Unit::Px, background: None };
-    let (_, rest) = take_apart(&drawing.to_pdf());
+    let (_, rest) = split_pdf_streams(&drawing.to_pdf());
     assert!(rest.contains("/MediaBox [0 0 14400 37.5]") && rest.contains("/UserUnit 2"), "{rest}");
 }
 
 #[test]
-fn pdf_of_many_marks_is_the_same_on_any_number_of_threads() {
+fn pdf_bytes_do_not_depend_on_thread_count() {
     let mut random = Random(5);
     let marks: Vec<Mark> = (0..5000)
         .map(|i| Mark {
@@ -401,7 +401,7 @@ fn pdf_of_many_marks_is_the_same_on_any_number_of_threads() {
     };
     let pdf = on(1);
     assert_eq!(pdf, on(3));
-    let (content, _) = take_apart(&pdf);
+    let (content, _) = split_pdf_streams(&pdf);
     assert_eq!(content.lines().filter(|line| *line == "S").count(), 5000);
     assert_eq!((content.matches("BDC").count(), content.matches("EMC").count()), (1, 1));
 }

@@ -1,11 +1,11 @@
 //! Halftone dots and stippling: measured coverage equals the requested tone, and marks stay on their surface.
 
 use crate::support::measures::polygon_cover;
-use crate::support::measures::polygon_cover::{coverage, ground, square};
+use crate::support::measures::polygon_cover::{mean_coverage, polygon_regions, square};
 use kurbo::{BezPath, Point, Shape};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::hatching::{CellDots, DotScreen, Stipple, ToneBorders, dots, stipple};
-use ligne::regions::Ground;
+use ligne::regions::HatchRegions;
 
 const SCREEN: DotScreen = DotScreen {
     pitch: 6.0,
@@ -18,16 +18,16 @@ const SCREEN: DotScreen = DotScreen {
 const STIPPLE: Stipple = Stipple { radius: 0.9, uneven: 0.2, rounds: 8, seed: 1, px: 1.0 };
 
 /// A square patch of 100 px.
-fn patch() -> Ground {
-    ground(&[(1, square(7.0, 9.0, 100.0))])
+fn patch() -> HatchRegions {
+    polygon_regions(&[(1, square(7.0, 9.0, 100.0))])
 }
 
-fn on_patch(made: &[CellDots]) -> f64 {
+fn patch_coverage(made: &[CellDots]) -> f64 {
     let paths: Vec<&BezPath> = made.iter().map(|dots| &dots.path).collect();
-    coverage(&paths, 7.0, 9.0, 100.0)
+    mean_coverage(&paths, 7.0, 9.0, 100.0)
 }
 
-fn same_with_any_number_of_threads<T: Send + PartialEq>(make: impl Fn() -> T + Sync) {
+fn assert_equal_on_any_thread_count<T: Send + PartialEq>(make: impl Fn() -> T + Sync) {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(&make)
@@ -38,7 +38,7 @@ fn same_with_any_number_of_threads<T: Send + PartialEq>(make: impl Fn() -> T + S
 
 /// A wavy star in two tones on one surface, a square in it on another surface, and the shade at a point of a
 /// cell.
-fn scene() -> (Ground, impl Fn(u32, Point) -> f64 + Sync) {
+fn scene() -> (HatchRegions, impl Fn(u32, Point) -> f64 + Sync) {
     let middle = Point::new(100.0, 100.0);
     let at = |k: usize| {
         let angle = std::f64::consts::TAU * (k % 200) as f64 / 200.0;
@@ -54,18 +54,18 @@ fn scene() -> (Ground, impl Fn(u32, Point) -> f64 + Sync) {
         2 => 0.55,
         _ => 0.3,
     };
-    (ground(&[(1, upper), (1, lower), (2, hole)]), light)
+    (polygon_regions(&[(1, upper), (1, lower), (2, hole)]), light)
 }
 
 #[test]
-fn screens_are_as_dark_as_asked() {
+fn dot_screen_coverage_matches_the_requested_tone() {
     let patch = patch();
     for (pitch, degrees) in [(6.0, 45.0), (3.7, 15.0), (1.6, 0.0), (11.0, 75.0_f64)] {
         let screen = DotScreen { pitch, angle: degrees.to_radians(), ..SCREEN };
         let mut before = 0.0;
         for percent in (0..=100).step_by(5) {
             let asked = f64::from(percent) / 100.0;
-            let share = on_patch(&dots(&patch, &screen, &|_, _| asked));
+            let share = patch_coverage(&dots(&patch, &screen, &|_, _| asked));
             assert!((share - asked).abs() < 0.012, "{pitch} {degrees}: {asked} became {share}");
             assert!(share > before || percent == 0, "{asked}");
             before = share;
@@ -79,7 +79,7 @@ fn darker_screens_keep_the_ink_of_lighter_ones() {
     let inked = |asked: f64| {
         let made = dots(&ground, &SCREEN, &|_, _| asked);
         let paths: Vec<&BezPath> = made.iter().map(|dots| &dots.path).collect();
-        polygon_cover::inked(&paths, 0.0, 0.0, 200.0)
+        polygon_cover::pixel_coverage(&paths, 0.0, 0.0, 200.0)
     };
     let mut before = inked(0.05);
     for percent in (10..=95).step_by(5) {
@@ -91,12 +91,12 @@ fn darker_screens_keep_the_ink_of_lighter_ones() {
 }
 
 #[test]
-fn stippling_is_as_dark_as_asked() {
+fn stipple_coverage_matches_the_requested_tone() {
     let patch = patch();
     let mut before = 0.0;
     for percent in (0..=95).step_by(5) {
         let asked = f64::from(percent) / 100.0;
-        let share = on_patch(&stipple(&patch, &STIPPLE, &|_, _| asked));
+        let share = patch_coverage(&stipple(&patch, &STIPPLE, &|_, _| asked));
         assert!((share - asked).abs() < 0.03, "{asked} became {share}");
         assert!(share > before || percent == 0, "{asked}");
         before = share;
@@ -104,7 +104,7 @@ fn stippling_is_as_dark_as_asked() {
 }
 
 #[test]
-fn marks_stay_on_their_surface() {
+fn halftone_marks_stay_on_their_surface() {
     let (ground, light) = scene();
     let cut = DotScreen { tone_borders: ToneBorders::Cut, ..SCREEN };
     let made = [
@@ -137,18 +137,18 @@ fn marks_stay_on_their_surface() {
 fn blank_cells_stay_blank_and_cut_dots() {
     let left = square(0.0, 0.0, 60.0);
     let right = square(60.0, 0.0, 60.0);
-    let ground = ground(&[(1, left), (1, right)]);
+    let ground = polygon_regions(&[(1, left), (1, right)]);
     let shade = |cell: u32, _: Point| if cell == 1 { 0.4 } else { 0.0 };
     for made in [dots(&ground, &SCREEN, &shade), stipple(&ground, &STIPPLE, &shade)] {
         assert_eq!(made.len(), 1);
         assert!(made[0].path.bounding_box().x1 < 60.02);
-        assert!((coverage(&[&made[0].path], 0.0, 0.0, 60.0) - 0.4).abs() < 0.015);
+        assert!((mean_coverage(&[&made[0].path], 0.0, 0.0, 60.0) - 0.4).abs() < 0.015);
     }
 }
 
 #[test]
 fn light_stippling_is_even_without_a_lattice() {
-    let made = stipple(&ground(&[(1, square(0.0, 0.0, 300.0))]), &STIPPLE, &|_, _| 0.1);
+    let made = stipple(&polygon_regions(&[(1, square(0.0, 0.0, 300.0))]), &STIPPLE, &|_, _| 0.1);
     let centres: Vec<(Point, f64)> = made[0]
         .path
         .elements()
@@ -193,8 +193,8 @@ fn light_stippling_is_even_without_a_lattice() {
 }
 
 #[test]
-fn threads_do_not_matter() {
+fn halftones_do_not_depend_on_thread_count() {
     let (ground, light) = scene();
-    same_with_any_number_of_threads(|| dots(&ground, &SCREEN, &light));
-    same_with_any_number_of_threads(|| stipple(&ground, &STIPPLE, &light));
+    assert_equal_on_any_thread_count(|| dots(&ground, &SCREEN, &light));
+    assert_equal_on_any_thread_count(|| stipple(&ground, &STIPPLE, &light));
 }

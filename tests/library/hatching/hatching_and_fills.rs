@@ -2,7 +2,7 @@
 //! black areas, and colours.
 
 use crate::support::pipeline;
-use crate::support::styled::{camera, page, style};
+use crate::support::styled::{fitted_camera, page_of_camera, style_with};
 use std::collections::BTreeMap;
 
 use crate::support::scenes::solids::{Solid, cuboid};
@@ -19,8 +19,8 @@ fn pillar(sets: &[&str]) -> Drawing {
     let pillar = cuboid(DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 3.0, 0.5));
     let scene = pipeline::scene([floor, pillar]);
     let light = "light.sources=[{kind=\"directional\", direction=[-1, 1, 0.4]}]";
-    let style = style("comic", &[&[light], sets].concat());
-    ligne::render(&scene, &camera(&scene), &style).unwrap()
+    let style = style_with("comic", &[&[light], sets].concat());
+    ligne::render(&scene, &fitted_camera(&scene), &style).unwrap()
 }
 
 /// Total area of the marks of a layer kind.
@@ -30,7 +30,7 @@ fn area(drawing: &Drawing, kind: LayerKind) -> f64 {
 }
 
 #[test]
-fn fills_and_hatching_have_cast_shadows_of_their_own() {
+fn fills_and_hatching_have_separate_cast_shadows() {
     let switches = |fills: bool, hatching: bool| {
         let sets = [format!("fills.cast_shadows={fills}"), format!("hatching.cast_shadows={hatching}")];
         let drawing = pillar(&[&sets[0], &sets[1]]);
@@ -62,15 +62,15 @@ fn leaning_wall() -> Scene {
 }
 
 #[test]
-fn flat_faces_have_level_strokes() {
+fn flat_faces_have_horizontal_hatching() {
     let scene = leaning_wall();
     let camera = Camera::named(NamedView::Front, scene.up).fit(&scene);
     for name in ["engraving", "woodcut"] {
         // Light from the side and above, so that every part is hatched.
         let light = "light.sources=[{kind=\"directional\", direction=[-1, 0.5, 0.3]}]";
-        let style = style(name, &[light]);
+        let style = style_with(name, &[light]);
         let (_, layers) =
-            Prepared::new(&scene, &style).hatch_strokes(&camera, page(&camera)).expect("hatching");
+            Prepared::new(&scene, &style).hatch_strokes(&camera, page_of_camera(&camera)).expect("hatching");
         let (mut whole, mut level) = (0.0, 0.0);
         for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
             for pair in stroke.points.windows(2) {
@@ -104,14 +104,14 @@ fn lines_in(drawing: &Drawing, wanted: Colour) -> BTreeMap<&'static str, usize> 
 }
 
 #[test]
-fn white_lines_part_blacks_and_nothing_else() {
+fn white_lines_appear_only_between_black_areas() {
     let unit = cuboid(DVec3::ZERO, DVec3::ONE);
     let (scene, paper) = (pipeline::scene([unit]), Colour::WHITE);
     let from = |direction: &str, more: &[&str]| {
         let light =
             format!("light.sources=[{{kind=\"directional\", direction={direction}, space=\"camera\"}}]");
         let sets = [&["pen.colour=\"#101014\"", &light], more].concat();
-        ligne::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
+        ligne::render(&scene, &fitted_camera(&scene), &style_with("comic", &sets)).unwrap()
     };
     // Lit from behind, all three sides are black. Two of the three edges between them form one line.
     let dark = from("[0, 0, -1]", &[]);
@@ -134,18 +134,20 @@ fn white_lines_part_blacks_and_nothing_else() {
     // In full light nothing is black, so no line is white.
     assert!(lines_in(&from("[0, 0.2, 1]", &[]), paper).is_empty());
     // The same holds for black fills (`noir`) and for pens without hand-drawn effects (`woodcut`).
-    let noir =
-        style("noir", &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"]);
-    let noir = ligne::render(&scene, &camera(&scene), &noir).unwrap();
+    let noir = style_with(
+        "noir",
+        &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"],
+    );
+    let noir = ligne::render(&scene, &fitted_camera(&scene), &noir).unwrap();
     assert_eq!(lines_in(&noir, paper), BTreeMap::from([("crease", 2)]));
     let sets =
         ["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]", "light.wrap=0"];
-    let woodcut = ligne::render(&scene, &camera(&scene), &style("woodcut", &sets)).unwrap();
+    let woodcut = ligne::render(&scene, &fitted_camera(&scene), &style_with("woodcut", &sets)).unwrap();
     assert_eq!(lines_in(&woodcut, paper), BTreeMap::from([("crease", 2)]));
 }
 
 #[test]
-fn strokes_in_a_shade_take_the_colour_that_is_painted() {
+fn shaded_strokes_use_the_painted_colour() {
     let Solid { positions, triangles } = cuboid(DVec3::ZERO, DVec3::ONE);
     let colours = vec![[1.0, 0.0, 0.0, 1.0]; positions.len()];
     let geometry = Geometry { positions, triangles, colours, ..Geometry::default() };
@@ -155,7 +157,7 @@ fn strokes_in_a_shade_take_the_colour_that_is_painted() {
          [[hatching.layer]]\ncolour = { shade = 0.25 }\n",
     )
     .expect("a style");
-    let drawing = ligne::render(&scene, &camera(&scene), &style).unwrap();
+    let drawing = ligne::render(&scene, &fitted_camera(&scene), &style).unwrap();
     for (kind, red) in [(LayerKind::Hatching, 64), (LayerKind::Lines, 128)] {
         let layer = drawing.layers.iter().find(|layer| layer.kind == kind).expect("a layer");
         for mark in &layer.marks {

@@ -2,7 +2,7 @@
 //! their region.
 
 use crate::support::pipeline;
-use crate::support::styled::{camera, page, style};
+use crate::support::styled::{fitted_camera, page_of_camera, style_with};
 use std::collections::BTreeMap;
 
 use crate::support::scenes::random_dice::Dice;
@@ -13,33 +13,43 @@ use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Page, Paint, Unit};
 use ligne::export::PngOptions;
 use ligne::export::raster::png_drawing::Resolution;
-use ligne::hatching::{self, HatchContext, HatchOptions, HatchStroke, Tone};
+use ligne::hatching::{self, HatchContext, HatchOptions, HatchStroke, ToneCoverage};
 use ligne::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
 use ligne::pipeline::Prepared;
-use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
-use ligne::regions::{Ground, Look};
+use ligne::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
+use ligne::regions::{HatchRegions, SurfaceLabel};
 use ligne::scene::Scene;
 use ligne::strokes::Ink;
 use ligne::{Drawing, Style, render};
 
 /// Side of a flat patch, px.
-const SIDE: f64 = 360.0;
+const PATCH_SIDE_PX: f64 = 360.0;
 
 /// Hatch regions with one flat square of tone bin `bin`.
-fn patch(bin: u16) -> Ground {
-    let look =
-        Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin, cast: false };
-    let cells = vec![Cell { look, facet: 0, area: 0.0 }, Cell { look, facet: 1, area: SIDE * SIDE }];
-    let corners = [(0.0, 0.0), (SIDE, 0.0), (SIDE, SIDE), (0.0, SIDE)].map(|(x, y)| Point::new(x, y));
+fn patch(bin: u16) -> HatchRegions {
+    let look = SurfaceLabel {
+        part: PartId(0),
+        material: MaterialId(0),
+        paint: PaintId(0),
+        tone: 0,
+        bin,
+        cast: false,
+    };
+    let cells = vec![
+        HatchCell { look, facet: 0, area: 0.0 },
+        HatchCell { look, facet: 1, area: PATCH_SIDE_PX * PATCH_SIDE_PX },
+    ];
+    let corners = [(0.0, 0.0), (PATCH_SIDE_PX, 0.0), (PATCH_SIDE_PX, PATCH_SIDE_PX), (0.0, PATCH_SIDE_PX)]
+        .map(|(x, y)| Point::new(x, y));
     let side = |k: usize| BorderPiece {
         ends: [corners[k], corners[(k + 1) % 4]],
         sides: [1, 0],
         parts_surfaces: true,
     };
-    Ground::of_pieces(cells, (0..4).map(side).collect())
+    HatchRegions::of_pieces(cells, (0..4).map(side).collect())
 }
 
-fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
+fn context(tones: &[ToneCoverage], seed: u64) -> HatchContext<'_> {
     let unit = Unit::Px;
     HatchContext {
         unit,
@@ -59,7 +69,7 @@ fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
 /// Strokes of all layers on a patch, by layer and stroke id.
 fn strokes(
     options: &HatchOptions,
-    tones: &[Tone],
+    tones: &[ToneCoverage],
     bin: u16,
     seed: u64,
 ) -> BTreeMap<(usize, u64), HatchStroke> {
@@ -69,15 +79,16 @@ fn strokes(
 }
 
 /// Share of ink in the inner part of a rendered patch.
-fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
-    const SCALE: u32 = 4;
+fn ink_share(options: &HatchOptions, tones: &[ToneCoverage], bin: u16) -> f64 {
+    const PIXELS_PER_PX: u32 = 4;
     let layer = hatching::fill(&patch(bin), &context(tones, 0), options, Vec::new());
-    let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: Some(Colour::WHITE) };
+    let page =
+        Page { width: PATCH_SIDE_PX, height: PATCH_SIDE_PX, unit: Unit::Px, background: Some(Colour::WHITE) };
     let drawing = Drawing::new("", page, layer.into_iter().collect());
-    let width = SIDE as u32 * SCALE;
+    let width = PATCH_SIDE_PX as u32 * PIXELS_PER_PX;
     let png = drawing.to_png(&PngOptions::of_resolution(Resolution::Width(width))).expect("a picture");
     let picture = tiny_skia::Pixmap::decode_png(&png).expect("a picture");
-    let margin = 20 * SCALE;
+    let margin = 20 * PIXELS_PER_PX;
     let inner = margin..width - margin;
     let (mut ink, mut count) = (0.0, 0.0);
     for y in inner.clone() {
@@ -91,7 +102,7 @@ fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
 }
 
 /// Hatching options of a style in opaque black, without grain.
-fn black(style: &Style) -> HatchOptions {
+fn opaque_black(style: &Style) -> HatchOptions {
     let mut options = style.hatch.clone();
     for layer in &mut options.layers {
         layer.colour = Ink::Fixed(Colour::BLACK);
@@ -105,14 +116,14 @@ fn black(style: &Style) -> HatchOptions {
 fn darker_tones_keep_all_strokes_of_lighter_ones() {
     let mut dice = Dice::new(5);
     for round in 0..6 {
-        let mut options = black(&style(["pen", "pencil", "patent"][round % 3], &[]));
+        let mut options = opaque_black(&style_with(["pen", "pencil", "patent"][round % 3], &[]));
         for layer in &mut options.layers {
             layer.angle = dice.between(0.0, 360.0);
             layer.uneven = dice.between(0.0, 1.0);
         }
         let darkest = 0.5 + 0.4 * dice.between(0.0, 1.0);
         let coverage: Vec<f64> = (0..64).map(|k| darkest * f64::from(63 - k) / 63.0).collect();
-        let tones = vec![Tone { levels: Vec::new(), coverage }];
+        let tones = vec![ToneCoverage { levels: Vec::new(), coverage }];
         let seed = round as u64;
         let mut lighter: BTreeMap<(usize, u64), HatchStroke> = BTreeMap::new();
         let mut lengths = 0.0;
@@ -132,14 +143,14 @@ fn darker_tones_keep_all_strokes_of_lighter_ones() {
 }
 
 #[test]
-fn as_much_is_covered_as_the_table_says() {
+fn hatching_coverage_matches_the_table() {
     let mut faults = Vec::new();
     for name in ["pen", "pencil", "pencil-plain", "patent", "sketch", "blueprint"] {
-        let style = style(name, &[]);
-        let options = black(&style);
-        let tone = Tone::new(&style.shade.thresholds, &options.coverage);
+        let style = style_with(name, &[]);
+        let options = opaque_black(&style);
+        let tone = ToneCoverage::new(&style.shade.thresholds, &options.coverage);
         for bin in 0..tone.coverage.len() as u16 {
-            let (asked, found) = (tone.of_bin(bin), covered(&options, std::slice::from_ref(&tone), bin));
+            let (asked, found) = (tone.of_bin(bin), ink_share(&options, std::slice::from_ref(&tone), bin));
             if (asked - found).abs() >= 0.03 {
                 faults.push(format!("{name}, bin {bin}: {found:.3} covered, {asked} asked"));
             }
@@ -151,13 +162,13 @@ fn as_much_is_covered_as_the_table_says() {
 #[test]
 fn hatching_does_not_repeat() {
     // Autocorrelation of the ink of one pencil layer.
-    let mut options = black(&style("pencil", &[]));
+    let mut options = opaque_black(&style_with("pencil", &[]));
     options.layers.truncate(1);
     options.layers[0].angle = 0.0;
-    let tones = vec![Tone { levels: Vec::new(), coverage: vec![0.3] }];
+    let tones = vec![ToneCoverage { levels: Vec::new(), coverage: vec![0.3] }];
     let strokes = strokes(&options, &tones, 0, 0);
     // Raster of the patch: 1 where a stroke passes.
-    let (columns, rows) = (SIDE as usize, SIDE as usize);
+    let (columns, rows) = (PATCH_SIDE_PX as usize, PATCH_SIDE_PX as usize);
     let mut ink = vec![0.0_f64; columns * rows];
     for stroke in strokes.values() {
         for pair in stroke.points.windows(2) {
@@ -207,24 +218,25 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 #[test]
-fn strokes_stay_inside_and_cross_no_contour() {
-    strokes_stay_inside(&["pen"]);
+fn hatching_strokes_stay_inside_their_region() {
+    assert_strokes_stay_inside(&["pen"]);
 }
 
 #[test]
 #[ignore = "long: .ci/nightly"]
-fn strokes_of_engravings_and_pencils_stay_inside() {
-    strokes_stay_inside(&["engraving", "pencil"]);
+fn engraving_and_pencil_strokes_stay_inside_their_region() {
+    assert_strokes_stay_inside(&["engraving", "pencil"]);
 }
 
-fn strokes_stay_inside(sheets: &[&str]) {
+fn assert_strokes_stay_inside(sheets: &[&str]) {
     for (name, scene) in scenes() {
         for sheet in sheets {
             let sets = ["lines.contours=mesh", "hatching.cast_shadows=false"];
-            let style = style(sheet, &sets);
-            let camera = camera(&scene);
+            let style = style_with(sheet, &sets);
+            let camera = fitted_camera(&scene);
             let prepared = Prepared::new(&scene, &style);
-            let (ground, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
+            let (ground, layers) =
+                prepared.hatch_strokes(&camera, page_of_camera(&camera)).expect("a hatching");
             let mesh = Mesh::build(scene.to_soup());
             let view = ligne::view::View::new(&mesh, &camera);
             let mut asked = 0;
@@ -285,7 +297,7 @@ fn along(line: &[Point], step: f64) -> Vec<Point> {
 }
 
 /// Distance from a point to the nearest border.
-fn distance(ground: &Ground, p: Point) -> f64 {
+fn distance(ground: &HatchRegions, p: Point) -> f64 {
     let of = |number: u32| {
         let [a, b] = ground.pieces[number as usize].ends;
         let way = b - a;
@@ -296,21 +308,21 @@ fn distance(ground: &Ground, p: Point) -> f64 {
 }
 
 /// Style with strokes that are fixed to the model.
-fn fixed() -> Style {
+fn style_with_fixed_strokes() -> Style {
     let layer = "hatching.layer=[{ direction = 'object', angle = 30, spacing = 5, width = 1.2 }]";
-    style("pen", &[layer, "hatching.cast_shadows=false"])
+    style_with("pen", &[layer, "hatching.cast_shadows=false"])
 }
 
 #[test]
-fn strokes_fixed_to_the_model_stay_when_it_turns() {
+fn strokes_fixed_to_the_model_persist_when_the_camera_turns() {
     for (name, scene) in [
         ("torus", pipeline::scene([torus(120, 60, 1.0, 0.4)])),
         ("box", pipeline::scene([cuboid(DVec3::ZERO, DVec3::new(1.0, 0.7, 1.3))])),
     ] {
-        let style = fixed();
+        let style = style_with_fixed_strokes();
         let prepared = Prepared::new(&scene, &style);
         let drawn = |turn: f64| {
-            let mut camera = camera(&scene);
+            let mut camera = fitted_camera(&scene);
             let (s, c) = (
                 ligne::geometry::numbers::portable_math::sin(turn),
                 ligne::geometry::numbers::portable_math::cos(turn),
@@ -318,7 +330,7 @@ fn strokes_fixed_to_the_model_stay_when_it_turns() {
             let to_eye = camera.eye - camera.target;
             let turned = DVec3::new(to_eye.x * c + to_eye.z * s, to_eye.y, to_eye.z * c - to_eye.x * s);
             camera.eye = camera.target + turned;
-            let (_, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
+            let (_, layers) = prepared.hatch_strokes(&camera, page_of_camera(&camera)).expect("a hatching");
             let strokes = layers.into_iter().flat_map(|layer| layer.strokes);
             strokes.map(|stroke| (stroke.id, stroke)).collect::<BTreeMap<u64, HatchStroke>>()
         };
@@ -350,11 +362,11 @@ fn strokes_fixed_to_the_model_stay_when_it_turns() {
 }
 
 #[test]
-fn only_the_hand_follows_the_seed() {
+fn the_seed_changes_only_hatching() {
     let scene = pipeline::scene([torus(64, 32, 1.0, 0.4)]);
-    let camera = camera(&scene);
+    let camera = fitted_camera(&scene);
     for name in ["pencil", "engraving"] {
-        let style = style(name, &[]);
+        let style = style_with(name, &[]);
         let drawn = |seed: u64| render(&scene, &camera, &Style { seed, ..style.clone() }).unwrap();
         let (a, b) = (drawn(0), drawn(1));
         let others = |drawing: &Drawing| {
@@ -369,9 +381,9 @@ fn only_the_hand_follows_the_seed() {
 }
 
 #[test]
-fn hatching_is_marks_that_know_their_part() {
+fn pencil_hatching_marks_are_tapered_outlines() {
     let scene = pipeline::scene([torus(64, 32, 1.0, 0.4)]);
-    let drawing = render(&scene, &camera(&scene), &style("pencil", &[])).unwrap();
+    let drawing = render(&scene, &fitted_camera(&scene), &style_with("pencil", &[])).unwrap();
     let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
     for mark in &layer.marks {
         assert_eq!(mark.provenance.classes, ["hatch"]);

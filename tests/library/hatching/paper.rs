@@ -14,7 +14,7 @@ use crate::support::pipeline::{self, orthographic};
 use crate::support::scenes::solids::cuboid;
 
 /// Whether a column of the laid paper is dark: 4 pixels in every 16.
-fn is_dark(x: u32) -> bool {
+fn is_dark_column(x: u32) -> bool {
     x % 16 < 4
 }
 
@@ -29,7 +29,8 @@ impl Sheet {
         let file = std::env::temp_dir().join(format!("ligne-paper-{}-{name}.png", std::process::id()));
         let mut encoder = png::Encoder::new(std::fs::File::create(&file).unwrap(), 64, 32);
         encoder.set_color(png::ColorType::Rgb);
-        let pixels: Vec<u8> = (0..64 * 32).flat_map(|k| if is_dark(k % 64) { DARK } else { LIGHT }).collect();
+        let pixels: Vec<u8> =
+            (0..64 * 32).flat_map(|k| if is_dark_column(k % 64) { DARK } else { LIGHT }).collect();
         encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
         Self(file)
     }
@@ -56,7 +57,7 @@ fn pixels(drawing: &Drawing) -> Picture {
 }
 
 #[test]
-fn paper_is_behind_and_shows_through_where_it_is_dark() {
+fn dark_paper_grain_shows_through_ink() {
     let sheet = Sheet::new("through");
     for (tooth, through) in [("page.tooth=0", 0.0), ("page.tooth=0.6", 0.6)] {
         let drawing = sheet.drawing(&[tooth]);
@@ -72,10 +73,10 @@ fn paper_is_behind_and_shows_through_where_it_is_dark() {
             if is_mixed || !(inside || outside) {
                 continue;
             }
-            let paper = if is_dark(x) { DARK } else { LIGHT };
+            let paper = if is_dark_column(x) { DARK } else { LIGHT };
             let shows = if outside {
                 1.0
-            } else if is_dark(x) {
+            } else if is_dark_column(x) {
                 through
             } else {
                 0.0
@@ -94,7 +95,7 @@ fn paper_is_behind_and_shows_through_where_it_is_dark() {
 }
 
 #[test]
-fn grouping_by_part_leaves_the_tooth_over_all() {
+fn paper_tooth_stays_on_top_when_grouped_by_part() {
     let sheet = Sheet::new("grouped");
     let drawing = sheet.drawing(&["page.tooth=0.6"]);
     for options in [SvgOptions::default(), SvgOptions::default().grouped_by(Grouping::Part)] {
@@ -105,7 +106,7 @@ fn grouping_by_part_leaves_the_tooth_over_all() {
 }
 
 #[test]
-fn what_is_no_picture_is_refused() {
+fn invalid_paper_settings_are_refused() {
     for set in ["page.paper=no-such.png", "page.paper=Cargo.toml", "page.paper_width=0", "page.tooth=2"] {
         assert!(Style::load("ink", &[set.to_owned()]).is_err(), "{set}");
     }

@@ -10,8 +10,8 @@ use ligne::pipeline::{render, render_reported};
 use ligne::scene::{Camera, Material, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::{flattened, samples};
-use crate::support::measures::segment_sets::length;
+use crate::support::measures::line_picture::{flatten_path, sample_segments};
+use crate::support::measures::segment_sets::total_length;
 use crate::support::pipeline::{self, orthographic};
 use crate::support::scenes::solids::cuboid;
 
@@ -36,7 +36,7 @@ fn wall() -> (Scene, Camera) {
 }
 
 /// Number of sampled points of pattern ink by material, and how many of them lie outside their painted tone.
-fn asked(patterns: &str, tones: [Option<u16>; 4]) -> ([usize; 4], usize) {
+fn count_pattern_samples(patterns: &str, tones: [Option<u16>; 4]) -> ([usize; 4], usize) {
     let scene = Scene::open("examples/models/castle.obj").unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &style(patterns)).unwrap();
@@ -50,7 +50,7 @@ fn asked(patterns: &str, tones: [Option<u16>; 4]) -> ([usize; 4], usize) {
         assert_eq!(mark.provenance.classes, ["pattern"]);
         let name = mark.provenance.material.as_deref().unwrap();
         let is_filled = matches!(mark.paint, Paint::Fill(_));
-        for (p, _) in samples(&flattened(&mark.path, 0.05), 25.0) {
+        for (p, _) in sample_segments(&flatten_path(&mark.path, 0.05), 25.0) {
             // For filled marks, a point next to the outline and inside it.
             let beside =
                 [(0.8, 0.5), (-0.8, -0.5), (-0.5, 0.8), (0.5, -0.8)].map(|way| p + kurbo::Vec2::from(way));
@@ -78,21 +78,21 @@ fn patterns_lie_in_their_tone_and_nowhere_else() {
                  { material = 'roof', tones = [-1], kind = 'crosses', size = 7 }, \
                  { material = 'grass', kind = 'tile', path = 'M2 8L5 2L8 8', size = 11, angle = 10 }, \
                  { material = 'sand*', tones = [1], kind = 'lines', fixed = 'surface', size = 6 }";
-    let (found, _) = asked(lines, [Some(0), Some(1), None, Some(1)]);
+    let (found, _) = count_pattern_samples(lines, [Some(0), Some(1), None, Some(1)]);
     assert!(found.iter().all(|count| *count > 30), "{found:?}");
     let filled = "{ material = 'stone', tones = [0], kind = 'tile', path = 'M1 1H8V8H1Z', fill = true, size = 9 }, \
                   { material = 'roof', tones = [-1], fixed = 'surface', size = 7, width = 5 }, \
                   { material = 'grass', kind = 'tile', path = 'M2 8L5 2L8 8', fixed = 'surface', size = 11 }, \
                   { material = 'sand*', tones = [1], kind = 'tile', path = 'M1 1H8L3 9Z', fill = true, fixed = 'surface', \
                     size = 6 }";
-    let (found, wrong) = asked(filled, [Some(0), Some(1), None, Some(1)]);
+    let (found, wrong) = count_pattern_samples(filled, [Some(0), Some(1), None, Some(1)]);
     assert!(found.iter().all(|count| *count > 30), "{found:?}");
     // Slivers may be painted like their neighbours.
     assert!(100 * wrong <= found.iter().sum::<usize>(), "{wrong} of {found:?}");
 }
 
 #[test]
-fn dots_and_lines_are_as_dense_and_as_turned_as_asked() {
+fn dots_and_lines_have_the_set_density_and_angle() {
     let (scene, camera) = wall();
     let side = 400.0;
     let drawing = render(&scene, &camera, &style("{ size = 10, width = 6, angle = 20 }")).unwrap();
@@ -105,9 +105,9 @@ fn dots_and_lines_are_as_dense_and_as_turned_as_asked() {
         let drawing = render(&scene, &camera, &style(&pattern)).unwrap();
         let lines: Vec<[Point; 2]> = marks(&drawing, LayerKind::Hatching)
             .iter()
-            .flat_map(|mark| flattened(&mark.path, 0.01))
+            .flat_map(|mark| flatten_path(&mark.path, 0.01))
             .collect();
-        assert!((length(&lines) * 8.0 / (side * side) - 1.0).abs() < 0.02, "{angle}");
+        assert!((total_length(&lines) * 8.0 / (side * side) - 1.0).abs() < 0.02, "{angle}");
         for [a, b] in lines {
             // Angles run counter-clockwise on the page, with y down.
             let along = (b - a).normalize();
@@ -120,7 +120,7 @@ fn dots_and_lines_are_as_dense_and_as_turned_as_asked() {
 }
 
 #[test]
-fn sizes_may_be_millimetres() {
+fn pattern_sizes_may_be_in_millimetres() {
     let (scene, mut camera) = wall();
     (camera.width, camera.height) = (100.0, 100.0);
     let page = Page { width: 100.0, height: 100.0, unit: Unit::Mm, background: None };
@@ -128,7 +128,7 @@ fn sizes_may_be_millimetres() {
         let (drawing, _) = render_reported(&scene, &camera, &style(pattern), page, None).unwrap();
         let lines: Vec<[Point; 2]> = marks(&drawing, LayerKind::Hatching)
             .iter()
-            .flat_map(|mark| flattened(&mark.path, 0.01))
+            .flat_map(|mark| flatten_path(&mark.path, 0.01))
             .collect();
         let widths: Vec<f64> = marks(&drawing, LayerKind::Hatching)
             .iter()
@@ -137,14 +137,14 @@ fn sizes_may_be_millimetres() {
                 _ => None,
             })
             .collect();
-        (length(&lines), widths[0])
+        (total_length(&lines), widths[0])
     };
     let (lines, width) = of("{ kind = 'lines', size = '2mm', width = '0.3mm' }");
     assert!((lines - 80.0 * 40.0).abs() < 100.0 && (width - 0.3).abs() < 1e-9, "{lines} {width}");
 }
 
 #[test]
-fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does_not() {
+fn surface_patterns_turn_with_the_surface_and_page_patterns_do_not() {
     let (scene, camera) = wall();
     let count = |camera: &Camera, fixed: &str| {
         let pattern = format!("{{ kind = 'lines', size = 21, fixed = '{fixed}' }}");
@@ -162,7 +162,7 @@ fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does
     assert!(count(&rolled, "page") > count(&camera, "page") + 3);
 }
 
-fn inked(scene: &Scene, camera: &Camera, pattern: &str) -> f64 {
+fn ink_area(scene: &Scene, camera: &Camera, pattern: &str) -> f64 {
     let drawing = render(scene, camera, &style(pattern)).unwrap();
     let marks = marks(&drawing, LayerKind::Hatching);
     // Shapes do not overlap, and holes have the opposite direction.
@@ -170,7 +170,7 @@ fn inked(scene: &Scene, camera: &Camera, pattern: &str) -> f64 {
 }
 
 #[test]
-fn filled_tiles_cover_what_they_should() {
+fn filled_tiles_cover_their_exact_area() {
     let (scene, camera) = wall();
     let folder = std::env::temp_dir().join(format!("ligne-tiles-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -204,7 +204,7 @@ fn filled_tiles_cover_what_they_should() {
             for fixed in ["page", "surface"] {
                 let pattern =
                     format!("{{ kind = 'tile', {tile}, size = 12.5, angle = {angle}, fixed = '{fixed}' }}");
-                let part = inked(&scene, &camera, &pattern) / (400.0 * 400.0);
+                let part = ink_area(&scene, &camera, &pattern) / (400.0 * 400.0);
                 assert!((part / covered - 1.0).abs() < 0.01, "{pattern}: {part} {covered}");
             }
         }
@@ -213,7 +213,7 @@ fn filled_tiles_cover_what_they_should() {
 }
 
 #[test]
-fn dots_on_the_surface_are_seen_at_its_slant() {
+fn surface_dots_are_foreshortened() {
     let (scene, _) = wall();
     // Two faces of the cube, each at 45 degrees to the view direction.
     let mut camera = orthographic(DVec3::new(9.0, 0.0, 9.0), DVec3::ZERO, 8.0);
@@ -223,14 +223,14 @@ fn dots_on_the_surface_are_seen_at_its_slant() {
     for rows in [25.0, 26.0] {
         let size = 250.0 / rows;
         let part =
-            inked(&scene, &camera, &format!("{{ fixed = 'surface', size = {size}, width = 5 }}")) / seen;
+            ink_area(&scene, &camera, &format!("{{ fixed = 'surface', size = {size}, width = 5 }}")) / seen;
         let wanted = PI * 2.5 * 2.5 / (size * size);
         assert!((part / wanted - 1.0).abs() < 0.01, "{rows}: {part} {wanted}");
     }
 }
 
 #[test]
-fn what_is_fixed_to_the_surface_does_not_know_how_the_world_is_turned() {
+fn surface_patterns_do_not_depend_on_world_orientation() {
     let (scene, camera) = wall();
     let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.5, -0.8, 1.9);
     let tilted = Camera { eye: DVec3::new(4.0, 3.0, 8.0), ..camera };
@@ -262,7 +262,7 @@ fn what_is_fixed_to_the_surface_does_not_know_how_the_world_is_turned() {
 }
 
 #[test]
-fn patterns_that_cannot_be_are_refused_by_name() {
+fn invalid_patterns_are_refused_by_name() {
     for (pattern, word) in [
         ("{ kind = 'spots' }", "kind"),
         ("{ size = 0 }", "size above 0"),

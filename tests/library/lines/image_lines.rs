@@ -4,7 +4,7 @@
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind, Unit};
-use ligne::light::ShadedNormals;
+use ligne::light::ShadingNormals;
 use ligne::lines::image::{Dilation, EdgeTest, ImageOptions, edges, ink_dilation};
 use ligne::lines::{LineOptions, Surface};
 use ligne::mesh::Mesh;
@@ -12,19 +12,19 @@ use ligne::pipeline::{Prepared, render};
 use ligne::scene::{Camera, Geometry, Scene};
 use ligne::style::Style;
 use ligne::view::View;
-use ligne::view::raster::{Maps, NO_FRONT};
+use ligne::view::raster::{NO_FRONT, NormalDepthMaps};
 
-use crate::support::measures::line_picture::{Ink, flattened, samples};
-use crate::support::measures::segment_sets::length;
+use crate::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
+use crate::support::measures::segment_sets::total_length;
 use crate::support::pipeline::{self, orthographic, perspective};
 use crate::support::readers::shared_folder;
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
-fn maps(scene: &Scene, camera: &Camera, per_unit: f64) -> Maps {
+fn maps(scene: &Scene, camera: &Camera, per_unit: f64) -> NormalDepthMaps {
     let surface = Surface::new(Mesh::build(scene.to_soup()), &LineOptions::default()).finer_for(camera);
-    let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
-    Maps::new(&surface.mesh, &View::new(&surface.mesh, camera), per_unit, |face| normals.of(face))
+    let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+    NormalDepthMaps::new(&surface.mesh, &View::new(&surface.mesh, camera), per_unit, |face| normals.of(face))
 }
 
 fn style(sets: &[&str]) -> Style {
@@ -36,19 +36,23 @@ fn style(sets: &[&str]) -> Style {
 fn lines(drawing: &Drawing, class: Option<&str>) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let of_class = |classes: &[&str]| class.is_none_or(|class| classes.contains(&class));
-    marks.filter(|m| of_class(&m.provenance.classes)).flat_map(|m| flattened(&m.path, 0.01)).collect()
+    marks.filter(|m| of_class(&m.provenance.classes)).flat_map(|m| flatten_path(&m.path, 0.01)).collect()
 }
 
 fn drawn(scene: &Scene, camera: &Camera, sets: &[&str]) -> Vec<[Point; 2]> {
     lines(&render(scene, camera, &style(sets)).unwrap(), None)
 }
 
-const IMAGE: &str = "lines.source=image";
+const IMAGE_SOURCE: &str = "lines.source=image";
 
 /// Returns the share of the length of `own` that lies within each distance (px) of `others`.
-fn within<const N: usize>(own: &[[Point; 2]], others: &[[Point; 2]], distances: [f64; N]) -> [f64; N] {
-    let ink = Ink::new(others.to_vec(), 4.0);
-    let places = samples(own, 0.5);
+fn length_shares_within<const N: usize>(
+    own: &[[Point; 2]],
+    others: &[[Point; 2]],
+    distances: [f64; N],
+) -> [f64; N] {
+    let ink = SegmentGrid::new(others.to_vec(), 4.0);
+    let places = sample_segments(own, 0.5);
     let whole: f64 = places.iter().map(|(_, length)| length).sum();
     distances.map(|distance| {
         let near = places.iter().filter(|(p, _)| ink.distance(*p) <= distance);
@@ -68,13 +72,13 @@ fn example(name: &str, size: f64) -> (Scene, Camera) {
 }
 
 /// Returns the value at a pixel; outside the image, the value of the nearest border pixel.
-fn at<T: Copy>(values: &[T], maps: &Maps, x: i64, y: i64) -> T {
+fn at<T: Copy>(values: &[T], maps: &NormalDepthMaps, x: i64, y: i64) -> T {
     let (x, y) = (x.clamp(0, maps.columns as i64 - 1), y.clamp(0, maps.rows as i64 - 1));
     values[y as usize * maps.columns + x as usize]
 }
 
 /// Edge test of Scheelk, sections 3.4.3 and 3.4.4, written out literally.
-fn scheelk(maps: &Maps, x: i64, y: i64) -> bool {
+fn scheelk_edge_test(maps: &NormalDepthMaps, x: i64, y: i64) -> bool {
     let depth = |x, y| at(&maps.depths, maps, x, y);
     let gradient = |value: &dyn Fn(i64, i64) -> f32, x: i64, y: i64| {
         let own = value(x, y);
@@ -108,7 +112,7 @@ fn scheelk(maps: &Maps, x: i64, y: i64) -> bool {
 }
 
 /// Edge test of Ishaya, listing 4, instruction by instruction. Registers hold equal r, g and b, and a.
-fn ishaya(maps: &Maps, x: i64, y: i64) -> bool {
+fn ishaya_edge_test(maps: &NormalDepthMaps, x: i64, y: i64) -> bool {
     let texel = |dx: i64, dy: i64| {
         let n = at(&maps.normals, maps, x + dx, y + dy);
         let shown = at(&maps.faces, maps, x + dx, y + dy) != NO_FRONT;
@@ -135,7 +139,7 @@ fn ishaya(maps: &Maps, x: i64, y: i64) -> bool {
 }
 
 #[test]
-fn raster_edges_are_those_of_the_papers_pixel_for_pixel() {
+fn raster_edges_match_the_papers_pixel_for_pixel() {
     for name in SCENES {
         let (scene, camera) = example(name, 160.0);
         let maps = maps(&scene, &camera, 2.0);
@@ -145,8 +149,8 @@ fn raster_edges_are_those_of_the_papers_pixel_for_pixel() {
             for (pixel, is_edge) in found.iter().enumerate() {
                 let (x, y) = ((pixel % maps.columns) as i64, (pixel / maps.columns) as i64);
                 let expected = match test {
-                    EdgeTest::Gradient => scheelk(&maps, x, y),
-                    EdgeTest::Opposite => ishaya(&maps, x, y),
+                    EdgeTest::Gradient => scheelk_edge_test(&maps, x, y),
+                    EdgeTest::Opposite => ishaya_edge_test(&maps, x, y),
                 };
                 assert_eq!(*is_edge, expected, "{name} {test:?} {x} {y}");
                 count += usize::from(expected);
@@ -157,7 +161,7 @@ fn raster_edges_are_those_of_the_papers_pixel_for_pixel() {
 }
 
 #[test]
-fn normals_and_depth_are_those_of_the_surface() {
+fn normal_and_depth_maps_match_a_sphere() {
     // A sphere of radius 1 in an orthographic view of 4 units on 200 px.
     let scene = pipeline::scene([sphere(60, 1.0)]);
     let mut camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
@@ -181,7 +185,7 @@ fn normals_and_depth_are_those_of_the_surface() {
 }
 
 #[test]
-fn depth_is_linear_in_perspective_and_faces_turn_to_the_eye() {
+fn perspective_depth_is_linear_and_normals_face_the_camera() {
     // A floor seen at an angle, wound away from the camera.
     let corners = [[-4., -4., 0.], [4., -4., 0.], [4., 4., 0.], [-4., 4., 0.]].map(DVec3::from_array);
     let floor = Solid { positions: corners.to_vec(), triangles: vec![[0, 2, 1], [0, 3, 2]] };
@@ -206,37 +210,37 @@ fn depth_is_linear_in_perspective_and_faces_turn_to_the_eye() {
 }
 
 #[test]
-fn a_sphere_is_one_circle_and_a_box_its_edges() {
+fn image_lines_trace_a_sphere_as_a_circle_and_a_box_as_its_edges() {
     let ball = pipeline::scene([sphere(100, 1.0)]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     for test in ["gradient", "opposite"] {
         let test = format!("lines.image.test={test}");
-        let circle = drawn(&ball, &camera, &[IMAGE, &test]);
+        let circle = drawn(&ball, &camera, &[IMAGE_SOURCE, &test]);
         let off = circle.iter().flatten().map(|p| ((*p - Point::new(500.0, 500.0)).hypot() - 250.0).abs());
         assert!(off.fold(0.0, f64::max) < 0.7);
-        assert!((length(&circle) / (500.0 * std::f64::consts::PI) - 1.0).abs() < 0.01);
+        assert!((total_length(&circle) / (500.0 * std::f64::consts::PI) - 1.0).abs() < 0.01);
         let solid = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
         let eye = DVec3::new(2.0, -5.0, 3.0);
         let camera = perspective(eye, DVec3::ZERO, 35.0);
-        let (image, exact) = (drawn(&solid, &camera, &[IMAGE, &test]), drawn(&solid, &camera, &[]));
-        assert_eq!(within(&image, &exact, [0.7]), [1.0]);
-        assert!(within(&exact, &image, [1.0])[0] > 0.995);
-        assert!((length(&image) / length(&exact) - 1.0).abs() < 0.005);
+        let (image, exact) = (drawn(&solid, &camera, &[IMAGE_SOURCE, &test]), drawn(&solid, &camera, &[]));
+        assert_eq!(length_shares_within(&image, &exact, [0.7]), [1.0]);
+        assert!(length_shares_within(&exact, &image, [1.0])[0] > 0.995);
+        assert!((total_length(&image) / total_length(&exact) - 1.0).abs() < 0.005);
     }
 }
 
 /// Asserts that image lines agree with exact lines: nearby lines lie within 0.7 px of each other, exact
 /// contours are found, and image curves have at most twice the number of nodes.
-fn agrees(name: &str, scene: &Scene, camera: &Camera) {
+fn assert_image_lines_agree(name: &str, scene: &Scene, camera: &Camera) {
     let exact = render(scene, camera, &style(&[])).unwrap();
-    let image = render(scene, camera, &style(&[IMAGE])).unwrap();
+    let image = render(scene, camera, &style(&[IMAGE_SOURCE])).unwrap();
     let (all, found) = (lines(&exact, None), lines(&image, None));
-    let [near, beside] = within(&found, &all, [0.7, 3.0]);
+    let [near, beside] = length_shares_within(&found, &all, [0.7, 3.0]);
     assert!(near / beside > 0.95, "{name}: of {beside} near lines of the surface {near} within 0.7 px");
     let contours = lines(&exact, Some("contour"));
-    let recall = within(&contours, &found, [1.5])[0];
+    let recall = length_shares_within(&contours, &found, [1.5])[0];
     assert!(recall > 0.97, "{name}: {recall} of the contours");
-    let ink = Ink::new(all, 4.0);
+    let ink = SegmentGrid::new(all, 4.0);
     let nodes = |drawing: &Drawing| {
         let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
         marks
@@ -252,21 +256,21 @@ fn agrees(name: &str, scene: &Scene, camera: &Camera) {
 }
 
 #[test]
-fn traced_lines_lie_where_exact_ones_do() {
+fn image_lines_agree_with_exact_lines() {
     for name in ["gear.obj", "pump.glb", "bear.ply", "castle.obj", "knot.ply"] {
         let (scene, camera) = example(name, 1000.0);
-        agrees(name, &scene, &camera);
+        assert_image_lines_agree(name, &scene, &camera);
     }
     let shared = ["organic/stanford-bunny.obj", "scene/castle/building_castle_blue.obj", "cad/drive.glb"];
     for path in shared.iter().chain(&["scene/retroufo.gltf"]).filter_map(|name| shared_folder::find(name)) {
         let scene = Scene::open(&path).unwrap();
         let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-        agrees(&path.display().to_string(), &scene, &camera);
+        assert_image_lines_agree(&path.display().to_string(), &scene, &camera);
     }
 }
 
 /// Returns the quads of a solid as loose faces: each has its own randomly moved corners and a random winding.
-fn loosened(solid: &Solid, by: f64) -> Geometry {
+fn loose_quads(solid: &Solid, by: f64) -> Geometry {
     let mut dice = Dice::new(5);
     let mut geometry = Geometry::default();
     for pair in solid.triangles.chunks(2) {
@@ -291,19 +295,27 @@ fn loosened(solid: &Solid, by: f64) -> Geometry {
 }
 
 #[test]
-fn a_soup_of_ten_thousand_loose_quads_looks_like_the_closed_model() {
+fn image_lines_of_a_quad_soup_match_the_closed_model() {
     let ring = torus(100, 100, 1.0, 0.4);
     let camera = perspective(DVec3::new(1.5, -4.0, 3.0), DVec3::ZERO, 35.0);
     let closed = drawn(&pipeline::scene([ring.clone()]), &camera, &[]);
     for by in [1e-5, 2e-4] {
-        let loose = loosened(&ring, by);
+        let loose = loose_quads(&ring, by);
         assert!(loose.triangles.len() == 20_000 && loose.positions.len() == 40_000);
         let soup = pipeline::scene_of_geometries(vec![loose]);
-        let image = drawn(&soup, &camera, &[IMAGE]);
-        assert!(within(&image, &closed, [1.0])[0] > 0.98, "{by}: {:?}", within(&image, &closed, [1.0]));
-        assert!(within(&closed, &image, [1.0])[0] > 0.98, "{by}: {:?}", within(&closed, &image, [1.0]));
+        let image = drawn(&soup, &camera, &[IMAGE_SOURCE]);
+        assert!(
+            length_shares_within(&image, &closed, [1.0])[0] > 0.98,
+            "{by}: {:?}",
+            length_shares_within(&image, &closed, [1.0])
+        );
+        assert!(
+            length_shares_within(&closed, &image, [1.0])[0] > 0.98,
+            "{by}: {:?}",
+            length_shares_within(&closed, &image, [1.0])
+        );
         // In the exact drawing, each quad has its own borders.
-        assert!(length(&drawn(&soup, &camera, &[])) > 10.0 * length(&closed));
+        assert!(total_length(&drawn(&soup, &camera, &[])) > 10.0 * total_length(&closed));
     }
 }
 
@@ -320,11 +332,11 @@ fn both_sources_draw_no_line_twice() {
     assert_eq!(marks(&both), marks(&exact));
     let added = lines(&both, Some("image"));
     assert!(added.len() > 20, "what the image alone has is added");
-    assert!(within(&added, &lines(&exact, None), [1.0])[0] < 0.02);
+    assert!(length_shares_within(&added, &lines(&exact, None), [1.0])[0] < 0.02);
 }
 
 #[test]
-fn paint_stays_as_it_is_whatever_lines_are_drawn() {
+fn fills_do_not_depend_on_the_line_source() {
     let (scene, camera) = example("gear.obj", 300.0);
     let fills = |sets: &[&str]| {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
@@ -332,16 +344,16 @@ fn paint_stays_as_it_is_whatever_lines_are_drawn() {
         let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Fills).unwrap();
         layer.marks.iter().map(|mark| mark.path.to_svg()).collect::<Vec<_>>()
     };
-    assert_eq!(fills(&[IMAGE]), fills(&["lines.enabled=false"]));
+    assert_eq!(fills(&[IMAGE_SOURCE]), fills(&["lines.enabled=false"]));
 }
 
 #[test]
-fn passes_widen_the_lines_of_a_picture_as_the_listing_does() {
+fn dilation_passes_match_the_listing_of_the_paper() {
     let mut edges = vec![false; 49];
     edges[24] = true;
     let of = |passes: u8, dilation: Dilation| {
         let options = ImageOptions { passes, dilation, ..ImageOptions::default() };
-        ink_dilation::inked(&edges, 7, &options)
+        ink_dilation::dilate_ink(&edges, 7, &options)
     };
     for pixel in 0..49_i32 {
         let away = (pixel % 7 - 3).abs() + (pixel / 7 - 3).abs();
@@ -357,7 +369,7 @@ fn passes_widen_the_lines_of_a_picture_as_the_listing_does() {
 }
 
 #[test]
-fn maps_are_pictures_of_one_size() {
+fn exported_maps_are_pngs_of_equal_size() {
     let (scene, camera) = example("pump.glb", 120.0);
     let style = style(&["lines.image.samples=3"]);
     let files = Prepared::new(&scene, &style).maps(&camera, Unit::Px).unwrap();

@@ -28,7 +28,7 @@ fn curvature_of(solid: &Solid) -> (Mesh, Curvature) {
 }
 
 /// A height field over the square from −`half` to `half`.
-fn field(half: f64, cells: u32, height: impl Fn(f64, f64) -> f64) -> Solid {
+fn height_field(half: f64, cells: u32, height: impl Fn(f64, f64) -> f64) -> Solid {
     let mut solid = Solid::default();
     let row = cells + 1;
     for y in 0..row {
@@ -49,7 +49,7 @@ fn sphere(cells: u32, radius: f64) -> Solid {
     let mut ball = Solid::default();
     for side in 0..6 {
         let sign = if side < 3 { 1.0 } else { -1.0 };
-        let mut face = field(1.0, cells, |_, _| sign).moved(|p| match side % 3 {
+        let mut face = height_field(1.0, cells, |_, _| sign).moved(|p| match side % 3 {
             0 => p,
             1 => DVec3::new(p.z, p.x, p.y),
             _ => DVec3::new(p.y, p.z, p.x),
@@ -92,51 +92,51 @@ fn length(mesh: &Mesh, lines: &FeatureLines) -> f64 {
     lines.segments.iter().map(ends).map(|[a, b]| a.distance(b)).sum()
 }
 
-fn near(a: f64, b: f64, within: f64) -> bool {
+fn is_near(a: f64, b: f64, within: f64) -> bool {
     (a - b).abs() <= within
 }
 
 #[test]
-fn a_sphere_bends_alike_everywhere() {
+fn sphere_curvature_is_constant() {
     let (mesh, curvature) = curvature_of(&sphere(60, 2.0));
     for (v, (p, at)) in curvature.principal.iter().zip(&mesh.positions).enumerate() {
         // Welding leaves vertices without faces.
         if curvature.fans.area(v) > 0.0 {
-            assert!(near(p.k1, 0.5, 0.01) && near(p.k2, 0.5, 0.01), "{p:?} at {at}");
+            assert!(is_near(p.k1, 0.5, 0.01) && is_near(p.k2, 0.5, 0.01), "{p:?} at {at}");
         }
     }
     // The feature size is a hundredth of the radius.
-    assert!(near(curvature.feature_size(0), 0.02, 0.0005), "{}", curvature.feature_size(0));
+    assert!(is_near(curvature.feature_size(0), 0.02, 0.0005), "{}", curvature.feature_size(0));
 }
 
 #[test]
-fn a_tube_bends_round_its_axis_only() {
+fn tube_curvature_is_zero_along_the_axis() {
     let (mesh, curvature) = curvature_of(&tube(80, 40, 0.5, 2.0));
     for (p, at) in curvature.principal.iter().zip(&mesh.positions) {
         if at.z.abs() < 1.8 {
-            assert!(near(p.k1, 2.0, 0.02) && near(p.k2, 0.0, 0.02), "{p:?} at {at}");
+            assert!(is_near(p.k1, 2.0, 0.02) && is_near(p.k2, 0.0, 0.02), "{p:?} at {at}");
             assert!(p.dir2.z.abs() > 0.999, "{p:?}");
         }
     }
 }
 
 #[test]
-fn a_saddle_bends_both_ways() {
-    let (mesh, curvature) = curvature_of(&field(0.5, 40, |x, y| x * x - y * y));
+fn saddle_curvatures_have_opposite_signs() {
+    let (mesh, curvature) = curvature_of(&height_field(0.5, 40, |x, y| x * x - y * y));
     let middle = (0..mesh.positions.len()).min_by(|a, b| {
         let away = |v: &usize| (mesh.positions[*v] + mesh.origin).length();
         away(a).total_cmp(&away(b))
     });
     let p = &curvature.principal[middle.unwrap()];
     let (up, down) = if p.k1 < 0.0 { (p.k1, p.k2) } else { (p.k2, p.k1) };
-    assert!(near(up, -2.0, 0.01) && near(down, 2.0, 0.01), "{p:?}");
+    assert!(is_near(up, -2.0, 0.01) && is_near(down, 2.0, 0.01), "{p:?}");
     let along = if p.k1 < 0.0 { p.dir1 } else { p.dir2 };
     assert!(along.x.abs() > 0.99, "bends towards the normal along x: {p:?}");
 }
 
 /// Returns the angle around the tube of a torus (radius 3, axis z), and the unit tangents around the tube and
 /// around the axis.
-fn on_torus(p: DVec3) -> (f64, DVec3, DVec3) {
+fn torus_frame(p: DVec3) -> (f64, DVec3, DVec3) {
     let out = DVec3::new(p.x, p.y, 0.0).normalize();
     let v = atan2(p.z, p.dot(out) - 3.0);
     let (sin, cos) =
@@ -145,22 +145,22 @@ fn on_torus(p: DVec3) -> (f64, DVec3, DVec3) {
 }
 
 #[test]
-fn curvatures_of_a_torus_and_their_derivatives() {
+fn torus_curvatures_and_derivatives_match_closed_forms() {
     let (mesh, curvature) = curvature_of(&torus(240, 120, 3.0, 1.0));
     for (i, p) in curvature.principal.iter().enumerate() {
-        let (v, round_tube, _) = on_torus(mesh.positions[i] + mesh.origin);
+        let (v, round_tube, _) = torus_frame(mesh.positions[i] + mesh.origin);
         let (sin, cos) = (
             ligne::geometry::numbers::portable_math::sin(v),
             ligne::geometry::numbers::portable_math::cos(v),
         );
-        assert!(near(p.k1, 1.0, 0.01) && near(p.k2, cos / (3.0 + cos), 0.01), "{p:?} at {v}");
+        assert!(is_near(p.k1, 1.0, 0.01) && is_near(p.k2, cos / (3.0 + cos), 0.01), "{p:?} at {v}");
         let sense = p.dir1.dot(round_tube);
-        assert!(near(sense.abs(), 1.0, 1e-3));
+        assert!(is_near(sense.abs(), 1.0, 1e-3));
         // Only the curvature around the axis changes, and only in the direction around the tube.
         let change = -3.0 * sin / ((3.0 + cos) * (3.0 + cos));
         let wanted = [0.0, 0.0, change * sense.signum(), 0.0];
         let found = curvature.derivative[i];
-        assert!((0..4).all(|k| near(found[k], wanted[k], 0.02)), "{found:?} for {wanted:?} at {v}");
+        assert!((0..4).all(|k| is_near(found[k], wanted[k], 0.02)), "{found:?} for {wanted:?} at {v}");
     }
 }
 
@@ -175,11 +175,11 @@ fn suggestive_contours_of_a_torus_lie_where_radial_curvature_vanishes() {
     assert!(found.len() > 100, "{}", found.len());
     let to_eye = (camera.eye - camera.target).normalize();
     for p in &found {
-        let (v, round_tube, round_axis) = on_torus(*p);
+        let (v, round_tube, round_axis) = torus_frame(*p);
         let cos = ligne::geometry::numbers::portable_math::cos(v);
         let (a, b) = (to_eye.dot(round_tube), to_eye.dot(round_axis));
         let radial = a * a + b * b * cos / (3.0 + cos);
-        assert!(near(radial, 0.0, 0.02), "{radial} at {p}");
+        assert!(is_near(radial, 0.0, 0.02), "{radial} at {p}");
         assert!(cos < 0.0, "only the inner half bends both ways: {p}");
     }
     // A sphere has no negative curvature, and so no suggestive contours.
@@ -188,7 +188,7 @@ fn suggestive_contours_of_a_torus_lie_where_radial_curvature_vanishes() {
 }
 
 #[test]
-fn highlights_are_the_other_zeros() {
+fn highlights_add_the_other_zeros_of_radial_curvature() {
     let mesh = mesh_of(&bumpy(80));
     let camera = orthographic(DVec3::new(5.0, 3.0, 4.0), DVec3::ZERO, 4.0);
     let count = |highlights| {
@@ -201,7 +201,7 @@ fn highlights_are_the_other_zeros() {
 #[test]
 fn the_crest_of_a_hill_is_a_ridge_and_its_feet_are_valleys() {
     // The height is e^(−4 x²).
-    let hill = field(2.0, 160, |x, _| pow(std::f64::consts::E, -4.0 * x * x));
+    let hill = height_field(2.0, 160, |x, _| pow(std::f64::consts::E, -4.0 * x * x));
     let mesh = mesh_of(&hill);
     let camera = orthographic(DVec3::new(1.0, -2.0, 10.0), DVec3::ZERO, 5.0);
     let inside = InsideOptions { smooth: 0.0, ridge: 0.01, valley: 0.01, ..InsideOptions::default() };
@@ -223,12 +223,12 @@ fn the_crest_of_a_hill_is_a_ridge_and_its_feet_are_valleys() {
     let foot = steps.max_by(|a, b| bend(*a).total_cmp(&bend(*b))).unwrap();
     assert!(valleys.iter().filter(inner).count() > 200);
     for p in valleys.iter().filter(inner) {
-        assert!(near(p.x.abs(), foot, 0.04), "a valley at {p}, not {foot}");
+        assert!(is_near(p.x.abs(), foot, 0.04), "a valley at {p}, not {foot}");
     }
 }
 
 #[test]
-fn the_ridges_of_an_ellipsoid_lie_round_its_waist() {
+fn ridges_of_an_ellipsoid_lie_in_the_plane_of_its_long_axes() {
     let mesh = mesh_of(&sphere(100, 1.0).moved(|p| DVec3::new(3.0 * p.x, p.z, -2.0 * p.y)));
     let camera = orthographic(DVec3::new(3.0, 8.0, 4.0), DVec3::ZERO, 8.0);
     let curvature = Curvature::new(&mesh, &SmoothNormals::rounded(&mesh), 0.0);
@@ -281,11 +281,11 @@ fn lines_do_not_depend_on_the_unit_or_the_order_of_faces() {
     let mesh_of_turned = mesh_of(&turned);
     let of_turned = inside_lines(&mesh_of_turned, &orthographic(eye, DVec3::ZERO, 4.0), &all);
     let (one, other) = (length(&mesh, &lines), length(&mesh_of_turned, &of_turned));
-    assert!(near(one, other, 1e-4 * one), "{one} {other}");
+    assert!(is_near(one, other, 1e-4 * one), "{one} {other}");
 }
 
 #[test]
-fn strengths_lie_between_none_and_full_and_lines_end_weak() {
+fn line_strengths_are_in_0_to_1_and_fade_at_line_ends() {
     let mesh = mesh_of(&bumpy(80));
     let camera = orthographic(DVec3::new(5.0, 3.0, 4.0), DVec3::ZERO, 4.0);
     let lines = inside_lines(&mesh, &camera, &options(&[LineKind::Suggestive], InsideOptions::default()));
@@ -318,7 +318,7 @@ fn draw(solid: &Solid, sets: &[&str]) -> Vec<Mark> {
 }
 
 #[test]
-fn lines_that_fade_are_outlines_with_their_axis() {
+fn fading_lines_are_outlines_with_an_axis() {
     let marks = draw(&bumpy(80), &[]);
     let outlines: Vec<&Mark> = marks.iter().filter(|m| matches!(m.paint, Paint::Outline(_))).collect();
     assert!(!outlines.is_empty());
@@ -330,7 +330,7 @@ fn lines_that_fade_are_outlines_with_their_axis() {
         use kurbo::Shape;
         let (area, along) = (mark.path.area().abs(), paint.axis.perimeter(1e-3));
         let caps = paint.pen_width * paint.pen_width;
-        assert!(near(area, paint.width * along, 0.05 * area + caps), "{area} {along} {}", paint.width);
+        assert!(is_near(area, paint.width * along, 0.05 * area + caps), "{area} {along} {}", paint.width);
     }
     let even = draw(&bumpy(80), &["pen.fade=0"]);
     assert!(even.iter().all(|m| matches!(m.paint, Paint::Stroke(_))));

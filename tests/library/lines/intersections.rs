@@ -58,7 +58,7 @@ fn loops(curves: &IntersectionCurves) -> usize {
 
 /// Reference intersection of two triangles: `b` cut by the plane of `a`, then clipped by the sides of `a`.
 /// The library uses another method.
-fn clipped(a: [DVec3; 3], b: [DVec3; 3]) -> Option<[DVec3; 2]> {
+fn clip_triangle_pair(a: [DVec3; 3], b: [DVec3; 3]) -> Option<[DVec3; 2]> {
     let normal = |t: [DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
     let sides = |t: [DVec3; 3], o: [DVec3; 3]| o.map(|p| normal(t).dot(p - t[0]));
     let straddles = |d: [f64; 3]| d.iter().any(|&x| x < 0.0) && d.iter().any(|&x| x > 0.0);
@@ -109,7 +109,9 @@ fn brute_force(solid: &Solid) -> Vec<([u32; 2], [DVec3; 2])> {
             if apart.any() || solid.triangles[i].iter().any(|v| solid.triangles[j].contains(v)) {
                 continue;
             }
-            if let Some([p, q]) = clipped(corners[i], corners[j]).filter(|[p, q]| p.distance(*q) > least) {
+            if let Some([p, q]) =
+                clip_triangle_pair(corners[i], corners[j]).filter(|[p, q]| p.distance(*q) > least)
+            {
                 found.push(([i as u32, j as u32], [p, q]));
             }
         }
@@ -146,7 +148,7 @@ fn soup(dice: &mut Dice, most: usize, mut corner: impl FnMut(&mut Dice) -> DVec3
 }
 
 /// A random mesh with shared vertices.
-fn tangle(dice: &mut Dice) -> Solid {
+fn random_shared_mesh(dice: &mut Dice) -> Solid {
     let count = 4 + dice.below(76);
     let mut triangles: Vec<[u32; 3]> = (0..count).map(|_| [0; 3].map(|_| dice.below(30) as u32)).collect();
     triangles.retain(|[a, b, c]| a != b && b != c && c != a);
@@ -154,31 +156,34 @@ fn tangle(dice: &mut Dice) -> Solid {
 }
 
 /// Checks 200 random solids.
-fn all(mut solid: impl FnMut(&mut Dice) -> Solid, check: impl Fn(&Solid) -> Result<(), String>) {
+fn check_random_solids(
+    mut solid: impl FnMut(&mut Dice) -> Solid,
+    check: impl Fn(&Solid) -> Result<(), String>,
+) {
     for seed in 0..200 {
         let solid = solid(&mut Dice::new(seed));
         check(&solid).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{solid:?}"));
     }
 }
 
-fn as_brute_force(solid: &Solid) -> Result<(), String> {
+fn check_against_brute_force(solid: &Solid) -> Result<(), String> {
     agrees_with_brute_force(solid, 1e-7).map(|_| ())
 }
 
 #[test]
 fn soups_agree_with_brute_force() {
-    all(|dice| soup(dice, 60, |dice| dice.point(1.0)), as_brute_force);
+    check_random_solids(|dice| soup(dice, 60, |dice| dice.point(1.0)), check_against_brute_force);
 }
 
 #[test]
-fn soups_full_of_contacts_agree_with_brute_force() {
+fn soups_with_many_contacts_agree_with_brute_force() {
     let corner = |dice: &mut Dice| DVec3::from([0; 3].map(|_| dice.below(4) as f64));
-    all(|dice| soup(dice, 40, corner), as_brute_force);
+    check_random_solids(|dice| soup(dice, 40, corner), check_against_brute_force);
 }
 
 #[test]
-fn tangles_agree_with_brute_force() {
-    all(tangle, as_brute_force);
+fn random_meshes_with_shared_vertices_agree_with_brute_force() {
+    check_random_solids(random_shared_mesh, check_against_brute_force);
 }
 
 #[test]
@@ -191,7 +196,7 @@ fn order_of_faces_changes_no_curve() {
         let apart = (length(&one) - length(&other)).abs();
         if same && apart < 1e-9 { Ok(()) } else { Err(format!("{apart} apart")) }
     };
-    all(|dice| soup(dice, 40, |dice| dice.point(1.0)), check);
+    check_random_solids(|dice| soup(dice, 40, |dice| dice.point(1.0)), check);
 }
 
 #[test]
@@ -311,7 +316,7 @@ fn a_vertex_in_the_plane_counts_only_where_the_triangle_goes_through() {
 }
 
 #[test]
-fn inactive_faces_take_no_part() {
+fn inactive_faces_have_no_intersections() {
     let both = scene([
         cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)),
         cuboid(DVec3::splat(0.0), DVec3::new(2.0, 2.1, 2.2)),
@@ -330,7 +335,7 @@ fn inactive_faces_take_no_part() {
 }
 
 #[test]
-fn scale_and_distance_change_nothing() {
+fn intersections_do_not_depend_on_scale_or_offset() {
     let both = scene([sphere(16, 1.0), tube(20, 3, 0.3, 2.0)]);
     let segments = find(&both).segments;
     assert!(!segments.is_empty());
@@ -344,7 +349,7 @@ fn scale_and_distance_change_nothing() {
 }
 
 #[test]
-fn one_thread_equals_many() {
+fn intersections_do_not_depend_on_the_thread_count() {
     let both = scene([sphere(60, 1.0), tube(80, 30, 0.3, 2.0)]);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -357,7 +362,7 @@ fn one_thread_equals_many() {
 fn shared_models_agree_with_brute_force() {
     for name in ["organic/suzanne.obj", "organic/cow.obj", "organic/teapot.obj", "edge/self-intersecting.obj"]
     {
-        let Some(solid) = mesh_file::read(name) else { continue };
+        let Some(solid) = mesh_file::read_shared_model(name) else { continue };
         let nearness = 1e-6 * solid.positions.iter().fold(0.0_f64, |most, p| most.max(p.length()));
         let count =
             agrees_with_brute_force(&solid, nearness).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -366,7 +371,7 @@ fn shared_models_agree_with_brute_force() {
 }
 
 #[test]
-fn empty_input_gives_nothing() {
+fn empty_input_has_no_intersections() {
     assert_eq!(find(&Solid::default()), IntersectionCurves::default());
     let point = Solid { positions: vec![DVec3::ONE; 6], triangles: vec![[0, 1, 2], [3, 4, 5]] };
     assert_eq!(find(&point), IntersectionCurves::default());
@@ -374,7 +379,7 @@ fn empty_input_gives_nothing() {
 
 /// A face split into triangles along the x axis, one per entry of `halves`, and a wall in the plane y = 0
 /// that crosses the split.
-fn crossed_on_a_diagonal(halves: &[f64], turn: glam::DQuat) -> Solid {
+fn faces_crossed_on_a_diagonal(halves: &[f64], turn: glam::DQuat) -> Solid {
     let mut solid = Solid {
         positions: vec![
             DVec3::new(-1.0, 0.0, 0.0),
@@ -399,9 +404,9 @@ fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
     let mut dice = Dice::new(12);
     for round in 0..200 {
         let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
-        let both = find(&crossed_on_a_diagonal(&[1.0, -1.5], turn));
+        let both = find(&faces_crossed_on_a_diagonal(&[1.0, -1.5], turn));
         let strict = {
-            let mut solid = crossed_on_a_diagonal(&[1.0, -1.5], turn);
+            let mut solid = faces_crossed_on_a_diagonal(&[1.0, -1.5], turn);
             let aside = turn * DVec3::Y * 1e-6;
             solid.positions[2..5].iter_mut().for_each(|p| *p += aside);
             find(&solid)
@@ -414,14 +419,14 @@ fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
         );
         assert!(length(&both) > 0.4, "{round}");
         // Surfaces that only touch have no curve.
-        assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
-        assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
+        assert!(find(&faces_crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
+        assert!(find(&faces_crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
     }
 }
 
 /// Two faces with a common side along x, and two walls with a shorter side on the same line. Each triangle is
 /// given by the y and z of its third corner.
-fn along_each_other(faces: [[f64; 2]; 2], walls: [[f64; 2]; 2], turn: glam::DQuat) -> Solid {
+fn faces_and_walls_on_a_line(faces: [[f64; 2]; 2], walls: [[f64; 2]; 2], turn: glam::DQuat) -> Solid {
     let on_line = [-1.0, 2.0, 0.1, 0.9].map(|x| DVec3::new(x, 0.0, 0.0));
     let mut solid = Solid { positions: on_line.to_vec(), triangles: Vec::new() };
     for ([from, to], thirds) in [([0, 1], faces), ([2, 3], walls)] {
@@ -443,20 +448,20 @@ fn surfaces_that_cross_along_an_edge_of_each_have_a_curve_there() {
         let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
         let crossing = [(flat, [[0.1, 0.8], [-0.1, -0.7]]), (ridge, [[0.9, -0.1], [0.1, -0.9]])];
         for (faces, walls) in crossing {
-            let curves = find(&along_each_other(faces, walls, turn));
+            let curves = find(&faces_and_walls_on_a_line(faces, walls, turn));
             assert_eq!(curves.segments.len(), 1, "{round}");
             assert!((length(&curves) - 0.8).abs() < 1e-9, "{round}");
         }
         // Surfaces that only touch: an inverted roof on another ridge, and two pairs of coplanar surfaces.
         let touching = [(flat, [[0.3, 0.8], [-0.3, 0.7]]), (ridge, [[0.9, -0.1], [-0.9, -0.1]])];
         for (faces, walls) in touching.into_iter().chain([(flat, flat), (ridge, ridge)]) {
-            assert!(find(&along_each_other(faces, walls, turn)).segments.is_empty(), "{round}");
+            assert!(find(&faces_and_walls_on_a_line(faces, walls, turn)).segments.is_empty(), "{round}");
         }
     }
 }
 
 #[test]
-fn bodies_with_a_common_vertex_pass_through_each_other_from_there() {
+fn bodies_with_a_common_vertex_intersect_from_there_on() {
     let mut dice = Dice::new(14);
     for round in 0..200 {
         let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));

@@ -12,8 +12,8 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::{Ink, samples};
-use crate::support::references::drawing_judge::axis;
+use crate::support::measures::line_picture::{SegmentGrid, sample_segments};
+use crate::support::references::drawing_judge::centre_line;
 use crate::support::scenes::random_dice::Dice;
 
 /// Largest distance that lines may move, px.
@@ -22,7 +22,7 @@ const TOLERANCE_PX: f64 = 0.06;
 const SLACK_PX: f64 = 0.5;
 /// Distance between sample points along lines, px.
 const STEP_PX: f64 = 0.25;
-const SCENES: u64 = 15;
+const SCENE_COUNT: u64 = 15;
 
 /// A polygon mesh with one material.
 #[derive(Clone)]
@@ -57,23 +57,23 @@ fn sheet(low: [f64; 2], high: [f64; 2]) -> Body {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Numbers {
+enum NumberFormat {
     Exact,
     Single,
     SixDecimals,
 }
 
 /// Writes bodies as an OBJ file with one part each, and reads it.
-fn scene(bodies: &[Body], place: impl Fn(DVec3) -> DVec3, numbers: Numbers) -> Scene {
+fn scene(bodies: &[Body], place: impl Fn(DVec3) -> DVec3, numbers: NumberFormat) -> Scene {
     let mut text = String::new();
     let mut first = 1;
     for (number, body) in bodies.iter().enumerate() {
         let _ = writeln!(text, "o body-{number}\nusemtl {}", body.material);
         for corner in &body.corners {
             let [x, y, z] = place(*corner).to_array().map(|x| match numbers {
-                Numbers::Exact => format!("{x:?}"),
-                Numbers::Single => (x as f32).to_string(),
-                Numbers::SixDecimals => format!("{x:.6}"),
+                NumberFormat::Exact => format!("{x:?}"),
+                NumberFormat::Single => (x as f32).to_string(),
+                NumberFormat::SixDecimals => format!("{x:.6}"),
             });
             let _ = writeln!(text, "v {x} {y} {z}");
         }
@@ -96,7 +96,7 @@ fn lines(drawing: &Drawing) -> BTreeMap<String, Vec<[Point; 2]>> {
         let seen = if mark.provenance.invisibility == 0 { "seen" } else { "hidden" };
         let is_silhouette = mark.provenance.classes.contains(&"silhouette");
         let name = format!("{seen} {}", if is_silhouette { "silhouette" } else { "inside" });
-        lines.entry(name).or_default().extend(axis(mark));
+        lines.entry(name).or_default().extend(centre_line(mark));
     }
     lines
 }
@@ -108,8 +108,8 @@ fn difference(one: &Drawing, two: &Drawing) -> Option<String> {
     let mut said = String::new();
     for (what, of, by) in [("gone", &one, &two), ("new", &two, &one)] {
         for (name, lines) in of {
-            let ink = Ink::new(by.get(name).cloned().unwrap_or_default(), 4.0);
-            let far: Vec<(Point, f64)> = samples(lines, STEP_PX)
+            let ink = SegmentGrid::new(by.get(name).cloned().unwrap_or_default(), 4.0);
+            let far: Vec<(Point, f64)> = sample_segments(lines, STEP_PX)
                 .into_iter()
                 .filter(|(p, _)| ink.distance(*p) > TOLERANCE_PX)
                 .collect();
@@ -215,14 +215,14 @@ fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
 fn without_joints_parts_are_drawn_as_their_union() {
     let mut wrong = Vec::new();
     let mut drawn = 0;
-    for number in 0..SCENES {
+    for number in 0..SCENE_COUNT {
         let mut dice = Dice::new(number);
         let (parts, union) = parts_and_union(&mut dice, number as usize % 5);
         let turn = DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
         let away = dice.point(5.0);
         for turned in [false, true] {
             let place = |p: DVec3| if turned { turn * p + away } else { p };
-            let whole = scene(std::slice::from_ref(&union), place, Numbers::Exact);
+            let whole = scene(std::slice::from_ref(&union), place, NumberFormat::Exact);
             let iso = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(600.0, 600.0);
             // In perspective from a corner, from a random direction, and along the faces.
             let target = place(DVec3::new(2.0, 0.5, 0.7));
@@ -240,7 +240,7 @@ fn without_joints_parts_are_drawn_as_their_union() {
             for (view, camera) in cameras.iter().enumerate() {
                 for name in ["ink", "flat"] {
                     let reference = render(&whole, camera, &style(name, true)).unwrap();
-                    for numbers in [Numbers::Exact, Numbers::Single, Numbers::SixDecimals] {
+                    for numbers in [NumberFormat::Exact, NumberFormat::Single, NumberFormat::SixDecimals] {
                         drawn += 1;
                         let joined = render(&scene(&parts, place, numbers), camera, &style(name, false));
                         if let Some(said) = difference(&reference, &joined.unwrap()) {
@@ -261,20 +261,21 @@ fn without_joints_sheets_are_drawn_as_one() {
     // A long sheet above two short ones; one of these is wound the other way in the second round.
     let mut parts =
         vec![sheet([0.0, 1.0], [4.0, 2.0]), sheet([0.0, 0.0], [1.5, 1.0]), sheet([1.5, 0.0], [4.0, 1.0])];
-    let whole = scene(&[sheet([0.0, 0.0], [4.0, 2.0])], |p| p, Numbers::Exact);
+    let whole = scene(&[sheet([0.0, 0.0], [4.0, 2.0])], |p| p, NumberFormat::Exact);
     let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(600.0, 600.0).fit(&whole);
     for is_turned in [false, true] {
         if is_turned {
             parts[1].faces[0].reverse();
         }
         let reference = render(&whole, &camera, &style("ink", true)).unwrap();
-        let joined = render(&scene(&parts, |p| p, Numbers::Exact), &camera, &style("ink", false)).unwrap();
+        let joined =
+            render(&scene(&parts, |p| p, NumberFormat::Exact), &camera, &style("ink", false)).unwrap();
         assert_eq!(difference(&reference, &joined), None);
     }
 }
 
 #[test]
-fn what_is_no_joint_stays() {
+fn edges_that_are_no_joints_stay() {
     let long = block([0.0; 3], [3.0, 1.0, 1.0]);
     let beside = block([3.0, 0.0, 0.0], [5.0, 1.0, 1.0]);
     let painted = Body { material: "wood", ..beside.clone() };
@@ -286,7 +287,7 @@ fn what_is_no_joint_stays() {
     let back = block([3.0, 0.002, 0.0], [5.0, 1.0, 1.0]);
     let apart = block([3.002, 0.0, 0.0], [5.0, 1.0, 1.0]);
     for (what, other) in [("paint", painted), ("leaning", leaning), ("back", back), ("apart", apart)] {
-        let scene = scene(&[long.clone(), other], |p| p, Numbers::Exact);
+        let scene = scene(&[long.clone(), other], |p| p, NumberFormat::Exact);
         // Only the front is compared, because the other sides are flush.
         let front = Camera::named(NamedView::Front, UpAxis::Z).with_frame(600.0, 600.0).fit(&scene);
         let [with, without] =
@@ -301,9 +302,9 @@ fn what_is_no_joint_stays() {
 }
 
 #[test]
-fn regions_stay_as_they_are() {
+fn fills_do_not_depend_on_joints() {
     let parts = [block([0.0; 3], [3.0, 1.0, 1.0]), block([3.0, 0.0, 0.0], [5.0, 1.0, 1.0])];
-    let scene = scene(&parts, |p| p, Numbers::Exact);
+    let scene = scene(&parts, |p| p, NumberFormat::Exact);
     let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(600.0, 600.0).fit(&scene);
     for name in ["flat", "toon"] {
         let fills = |joints: bool| {
@@ -318,14 +319,14 @@ fn regions_stay_as_they_are() {
 }
 
 #[test]
-fn a_material_that_a_file_lists_twice_is_one() {
+fn equal_materials_listed_twice_count_as_one() {
     let mut scene = scene(
         &[
             block([0.0; 3], [3.0, 1.0, 1.0]),
             Body { material: "wood", ..block([3.0, 0.0, 0.0], [5.0, 1.0, 1.0]) },
         ],
         |p| p,
-        Numbers::Exact,
+        NumberFormat::Exact,
     );
     let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(600.0, 600.0).fit(&scene);
     let count = |scene: &Scene| {

@@ -13,24 +13,24 @@ use EdgeMark::{Contour, Hard, Hidden, Unmarked};
 const CREASE_DEG: f64 = 40.0;
 
 /// Heights of a strip of paper at x = 0, 1, 2, 3. It is folded by 90 degrees at x = 1 and by 45 at x = 2.
-const HEIGHTS: [f32; 4] = [0.0, 1.0, 0.0, 0.0];
+const STRIP_HEIGHTS: [f32; 4] = [0.0, 1.0, 0.0, 0.0];
 
 /// Two triangles for each of the three squares of the strip. Vertices 2x and 2x + 1 are at x.
-const TRIANGLES: [[u32; 3]; 6] = [[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3], [4, 6, 7], [4, 7, 5]];
+const STRIP_TRIANGLES: [[u32; 3]; 6] = [[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3], [4, 6, 7], [4, 7, 5]];
 
 /// Visibility values of the triangle sides, with every value present. The folds are hidden (0) and a
 /// silhouette (1); the diagonals of two flat squares are hard (2 and 3, and 3 alone).
-const VALUES: [[u8; 3]; 6] = [[2, 0, 2], [3, 0, 2], [0, 1, 3], [0, 0, 0], [0, 2, 0], [0, 0, 0]];
+const VISIBILITY_VALUES: [[u8; 3]; 6] = [[2, 0, 2], [3, 0, 2], [0, 1, 3], [0, 0, 0], [0, 2, 0], [0, 0, 0]];
 
 /// Builds a GLB file in memory.
 #[derive(Default)]
-struct File {
+struct GlbBuilder {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-impl File {
+impl GlbBuilder {
     /// Adds an accessor with its own buffer view and returns its index.
     fn add(&mut self, component: u32, shape: &str, count: usize, bytes: &[u8]) -> usize {
         self.views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
@@ -95,14 +95,14 @@ fn packed(values: &[u8]) -> Vec<u8> {
 }
 
 fn strip_points() -> Vec<[f32; 3]> {
-    (0..8).map(|i| [(i / 2) as f32, (i % 2) as f32, HEIGHTS[i / 2]]).collect()
+    (0..8).map(|i| [(i / 2) as f32, (i % 2) as f32, STRIP_HEIGHTS[i / 2]]).collect()
 }
 
 /// Reads the strip with edge data; `make` adds the accessors that the data needs.
-fn strip(make: impl FnOnce(&mut File) -> Value) -> Result<Scene, String> {
-    let mut file = File::default();
+fn strip(make: impl FnOnce(&mut GlbBuilder) -> Value) -> Result<Scene, String> {
+    let mut file = GlbBuilder::default();
     let points = file.points(&strip_points());
-    let indices = file.shorts(&TRIANGLES.as_flattened().iter().map(|i| *i as u16).collect::<Vec<_>>());
+    let indices = file.shorts(&STRIP_TRIANGLES.as_flattened().iter().map(|i| *i as u16).collect::<Vec<_>>());
     let edges = make(&mut file);
     file.read(points, indices, 4, &edges)
 }
@@ -133,10 +133,12 @@ const FOLDS: [[(i32, i32); 2]; 2] = [[(1, 0), (1, 1)], [(2, 0), (2, 1)]];
 const DIAGONALS: [[(i32, i32); 2]; 2] = [[(0, 0), (1, 1)], [(1, 0), (2, 1)]];
 
 #[test]
-fn every_value_says_what_its_edge_is() {
+fn every_visibility_value_maps_to_its_edge_mark() {
     assert_eq!(creases(&strip(|_| json!({})).unwrap()), FOLDS);
-    let scene = strip(|file| json!({"visibility": file.octets(&packed(VALUES.as_flattened()))})).unwrap();
-    let wanted = VALUES.map(|sides| sides.map(|side| [Hidden, Contour, Hard, Hard][side as usize]));
+    let scene =
+        strip(|file| json!({"visibility": file.octets(&packed(VISIBILITY_VALUES.as_flattened()))})).unwrap();
+    let wanted =
+        VISIBILITY_VALUES.map(|sides| sides.map(|side| [Hidden, Contour, Hard, Hard][side as usize]));
     assert_eq!(marks(&scene), wanted);
     assert_eq!(creases(&scene), DIAGONALS);
     assert!(scene.warnings.is_empty());
@@ -149,7 +151,7 @@ fn strips_and_fans_are_marked_in_the_order_of_their_triangles() {
     for (mode, order, triangles) in
         [(5, [0, 2, 1, 3], [[0, 2, 1], [2, 3, 1]]), (6, [0, 2, 3, 1], [[2, 3, 0], [3, 1, 0]])]
     {
-        let mut file = File::default();
+        let mut file = GlbBuilder::default();
         let (points, indices) = (file.points(&strip_points()), file.shorts(&order));
         let edges = json!({"visibility": file.octets(&packed(&values))});
         let scene = file.read(points, indices, mode, &edges).unwrap();
@@ -159,7 +161,7 @@ fn strips_and_fans_are_marked_in_the_order_of_their_triangles() {
 }
 
 #[test]
-fn line_strings_are_hard_and_all_else_is_hidden() {
+fn line_strings_are_hard_and_other_edges_are_hidden() {
     let scene = strip(|file| {
         let (bytes, shorts) = (file.octets(&[0, 3, 5, 255, 2, 3]), file.shorts(&[7, 4]));
         json!({"lineStrings": [{"indices": bytes, "material": 1}, {"indices": shorts}], "material": 1})
@@ -173,7 +175,7 @@ fn line_strings_are_hard_and_all_else_is_hidden() {
     assert!(scene.warnings.is_empty());
 
     let both = strip(|file| {
-        let visibility = file.octets(&packed(VALUES.as_flattened()));
+        let visibility = file.octets(&packed(VISIBILITY_VALUES.as_flattened()));
         json!({"visibility": visibility, "lineStrings": [{"indices": file.octets(&[4, 5])}]})
     });
     assert_eq!(creases(&both.unwrap()), [DIAGONALS[0], DIAGONALS[1], FOLDS[1]]);
@@ -182,10 +184,10 @@ fn line_strings_are_hard_and_all_else_is_hidden() {
 /// With split corners, each face has its own vertices. A line string matches an edge by position, through any
 /// of them.
 #[test]
-fn line_strings_go_by_place() {
-    let mut file = File::default();
+fn line_strings_match_edges_by_position() {
+    let mut file = GlbBuilder::default();
     let corners = strip_points();
-    let split: Vec<[f32; 3]> = TRIANGLES.as_flattened().iter().map(|i| corners[*i as usize]).collect();
+    let split: Vec<[f32; 3]> = STRIP_TRIANGLES.as_flattened().iter().map(|i| corners[*i as usize]).collect();
     let (points, indices) = (file.points(&split), file.shorts(&(0..18).collect::<Vec<_>>()));
     // Vertex 2 of the first triangle and vertex 0 of the third are at the two ends of the first fold.
     let edges = json!({"lineStrings": [{"indices": file.octets(&[2, 6])}]});
@@ -194,9 +196,9 @@ fn line_strings_go_by_place() {
 }
 
 #[test]
-fn wrong_marks_are_told() {
-    let all = packed(VALUES.as_flattened());
-    let refused = |make: &dyn Fn(&mut File) -> Value| strip(make).map(|_| ()).unwrap_err();
+fn invalid_edge_visibility_is_reported() {
+    let all = packed(VISIBILITY_VALUES.as_flattened());
+    let refused = |make: &dyn Fn(&mut GlbBuilder) -> Value| strip(make).map(|_| ()).unwrap_err();
     let short = refused(&|file| json!({"visibility": file.octets(&all[..4])}));
     assert!(short.contains("accessor 2: 6 triangles need 5 bytes of visibility, there are 4"), "{short}");
     let cut_off = refused(&|file| json!({"visibility": file.add(5121, "SCALAR", 5, &all[..4])}));
@@ -216,8 +218,8 @@ fn wrong_marks_are_told() {
 }
 
 #[test]
-fn bits_are_no_fractions_and_may_be_too_many() {
-    let all = packed(VALUES.as_flattened());
+fn normalized_flags_and_extra_visibility_bytes_are_ignored() {
+    let all = packed(VISIBILITY_VALUES.as_flattened());
     let plain = strip(|file| json!({"visibility": file.octets(&all)})).unwrap();
     let normalized = strip(|file| {
         let visibility = file.octets(&[&all[..], &[255, 255]].concat());

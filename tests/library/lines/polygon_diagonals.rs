@@ -9,12 +9,12 @@ use ligne::load::{obj, ply};
 use ligne::mesh::{EdgeMark, Mesh};
 
 /// A polygon model: points, and faces as vertex indices.
-struct Polygons {
+struct PolygonModel {
     points: Vec<[f64; 3]>,
     faces: Vec<Vec<usize>>,
 }
 
-impl Polygons {
+impl PolygonModel {
     fn obj(&self) -> Scene {
         let point = |[x, y, z]: &[f64; 3]| format!("v {x} {y} {z}\n");
         let face = |face: &Vec<usize>| {
@@ -65,7 +65,7 @@ fn creases(scene: &Scene, crease_deg: f64) -> Vec<[DVec3; 2]> {
 }
 
 /// A box with one corner of its top lifted.
-fn lifted_box(lift: f64) -> Polygons {
+fn lifted_box(lift: f64) -> PolygonModel {
     let corner = |k: usize| {
         [10.0 * f64::from(u8::from(k % 4 == 1 || k % 4 == 2)), 10.0 * f64::from(u8::from(k % 4 > 1)), 0.0]
     };
@@ -74,11 +74,11 @@ fn lifted_box(lift: f64) -> Polygons {
     points[6][2] += lift;
     let sides = (0..4).map(|k| vec![k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4]);
     let faces = [vec![3, 2, 1, 0], vec![4, 5, 6, 7]].into_iter().chain(sides).collect();
-    Polygons { points, faces }
+    PolygonModel { points, faces }
 }
 
 /// A saddle of quads. With `corners` = 6, pairs of quads are merged to hexagons.
-fn saddle(corners: usize) -> Polygons {
+fn saddle(corners: usize) -> PolygonModel {
     let across = 7;
     let point = |k: usize| {
         let (x, y) = ((k % across) as f64, (k / across) as f64);
@@ -93,7 +93,7 @@ fn saddle(corners: usize) -> Polygons {
             faces.push(lower.chain((x..=right).rev().map(|x| at(x, y + 1))).collect());
         }
     }
-    Polygons { points: (0..across * across).map(point).collect(), faces }
+    PolygonModel { points: (0..across * across).map(point).collect(), faces }
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_folded_polygon_has_a_crease_where_it_is_folded() {
 }
 
 #[test]
-fn triangles_that_a_file_has_and_quads_with_a_corner_twice_keep_their_creases() {
+fn triangles_and_quads_with_a_repeated_corner_keep_their_creases() {
     // A roof of 30 degrees: as triangles, and as quads whose last corner is repeated.
     let text = "v 0 0 0\nv 10 0 0\nv 10 5 2.8867513\nv 0 5 2.8867513\nv 10 10 0\nv 0 10 0\n";
     let plain = format!("{text}f 1 2 3\nf 1 3 4\nf 4 3 5\nf 4 5 6\n");
@@ -142,7 +142,7 @@ fn triangles_that_a_file_has_and_quads_with_a_corner_twice_keep_their_creases() 
 }
 
 #[test]
-fn diagonals_stay_what_they_are_where_a_model_is_cut_or_mirrored() {
+fn diagonal_marks_survive_cutting_and_mirroring() {
     let model = saddle(4);
     let scene = model.obj();
     let plane = Plane::new(DVec3::new(12.0, 0.0, 0.0), DVec3::X).expect("a direction");

@@ -1,12 +1,14 @@
 //! Lines of every kind are silhouettes exactly if background lies on one side; rays at sample points next to
 //! the lines are the reference.
 
-use crate::support::pipeline::{exact, geometry, orthographic, scene, scene_of_geometries, stages};
-use crate::support::references::drawing_judge::{axis, ink_marks};
-use crate::support::references::ray_casts::Rays;
-use crate::support::references::textbook_camera::Eye;
-use crate::support::references::triangle_scene::Polygons;
-use crate::support::scenes::hard_scenes::{HARD_SCENES, any_camera, hard_scene};
+use crate::support::pipeline::{
+    exact_options, orthographic, run_stages, scene, scene_of_geometries, solid_geometry,
+};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::support::references::ray_casts::RayCaster;
+use crate::support::references::textbook_camera::TextbookCamera;
+use crate::support::references::triangle_scene::TriangleScene;
+use crate::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
@@ -18,44 +20,44 @@ use ligne::style::Style;
 use rayon::prelude::*;
 
 /// Kinds of lines that lie on surfaces and can be silhouettes.
-const KINDS: [LineKind; 5] =
+const SURFACE_LINE_KINDS: [LineKind; 5] =
     [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
 
 /// Distances of the rays from the line, px. A sample is skipped if its rays disagree, because rounding then
 /// decides.
-const ASIDE: [f64; 4] = [5e-4, 1e-3, 2e-3, 1e-2];
+const RAY_OFFSETS_PX: [f64; 4] = [5e-4, 1e-3, 2e-3, 1e-2];
 
 /// Smallest distance of a sample from the ends of its line, px.
-const FROM_ENDS: f64 = 0.1;
+const MIN_END_DISTANCE_PX: f64 = 0.1;
 
 /// Sample count, samples with background on one side by kind, and samples where the drawing is wrong.
 #[derive(Default, Debug)]
-struct Found {
+struct SilhouetteTally {
     asked: usize,
     outline: [usize; 5],
     wrong: Vec<(Point, LineKind, bool)>,
 }
 
-fn compare(scene: &Scene, camera: &Camera, options: &LineOptions) -> Found {
-    let polygons = Polygons::of(scene);
-    let eye = Eye::new(camera);
-    let rays = Rays::new(&polygons, &eye, camera.width, camera.height);
-    let drawn = stages(scene, camera, options);
+fn compare(scene: &Scene, camera: &Camera, options: &LineOptions) -> SilhouetteTally {
+    let polygons = TriangleScene::of(scene);
+    let eye = TextbookCamera::new(camera);
+    let rays = RayCaster::new(&polygons, &eye, camera.width, camera.height);
+    let drawn = run_stages(scene, camera, options);
     let frame = kurbo::Rect::new(1.0, 1.0, camera.width - 1.0, camera.height - 1.0);
-    let mut found = Found::default();
+    let mut found = SilhouetteTally::default();
     for edge in drawn.map.edges.iter().filter(|edge| edge.invisibility == 0) {
-        let Some(kind) = KINDS.iter().position(|kind| *kind == edge.kind) else { continue };
-        let [a, b] = drawn.ends(edge);
+        let Some(kind) = SURFACE_LINE_KINDS.iter().position(|kind| *kind == edge.kind) else { continue };
+        let [a, b] = drawn.edge_ends(edge);
         let length = (b - a).hypot();
         let count = (length / 5.0).ceil().clamp(1.0, 20.0);
         for k in 0..count as usize {
             let share = (k as f64 + 0.5) / count;
             let at = a.lerp(b, share);
-            if length * share.min(1.0 - share) < FROM_ENDS || !frame.contains(at) {
+            if length * share.min(1.0 - share) < MIN_END_DISTANCE_PX || !frame.contains(at) {
                 continue;
             }
             let across = Vec2::new(a.y - b.y, b.x - a.x) / length;
-            let has_background = ASIDE.map(|aside| {
+            let has_background = RAY_OFFSETS_PX.map(|aside| {
                 [aside, -aside].into_iter().any(|aside| rays.is_background(at + across * aside))
             });
             if has_background.iter().any(|has| *has != has_background[0]) {
@@ -107,7 +109,7 @@ fn sheets_and_boxes(dice: &mut Dice) -> Scene {
         solids.push(cuboid(-size, size).moved(|p| turn * p + place));
     }
     let painted = |solid: Solid, dice: &mut Dice| {
-        let mut shape = geometry(solid);
+        let mut shape = solid_geometry(solid);
         shape.triangle_material = shape.triangles.iter().map(|_| dice.below(2) as u32).collect();
         shape
     };
@@ -117,7 +119,7 @@ fn sheets_and_boxes(dice: &mut Dice) -> Scene {
 }
 
 /// Axis-aligned boxes and sheets. Many of their faces are seen edge-on.
-fn along_the_axes(dice: &mut Dice) -> Scene {
+fn axis_aligned_scene(dice: &mut Dice) -> Scene {
     let mut number = |most: usize| dice.below(most) as f64 * 0.25;
     let mut solids = Vec::new();
     for k in 0..5 {
@@ -134,28 +136,32 @@ fn along_the_axes(dice: &mut Dice) -> Scene {
 }
 
 #[test]
-fn silhouettes_are_lines_with_background_beside_them() {
+fn silhouettes_are_lines_with_background_on_one_side() {
     let no_contours = || {
-        let options = exact();
+        let options = exact_options();
         let kinds = options.kinds.iter().copied().filter(|kind| *kind != LineKind::Contour).collect();
         LineOptions { kinds, ..options }
     };
     let mut scenes: Vec<(String, Scene, Camera)> = Vec::new();
     for seed in 0..20 {
         let dice = &mut Dice::new(seed);
-        for kind in HARD_SCENES.into_iter().filter(|_| seed < 4) {
-            scenes.push((format!("{kind}, seed {seed}"), hard_scene(kind, dice), any_camera(dice)));
+        for kind in HARD_SCENE_KINDS.into_iter().filter(|_| seed < 4) {
+            scenes.push((format!("{kind}, seed {seed}"), hard_scene(kind, dice), camera_from_any_side(dice)));
         }
-        scenes.push((format!("sheets and boxes, seed {seed}"), sheets_and_boxes(dice), any_camera(dice)));
+        scenes.push((
+            format!("sheets and boxes, seed {seed}"),
+            sheets_and_boxes(dice),
+            camera_from_any_side(dice),
+        ));
         let axis = [DVec3::X, DVec3::Y, DVec3::NEG_Z][seed as usize % 3];
         let camera = orthographic(axis * 6.0, DVec3::ZERO, 4.4);
-        scenes.push((format!("along the axes, seed {seed}"), along_the_axes(dice), camera));
+        scenes.push((format!("along the axes, seed {seed}"), axis_aligned_scene(dice), camera));
     }
-    let found: Vec<(String, Found)> = scenes
+    let found: Vec<(String, SilhouetteTally)> = scenes
         .par_iter()
         .flat_map_iter(|(name, scene, camera)| {
             let of = |options: &LineOptions| (name.clone(), compare(scene, camera, options));
-            [of(&exact()), of(&no_contours())]
+            [of(&exact_options()), of(&no_contours())]
         })
         .collect();
     let wrong: Vec<String> = found
@@ -192,18 +198,18 @@ fn roof() -> Solid {
 }
 
 #[test]
-fn a_roof_has_the_pen_of_an_outline_all_round() {
+fn a_roof_has_the_silhouette_pen_along_its_outline() {
     let scene = scene([roof()]);
     let style = Style::preset("ink").unwrap();
     let camera = Camera::three_quarter().fit(&scene);
     let drawing = render(&scene, &camera, &style).unwrap();
-    let polygons = Polygons::of(&scene);
-    let eye = Eye::new(&camera);
-    let rays = Rays::new(&polygons, &eye, camera.width, camera.height);
+    let polygons = TriangleScene::of(&scene);
+    let eye = TextbookCamera::new(&camera);
+    let rays = RayCaster::new(&polygons, &eye, camera.width, camera.height);
     let mut outline = 0;
-    for mark in ink_marks(&drawing) {
+    for mark in visible_line_marks(&drawing) {
         let is_outline = mark.provenance.classes.contains(&"silhouette");
-        for [a, b] in axis(mark) {
+        for [a, b] in centre_line(mark) {
             let across = Vec2::new(a.y - b.y, b.x - a.x) / (b - a).hypot();
             let beside = [-1.0, 1.0].map(|aside| rays.is_background(a.midpoint(b) + across * aside));
             assert_eq!(beside.contains(&true), is_outline, "{a} to {b}");

@@ -7,17 +7,17 @@ use ligne::lines::intersections::intersection_lines::{
     all_curves, curves_in_sight, curves_of_finer, search, visible_curves,
 };
 use ligne::lines::{
-    self, Contours, FeatureLines, FeatureSegment, Known, LineKind, LineOptions, Role, Surface,
+    self, Contours, FeatureLines, FeatureSegment, LineKind, LineOptions, Role, SharedSearches, Surface,
 };
 use ligne::mesh::intersect::intersection_curves::IntersectionCurves;
 use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene, UpAxis};
-use ligne::surface::Origin;
+use ligne::surface::MeshSource;
 use ligne::view::View;
-use ligne::visibility::{self, ViewCovers};
+use ligne::visibility::{self, ViewOcclusionBuffer};
 
 /// View directions: azimuth and elevation, degrees.
-const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
+const VIEW_ANGLES_DEG: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
 
 /// Returns the visible length of the curves in a view, in thousandths of the longer side of the frame.
 fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 {
@@ -28,7 +28,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         kind: LineKind::Intersection,
         both_seen: true,
         smooth: false,
-        origin: Origin::default(),
+        origin: MeshSource::default(),
         role: Role::Line,
         strength: 180.0,
         part: mesh.face_part[s.faces[0] as usize],
@@ -50,7 +50,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
 fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) -> f64 {
     let all = all_curves(mesh);
     let mut greatest = 0.0_f64;
-    for (azimuth, elevation) in DIRECTIONS {
+    for (azimuth, elevation) in VIEW_ANGLES_DEG {
         let camera = fit(Camera::azimuth_elevation(azimuth, elevation, up));
         let view = View::new(mesh, &camera);
         let visible = visible_curves(mesh, &view);
@@ -62,8 +62,8 @@ fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) 
             (expected - found).abs() <= (1e-3 * expected).max(1.0),
             "{name} from {azimuth}°, {elevation}°: {found} px of {expected} px"
         );
-        if let Some(covers) = ViewCovers::of(mesh, &view) {
-            let out = covers.out_of_sight(mesh, &view);
+        if let Some(covers) = ViewOcclusionBuffer::of(mesh, &view) {
+            let out = covers.occluded_faces(mesh, &view);
             assert_hidden(name, mesh, &view, &out);
             let in_sight = curves_in_sight(mesh, out);
             assert!(
@@ -122,7 +122,7 @@ fn mesh_of(solid: &Solid) -> Mesh {
 }
 
 #[test]
-fn boxes_and_balls_show_all_their_seams() {
+fn visible_curves_of_boxes_balls_and_tubes_match_the_full_search() {
     let tilted = |p: DVec3| DVec3::new(p.x, 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z);
     let block = || cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     let beam = cuboid(DVec3::new(-3.0, -0.5, -0.25), DVec3::new(3.0, 0.5, 0.25)).moved(tilted);
@@ -132,14 +132,14 @@ fn boxes_and_balls_show_all_their_seams() {
 }
 
 #[test]
-fn fine_triangles_show_all_their_seams() {
+fn visible_curves_of_fine_meshes_match_the_full_search() {
     let upright = |p: DVec3| DVec3::new(p.x + 0.3, p.z, p.y);
     let tori = [torus(400, 150, 1.0, 0.3), torus(300, 150, 1.0, 0.3).moved(upright)];
     assert!(compare_solids("tori", tori) > 100.0);
 }
 
 #[test]
-fn a_field_of_sunken_boxes_shows_all_its_seams() {
+fn visible_curves_of_sunken_boxes_match_the_full_search() {
     let ground = cuboid(DVec3::new(-1.0, -1.0, -1.0), DVec3::new(31.0, 31.0, 0.0));
     let house = |i: usize| {
         let low = DVec3::new((i % 30) as f64, (i / 30) as f64, -0.01);
@@ -168,18 +168,18 @@ fn pierced_plates() -> Solid {
 }
 
 #[test]
-fn faces_behind_covers_are_hidden_to_every_ray() {
+fn culled_faces_are_hidden_from_every_ray() {
     let solid = pierced_plates();
     let mesh = mesh_of(&solid);
     let mut told = 0;
-    for (azimuth, elevation) in DIRECTIONS {
+    for (azimuth, elevation) in VIEW_ANGLES_DEG {
         let camera =
             Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z).fit_points(&solid.positions, 0.05);
         // Once with the whole model on the page, once with the model larger than the page.
         for camera in [camera, Camera { width: 400.0, ..camera }] {
             let view = View::new(&mesh, &camera);
-            let covers = ViewCovers::of(&mesh, &view).expect("there are many layers");
-            let out = covers.out_of_sight(&mesh, &view);
+            let covers = ViewOcclusionBuffer::of(&mesh, &view).expect("there are many layers");
+            let out = covers.occluded_faces(&mesh, &view);
             told += out.iter().filter(|out| **out).count();
             assert!(curves_in_sight(&mesh, out).segments.len() < all_curves(&mesh).segments.len());
         }
@@ -190,7 +190,7 @@ fn faces_behind_covers_are_hidden_to_every_ray() {
 
 /// The first view searches only the visible faces; later views use the full search. All drawings are equal.
 #[test]
-fn the_second_drawing_of_a_view_is_the_first() {
+fn redrawing_a_view_gives_the_same_drawing() {
     let solid = pierced_plates();
     let corners = solid.positions.iter().map(|p| p.to_array());
     let scene = Scene::from_triangles(corners, solid.triangles.iter().copied()).expect("a scene");
@@ -215,18 +215,18 @@ fn the_second_drawing_of_a_view_is_the_first() {
 }
 
 #[test]
-fn curves_found_once_make_the_lines_of_every_view() {
+fn cached_curves_give_the_lines_of_every_view() {
     let mut both = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     both.add(sphere(40, 1.2));
     let options = LineOptions::default();
     let surface = Surface::new(mesh_of(&both), &options);
     let curves = all_curves(&surface.mesh);
     assert!(curves.segments.len() > 100);
-    for (azimuth, elevation) in DIRECTIONS {
+    for (azimuth, elevation) in VIEW_ANGLES_DEG {
         let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
         let view = View::new(&surface.mesh, &camera.fit_points(&both.positions, 0.05));
         let with = |intersections| {
-            let known = Known { intersections: Some(intersections), ..Known::default() };
+            let known = SharedSearches { intersections: Some(intersections), ..SharedSearches::default() };
             lines::extract_with(&surface, known, &view, &options)
         };
         let plain = lines::extract(&surface, &view, &options);
@@ -237,7 +237,7 @@ fn curves_found_once_make_the_lines_of_every_view() {
 }
 
 #[test]
-fn one_thread_equals_many() {
+fn visible_curves_do_not_depend_on_the_thread_count() {
     let mut both = sphere(60, 1.0);
     both.add(tube(80, 30, 0.3, 2.0));
     let mesh = mesh_of(&both);
@@ -253,7 +253,7 @@ fn one_thread_equals_many() {
 }
 
 #[test]
-fn models_show_all_their_seams() {
+fn visible_curves_of_models_match_the_full_search() {
     for name in [
         "organic/teapot.obj",
         "edge/self-intersecting.obj",
@@ -268,7 +268,7 @@ fn models_show_all_their_seams() {
 }
 
 #[test]
-fn what_is_known_of_a_surface_finds_the_curves_of_its_finer_ones() {
+fn coarse_search_results_give_the_curves_of_refined_surfaces() {
     let tilted = |p: DVec3| DVec3::new(p.x + 0.3, 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z);
     let mut all = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     all.add(torus(24, 12, 1.1, 0.4));
@@ -282,7 +282,7 @@ fn what_is_known_of_a_surface_finds_the_curves_of_its_finer_ones() {
     let known = search(&surface.mesh);
     assert_eq!(known.curves(), all_curves(&surface.mesh));
     let mut found = [0, 0];
-    for (azimuth, elevation) in DIRECTIONS {
+    for (azimuth, elevation) in VIEW_ANGLES_DEG {
         let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
         let finer =
             surface.refined_for(&camera.fit_points(&all.positions, 0.05), None).expect("it is coarse");

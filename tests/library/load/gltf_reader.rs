@@ -67,7 +67,7 @@ fn assert_sound(scene: &Scene) {
 
 /// Bounds of files for which the table ignores sparse values, morph targets, skins and instances. They were
 /// computed without this reader, or read from a picture.
-const POSED: [(&str, [f64; 3], [f64; 3]); 5] = [
+const POSED_BOUNDS: [(&str, [f64; 3], [f64; 3]); 5] = [
     ("edge/gpu-instancing.glb", [-1.029_64, 0.0, -1.030_65], [18.885_52, 2.48, 18.916_07]),
     ("edge/morph-sphere.glb", [-1.104_34, -1.143_84, -1.104_4], [4.0, 1.0, 1.104_4]),
     ("edge/skinned-tube.glb", [0.083_004, -0.058_413, -0.15], [1.138_159, 1.900_535, 0.15]),
@@ -76,7 +76,7 @@ const POSED: [(&str, [f64; 3], [f64; 3]); 5] = [
 ];
 
 #[test]
-fn shared_models_have_the_triangles_and_bounds_they_should() {
+fn shared_models_have_the_expected_triangles_and_bounds() {
     let Some(folder) = shared_folder::folder() else { return };
     let mut wrong = Vec::new();
     for row in facts(&folder) {
@@ -97,7 +97,7 @@ fn shared_models_have_the_triangles_and_bounds_they_should() {
             let values: Vec<f64> = row[key].split_whitespace().filter_map(|v| v.parse().ok()).collect();
             <[f64; 3]>::try_from(values).ok().map(DVec3::from_array)
         };
-        let posed = POSED.iter().find(|(name, _, _)| name == file);
+        let posed = POSED_BOUNDS.iter().find(|(name, _, _)| name == file);
         let posed = posed.map(|(_, low, high)| (DVec3::from_array(*low), DVec3::from_array(*high)));
         let Some((low, high)) = posed.or(corner("min").zip(corner("max"))) else { continue };
         let (found_low, found_high) = bounds(&scene);
@@ -113,7 +113,7 @@ fn shared_models_have_the_triangles_and_bounds_they_should() {
 }
 
 #[test]
-fn cad_models_have_their_parts() {
+fn cad_models_have_the_expected_parts() {
     let Some(folder) = shared_folder::folder() else { return };
     for (file, parts, geometries, count) in [
         ("bracket", 1, 1, 23_276),
@@ -187,7 +187,7 @@ fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
 }
 
 #[test]
-fn compressed_models_equal_their_plain_twins() {
+fn compressed_models_equal_their_uncompressed_versions() {
     let Some(folder) = shared_folder::folder() else { return };
     let read = |file: &str| gltf::read(&folder.join(file)).unwrap();
     let (plain, packed) = (read("features/Duck-quantized.glb"), read("features/Duck-meshopt.glb"));
@@ -218,7 +218,7 @@ fn compressed_models_equal_their_plain_twins() {
 }
 
 #[test]
-fn cameras_and_lights_stand_in_the_world() {
+fn cameras_and_lights_have_world_positions() {
     let Some(folder) = shared_folder::folder() else { return };
     let scene = gltf::read(&folder.join("edge/cameras-lights.gltf")).unwrap();
     let names: Vec<&str> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();

@@ -62,7 +62,7 @@ fn triangles(scene: &Scene) -> usize {
 }
 
 #[test]
-fn what_a_file_points_to_and_lacks_drops_only_what_needs_it() {
+fn missing_references_drop_only_their_users() {
     let sound = square(|_| {}).unwrap();
     assert!(sound.warnings.is_empty(), "{}", sound.warnings);
     assert_eq!(triangles(&sound), 4);
@@ -108,7 +108,7 @@ fn what_a_file_points_to_and_lacks_drops_only_what_needs_it() {
 }
 
 #[test]
-fn a_texture_without_its_coordinates_is_told() {
+fn textures_without_coordinates_give_a_warning() {
     let wanted = "mesh 0 primitive 0 of `square`: its texture wants TEXCOORD_1";
     let second = square(|file| {
         file["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = json!(1);
@@ -149,7 +149,7 @@ fn a_bad_accessor_names_its_mesh_and_primitive() {
 }
 
 #[test]
-fn colours_of_vertices_without_a_material_stand_on_white() {
+fn vertex_colours_without_a_material_multiply_white() {
     let colours = |change: &dyn Fn(&mut Value)| {
         let scene = square(change).unwrap();
         let paints = Paints::of(&scene, &TextureOptions::default());
@@ -227,7 +227,7 @@ fn prism(sides: usize, rims: Option<(usize, f64)>) -> Scene {
     Scene::from_bytes(text.as_bytes(), ModelFormat::Obj).unwrap()
 }
 
-fn drawn(scene: &Scene, style: &Style) -> Vec<String> {
+fn drawn_paths(scene: &Scene, style: &Style) -> Vec<String> {
     let camera = Camera {
         eye: DVec3::new(24.0, -31.0, 19.0),
         target: DVec3::new(0.0, 0.0, 4.0),
@@ -246,10 +246,10 @@ fn drawn(scene: &Scene, style: &Style) -> Vec<String> {
 }
 
 #[test]
-fn edges_that_a_file_draws_itself_are_drawn_once() {
+fn edges_also_listed_as_lines_are_drawn_once() {
     let style = Style::default();
     for sides in [4, 12, 16, 24, 48] {
-        let plain = drawn(&prism(sides, None), &style);
+        let plain = drawn_paths(&prism(sides, None), &style);
         let own: &[(usize, f64)] = if sides == 4 {
             &[(4, 0.0)]
         } else {
@@ -258,27 +258,27 @@ fn edges_that_a_file_draws_itself_are_drawn_once() {
         let others: &[(usize, f64)] =
             if sides < 12 { &[] } else { &[(64, 0.0), (64, 0.3), (sides, 0.5), (36, 0.25)] };
         for rims in own.iter().chain(others) {
-            assert_eq!(drawn(&prism(sides, Some(*rims)), &style), plain, "{sides} {rims:?}");
+            assert_eq!(drawn_paths(&prism(sides, Some(*rims)), &style), plain, "{sides} {rims:?}");
         }
     }
 }
 
 #[test]
-fn lines_of_a_file_that_no_edge_has_are_drawn() {
+fn file_lines_that_match_no_edge_are_drawn() {
     let style = Style::default();
     let wires = |paths: &[String]| paths.iter().filter(|path| path.contains("class=\"wire\"")).count();
     // A circle around a square, one next to the rim, and a line across a face.
-    assert!(wires(&drawn(&prism(4, Some((64, 0.0))), &style)) > 0);
+    assert!(wires(&drawn_paths(&prism(4, Some((64, 0.0))), &style)) > 0);
     let mut inner = prism(48, Some((48, 0.0)));
     for position in &mut inner.geometries[0].positions[96..] {
         *position *= DVec3::new(0.97, 0.97, 1.0);
     }
-    assert!(wires(&drawn(&inner, &style)) > 0);
+    assert!(wires(&drawn_paths(&inner, &style)) > 0);
     let mut across = prism(4, None);
     across.geometries[0].wires.push([4, 6]);
-    assert_eq!(wires(&drawn(&across, &style)), 1);
+    assert_eq!(wires(&drawn_paths(&across, &style)), 1);
     // If the style draws no creases, the lines of the file are drawn.
     let mut style = Style::default();
     style.lines.kinds = vec![LineKind::Wire];
-    assert!(wires(&drawn(&prism(16, Some((64, 0.0))), &style)) > 0);
+    assert!(wires(&drawn_paths(&prism(16, Some((64, 0.0))), &style)) > 0);
 }

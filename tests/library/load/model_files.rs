@@ -9,7 +9,7 @@ use ligne::scene::Scene;
 
 use crate::support::readers::shared_folder;
 
-fn is_ours(path: &str) -> bool {
+fn has_tested_format(path: &str) -> bool {
     [".obj", ".stl", ".ply"].iter().any(|ending| path.ends_with(ending))
 }
 
@@ -30,12 +30,12 @@ fn facts(folder: &Path) -> Vec<impl Fn(&str) -> String> {
 }
 
 #[test]
-fn shared_models_are_as_their_facts_say() {
+fn shared_models_match_the_facts_table() {
     let Some(folder) = shared_folder::folder() else { return };
     let mut seen = 0;
     for fact in facts(&folder) {
         let file = fact("file");
-        if !is_ours(&file) || fact("triangles_drawn") == "0" {
+        if !has_tested_format(&file) || fact("triangles_drawn") == "0" {
             continue;
         }
         seen += 1;
@@ -66,7 +66,7 @@ fn shared_models_are_as_their_facts_say() {
 }
 
 #[test]
-fn materials_and_parts_of_shared_models() {
+fn shared_models_have_the_expected_materials_and_parts() {
     let Some(folder) = shared_folder::folder() else { return };
     let open = |file: &str| Scene::open(folder.join(file)).unwrap_or_else(|e| panic!("{e}"));
     let variety = open("edge/syntax-variety.obj");
@@ -107,13 +107,13 @@ fn concave_polygons_keep_their_area() {
 }
 
 #[test]
-fn broken_models_are_refused_or_mended() {
+fn broken_models_are_refused_or_repaired() {
     let Some(folder) = shared_folder::folder() else { return };
     let loads = ["latin1-and-bom.obj", "nan-and-inf.obj", "one-long-line.obj"];
     for entry in fs::read_dir(folder.join("bad")).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if !is_ours(&name) && name != "unknown-format.xyz" {
+        if !has_tested_format(&name) && name != "unknown-format.xyz" {
             continue;
         }
         match Scene::open(&path) {
@@ -138,7 +138,7 @@ fn broken_models_are_refused_or_mended() {
 }
 
 /// Runs every reader on the bytes and asserts that each scene is valid and no larger than the bytes allow.
-fn read_with_all(bytes: &[u8]) {
+fn read_with_all_readers(bytes: &[u8]) {
     let library = |_: &str| Some(bytes.to_vec());
     for scene in [
         obj::read_bytes(bytes, "stem", library),
@@ -167,12 +167,12 @@ fn corpus() -> Vec<(PathBuf, Vec<u8>)> {
 
 /// Files named `ok-…` load and the others are refused. No reader panics on any of them.
 #[test]
-fn the_corpus_is_read_or_refused() {
+fn corpus_files_load_or_are_refused_by_name() {
     let mut seen = 0;
     for (path, bytes) in corpus() {
-        read_with_all(&bytes);
+        read_with_all_readers(&bytes);
         let name = path.file_name().unwrap().to_string_lossy();
-        if is_ours(&name) {
+        if has_tested_format(&name) {
             let result = Scene::open(&path);
             assert_eq!(result.is_ok(), name.starts_with("ok-"), "{name}: {:?}", result.err());
             seen += 1;
@@ -210,7 +210,7 @@ fn mutated_files_never_panic() {
                     _ => {}
                 }
             }
-            read_with_all(&bytes);
+            read_with_all_readers(&bytes);
         }
     }
 }

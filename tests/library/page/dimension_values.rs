@@ -4,10 +4,10 @@ use std::fs;
 
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
-use ligne::page::{Composed, PageFile};
+use ligne::page::{ComposedPage, PageFile};
 
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{folder, item, obj, words};
+use crate::support::scenes::sheet_models::{item_texts, obj_text, page_item, temp_folder};
 use crate::support::scenes::solids::Solid;
 
 /// A plate: a row of square cells with a round hole in each. Lengths have three decimals.
@@ -19,7 +19,7 @@ struct Plate {
 }
 
 /// Number of corners of a hole.
-const CORNERS: u32 = 48;
+const HOLE_CORNERS: u32 = 48;
 
 impl Plate {
     /// Returns a random plate at a random place, parallel to two random axes.
@@ -56,16 +56,16 @@ impl Plate {
 fn add_cell(solid: &mut Solid, (side, cell): (f64, usize), radius: f64, thick: f64) {
     let centre = DVec3::new((cell as f64 + 0.5) * side, side / 2.0, 0.0);
     let first = solid.positions.len() as u32;
-    for k in 0..CORNERS {
-        let turn = std::f64::consts::TAU * f64::from(k) / f64::from(CORNERS);
+    for k in 0..HOLE_CORNERS {
+        let turn = std::f64::consts::TAU * f64::from(k) / f64::from(HOLE_CORNERS);
         let out = DVec3::new(cos(turn), sin(turn), 0.0);
         let edge = out * (side / 2.0 / out.abs().max_element());
         for z in [DVec3::ZERO, DVec3::Z * thick] {
             solid.positions.extend([centre + out * radius + z, centre + edge + z]);
         }
     }
-    for k in 0..CORNERS {
-        let [a, b] = [first + 4 * k, first + 4 * ((k + 1) % CORNERS)];
+    for k in 0..HOLE_CORNERS {
+        let [a, b] = [first + 4 * k, first + 4 * ((k + 1) % HOLE_CORNERS)];
         for [a, b, c, d] in [[b, a, a + 2, b + 2], [a + 2, a + 3, b + 3, b + 2], [b, b + 1, a + 1, a]] {
             solid.triangles.extend([[a, b, c], [a, c, d]]);
         }
@@ -90,11 +90,11 @@ const FORMATS: [(&str, f64); 5] =
     [("plate.obj", 1.0), ("six.obj", 1.0), ("plate.stl", 1.0), ("plate.ply", 1.0), ("plate.gltf", 0.001)];
 
 /// Writes a model file. Text formats have double precision or six decimals; the others have single precision.
-fn file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
+fn model_file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
     let single = || solid.positions.iter().map(|p| (*p * scale).as_vec3());
     let corners = || solid.triangles.iter().flatten();
     match name {
-        "plate.obj" => obj(&[("plate".into(), solid.clone())]).into_bytes(),
+        "plate.obj" => obj_text(&[("plate".into(), solid.clone())]).into_bytes(),
         "six.obj" => {
             let mut text = String::new();
             solid.positions.iter().for_each(|p| text += &format!("v {:.6} {:.6} {:.6}\n", p.x, p.y, p.z));
@@ -162,15 +162,15 @@ fn file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
 const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
 
 /// Returns the length unit named on a sheet, in millimetres.
-fn unit_of(composed: &Composed) -> f64 {
-    let block = words(item(composed, "title-block"));
+fn sheet_unit_mm(composed: &ComposedPage) -> f64 {
+    let block = item_texts(page_item(composed, "title-block"));
     let at = block.iter().position(|word| word == "Dimensions in").expect("the unit is named");
     UNITS.iter().find(|(name, _)| *name == block[at + 1]).expect("a unit").1
 }
 
 /// Parses a dimension. Returns its value and half a unit of its last decimal, counting at least `decimals`
 /// decimals.
-fn value(word: &str, decimals: usize, has_comma: bool) -> Option<(f64, f64)> {
+fn parse_dimension(word: &str, decimals: usize, has_comma: bool) -> Option<(f64, f64)> {
     let word = word.rsplit(['⌀', 'R']).next()?;
     assert!(!word.contains(if has_comma { '.' } else { ',' }), "{word}");
     let word = word.replace(',', ".");
@@ -180,15 +180,15 @@ fn value(word: &str, decimals: usize, has_comma: bool) -> Option<(f64, f64)> {
 
 /// Checks one plate in all views, in one file format: each value is a distance of the model, and each
 /// requested distance is present.
-fn check(round: u64) {
+fn check_plate(round: u64) {
     let mut dice = Dice::new(round);
     let plate = Plate::random(&mut dice);
     let (name, scale) = FORMATS[(round % 5) as usize];
     let (model_unit, model_mm) = UNITS[if name == "plate.gltf" { 2 } else { dice.below(5) }];
     let (unit, _) = UNITS[dice.below(5)];
     let (decimals, has_comma) = (dice.below(5), dice.below(2) == 1);
-    let folder = folder(&format!("values-{round}"));
-    fs::write(folder.join(name), file(name, &plate.solid, scale)).expect("written");
+    let folder = temp_folder(&format!("values-{round}"));
+    fs::write(folder.join(name), model_file(name, &plate.solid, scale)).expect("written");
     let points = &plate.solid.positions;
     let low = points.iter().copied().reduce(DVec3::min).expect("points");
     let high = points.iter().copied().reduce(DVec3::max).expect("points");
@@ -234,14 +234,14 @@ fn check(round: u64) {
     let composed =
         sheet.compose().unwrap_or_else(|error| panic!("{round}: {error}")).into_iter().next().expect("one");
     fs::remove_dir_all(&folder).expect("removed");
-    let unit = unit_of(&composed);
+    let unit = sheet_unit_mm(&composed);
     let mut known = asked.clone();
     known.extend((0..2 * plate.radii.len()).map(|k| 0.5 * k as f64 * plate.side));
     known.extend(plate.radii.iter().map(|radius| plate.side / 2.0 - radius));
     // Converted as on the sheet: from model units to the unit of the sheet.
-    let told: Vec<(f64, f64)> = words(item(&composed, "notes"))
+    let told: Vec<(f64, f64)> = item_texts(page_item(&composed, "notes"))
         .iter()
-        .filter_map(|word| value(word, decimals, has_comma))
+        .filter_map(|word| parse_dimension(word, decimals, has_comma))
         .map(|(value, half)| {
             [value, half].map(|x| x * unit / model_mm * if scale < 1.0 { 1000.0 } else { 1.0 })
         })
@@ -257,12 +257,12 @@ fn check(round: u64) {
 }
 
 #[test]
-fn values_are_distances_of_the_model() {
-    (0..20).for_each(check);
+fn dimension_values_are_distances_of_the_model() {
+    (0..20).for_each(check_plate);
 }
 
 #[test]
 #[ignore = "long: .ci/nightly"]
-fn values_of_200_parts_are_distances_of_the_model() {
-    (0..200).for_each(check);
+fn dimension_values_of_200_parts_are_distances_of_the_model() {
+    (0..200).for_each(check_plate);
 }

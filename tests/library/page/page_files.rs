@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::panels::grid;
 use crate::support::scenes::random_dice::Dice;
-use ligne::drawing::{Composition, Item, Mark, Paint};
+use ligne::drawing::{Composition, Mark, Paint, PlacedDrawing};
 use ligne::kurbo::{self, BezPath, Point, Rect, Shape};
 use ligne::page::layout::{Reading, cells};
 use ligne::page::{PageFile, figure};
@@ -78,7 +78,7 @@ fn talking_page(dice: &mut Dice) -> (String, usize) {
 }
 
 /// Flattens a path. Returns one list of points per subpath.
-fn flat(path: &BezPath) -> Vec<Vec<Point>> {
+fn flatten_subpaths(path: &BezPath) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     kurbo::flatten(path, 0.02, |element| match element {
         kurbo::PathEl::MoveTo(p) => pieces.push(vec![p]),
@@ -94,7 +94,7 @@ fn overlap(a: &BezPath, b: &BezPath) -> bool {
     if a.bounding_box().intersect(b.bounding_box()).area() <= 0.0 {
         return false;
     }
-    let (a_points, b_points) = (flat(a), flat(b));
+    let (a_points, b_points) = (flatten_subpaths(a), flatten_subpaths(b));
     let holds = |path: &BezPath, pieces: &[Vec<Point>]| pieces.iter().flatten().any(|p| path.contains(*p));
     let sides = |pieces: &[Vec<Point>]| -> Vec<[Point; 2]> {
         let closed = |piece: &Vec<Point>| {
@@ -114,16 +114,16 @@ fn overlap(a: &BezPath, b: &BezPath) -> bool {
         || a_sides.iter().any(|a| b_sides.iter().any(|b| crosses(*a, *b)))
 }
 
-fn items<'a>(page: &'a Composition, ending: &'a str) -> impl Iterator<Item = &'a Item> {
+fn items<'a>(page: &'a Composition, ending: &'a str) -> impl Iterator<Item = &'a PlacedDrawing> {
     page.items.iter().filter(move |item| item.name.ends_with(ending))
 }
 
-fn marks(item: &Item) -> impl Iterator<Item = &Mark> {
+fn marks(item: &PlacedDrawing) -> impl Iterator<Item = &Mark> {
     item.drawing.layers.iter().flat_map(|layer| &layer.marks)
 }
 
 /// Returns the balloons of a panel: outlines with their tails, and the letters in each.
-fn balloons(item: &Item) -> Vec<(BezPath, Vec<BezPath>)> {
+fn balloons(item: &PlacedDrawing) -> Vec<(BezPath, Vec<BezPath>)> {
     let mut found: Vec<(BezPath, Vec<BezPath>)> = Vec::new();
     for mark in marks(item) {
         match (&mark.paint, mark.provenance.classes.first()) {
@@ -138,23 +138,23 @@ fn balloons(item: &Item) -> Vec<(BezPath, Vec<BezPath>)> {
 }
 
 /// Returns the outlines of the heads in a panel, computed from scene and camera independently of the page.
-fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath> {
+fn head_outlines(panel: &PlacedDrawing, text: &str, number: usize, folder: &Path) -> Vec<BezPath> {
     let own = text.split("[[page.panel]]").nth(number + 1).unwrap();
     let line = |key: &str| own.lines().find(|line| line.starts_with(key)).unwrap();
     let models = &own[own.find("model = ").unwrap()..own.find("]\ncamera").unwrap() + 1];
     #[derive(serde::Deserialize)]
     struct Keys {
         model: figure::Models,
-        camera: toml::Spanned<figure::Aim>,
+        camera: toml::Spanned<figure::CameraSpec>,
     }
     let keys: Keys = toml::from_str(&format!("{models}\n{}", line("camera"))).unwrap();
-    let source = ligne::page::Source {
+    let source = ligne::page::PageSource {
         path: folder.join("page.toml"),
         text: String::new(),
         models: Default::default(),
     };
     let style = ligne::Style::default();
-    let scene = figure::staged(&keys.model, None, None, &style, &source).unwrap();
+    let scene = figure::assemble_scene(&keys.model, None, None, &style, &source).unwrap();
     let bounds = panel.clip.as_ref().unwrap().bounding_box();
     let camera = figure::camera(&keys.camera, &scene, [bounds.width(), bounds.height()], &source).unwrap();
     let [right, up, forward] = camera.axes();
@@ -192,7 +192,7 @@ fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath>
 }
 
 #[test]
-fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
+fn balloons_cover_no_face_or_other_balloon_and_hold_their_text() {
     let folder = folder("talking");
     fs::write(folder.join("person.obj"), person()).unwrap();
     let mut dice = Dice::new(4);
@@ -208,7 +208,7 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
             let drawn =
                 page.items.iter().find(|item| format!("{}-letters", item.name) == letters.name).unwrap();
             let balloons = balloons(letters);
-            let heads = heads(drawn, &text, panel, &folder);
+            let heads = head_outlines(drawn, &text, panel, &folder);
             assert_eq!(heads.len(), 2);
             let frame = drawn.clip.as_ref().unwrap();
             for (k, (outline, words)) in balloons.iter().enumerate() {
@@ -219,11 +219,11 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
                 }
                 assert!(!words.is_empty(), "no words: {place}");
                 for word in words {
-                    let fits = flat(word).iter().flatten().all(|p| outline.contains(*p));
+                    let fits = flatten_subpaths(word).iter().flatten().all(|p| outline.contains(*p));
                     assert!(fits, "letters leave their balloon: {place}");
                 }
                 assert!(
-                    flat(outline).iter().flatten().all(|p| frame.contains(*p)),
+                    flatten_subpaths(outline).iter().flatten().all(|p| frame.contains(*p)),
                     "out of its panel: {place}"
                 );
                 let words_of =
@@ -258,13 +258,13 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
 }
 
 /// Returns the error message of a page.
-fn refused(text: &str) -> String {
+fn error_of_page(text: &str) -> String {
     let told = PageFile::from_text(text, "pages/a.toml").and_then(|file| file.compose());
     told.expect_err(text).to_string()
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn page_file_errors_name_their_line() {
     let panel = "[page]\nkind = 'comic'\n[[page.panel]]\n";
     let narrow = format!("[[page.panel]]\nballoon = [{{ text = '{}' }}]\n", "word ".repeat(60));
     for (text, line, message) in [
@@ -319,14 +319,14 @@ fn what_is_wrong_is_told_with_its_place() {
             "did you mean `comic`?",
         ),
     ] {
-        let told = refused(text);
+        let told = error_of_page(text);
         assert!(told.starts_with("pages/a.toml: "), "{told}");
         assert!(told.contains(line) && told.contains(message) && told.contains('^'), "{text}: {told}");
     }
 }
 
 #[test]
-fn balloons_stand_near_and_above_what_speaks_and_off_it() {
+fn balloons_are_above_and_near_their_speaker_without_covering_it() {
     let folder = folder("near");
     fs::write(folder.join("person.obj"), person()).unwrap();
     let text = "[page]\nkind = 'comic'\nsize = [100, 100]\nmargin = 5\nstyle = 'ink'\nlettering = { size = 3 }\n[[page.panel]]\n\
@@ -347,7 +347,7 @@ fn balloons_stand_near_and_above_what_speaks_and_off_it() {
 }
 
 #[test]
-fn tails_leave_their_balloons_where_the_speaker_fills_the_panel() {
+fn tails_do_not_cross_words_if_the_speaker_fills_the_panel() {
     let folder = folder("large");
     fs::write(folder.join("person.obj"), person()).unwrap();
     for kind in ["thought", "speech", "shout"] {
@@ -359,14 +359,14 @@ fn tails_leave_their_balloons_where_the_speaker_fills_the_panel() {
         let page = PageFile::from_text(&text, folder.join("page.toml")).unwrap().compose().unwrap().remove(0);
         let (outline, words) = balloons(items(&page.composition, "-letters").next().unwrap()).remove(0);
         let words = words.iter().map(Shape::bounding_box).reduce(|a, b| a.union(b)).unwrap();
-        let inside = flat(&outline).into_iter().flatten().filter(|p| words.contains(*p)).count();
+        let inside = flatten_subpaths(&outline).into_iter().flatten().filter(|p| words.contains(*p)).count();
         assert_eq!(inside, 0, "{kind}: the tail is over the words");
     }
     let _ = fs::remove_dir_all(folder);
 }
 
 #[test]
-fn models_take_the_colours_of_the_page() {
+fn page_colours_override_model_colours() {
     let folder = folder("colours");
     fs::write(folder.join("person.obj"), person()).unwrap();
     let page = |colour: &str| {
@@ -395,7 +395,7 @@ fn models_take_the_colours_of_the_page() {
 }
 
 #[test]
-fn pages_of_a_file_agree_on_their_inks() {
+fn pages_of_a_file_must_share_their_inks() {
     let print = |text: &str| PageFile::from_text(text, "pages/a.toml").and_then(|file| file.print());
     let one = "[[page]]\nkind = 'comic'\nink = 'K'\nspot = { name = 'PANTONE 185 C', colour = 'red' }\n";
     let found = print(&format!("{one}[[page]]\nkind = 'comic'\n")).unwrap();
@@ -416,7 +416,7 @@ fn pages_of_a_file_agree_on_their_inks() {
 }
 
 #[test]
-fn page_files_hold_others_but_not_themselves() {
+fn page_files_include_others_but_reject_cycles() {
     let folder = folder("book");
     fs::write(folder.join("one.toml"), "[page]\nkind = 'comic'\n").unwrap();
     fs::write(folder.join("book.toml"), "pages = ['one.toml', 'one.toml']\n").unwrap();
@@ -429,7 +429,7 @@ fn page_files_hold_others_but_not_themselves() {
 }
 
 #[test]
-fn a_figure_breaks_its_border_and_nothing_else_does() {
+fn only_the_named_part_breaks_the_panel_border() {
     let folder = folder("break");
     fs::write(folder.join("person.obj"), person()).unwrap();
     let page = |rest: &str| {
@@ -459,7 +459,7 @@ fn a_figure_breaks_its_border_and_nothing_else_does() {
     // The picture inside the panel does not change if the border is broken: frame and camera grow together.
     let plain = page("");
     let whole = plain.items.iter().find(|item| item.name == "panel-2").unwrap();
-    let pixels = |item: &Item, composition: &Composition| -> Vec<u8> {
+    let pixels = |item: &PlacedDrawing, composition: &Composition| -> Vec<u8> {
         let alone = Composition::new("", composition.page, vec![item.clone()]);
         let options = ligne::PngOptions::of_resolution(ligne::export::Resolution::Dpi(50.0));
         let png = alone.to_png(&options).unwrap();
@@ -476,7 +476,7 @@ fn a_figure_breaks_its_border_and_nothing_else_does() {
 }
 
 #[test]
-fn drawings_of_a_page_are_layers_within_their_frames() {
+fn panel_drawings_are_layers_clipped_to_their_frames() {
     let text = "[page]\nkind = 'comic'\nlayout = '1 | 1'\n[[page.panel]]\nname = 'left'\nmodel = 'gear.obj'\nstyle = 'ink'\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
     let page = PageFile::from_text(text, folder.join("page.toml")).unwrap().compose().unwrap().remove(0);

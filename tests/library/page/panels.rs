@@ -3,7 +3,7 @@
 
 use crate::support::scenes::random_dice::Dice;
 use ligne::kurbo::{Point, Rect};
-use ligne::page::layout::{Grid, Polygon, Reading, cells};
+use ligne::page::layout::{ConvexPolygon, LayoutGrid, Reading, cells};
 
 /// Returns a random layout with brackets nested up to `depth` levels. Gutters lean by whole degrees, at most
 /// `lean`.
@@ -29,8 +29,8 @@ fn layout(dice: &mut Dice, depth: u64, lean: i64) -> String {
 }
 
 /// Returns a grid in the frame that all pages of these tests share.
-pub fn grid(gutter: f64, reading: Reading) -> Grid {
-    Grid { frame: Rect::new(10.0, 12.0, 410.0, 612.0), gutter: [gutter; 2], reading }
+pub fn grid(gutter: f64, reading: Reading) -> LayoutGrid {
+    LayoutGrid { frame: Rect::new(10.0, 12.0, 410.0, 612.0), gutter: [gutter; 2], reading }
 }
 
 #[test]
@@ -41,8 +41,8 @@ fn panels_tile_the_page() {
         let layout = layout(&mut dice, 2, 6);
         let grid = grid(0.0, Reading::Ltr);
         let Ok(cells) = cells(&layout, &grid) else { continue };
-        let outlines: Vec<Polygon> = cells.iter().map(|cell| cell.outline(grid.frame)).collect();
-        let area: f64 = outlines.iter().map(Polygon::area).sum();
+        let outlines: Vec<ConvexPolygon> = cells.iter().map(|cell| cell.outline(grid.frame)).collect();
+        let area: f64 = outlines.iter().map(ConvexPolygon::area).sum();
         assert!((area - grid.frame.area()).abs() < 1e-6 * grid.frame.area(), "{layout}: {area}");
         for (number, a) in outlines.iter().enumerate() {
             for b in &outlines[number + 1..] {
@@ -56,12 +56,12 @@ fn panels_tile_the_page() {
 
 /// Returns the distance between two disjoint polygons: the smallest distance from a corner of one to a side
 /// of the other.
-fn distance(a: &Polygon, b: &Polygon) -> f64 {
+fn distance(a: &ConvexPolygon, b: &ConvexPolygon) -> f64 {
     let to_side = |p: Point, (from, to): (Point, Point)| {
         let share = ((p - from).dot(to - from) / (to - from).hypot2()).clamp(0.0, 1.0);
         p.distance(from.lerp(to, share))
     };
-    let least = |a: &Polygon, b: &Polygon| {
+    let least = |a: &ConvexPolygon, b: &ConvexPolygon| {
         let all = a.0.iter().flat_map(|p| b.sides().map(|side| to_side(*p, side)));
         all.fold(f64::INFINITY, f64::min)
     };
@@ -69,13 +69,13 @@ fn distance(a: &Polygon, b: &Polygon) -> f64 {
 }
 
 #[test]
-fn gutters_part_panels_by_their_width() {
+fn gutters_separate_panels_by_their_width() {
     let mut dice = Dice::new(2);
     for _ in 0..200 {
         let layout = layout(&mut dice, 2, 8);
         let grid = grid(5.0, Reading::Ltr);
         let Ok(cells) = cells(&layout, &grid) else { continue };
-        let outlines: Vec<Polygon> = cells.iter().map(|cell| cell.outline(grid.frame)).collect();
+        let outlines: Vec<ConvexPolygon> = cells.iter().map(|cell| cell.outline(grid.frame)).collect();
         for (number, a) in outlines.iter().enumerate() {
             for b in &outlines[number + 1..] {
                 assert!(distance(a, b) > 5.0 - 1e-6, "{layout}");
@@ -85,7 +85,7 @@ fn gutters_part_panels_by_their_width() {
 }
 
 #[test]
-fn shares_are_exact() {
+fn panel_shares_are_exact() {
     let grid = grid(4.0, Reading::Ltr);
     let found = cells("30 [2 | 1 | 1] / 20 / * [1 / 3]", &grid).unwrap();
     let nominal = |k: usize| found[k].nominal;
@@ -106,7 +106,7 @@ fn shares_are_exact() {
 }
 
 #[test]
-fn right_to_left_mirrors_left_to_right() {
+fn right_to_left_layouts_mirror_left_to_right_ones() {
     let mut dice = Dice::new(3);
     for _ in 0..100 {
         let layout = layout(&mut dice, 2, 6);
@@ -122,7 +122,7 @@ fn right_to_left_mirrors_left_to_right() {
 }
 
 #[test]
-fn panels_without_size_are_refused() {
+fn panels_without_size_are_rejected() {
     for (layout, message) in [
         ("0.001 | 100", "no size"),
         ("99.9 / *", "no size"),
@@ -131,6 +131,6 @@ fn panels_without_size_are_refused() {
         let fault = cells(layout, &grid(4.0, Reading::Ltr)).map(|cells| cells.len()).unwrap_err();
         assert!(fault.message.contains(message), "{layout}: {}", fault.message);
     }
-    let narrow = Grid { frame: Rect::new(0.0, 0.0, 100.0, 100.0), ..grid(60.0, Reading::Ltr) };
+    let narrow = LayoutGrid { frame: Rect::new(0.0, 0.0, 100.0, 100.0), ..grid(60.0, Reading::Ltr) };
     assert!(cells("1 | 1 | 1", &narrow).unwrap_err().message.contains("no size"));
 }

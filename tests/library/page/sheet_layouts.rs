@@ -9,14 +9,14 @@ use std::fs;
 
 use ligne::drawing::Paint;
 use ligne::kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape, flatten};
-use ligne::page::{Composed, PageFile};
+use ligne::page::{ComposedPage, PageFile};
 
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{block, drilled, folder, marks, obj};
+use crate::support::scenes::sheet_models::{block, drilled_plate, obj_text, placed_marks, temp_folder};
 
-/// Number of sheets in a normal run; the long run has `ALL_SHEETS`.
-const SHEETS: u64 = 12;
-const ALL_SHEETS: u64 = 100;
+/// Number of sheets in a normal run; the long run has `NIGHTLY_SHEET_COUNT`.
+const SHEET_COUNT: u64 = 12;
+const NIGHTLY_SHEET_COUNT: u64 = 100;
 
 /// A line of a mark, or a side of a filled mark.
 struct Stroke {
@@ -53,16 +53,16 @@ impl Text {
 }
 
 /// The contents of a page: texts, other lines, and centres of balloons.
-struct Found {
+struct PageContents {
     texts: Vec<Text>,
     strokes: Vec<Stroke>,
     balloons: Vec<Point>,
 }
 
-fn found(composed: &Composed) -> Found {
-    let mut found = Found { texts: Vec::new(), strokes: Vec::new(), balloons: Vec::new() };
+fn page_contents(composed: &ComposedPage) -> PageContents {
+    let mut found = PageContents { texts: Vec::new(), strokes: Vec::new(), balloons: Vec::new() };
     for item in &composed.composition.items {
-        for (place, mark) in marks(item) {
+        for (place, mark) in placed_marks(item) {
             let path = place * mark.path.clone();
             if let Some(text) = &mark.provenance.text {
                 let words = text.words.to_string();
@@ -122,8 +122,8 @@ fn enters(rect: Rect, [a, b]: [Point; 2]) -> bool {
 }
 
 /// Returns the faults of a page.
-fn faults(composed: &Composed) -> Vec<String> {
-    let Found { texts, strokes, balloons } = found(composed);
+fn faults(composed: &ComposedPage) -> Vec<String> {
+    let PageContents { texts, strokes, balloons } = page_contents(composed);
     let page = composed.composition.page;
     let space = Rect::new(20.0, 10.0, page.width - 10.0, page.height - 10.0);
     let mut faults = Vec::new();
@@ -173,7 +173,7 @@ fn faults(composed: &Composed) -> Vec<String> {
 }
 
 /// Returns the page file and the model of a random sheet.
-fn generated(seed: u64) -> (String, String) {
+fn random_sheet(seed: u64) -> (String, String) {
     let mut dice = Dice::new(9000 + seed);
     let count = [1, 1, 2, 3, 5, 8, 12, 20, 40, 80][dice.below(10)];
     let size = ["A4", "A3", "A3", "A2", "A1"][dice.below(5)];
@@ -187,7 +187,7 @@ fn generated(seed: u64) -> (String, String) {
             ([x, d / 2.0 + dice.between(-0.1, 0.1) * d], radius.min(0.38 * column.min(d)))
         })
         .collect();
-    let mut parts = vec![("plate".to_owned(), drilled([w, d, h], &holes))];
+    let mut parts = vec![("plate".to_owned(), drilled_plate([w, d, h], &holes))];
     for k in 1..count {
         let (x, y) = (dice.between(0.0, w - 6.0), dice.between(0.0, d - 6.0));
         let high = h + dice.between(4.0, 30.0);
@@ -256,16 +256,16 @@ fn generated(seed: u64) -> (String, String) {
     );
     text +=
         &format!("owner = '{}'\nnumber = 'T-{seed}'\n", if dice.below(3) == 0 { long } else { "Workshop" });
-    (text, obj(&parts))
+    (text, obj_text(&parts))
 }
 
 /// Checks sheets. Returns the number of drawn sheets, and the faults.
-fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
+fn check_sheets(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
     let mut drawn = 0;
     let mut wrong = Vec::new();
     for seed in seeds {
-        let folder = folder(&format!("layout-{seed}"));
-        let (text, model) = generated(seed);
+        let folder = temp_folder(&format!("layout-{seed}"));
+        let (text, model) = random_sheet(seed);
         if let Ok(kept) = std::env::var("LIGNE_KEEP_SHEETS") {
             let kept = std::path::Path::new(&kept).join(seed.to_string());
             fs::create_dir_all(&kept).expect("a folder");
@@ -296,17 +296,20 @@ fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
 }
 
 #[test]
-fn nothing_on_a_sheet_touches_what_it_does_not_belong_to() {
-    let (drawn, wrong) = judge(0..SHEETS);
+fn texts_lines_and_balloons_on_a_sheet_do_not_overlap() {
+    let (drawn, wrong) = check_sheets(0..SHEET_COUNT);
     assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(drawn as u64 * 4 >= SHEETS * 3, "{drawn} of {SHEETS} were drawn");
+    assert!(drawn as u64 * 4 >= SHEET_COUNT * 3, "{drawn} of {SHEET_COUNT} were drawn");
 }
 
 #[test]
 #[ignore = "100 sheets, minutes"]
-fn nothing_on_a_hundred_sheets_touches_what_it_does_not_belong_to() {
-    let (drawn, wrong) = judge(0..ALL_SHEETS);
-    eprintln!("{drawn} of {ALL_SHEETS} sheets were drawn, the others refused; {} faults", wrong.len());
+fn texts_lines_and_balloons_on_100_sheets_do_not_overlap() {
+    let (drawn, wrong) = check_sheets(0..NIGHTLY_SHEET_COUNT);
+    eprintln!(
+        "{drawn} of {NIGHTLY_SHEET_COUNT} sheets were drawn, the others refused; {} faults",
+        wrong.len()
+    );
     assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(drawn as u64 * 4 >= ALL_SHEETS * 3, "{drawn} of {ALL_SHEETS} were drawn");
+    assert!(drawn as u64 * 4 >= NIGHTLY_SHEET_COUNT * 3, "{drawn} of {NIGHTLY_SHEET_COUNT} were drawn");
 }

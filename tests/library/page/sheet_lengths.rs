@@ -4,9 +4,11 @@
 use std::fs;
 
 use ligne::kurbo::{Rect, Shape};
-use ligne::page::{Composed, PageFile};
+use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::sheet_models::{block, bounds, folder, item, marks, obj, words};
+use crate::support::scenes::sheet_models::{
+    block, drawn_bounds, item_texts, obj_text, page_item, placed_marks, temp_folder,
+};
 use crate::support::scenes::solids::Solid;
 
 /// A plate of 80 x 50 x 10 as OBJ with z up, with two holes of diameter 8 mm and one of 20 mm.
@@ -64,11 +66,11 @@ fn plate() -> String {
     ] {
         quad([[a, b, 0.0], [c, d, 0.0], [c, d, 10.0], [a, b, 10.0]]);
     }
-    obj(&[("plate".into(), plate)])
+    obj_text(&[("plate".into(), plate)])
 }
 
-fn sheet_of_plate(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
-    let folder = folder(name);
+fn sheet_of_plate(name: &str, keys: &str) -> Result<ComposedPage, ligne::Error> {
+    let folder = temp_folder(name);
     fs::write(folder.join("plate.obj"), plate()).expect("written");
     let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'plate.obj', up = 'z' }}\n{keys}");
     let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose()?;
@@ -77,16 +79,16 @@ fn sheet_of_plate(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
 }
 
 #[test]
-fn views_tell_their_holes_by_themselves() {
+fn automatic_dimensions_include_holes_without_overlaps() {
     let composed =
         sheet_of_plate("auto", "views = ['front', 'top']\ndimensions = 'auto'\n").expect("a sheet");
-    let mut told = words(item(&composed, "notes"));
+    let mut told = item_texts(page_item(&composed, "notes"));
     told.sort();
     // Length, height and depth; the hole diameters, and the hole positions from the left and from below.
     assert_eq!(told, ["10", "10", "15", "2× ⌀8", "30", "40", "50", "65", "80", "⌀20"]);
     // Texts overlap neither each other nor a view.
-    let views = ["front", "top"].map(|name| bounds(item(&composed, name)));
-    let texts: Vec<Rect> = marks(item(&composed, "notes"))
+    let views = ["front", "top"].map(|name| drawn_bounds(page_item(&composed, name)));
+    let texts: Vec<Rect> = placed_marks(page_item(&composed, "notes"))
         .filter(|(_, mark)| mark.provenance.text.is_some())
         .map(|(place, mark)| (place * mark.path.clone()).bounding_box())
         .collect();
@@ -99,11 +101,11 @@ fn views_tell_their_holes_by_themselves() {
         assert!(texts[..k].iter().all(|other| apart(*other, *text)), "{texts:?}");
     }
     let none = sheet_of_plate("none", "views = ['front']\ndimensions = 'none'\ncentre_lines = false\n");
-    assert!(words(item(&none.expect("a sheet"), "notes")).is_empty());
+    assert!(item_texts(page_item(&none.expect("a sheet"), "notes")).is_empty());
 }
 
 #[test]
-fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
+fn dimensions_accept_named_points_and_cylinder_diameters() {
     let keys = "views = ['front', 'top']\noverall = false\ncentre_lines = false\npoints = { corner = [0, 0, 10], hole = [15, 10, 10] }\n\
         [[page.dimension]]\nof = 'top'\nfrom = 'corner'\nto = 'hole'\nmeasure = 'horizontal'\nside = 'above'\n\
         [[page.dimension]]\nof = 'top'\nfrom = 'hole'\nto = 'plate.right'\nmeasure = 'horizontal'\n\
@@ -111,7 +113,7 @@ fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
         [[page.dimension]]\nof = 'top'\nat = [50, 30, 5]\nmeasure = 'diameter'\n\
         [[page.dimension]]\nof = 'top'\nat = 'hole'\nmeasure = 'radius'\n";
     let composed = sheet_of_plate("named", keys).expect("a sheet");
-    let mut told = words(item(&composed, "notes"));
+    let mut told = item_texts(page_item(&composed, "notes"));
     told.sort();
     assert_eq!(told, ["10", "15", "65", "R4", "⌀20"]);
     for (keys, wanted) in [
@@ -132,11 +134,11 @@ fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
 }
 
 /// Composes a sheet of a box at the origin, read as OBJ or as STL in single precision.
-fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<Composed, ligne::Error> {
-    let folder = folder(name);
+fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<ComposedPage, ligne::Error> {
+    let folder = temp_folder(name);
     let solid = block([0.0; 3], size);
     let model = if format == "obj" {
-        obj(&[("box".into(), solid)]).into_bytes()
+        obj_text(&[("box".into(), solid)]).into_bytes()
     } else {
         let mut bytes = vec![0; 80];
         bytes.extend((solid.triangles.len() as u32).to_le_bytes());
@@ -160,15 +162,15 @@ fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<
 /// Returns the dimension texts and the length unit of such a sheet.
 fn values_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> (Vec<String>, String) {
     let composed = sheet_of_box(name, size, format, keys).expect("a sheet");
-    let mut values = words(item(&composed, "notes"));
+    let mut values = item_texts(page_item(&composed, "notes"));
     values.sort();
-    let block = words(item(&composed, "title-block"));
+    let block = item_texts(page_item(&composed, "title-block"));
     let at = block.iter().position(|word| word == "Dimensions in").expect("the unit is named");
     (values, block[at + 1].clone())
 }
 
 #[test]
-fn values_are_rounded_alike_in_all_formats() {
+fn dimension_values_are_rounded_alike_in_all_formats() {
     let views = "views = ['front', 'top', 'left']\n";
     for format in ["obj", "stl"] {
         let of = |name: &str, size, keys: &str| {
@@ -203,7 +205,7 @@ fn values_are_rounded_alike_in_all_formats() {
 }
 
 #[test]
-fn pictorial_views_show_true_lengths_or_refuse() {
+fn pictorial_views_show_true_lengths_or_are_rejected() {
     let size = [70.0, 25.0, 40.0];
     let sheet = |name: &str, keys: &str| {
         let head = "size = 'A4'\ndimensions = 'none'\nviews = ['front', 'iso', 'dimetric', 'trimetric']\n";
@@ -214,12 +216,15 @@ fn pictorial_views_show_true_lengths_or_refuse() {
         for (to, value) in [("[70, 0, 0]", "70"), ("[0, 25, 0]", "25"), ("[0, 0, 40]", "40")] {
             let keys = format!("{detail}[[page.dimension]]\nof = '{view}'\nfrom = [0, 0, 0]\nto = {to}\n");
             let composed = sheet(&format!("true-{view}-{value}"), &keys).expect("a sheet");
-            assert!(words(item(&composed, "notes")).contains(&value.to_owned()), "{view} {to}");
+            assert!(item_texts(page_item(&composed, "notes")).contains(&value.to_owned()), "{view} {to}");
         }
     }
     // Vertical lengths are vertical in the isometric view.
     let upright = "[[page.dimension]]\nof = 'iso'\nfrom = [0, 0, 0]\nto = [0, 0, 40]\nmeasure = 'vertical'\n";
-    assert!(words(item(&sheet("upright", upright).expect("a sheet"), "notes")).contains(&"40".to_owned()));
+    assert!(
+        item_texts(page_item(&sheet("upright", upright).expect("a sheet"), "notes"))
+            .contains(&"40".to_owned())
+    );
     let exploded = "[page.exploded]\n";
     for (keys, wanted) in [
         ("of = 'iso'\nfrom = [0, 0, 0]\nto = [70, 25, 0]", "along the axes of the model"),

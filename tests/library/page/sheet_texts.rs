@@ -4,15 +4,17 @@
 use std::fs;
 
 use ligne::kurbo::{Rect, Shape};
-use ligne::page::{Composed, PageFile};
+use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::sheet_models::{block, bounds, drilled, folder, item, marks, obj, words};
+use crate::support::scenes::sheet_models::{
+    block, drawn_bounds, drilled_plate, item_texts, obj_text, page_item, placed_marks, temp_folder,
+};
 use crate::support::scenes::solids::Solid;
 
 /// Composes a sheet of these parts with these keys.
-fn sheet(name: &str, parts: &[(String, Solid)], keys: &str) -> Result<Composed, ligne::Error> {
-    let folder = folder(name);
-    fs::write(folder.join("model.obj"), obj(parts)).expect("written");
+fn sheet(name: &str, parts: &[(String, Solid)], keys: &str) -> Result<ComposedPage, ligne::Error> {
+    let folder = temp_folder(name);
+    fs::write(folder.join("model.obj"), obj_text(parts)).expect("written");
     let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'model.obj', up = 'z' }}\n{keys}");
     let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose();
     fs::remove_dir_all(&folder).expect("removed");
@@ -24,8 +26,8 @@ fn plate() -> Vec<(String, Solid)> {
 }
 
 /// Returns the texts of an item with their bounding boxes and capital heights.
-fn texts(composed: &Composed, name: &str) -> Vec<(String, Rect, f64)> {
-    let own = marks(item(composed, name)).filter_map(|(place, mark)| {
+fn texts(composed: &ComposedPage, name: &str) -> Vec<(String, Rect, f64)> {
+    let own = placed_marks(page_item(composed, name)).filter_map(|(place, mark)| {
         let text = mark.provenance.text.as_ref()?;
         let [a, b, ..] = (place * text.place).as_coeffs();
         let capitals = (a * a + b * b).sqrt() * text.font.cap_height;
@@ -34,20 +36,20 @@ fn texts(composed: &Composed, name: &str) -> Vec<(String, Rect, f64)> {
     own.collect()
 }
 
-fn apart(a: Rect, b: Rect) -> bool {
+fn rects_are_disjoint(a: Rect, b: Rect) -> bool {
     let both = a.intersect(b);
     both.width() <= 0.0 || both.height() <= 0.0
 }
 
-const LONG: &str =
+const LONG_TITLE: &str =
     "Intermediate gearbox support with flanged connection to the main frame, left-hand variant";
 
 #[test]
-fn long_texts_of_title_blocks_take_several_lines() {
+fn long_title_block_texts_wrap_without_overlap() {
     for size in ["A4", "A2"] {
         let keys = format!(
-            "size = '{size}'\nviews = ['front']\n[page.title]\ntitle = '{LONG}'\nsubtitle = '{LONG}'\nowner = '{LONG}'\n\
-             department = '{LONG}'\nreference = '{LONG}'\nstatus = '{LONG}'\ncreator = '{LONG}'\ntolerances = '{LONG} {LONG}'\n\
+            "size = '{size}'\nviews = ['front']\n[page.title]\ntitle = '{LONG_TITLE}'\nsubtitle = '{LONG_TITLE}'\nowner = '{LONG_TITLE}'\n\
+             department = '{LONG_TITLE}'\nreference = '{LONG_TITLE}'\nstatus = '{LONG_TITLE}'\ncreator = '{LONG_TITLE}'\ntolerances = '{LONG_TITLE} {LONG_TITLE}'\n\
              number = '{}'\n",
             "N-0123456789".repeat(8)
         );
@@ -58,11 +60,11 @@ fn long_texts_of_title_blocks_take_several_lines() {
         assert!(whole.join(" ").matches("left-hand").count() >= 9, "{whole:?}");
         for (k, (words, rect, capitals)) in texts.iter().enumerate() {
             assert!(*capitals > 1.8 - 1e-9, "{words}: {capitals}");
-            assert!(texts[..k].iter().all(|(_, other, _)| apart(*rect, *other)), "{words}");
+            assert!(texts[..k].iter().all(|(_, other, _)| rects_are_disjoint(*rect, *other)), "{words}");
         }
-        let block = bounds(item(&composed, "title-block"));
+        let block = drawn_bounds(page_item(&composed, "title-block"));
         assert!(texts.iter().all(|(_, rect, _)| block.contains_rect(*rect)));
-        assert!(apart(bounds(item(&composed, "front")), block));
+        assert!(rects_are_disjoint(drawn_bounds(page_item(&composed, "front")), block));
     }
     let endless =
         format!("size = 'A4'\nviews = ['front']\n[page.title]\nowner = '{}'\n", "word ".repeat(350));
@@ -74,26 +76,27 @@ fn long_texts_of_title_blocks_take_several_lines() {
 }
 
 #[test]
-fn notes_and_centring_marks_keep_clear_of_tables() {
+fn notes_and_centring_marks_do_not_overlap_tables() {
     for size in ["A4", "A3"] {
         for list in ["", "parts_list = true\n"] {
             let keys = format!(
                 "size = '{size}'\nviews = ['front', 'iso']\nnotes = ['1. Remove burrs.', '2. Paint.']\n{list}"
             );
             let composed = sheet("notes", &plate(), &keys).expect("a sheet");
-            let mut tables = vec![bounds(item(&composed, "title-block"))];
+            let mut tables = vec![drawn_bounds(page_item(&composed, "title-block"))];
             if !list.is_empty() {
-                tables.push(bounds(item(&composed, "parts-list")));
+                tables.push(drawn_bounds(page_item(&composed, "parts-list")));
             }
             let notes = texts(&composed, "notes");
             assert!(notes.iter().any(|(words, ..)| words == "2. Paint."));
             for (words, rect, _) in &notes {
-                assert!(tables.iter().all(|table| apart(*rect, *table)), "{size}: {words}");
+                assert!(tables.iter().all(|table| rects_are_disjoint(*rect, *table)), "{size}: {words}");
             }
-            for (_, mark) in marks(item(&composed, "frame")) {
+            for (_, mark) in placed_marks(page_item(&composed, "frame")) {
                 let own = mark.path.bounding_box();
                 let is_mark = own.width().min(own.height()) == 0.0;
-                let inside = |table: &Rect| apart(own.inflate(0.1, 0.1), table.inflate(-0.2, -0.2));
+                let inside =
+                    |table: &Rect| rects_are_disjoint(own.inflate(0.1, 0.1), table.inflate(-0.2, -0.2));
                 assert!(!is_mark || tables.iter().all(inside), "{size}: {own:?}");
             }
         }
@@ -111,14 +114,14 @@ fn parts_share_a_row_if_their_shapes_are_equal() {
     ];
     let keys = "views = ['front', 'iso']\nparts_list = true\n";
     let composed = sheet("bearings", &parts, keys).expect("a sheet");
-    let told = words(item(&composed, "parts-list"));
+    let told = item_texts(page_item(&composed, "parts-list"));
     // One row for two equal parts, and two rows for one part each.
     assert_eq!(told.iter().filter(|word| word.starts_with("bearing")).count(), 3, "{told:?}");
     assert!(told.contains(&"bearing.002".to_owned()) && told.contains(&"bearing.004".to_owned()), "{told:?}");
 }
 
 #[test]
-fn long_parts_lists_keep_all_columns_or_are_refused() {
+fn long_parts_lists_keep_all_columns_or_are_rejected() {
     let parts = |count: usize| -> Vec<(String, Solid)> {
         let part = |k: usize| {
             let x = 7.0 * k as f64;
@@ -130,7 +133,7 @@ fn long_parts_lists_keep_all_columns_or_are_refused() {
     for (size, count) in [("A3", 20), ("A3", 57), ("A2", 80), ("A4", 30)] {
         let keys = format!("size = '{size}'\nviews = ['top']\nparts_list = true\nballoons = 'none'\n");
         let composed = sheet("pins", &parts(count), &keys).expect("a sheet");
-        let told = words(item(&composed, "parts-list"));
+        let told = item_texts(page_item(&composed, "parts-list"));
         let columns = told.iter().filter(|word| *word == "Name").count();
         assert_eq!(told.iter().filter(|word| *word == "Material").count(), columns, "{size} {count}");
         assert_eq!(told.iter().filter(|word| word.starts_with("pin ")).count(), count);
@@ -143,7 +146,7 @@ fn long_parts_lists_keep_all_columns_or_are_refused() {
 }
 
 #[test]
-fn names_in_other_scripts_are_told_with_part_file_and_line() {
+fn unsupported_scripts_are_reported_with_part_file_and_line() {
     let named = |name: &str| {
         vec![
             ("lid".to_owned(), block([0.0; 3], [8.0, 6.0, 3.0])),
@@ -159,7 +162,7 @@ fn names_in_other_scripts_are_told_with_part_file_and_line() {
     let error = sheet("script-title", &plate(), &title).expect_err("a title").to_string();
     assert!(error.contains("`title`") && error.contains("line 6"), "{error}");
     let composed = sheet("replaced", &named("geh\u{fffd}use"), keys).expect("a sheet");
-    assert!(words(item(&composed, "parts-list")).contains(&"geh\u{fffd}use".to_owned()));
+    assert!(item_texts(page_item(&composed, "parts-list")).contains(&"geh\u{fffd}use".to_owned()));
     assert!(composed.warnings.iter().any(|warning| warning.contains("U+FFFD")), "{:?}", composed.warnings);
 }
 
@@ -186,7 +189,7 @@ fn post([x, y]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> Solid {
 }
 
 #[test]
-fn sections_show_no_centre_lines_of_what_is_cut_away() {
+fn sections_show_no_centre_lines_of_removed_parts() {
     let parts = vec![
         ("ground".to_owned(), block([0.0; 3], [60.0, 40.0, 10.0])),
         ("post".to_owned(), post([20.0, 20.0], 6.0, [10.0, 30.0])),
@@ -197,8 +200,8 @@ fn sections_show_no_centre_lines_of_what_is_cut_away() {
             "views = ['front', 'top']\ncentre_lines = true\ndimensions = 'none'\n[[page.section]]\nplane = '{plane}'\n{keys}"
         );
         let composed = sheet("cut-away", &parts, &text).expect("a sheet");
-        let section = bounds(item(&composed, "section-A"));
-        let own = marks(item(&composed, "notes")).filter(|(_, mark)| {
+        let section = drawn_bounds(page_item(&composed, "section-A"));
+        let own = placed_marks(page_item(&composed, "notes")).filter(|(_, mark)| {
             let own = mark.path.bounding_box();
             mark.provenance.text.is_none()
                 && mark.path.elements().len() == 2
@@ -216,7 +219,7 @@ fn sections_show_no_centre_lines_of_what_is_cut_away() {
 }
 
 #[test]
-fn details_that_miss_the_model_are_told() {
+fn details_that_miss_the_model_are_reported() {
     let keys = "views = ['front', 'top']\n[[page.detail]]\nof = 'top'\nat = [300, 300, 0]\nradius = 4\n";
     let composed = sheet("missed", &plate(), keys).expect("a sheet");
     let told = |warning: &String| warning.contains("the detail `A` shows nothing");
@@ -227,12 +230,12 @@ fn details_that_miss_the_model_are_told() {
 }
 
 #[test]
-fn no_hidden_line_runs_across_a_flat_contact() {
+fn flat_contacts_between_materials_have_no_lines() {
     let holes = [([15.0, 22.0], 5.0), ([45.0, 25.0], 8.0), ([75.0, 20.0], 3.0)];
-    let lower = drilled([90.0, 45.0, 6.0], &holes);
-    let upper = drilled([90.0, 45.0, 4.0], &holes).moved(|p| p + glam::DVec3::Z * 6.0);
-    let folder = folder("contact");
-    let text = obj(&[("lower".into(), lower), ("upper".into(), upper)])
+    let lower = drilled_plate([90.0, 45.0, 6.0], &holes);
+    let upper = drilled_plate([90.0, 45.0, 4.0], &holes).moved(|p| p + glam::DVec3::Z * 6.0);
+    let folder = temp_folder("contact");
+    let text = obj_text(&[("lower".into(), lower), ("upper".into(), upper)])
         .replace("o lower\n", "mtllib a.mtl\no lower\nusemtl steel\n")
         .replace("o upper\n", "o upper\nusemtl brass\n");
     fs::write(folder.join("a.mtl"), "newmtl steel\nKd 0.6 0.6 0.7\nnewmtl brass\nKd 0.8 0.7 0.3\n")
@@ -244,8 +247,9 @@ fn no_hidden_line_runs_across_a_flat_contact() {
         PageFile::from_text(page, folder.join("a.toml")).expect("a page").compose().expect("drawn");
     fs::remove_dir_all(&folder).expect("removed");
     for view in ["top", "bottom"] {
-        let classes: Vec<_> =
-            marks(item(&composed[0], view)).map(|(_, mark)| mark.provenance.classes.clone()).collect();
+        let classes: Vec<_> = placed_marks(page_item(&composed[0], view))
+            .map(|(_, mark)| mark.provenance.classes.clone())
+            .collect();
         assert!(classes.iter().all(|classes| !classes.contains(&"material")), "{view}: {classes:?}");
     }
 }

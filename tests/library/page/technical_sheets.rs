@@ -3,21 +3,25 @@
 
 use std::fs;
 
-use ligne::drawing::{Item, Mark, Paint};
+use ligne::drawing::{Mark, Paint, PlacedDrawing};
 use ligne::kurbo::{PathEl, Point, Rect, Shape};
-use ligne::page::sheet::part_balloons::leader_assignment::{cross, leaders, runs_through, slots};
-use ligne::page::{Composed, PageFile};
+use ligne::page::sheet::part_balloons::leader_assignment::{
+    assign_leaders, balloon_slots, passes_through_balloon, segments_meet,
+};
+use ligne::page::{ComposedPage, PageFile};
 
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{block, bounds, folder, item, marks, obj, words};
+use crate::support::scenes::sheet_models::{
+    block, drawn_bounds, item_texts, obj_text, page_item, placed_marks, temp_folder,
+};
 use crate::support::scenes::solids::{Solid, cuboid};
 
 /// Composes a sheet with these keys, of a stepped block of 60 x 30 x 40.
-fn sheet(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
-    let folder = folder(name);
+fn sheet(name: &str, keys: &str) -> Result<ComposedPage, ligne::Error> {
+    let folder = temp_folder(name);
     let mut step = block([0.0, 0.0, 0.0], [60.0, 30.0, 20.0]);
     step.add(block([0.0, 0.0, 20.0], [25.0, 30.0, 40.0]));
-    fs::write(folder.join("step.obj"), obj(&[("step".into(), step)])).expect("written");
+    fs::write(folder.join("step.obj"), obj_text(&[("step".into(), step)])).expect("written");
     let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'step.obj', up = 'z' }}\n{keys}");
     let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose()?;
     fs::remove_dir_all(&folder).expect("removed");
@@ -31,17 +35,17 @@ fn width(mark: &Mark) -> f64 {
     }
 }
 
-fn near(a: Rect, b: Rect) -> bool {
+fn rects_are_near(a: Rect, b: Rect) -> bool {
     [a.x0 - b.x0, a.y0 - b.y0, a.x1 - b.x1, a.y1 - b.y1].into_iter().all(|d| d.abs() < 0.01)
 }
 
 /// Whether a stroke with this width has this bounding box.
-fn has(item: &Item, wide: f64, rect: Rect) -> bool {
-    marks(item).any(|(_, mark)| width(mark) == wide && near(mark.path.bounding_box(), rect))
+fn has_stroke(item: &PlacedDrawing, wide: f64, rect: Rect) -> bool {
+    placed_marks(item).any(|(_, mark)| width(mark) == wide && rects_are_near(mark.path.bounding_box(), rect))
 }
 
 #[test]
-fn frames_and_title_blocks_are_where_the_standards_say() {
+fn frames_and_title_blocks_follow_iso_5457_and_iso_7200() {
     for (name, w, h) in [
         ("A4", 210.0, 297.0),
         ("A3", 420.0, 297.0),
@@ -52,11 +56,11 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
         let composed = sheet(name, &format!("size = '{name}'\nviews = ['front']\n")).expect("a sheet");
         let page = composed.composition.page;
         assert_eq!([page.width, page.height], [w, h], "{name}");
-        let frame = item(&composed, "frame");
+        let frame = page_item(&composed, "frame");
         // ISO 5457, 4.2 and 4.4: margins of 20 mm on the left and 10 mm elsewhere, a frame 0.7 mm wide, and
         // zones in a band of 5 mm.
-        assert!(has(frame, 0.7, Rect::new(20.0, 10.0, w - 10.0, h - 10.0)), "{name}");
-        assert!(has(frame, 0.35, Rect::new(15.0, 5.0, w - 5.0, h - 5.0)), "{name}");
+        assert!(has_stroke(frame, 0.7, Rect::new(20.0, 10.0, w - 10.0, h - 10.0)), "{name}");
+        assert!(has_stroke(frame, 0.35, Rect::new(15.0, 5.0, w - 5.0, h - 5.0)), "{name}");
         // Centring marks on both axes of the sheet, from the outer border of the zones to 10 mm inside the
         // frame.
         let (x, y) = (w / 2.0, h / 2.0);
@@ -67,7 +71,7 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
             // They stop at the title block, which spans the full width of an A4 sheet.
             Rect::new(x, if name == "A4" { h - 10.0 } else { h - 20.0 }, x, h - 5.0),
         ] {
-            assert!(has(frame, 0.7, mark), "{name}: {mark:?}");
+            assert!(has_stroke(frame, 0.7, mark), "{name}: {mark:?}");
         }
         // Trimming marks of 10 x 5 mm at the corners.
         for (px, py) in [(0.0, 0.0), (w, 0.0), (0.0, h), (w, h)] {
@@ -75,30 +79,36 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
                 let corner =
                     Point::new(if px > 0.0 { w - a } else { 0.0 }, if py > 0.0 { h - b } else { 0.0 });
                 let own = Rect::from_origin_size(corner, (a, b));
-                assert!(marks(frame).any(|(_, m)| near(m.path.bounding_box(), own)), "{name}: {own:?}");
+                assert!(
+                    placed_marks(frame).any(|(_, m)| rects_are_near(m.path.bounding_box(), own)),
+                    "{name}: {own:?}"
+                );
             }
         }
         // Zones of 50 mm, starting at the middle.
         for k in 0..2 {
             let line = x + 50.0 * f64::from(k);
-            assert!(has(frame, 0.35, Rect::new(line, 5.0, line, 10.0)), "{name}");
+            assert!(has_stroke(frame, 0.35, Rect::new(line, 5.0, line, 10.0)), "{name}");
         }
         // ISO 7200: the title block is 180 mm wide, in the lower right corner.
-        let title = bounds(item(&composed, "title-block"));
-        assert!(near(title, Rect::new(w - 190.0, title.y0, w - 10.0, h - 10.0)), "{name}: {title:?}");
-        let letters = words(frame);
+        let title = drawn_bounds(page_item(&composed, "title-block"));
+        assert!(
+            rects_are_near(title, Rect::new(w - 190.0, title.y0, w - 10.0, h - 10.0)),
+            "{name}: {title:?}"
+        );
+        let letters = item_texts(frame);
         assert!(letters.contains(&"A".to_owned()) && !letters.iter().any(|c| c == "I" || c == "O"));
     }
 }
 
 #[test]
-fn views_stand_in_line_at_one_scale() {
+fn views_are_aligned_and_share_one_scale() {
     let keys = "views = ['front', 'top', 'left', 'right', 'bottom', 'back', 'iso']\noverall = false\n";
     for method in ["first", "third"] {
         let composed =
             sheet(&format!("line-{method}"), &format!("projection = '{method}'\nsize = 'A2'\n{keys}"));
         let composed = composed.expect("a sheet");
-        let of = |name: &str| bounds(item(&composed, name));
+        let of = |name: &str| drawn_bounds(page_item(&composed, name));
         let [front, top, left, right, bottom, back] =
             ["front", "top", "left", "right", "bottom", "back"].map(of);
         let same = |a: f64, b: f64| (a - b).abs() < 0.001;
@@ -126,54 +136,56 @@ fn views_stand_in_line_at_one_scale() {
 }
 
 #[test]
-fn scales_are_those_that_are_told_or_fit() {
+fn given_scales_are_used_or_rejected_if_they_do_not_fit() {
     let told = sheet("told", "scale = '1:2'\nviews = ['front']\n").expect("a sheet");
-    assert!((bounds(item(&told, "front")).width() - 30.0).abs() < 0.001);
-    assert!(words(item(&told, "title-block")).contains(&"1:2".to_owned()));
+    assert!((drawn_bounds(page_item(&told, "front")).width() - 30.0).abs() < 0.001);
+    assert!(item_texts(page_item(&told, "title-block")).contains(&"1:2".to_owned()));
     let inches = sheet("inches", "scale = '1:10'\nunit = 'in'\nviews = ['front']\n").expect("a sheet");
-    assert!((bounds(item(&inches, "front")).width() - 152.4).abs() < 0.001);
+    assert!((drawn_bounds(page_item(&inches, "front")).width() - 152.4).abs() < 0.001);
     let error = sheet("large", "scale = '10:1'\n").expect_err("too large");
     assert!(error.to_string().contains("do not fit"), "{error}");
 }
 
 #[test]
-fn lengths_are_true() {
+fn dimensions_show_the_true_lengths() {
     let keys = "views = ['front', 'top', 'left']\n\
         [[page.dimension]]\nfrom = [25, 0, 40]\nto = [60, 0, 20]\nmeasure = 'horizontal'\n\
         [[page.dimension]]\nfrom = [0, 0, 0]\nto = [30, 0, 40]\n\
         [[page.dimension]]\nof = 'top'\nfrom = [0, 0, 0]\nto = [0, 30, 0]\nmeasure = 'vertical'\ntext = 'all'\n";
     let composed = sheet("lengths", keys).expect("a sheet");
-    let told = words(item(&composed, "notes"));
+    let told = item_texts(page_item(&composed, "notes"));
     for value in ["60", "40", "30", "35", "50", "all"] {
         assert!(told.contains(&value.to_owned()), "{value} of {told:?}");
     }
 }
 
 #[test]
-fn sections_take_the_place_of_their_view_and_details_are_round() {
+fn sections_replace_their_view_and_details_are_round() {
     let keys = "views = ['top', 'left']\n[[page.section]]\nplane = 'y=15'\n\
         [[page.detail]]\nof = 'top'\nat = [25, 0, 40]\nradius = 5\n";
     let composed = sheet("section", keys).expect("a sheet");
-    let section = item(&composed, "section-A");
-    let patterns: Vec<&Mark> =
-        marks(section).map(|(_, mark)| mark).filter(|mark| mark.provenance.classes == ["pattern"]).collect();
+    let section = page_item(&composed, "section-A");
+    let patterns: Vec<&Mark> = placed_marks(section)
+        .map(|(_, mark)| mark)
+        .filter(|mark| mark.provenance.classes == ["pattern"])
+        .collect();
     assert!(!patterns.is_empty());
-    let [own, top] = ["section-A", "top"].map(|name| bounds(item(&composed, name)));
+    let [own, top] = ["section-A", "top"].map(|name| drawn_bounds(page_item(&composed, name)));
     assert!((own.x0 - top.x0).abs() < 0.001 && own.y1 < top.y0);
-    let told = words(item(&composed, "notes"));
+    let told = item_texts(page_item(&composed, "notes"));
     assert!(told.contains(&"A-A".to_owned()), "{told:?}");
     assert_eq!(told.iter().filter(|word| *word == "A").count(), 2, "{told:?}");
-    let detail = item(&composed, "detail-B");
+    let detail = page_item(&composed, "detail-B");
     assert!(detail.clip.is_none());
     let scale = top.width() / 60.0;
-    let circle = marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box());
+    let circle = placed_marks(page_item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box());
     let circle = circle
         .filter(|own| (own.width() - 10.0 * 5.0 * scale).abs() < 0.02)
         .max_by(|a, b| a.x0.total_cmp(&b.x0));
     let circle = circle.expect("a circle");
     // The lines of the detail end at the circle.
     let mut reach = 0.0_f64;
-    for (place, mark) in marks(detail) {
+    for (place, mark) in placed_marks(detail) {
         for element in (place * mark.path.clone()).elements() {
             let p = element.end_point().unwrap_or(circle.center());
             reach = reach.max((p - circle.center()).hypot());
@@ -184,8 +196,8 @@ fn sections_take_the_place_of_their_view_and_details_are_round() {
 }
 
 #[test]
-fn axes_of_cylinders_are_crosses_and_lines() {
-    let folder = folder("centre");
+fn cylinder_axes_are_drawn_as_crosses_and_centre_lines() {
+    let folder = temp_folder("centre");
     let mut pin = Solid::default();
     // A prism of 48 sides around the z axis: radius 10, from z = 0 to 30.
     for k in 0..48 {
@@ -200,20 +212,20 @@ fn axes_of_cylinders_are_crosses_and_lines() {
         let [a, b] = [2 * k, 2 * ((k + 1) % 48)];
         pin.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
     }
-    fs::write(folder.join("pin.obj"), obj(&[("pin".into(), pin)])).expect("written");
+    fs::write(folder.join("pin.obj"), obj_text(&[("pin".into(), pin)])).expect("written");
     let text = "[page]\nkind = 'sheet'\nmodel = { file = 'pin.obj', up = 'z' }\nviews = ['front', 'top']\noverall = false\n";
     let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
     let composed = page.compose().expect("drawn").remove(0);
     fs::remove_dir_all(&folder).expect("removed");
-    let [front, top] = ["front", "top"].map(|name| bounds(item(&composed, name)));
+    let [front, top] = ["front", "top"].map(|name| drawn_bounds(page_item(&composed, name)));
     let lines: Vec<Rect> =
-        marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box()).collect();
+        placed_marks(page_item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box()).collect();
     let middle = front.center().x;
     let axis = Rect::new(middle, front.y0 - 2.5, middle, front.y1 + 2.5);
-    assert!(lines.iter().any(|line| near(*line, axis)), "{lines:?}");
+    assert!(lines.iter().any(|line| rects_are_near(*line, axis)), "{lines:?}");
     let centre = top.center();
     let arm = Rect::new(centre.x, centre.y, top.x1 + 2.5, centre.y);
-    assert!(lines.iter().any(|line| near(*line, arm)), "{lines:?} {arm:?}");
+    assert!(lines.iter().any(|line| rects_are_near(*line, arm)), "{lines:?} {arm:?}");
     assert_eq!(lines.len(), 5);
 }
 
@@ -221,23 +233,23 @@ fn axes_of_cylinders_are_crosses_and_lines() {
 fn leaders_of_twenty_assemblies_do_not_cross() {
     let mut dice = Dice::new(17);
     for round in 0..20 {
-        let folder = folder(&format!("assembly-{round}"));
+        let folder = temp_folder(&format!("assembly-{round}"));
         let mut parts = Vec::new();
         for k in 0..6 + round {
             let at = dice.point(40.0);
             let size = dice.point(6.0).abs() + glam::DVec3::splat(2.0);
             parts.push((format!("part{k}x"), cuboid(at - size, at + size)));
         }
-        fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
+        fs::write(folder.join("a.obj"), obj_text(&parts)).expect("written");
         let text =
             "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = true\nsize = 'A2'\n";
         let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
         let composed = page.compose().expect("drawn").remove(0);
         fs::remove_dir_all(&folder).expect("removed");
-        let balloons = item(&composed, "balloons");
+        let balloons = page_item(&composed, "balloons");
         let mut lines = Vec::new();
         let mut circles = Vec::new();
-        for (_, mark) in marks(balloons).filter(|(_, mark)| width(mark) > 0.0) {
+        for (_, mark) in placed_marks(balloons).filter(|(_, mark)| width(mark) > 0.0) {
             match mark.path.elements() {
                 [PathEl::MoveTo(a), PathEl::LineTo(b)] => lines.push([*a, *b]),
                 _ => circles.push(mark.path.bounding_box()),
@@ -251,7 +263,7 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
         assert_eq!([lines.len() + hidden, circles.len() + hidden], [parts.len(); 2], "round {round}");
         for (k, line) in lines.iter().enumerate() {
             for other in &lines[..k] {
-                assert!(!cross(*line, *other), "round {round}: {line:?} {other:?}");
+                assert!(!segments_meet(*line, *other), "round {round}: {line:?} {other:?}");
             }
             // Each leader ends at its own balloon and crosses no other.
             let near = |circle: &&Rect| {
@@ -283,47 +295,51 @@ fn leaders_of_random_anchors_do_not_cross() {
             || Point::new(dice.between(10.0, border.x1 - 10.0), dice.between(10.0, border.y1 - 10.0));
         let anchors: Vec<Point> = (0..count).map(|_| point()).collect();
         let room = (2.0 * (border.width() + border.height()) / (count as f64 + 0.5)).min(10.0);
-        let slots = slots(border, room, 0.5);
-        let of = leaders(&anchors, &slots, &|_, _| false);
+        let slots = balloon_slots(border, room, 0.5);
+        let of = assign_leaders(&anchors, &slots, &|_, _| false);
         let mut taken = of.clone();
         taken.sort_unstable();
         taken.dedup();
         assert_eq!(taken.len(), count);
         for a in 0..count {
             for b in 0..a {
-                assert!(!cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]), "round {round}");
+                assert!(
+                    !segments_meet([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]),
+                    "round {round}"
+                );
             }
         }
         // Leaders cross no other balloons if there is enough room.
         for a in 0..count {
-            let through =
-                (0..count).filter(|b| *b != a && runs_through([anchors[a], slots[of[a]]], slots[of[*b]]));
+            let through = (0..count)
+                .filter(|b| *b != a && passes_through_balloon([anchors[a], slots[of[a]]], slots[of[*b]]));
             hits += through.count();
         }
     }
     assert!(hits <= 2, "{hits} leaders run through balloons");
     let p = Point::new;
-    assert!(cross([p(0.0, 0.0), p(2.0, 2.0)], [p(0.0, 2.0), p(2.0, 0.0)]));
-    assert!(cross([p(0.0, 0.0), p(2.0, 0.0)], [p(1.0, 0.0), p(1.0, 5.0)]));
-    assert!(!cross([p(0.0, 0.0), p(1.0, 0.0)], [p(0.0, 1.0), p(1.0, 1.0)]));
+    assert!(segments_meet([p(0.0, 0.0), p(2.0, 2.0)], [p(0.0, 2.0), p(2.0, 0.0)]));
+    assert!(segments_meet([p(0.0, 0.0), p(2.0, 0.0)], [p(1.0, 0.0), p(1.0, 5.0)]));
+    assert!(!segments_meet([p(0.0, 0.0), p(1.0, 0.0)], [p(0.0, 1.0), p(1.0, 1.0)]));
 }
 
 #[test]
-fn parts_lists_count_what_is_there() {
+fn parts_lists_count_equal_parts() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
-    let items =
-        ligne::page::sheet::parts_list::parts_list_items::items(&ligne::Scene::open(path).expect("a model"));
+    let items = ligne::page::sheet::parts_list::parts_list_items::parts_list_items(
+        &ligne::Scene::open(path).expect("a model"),
+    );
     let count = |name: &str| items.iter().find(|item| item.name == name).map_or(0, |item| item.parts.len());
     assert_eq!([count("anchor"), count("volute"), count("motor-housing")], [6, 1, 1]);
     assert_eq!(items.iter().map(|item| item.parts.len()).sum::<usize>(), 68);
 }
 
 #[test]
-fn parts_lists_come_from_files() {
-    let folder = folder("list");
+fn parts_lists_can_be_read_from_csv_and_toml() {
+    let folder = temp_folder("list");
     let parts = [("plate", 0.0), ("bolt.1", 4.0), ("bolt.2", 8.0), ("nut", 12.0)];
     let parts = parts.map(|(name, x)| (name.to_owned(), block([x, 0.0, 0.0], [x + 2.0, 3.0, 4.0])));
-    fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
+    fs::write(folder.join("a.obj"), obj_text(&parts)).expect("written");
     let compose = |list: &str, text: &str| {
         fs::write(folder.join(list), text).expect("written");
         let text =
@@ -332,12 +348,12 @@ fn parts_lists_come_from_files() {
     };
     let csv = "Pos;Part;Name;Qty;Material;Remark\n10;plate;Base plate;;S235;painted\n20;bolt*;Bolt M6;;8.8;\n30;;Oil;2;;litres\n";
     let composed = compose("list.csv", csv).expect("a sheet").remove(0);
-    let told = words(item(&composed, "parts-list"));
+    let told = item_texts(page_item(&composed, "parts-list"));
     for word in ["10", "20", "30", "Base plate", "Bolt M6", "S235", "painted", "8.8", "litres", "Remark", "2"]
     {
         assert!(told.contains(&word.to_owned()), "{word}: {told:?}");
     }
-    let mut balloons = words(item(&composed, "balloons"));
+    let mut balloons = item_texts(page_item(&composed, "balloons"));
     balloons.sort();
     assert_eq!(balloons, ["10", "20"]);
     assert!(
@@ -347,7 +363,7 @@ fn parts_lists_come_from_files() {
     );
     let toml = "[[item]]\npart = 'bolt*'\nname = 'Bolt'\n[[item]]\nname = 'nut'\nnumber = 'N'\n";
     let composed = compose("list.toml", toml).expect("a sheet").remove(0);
-    assert!(words(item(&composed, "balloons")).contains(&"N".to_owned()));
+    assert!(item_texts(page_item(&composed, "balloons")).contains(&"N".to_owned()));
     for (list, text, told) in [
         ("a.csv", "nme\nplate\n", "no column `nme`"),
         ("b.csv", "name,qty\nplate,many\n", "`many` is not a quantity"),
@@ -366,13 +382,13 @@ fn parts_lists_come_from_files() {
 }
 
 #[test]
-fn sheets_tell_how_single_parts_come_apart() {
-    let folder = folder("told-parts");
+fn explosion_of_single_parts_can_be_set() {
+    let folder = temp_folder("told-parts");
     let parts = [
         ("plate".into(), block([0.0, 0.0, 0.0], [40.0, 40.0, 5.0])),
         ("lid".into(), block([0.0, 0.0, 5.0], [40.0, 40.0, 10.0])),
     ];
-    fs::write(folder.join("two.obj"), obj(&parts)).expect("written");
+    fs::write(folder.join("two.obj"), obj_text(&parts)).expect("written");
     let proportion = |told: &str| {
         let text = format!(
             "[page]\nkind = 'sheet'\nscale = '1:1'\nviews = ['front']\nmodel = {{ file = 'two.obj', up = 'z' }}\n\
@@ -380,7 +396,7 @@ fn sheets_tell_how_single_parts_come_apart() {
         );
         let page =
             PageFile::from_text(&text, folder.join("sheet.toml")).expect("a page").compose().expect("drawn");
-        let bounds = bounds(item(&page[0], "exploded"));
+        let bounds = drawn_bounds(page_item(&page[0], "exploded"));
         bounds.height() / bounds.width()
     };
     let (found, told) =
@@ -392,7 +408,7 @@ fn sheets_tell_how_single_parts_come_apart() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn sheet_errors_name_their_place() {
     for (keys, told) in [
         ("views = ['frnt']\n", "did you mean `front`?"),
         ("vews = ['front']\n", "vews"),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::imports::{File, circles, imports};
+use crate::support::imports::{File, import_cycles, import_graph};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
 const ROOMS: [&str; 34] = [
@@ -176,7 +176,7 @@ fn imports_point_down_the_list_of_rooms() {
 
 /// Circles among the files of a crate, each as its places.
 fn circles_among(files: &[File]) -> Vec<String> {
-    circles(&imports(files)).into_iter().map(|circle| circle.join(" > ")).collect()
+    import_cycles(&import_graph(files)).into_iter().map(|circle| circle.join(" > ")).collect()
 }
 
 #[test]
@@ -184,10 +184,10 @@ fn files_import_each_other_in_no_circle() {
     let sources = sources();
     let file = |source: &Source| {
         let lines: Vec<&str> = source.code().into_iter().map(|(_, line)| line).collect();
-        File { place: source.place(), code: lines.join("\n") }
+        File { path: source.place(), code: lines.join("\n") }
     };
     let files: Vec<File> = sources.iter().filter(|s| !s.is_test()).map(file).collect();
-    let all = imports(&files);
+    let all = import_graph(&files);
     // That there is none means something only if imports are found.
     assert!(all["stages/chain/line.rs"].contains("stages/chain/sample.rs"), "a name made public by a mod.rs");
     assert!(all["render/on_view.rs"].contains("stages/viewmap/graph.rs"), "a name of a stage");
@@ -198,7 +198,7 @@ fn files_import_each_other_in_no_circle() {
 #[test]
 fn circles_are_found() {
     let made = |files: &[(&str, &str)]| -> Vec<String> {
-        let file = |(place, code): &(&str, &str)| File { place: (*place).into(), code: (*code).into() };
+        let file = |(place, code): &(&str, &str)| File { path: (*place).into(), code: (*code).into() };
         circles_among(&files.iter().map(file).collect::<Vec<_>>())
     };
     let root = ("lib.rs", "pub mod room;\nmod low;\npub use low::Low;");

@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 use ligne::style::{KeyType, Style, StyleKey};
 
 /// A word that is not a key and not similar to one.
-const NONE: &str = "qqqqqqqqqqqq";
+const UNKNOWN_WORD: &str = "qqqqqqqqqqqq";
 
 /// Keys without a row in the table: they are accepted only to report where they belong.
-const NOT_LISTED: [&str; 1] = ["fills.material[].highlight.near"];
+const UNLISTED_KEYS: [&str; 1] = ["fills.material[].highlight.near"];
 
 /// A style sheet that sets one key, with the other keys that its table requires.
-fn sheet(path: &str, value: &str) -> String {
+fn sheet_with_key(path: &str, value: &str) -> String {
     // Tables that require more keys: the end of the table's path, the keys that this entry applies to
     // (empty: all), and the required fields.
     const BRUSH: &str = "path = \"M0 0L10 1L0 2Z\"";
@@ -62,26 +62,27 @@ fn sheet(path: &str, value: &str) -> String {
 }
 
 /// The first line of the error of a sheet, or `None` if the sheet is valid.
-fn fault(text: &str) -> Option<String> {
+fn first_error_line(text: &str) -> Option<String> {
     let error = Style::from_toml(text).err()?;
     // Files that a sheet names do not exist, so `cannot read` means that the sheet is valid.
     let is_unread = error.to_string().contains("cannot read");
     (!is_unread).then(|| error.to_string().lines().next().unwrap_or_default().to_owned())
 }
 
-/// The words after a phrase such as `known keys: ` in an error.
-fn known(fault: &str, list: &str) -> Vec<String> {
+/// The words after a phrase such as `listed_words keys: ` in an error.
+fn listed_words(fault: &str, list: &str) -> Vec<String> {
     let Some((_, words)) = fault.split_once(list) else { return Vec::new() };
     words.split(", ").map(|word| word.trim().to_owned()).collect()
 }
 
 /// Collects the paths of all keys and tables below a path, from the lists in errors about unknown keys.
-fn walk(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>) {
+fn collect_keys(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>) {
     let below = |form: &str| {
-        let path = if path.is_empty() { NONE.to_owned() } else { format!("{path}{form}.{NONE}") };
-        let fault = fault(&sheet(&path, "1")).unwrap_or_default();
-        if fault.contains(&format!("unknown key `{NONE}`")) {
-            known(&fault, "known keys: ")
+        let path =
+            if path.is_empty() { UNKNOWN_WORD.to_owned() } else { format!("{path}{form}.{UNKNOWN_WORD}") };
+        let fault = first_error_line(&sheet_with_key(&path, "1")).unwrap_or_default();
+        if fault.contains(&format!("unknown key `{UNKNOWN_WORD}`")) {
+            listed_words(&fault, "known keys: ")
         } else {
             Vec::new()
         }
@@ -90,7 +91,7 @@ fn walk(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>
         let keys = below(form);
         for key in &keys {
             let path = if path.is_empty() { key.clone() } else { format!("{path}{form}.{key}") };
-            walk(&path, leaves, tables);
+            collect_keys(&path, leaves, tables);
         }
         if !keys.is_empty() {
             tables.insert(path.to_owned());
@@ -101,14 +102,14 @@ fn walk(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>
 }
 
 #[test]
-fn the_table_lists_every_key_and_no_other() {
+fn the_key_table_lists_exactly_the_accepted_keys() {
     let (mut leaves, mut tables) = (BTreeSet::new(), BTreeSet::new());
-    walk("", &mut leaves, &mut tables);
+    collect_keys("", &mut leaves, &mut tables);
     assert!(leaves.len() > 700, "{} keys found", leaves.len());
     let listed: BTreeSet<String> = StyleKey::all().iter().map(|key| key.path.clone()).collect();
     assert_eq!(listed.len(), StyleKey::all().len(), "a key is listed twice");
     let lacking: Vec<&String> = leaves.iter().filter(|path| !listed.contains(*path)).collect();
-    assert_eq!(lacking, NOT_LISTED, "src/style/keys/table.txt lacks keys");
+    assert_eq!(lacking, UNLISTED_KEYS, "src/style/keys/table.txt lacks keys");
     // A key that accepts either a table or another value has a row, although it is a table.
     let is_key = |path: &&String| leaves.contains(*path) || tables.contains(*path);
     let wrong: Vec<&String> = listed.iter().filter(|path| !is_key(path)).collect();
@@ -116,7 +117,7 @@ fn the_table_lists_every_key_and_no_other() {
 }
 
 /// Values that a key accepts, and values that it rejects.
-fn values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
+fn accepted_and_rejected_values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
     let word = |word: &str| format!("\"{word}\"");
     let mut good: Vec<String> = match key.kind {
         KeyType::Choice => Vec::new(),
@@ -128,11 +129,11 @@ fn values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
         KeyType::Switch => good.extend(["true".to_owned(), "false".to_owned()]),
         KeyType::Choice => {
             good.extend(key.words.iter().map(|one| word(one)));
-            bad.extend([word(NONE), "true".to_owned(), "3".to_owned()]);
+            bad.extend([word(UNKNOWN_WORD), "true".to_owned(), "3".to_owned()]);
         }
         KeyType::Choices => {
             good.extend(key.words.iter().map(|one| format!("[\"{one}\"]")));
-            bad.extend([format!("[\"{NONE}\"]"), word(key.words[0])]);
+            bad.extend([format!("[\"{UNKNOWN_WORD}\"]"), word(key.words[0])]);
         }
         KeyType::Colour => good.extend([word("#123456"), word("teal")]),
         KeyType::Ink => good.extend([word("#123456"), "{ shade = 0.4 }".to_owned()]),
@@ -191,24 +192,25 @@ fn values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
 fn allowed_values_are_accepted_and_others_refused() {
     let mut faults = Vec::new();
     for key in StyleKey::all() {
-        let (good, bad) = values(key);
+        let (good, bad) = accepted_and_rejected_values(key);
         if good.is_empty() {
             faults.push(format!("{}: no value is tried", key.path));
         }
         for value in good.iter().map(String::as_str).chain(key.default) {
-            if let Some(fault) = fault(&sheet(&key.path, value)) {
+            if let Some(fault) = first_error_line(&sheet_with_key(&key.path, value)) {
                 faults.push(format!("{}: {value} is refused: {fault}", key.path));
             }
         }
         for value in &bad {
-            if fault(&sheet(&key.path, value)).is_none() {
+            if first_error_line(&sheet_with_key(&key.path, value)).is_none() {
                 faults.push(format!("{}: {value} is accepted", key.path));
             }
         }
         // The words in the table are the words in the error.
         if key.kind == KeyType::Choice {
-            let refused = fault(&sheet(&key.path, &format!("\"{NONE}\""))).unwrap_or_default();
-            let words: BTreeSet<String> = known(&refused, "known values: ").into_iter().collect();
+            let refused = first_error_line(&sheet_with_key(&key.path, &format!("\"{UNKNOWN_WORD}\"")))
+                .unwrap_or_default();
+            let words: BTreeSet<String> = listed_words(&refused, "known values: ").into_iter().collect();
             let own: BTreeSet<String> = key.words.iter().map(|word| (*word).to_owned()).collect();
             if words != own {
                 faults.push(format!("{}: the words are {words:?}", key.path));
@@ -219,15 +221,15 @@ fn allowed_values_are_accepted_and_others_refused() {
 }
 
 #[test]
-fn defaults_are_those_of_the_program() {
+fn listed_defaults_equal_the_built_in_defaults() {
     let mut faults = Vec::new();
     let mut checked = 0;
     for key in StyleKey::all() {
         // Dashes of hidden lines are a built-in rule that precedes the rules of the sheet.
         let Some(default) = key.default.filter(|_| key.path != "pen.hidden.dash") else { continue };
-        let of = |value: &str| Style::from_toml(&sheet(&key.path, value));
+        let of = |value: &str| Style::from_toml(&sheet_with_key(&key.path, value));
         // The same sheet without the key. Its table remains, because it holds the other required keys.
-        let base = sheet(&key.path, "\u{1}").replace(&format!("{} = \u{1}", last(key)), "");
+        let base = sheet_with_key(&key.path, "\u{1}").replace(&format!("{} = \u{1}", key_name(key)), "");
         let base = base.replace(", }", " }").replace("= \u{1}", "= []");
         let base = if key.prefix.is_empty() { String::new() } else { base };
         let Ok(base) = Style::from_toml(&base) else { continue };
@@ -237,7 +239,7 @@ fn defaults_are_those_of_the_program() {
             Err(error) => faults.push(format!("{}: {error}", key.path)),
         }
         // Another value must change the style, or else the comparison proves nothing.
-        let (good, _) = values(key);
+        let (good, _) = accepted_and_rejected_values(key);
         let differs = |value: &String| of(value).is_ok_and(|style| style != base);
         if key.kind != KeyType::Tables && !key.path.contains("brush") && !good.iter().any(differs) {
             faults.push(format!("{}: no value makes a difference", key.path));
@@ -249,12 +251,12 @@ fn defaults_are_those_of_the_program() {
 }
 
 /// The last word of the path of a key.
-fn last(key: &StyleKey) -> &str {
+fn key_name(key: &StyleKey) -> &str {
     key.path.rsplit('.').next().unwrap_or_default()
 }
 
 #[test]
-fn rows_are_complete() {
+fn key_table_rows_are_complete() {
     for key in StyleKey::all() {
         assert!(key.help.len() > 5 && key.help.len() <= 100, "{}: {}", key.path, key.help);
         assert!(
@@ -295,8 +297,8 @@ fn american_spelling_is_accepted_for_every_key() {
     let mut tried = 0;
     for key in StyleKey::all().iter().filter(|key| key.path.contains("colour")) {
         let american = key.path.replace("colour", "color");
-        for value in values(key).0 {
-            let (own, other) = (sheet(&key.path, &value), sheet(&american, &value));
+        for value in accepted_and_rejected_values(key).0 {
+            let (own, other) = (sheet_with_key(&key.path, &value), sheet_with_key(&american, &value));
             let style = |text: &str| Style::from_toml(text).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert_eq!(style(&own), style(&other), "{american}");
             if key.is_settable() {

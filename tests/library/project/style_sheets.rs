@@ -1,17 +1,17 @@
-//! Style sheets: built-in styles, `extends`, `--set`, complete sheets, and error messages.
+//! Style sheets: built-in styles, `extends`, `--style_with_changes`, complete sheets, and error messages.
 
 use std::path::{Path, PathBuf};
 
 use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
 use ligne::lines::HiddenLines;
-use ligne::strokes::{Ink, LayersBy, Order};
+use ligne::strokes::{Ink, LayersBy, MarkOrder};
 use ligne::style::{Style, StyleKey};
 
 /// A folder of style sheets, removed when it is dropped.
-struct Sheets(PathBuf);
+struct SheetFolder(PathBuf);
 
-impl Sheets {
+impl SheetFolder {
     fn new(name: &str, files: &[(&str, &str)]) -> Self {
         let folder = std::env::temp_dir().join(format!("ligne-style-{}-{name}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
@@ -32,20 +32,20 @@ impl Sheets {
     }
 }
 
-impl Drop for Sheets {
+impl Drop for SheetFolder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// The style `ink` with these `--set` changes.
-fn set(changes: &[&str]) -> Result<Style, ligne::Error> {
+/// The style `ink` with these `--style_with_changes` changes.
+fn style_with_changes(changes: &[&str]) -> Result<Style, ligne::Error> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     Style::load("ink", &changes)
 }
 
 #[test]
-fn every_built_in_style_loads_and_states_its_idea() {
+fn every_built_in_style_loads_and_has_a_description() {
     let names: Vec<&str> = Style::names().collect();
     assert_eq!(
         names,
@@ -85,12 +85,12 @@ fn every_built_in_style_loads_and_states_its_idea() {
     assert_eq!(Style::default(), Style::preset("ink").unwrap());
     assert_eq!(Style::preset("technical").unwrap().lines.hidden, HiddenLines::Dashed);
     let layers = Style::preset("plotter").unwrap().stroke.layers;
-    assert_eq!((layers.by, layers.order), (LayersBy::Pen, Order::Travel));
+    assert_eq!((layers.by, layers.order), (LayersBy::Pen, MarkOrder::Travel));
 }
 
 #[test]
-fn the_keys_other_programs_use_can_be_set() {
-    let style = set(&[
+fn keys_that_other_programs_use_can_be_set() {
+    let style = style_with_changes(&[
         "lines.kinds=[\"contour\", \"crease\"]",
         "lines.crease_deg=30",
         "lines.hidden=dashed",
@@ -109,24 +109,24 @@ fn the_keys_other_programs_use_can_be_set() {
     assert_eq!(style.chain.smooth, Length::px(0.0));
     assert!(!style.chain.fit);
     assert_eq!(style.seed, 7);
-    assert!(!set(&["chain.fit=0"]).unwrap().chain.fit);
-    assert!(set(&["chain.fit=0", "chain.fit=1"]).unwrap().chain.fit);
-    assert!(set(&["chain.fit = true"]).unwrap().chain.fit);
+    assert!(!style_with_changes(&["chain.fit=0"]).unwrap().chain.fit);
+    assert!(style_with_changes(&["chain.fit=0", "chain.fit=1"]).unwrap().chain.fit);
+    assert!(style_with_changes(&["chain.fit = true"]).unwrap().chain.fit);
 }
 
 #[test]
-fn values_may_be_bare_words() {
-    let style = set(&["pen.width=0.35mm", "pen.colour=#f00", "page.background=none"]).unwrap();
+fn set_accepts_values_without_quotes() {
+    let style = style_with_changes(&["pen.width=0.35mm", "pen.colour=#f00", "page.background=none"]).unwrap();
     assert_eq!(style.stroke.pen.width, Length::mm(0.35));
     assert_eq!(style.stroke.pen.colour, Ink::Fixed(Colour::rgb(255, 0, 0)));
     assert_eq!(style.background, None);
-    let style = set(&["pen.colour={ shade = 0.4 }"]).unwrap();
+    let style = style_with_changes(&["pen.colour={ shade = 0.4 }"]).unwrap();
     assert_eq!(style.stroke.pen.colour, Ink::Shade(0.4));
 }
 
 #[test]
-fn a_set_of_one_field_keeps_the_others() {
-    let style = set(&["pen.silhouette.width=5"]).unwrap();
+fn setting_one_key_keeps_the_others() {
+    let style = style_with_changes(&["pen.silhouette.width=5"]).unwrap();
     let before = Style::default();
     assert_eq!(style.lines, before.lines);
     assert_eq!(style.stroke.rules.len(), before.stroke.rules.len());
@@ -135,8 +135,8 @@ fn a_set_of_one_field_keeps_the_others() {
 }
 
 #[test]
-fn sheets_extend_sheets_and_their_rules_add_up() {
-    let sheets = Sheets::new(
+fn sheets_extend_sheets_and_their_rules_accumulate() {
+    let sheets = SheetFolder::new(
         "extend",
         &[
             (
@@ -158,13 +158,13 @@ fn sheets_extend_sheets_and_their_rules_add_up() {
 
 #[test]
 fn a_sheet_that_extends_itself_is_refused() {
-    let sheets = Sheets::new(
+    let sheets = SheetFolder::new(
         "cycle",
         &[("a.toml", "seed = 1\nextends = \"b.toml\"\n"), ("b.toml", "extends = \"a.toml\"\n")],
     );
     let error = sheets.error("a.toml");
     assert!(error.starts_with("b.toml: line 1: `extends = \"a.toml\"` leads back"), "{error}");
-    let lost = Sheets::new("lost", &[("a.toml", "\nextends = \"inck\"\n")]);
+    let lost = SheetFolder::new("lost", &[("a.toml", "\nextends = \"inck\"\n")]);
     let error = lost.error("a.toml");
     assert_eq!(error, "a.toml: line 2: there is no style `inck`; did you mean `ink`?");
 }
@@ -209,16 +209,16 @@ fn errors_show_line_caret_and_the_nearest_key() {
             "bad.toml: line 1: `\"yes\"` does not fit here; write true or false\n 1 | chain.fit = \"yes\"\n   |             ^^^^^",
         ),
     ] {
-        let sheets = Sheets::new("errors", &[("bad.toml", text)]);
+        let sheets = SheetFolder::new("errors", &[("bad.toml", text)]);
         assert_eq!(sheets.error("bad.toml"), wanted);
     }
-    let sheets = Sheets::new("errors", &[("bad.toml", "[lines\n")]);
+    let sheets = SheetFolder::new("errors", &[("bad.toml", "[lines\n")]);
     let error = sheets.error("bad.toml");
     assert!(error.starts_with("bad.toml: line 1: ") && error.contains("\n 1 | [lines\n"), "{error}");
 }
 
 #[test]
-fn numbers_out_of_range_are_refused() {
+fn values_out_of_range_are_refused() {
     for change in [
         "pen.width=nan",
         "pen.width=inf",
@@ -252,24 +252,24 @@ fn numbers_out_of_range_are_refused() {
         "hatching.layer=[{ direction = 'north' }]",
         "hatching.layer=[{ hatch = 1 }]",
     ] {
-        assert!(set(&[change]).is_err(), "{change}");
+        assert!(style_with_changes(&[change]).is_err(), "{change}");
     }
 }
 
 #[test]
-fn errors_of_changes_name_the_change() {
-    let error = set(&["chain.fti=0"]).unwrap_err().to_string();
+fn errors_in_set_quote_the_change() {
+    let error = style_with_changes(&["chain.fti=0"]).unwrap_err().to_string();
     assert_eq!(
         error,
         "--set chain.fti=0: unknown key `fti`; did you mean `fit`?\n   --set chain.fti=0\n               ^^^"
     );
-    let error = set(&["lines.hidden=dot"]).unwrap_err().to_string();
+    let error = style_with_changes(&["lines.hidden=dot"]).unwrap_err().to_string();
     assert!(error.contains("unknown value `dot`; known values: none, dashed, solid"), "{error}");
     for change in ["", "pen.width", "=1", "a b=1", "pen..width=1", "pen.width=1\nseed=2", "extends=ink"] {
-        let error = set(&[change]).unwrap_err().to_string();
+        let error = style_with_changes(&[change]).unwrap_err().to_string();
         assert!(error.starts_with("--set "), "{change}: {error}");
     }
-    let error = set(&["watercolour.enabled=false"]).unwrap_err().to_string();
+    let error = style_with_changes(&["watercolour.enabled=false"]).unwrap_err().to_string();
     assert!(
         error.contains("unknown key `watercolour`; known keys: extends, seed, page, lines, chain"),
         "{error}"
@@ -277,7 +277,7 @@ fn errors_of_changes_name_the_change() {
 }
 
 #[test]
-fn layers_of_hatching_are_by_default_as_in_the_table_of_keys() {
+fn hatching_layer_defaults_equal_those_of_the_key_table() {
     let mut sheet = String::from("[[hatching.layer]]\n");
     let keys: Vec<&StyleKey> =
         StyleKey::all().iter().filter(|key| key.prefix == "hatching.layer[]").collect();
@@ -292,7 +292,7 @@ fn layers_of_hatching_are_by_default_as_in_the_table_of_keys() {
 }
 
 #[test]
-fn a_missing_sheet_is_named() {
+fn a_missing_sheet_is_reported_by_name() {
     let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
     assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
     let error = Style::load("watercolour", &[]).unwrap_err().to_string();
@@ -300,7 +300,7 @@ fn a_missing_sheet_is_named() {
 }
 
 #[test]
-fn the_sheets_of_the_documentation_load() {
+fn documented_style_sheets_load() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     for page in ["how-to/styles.md", "explanation/fills.md", "explanation/hatching.md"] {
         // Blocks that write a file have its name after `toml`. The test of documented commands runs those.
@@ -313,8 +313,8 @@ fn the_sheets_of_the_documentation_load() {
 }
 
 #[test]
-fn a_sheet_without_keys_has_the_defaults_of_the_code() {
-    let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
+fn an_empty_sheet_has_the_built_in_defaults() {
+    let sheets = SheetFolder::new("defaults", &[("empty.toml", "")]);
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
     assert_eq!(style.stroke.pen, ligne::strokes::Pen::default());
     assert_eq!(style.lines, ligne::lines::LineOptions::default());
@@ -325,14 +325,14 @@ fn a_sheet_without_keys_has_the_defaults_of_the_code() {
 }
 
 #[test]
-fn a_full_sheet_keeps_lists_of_tables_and_what_they_leave_unset() {
+fn a_full_sheet_keeps_lists_of_tables_and_their_unset_keys() {
     let own = "extends = \"comic\"\n[pen.contour]\nbrush = { path = \"M0 0L10 1L0 2Z\", mode = \"repeat\" }\n[pen.crease]\n\
                colour = { shade = 0.4 }\nswell.taper = 3\n[[rule]]\nwhen = { part = \"b*\", hidden = true }\npen = { width = 2 }\n\
                [[fills.material]]\nname = \"glass*\"\nsteps = 3\nhighlight = { exponent = 60 }\n[[fills.material]]\nname = \"x\"\n\
                highlight = false\ngooch = { enabled = true, cool = \"#00f\" }\n[[fills.pattern]]\ntones = [0]\nkind = \"lines\"\n\
                [[hatching.material]]\nname = \"y\"\ncoverage = [0.5, 0]\n[[light.sources]]\nkind = \"point\"\nposition = [1, 2, 3]\n\
                [[motion.line]]\n[[motion.line]]\nwidth = 3\n[fills.highlight]\nnear = 2\n[glass]\nmaterials = [\"a\"]\n";
-    let sheets = Sheets::new("full", &[("own.toml", own)]);
+    let sheets = SheetFolder::new("full", &[("own.toml", own)]);
     let all = Style::full_sheet(&sheets.path("own.toml")).unwrap();
     let style = Style::load(&sheets.path("own.toml"), &[]).unwrap();
     assert_eq!(Style::from_toml(&all).unwrap_or_else(|error| panic!("{error}\n{all}")), style, "{all}");

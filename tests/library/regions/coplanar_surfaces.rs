@@ -7,9 +7,9 @@ use ligne::drawing::Drawing;
 use ligne::scene::Camera;
 use ligne::{Scene, Style, render};
 
-use crate::support::measures::line_picture::{flattened, nearest_on};
+use crate::support::measures::line_picture::{flatten_path, nearest_parameter};
 use crate::support::pipeline::{orthographic, perspective};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::random_dice::Dice;
 
 const COLOURS: &str =
@@ -44,7 +44,7 @@ enum Rounding {
 }
 
 /// Writes the rotated squares as an OBJ file and reads it.
-fn file(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
+fn squares_scene(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
     let mut text = String::from("mtllib colours.mtl\no first\n");
     for (k, square) in squares.iter().enumerate() {
         if square.own_part {
@@ -65,7 +65,7 @@ fn file(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
 }
 
 /// Flat colours without light. Regions end at their borders.
-fn flat() -> Style {
+fn flat_style() -> Style {
     let sets = ["fills.seams='exact'".to_owned()];
     Style::load("flat", &sets).expect("a style")
 }
@@ -83,7 +83,7 @@ fn painted(drawing: &Drawing, material: &str) -> f64 {
 fn lines(drawing: &Drawing, class: &str) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let own = marks.filter(|mark| mark.provenance.classes.first() == Some(&class));
-    own.flat_map(|mark| flattened(&mark.path, 1e-3)).collect()
+    own.flat_map(|mark| flatten_path(&mark.path, 1e-3)).collect()
 }
 
 fn length(lines: &[[Point; 2]]) -> f64 {
@@ -91,17 +91,17 @@ fn length(lines: &[[Point; 2]]) -> f64 {
 }
 
 /// Returns the image of a polygon.
-fn image(eye: &Eye, turn: DMat3, corners: &[DVec3]) -> BezPath {
+fn image(eye: &TextbookCamera, turn: DMat3, corners: &[DVec3]) -> BezPath {
     let mut path = BezPath::new();
     for (k, corner) in corners.iter().enumerate() {
-        let p = eye.image(turn * *corner);
+        let p = eye.project(turn * *corner);
         if k == 0 { path.move_to(p) } else { path.line_to(p) }
     }
     path.close_path();
     path
 }
 
-fn around(path: &BezPath) -> f64 {
+fn perimeter(path: &BezPath) -> f64 {
     path.segments()
         .map(|s| (kurbo::PathSeg::as_path_el(&s), s))
         .map(|(_, s)| kurbo::ParamCurveArclen::arclen(&s, 1e-6))
@@ -127,22 +127,22 @@ fn cameras(count: usize, turn: DMat3, middle: DVec3) -> Vec<Camera> {
     cameras
 }
 
-fn turns() -> [DMat3; 2] {
+fn rotations() -> [DMat3; 2] {
     [DMat3::IDENTITY, DMat3::from_axis_angle(DVec3::new(0.36, -0.48, 0.8), 0.7)]
 }
 
 #[test]
-fn a_label_on_a_wall_is_seen_whole_from_all_sides() {
+fn a_coplanar_label_is_fully_visible_from_all_sides() {
     for own_part in [false, true] {
-        for turn in turns() {
+        for turn in rotations() {
             for rounding in [Rounding::Exact, Rounding::SixDecimals, Rounding::Single] {
                 let wall = Square::new("grey", [0.0, 0.0], 40.0);
                 let label = Square { own_part, ..Square::new("red", [12.0, 8.0], 12.0) };
                 let squares = [wall, label];
-                let scene = file(&squares, turn, rounding);
+                let scene = squares_scene(&squares, turn, rounding);
                 for camera in cameras(6, turn, DVec3::new(20.0, 20.0, 0.0)) {
-                    let drawing = render(&scene, &camera, &flat()).expect("a drawing");
-                    let eye = Eye::new(&camera);
+                    let drawing = render(&scene, &camera, &flat_style()).expect("a drawing");
+                    let eye = TextbookCamera::new(&camera);
                     let [wall, label] = [0, 1].map(|k| image(&eye, turn, &squares[k].corners()));
                     let said = format!("{own_part} {rounding:?} {:?}", camera.eye);
                     let red = painted(&drawing, "red") / label.area().abs();
@@ -150,7 +150,7 @@ fn a_label_on_a_wall_is_seen_whole_from_all_sides() {
                     let grey = painted(&drawing, "grey") / (wall.area().abs() - label.area().abs());
                     assert!((grey - 1.0).abs() < 1e-3, "{grey} of the wall, {said}");
                     for (class, outline) in [("material", &label), ("border", &wall)] {
-                        let off = length(&lines(&drawing, class)) - around(outline);
+                        let off = length(&lines(&drawing, class)) - perimeter(outline);
                         assert!(off.abs() < 0.5, "{class} is {off} px too long, {said}");
                     }
                 }
@@ -160,11 +160,13 @@ fn a_label_on_a_wall_is_seen_whole_from_all_sides() {
 }
 
 #[test]
-fn the_smaller_surface_is_seen_whatever_comes_first_and_of_equal_ones_the_later() {
+fn the_smaller_coplanar_surface_wins_then_the_later_one() {
     let camera = orthographic(DVec3::new(20.0, 30.0, 90.0), DVec3::new(20.0, 20.0, 0.0), 60.0);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     let share = |squares: &[Square], material: &str, of: usize| {
-        let drawing = render(&file(squares, DMat3::IDENTITY, Rounding::Exact), &camera, &flat()).unwrap();
+        let drawing =
+            render(&squares_scene(squares, DMat3::IDENTITY, Rounding::Exact), &camera, &flat_style())
+                .unwrap();
         painted(&drawing, material) / image(&eye, DMat3::IDENTITY, &squares[of].corners()).area().abs()
     };
     let first = [Square::new("red", [12.0, 8.0], 12.0), Square::new("grey", [0.0, 0.0], 40.0)];
@@ -180,14 +182,14 @@ fn the_smaller_surface_is_seen_whatever_comes_first_and_of_equal_ones_the_later(
 }
 
 #[test]
-fn what_juts_out_over_the_wall_has_a_border_there_and_the_wall_has_none_under_it() {
-    for turn in turns() {
+fn an_overhanging_label_has_borders_outside_the_wall_only() {
+    for turn in rotations() {
         let squares = [Square::new("grey", [0.0, 0.0], 40.0), Square::new("red", [34.0, 10.0], 12.0)];
-        let scene = file(&squares, turn, Rounding::SixDecimals);
+        let scene = squares_scene(&squares, turn, Rounding::SixDecimals);
         for camera in cameras(6, turn, DVec3::new(22.0, 20.0, 0.0)) {
-            let drawing = render(&scene, &camera, &flat()).expect("a drawing");
-            let eye = Eye::new(&camera);
-            let at = |x: f64, y: f64| eye.image(turn * DVec3::new(x, y, 0.0));
+            let drawing = render(&scene, &camera, &flat_style()).expect("a drawing");
+            let eye = TextbookCamera::new(&camera);
+            let at = |x: f64, y: f64| eye.project(turn * DVec3::new(x, y, 0.0));
             let span = |points: &[[f64; 2]]| -> f64 {
                 points.windows(2).map(|p| (at(p[1][0], p[1][1]) - at(p[0][0], p[0][1])).hypot()).sum()
             };
@@ -205,7 +207,7 @@ fn what_juts_out_over_the_wall_has_a_border_there_and_the_wall_has_none_under_it
 }
 
 #[test]
-fn borders_of_materials_on_a_flat_face_have_corners() {
+fn material_borders_on_a_flat_face_keep_their_corners() {
     // A square inset into a plane, with faces all around it.
     let text = "mtllib colours.mtl\nusemtl grey\nv 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nv 12 8 0\nv 24 8 0\nv 24 20 0\nv 12 20 0\n\
                 f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nusemtl red\nf 5 6 7 8\n";
@@ -213,16 +215,16 @@ fn borders_of_materials_on_a_flat_face_have_corners() {
         ligne::load::obj::read_bytes(text.as_bytes(), "plate", |_| Some(COLOURS.into())).expect("a model");
     let corners = Square::new("red", [12.0, 8.0], 12.0).corners();
     for camera in cameras(24, DMat3::IDENTITY, DVec3::new(20.0, 20.0, 0.0)) {
-        let drawing = render(&scene, &camera, &flat()).expect("a drawing");
-        let eye = Eye::new(&camera);
+        let drawing = render(&scene, &camera, &flat_style()).expect("a drawing");
+        let eye = TextbookCamera::new(&camera);
         let marks = || drawing.layers.iter().flat_map(|layer| &layer.marks);
         let red = marks().filter(|mark| {
             mark.provenance.tone.is_some() && mark.provenance.material.as_deref() == Some("red")
         });
-        let fill: Vec<[Point; 2]> = red.flat_map(|mark| flattened(&mark.path, 1e-3)).collect();
+        let fill: Vec<[Point; 2]> = red.flat_map(|mark| flatten_path(&mark.path, 1e-3)).collect();
         for (name, lines) in [("line", lines(&drawing, "material")), ("fill", fill)] {
             for corner in corners {
-                let p = eye.image(corner);
+                let p = eye.project(corner);
                 let off = lines
                     .iter()
                     .map(|line| (nearest_point(p, *line) - p).hypot())
@@ -235,11 +237,11 @@ fn borders_of_materials_on_a_flat_face_have_corners() {
 
 /// Returns the point of a segment nearest to `p`.
 fn nearest_point(p: Point, segment: [Point; 2]) -> Point {
-    segment[0].lerp(segment[1], nearest_on(p, segment))
+    segment[0].lerp(segment[1], nearest_parameter(p, segment))
 }
 
 #[test]
-fn a_block_let_into_another_has_a_thin_rim() {
+fn an_inset_block_has_a_material_line_around_its_top() {
     // A red block inside a grey one, with both tops in one plane.
     let mut text = String::from("mtllib colours.mtl\n");
     for (name, low, high) in
@@ -259,11 +261,11 @@ fn a_block_let_into_another_has_a_thin_rim() {
     for way in [DVec3::new(0.5, -0.6, 0.6), DVec3::new(-0.7, 0.2, 0.3), DVec3::new(0.1, 0.2, 0.9)] {
         let camera =
             orthographic(DVec3::new(20.0, 20.0, 5.0) + way * 90.0, DVec3::new(20.0, 20.0, 5.0), 60.0);
-        let drawing = render(&scene, &camera, &flat()).expect("a drawing");
-        let rim = image(&Eye::new(&camera), DMat3::IDENTITY, &top);
+        let drawing = render(&scene, &camera, &flat_style()).expect("a drawing");
+        let rim = image(&TextbookCamera::new(&camera), DMat3::IDENTITY, &top);
         let red = painted(&drawing, "red") / rim.area().abs();
         assert!((red - 1.0).abs() < 1e-3, "{red} of the top from {way}");
-        let off = length(&lines(&drawing, "material")) - around(&rim);
+        let off = length(&lines(&drawing, "material")) - perimeter(&rim);
         assert!(off.abs() < 0.5, "{off} px too long from {way}");
     }
 }

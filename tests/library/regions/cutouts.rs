@@ -8,16 +8,16 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::Ink;
-use crate::support::references::drawing_judge::{axis, ink_marks};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::measures::line_picture::SegmentGrid;
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::support::references::textbook_camera::TextbookCamera;
 
 /// The vine in front of its panel with round holes, from `examples/models`.
 fn trellis() -> Scene {
     Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/trellis.obj")).unwrap()
 }
 
-fn only(mut scene: Scene, name: &str) -> Scene {
+fn keep_part(mut scene: Scene, name: &str) -> Scene {
     scene.parts.retain(|part| part.name == name);
     scene
 }
@@ -27,7 +27,7 @@ fn holes() -> impl Iterator<Item = DVec3> {
     (0..35).map(|k| DVec3::new(-0.4 + 0.2 * f64::from(k % 5), 0.2 + 0.2 * f64::from(k / 5), -0.3))
 }
 
-const RADIUS: f64 = 0.075;
+const HOLE_RADIUS: f64 = 0.075;
 
 /// The outlines of the holes and of the panel.
 fn outlines() -> Vec<[DVec3; 2]> {
@@ -37,7 +37,7 @@ fn outlines() -> Vec<[DVec3; 2]> {
             ligne::geometry::numbers::portable_math::cos(turn(k)),
             ligne::geometry::numbers::portable_math::sin(turn(k)),
             0.0,
-        ) * RADIUS
+        ) * HOLE_RADIUS
     };
     let mut all: Vec<[DVec3; 2]> = holes()
         .flat_map(|middle| (0..720).map(move |k| [middle + round(k), middle + round(k + 1)]))
@@ -57,19 +57,19 @@ fn points(mark: &Mark) -> Vec<Point> {
         let count = (b - a).hypot().ceil().max(1.0) as usize;
         (0..count).map(move |k| a.lerp(b, (k as f64 + 0.5) / count as f64)).collect::<Vec<_>>()
     };
-    axis(mark).into_iter().flat_map(pieces).collect()
+    centre_line(mark).into_iter().flat_map(pieces).collect()
 }
 
 #[test]
-fn holes_are_where_the_picture_has_them() {
-    let scene = only(trellis(), "panel");
+fn hole_outlines_match_the_texture() {
+    let scene = keep_part(trellis(), "panel");
     for [azimuth, elevation] in [[20.0, 15.0], [-40.0, 30.0], [160.0, -20.0]] {
         let camera = Camera::azimuth_elevation(azimuth, elevation, scene.up).fit(&scene);
-        let truth = Eye::new(&camera).images(&outlines());
+        let truth = TextbookCamera::new(&camera).project_segments(&outlines());
         let drawing = draw(&scene, &camera, "ink");
-        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
-        let (ink, truth_ink) = (Ink::new(drawn, 4.0), Ink::new(truth.clone(), 4.0));
-        for p in ink_marks(&drawing).flat_map(points) {
+        let drawn: Vec<[Point; 2]> = visible_line_marks(&drawing).flat_map(centre_line).collect();
+        let (ink, truth_ink) = (SegmentGrid::new(drawn, 4.0), SegmentGrid::new(truth.clone(), 4.0));
+        for p in visible_line_marks(&drawing).flat_map(points) {
             assert!(truth_ink.distance(p) < 0.5, "{p} is on no outline from {azimuth}/{elevation}");
         }
         for [a, b] in &truth {
@@ -79,23 +79,23 @@ fn holes_are_where_the_picture_has_them() {
 }
 
 #[test]
-fn what_is_behind_is_seen_through_holes_only() {
+fn parts_behind_a_panel_are_visible_through_holes_only() {
     let scene = trellis();
     let camera = Camera::azimuth_elevation(170.0, 5.0, scene.up).fit(&scene);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     assert!(camera.eye.z < -0.3, "from behind the panel");
     let drawing = draw(&scene, &camera, "ink");
     let mut through = 0;
-    for mark in ink_marks(&drawing).filter(|mark| mark.provenance.part.as_deref() != Some("panel")) {
+    for mark in visible_line_marks(&drawing).filter(|mark| mark.provenance.part.as_deref() != Some("panel")) {
         for p in points(mark) {
             // The point where the line of sight meets the plane of the panel.
-            let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+            let (near, far) = (eye.unproject(p, 0.0), eye.unproject(p, 1.0));
             let part = (-0.3 - near.z) / (far.z - near.z);
             let at = near + (far - near) * part;
             let px = eye.scale / eye.depth(at);
             let inside = (at.x.abs() - 0.5).max((at.y - 0.8).abs() - 0.7) * px;
             let from_hole =
-                holes().map(|middle| at.distance(middle) - RADIUS).fold(f64::INFINITY, f64::min) * px;
+                holes().map(|middle| at.distance(middle) - HOLE_RADIUS).fold(f64::INFINITY, f64::min) * px;
             assert!(inside > -1.5 || from_hole < 1.5, "{p} is drawn through the panel");
             through += usize::from(from_hole < 0.0);
         }
@@ -104,8 +104,8 @@ fn what_is_behind_is_seen_through_holes_only() {
 }
 
 #[test]
-fn regions_and_shadows_have_the_holes_too() {
-    let scene = only(trellis(), "panel");
+fn region_areas_exclude_the_holes() {
+    let scene = keep_part(trellis(), "panel");
     let camera = Camera::azimuth_elevation(0.0, 0.0, scene.up)
         .with_projection(ligne::scene::Projection::Orthographic { height: 1.0 })
         .fit(&scene);
@@ -116,13 +116,13 @@ fn regions_and_shadows_have_the_holes_too() {
         .flat_map(|layer| &layer.marks)
         .filter(|mark| matches!(mark.paint, Paint::Fill { .. }));
     let area: f64 = filled.map(|mark| mark.path.area().abs()).sum();
-    let px = Eye::new(&camera).scale;
-    let wanted = (1.0 * 1.4 - 35.0 * std::f64::consts::PI * RADIUS * RADIUS) * px * px;
+    let px = TextbookCamera::new(&camera).scale;
+    let wanted = (1.0 * 1.4 - 35.0 * std::f64::consts::PI * HOLE_RADIUS * HOLE_RADIUS) * px * px;
     assert!((area / wanted - 1.0).abs() < 0.01, "{area} of {wanted}");
 }
 
 #[test]
-fn a_picture_that_is_not_there_is_said_and_costs_nothing() {
+fn missing_textures_are_reported_and_ignored() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("trellis-without-pictures");
     std::fs::create_dir_all(&folder).unwrap();
     for name in ["trellis.obj", "trellis.mtl"] {

@@ -12,7 +12,7 @@ use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 use ligne::view::Frame;
 
-use crate::support::measures::line_picture::{Ink, flattened, samples};
+use crate::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
 
 fn jar() -> (Scene, Camera) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/jar.obj");
@@ -26,26 +26,26 @@ fn drawn(scene: &Scene, camera: &Camera, style: &str, sets: &[&str]) -> Drawing 
     render(scene, camera, &Style::load(style, &sets).unwrap_or_else(|error| panic!("{error}"))).unwrap()
 }
 
-const GLASS: &str = "glass.draw=glass";
-const MESH: &str = "lines.contours=mesh";
+const DRAW_GLASS: &str = "glass.draw=glass";
+const MESH_CONTOURS: &str = "lines.contours=mesh";
 
 /// Returns the lines behind glass if `veiled` is set, and all other lines otherwise.
 fn lines(drawing: &Drawing, veiled: bool) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let of = marks.filter(|mark| mark.provenance.tone.is_none());
     of.filter(|mark| mark.provenance.classes.contains(&"veiled") == veiled)
-        .flat_map(|mark| flattened(&mark.path, 0.01))
+        .flat_map(|mark| flatten_path(&mark.path, 0.01))
         .collect()
 }
 
 /// All triangles as ray targets, with a glass flag for each.
-struct World {
+struct RayScene {
     mesh: Mesh,
     glass: Vec<bool>,
     frame: Frame,
 }
 
-impl World {
+impl RayScene {
     fn new(scene: &Scene, camera: &Camera) -> Self {
         let mesh = Mesh::build(scene.to_soup());
         let is_glass = |face: usize| {
@@ -58,7 +58,7 @@ impl World {
     }
 
     /// Returns the depth of each surface along the ray through an image point, and whether it is glass.
-    fn met(&self, p: Point) -> Vec<(f64, bool)> {
+    fn hits(&self, p: Point) -> Vec<(f64, bool)> {
         let at = self.frame.local_from_image(DVec3::new(p.x, p.y, self.frame.nearness_of(1.0)));
         let way = at - self.frame.eye;
         let hit = |face: usize| {
@@ -78,7 +78,7 @@ impl World {
     fn glass_beside(&self, [a, b]: [Point; 2], p: Point) -> [bool; 2] {
         let across = (b - a).normalize().turn_90() * 0.7;
         [p + across, p - across].map(|p| {
-            let mut met = self.met(p);
+            let mut met = self.hits(p);
             met.sort_by(|a, b| a.0.total_cmp(&b.0));
             met.first().is_some_and(|(_, glass)| *glass)
         })
@@ -86,15 +86,19 @@ impl World {
 }
 
 #[test]
-fn thin_lines_are_behind_glass_and_no_other_lines_are() {
+fn thin_lines_are_exactly_the_lines_behind_glass() {
     let (scene, camera) = jar();
-    let world = World::new(&scene, &camera);
-    let drawing =
-        drawn(&scene, &camera, "ink", &[GLASS, MESH, "chain.smooth=0", "chain.tidy=0", "chain.fit=false"]);
+    let world = RayScene::new(&scene, &camera);
+    let drawing = drawn(
+        &scene,
+        &camera,
+        "ink",
+        &[DRAW_GLASS, MESH_CONTOURS, "chain.smooth=0", "chain.tidy=0", "chain.fit=false"],
+    );
     let veiled = lines(&drawing, true);
     let mut asked = 0;
     for segment in &veiled {
-        for (p, _) in samples(&[*segment], 7.0) {
+        for (p, _) in sample_segments(&[*segment], 7.0) {
             // Next to a line behind glass, the nearest surface is glass on at least one side.
             asked += 1;
             let beside = world.glass_beside(*segment, p);
@@ -103,20 +107,25 @@ fn thin_lines_are_behind_glass_and_no_other_lines_are() {
     }
     assert!(asked > 100, "{asked}");
     // All lines of the scene without glass are drawn, either thick or thin.
-    let absent =
-        drawn(&scene, &camera, "ink", &["glass.draw=absent", MESH, "chain.smooth=0", "chain.tidy=0"]);
+    let absent = drawn(
+        &scene,
+        &camera,
+        "ink",
+        &["glass.draw=absent", MESH_CONTOURS, "chain.smooth=0", "chain.tidy=0"],
+    );
     let all = [lines(&drawing, false), veiled.clone()].concat();
-    let ink = Ink::new(all, 4.0);
-    let missing: f64 = samples(&lines(&absent, false), 0.5)
+    let ink = SegmentGrid::new(all, 4.0);
+    let missing: f64 = sample_segments(&lines(&absent, false), 0.5)
         .iter()
         .filter(|(p, _)| ink.distance(*p) > 0.3)
         .map(|(_, l)| l)
         .sum();
     assert!(missing < 1.0, "{missing} px of what is behind the glass are not drawn");
     // Where the nearest surface is opaque, lines do not change.
-    let opaque = drawn(&scene, &camera, "ink", &[MESH, "chain.smooth=0", "chain.tidy=0", "chain.fit=false"]);
-    let opaque = Ink::new(lines(&opaque, false), 4.0);
-    let lost: f64 = samples(&lines(&drawing, false), 0.5)
+    let opaque =
+        drawn(&scene, &camera, "ink", &[MESH_CONTOURS, "chain.smooth=0", "chain.tidy=0", "chain.fit=false"]);
+    let opaque = SegmentGrid::new(lines(&opaque, false), 4.0);
+    let lost: f64 = sample_segments(&lines(&drawing, false), 0.5)
         .iter()
         .filter(|(p, _)| opaque.distance(*p) > 0.01)
         .map(|(_, length)| length)
@@ -127,9 +136,9 @@ fn thin_lines_are_behind_glass_and_no_other_lines_are() {
 #[test]
 fn no_line_is_drawn_both_thick_and_thin() {
     let (scene, camera) = jar();
-    let drawing = drawn(&scene, &camera, "ink", &[GLASS]);
-    let thick = Ink::new(lines(&drawing, false), 4.0);
-    let thin = samples(&lines(&drawing, true), 0.5);
+    let drawing = drawn(&scene, &camera, "ink", &[DRAW_GLASS]);
+    let thick = SegmentGrid::new(lines(&drawing, false), 4.0);
+    let thin = sample_segments(&lines(&drawing, true), 0.5);
     let whole: f64 = thin.iter().map(|(_, length)| length).sum();
     let twice: f64 = thin.iter().filter(|(p, _)| thick.distance(*p) < 0.3).map(|(_, length)| length).sum();
     // Thin lines touch thick ones where they cross or meet.
@@ -148,14 +157,14 @@ fn no_line_is_drawn_both_thick_and_thin() {
 }
 
 #[test]
-fn colours_behind_glass_are_mixed_and_others_as_they_were() {
+fn colours_behind_glass_are_tinted_and_others_do_not_change() {
     let (scene, camera) = jar();
-    let world = World::new(&scene, &camera);
+    let world = RayScene::new(&scene, &camera);
     let fills = |sets: &[&str]| {
         let drawing = drawn(&scene, &camera, "toon", &[sets, &["lines.enabled=false"]].concat());
         drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Fills).unwrap().marks
     };
-    let (glass, absent, opaque) = (fills(&[GLASS]), fills(&["glass.draw=absent"]), fills(&[]));
+    let (glass, absent, opaque) = (fills(&[DRAW_GLASS]), fills(&["glass.draw=absent"]), fills(&[]));
     // The top colour at a point, and the colour below it for panes.
     let at = |marks: &[ligne::drawing::Mark], p: Point| {
         use kurbo::Shape;
@@ -169,7 +178,7 @@ fn colours_behind_glass_are_mixed_and_others_as_they_were() {
     let mut counts = [0; 2];
     for k in 0..2_000 {
         let p = Point::new(20.0 + f64::from(k * 37 % 960), 20.0 + f64::from(k * 7919 % 961));
-        let mut met = world.met(p);
+        let mut met = world.hits(p);
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
         let around =
             [(2., 0.), (-2., 0.), (0., 2.), (0., -2.)].map(|(x, y)| at(&glass, p + kurbo::Vec2::new(x, y)));
@@ -204,21 +213,21 @@ fn glass_casts_no_shadow() {
             layer.marks.into_iter().filter(|m| matches!(m.paint, Paint::Fill(colour) if colour.a == 255));
         opaque.map(|mark| kurbo::Shape::area(&mark.path).abs()).sum::<f64>()
     };
-    let (glass, absent, opaque) = (shadows(&[GLASS]), shadows(&["glass.draw=absent"]), shadows(&[]));
+    let (glass, absent, opaque) = (shadows(&[DRAW_GLASS]), shadows(&["glass.draw=absent"]), shadows(&[]));
     assert!((glass - absent).abs() < 0.01 * absent, "{glass} {absent}");
     assert!((opaque - absent).abs() > 0.1 * absent, "{opaque} {absent}");
 }
 
 #[test]
-fn materials_are_named_where_the_file_says_nothing() {
+fn glass_materials_can_be_named_by_the_style() {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/helmet.obj"));
     let scene = Scene::open(path).unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let marks = |sets: &[&str]| -> Vec<ligne::drawing::Mark> {
         drawn(&scene, &camera, "toon", sets).layers.into_iter().flat_map(|layer| layer.marks).collect()
     };
-    assert_eq!(marks(&[GLASS]), marks(&[]), "nothing of it is glass");
-    let named = marks(&[GLASS, "glass.materials=['gla*']", "glass.opacity=0.2"]);
+    assert_eq!(marks(&[DRAW_GLASS]), marks(&[]), "nothing of it is glass");
+    let named = marks(&[DRAW_GLASS, "glass.materials=['gla*']", "glass.opacity=0.2"]);
     let fifth = |mark: &ligne::drawing::Mark| matches!(mark.paint, Paint::Fill(colour) if colour.a == 51);
     assert!(named.iter().any(fifth), "a visor of one fifth");
     assert!(marks(&["glass.draw=absent", "glass.materials=['*']"]).is_empty());

@@ -10,7 +10,7 @@ use ligne::scene::Camera;
 use ligne::{Style, SvgOptions, render};
 
 use crate::support::pipeline::{orthographic, scene};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::round_solids::icosphere;
 use crate::support::scenes::solids::{Solid, cuboid};
@@ -27,7 +27,7 @@ fn steps(more: &str) -> Style {
 }
 
 fn towards_light(camera: &Camera) -> DVec3 {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     (eye.right * -0.4 + eye.up * 0.6 - eye.forward * 0.7).normalize()
 }
 
@@ -51,12 +51,12 @@ fn light_of(mark: &Mark, p: Point) -> f64 {
 }
 
 #[test]
-fn a_ball_is_as_light_as_it_is() {
+fn gradient_steps_of_a_ball_match_lambert_light() {
     let ball = scene([icosphere(5)]);
     let mut dice = Dice::new(5);
     for height in [2.2, 6.0, 20.0] {
         let camera = orthographic(DVec3::Z * 5.0, DVec3::ZERO, height);
-        let (eye, towards) = (Eye::new(&camera), towards_light(&camera));
+        let (eye, towards) = (TextbookCamera::new(&camera), towards_light(&camera));
         let fills = fills(render(&ball, &camera, &steps("")).unwrap());
         let (mut sum, mut count) = (0.0, 0.0);
         while count < 600.0 {
@@ -67,7 +67,7 @@ fn a_ball_is_as_light_as_it_is() {
             }
             let w = (1.0 - u * u - v * v).sqrt();
             let normal = eye.right * u + eye.up * v - eye.forward * w;
-            let p: Point = eye.image(normal);
+            let p: Point = eye.project(normal);
             let Some(mark) = fills.iter().find(|mark| mark.path.winding(p) != 0) else { continue };
             count += 1.0;
             let (lu, lv, lw) = (towards.dot(eye.right), towards.dot(eye.up), -towards.dot(eye.forward));
@@ -90,7 +90,7 @@ fn a_ball_is_as_light_as_it_is() {
 }
 
 #[test]
-fn what_is_hidden_changes_no_step() {
+fn hidden_surfaces_do_not_change_gradient_steps() {
     let camera = orthographic(DVec3::Z * 9.0, DVec3::ZERO, 2.4);
     let wall = |z: f64| cuboid(DVec3::new(-0.9, -0.9, z), DVec3::new(0.3, 0.4, z + 0.1));
     let paths = |scene: &ligne::Scene| -> Vec<String> {
@@ -118,10 +118,10 @@ fn tube(columns: u32) -> Solid {
 }
 
 #[test]
-fn a_tube_is_a_few_gradients() {
+fn a_tube_is_drawn_with_few_linear_gradients() {
     let tube = scene([tube(64)]);
     let camera = orthographic(DVec3::new(1.0, 0.0, 5.0), DVec3::ZERO, 2.6);
-    let (eye, towards) = (Eye::new(&camera), towards_light(&camera));
+    let (eye, towards) = (TextbookCamera::new(&camera), towards_light(&camera));
     let bands = fills(render(&tube, &camera, &steps("")).unwrap());
     let drawing = render(&tube, &camera, &steps("steps_as = 'gradients'")).unwrap();
     let (svg, pdf) = (drawing.to_svg(&SvgOptions::default()), drawing.to_pdf());
@@ -138,7 +138,7 @@ fn a_tube_is_a_few_gradients() {
     while count < 500 {
         let (u, y) = (dice.between(-0.95, 0.95), dice.between(-0.95, 0.95));
         let normal = eye.right * u - eye.forward * (1.0 - u * u).sqrt();
-        let p = eye.image(normal + DVec3::Y * y);
+        let p = eye.project(normal + DVec3::Y * y);
         let Some(mark) = fills.iter().find(|mark| mark.path.winding(p) != 0) else { continue };
         count += 1;
         let light = normal.dot(towards).max(0.0);

@@ -5,7 +5,7 @@ use crate::support::scenes::round_solids;
 use std::collections::BTreeMap;
 
 use crate::support::pipeline::{orthographic, perspective, scene};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
@@ -26,7 +26,7 @@ fn two_tones() -> Style {
 
 /// Returns the direction towards that light, in world coordinates.
 fn towards_light(camera: &Camera) -> DVec3 {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     (eye.right * -0.4 + eye.up * 0.6 - eye.forward * 0.7).normalize()
 }
 
@@ -55,7 +55,7 @@ fn samples(path: &BezPath, step: f64) -> Vec<Point> {
 }
 
 #[test]
-fn a_cube_has_three_faces_and_three_paths() {
+fn a_cube_has_three_regions_with_exact_corners() {
     let cube = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = perspective(DVec3::new(3.1, 2.3, 4.7), DVec3::ZERO, 40.0);
     // Thresholds between the light values of the three sides.
@@ -65,11 +65,11 @@ fn a_cube_has_three_faces_and_three_paths() {
     let mut style = two_tones();
     let thresholds: Vec<f64> = falls.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
     assert!(thresholds[0] < thresholds[1]);
-    style.tones.scale = ligne::light::tones::tone_options::Scale::Thresholds(thresholds);
+    style.tones.scale = ligne::light::tones::tone_options::ToneScale::Thresholds(thresholds);
     let drawing = render(&cube, &camera, &style).unwrap();
     let fills = fills(&drawing);
     assert_eq!(fills.len(), 3);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     for (axis, fill) in fills.iter().map(|fill| {
         let tone = fill.provenance.tone.expect("a tone");
         let mut order = [0, 1, 2];
@@ -81,7 +81,7 @@ fn a_cube_has_three_faces_and_three_paths() {
             let mut p = DVec3::ONE;
             p[(axis + 1) % 3] = u;
             p[(axis + 2) % 3] = v;
-            eye.image(p)
+            eye.project(p)
         };
         let corners = [corner(-1., -1.), corner(1., -1.), corner(1., 1.), corner(-1., 1.)];
         for corner in corners {
@@ -93,13 +93,13 @@ fn a_cube_has_three_faces_and_three_paths() {
 }
 
 /// Returns the distance of an image point from the image of a circle in space.
-fn off_circle(eye: &Eye, centre: DVec3, axis: DVec3, radius: f64, p: Point) -> f64 {
+fn distance_to_circle(eye: &TextbookCamera, centre: DVec3, axis: DVec3, radius: f64, p: Point) -> f64 {
     let u = axis.any_orthonormal_vector();
     let v = axis.cross(u);
     let count = 20_000;
     let at = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / f64::from(count);
-        eye.image(centre + (u * cos(angle) + v * sin(angle)) * radius)
+        eye.project(centre + (u * cos(angle) + v * sin(angle)) * radius)
     };
     (0..count as usize).map(|k| (at(k) - p).hypot()).fold(f64::INFINITY, f64::min)
 }
@@ -116,7 +116,7 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
             let drawing = render(&ball, &camera, &two_tones()).unwrap();
             let fills = fills(&drawing);
             assert_eq!(fills.len(), 2);
-            let (eye, light) = (Eye::new(&camera), towards_light(&camera));
+            let (eye, light) = (TextbookCamera::new(&camera), towards_light(&camera));
             // The border is the circle n·L = 1/2.
             let (centre, radius) = (light * 0.5, 0.75_f64.sqrt());
             let dark = fills.iter().find(|fill| fill.provenance.tone == Some(0)).expect("a dark side");
@@ -126,8 +126,10 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
                 .filter(|p| samples(&dark.path, 5.0).iter().any(|q| (*p - *q).hypot() < 1e-6))
                 .collect();
             assert!(shared.len() > 40, "{}", shared.len());
-            let worst =
-                shared.iter().map(|p| off_circle(&eye, centre, light, radius, *p)).fold(0.0, f64::max);
+            let worst = shared
+                .iter()
+                .map(|p| distance_to_circle(&eye, centre, light, radius, *p))
+                .fold(0.0, f64::max);
             println!("icosphere {level}: the border is {worst:.4} px off at most");
             assert!(worst < off, "icosphere {level}: {worst} px");
         }
@@ -137,7 +139,7 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
 /// Each border is one curve shared by both regions, and the outline occurs once. The fills cover the
 /// silhouette without gaps or overlaps.
 #[test]
-fn neighbours_share_their_borders() {
+fn neighbouring_regions_share_their_borders() {
     let mut dice = Dice::new(5);
     for (kind, model) in [
         ("torus", scene([torus(64, 32, 1.0, 0.4)])),
@@ -171,21 +173,21 @@ fn neighbours_share_their_borders() {
 }
 
 /// A point on the nearest triangle: its depth, part and light.
-struct Front {
+struct FrontPoint {
     depth: f64,
     part: usize,
     light: f64,
 }
 
 /// Returns the nearest triangle at an image point by testing all triangles, with flat shading.
-fn front(scene: &Scene, eye: &Eye, light: DVec3, p: Point) -> Option<Front> {
-    let mut nearest: Option<Front> = None;
+fn front_point(scene: &Scene, eye: &TextbookCamera, light: DVec3, p: Point) -> Option<FrontPoint> {
+    let mut nearest: Option<FrontPoint> = None;
     for (index, part) in scene.parts.iter().enumerate() {
         let geometry = &scene.geometries[part.geometry];
         for triangle in &geometry.triangles {
             let corners =
                 triangle.map(|v| part.world_from_part.transform_point3(geometry.positions[v as usize]));
-            let [a, b, c] = corners.map(|corner| eye.image(corner));
+            let [a, b, c] = corners.map(|corner| eye.project(corner));
             let area = (b - a).cross(c - a);
             let weights =
                 [(b - p).cross(c - p), (c - p).cross(a - p), (a - p).cross(b - p)].map(|w| w / area);
@@ -200,9 +202,9 @@ fn front(scene: &Scene, eye: &Eye, light: DVec3, p: Point) -> Option<Front> {
             };
             if nearest.as_ref().is_none_or(|known| depth < known.depth) {
                 let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-                let to_eye = if eye.perspective { eye.eye - corners[0] } else { -eye.forward };
+                let to_eye = if eye.perspective { eye.position - corners[0] } else { -eye.forward };
                 let normal = if normal.dot(to_eye) < 0.0 { -normal } else { normal };
-                nearest = Some(Front { depth, part: index, light: normal.dot(light).max(0.0) });
+                nearest = Some(FrontPoint { depth, part: index, light: normal.dot(light).max(0.0) });
             }
         }
     }
@@ -210,7 +212,7 @@ fn front(scene: &Scene, eye: &Eye, light: DVec3, p: Point) -> Option<Front> {
 }
 
 #[test]
-fn what_is_painted_is_what_the_eye_sees() {
+fn fills_match_the_part_and_tone_of_the_front_triangle() {
     let mut dice = Dice::new(11);
     let mut style = two_tones();
     style.lines.contours = Contours::Mesh;
@@ -226,7 +228,7 @@ fn what_is_painted_is_what_the_eye_sees() {
                 Camera { eye: camera.target + turn * (camera.eye - camera.target), ..camera }.fit(&model);
             let drawing = render(&model, &camera, &style).unwrap();
             let fills = fills(&drawing);
-            let (eye, light) = (Eye::new(&camera), towards_light(&camera));
+            let (eye, light) = (TextbookCamera::new(&camera), towards_light(&camera));
             let borders: Vec<Point> = fills.iter().flat_map(|mark| samples(&mark.path, 1.0)).collect();
             let (mut asked, mut wrong) = (0, 0);
             for _ in 0..400 {
@@ -237,7 +239,7 @@ fn what_is_painted_is_what_the_eye_sees() {
                     continue;
                 }
                 asked += 1;
-                let seen = front(&model, &eye, light, p);
+                let seen = front_point(&model, &eye, light, p);
                 let painted: Vec<&Mark> = fills.iter().filter(|mark| mark.path.winding(p) != 0).collect();
                 let right = match (&seen, painted.as_slice()) {
                     (None, []) => true,
@@ -281,7 +283,7 @@ fn lines_are_the_same_with_and_without_fills() {
 }
 
 #[test]
-fn regions_reach_under_those_painted_later() {
+fn regions_extend_under_those_painted_later() {
     let ball = scene([sphere(32, 1.0)]);
     let camera = Camera::three_quarter().fit(&ball);
     let mut style = two_tones();
@@ -301,7 +303,7 @@ fn regions_reach_under_those_painted_later() {
 }
 
 #[test]
-fn every_fill_says_what_it_is() {
+fn fills_carry_tone_and_part_attributes() {
     let model = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = Camera::three_quarter().fit(&model);
     let svg = render(&model, &camera, &Style::preset("toon").expect("toon"))
@@ -317,7 +319,7 @@ fn every_fill_says_what_it_is() {
 }
 
 #[test]
-fn nothing_to_see_paints_nothing() {
+fn empty_and_degenerate_scenes_have_no_fills() {
     for model in
         [Scene::default(), scene([Solid { positions: vec![DVec3::ZERO; 3], triangles: vec![[0, 1, 2]] }])]
     {
@@ -328,7 +330,7 @@ fn nothing_to_see_paints_nothing() {
 }
 
 #[test]
-fn a_camera_inside_sees_the_inside() {
+fn a_camera_inside_a_box_fills_the_page() {
     let room = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = perspective(DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.1, 0.2), 90.0);
     let drawing = render(&room, &camera, &two_tones()).unwrap();

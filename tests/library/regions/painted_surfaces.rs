@@ -13,10 +13,10 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Filter, Geometry, Material, Part, Projection, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::Ink;
-use crate::support::measures::plain_fills::{fills, plain};
-use crate::support::references::drawing_judge::{axis, ink_marks};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::measures::line_picture::SegmentGrid;
+use crate::support::measures::plain_fills::{filled_marks, flat_fill_style};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::support::references::textbook_camera::TextbookCamera;
 
 const NONE: u32 = u32::MAX;
 
@@ -50,7 +50,7 @@ fn square(corners: [[f32; 3]; 4]) -> Geometry {
 }
 
 /// Returns the interpolated colour of such a square at a point.
-fn light([a, b, c, d]: [[f32; 3]; 4], x: f64, y: f64) -> [f32; 3] {
+fn interpolated_light([a, b, c, d]: [[f32; 3]; 4], x: f64, y: f64) -> [f32; 3] {
     let mix = |k: usize| {
         let [a, b, c, d] = [a, b, c, d].map(|own| f64::from(own[k]));
         let sum = if y <= x { a + (b - a) * x + (c - b) * y } else { a + (d - a) * y + (c - d) * x };
@@ -91,14 +91,14 @@ fn nearest(palette: &[Colour], light: [f32; 3]) -> Colour {
     *palette.iter().min_by(|a, b| far(oklab::of(**a), own).total_cmp(&far(oklab::of(**b), own))).unwrap()
 }
 
-fn round(p: Point, radius: f64) -> impl Iterator<Item = Point> {
+fn points_on_circle(p: Point, radius: f64) -> impl Iterator<Item = Point> {
     let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 12.0;
     (0..12).map(move |k| p + kurbo::Vec2::from_angle(turn(k)) * radius)
 }
 
 /// Asserts that all points farther than `off` from a colour change have the true colour. Returns the number
 /// of tested points.
-fn assert_true(
+fn assert_colours(
     fills: &[(&Mark, Colour)],
     camera: &Camera,
     off: f64,
@@ -108,7 +108,8 @@ fn assert_true(
     for k in 0..160 * 160 {
         let [x, y] = [k % 160, k / 160].map(|k| (f64::from(k) + 0.5) / 160.0);
         let p = Point::new(x * camera.width, y * camera.height);
-        let Some(own) = truth(p).filter(|own| round(p, off).all(|q| truth(q) == Some(*own))) else {
+        let Some(own) = truth(p).filter(|own| points_on_circle(p, off).all(|q| truth(q) == Some(*own)))
+        else {
             continue;
         };
         assert_eq!(top(fills, p), Some(own), "at {p}");
@@ -117,31 +118,33 @@ fn assert_true(
     asked
 }
 
-const CORNERS: [[f32; 3]; 4] = [[0.9, 0.1, 0.05], [0.05, 0.05, 0.6], [0.9, 0.85, 0.6], [0.0, 0.3, 0.1]];
+const CORNER_COLOURS: [[f32; 3]; 4] =
+    [[0.9, 0.1, 0.05], [0.05, 0.05, 0.6], [0.9, 0.85, 0.6], [0.0, 0.3, 0.1]];
 
 #[test]
-fn colours_of_vertices_fall_into_a_few_with_exact_borders() {
-    let model = scene(square(CORNERS), white());
+fn vertex_colours_are_quantized_with_exact_borders() {
+    let model = scene(square(CORNER_COLOURS), white());
     let camera = front(1.0, 1.0);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     for count in [3, 6] {
-        let drawing = render(&model, &camera, &plain(&[&format!("fills.texture_colours={count}")])).unwrap();
-        let fills = fills(&drawing);
+        let drawing =
+            render(&model, &camera, &flat_fill_style(&[&format!("fills.texture_colours={count}")])).unwrap();
+        let fills = filled_marks(&drawing);
         let palette = palette(&fills);
         assert_eq!(palette.len(), count, "{palette:?}");
         // One region per colour, except where a colour has two separate areas.
         assert!(fills.len() <= count + 3, "{} regions", fills.len());
         let truth = |p: Point| {
-            let at = eye.world(p, 5.0);
+            let at = eye.unproject(p, 5.0);
             let is_in = at.x.min(at.y) > 0.0 && at.x.max(at.y) < 1.0;
-            is_in.then(|| nearest(&palette, light(CORNERS, at.x, at.y)))
+            is_in.then(|| nearest(&palette, interpolated_light(CORNER_COLOURS, at.x, at.y)))
         };
-        assert!(assert_true(&fills, &camera, 0.6, truth) > 20_000);
+        assert!(assert_colours(&fills, &camera, 0.6, truth) > 20_000);
     }
 }
 
 #[test]
-fn faces_painted_in_one_colour_keep_it() {
+fn faces_of_one_colour_keep_it() {
     // All face colours are kept, although the style allows fewer for varying colours.
     let tints = [[0.30_f32, 0.1, 0.1], [0.5, 0.1, 0.1], [0.1, 0.5, 0.2]];
     let mut all = Geometry::default();
@@ -153,43 +156,45 @@ fn faces_painted_in_one_colour_keep_it() {
         all.colours.extend(own.colours);
     }
     let drawing =
-        render(&scene(all, white()), &front(3.0, 1.0), &plain(&["fills.texture_colours=2"])).unwrap();
-    let seen = palette(&fills(&drawing));
+        render(&scene(all, white()), &front(3.0, 1.0), &flat_fill_style(&["fills.texture_colours=2"]))
+            .unwrap();
+    let seen = palette(&filled_marks(&drawing));
     let mut own: Vec<Colour> = tints.iter().map(|[r, g, b]| Colour::from_linear([*r, *g, *b, 1.0])).collect();
     own.sort_unstable();
     assert_eq!(seen, own);
 }
 
 #[test]
-fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
+fn artist_lines_follow_vertex_colour_changes_and_seams() {
     // A white square next to it that shares no vertex colours with it.
-    let mut all = square(CORNERS);
+    let mut all = square(CORNER_COLOURS);
     let beside = square([[1.0; 3]; 4]);
     all.positions.extend(beside.positions.iter().map(|p| *p + DVec3::X));
     all.triangles.extend(beside.triangles.iter().map(|t| t.map(|v| v + 4)));
     all.colours.extend(beside.colours);
     let model = scene(all, white());
     let camera = front(2.0, 1.0);
-    let eye = Eye::new(&camera);
-    let fills_drawn = render(&model, &camera, &plain(&["fills.texture_colours=5"])).unwrap();
-    let palette = palette(&fills(&fills_drawn));
+    let eye = TextbookCamera::new(&camera);
+    let fills_drawn = render(&model, &camera, &flat_fill_style(&["fills.texture_colours=5"])).unwrap();
+    let palette = palette(&filled_marks(&fills_drawn));
     let truth = |p: Point| {
-        let at = eye.world(p, 5.0);
+        let at = eye.unproject(p, 5.0);
         let is_in = at.x.min(at.y) > 0.0 && at.x < 2.0 && at.y < 1.0;
-        let light = if at.x < 1.0 { light(CORNERS, at.x, at.y) } else { [1.0; 3] };
+        let light = if at.x < 1.0 { interpolated_light(CORNER_COLOURS, at.x, at.y) } else { [1.0; 3] };
         is_in.then(|| nearest(&palette, light))
     };
     for style in ["ink", "toon"] {
         let changes = ["lines.kinds=['artist']", "fills.texture_colours=5"].map(str::to_owned);
         let drawing = render(&model, &camera, &Style::load(style, &changes).unwrap()).unwrap();
         let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
-        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).filter(is_artist).flat_map(axis).collect();
+        let drawn: Vec<[Point; 2]> =
+            visible_line_marks(&drawing).filter(is_artist).flat_map(centre_line).collect();
         assert!(drawn.len() > 20, "{} pieces", drawn.len());
         for p in drawn.iter().map(|[a, b]| a.midpoint(*b)) {
-            let seen: Vec<_> = round(p, 1.5).map(truth).collect();
+            let seen: Vec<_> = points_on_circle(p, 1.5).map(truth).collect();
             assert!(seen.iter().any(|own| *own != seen[0]), "a line at {p}, where nothing changes");
         }
-        let ink = Ink::new(drawn, 4.0);
+        let ink = SegmentGrid::new(drawn, 4.0);
         for k in 0..200 * 100 {
             let p = Point::new(f64::from(k % 200) * 4.2, f64::from(k / 200) * 4.2);
             let q = p + kurbo::Vec2::new(1.0, 0.0);
@@ -199,7 +204,7 @@ fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
         }
     }
     // Along the shared side, colours differ at some points and are white on both sides at others.
-    let along = |y: f64| [0.999, 1.001].map(|x| truth(eye.image(DVec3::new(x, y, 0.0))));
+    let along = |y: f64| [0.999, 1.001].map(|x| truth(eye.project(DVec3::new(x, y, 0.0))));
     let parted = (1..100)
         .filter(|k| {
             let [a, b] = along(f64::from(*k) / 100.0);
@@ -230,7 +235,7 @@ fn pictured(times: f32) -> Geometry {
 }
 
 #[test]
-fn a_picture_and_colours_of_vertices_multiply() {
+fn textures_and_vertex_colours_multiply() {
     let (red, blue) = ([210, 60, 50], [60, 90, 200]);
     let picture =
         png(64, 64, |x, y| if (x as i32 - 32).pow(2) + (y as i32 - 32).pow(2) < 400 { red } else { blue });
@@ -239,14 +244,15 @@ fn a_picture_and_colours_of_vertices_multiply() {
     let colours = [[1.0; 3], [dark; 3], [dark; 3], [1.0; 3]];
     let geometry = Geometry { colours: square(colours).colours, ..pictured(1.0) };
     let camera = front(1.0, 1.0);
-    let eye = Eye::new(&camera);
-    let drawing = render(&scene(geometry, material), &camera, &plain(&["fills.texture_colours=2"])).unwrap();
-    let fills = fills(&drawing);
+    let eye = TextbookCamera::new(&camera);
+    let drawing =
+        render(&scene(geometry, material), &camera, &flat_fill_style(&["fills.texture_colours=2"])).unwrap();
+    let fills = filled_marks(&drawing);
     assert_eq!(palette(&fills).len(), 4);
     let mut seen = [0; 2];
     for k in 0..80 * 80 {
         let p = Point::new((f64::from(k % 80) + 0.5) * 5.25, (f64::from(k / 80) + 0.5) * 5.25);
-        let at = eye.world(p, 5.0);
+        let at = eye.unproject(p, 5.0);
         let Some(colour) = top(&fills, p).filter(|_| at.x.min(at.y) > 0.01 && at.x.max(at.y) < 0.99) else {
             continue;
         };
@@ -263,7 +269,7 @@ fn a_picture_and_colours_of_vertices_multiply() {
 }
 
 #[test]
-fn texels_that_are_blocks_keep_their_corners() {
+fn nearest_filtered_texels_keep_their_corners() {
     let art = [
         0b0011_1100_u8,
         0b0100_0010,
@@ -278,20 +284,20 @@ fn texels_that_are_blocks_keep_their_corners() {
     let picture = png(8, 8, |x, y| if is_set(x, y) { [30, 30, 40] } else { [250, 210, 60] });
     let material = Material { picture: Some(picture), filter: Filter::Blocks, ..white() };
     let camera = front(1.0, 1.0);
-    let eye = Eye::new(&camera);
-    let drawing = render(&scene(pictured(1.0), material), &camera, &plain(&[])).unwrap();
-    let fills = fills(&drawing);
+    let eye = TextbookCamera::new(&camera);
+    let drawing = render(&scene(pictured(1.0), material), &camera, &flat_fill_style(&[])).unwrap();
+    let fills = filled_marks(&drawing);
     let truth = |p: Point| {
-        let at = eye.world(p, 5.0);
+        let at = eye.unproject(p, 5.0);
         let is_in = at.x.min(at.y) > 0.0 && at.x.max(at.y) < 1.0;
         let own = |x: f64, y: f64| is_set(((x * 8.0) as u32).min(7), (((1.0 - y) * 8.0) as u32).min(7));
         is_in.then(|| if own(at.x, at.y) { Colour::rgb(30, 30, 40) } else { Colour::rgb(250, 210, 60) })
     };
-    assert!(assert_true(&fills, &camera, 0.8, truth) > 20_000);
+    assert!(assert_colours(&fills, &camera, 0.8, truth) > 20_000);
 }
 
 #[test]
-fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
+fn a_checkered_floor_has_tiles_nearby_and_their_mean_far_away() {
     let (dark, pale) = (Colour::rgb(40, 60, 120), Colour::rgb(240, 230, 210));
     let of = |own: Colour| [own.r, own.g, own.b];
     let picture = png(32, 32, |x, y| of(if (x / 16 + y / 16) % 2 == 1 { dark } else { pale }));
@@ -310,13 +316,13 @@ fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
         height: 400.0,
         ..Camera::three_quarter()
     };
-    let eye = Eye::new(&camera);
-    let drawing = render(&scene(floor, material), &camera, &plain(&[])).unwrap();
-    let fills = fills(&drawing);
+    let eye = TextbookCamera::new(&camera);
+    let drawing = render(&scene(floor, material), &camera, &flat_fill_style(&[])).unwrap();
+    let fills = filled_marks(&drawing);
     assert_eq!(palette(&fills).len(), 3);
     assert!(fills.len() < 400, "{} regions", fills.len());
     let on_floor = |p: Point| {
-        let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+        let (near, far) = (eye.unproject(p, 0.0), eye.unproject(p, 1.0));
         let way = far - near;
         let at = near - way * (near.y / way.y);
         (way.y < 0.0 && at.z > -40.0 && at.z < 0.0 && at.x.abs() < 20.0).then_some(at)
@@ -324,15 +330,15 @@ fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
     let tile = |at: DVec3| if (at.x.floor() + at.z.floor()).rem_euclid(2.0) == 1.0 { dark } else { pale };
     // Near the camera, every tile is drawn. Texel filtering rounds their corners.
     let near = |p: Point| on_floor(p).filter(|at| at.z > -9.0).map(tile);
-    assert!(assert_true(&fills, &camera, 4.0, near) > 5000);
+    assert!(assert_colours(&fills, &camera, 4.0, near) > 5000);
     // Far away, the floor has the mean of both colours.
     let mean = *palette(&fills).iter().find(|own| ![dark, pale].contains(own)).unwrap();
     let far = |p: Point| on_floor(p).filter(|at| at.z < -32.0).map(|_| mean);
-    assert!(assert_true(&fills, &camera, 1.0, far) > 20);
+    assert!(assert_colours(&fills, &camera, 1.0, far) > 20);
 }
 
 #[test]
-fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
+fn artist_textures_of_the_style_give_lines_and_no_fills() {
     let folder = std::env::temp_dir().join(format!("ligne-artist-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let disc = |x: u32, y: u32| (x as i32 - 32).pow(2) + (y as i32 - 32).pow(2) < 400;
@@ -348,7 +354,7 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
     let material = Material { picture: Some(halves), ..white() };
     let model = scene(pictured(1.0), material);
     let camera = front(1.0, 1.0);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     for (table, has_disc) in [
         ("artist_texture = \"ink.png\"", true),
         ("artist_texture = { \"sh*\" = \"ink.png\" }", true),
@@ -359,11 +365,14 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
         let drawing = render(&model, &camera, &style).unwrap();
         // If the smoothing removes the line of the disc, it also removes the fills.
         let is_smooth = table.contains("smooth");
-        assert!(is_smooth || palette(&fills(&drawing)).len().is_multiple_of(2), "both halves are painted");
-        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
+        assert!(
+            is_smooth || palette(&filled_marks(&drawing)).len().is_multiple_of(2),
+            "both halves are painted"
+        );
+        let drawn: Vec<[Point; 2]> = visible_line_marks(&drawing).flat_map(centre_line).collect();
         // The centre of the disc is the centre of a texel.
         let middle = glam::DVec2::new(32.5, 31.5) / 64.0;
-        let off = |p: Point| ((eye.world(p, 5.0).truncate() - middle).length() - 20.0 / 64.0).abs();
+        let off = |p: Point| ((eye.unproject(p, 5.0).truncate() - middle).length() - 20.0 / 64.0).abs();
         let on_disc = drawn.iter().filter(|[a, b]| off(a.midpoint(*b)) < 0.012).count();
         assert_eq!(on_disc > 8, has_disc, "{table}: {on_disc} of {}", drawn.len());
         if has_disc {
@@ -380,14 +389,15 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
 }
 
 #[test]
-fn what_has_no_numbers_is_painted_all_the_same() {
-    let mut geometry = square(CORNERS);
+fn non_finite_colours_and_texture_coordinates_are_painted() {
+    let mut geometry = square(CORNER_COLOURS);
     geometry.colours[1] = [f32::NAN, f32::INFINITY, -3.0, 1.0];
     geometry.corner_uvs = vec![[0, NONE, 1], [NONE; 3]];
     geometry.uvs = vec![[f32::NAN, 0.0], [1e30, 0.0]];
     let material = Material { picture: Some(png(2, 2, |x, _| [x as u8 * 255; 3])), ..white() };
     for material in [white(), material] {
-        let drawing = render(&scene(geometry.clone(), material), &front(1.0, 1.0), &plain(&[])).unwrap();
-        assert!(!fills(&drawing).is_empty());
+        let drawing =
+            render(&scene(geometry.clone(), material), &front(1.0, 1.0), &flat_fill_style(&[])).unwrap();
+        assert!(!filled_marks(&drawing).is_empty());
     }
 }

@@ -8,22 +8,22 @@ use kurbo::Point;
 use ligne::colour::pixel_picture::Picture;
 use ligne::colour::srgb::Colour;
 use ligne::diff::{DiffOptions, Picture as Read, canonical_svg, compare};
-use ligne::drawing::{Drawing, Mark, Paint, Shows};
+use ligne::drawing::{Drawing, Mark, Paint, PieceContent};
 use ligne::export::{Grouping, PngOptions, Resolution, SvgOptions};
 use ligne::pipeline::render;
 use ligne::scene::{Camera, Geometry, Material, Part, Projection, Scene, Wrap};
 use ligne::style::Style;
 
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 
 const DARK: [u8; 3] = [40, 70, 120];
 const LIGHT: [u8; 3] = [240, 220, 150];
 
 /// Size of a texel of the checker, in cells.
-const TEXEL: f64 = 1.0 / 16.0;
+const TEXEL_SIZE_CELLS: f64 = 1.0 / 16.0;
 
 /// A style with embedded textures in one tone and without ink.
-fn plain(changes: &[&str]) -> Style {
+fn plain_style(changes: &[&str]) -> Style {
     let mut all = vec![
         "lines.enabled=false",
         "fills.thresholds=[]",
@@ -92,12 +92,12 @@ fn images(drawing: &Drawing) -> Vec<&Mark> {
     marks.filter(|mark| matches!(mark.paint, Paint::Image(_))).collect()
 }
 
-fn far(colour: Colour, [r, g, b]: [u8; 3]) -> u8 {
+fn colour_difference(colour: Colour, [r, g, b]: [u8; 3]) -> u8 {
     colour.r.abs_diff(r).max(colour.g.abs_diff(g)).max(colour.b.abs_diff(b))
 }
 
 #[test]
-fn a_checker_in_perspective_is_where_projection_says() {
+fn texels_of_a_checker_match_the_perspective_projection() {
     let scene = quads(&[[-4.0, -4.0, 4.0, 4.0, 0.0]], &[[0.0, 0.0, 1.0, 1.0]], checker(16));
     let camera = Camera {
         eye: DVec3::new(1.0, -6.0, 2.5),
@@ -108,10 +108,10 @@ fn a_checker_in_perspective_is_where_projection_says() {
         height: 600.0,
         ..Camera::three_quarter()
     };
-    let eye = Eye::new(&camera);
-    let drawing = render(&scene, &camera, &plain(&[])).unwrap();
+    let eye = TextbookCamera::new(&camera);
+    let drawing = render(&scene, &camera, &plain_style(&[])).unwrap();
     let cell = |p: Point| -> Option<DVec2> {
-        let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+        let (near, far) = (eye.unproject(p, 0.0), eye.unproject(p, 1.0));
         let at = near - (far - near) * (near.z / (far - near).z);
         let is_ahead = eye.depth(at) > 0.0 && at.x.abs() < 4.0 && at.y.abs() < 4.0;
         is_ahead.then(|| DVec2::new((at.x + 4.0) * 2.0, (at.y + 4.0) * 2.0))
@@ -131,14 +131,14 @@ fn a_checker_in_perspective_is_where_projection_says() {
                 continue;
             }
             let within = cell(p).map_or(DVec2::ZERO, DVec2::fract);
-            if within.min_element() < TEXEL || within.max_element() > 1.0 - TEXEL {
+            if within.min_element() < TEXEL_SIZE_CELLS || within.max_element() > 1.0 - TEXEL_SIZE_CELLS {
                 continue;
             }
             let is_dark = (here.x as i64 + here.y as i64).rem_euclid(2) == 0;
             let truth = if is_dark { DARK } else { LIGHT };
             let at = |x: f64| (x * f64::from(scale)) as usize;
             asked += 1;
-            wrong += u32::from(far(seen.at(at(p.x), at(p.y)), truth) > 24);
+            wrong += u32::from(colour_difference(seen.at(at(p.x), at(p.y)), truth) > 24);
         }
         assert!(asked > 1000, "{asked}");
         assert!(wrong * 200 <= asked, "{wrong} of {asked} points at {scale}x");
@@ -148,7 +148,7 @@ fn a_checker_in_perspective_is_where_projection_says() {
 }
 
 #[test]
-fn pictures_go_on_as_their_samplers_say() {
+fn textures_repeat_clamp_and_mirror_outside_0_to_1() {
     // Red grows to the right, green downwards.
     let picture = png(64, |x, y| [(x * 4) as u8, (y * 4) as u8, 0]);
     let at = |t: f64, wrap: Wrap| match wrap {
@@ -162,18 +162,18 @@ fn pictures_go_on_as_their_samplers_say() {
         let camera = Camera::azimuth_elevation(0.0, 90.0, ligne::scene::UpAxis::Z)
             .with_projection(Projection::Orthographic { height: 1.0 })
             .fit(&scene);
-        let eye = Eye::new(&camera);
-        let seen = pixels(&render(&scene, &camera, &plain(&[])).unwrap(), camera.width as u32);
+        let eye = TextbookCamera::new(&camera);
+        let seen = pixels(&render(&scene, &camera, &plain_style(&[])).unwrap(), camera.width as u32);
         let mut wrong = 0;
         for k in 0..400 {
             let share = |k: u32| (f64::from(k) + 0.5) / 20.0;
             let world = DVec3::new(share(k % 20) * 4.0, share(k / 20) * 4.0, 0.0);
-            let p = eye.image(world);
+            let p = eye.project(world);
             let uv = [-1.25 + 3.75 * share(k % 20), -1.0 + 2.5 * share(k / 20)];
             let truth = [0, 1].map(|axis| (at(uv[axis], wrap[axis]) * 252.0) as u8);
             // Near the end of a period, both ends are blended.
             let near_end = uv.iter().any(|t| (t - t.round()).abs() < 0.03);
-            let off = far(seen.at(p.x as usize, p.y as usize), [truth[0], truth[1], 0]);
+            let off = colour_difference(seen.at(p.x as usize, p.y as usize), [truth[0], truth[1], 0]);
             wrong += u32::from(off > 12 && !near_end);
         }
         assert_eq!(wrong, 0, "{wrap:?}");
@@ -181,7 +181,7 @@ fn pictures_go_on_as_their_samplers_say() {
 }
 
 #[test]
-fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
+fn the_nearer_texture_is_visible_and_tones_shade_it() {
     let material = painted(png(32, |x, _| if x < 16 { DARK } else { LIGHT }));
     // The small plate hangs over the large one and shows the other half of the picture.
     let scene = quads(
@@ -190,9 +190,9 @@ fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
         material,
     );
     let camera = Camera::azimuth_elevation(20.0, 70.0, ligne::scene::UpAxis::Z).fit(&scene);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     let light = "light.sources=[{ kind = 'directional', direction = [0, 0, 1], space = 'world' }]";
-    let style = plain(&[
+    let style = plain_style(&[
         "fills.thresholds=[0.5]",
         "fills.tones=[0.0, 1.0]",
         "fills.cast_shadows=true",
@@ -202,15 +202,15 @@ fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
     let drawing = render(&scene, &camera, &style).unwrap();
     let seen = pixels(&drawing, camera.width as u32);
     let colour = |x: f64, y: f64, z: f64| {
-        let p = eye.image(DVec3::new(x, y, z));
+        let p = eye.project(DVec3::new(x, y, z));
         seen.at(p.x as usize, p.y as usize)
     };
-    assert!(far(colour(2.0, 2.0, 1.0), DARK) < 6);
-    assert!(far(colour(0.4, 0.4, 0.0), LIGHT) < 6, "{:?}", colour(0.4, 0.4, 0.0));
+    assert!(colour_difference(colour(2.0, 2.0, 1.0), DARK) < 6);
+    assert!(colour_difference(colour(0.4, 0.4, 0.0), LIGHT) < 6, "{:?}", colour(0.4, 0.4, 0.0));
     // The shadow of the small plate is visible below its edge.
     let shaded = (0..400)
         .map(|k| (f64::from(k % 20) * 0.2 + 0.1, f64::from(k / 20) * 0.2 + 0.1))
-        .any(|(x, y)| far(colour(x, y, 0.0), LIGHT.map(|c| c / 2)) < 6);
+        .any(|(x, y)| colour_difference(colour(x, y, 0.0), LIGHT.map(|c| c / 2)) < 6);
     assert!(shaded, "no shadow");
     let classes: Vec<&str> = drawing
         .layers
@@ -222,7 +222,7 @@ fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
 }
 
 #[test]
-fn a_file_holds_a_picture_once() {
+fn files_embed_each_picture_once() {
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap();
     let camera = Camera::azimuth_elevation(30.0, 25.0, scene.up).fit(&scene);
     let style = Style::load("toon", &["fills.texture='image'".to_owned()]).unwrap();
@@ -251,7 +251,7 @@ fn a_file_holds_a_picture_once() {
 }
 
 #[test]
-fn a_thousand_small_triangles_are_few_pieces() {
+fn many_small_triangles_are_merged_into_few_pieces() {
     // A ball of 20,000 triangles, 300 px wide.
     let (columns, rows) = (200_u32, 50_u32);
     let mut geometry = Geometry::default();
@@ -276,17 +276,17 @@ fn a_thousand_small_triangles_are_few_pieces() {
     let mut scene = quads(&[], &[], painted(noise));
     scene.geometries = vec![geometry];
     let camera = Camera::three_quarter_of(ligne::scene::UpAxis::Z).with_frame(330.0, 330.0).fit(&scene);
-    let drawing = render(&scene, &camera, &plain(&[])).unwrap();
+    let drawing = render(&scene, &camera, &plain_style(&[])).unwrap();
     let Paint::Image(image) = &images(&drawing)[0].paint else { unreachable!() };
     assert!(image.pieces.len() < 2000, "{} pieces", image.pieces.len());
     let picture = &image.picture;
     // The picture is not much finer than its file: it adds at most the overlap where it repeats.
     assert!(picture.width < 512 && picture.height < 512, "{} x {}", picture.width, picture.height);
-    assert!(image.pieces.iter().any(|piece| matches!(piece.shows, Shows::Pixels(_))));
+    assert!(image.pieces.iter().any(|piece| matches!(piece.shows, PieceContent::Pixels(_))));
 }
 
 #[test]
-fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
+fn intersecting_faces_show_the_texture_of_the_front_face() {
     // Blades of one part around a common axis, each with a separate texel, and a plate across all of them.
     const BLADES: u32 = 4;
     use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -322,11 +322,11 @@ fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
         let camera = Camera::azimuth_elevation(azimuth, 25.0, ligne::scene::UpAxis::Z)
             .with_frame(400.0, 400.0)
             .fit(&scene);
-        let eye = Eye::new(&camera);
-        let seen = pixels(&render(&scene, &camera, &plain(&[])).unwrap(), 1600);
+        let eye = TextbookCamera::new(&camera);
+        let seen = pixels(&render(&scene, &camera, &plain_style(&[])).unwrap(), 1600);
         let front = |p: Point| {
-            let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
-            let hit = |corners: &[DVec3; 3]| crossed(near, far - near, *corners);
+            let (near, far) = (eye.unproject(p, 0.0), eye.unproject(p, 1.0));
+            let hit = |corners: &[DVec3; 3]| hit_parameter(near, far - near, *corners);
             let hits = faces.iter().filter_map(|(corners, texel)| Some((hit(corners)?, *texel)));
             hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, texel)| texel)
         };
@@ -341,14 +341,16 @@ fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
                 continue;
             }
             asked += 1;
-            wrong += u32::from(far(seen.at((p.x * 4.0) as usize, (p.y * 4.0) as usize), shade(texel)) > 8);
+            wrong += u32::from(
+                colour_difference(seen.at((p.x * 4.0) as usize, (p.y * 4.0) as usize), shade(texel)) > 8,
+            );
         }
         assert!(asked > 1000 && wrong == 0, "{wrong} of {asked} points from {azimuth} degrees");
     }
 }
 
 /// Returns the parameter along a ray where it hits a triangle.
-fn crossed(from: DVec3, way: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+fn hit_parameter(from: DVec3, way: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let normal = (b - a).cross(c - a);
     let at = normal.dot(a - from) / normal.dot(way);
     let p = from + way * at;

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use ligne::colour::colour_factor::Factor;
+use ligne::colour::colour_factor::ColourFactor;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
-use ligne::light::tones::tone_options::{Colours, Scale};
+use ligne::light::tones::tone_options::{Colours, ToneScale};
 use ligne::light::{SourceKind, Space};
 use ligne::regions::Seams;
 use ligne::style::Style;
@@ -33,7 +33,7 @@ impl Drop for Folder {
     }
 }
 
-fn changed(style: &str, changes: &[&str]) -> Result<Style, ligne::Error> {
+fn load_with_changes(style: &str, changes: &[&str]) -> Result<Style, ligne::Error> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     Style::load(style, &changes)
 }
@@ -51,8 +51,8 @@ fn grey(value: u8) -> Colour {
 }
 
 #[test]
-fn the_keys_other_programs_use_can_be_set() {
-    let style = changed(
+fn light_and_fill_keys_set_their_options() {
+    let style = load_with_changes(
         "ink",
         &[
             "fills.enabled=1",
@@ -64,23 +64,23 @@ fn the_keys_other_programs_use_can_be_set() {
     )
     .unwrap();
     assert!(style.region.enabled && !Style::default().region.enabled);
-    assert_eq!(style.tones.scale, Scale::Thresholds(vec![0.3, 0.7]));
+    assert_eq!(style.tones.scale, ToneScale::Thresholds(vec![0.3, 0.7]));
     assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0), grey(0x88), grey(255)]));
     assert!(!style.light.from_model);
     assert_eq!(style.light.sources[0].space, Space::Camera);
     assert!(matches!(style.light.sources[0].kind, SourceKind::Directional { .. }));
-    let style = changed(
+    let style = load_with_changes(
         "ink",
         &["fills.seams=exact", "fills.crumb=1mm", "fills.shadow=#808080", "fills.cast_shadows=1"],
     )
     .unwrap();
     assert_eq!((style.region.seams, style.region.crumb), (Seams::Exact, Length::mm(1.0)));
-    assert_eq!(style.tones.shadow, Factor::from(grey(128)));
+    assert_eq!(style.tones.shadow, ColourFactor::from(grey(128)));
     assert!(style.tones.cast_shadows);
 }
 
 #[test]
-fn built_in_styles_paint_as_they_say() {
+fn built_in_styles_have_their_fill_options() {
     let of = |name: &str| Style::preset(name).unwrap();
     for name in ["toon", "toon-highlight", "noir", "rim", "gradient", "flat", "gooch", "comic-flats"] {
         assert!(of(name).region.enabled, "{name}");
@@ -89,61 +89,63 @@ fn built_in_styles_paint_as_they_say() {
     for name in ["ink", "plotter", "suggestive", "technical"] {
         assert!(!of(name).region.enabled, "{name}");
     }
-    assert_eq!(of("gradient").tones.scale, Scale::Steps(128));
-    assert_eq!(of("flat").tones.scale, Scale::Thresholds(Vec::new()));
+    assert_eq!(of("gradient").tones.scale, ToneScale::Steps(128));
+    assert_eq!(of("flat").tones.scale, ToneScale::Thresholds(Vec::new()));
     assert!(matches!(of("gooch").tones.colours, Colours::Gooch(_)));
     assert!(of("comic-flats").tones.cast_shadows && of("toon-highlight").tones.highlight.enabled);
 }
 
 #[test]
-fn a_new_way_to_make_tones_replaces_the_old_one() {
-    let style = changed("gradient", &["fills.thresholds=[0.4]"]).unwrap();
-    assert_eq!(style.tones.scale, Scale::Thresholds(vec![0.4]));
-    let style = changed("toon", &["fills.steps=9"]).unwrap();
-    assert_eq!(style.tones.scale, Scale::Steps(9));
-    let style = changed("gooch", &["fills.palette=[\"#000\", \"#fff\"]"]).unwrap();
+fn a_new_tone_scale_or_colouring_replaces_the_old_one() {
+    let style = load_with_changes("gradient", &["fills.thresholds=[0.4]"]).unwrap();
+    assert_eq!(style.tones.scale, ToneScale::Thresholds(vec![0.4]));
+    let style = load_with_changes("toon", &["fills.steps=9"]).unwrap();
+    assert_eq!(style.tones.scale, ToneScale::Steps(9));
+    let style = load_with_changes("gooch", &["fills.palette=[\"#000\", \"#fff\"]"]).unwrap();
     assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0), grey(255)]));
-    assert_eq!(style.tones.scale, Scale::Steps(24));
+    assert_eq!(style.tones.scale, ToneScale::Steps(24));
     let ramp = "fills.ramp=[\"#000\", \"#fff\"]";
-    let style = changed("gradient", &[ramp, "fills.palette=[\"#888\"]"]).unwrap();
+    let style = load_with_changes("gradient", &[ramp, "fills.palette=[\"#888\"]"]).unwrap();
     assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0x88)]));
-    let style = changed("gradient", &["fills.gooch.enabled=true", "fills.gooch.warm=#fff"]).unwrap();
+    let style =
+        load_with_changes("gradient", &["fills.gooch.enabled=true", "fills.gooch.warm=#fff"]).unwrap();
     assert!(matches!(style.tones.colours, Colours::Gooch(gooch) if gooch.warm == grey(255)));
-    let style = changed("toon", &["fills.palette=[\"#888\"]", "fills.gooch.enabled=false"]).unwrap();
+    let style =
+        load_with_changes("toon", &["fills.palette=[\"#888\"]", "fills.gooch.enabled=false"]).unwrap();
     assert_eq!(style.tones.colours, Colours::Palette(vec![grey(0x88)]));
 }
 
 #[test]
-fn pictures_of_tones_are_found_beside_the_sheet() {
+fn tone_pictures_are_found_relative_to_the_sheet() {
     let folder = Folder::new("strip");
     folder.write("tones/strip.png", &png(8, 1, &[40, 40, 40, 40, 40, 40, 200, 255]));
     folder.write("tones/table.png", &png(2, 2, &[0, 100, 100, 200]));
     folder.write("tones/strip.toml", b"fills.ramp = \"strip.png\"");
     let sheet = folder.write("a.toml", b"extends = \"tones/strip.toml\"\nfills.enabled = true\n");
-    let Scale::Ramp(strip) = Style::load(&sheet, &[]).unwrap().tones.scale else { panic!() };
+    let ToneScale::Ramp(strip) = Style::load(&sheet, &[]).unwrap().tones.scale else { panic!() };
     assert_eq!(strip.levels, [0.75, 0.875]);
     assert_eq!(strip.colours, [grey(40), grey(200), grey(255)]);
 
     let sheet = folder.write("b.toml", b"[[fills.material]]\nname = \"a*\"\ntable = \"tones/table.png\"\n");
     let materials = Style::load(&sheet, &[]).unwrap().tones.materials;
-    let Some(Scale::Table(table)) = &materials[0].scale else { panic!() };
+    let Some(ToneScale::Table(table)) = &materials[0].scale else { panic!() };
     assert_eq!((table.tone(0, 0), table.tone(1, 0), table.tone(1, 1)), (0, 1, 2));
 }
 
 #[test]
-fn materials_of_sheets_add_up() {
+fn material_rules_of_extended_sheets_accumulate() {
     let folder = Folder::new("materials");
     folder.write("a.toml", b"[[fills.material]]\nname = \"a\"\nsteps = 3\n");
     let sheet =
         folder.write("b.toml", b"extends = \"a.toml\"\n[[fills.material]]\nname = \"a\"\nshadow = 0.1\n");
     let style = Style::load(&sheet, &[]).unwrap();
     let (own, _) = style.tones.for_material("a");
-    assert_eq!((own.scale, own.shadow), (Scale::Steps(3), Factor([0.1; 3])));
-    assert_eq!(style.tones.for_material("b").0.scale, Scale::Thresholds(vec![0.5]));
+    assert_eq!((own.scale, own.shadow), (ToneScale::Steps(3), ColourFactor([0.1; 3])));
+    assert_eq!(style.tones.for_material("b").0.scale, ToneScale::Thresholds(vec![0.5]));
 }
 
 #[test]
-fn mistakes_are_named() {
+fn fill_and_light_errors_name_line_and_fix() {
     let folder = Folder::new("errors");
     for (text, wanted) in [
         ("[fills]\nthreshold = [0.5]\n", "line 2: unknown key `threshold`; did you mean `thresholds`?"),

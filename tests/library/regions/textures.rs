@@ -11,10 +11,10 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::Ink;
-use crate::support::measures::plain_fills::{fills, plain};
-use crate::support::references::drawing_judge::{axis, ink_marks};
-use crate::support::references::textbook_camera::Eye;
+use crate::support::measures::line_picture::SegmentGrid;
+use crate::support::measures::plain_fills::{filled_marks, flat_fill_style};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::support::references::textbook_camera::TextbookCamera;
 
 const CREAM: [u8; 3] = [246, 239, 224];
 const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
@@ -27,8 +27,8 @@ fn picnic() -> Scene {
 
 /// Returns the texture colour that a line of sight meets: a ball of radius 1/4 on a square cloth of side 1.
 /// `None` if it meets neither.
-fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
-    let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+fn true_colour(eye: &TextbookCamera, p: Point) -> Option<[u8; 3]> {
+    let (near, far) = (eye.unproject(p, 0.0), eye.unproject(p, 1.0));
     let way = (far - near).normalize();
     let middle = DVec3::new(0.0, 0.25, 0.0);
     let along = (middle - near).dot(way);
@@ -52,13 +52,13 @@ fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
 }
 
 #[test]
-fn every_point_is_painted_as_its_picture_is_there() {
+fn every_point_has_the_colour_of_its_texture() {
     let scene = picnic();
     for [azimuth, elevation] in [[30.0, 25.0], [-75.0, 50.0], [160.0, 12.0]] {
         let camera = Camera::azimuth_elevation(azimuth, elevation, scene.up).fit(&scene);
-        let eye = Eye::new(&camera);
-        let drawing = render(&scene, &camera, &plain(&[])).unwrap();
-        let fills = fills(&drawing);
+        let eye = TextbookCamera::new(&camera);
+        let drawing = render(&scene, &camera, &flat_fill_style(&[])).unwrap();
+        let fills = filled_marks(&drawing);
         assert!(fills.len() < 120, "{} regions: colours are cut up", fills.len());
         let mut seen = 0;
         for k in 0..200 * 200 {
@@ -67,7 +67,9 @@ fn every_point_is_painted_as_its_picture_is_there() {
             // Skips points near a border, because the ball is a polyhedron and borders have round corners.
             let round = (0..8).map(|k| std::f64::consts::TAU * f64::from(k) / 8.0);
             let mut near = round.map(|t| p + kurbo::Vec2::from_angle(t) * 2.0);
-            let Some(own) = truth(&eye, p).filter(|own| near.all(|q| truth(&eye, q) == Some(*own))) else {
+            let Some(own) =
+                true_colour(&eye, p).filter(|own| near.all(|q| true_colour(&eye, q) == Some(*own)))
+            else {
                 continue;
             };
             let top = fills.iter().rev().find(|(mark, _)| mark.path.winding(p) != 0);
@@ -85,12 +87,12 @@ fn every_point_is_painted_as_its_picture_is_there() {
 }
 
 #[test]
-fn a_picture_can_count_as_its_mean_or_not_at_all() {
+fn textures_can_be_reduced_to_their_mean_or_ignored() {
     let scene = picnic();
     let camera = Camera::three_quarter().fit(&scene);
     let colours = |changes: &[&str]| {
-        let drawing = render(&scene, &camera, &plain(changes)).unwrap();
-        let mut colours: Vec<Colour> = fills(&drawing).into_iter().map(|(_, colour)| colour).collect();
+        let drawing = render(&scene, &camera, &flat_fill_style(changes)).unwrap();
+        let mut colours: Vec<Colour> = filled_marks(&drawing).into_iter().map(|(_, colour)| colour).collect();
         colours.sort_unstable();
         colours.dedup();
         colours
@@ -103,7 +105,7 @@ fn a_picture_can_count_as_its_mean_or_not_at_all() {
 }
 
 #[test]
-fn lines_are_the_same_with_and_without_pictures() {
+fn lines_do_not_depend_on_textures() {
     let scene = picnic();
     let camera = Camera::three_quarter().fit(&scene);
     let ink = |change: &str| {
@@ -115,10 +117,10 @@ fn lines_are_the_same_with_and_without_pictures() {
 }
 
 #[test]
-fn artist_lines_run_where_painted_colours_change() {
+fn artist_lines_follow_colour_changes_of_textures() {
     let scene = picnic();
     let camera = Camera::azimuth_elevation(30.0, 25.0, scene.up).fit(&scene);
-    let eye = Eye::new(&camera);
+    let eye = TextbookCamera::new(&camera);
     let round = |p: Point, radius: f64| {
         (0..16)
             .map(move |k| p + kurbo::Vec2::from_angle(std::f64::consts::TAU * f64::from(k) / 16.0) * radius)
@@ -128,20 +130,23 @@ fn artist_lines_run_where_painted_colours_change() {
         let style = Style::load(style, &[change]).unwrap();
         let drawing = render(&scene, &camera, &style).unwrap();
         let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
-        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).filter(is_artist).flat_map(axis).collect();
+        let drawn: Vec<[Point; 2]> =
+            visible_line_marks(&drawing).filter(is_artist).flat_map(centre_line).collect();
         assert!(drawn.len() > 50, "{} pieces", drawn.len());
         for [a, b] in &drawn {
             let p = a.midpoint(*b);
-            let mut seen: Vec<_> = round(p, 2.5).map(|q| truth(&eye, q)).collect();
+            let mut seen: Vec<_> = round(p, 2.5).map(|q| true_colour(&eye, q)).collect();
             seen.dedup();
             assert!(seen.len() > 1, "a line at {p}, where nothing changes");
         }
-        let all: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
-        let ink = Ink::new(all, 4.0);
+        let all: Vec<[Point; 2]> = visible_line_marks(&drawing).flat_map(centre_line).collect();
+        let ink = SegmentGrid::new(all, 4.0);
         let step = camera.width / 300.0;
         for k in 0..300 * 300 {
             let p = Point::new((k % 300) as f64 * step, (k / 300) as f64 * step);
-            if p.y < camera.height && truth(&eye, p) != truth(&eye, p + kurbo::Vec2::new(1.0, 0.0)) {
+            if p.y < camera.height
+                && true_colour(&eye, p) != true_colour(&eye, p + kurbo::Vec2::new(1.0, 0.0))
+            {
                 assert!(ink.distance(p) < 3.0, "no line at {p}");
             }
         }
@@ -150,5 +155,5 @@ fn artist_lines_run_where_painted_colours_change() {
     let far =
         Style::load("ink", &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()])
             .unwrap();
-    assert_eq!(ink_marks(&render(&scene, &camera, &far).unwrap()).count(), 0);
+    assert_eq!(visible_line_marks(&render(&scene, &camera, &far).unwrap()).count(), 0);
 }

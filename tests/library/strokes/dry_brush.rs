@@ -16,9 +16,9 @@ use crate::support::pipeline::{self, orthographic};
 use crate::support::scenes::solids::{cuboid, sphere};
 
 /// A brush picture in the temporary folder, deleted on drop.
-struct Picture(PathBuf);
+struct BrushPicture(PathBuf);
 
-impl Picture {
+impl BrushPicture {
     fn new(name: &str, [width, height]: [u32; 2], shade: impl Fn(u32, u32) -> u8) -> Self {
         let file = std::env::temp_dir().join(format!("ligne-dry-{}-{name}.png", std::process::id()));
         let mut encoder = png::Encoder::new(std::fs::File::create(&file).unwrap(), width, height);
@@ -38,15 +38,19 @@ impl Picture {
     }
 }
 
-impl Drop for Picture {
+impl Drop for BrushPicture {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.0);
     }
 }
 
 /// A dark picture with a hole above its middle, half its length and a fifth of its height.
-fn holed(name: &str) -> Picture {
-    Picture::new(name, [80, 20], |x, y| if (20..60).contains(&x) && (4..8).contains(&y) { 255 } else { 0 })
+fn picture_with_hole(name: &str) -> BrushPicture {
+    BrushPicture::new(
+        name,
+        [80, 20],
+        |x, y| if (20..60).contains(&x) && (4..8).contains(&y) { 255 } else { 0 },
+    )
 }
 
 fn lines(drawing: &Drawing) -> Vec<&Mark> {
@@ -64,9 +68,9 @@ fn ball() -> (Scene, Camera) {
 }
 
 #[test]
-fn the_inside_of_a_picture_is_laid_round_a_bend() {
+fn holes_of_a_picture_brush_follow_a_bend() {
     let (scene, camera) = ball();
-    let picture = holed("bend");
+    let picture = picture_with_hole("bend");
     let drawn = |more: &str| {
         let drawing = render(&scene, &camera, &picture.style(more, &[])).unwrap();
         let [mark] = lines(&drawing)[..] else { panic!("one line") };
@@ -98,10 +102,10 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
 }
 
 #[test]
-fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
+fn image_brushes_follow_a_bend_and_are_embedded_once() {
     let (scene, camera) = ball();
     // Below the middle half as dark as above it, with a hole in the upper half.
-    let picture = Picture::new("itself", [80, 20], |x, y| match (x, y) {
+    let picture = BrushPicture::new("itself", [80, 20], |x, y| match (x, y) {
         (20..60, 4..8) => 255,
         (_, 10..) => 128,
         _ => 0,
@@ -136,9 +140,9 @@ fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
 }
 
 #[test]
-fn paint_ends_under_ink_however_dry_the_brush_is() {
+fn fill_borders_stay_under_dry_brush_ink() {
     // Bristles at both edges of the stroke, nothing between them.
-    let picture = Picture::new("bare", [64, 32], |_, y| if (6..26).contains(&y) { 255 } else { 0 });
+    let picture = BrushPicture::new("bare", [64, 32], |_, y| if (6..26).contains(&y) { 255 } else { 0 });
     let scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     let bare = |sets: &[&str]| {
@@ -157,13 +161,13 @@ fn paint_ends_under_ink_however_dry_the_brush_is() {
 }
 
 #[test]
-fn large_and_ragged_pictures_are_as_fine_as_the_page_can_show() {
+fn ragged_brush_pictures_are_traced_at_page_resolution() {
     let (scene, camera) = ball();
     let dice = |x: u32, y: u32| {
         let mixed = (x.wrapping_mul(0x9e37_79b9) ^ y.wrapping_mul(0x85eb_ca6b)).wrapping_mul(0xc2b2_ae35);
         (mixed >> 13) as u8
     };
-    let picture = Picture::new("ragged", [2048, 256], dice);
+    let picture = BrushPicture::new("ragged", [2048, 256], dice);
     let drawing = render(&scene, &camera, &picture.style("", &["pen.silhouette.width=6"])).unwrap();
     let count: usize = lines(&drawing).iter().map(|mark| mark.path.elements().len()).sum();
     // The stroke covers 1571 by 6 px. With nine picture samples a pixel, and at least three samples a speck.

@@ -8,13 +8,17 @@ use ligne::drawing::{Mark, Paint};
 use ligne::strokes::{InkContext, ink};
 use ligne::style::Style;
 
-use crate::support::measures::stroke_marks::{axis, chain, context, length, outline, style, width_at};
-use crate::support::scenes::moving_boxes::{before, drawn, going, lines, rigged, unit_box};
+use crate::support::measures::stroke_marks::{
+    centre_line, ink_context, ink_style, outline_paint, path_length, polyline_chain, width_at,
+};
+use crate::support::scenes::moving_boxes::{
+    draw_at, front_camera, motion_lines, rig_solids, translation_channel, unit_cube,
+};
 
 const FRAME: Rect = Rect::new(0.0, 0.0, 200.0, 100.0);
 
-fn framed(chains: &[Chain], style: &Style) -> Vec<Mark> {
-    let context = InkContext { frame: Some(FRAME), ..context(style) };
+fn ink_in_frame(chains: &[Chain], style: &Style) -> Vec<Mark> {
+    let context = InkContext { frame: Some(FRAME), ..ink_context(style) };
     ink(chains, &context, &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
 }
 
@@ -24,9 +28,9 @@ fn is_inside(path: &BezPath) -> bool {
 }
 
 #[test]
-fn tapers_lie_past_the_border() {
-    let style = style(&["pen.swell.taper=40"]);
-    let marks = framed(&[chain(&[(0.0, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
+fn tapers_lie_outside_the_frame() {
+    let style = ink_style(&["pen.swell.taper=40"]);
+    let marks = ink_in_frame(&[polyline_chain(&[(0.0, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
     let mark = &marks[0];
     // The line has its full width at the border and tapers as usual at the other end.
     for x in [0.3, 5.0, 40.0, 79.0] {
@@ -36,20 +40,20 @@ fn tapers_lie_past_the_border() {
     // width.
     let eased = 4.0 * (0.2 + 0.8 * 0.125 * (2.0 - 0.125));
     assert!((width_at(mark, 115.0, 50.0) - eased).abs() < 0.15, "{}", width_at(mark, 115.0, 50.0));
-    assert!(is_inside(&mark.path) && is_inside(axis(mark)));
-    assert!((length(axis(mark)) - 120.0).abs() < 0.01);
+    assert!(is_inside(&mark.path) && is_inside(centre_line(mark)));
+    assert!((path_length(centre_line(mark)) - 120.0).abs() < 0.01);
     let mean = mark.path.area().abs() / 120.0;
-    assert!((outline(mark).width - mean).abs() < 0.05, "{} {mean}", outline(mark).width);
+    assert!((outline_paint(mark).width - mean).abs() < 0.05, "{} {mean}", outline_paint(mark).width);
     // A line that ends inside the frame tapers, even close to the border.
-    let near = framed(&[chain(&[(0.5, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
+    let near = ink_in_frame(&[polyline_chain(&[(0.5, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
     assert!(width_at(&near[0], 1.5, 50.0) < 1.0);
 }
 
 #[test]
-fn the_border_cuts_slanted_lines_straight() {
-    let style = style(&["pen.swell.taper=30", "pen.width=8"]);
+fn slanted_lines_are_clipped_straight_at_the_frame() {
+    let style = ink_style(&["pen.swell.taper=30", "pen.width=8"]);
     // From the left border to the lower border.
-    let marks = framed(&[chain(&[(0.0, 40.0), (90.0, 100.0)], [1.0; 2])], &style);
+    let marks = ink_in_frame(&[polyline_chain(&[(0.0, 40.0), (90.0, 100.0)], [1.0; 2])], &style);
     let mark = &marks[0];
     assert!(is_inside(&mark.path));
     // Ink meets both borders over the full width of the line: 8 px divided by the cosine of its angle to
@@ -67,21 +71,22 @@ fn the_border_cuts_slanted_lines_straight() {
 }
 
 #[test]
-fn tremor_and_dashes_end_at_the_border() {
+fn tremor_and_dashes_stay_inside_the_frame() {
     for sets in [
         &["pen.hand.tremor=3", "pen.hand.tremor_length=20"][..],
         &["pen.hand.tremor=2", "pen.dash=[6, 4]"],
         &["pen.swell.taper=20", "pen.hand.overshoot=30", "pen.hand.passes=3", "pen.hand.stray=2"],
         &["pen.brush={ path = 'M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z' }"],
     ] {
-        let style = style(sets);
+        let style = ink_style(sets);
         for points in
             [&[(0.0, 50.0), (200.0, 30.0)], &[(60.0, 0.0), (150.0, 100.0)], &[(30.0, 50.0), (80.0, 0.0)]]
         {
-            let marks = framed(&[chain(points, [1.0; 2])], &style);
+            let marks = ink_in_frame(&[polyline_chain(points, [1.0; 2])], &style);
             assert!(!marks.is_empty());
             for mark in &marks {
-                let drawn = if matches!(mark.paint, Paint::Stroke(_)) { axis(mark) } else { &mark.path };
+                let drawn =
+                    if matches!(mark.paint, Paint::Stroke(_)) { centre_line(mark) } else { &mark.path };
                 assert!(is_inside(drawn), "{sets:?}: {:?}", drawn.bounding_box());
             }
         }
@@ -89,9 +94,9 @@ fn tremor_and_dashes_end_at_the_border() {
 }
 
 #[test]
-fn tips_of_brushes_lie_past_the_border() {
-    let style = style(&["pen.brush={ path = 'M0 5L30 0L70 0L100 5L70 10L30 10Z' }"]);
-    let marks = framed(&[chain(&[(0.0, 50.0), (150.0, 50.0)], [1.0; 2])], &style);
+fn brush_tips_lie_outside_the_frame() {
+    let style = ink_style(&["pen.brush={ path = 'M0 5L30 0L70 0L100 5L70 10L30 10Z' }"]);
+    let marks = ink_in_frame(&[polyline_chain(&[(0.0, 50.0), (150.0, 50.0)], [1.0; 2])], &style);
     for x in [0.3, 20.0, 60.0] {
         assert!(width_at(&marks[0], x, 50.0) > 3.6, "{x}: {}", width_at(&marks[0], x, 50.0));
     }
@@ -99,21 +104,21 @@ fn tips_of_brushes_lie_past_the_border() {
 }
 
 #[test]
-fn motion_lines_that_run_out_end_at_the_border() {
+fn motion_lines_are_clipped_at_the_frame() {
     // The picture is 10 units wide; the motion began 12 units to the left.
-    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X * 12.0)]);
+    let model = rig_solids(vec![unit_cube()], vec![translation_channel(0, DVec3::X * 12.0)]);
     let changes = ["motion.taper=1", "motion.width=9", "motion.segments=100", "motion.speed=1"];
-    let own = crate::support::scenes::moving_boxes::style(&changes);
-    let mut camera = before();
+    let own = crate::support::scenes::moving_boxes::motion_style(&changes);
+    let mut camera = front_camera();
     camera.target.x += 12.0;
     camera.eye.x += 12.0;
-    let drawing = drawn(&model, 1.0, &camera, &own);
-    let marks = lines(&drawing);
+    let drawing = draw_at(&model, 1.0, &camera, &own);
+    let marks = motion_lines(&drawing);
     assert!(!marks.is_empty());
     let frame = Rect::new(0.0, 0.0, drawing.page.width, drawing.page.height);
     for mark in marks {
         let bounds = mark.path.bounding_box();
         assert!(frame.inflate(1e-6, 1e-6).union(bounds) == frame.inflate(1e-6, 1e-6), "{bounds:?}");
     }
-    assert!(lines(&drawing).iter().any(|mark| mark.path.bounding_box().x0 < 1e-6));
+    assert!(motion_lines(&drawing).iter().any(|mark| mark.path.bounding_box().x0 < 1e-6));
 }

@@ -2,10 +2,11 @@
 //! against closed forms and plain drawings.
 
 use crate::support::measures::stroke_marks::{
-    axis, chain, circle, context, distance, length, marks, outline, places, style,
+    centre_line, circle_chain, ink_context, ink_style, marks, outline_paint, path_distance, path_length,
+    polyline_chain, sample_path,
 };
 use crate::support::pipeline::{orthographic, scene};
-use crate::support::properties::option_set::HAND_SETS;
+use crate::support::properties::option_set::HAND_DRAWN_OVERRIDES;
 use crate::support::scenes::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, Point, Shape};
@@ -27,9 +28,9 @@ fn the_outline_of_a_ball_is_thick_away_from_the_light() {
     let ball = scene([sphere(64, 1.0)]);
     let camera = orthographic(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 3.0);
     let light = "light.sources=[{kind=\"directional\", direction=[1, 0, 0.3], space=\"camera\"}]";
-    let drawing = render(&ball, &camera, &style(&["pen.swell.lit=0.8", light])).unwrap();
+    let drawing = render(&ball, &camera, &ink_style(&["pen.swell.lit=0.8", light])).unwrap();
     let [mark] = lines(&drawing) else { panic!("{} lines", lines(&drawing).len()) };
-    let outline = outline(mark);
+    let outline = outline_paint(mark);
     assert!(outline.pen_width == 4.0 && outline.width < 4.0);
     // The frame is 1000 px wide and the ball 2000/3 px.
     let at = |x: f64| {
@@ -42,11 +43,11 @@ fn the_outline_of_a_ball_is_thick_away_from_the_light() {
 }
 
 #[test]
-fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
+fn outlines_with_a_large_depth_gap_are_thicker() {
     // A small ball slightly above a larger plate.
     let solids = [sphere(48, 0.5), cuboid(DVec3::new(-2.0, -2.0, -0.8), DVec3::new(2.0, 2.0, -0.6))];
     let camera = orthographic(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 5.0);
-    let drawing = render(&scene(solids), &camera, &style(&["pen.swell.gap=0.7"])).unwrap();
+    let drawing = render(&scene(solids), &camera, &ink_style(&["pen.swell.gap=0.7"])).unwrap();
     let (inner, outer): (Vec<&Mark>, Vec<&Mark>) =
         lines(&drawing).iter().partition(|mark| mark.path.bounding_box().width() < 300.0);
     let width = |mark: &Mark| match &mark.paint {
@@ -62,20 +63,23 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
 }
 
 #[test]
-fn the_hand_lasts_while_the_eye_moves() {
+fn tremor_is_stable_under_small_camera_moves() {
     let model = scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let drawn = |degrees: f64, sets: &[&str]| {
         let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         let camera = orthographic(DVec3::new(5.0 * s, -5.0 * c, 3.0), DVec3::ZERO, 4.0);
-        let drawing = render(&model, &camera, &style(sets)).unwrap();
-        lines(&drawing).iter().map(|mark| axis(mark).clone()).collect::<Vec<_>>()
+        let drawing = render(&model, &camera, &ink_style(sets)).unwrap();
+        lines(&drawing).iter().map(|mark| centre_line(mark).clone()).collect::<Vec<_>>()
     };
     let tremor = ["pen.hand.tremor=6", "pen.hand.tremor_length=50"];
     let (still, moved) = (drawn(30.0, &tremor), drawn(30.2, &tremor));
     let (plain, plain_moved) = (drawn(30.0, &[]), drawn(30.2, &[]));
     assert!(still.len() == moved.len() && still.len() == plain.len());
     let strays = |from: &[BezPath], to: &[BezPath]| {
-        let all = from.iter().zip(to).flat_map(|(a, b)| places(a, 5.0).into_iter().map(|p| distance(b, p)));
+        let all = from
+            .iter()
+            .zip(to)
+            .flat_map(|(a, b)| sample_path(a, 5.0).into_iter().map(|p| path_distance(b, p)));
         all.fold(0.0, f64::max)
     };
     assert!(strays(&still, &plain) > 3.0);
@@ -84,32 +88,38 @@ fn the_hand_lasts_while_the_eye_moves() {
 }
 
 #[test]
-fn closed_lines_are_cut_as_open_ones_are() {
-    let square = chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)], [2.0; 2]);
+fn closed_lines_break_at_corners_and_halos_like_open_ones() {
+    let square =
+        polyline_chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)], [2.0; 2]);
     // The pen is lifted at each corner, including the start of the closed line.
-    let lifted = marks(std::slice::from_ref(&square), &style(&["pen.hand.overshoot=10"]));
+    let lifted = marks(std::slice::from_ref(&square), &ink_style(&["pen.hand.overshoot=10"]));
     assert_eq!(lifted.len(), 4);
     for mark in &lifted {
-        assert!((107.0..=120.0).contains(&length(axis(mark))), "{}", length(axis(mark)));
+        assert!(
+            (107.0..=120.0).contains(&path_length(centre_line(mark))),
+            "{}",
+            path_length(centre_line(mark))
+        );
     }
-    let broken = marks(std::slice::from_ref(&square), &style(&["pen.hand.breaks=100", "pen.hand.tremor=1"]));
+    let broken =
+        marks(std::slice::from_ref(&square), &ink_style(&["pen.hand.breaks=100", "pen.hand.tremor=1"]));
     assert_eq!(broken.len(), 4);
     // A halo over the start of the closed line, and one elsewhere.
     for x in [0.0, 50.0] {
-        let near = chain(&[(x - 30.0, -30.0), (x + 30.0, 30.0)], [1.0; 2]);
-        let drawn = marks(&[square.clone(), near], &style(&["pen.halo=5"]));
+        let near = polyline_chain(&[(x - 30.0, -30.0), (x + 30.0, 30.0)], [1.0; 2]);
+        let drawn = marks(&[square.clone(), near], &ink_style(&["pen.halo=5"]));
         assert_eq!(drawn.len(), 2, "{x}");
-        let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
+        let inked: f64 = drawn.iter().map(|mark| path_length(centre_line(mark))).sum();
         let gap = 2.0 * 7.0 * 2.0_f64.sqrt();
         assert!((inked - (400.0 + 60.0 * 2.0_f64.sqrt() - gap)).abs() < 0.02, "{x}: {inked}");
     }
     // With tremor and swell, its corners do not move.
     let mut lit = square;
     lit.samples.iter_mut().for_each(|sample| sample.light = 0.5);
-    let drawn = marks(&[lit], &style(&["pen.hand.tremor=2", "pen.swell.lit=0.5"]));
+    let drawn = marks(&[lit], &ink_style(&["pen.hand.tremor=2", "pen.swell.lit=0.5"]));
     let [mark] = &drawn[..] else { panic!() };
     for corner in [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)] {
-        assert!(distance(axis(mark), corner.into()) < 0.01);
+        assert!(path_distance(centre_line(mark), corner.into()) < 0.01);
         // Round joins of a line 3 px wide.
         let out = |c: f64| c + if c > 50.0 { 1.4 } else { -1.4 } * std::f64::consts::FRAC_1_SQRT_2;
         assert_ne!(mark.path.winding(Point::new(out(corner.0), out(corner.1))), 0);
@@ -117,7 +127,7 @@ fn closed_lines_are_cut_as_open_ones_are() {
 }
 
 #[test]
-fn pages_in_millimetres_are_drawn_alike() {
+fn millimetre_pages_have_the_strokes_of_pixel_pages() {
     let sets = [
         "pen.swell.taper=20",
         "pen.swell.bend=0.5",
@@ -129,11 +139,11 @@ fn pages_in_millimetres_are_drawn_alike() {
     ];
     let brush = ["pen.brush={path=\"M0 5L10 0L20 5L10 10Z\", mode=\"repeat\"}"];
     for sets in [&sets[..], &brush[..]] {
-        let style = style(sets);
+        let style = ink_style(sets);
         let chains = [
-            chain(&[(0.0, 50.0), (300.0, 50.0), (300.0, 250.0)], [1.0; 2]),
-            chain(&[(20.0, 300.0), (280.0, 20.0)], [2.0; 2]),
-            circle(60.0),
+            polyline_chain(&[(0.0, 50.0), (300.0, 50.0), (300.0, 250.0)], [1.0; 2]),
+            polyline_chain(&[(20.0, 300.0), (280.0, 20.0)], [2.0; 2]),
+            circle_chain(60.0),
         ];
         let scale = ligne::drawing::length::MM_PER_PX;
         let small = chains.clone().map(|mut chain| {
@@ -142,7 +152,7 @@ fn pages_in_millimetres_are_drawn_alike() {
             chain
         });
         let [px, mm] = [(&chains, Unit::Px), (&small, Unit::Mm)].map(|(chains, unit)| {
-            let layers = ink(chains, &InkContext { unit, ..context(&style) }, &style.stroke);
+            let layers = ink(chains, &InkContext { unit, ..ink_context(&style) }, &style.stroke);
             layers.into_iter().flat_map(|layer| layer.marks).collect::<Vec<_>>()
         });
         assert_eq!(px.len(), mm.len());
@@ -162,12 +172,12 @@ fn camera(scene: &Scene) -> Camera {
 }
 
 #[test]
-fn another_seed_changes_the_hand_and_nothing_else() {
+fn seeds_change_only_hand_drawn_lines() {
     let model = scene([torus(40, 20, 1.0, 0.4), cuboid(DVec3::splat(-0.3), DVec3::splat(0.3))]);
     let camera = camera(&model);
     let [one, other] = ["seed=0", "seed=5"].map(|seed| {
-        let sets: Vec<&str> = HAND_SETS.iter().copied().chain([seed]).collect();
-        render(&model, &camera, &style(&sets)).unwrap()
+        let sets: Vec<&str> = HAND_DRAWN_OVERRIDES.iter().copied().chain([seed]).collect();
+        render(&model, &camera, &ink_style(&sets)).unwrap()
     });
     assert!(one.to_svg(&SvgOptions::default()).contains("data-axis"));
     for (a, b) in one.layers.iter().zip(&other.layers) {
@@ -183,13 +193,13 @@ fn another_seed_changes_the_hand_and_nothing_else() {
     }
     // Without hand-drawn effects, the seed changes nothing.
     let plain = ["seed=0", "seed=5"]
-        .map(|seed| render(&model, &camera, &style(&["pen.swell.taper=20", seed])).unwrap());
+        .map(|seed| render(&model, &camera, &ink_style(&["pen.swell.taper=20", seed])).unwrap());
     assert_eq!(plain[0].layers, plain[1].layers);
 }
 
 /// Returns the number of samples on fill borders that carry a line, and the samples that hand-drawn lines
 /// leave uncovered.
-fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
+fn uncovered_border_points(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
     let sets = [
         "fills.enabled=true",
         "fills.thresholds=[]",
@@ -201,19 +211,19 @@ fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
         "pen.swell.taper_to=0",
         "pen.swell.bend=0.6",
     ];
-    let plain = render(model, camera, &style(&sets[..4])).unwrap();
-    let hand = render(model, camera, &style(&sets)).unwrap();
+    let plain = render(model, camera, &ink_style(&sets[..4])).unwrap();
+    let hand = render(model, camera, &ink_style(&sets)).unwrap();
     let ink =
         |drawing: &Drawing| -> Vec<BezPath> { lines(drawing).iter().map(|mark| mark.path.clone()).collect() };
     let (straight, shaken) = (ink(&plain), ink(&hand));
     let fills = hand.layers.iter().find(|layer| layer.kind == LayerKind::Fills).expect("fills");
     let (mut asked, mut bare) = (0, Vec::new());
-    for p in fills.marks.iter().flat_map(|fill| places(&fill.path, 3.0)) {
-        if straight.iter().all(|path| distance(path, p) > 1.0) {
+    for p in fills.marks.iter().flat_map(|fill| sample_path(&fill.path, 3.0)) {
+        if straight.iter().all(|path| path_distance(path, p) > 1.0) {
             continue;
         }
         asked += 1;
-        if !shaken.iter().any(|path| path.winding(p) != 0 || distance(path, p) < 0.05) {
+        if !shaken.iter().any(|path| path.winding(p) != 0 || path_distance(path, p) < 0.05) {
             bare.push(p);
         }
     }
@@ -221,19 +231,19 @@ fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
 }
 
 #[test]
-fn lines_cover_the_borders_of_what_is_painted() {
+fn hand_drawn_lines_cover_fill_borders() {
     let bar = cuboid(DVec3::new(-0.3, -2.0, -0.3), DVec3::new(0.3, 2.0, 0.3));
     let model = scene([torus(60, 30, 1.0, 0.4), bar]);
-    let (asked, bare) = bare(&model, &camera(&model));
+    let (asked, bare) = uncovered_border_points(&model, &camera(&model));
     assert!(asked > 500, "{asked}");
     assert!(bare.is_empty(), "{} of {asked}: {:?}", bare.len(), &bare[..bare.len().min(9)]);
 }
 
 #[test]
-fn lines_cover_the_borders_of_painted_models() {
+fn hand_drawn_lines_cover_fill_borders_of_models() {
     for name in ["teapot.obj", "knot.ply", "bear.ply"] {
         let model = Scene::open(format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
-        let (asked, bare) = bare(&model, &camera(&model));
+        let (asked, bare) = uncovered_border_points(&model, &camera(&model));
         assert!(asked > 500, "{name}: {asked}");
         // Where a contour ends, the fill border continues along mesh edges.
         assert!(
@@ -246,15 +256,17 @@ fn lines_cover_the_borders_of_painted_models() {
 }
 
 #[test]
-fn no_paper_shows_between_paint_and_a_brush_that_strays() {
+fn no_gap_opens_between_fills_and_a_straying_brush() {
     // A bow next to the axis, and a leaf with thin ends.
     let bow = "path=\"M0 0C30 2 60 2 100 0C60 6 30 6 0 0M50 9L51 10L50 10Z\"";
     let leaf = "path=\"M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z\"";
-    let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
+    let line = polyline_chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
     let gaps = |brush: &str, more: &[&str]| {
         let brush = format!("pen.brush={{{brush}}}");
-        let drawn =
-            marks(std::slice::from_ref(&line), &style(&[&[brush.as_str(), "pen.width=10"], more].concat()));
+        let drawn = marks(
+            std::slice::from_ref(&line),
+            &ink_style(&[&[brush.as_str(), "pen.width=10"], more].concat()),
+        );
         let path = &drawn[0].path;
         let inked = |x: f64, y: f64| path.winding(Point::new(x, y)) != 0;
         // The fill ends at y = 50. Ink on either side must leave no gap to it.
@@ -275,13 +287,14 @@ fn no_paper_shows_between_paint_and_a_brush_that_strays() {
 }
 
 #[test]
-fn shades_follow_what_is_beside_the_line() {
-    let mut line = chain(&(0..=20).map(|k| (f64::from(k) * 10.0, 50.0)).collect::<Vec<_>>(), [1.0; 2]);
+fn shaded_ink_follows_the_fill_colour_next_to_the_line() {
+    let mut line =
+        polyline_chain(&(0..=20).map(|k| (f64::from(k) * 10.0, 50.0)).collect::<Vec<_>>(), [1.0; 2]);
     for (k, sample) in line.samples.iter_mut().enumerate() {
         let colour = if k < 10 { Colour::rgb(200, 0, 0) } else { Colour::rgb(0, 0, 100) };
         sample.under.colour = Some(colour);
     }
-    let drawn = marks(&[line], &style(&["pen.colour={shade=0.5}"]));
+    let drawn = marks(&[line], &ink_style(&["pen.colour={shade=0.5}"]));
     let found: Vec<(Colour, f64, f64)> = drawn
         .iter()
         .map(|mark| {

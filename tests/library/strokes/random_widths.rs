@@ -24,7 +24,7 @@ fn widths(sets: &[&str]) -> Vec<f64> {
 }
 
 #[test]
-fn each_line_loses_some_of_its_width_by_chance() {
+fn each_line_has_a_random_width() {
     let even = widths(&[]);
     assert!(even.len() > 30 && even.iter().all(|width| (width - 2.0).abs() < 1e-9));
     let uneven = widths(&["pen.swell.chance=0.6"]);
@@ -38,7 +38,7 @@ fn each_line_loses_some_of_its_width_by_chance() {
 }
 
 #[test]
-fn chance_light_and_distance_multiply() {
+fn random_width_combines_with_light_and_depth() {
     let [alone, with_others] =
         [&["pen.swell.chance=0.6"][..], &["pen.swell.chance=0.6", "pen.swell.near=0.5", "pen.swell.lit=0.5"]]
             .map(widths);

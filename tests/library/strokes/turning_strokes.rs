@@ -15,7 +15,7 @@ const WEDGE: &str = "M0 0L10 5L0 10Z";
 
 /// Returns the inked area of a drawing with a box brush for straight pieces, and the given shapes for left
 /// and right turns.
-fn inked(scene: &Scene, camera: &Camera, left: &str, right: &str, turn: f64) -> f64 {
+fn inked_area(scene: &Scene, camera: &Camera, left: &str, right: &str, turn: f64) -> f64 {
     let brush = format!(
         "pen.brush={{ path = '{BOX}', left = '{left}', right = '{right}', turn = {turn}, mode = 'repeat', length = 20 }}"
     );
@@ -31,11 +31,12 @@ fn inked(scene: &Scene, camera: &Camera, left: &str, right: &str, turn: f64) -> 
 }
 
 #[test]
-fn a_ring_turns_one_way_all_round_and_straight_lines_do_not_turn() {
+fn curved_lines_use_turning_shapes_and_straight_lines_do_not() {
     let ball = pipeline::scene([sphere(80, 1.0)]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 20.0);
-    let plain = inked(&ball, &camera, BOX, BOX, 5.0);
-    let (left, right) = (inked(&ball, &camera, WEDGE, BOX, 5.0), inked(&ball, &camera, BOX, WEDGE, 5.0));
+    let plain = inked_area(&ball, &camera, BOX, BOX, 5.0);
+    let (left, right) =
+        (inked_area(&ball, &camera, WEDGE, BOX, 5.0), inked_area(&ball, &camera, BOX, WEDGE, 5.0));
     // On a circle of radius 50 px, consecutive pieces of 20 px turn by 23 degrees.
     let (turned, other) = (left.min(right), left.max(right));
     assert!(
@@ -43,16 +44,16 @@ fn a_ring_turns_one_way_all_round_and_straight_lines_do_not_turn() {
         "{plain} {left} {right}"
     );
     // Turns below the threshold count as straight.
-    assert!((inked(&ball, &camera, WEDGE, WEDGE, 40.0) / plain - 1.0).abs() < 1e-9);
+    assert!((inked_area(&ball, &camera, WEDGE, WEDGE, 40.0) / plain - 1.0).abs() < 1e-9);
     let solid = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let front = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
-    let straight = inked(&solid, &front, WEDGE, WEDGE, 5.0) / inked(&solid, &front, BOX, BOX, 5.0);
+    let straight = inked_area(&solid, &front, WEDGE, WEDGE, 5.0) / inked_area(&solid, &front, BOX, BOX, 5.0);
     // At each of the four corners, one piece turns to the next.
     assert!(straight > 0.9 && straight < 1.0, "{straight}");
 }
 
 #[test]
-fn turns_may_be_files_and_pictures() {
+fn turning_shapes_may_be_files_and_pictures() {
     let ball = pipeline::scene([sphere(80, 1.0)]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 20.0);
     let folder = std::env::temp_dir().join(format!("ligne-turns-{}", std::process::id()));
@@ -102,7 +103,7 @@ fn turns_may_be_files_and_pictures() {
 }
 
 #[test]
-fn strokes_that_cannot_turn_are_refused() {
+fn invalid_turning_brushes_are_rejected() {
     for (brush, word) in [
         ("{ path = 'M0 0H1V1Z', left = 'M0 0H1V1Z' }", "repeat"),
         ("{ path = 'M0 0H1V1Z', left = 'M0', mode = 'repeat' }", "brush"),

@@ -5,12 +5,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A path of names, starting at the crate root.
-type Path = Vec<String>;
+type NamePath = Vec<String>;
 
 /// A file of a crate.
 pub struct File {
     /// Its path below `src/`, with `/` as separator.
-    pub place: String,
+    pub path: String,
     /// Its code, without comments and tests.
     pub code: String,
 }
@@ -19,25 +19,25 @@ pub struct File {
 ///
 /// An import through a re-export counts as an import of the defining file. Public re-exports in `mod.rs` and
 /// `lib.rs` are not counted, because a folder's front may publish its children.
-pub fn imports(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
-    let scope = Scope::new(files);
+pub fn import_graph(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
+    let scope = CrateNames::new(files);
     let of_file = |file: &File| {
-        let own = module(&file.place);
-        let is_front = ["mod.rs", "lib.rs"].iter().any(|name| file.place.ends_with(name));
-        let (uses, rest) = split(&file.code);
+        let own = module_path(&file.path);
+        let is_front = ["mod.rs", "lib.rs"].iter().any(|name| file.path.ends_with(name));
+        let (uses, rest) = split_imports(&file.code);
         let used = uses.into_iter().filter(|used| !(is_front && used.is_public)).map(|used| used.path);
-        used.chain(paths(&rest))
-            .filter_map(|path| scope.file(&scope.absolute(&own, &path)?, MOST_HOPS))
-            .filter(|other| *other != file.place)
+        used.chain(crate_paths(&rest))
+            .filter_map(|path| scope.defining_file(&scope.resolve(&own, &path)?, MAX_REEXPORTS_FOLLOWED))
+            .filter(|other| *other != file.path)
             .collect()
     };
-    files.iter().map(|file| (&*file.place, of_file(file))).collect()
+    files.iter().map(|file| (&*file.path, of_file(file))).collect()
 }
 
 /// Import cycles: in each, every file imports the next and the last imports the first.
 ///
 /// Cycles that share an import with a reported cycle may be missing.
-pub fn circles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
+pub fn import_cycles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
     let mut rest = imports.clone();
     let mut found = Vec::new();
     loop {
@@ -64,25 +64,25 @@ pub fn circles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'
 }
 
 /// Maximum number of re-exports followed for one name.
-const MOST_HOPS: usize = 8;
+const MAX_REEXPORTS_FOLLOWED: usize = 8;
 
 /// The modules of a crate and the names that they import.
-struct Scope<'a> {
-    files: BTreeMap<Path, &'a str>,
-    names: BTreeMap<Path, Path>,
+struct CrateNames<'a> {
+    files: BTreeMap<NamePath, &'a str>,
+    names: BTreeMap<NamePath, NamePath>,
 }
 
-impl<'a> Scope<'a> {
+impl<'a> CrateNames<'a> {
     fn new(files: &'a [File]) -> Self {
-        let places = files.iter().map(|file| (module(&file.place), &*file.place)).collect();
+        let places = files.iter().map(|file| (module_path(&file.path), &*file.path)).collect();
         let mut scope = Self { files: places, names: BTreeMap::new() };
         // The second pass resolves imports through names that the first pass found.
         for _ in 0..2 {
             for file in files {
-                let own = module(&file.place);
-                for used in split(&file.code).0 {
+                let own = module_path(&file.path);
+                for used in split_imports(&file.code).0 {
                     let name = [&own[..], &[used.name]].concat();
-                    if let Some(path) = scope.absolute(&own, &used.path).filter(|path| *path != name) {
+                    if let Some(path) = scope.resolve(&own, &used.path).filter(|path| *path != name) {
                         scope.names.insert(name, path);
                     }
                 }
@@ -92,7 +92,7 @@ impl<'a> Scope<'a> {
     }
 
     /// Resolves a path used in the module `own` to a path from the crate root; `None` for other crates.
-    fn absolute(&self, own: &[String], path: &[String]) -> Option<Path> {
+    fn resolve(&self, own: &[String], path: &[String]) -> Option<NamePath> {
         let supers = path.iter().take_while(|name| *name == "super").count();
         let (start, rest) = match path.first()?.as_str() {
             "crate" => (&own[..0], &path[1..]),
@@ -108,34 +108,34 @@ impl<'a> Scope<'a> {
     }
 
     /// The file that defines the item at a path from the crate root.
-    fn file(&self, path: &[String], hops: usize) -> Option<&'a str> {
+    fn defining_file(&self, path: &[String], hops: usize) -> Option<&'a str> {
         let is_module = |count: &usize| self.files.contains_key(&path[..*count]);
         let known = (0..=path.len()).rev().find(is_module)?;
         let beyond = (known + 1).min(path.len());
         match self.names.get(&path[..beyond]).filter(|_| hops > 0 && known < path.len()) {
-            Some(meant) => self.file(&[meant, &path[beyond..]].concat(), hops - 1),
+            Some(meant) => self.defining_file(&[meant, &path[beyond..]].concat(), hops - 1),
             None => self.files.get(&path[..known]).copied(),
         }
     }
 }
 
 /// The module path of a source file.
-fn module(place: &str) -> Path {
-    let mut path: Path = place.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
+fn module_path(place: &str) -> NamePath {
+    let mut path: NamePath = place.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
     path.pop_if(|last| ["mod", "lib"].contains(&last.as_str()));
     path
 }
 
 /// An imported name.
-struct Used {
-    path: Path,
+struct ImportedName {
+    path: NamePath,
     /// The name in the importing module, after any `as`.
     name: String,
     is_public: bool,
 }
 
 /// The imports of a source text, and the text without its `use` declarations.
-fn split(code: &str) -> (Vec<Used>, String) {
+fn split_imports(code: &str) -> (Vec<ImportedName>, String) {
     let (mut uses, mut others) = (Vec::new(), String::new());
     let mut rest = code;
     while let Some(line) = rest.split_inclusive('\n').next() {
@@ -156,16 +156,16 @@ fn split(code: &str) -> (Vec<Used>, String) {
 }
 
 /// Adds the names of a `use` tree such as `a::{self, b::C as D}` below the path `before`.
-fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<Used>) {
+fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<ImportedName>) {
     let (head, list) = tree.split_once('{').map_or((tree, None), |(head, list)| (head, Some(list)));
     let (head, alias) = head.split_once(" as ").map_or((head, None), |(head, alias)| (head, Some(alias)));
     let names = head.split("::").map(str::trim).filter(|name| !name.is_empty());
     // Inside braces, `self` stands for the path before them.
     let names = names.filter(|name| before.is_empty() || *name != "self").map(str::to_owned);
-    let path: Path = before.iter().cloned().chain(names).collect();
+    let path: NamePath = before.iter().cloned().chain(names).collect();
     let Some(list) = list else {
         let name = alias.map(str::trim).or(path.last().map(String::as_str)).unwrap_or_default().to_owned();
-        out.push(Used { path, name, is_public });
+        out.push(ImportedName { path, name, is_public });
         return;
     };
     let (mut depth, mut start) = (0, 0);
@@ -186,7 +186,7 @@ fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<Used
 }
 
 /// Paths in code that begin with `crate::`, `self::` or `super::`.
-fn paths(code: &str) -> Vec<Path> {
+fn crate_paths(code: &str) -> Vec<NamePath> {
     let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     code.split(|c| !is_of_path(c))
         .filter(|path| ["crate::", "self::", "super::"].iter().any(|root| path.starts_with(root)))

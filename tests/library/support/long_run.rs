@@ -6,7 +6,7 @@ pub fn is_long() -> bool {
 }
 
 /// All items in a long run, otherwise every third one, starting with the first.
-pub fn some<T>(all: Vec<T>) -> Vec<T> {
+pub fn select_for_run<T>(all: Vec<T>) -> Vec<T> {
     let step = if is_long() { 1 } else { 3 };
     all.into_iter().step_by(step).collect()
 }

@@ -19,17 +19,17 @@ pub struct Stages {
 }
 
 /// Options for the exact drawing of a polyhedron: contours along mesh edges, and unmerged creases.
-pub fn exact() -> LineOptions {
+pub fn exact_options() -> LineOptions {
     LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
 }
 
-/// Options as in [`exact`], with hidden lines kept and their invisibility counted.
-pub fn counting() -> LineOptions {
-    LineOptions { hidden: HiddenLines::Dashed, ..exact() }
+/// Options as in [`exact_options`], with hidden lines kept and their invisibility counted.
+pub fn exact_options_with_hidden() -> LineOptions {
+    LineOptions { hidden: HiddenLines::Dashed, ..exact_options() }
 }
 
 /// Runs the pipeline on a scene up to the view map.
-pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
+pub fn run_stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
@@ -39,35 +39,35 @@ pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
 
 impl Stages {
     /// The image positions of a view edge's two ends, px.
-    pub fn ends(&self, edge: &ViewEdge) -> [Point; 2] {
+    pub fn edge_ends(&self, edge: &ViewEdge) -> [Point; 2] {
         [edge.start, edge.end].map(|v| self.map.vertices[v.index()].position)
     }
 
     /// The visible view edges, as image segments.
-    pub fn visible(&self) -> Vec<[Point; 2]> {
-        self.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| self.ends(e)).collect()
+    pub fn visible_segments(&self) -> Vec<[Point; 2]> {
+        self.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The visible view edges of one kind, as image segments.
-    pub fn visible_of(&self, kind: LineKind) -> Vec<[Point; 2]> {
+    pub fn visible_segments_of_kind(&self, kind: LineKind) -> Vec<[Point; 2]> {
         let of_kind = |e: &&ViewEdge| e.kind == kind && e.invisibility == 0;
-        self.map.edges.iter().filter(of_kind).map(|e| self.ends(e)).collect()
+        self.map.edges.iter().filter(of_kind).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The visible silhouette edges: those with background on one side.
-    pub fn outline(&self) -> Vec<[Point; 2]> {
+    pub fn silhouette_segments(&self) -> Vec<[Point; 2]> {
         let of_outline = |e: &&ViewEdge| e.silhouette && e.invisibility == 0;
-        self.map.edges.iter().filter(of_outline).map(|e| self.ends(e)).collect()
+        self.map.edges.iter().filter(of_outline).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The hidden view edges, as image segments.
-    pub fn hidden(&self) -> Vec<[Point; 2]> {
-        self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.ends(e)).collect()
+    pub fn hidden_segments(&self) -> Vec<[Point; 2]> {
+        self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.edge_ends(e)).collect()
     }
 }
 
 /// A geometry with the positions and triangles of a solid.
-pub fn geometry(solid: Solid) -> Geometry {
+pub fn solid_geometry(solid: Solid) -> Geometry {
     Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() }
 }
 
@@ -83,20 +83,20 @@ pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
 
 /// A scene with one part per solid.
 pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
-    scene_of_geometries(solids.into_iter().map(geometry).collect())
+    scene_of_geometries(solids.into_iter().map(solid_geometry).collect())
 }
 
 /// A perspective camera with a frame of 1000 x 1000 px.
 pub fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
-    camera(eye, target, Projection::Perspective { fov_y_deg })
+    look_at_camera(eye, target, Projection::Perspective { fov_y_deg })
 }
 
 /// An orthographic camera with a frame of 1000 x 1000 px; `height` is in world units.
 pub fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
-    camera(eye, target, Projection::Orthographic { height })
+    look_at_camera(eye, target, Projection::Orthographic { height })
 }
 
-fn camera(eye: DVec3, target: DVec3, projection: Projection) -> Camera {
+fn look_at_camera(eye: DVec3, target: DVec3, projection: Projection) -> Camera {
     let axis = (target - eye).normalize();
     let up = if axis.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
     Camera { eye, target, up, projection, width: 1000.0, height: 1000.0, near: None }

@@ -27,7 +27,7 @@ fn ends(mesh: &Mesh, hard: &HardEdges) -> Vec<[DVec3; 2]> {
 }
 
 /// A pseudo-random number from −1 to 1 that depends only on the position.
-fn chance(p: DVec3) -> f64 {
+fn position_noise(p: DVec3) -> f64 {
     let bits = p.to_array().map(|x| ((x * 4096.0).round() as i64) as u64);
     let seed = bits.iter().fold(7u64, |h, b| (h ^ b).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29));
     Dice::new(seed).between(-1.0, 1.0)
@@ -169,11 +169,11 @@ fn a_cylinder_of_twelve_sides_has_two_rims() {
 }
 
 #[test]
-fn noise_is_no_crease() {
+fn noise_makes_no_creases() {
     for (cuts, height) in [(3, 0.3), (4, 0.25), (5, 0.22), (6, 0.22), (5, 0.3), (6, 0.3)] {
         // Heights are relative to the edge length.
         let edge = 1.4 / f64::from(1 << cuts);
-        let bumpy = mesh(octasphere(cuts).moved(|p| p * (1.0 + height * edge * chance(p))));
+        let bumpy = mesh(octasphere(cuts).moved(|p| p * (1.0 + height * edge * position_noise(p))));
         let sharp = HardEdges::above(&bumpy, CREASE_DEG).count();
         let hard = find(&bumpy).count();
         println!("{sharp} of {} edges are sharp, {hard} hard", bumpy.edges.len());
@@ -185,10 +185,11 @@ fn noise_is_no_crease() {
 }
 
 #[test]
-fn the_edges_of_a_noisy_box_hold_together() {
+fn creases_of_a_noisy_box_are_exactly_its_edges() {
     let n = 24;
     // Turns of about seven degrees on the sides, and some of more than forty.
-    let noise = |p: DVec3| DVec3::new(chance(p), chance(p * 2.0), chance(p * 3.0)) * 0.012;
+    let noise =
+        |p: DVec3| DVec3::new(position_noise(p), position_noise(p * 2.0), position_noise(p * 3.0)) * 0.012;
     let rough = fine_box(n).moved(|p| p + noise(p));
     let rough = mesh(rough);
     let hard = find(&rough);
@@ -215,7 +216,7 @@ fn a_crease_that_dips_below_the_threshold_is_one_chain() {
 }
 
 #[test]
-fn a_crease_that_fades_ends_once() {
+fn a_fading_crease_is_one_chain() {
     let fades = mesh(roof(40, |i| 120.0 - 3.0 * f64::from(i)));
     let bays = hard_bays(&fades);
     assert_eq!(bays, (0..bays.len()).collect::<Vec<_>>(), "in one piece from its sharp end on");
@@ -260,7 +261,7 @@ fn drawn_and_sharp(mesh: &Mesh) -> [Vec<usize>; 2] {
 }
 
 #[test]
-fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
+fn creases_of_machined_parts_extend_to_the_next_line() {
     let all: Vec<usize> = (0..24).collect();
     // The crease extends to the gable, and from dash to dash.
     let fading = house(24, |i| 60.0 - f64::from(i) * 1.1);
@@ -279,14 +280,14 @@ fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
 }
 
 #[test]
-fn one_sharp_edge_counts_on_flat_ground_only() {
+fn a_single_sharp_edge_is_a_crease_on_flat_surfaces_only() {
     // A sheet of triangles with one raised edge, which turns by a right angle.
     let sheet = |noise: f64| {
         let mut solid = Solid::default();
         for (i, j) in (0..20).flat_map(|i| (0..20).map(move |j| (i, j))) {
             let p = DVec3::new(f64::from(i), f64::from(j), 0.0);
             let raised = j == 10 && (i == 9 || i == 10);
-            solid.positions.push(p + DVec3::Z * (noise * chance(p) + if raised { 0.9 } else { 0.0 }));
+            solid.positions.push(p + DVec3::Z * (noise * position_noise(p) + if raised { 0.9 } else { 0.0 }));
         }
         for (i, j) in (0..19u32).flat_map(|i| (0..19u32).map(move |j| (i, j))) {
             let [a, b, c, d] = [20 * i + j, 20 * i + 20 + j, 20 * i + 21 + j, 20 * i + j + 1];
@@ -301,7 +302,7 @@ fn one_sharp_edge_counts_on_flat_ground_only() {
 }
 
 #[test]
-fn marks_of_the_file_go_first() {
+fn edge_marks_of_the_file_override_angles() {
     let solid = cuboid(DVec3::NEG_ONE, DVec3::ONE);
     let mut edge_marks = vec![[EdgeMark::Unmarked; 3]; 12];
     // The sides of the first face are 0-2 and 2-3, edges of the cube, and 3-0, a diagonal.
@@ -318,8 +319,9 @@ fn marks_of_the_file_go_first() {
 }
 
 #[test]
-fn order_and_winding_do_not_matter() {
-    let noise = |p: DVec3| DVec3::new(chance(p), chance(p * 2.0), chance(p * 3.0)) * 0.04;
+fn creases_do_not_depend_on_order_or_winding() {
+    let noise =
+        |p: DVec3| DVec3::new(position_noise(p), position_noise(p * 2.0), position_noise(p * 3.0)) * 0.04;
     let rough = fine_box(12).moved(|p| p + noise(p));
     let listed = |solid: Solid| {
         let mesh = mesh(solid);
@@ -352,7 +354,7 @@ fn order_and_winding_do_not_matter() {
 }
 
 /// Returns the number of hard edges that no other hard edge continues.
-fn loose(mesh: &Mesh, hard: &HardEdges) -> usize {
+fn isolated_edge_count(mesh: &Mesh, hard: &HardEdges) -> usize {
     let of = |e: &usize| hard.is_hard(*e);
     let mut degrees = vec![0u8; mesh.positions.len()];
     for e in (0..mesh.edges.len()).filter(of) {
@@ -365,12 +367,12 @@ fn loose(mesh: &Mesh, hard: &HardEdges) -> usize {
 }
 
 /// Returns the mesh of a shared model, all its sharp edges, and its creases.
-fn shared(name: &str) -> Option<(Mesh, HardEdges, HardEdges)> {
+fn shared_model_creases(name: &str) -> Option<(Mesh, HardEdges, HardEdges)> {
     let scene = Scene::open(shared_folder::find(name)?).unwrap();
     let mesh = Mesh::build(scene.to_soup());
     let (all, kept) = (HardEdges::above(&mesh, CREASE_DEG), find(&mesh));
     let lost = (0..mesh.edges.len()).filter(|e| all.is_hard(*e) && !kept.is_hard(*e)).count();
-    let (before, after) = (loose(&mesh, &all), loose(&mesh, &kept));
+    let (before, after) = (isolated_edge_count(&mesh, &all), isolated_edge_count(&mesh, &kept));
     println!(
         "{name}: {} sharp, {} hard, {lost} lost; {before} loose, then {after}",
         all.count(),
@@ -390,17 +392,17 @@ fn machined_models_keep_their_creases() {
         "mechanical/adis16480-casing.stl",
         "features/voxel-knight.glb",
     ] {
-        let Some((mesh, all, kept)) = shared(name) else { continue };
+        let Some((mesh, all, kept)) = shared_model_creases(name) else { continue };
         let lost = (0..mesh.edges.len()).filter(|e| all.is_hard(*e) && !kept.is_hard(*e)).count();
         assert_eq!(lost, 0, "{name}");
     }
 }
 
 #[test]
-fn scans_lose_their_crumbs() {
+fn scans_lose_isolated_sharp_edges() {
     for name in ["organic/stanford-bunny.obj", "organic/armadillo.obj", "organic/dragon-202k.ply"] {
-        let Some((mesh, all, kept)) = shared(name) else { continue };
-        let (before, after) = (loose(&mesh, &all), loose(&mesh, &kept));
+        let Some((mesh, all, kept)) = shared_model_creases(name) else { continue };
+        let (before, after) = (isolated_edge_count(&mesh, &all), isolated_edge_count(&mesh, &kept));
         assert!(10 * after < before, "{name}: {after} of {before} loose edges are left");
         assert!(!kept.is_empty(), "{name} has creases");
     }

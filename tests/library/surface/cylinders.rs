@@ -36,17 +36,17 @@ fn pipe(corners: u32, outer: f64, inner: f64, height: f64) -> Solid {
     solid
 }
 
-fn found(solid: Solid) -> Vec<Cylinder> {
+fn find_cylinders(solid: Solid) -> Vec<Cylinder> {
     let scene = Scene::from_triangles(solid.positions, solid.triangles).expect("a scene");
     cylinders(&Mesh::build(scene.to_soup()))
 }
 
 #[test]
-fn pipes_have_two_cylinders_wherever_they_are() {
+fn pipes_have_two_cylinders_in_any_pose() {
     let mut dice = Dice::new(9);
     for corners in [12, 24, 57] {
         let (turn, shift): (DMat3, DVec3) = (dice.turn(), dice.point(50.0));
-        let own = found(pipe(corners, 5.0, 3.0, 8.0).moved(|p| turn * p + shift));
+        let own = find_cylinders(pipe(corners, 5.0, 3.0, 8.0).moved(|p| turn * p + shift));
         assert_eq!(own.len(), 2, "{own:?}");
         for (cylinder, (radius, hollow)) in own.iter().zip([(5.0, false), (3.0, true)]) {
             let axis = turn * DVec3::Z;
@@ -64,9 +64,9 @@ fn pipes_have_two_cylinders_wherever_they_are() {
 }
 
 #[test]
-fn balls_rings_and_boxes_have_none() {
+fn balls_tori_and_boxes_have_no_cylinders() {
     for solid in [cuboid(DVec3::ZERO, DVec3::ONE), sphere(12, 2.0), icosphere(3), torus(40, 20, 4.0, 1.0)] {
-        let own = found(solid);
+        let own = find_cylinders(solid);
         assert!(own.is_empty(), "{own:?}");
     }
 }
@@ -84,7 +84,7 @@ fn statements(text: &str) -> BTreeMap<u32, (String, String)> {
 
 /// Returns the distinct cylindrical surfaces of a single-part STEP file: axis point, axis direction and
 /// radius.
-fn told(text: &str) -> Vec<(DVec3, DVec3, f64)> {
+fn step_cylinders(text: &str) -> Vec<(DVec3, DVec3, f64)> {
     let all = statements(text);
     let references = |arguments: &str| -> Vec<u32> {
         arguments.split(['#', ',', ' ']).filter_map(|word| word.parse().ok()).collect()
@@ -116,7 +116,7 @@ fn told(text: &str) -> Vec<(DVec3, DVec3, f64)> {
 
 /// Returns the cylinders of a model. In assemblies, each shape is searched in its local frame, as in STEP
 /// files.
-fn of_model(path: &std::path::Path, is_assembly: bool) -> Vec<Cylinder> {
+fn model_cylinders(path: &std::path::Path, is_assembly: bool) -> Vec<Cylinder> {
     let scene = Scene::open(path).expect("a model");
     if !is_assembly {
         return cylinders(&Mesh::build(scene.to_soup()));
@@ -143,8 +143,8 @@ fn cylinders_of_cad_sources_are_found() {
         ) else {
             continue;
         };
-        let told = told(&fs::read_to_string(step).expect("a file"));
-        let own = of_model(&model, ending == "glb");
+        let told = step_cylinders(&fs::read_to_string(step).expect("a file"));
+        let own = model_cylinders(&model, ending == "glb");
         let mut missed = 0;
         for (point, axis, radius) in &told {
             let is_it = |found: &&Cylinder| {

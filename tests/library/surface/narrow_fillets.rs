@@ -11,7 +11,7 @@ use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Camera;
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{Stages, orthographic, scene, stages};
+use crate::support::pipeline::{Stages, orthographic, run_stages, scene};
 use crate::support::scenes::profile_bars::bar;
 use crate::support::scenes::solids::Solid;
 
@@ -23,7 +23,7 @@ fn patches(solid: Solid) -> (Mesh, Patches) {
 }
 
 /// Returns the ends of the middle edges of narrow fillets.
-fn middles(solid: Solid) -> Vec<[DVec3; 2]> {
+fn middle_edges(solid: Solid) -> Vec<[DVec3; 2]> {
     let (mesh, patches) = patches(solid);
     let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize] + mesh.origin);
     patches.roundings.iter().map(ends).collect()
@@ -40,22 +40,25 @@ fn plate(steps: u32, radius: f64) -> Vec<[f64; 2]> {
 }
 
 /// Returns the profile corners (by index) along which a bar has the middle line of a narrow fillet.
-fn drawn(profile: &[[f64; 2]]) -> Vec<usize> {
-    let found = middles(bar(profile));
+fn middle_line_corners(profile: &[[f64; 2]]) -> Vec<usize> {
+    let found = middle_edges(bar(profile));
     let is_at = |p: DVec3, [x, y]: [f64; 2]| (p.x - x).abs().max((p.y - y).abs()) < 1e-9;
     let has = |k: &usize| found.iter().any(|ends| ends.iter().all(|end| is_at(*end, profile[*k])));
     (0..profile.len()).filter(has).collect()
 }
 
 #[test]
-fn a_narrow_rounding_is_one_line_in_its_middle() {
+fn a_narrow_fillet_is_one_line_in_its_middle() {
     // With two steps the middle is a crease anyway. Odd numbers have no middle edge, so the edge nearer to
     // the wider surface is used.
-    assert_eq!([2, 3, 4, 5].map(|steps| drawn(&plate(steps, 0.3))), [vec![], vec![2], vec![2], vec![3]]);
+    assert_eq!(
+        [2, 3, 4, 5].map(|steps| middle_line_corners(&plate(steps, 0.3))),
+        [vec![], vec![2], vec![2], vec![3]]
+    );
 }
 
 #[test]
-fn edges_that_the_file_hides_are_no_lines() {
+fn edges_hidden_by_the_file_are_not_drawn() {
     let hidden = |solid: Solid| {
         let edge_marks = vec![[EdgeMark::Hidden; 3]; solid.triangles.len()];
         let mesh = Mesh::build(Soup {
@@ -74,21 +77,21 @@ fn edges_that_the_file_hides_are_no_lines() {
 }
 
 #[test]
-fn what_is_wide_or_fine_is_round() {
-    assert!(drawn(&plate(4, 1.2)).is_empty(), "as wide as what it joins");
-    assert!(drawn(&plate(8, 0.3)).is_empty(), "eight steps");
+fn wide_or_finely_stepped_fillets_have_no_middle_line() {
+    assert!(middle_line_corners(&plate(4, 1.2)).is_empty(), "as wide as what it joins");
+    assert!(middle_line_corners(&plate(8, 0.3)).is_empty(), "eight steps");
 }
 
 #[test]
-fn steps_of_other_widths_are_no_rounding() {
+fn steps_of_unequal_width_are_no_fillet() {
     let mut profile = plate(4, 0.3);
     profile[1] = [2.99, 0.77];
-    assert!(drawn(&profile).is_empty());
+    assert!(middle_line_corners(&profile).is_empty());
 }
 
 /// A plate with a fillet in four steps. The second corner is shifted by `by` along the arc, except between
 /// `from` and `to`.
-fn uneven(from: f64, to: f64, by: f64) -> Solid {
+fn uneven_fillet(from: f64, to: f64, by: f64) -> Solid {
     const CHANGE: f64 = 0.6;
     let profile = plate(4, 0.3);
     let mut solid = Solid::default();
@@ -113,11 +116,15 @@ fn uneven(from: f64, to: f64, by: f64) -> Solid {
 }
 
 #[test]
-fn a_piece_of_a_middle_line_is_not_drawn() {
-    let length = |solid: Solid| middles(solid).iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
-    assert_eq!(length(uneven(2.0, 3.6, 0.04)), 0.0, "a quarter of the rounding, longer than it is wide");
-    assert!(length(uneven(0.7, 5.3, 0.04)) > 4.5, "most of it");
-    assert!(length(uneven(2.0, 3.6, 0.0)) > 5.9, "a rounding that is the same all along");
+fn middle_lines_along_a_small_part_of_a_fillet_are_not_drawn() {
+    let length = |solid: Solid| middle_edges(solid).iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+    assert_eq!(
+        length(uneven_fillet(2.0, 3.6, 0.04)),
+        0.0,
+        "a quarter of the rounding, longer than it is wide"
+    );
+    assert!(length(uneven_fillet(0.7, 5.3, 0.04)) > 4.5, "most of it");
+    assert!(length(uneven_fillet(2.0, 3.6, 0.0)) > 5.9, "a rounding that is the same all along");
 }
 
 /// A tube of straight pieces, each turned by 30 degrees. The first and last pieces are long.
@@ -152,8 +159,8 @@ fn bent_tube(pieces: u32) -> Solid {
 }
 
 #[test]
-fn a_bend_of_a_tube_is_no_rounding() {
-    assert!(middles(bent_tube(4)).is_empty());
+fn a_tube_bend_is_no_fillet() {
+    assert!(middle_edges(bent_tube(4)).is_empty());
 }
 
 /// A box with all edges rounded in `steps` steps.
@@ -196,7 +203,7 @@ fn from_a_corner() -> Camera {
 }
 
 /// The image of that corner.
-fn next_corner() -> Point {
+fn nearest_corner_image() -> Point {
     let camera = from_a_corner();
     let forward = (camera.target - camera.eye).normalize();
     let right = forward.cross(DVec3::Y).normalize();
@@ -206,22 +213,22 @@ fn next_corner() -> Point {
 }
 
 fn lengths(drawn: &Stages, kind: LineKind) -> f64 {
-    drawn.visible_of(kind).iter().map(|[a, b]| a.distance(*b)).sum()
+    drawn.visible_segments_of_kind(kind).iter().map(|[a, b]| a.distance(*b)).sum()
 }
 
 #[test]
-fn a_rounded_box_has_edges_and_the_same_outline() {
+fn a_filleted_box_has_edge_lines_and_the_fine_outline() {
     for steps in [3, 4, 5] {
         let (_, patches) = patches(rounded_box(steps));
         assert_eq!((patches.hard.count(), patches.roundings.iter().count()), (0, 12), "{steps} steps");
         let model = scene([rounded_box(steps)]);
-        let drawn = stages(&model, &from_a_corner(), &LineOptions::default());
+        let drawn = run_stages(&model, &from_a_corner(), &LineOptions::default());
         // Three meet at the corner nearest to the camera. Others near the outline may be visible as well.
-        let meets = |ends: &&[Point; 2]| ends.iter().any(|end| end.distance(next_corner()) < 60.0);
-        let edges = drawn.visible_of(LineKind::Crease);
+        let meets = |ends: &&[Point; 2]| ends.iter().any(|end| end.distance(nearest_corner_image()) < 60.0);
+        let edges = drawn.visible_segments_of_kind(LineKind::Crease);
         assert_eq!(edges.iter().filter(meets).count(), 3, "{steps} steps: {edges:?}");
-        let fine = stages(&scene([rounded_box(8)]), &from_a_corner(), &LineOptions::default());
-        assert!(fine.visible_of(LineKind::Crease).is_empty());
+        let fine = run_stages(&scene([rounded_box(8)]), &from_a_corner(), &LineOptions::default());
+        assert!(fine.visible_segments_of_kind(LineKind::Crease).is_empty());
         let [coarse, fine] = [&drawn, &fine].map(|drawn| lengths(drawn, LineKind::Contour));
         assert!((coarse / fine - 1.0).abs() < 0.02, "{steps} steps: {coarse} px for {fine} px");
     }
@@ -250,8 +257,8 @@ fn drum(sides: u32) -> Solid {
 }
 
 #[test]
-fn a_rounded_rim_is_one_closed_line() {
-    let found = middles(drum(24));
+fn a_filleted_rim_has_one_closed_middle_line() {
+    let found = middle_edges(drum(24));
     assert_eq!(found.len(), 24);
     let height = 0.9 + 0.1 * sin(TAU / 8.0);
     assert!(found.iter().flatten().all(|end| (end.y - height).abs() < 1e-9));

@@ -11,14 +11,14 @@ use ligne::lines::{LineKind, LineOptions};
 use ligne::load::ModelFormat;
 use ligne::scene::{Camera, Scene};
 
-use crate::support::measures::line_picture::beyond;
-use crate::support::pipeline::{orthographic, scene_of_geometries, stages};
+use crate::support::measures::line_picture::length_farther_than;
+use crate::support::pipeline::{orthographic, run_stages, scene_of_geometries};
 use crate::support::readers::glb_writer::glb;
-use crate::support::references::torus_contour::{self, Piece, visible_pieces};
+use crate::support::references::torus_contour::{self, VisibleArc, visible_arcs};
 use crate::support::scenes::solids::{Solid, torus};
 
 /// Returns the Draco stream of a solid with positions of `bits` bits.
-fn stream(solid: &Solid, bits: i32) -> Vec<u8> {
+fn draco_stream(solid: &Solid, bits: i32) -> Vec<u8> {
     let mut position = PointAttribute::new();
     position.init(GeometryAttributeType::Position, 3, DataType::Float32, false, solid.positions.len());
     for (k, p) in solid.positions.iter().enumerate() {
@@ -41,8 +41,8 @@ fn stream(solid: &Solid, bits: i32) -> Vec<u8> {
 }
 
 /// Returns a GLB file of one compressed solid.
-fn compressed(solid: &Solid, bits: i32) -> Vec<u8> {
-    let mut bin = stream(solid, bits);
+fn draco_glb(solid: &Solid, bits: i32) -> Vec<u8> {
+    let mut bin = draco_stream(solid, bits);
     let length = bin.len();
     bin.resize(length.next_multiple_of(4), 0);
     let json = format!(
@@ -67,28 +67,28 @@ fn cameras() -> impl Iterator<Item = Camera> {
 
 /// Returns over all views the drawn length away from the true contours, the true length not drawn (px), and
 /// the number of visible creases.
-fn off(scene: &Scene) -> ([f64; 2], usize) {
+fn contour_errors(scene: &Scene) -> ([f64; 2], usize) {
     let mut sums = [0.0; 2];
     let mut creases = 0;
     for camera in cameras() {
-        let drawn = stages(scene, &camera, &LineOptions::default());
-        let truth = visible_pieces(&torus_contour::contours(1.0, 0.25, &camera, 4000));
-        let should: Vec<[Point; 2]> = truth.iter().flat_map(Piece::segments).collect();
-        let is = drawn.visible();
-        sums[0] += beyond(&is, &should, 3.0);
-        sums[1] += beyond(&should, &is, 3.0);
-        creases += drawn.visible_of(LineKind::Crease).len();
+        let drawn = run_stages(scene, &camera, &LineOptions::default());
+        let truth = visible_arcs(&torus_contour::torus_contours(1.0, 0.25, &camera, 4000));
+        let should: Vec<[Point; 2]> = truth.iter().flat_map(VisibleArc::segments).collect();
+        let is = drawn.visible_segments();
+        sums[0] += length_farther_than(&is, &should, 3.0);
+        sums[1] += length_farther_than(&should, &is, 3.0);
+        creases += drawn.visible_segments_of_kind(LineKind::Crease).len();
     }
     (sums, creases)
 }
 
 #[test]
-fn a_torus_of_fine_faces_in_eight_bits_has_its_contours_and_no_creases() {
+fn an_8_bit_torus_has_its_contours_and_no_creases() {
     let solid = torus(360, 120, 1.0, 0.25);
-    let scene = Scene::from_bytes(&compressed(&solid, 8), ModelFormat::Gltf).unwrap();
+    let scene = Scene::from_bytes(&draco_glb(&solid, 8), ModelFormat::Gltf).unwrap();
     let found = &scene.geometries[0];
     assert_eq!(found.triangles.len(), solid.triangles.len());
-    let ([extra, missing], creases) = off(&scene);
+    let ([extra, missing], creases) = contour_errors(&scene);
     // The same positions on the lattice, as an uncompressed file would have them.
     let step = 2.5 / 255.0;
     let mut rounded = found.clone();
@@ -96,7 +96,7 @@ fn a_torus_of_fine_faces_in_eight_bits_has_its_contours_and_no_creases() {
     rounded.positions.iter_mut().for_each(|p| *p = low + ((*p - low) / step).round() * step);
     let farthest = found.positions.iter().zip(&rounded.positions).map(|(p, q)| (*p - *q).abs().max_element());
     assert!(farthest.fold(0.0, f64::max) <= 0.501 * step);
-    let ([rough_extra, _], rough_creases) = off(&scene_of_geometries(vec![rounded]));
+    let ([rough_extra, _], rough_creases) = contour_errors(&scene_of_geometries(vec![rounded]));
     println!(
         "{extra} px extra, {missing} px missing, {creases} creases; rounded {rough_extra} px, {rough_creases}"
     );

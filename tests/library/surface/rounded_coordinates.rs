@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use crate::support::rewriting::pens::Pens;
+use crate::support::rewriting::pens::LinesByPen;
 use crate::support::scenes::random_dice::Dice;
 use glam::{DQuat, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -18,7 +18,7 @@ use ligne::style::Style;
 const TOLERANCE_PX: f64 = 0.06;
 /// Largest total length that may differ, px: the round ends of lines.
 const SLACK_PX: f64 = 1.0;
-const TURNS: u64 = 12;
+const ROTATIONS_PER_SCENE: u64 = 12;
 
 /// A part: its corners, and its faces as polygons.
 type Body = (Vec<DVec3>, Vec<Vec<usize>>);
@@ -94,7 +94,7 @@ fn scenes() -> Vec<(&'static str, Vec<Body>)> {
 }
 
 /// An OBJ file of bodies, with each number formatted by `write`.
-fn written(bodies: &[Body], turn: DQuat, move_by: DVec3, write: impl Fn(f64) -> String) -> Scene {
+fn obj_scene(bodies: &[Body], turn: DQuat, move_by: DVec3, write: impl Fn(f64) -> String) -> Scene {
     let mut text = String::new();
     let mut first = 1;
     for (number, (corners, faces)) in bodies.iter().enumerate() {
@@ -113,17 +113,17 @@ fn written(bodies: &[Body], turn: DQuat, move_by: DVec3, write: impl Fn(f64) -> 
 }
 
 #[test]
-fn rounded_scenes_are_drawn_as_exact_ones() {
+fn scenes_with_rounded_coordinates_are_drawn_like_exact_ones() {
     let mut wrong = Vec::new();
     let mut drawn = 0;
     for (name, bodies) in scenes() {
         let mut dice = Dice::new(name.len() as u64);
-        for turn in 0..TURNS {
+        for turn in 0..ROTATIONS_PER_SCENE {
             let mut number = || dice.between(-1.0, 1.0);
             let axis = DVec3::new(number(), number(), number()).normalize();
             let turned = DQuat::from_axis_angle(axis, 3.0 * number());
             let away = 5.0 * DVec3::new(number(), number(), number());
-            let exact = written(&bodies, turned, away, |x| format!("{x:?}"));
+            let exact = obj_scene(&bodies, turned, away, |x| format!("{x:?}"));
             let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(800.0, 800.0);
             // Every second view is along the faces of the scene, rotated with it.
             let camera = if turn % 2 == 0 {
@@ -138,10 +138,10 @@ fn rounded_scenes_are_drawn_as_exact_ones() {
                 let style = Style::preset(style).unwrap();
                 // Where lines coincide in the image, such as edges of a sheet seen edge-on, any of them may
                 // be drawn with the same pen.
-                let pens = |scene: &Scene| Pens::by_width(&render(scene, &camera, &style).unwrap());
+                let pens = |scene: &Scene| LinesByPen::by_width(&render(scene, &camera, &style).unwrap());
                 let reference = pens(&exact);
-                let single = written(&bodies, turned, away, |x| (x as f32).to_string());
-                let six = written(&bodies, turned, away, |x| format!("{x:.6}"));
+                let single = obj_scene(&bodies, turned, away, |x| (x as f32).to_string());
+                let six = obj_scene(&bodies, turned, away, |x| format!("{x:.6}"));
                 for (how, scene) in [("single precision", single), ("six decimals", six)] {
                     drawn += 1;
                     let difference = reference.difference(&pens(&scene), TOLERANCE_PX);
@@ -158,14 +158,14 @@ fn rounded_scenes_are_drawn_as_exact_ones() {
 }
 
 #[test]
-fn angles_at_the_limit_are_no_creases() {
+fn angles_at_the_crease_threshold_are_no_creases() {
     for sides in [6, 9, 12, 24] {
         let angle = |k: usize| std::f64::consts::TAU * k as f64 / sides as f64;
         let outline: Vec<[f64; 2]> = (0..sides).map(|k| [5.0 * cos(angle(k)), 5.0 * sin(angle(k))]).collect();
         let body = [prism(&outline, 10.0)];
         let mut style = Style::preset("ink").unwrap();
         let creases = |style: &Style, write: fn(f64) -> String| {
-            let scene = written(&body, DQuat::IDENTITY, DVec3::ZERO, write);
+            let scene = obj_scene(&body, DQuat::IDENTITY, DVec3::ZERO, write);
             let camera = Camera::named(NamedView::Front, UpAxis::Z).with_frame(800.0, 800.0).fit(&scene);
             let drawing = render(&scene, &camera, style).unwrap();
             let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
@@ -211,17 +211,17 @@ fn bumpy_ball() -> Body {
 /// On a curved surface, rounding decides whether a face near the contour is front-facing. That must not move
 /// lines.
 #[test]
-fn contours_of_bent_surfaces_are_those_of_exact_ones() {
+fn contours_of_curved_surfaces_do_not_move_with_rounding() {
     let body = [bumpy_ball()];
     let style = Style::preset("ink").unwrap();
     let mut moved = 0.0;
     for azimuth in 0..12 {
         let turned = DQuat::from_axis_angle(DVec3::new(0.2, 0.3, 0.9).normalize(), 0.5 * f64::from(azimuth));
         let pens = |write: fn(f64) -> String| {
-            let scene = written(&body, turned, DVec3::ZERO, write);
+            let scene = obj_scene(&body, turned, DVec3::ZERO, write);
             let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(800.0, 800.0);
-            let camera = camera.fit(&written(&body, turned, DVec3::ZERO, |x| format!("{x:?}")));
-            Pens::by_width(&render(&scene, &camera, &style).unwrap())
+            let camera = camera.fit(&obj_scene(&body, turned, DVec3::ZERO, |x| format!("{x:?}")));
+            LinesByPen::by_width(&render(&scene, &camera, &style).unwrap())
         };
         let exact = pens(|x| format!("{x:?}"));
         moved += exact.difference(&pens(|x| format!("{x:.5}")), 0.5).length();

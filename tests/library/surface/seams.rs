@@ -4,14 +4,14 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use crate::support::pipeline::{exact, orthographic, perspective, scene, stages};
+use crate::support::pipeline::{exact_options, orthographic, perspective, run_stages, scene};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::{LineKind, LineOptions};
-use ligne::mesh::{EdgeFaces, Mesh, Soup, Turns};
+use ligne::mesh::{DihedralCosines, EdgeFaces, Mesh, Soup};
 
 fn mesh(solid: &Solid) -> Mesh {
     Mesh::build(Soup {
@@ -22,8 +22,8 @@ fn mesh(solid: &Solid) -> Mesh {
 }
 
 /// Returns the number of edges with one face, and of edges that turn by more than the given angle.
-fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
-    let turns = Turns::of(mesh);
+fn count_open_and_sharp_edges(mesh: &Mesh, degrees: f64) -> [usize; 2] {
+    let turns = DihedralCosines::of(mesh);
     let count = |holds: &dyn Fn(usize) -> bool| (0..mesh.edges.len()).filter(|edge| holds(*edge)).count();
     [
         count(&|edge| matches!(mesh.edges.faces(edge), EdgeFaces::One(_))),
@@ -32,7 +32,7 @@ fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
 }
 
 /// Adds a rectangle with its own vertices.
-fn tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
+fn add_tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
     solid.add(Solid {
         positions: vec![corner, corner + u, corner + u + v, corner + v],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
@@ -47,8 +47,8 @@ fn box_of_tiles() -> Solid {
         [(x, y, z), (y, z, x), (z, x, y), (y, x, DVec3::ZERO), (z, y, DVec3::ZERO), (x, z, DVec3::ZERO)];
     for (k, (u, v, corner)) in sides.into_iter().enumerate() {
         let part = 0.3 + 0.07 * k as f64;
-        tile(&mut solid, corner, u * part, v);
-        tile(&mut solid, corner + u * part, u * (1.0 - part), v);
+        add_tile(&mut solid, corner, u * part, v);
+        add_tile(&mut solid, corner + u * part, u * (1.0 - part), v);
     }
     solid
 }
@@ -105,7 +105,7 @@ fn tube(around: u32, from: f64, to: f64) -> Solid {
     solid
 }
 
-fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
+fn rounded_end_points(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
     // The end points of lines, rounded to a hundredth of a px.
     let mut ends: Vec<[i64; 2]> =
         lines.iter().flatten().map(|p| [p.x, p.y].map(|c| (c * 100.0).round() as i64)).collect();
@@ -127,28 +127,28 @@ fn assert_drawn_as_a_box(solid: &Solid) {
         };
         let length = |lines: &[[Point; 2]]| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
         let drawn = |solid: Solid| {
-            let drawn = stages(&scene([solid]), &camera, &exact());
-            assert!(drawn.visible_of(LineKind::Border).is_empty());
-            [drawn.visible(), drawn.outline()]
+            let drawn = run_stages(&scene([solid]), &camera, &exact_options());
+            assert!(drawn.visible_segments_of_kind(LineKind::Border).is_empty());
+            [drawn.visible_segments(), drawn.silhouette_segments()]
         };
         let ([own, outline], [plain, plain_outline]) =
             (drawn(solid.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
         for (own, plain) in [(&own, &plain), (&outline, &plain_outline)] {
             assert!((length(own) - length(plain)).abs() < 1e-6, "{} and {}", length(own), length(plain));
         }
-        assert!(key(&plain).iter().all(|end| key(&own).contains(end)));
+        assert!(rounded_end_points(&plain).iter().all(|end| rounded_end_points(&own).contains(end)));
     }
 }
 
 #[test]
 fn a_box_of_tiles_is_drawn_as_a_box() {
     let tiles = box_of_tiles();
-    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
+    assert_eq!(count_open_and_sharp_edges(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
     assert_drawn_as_a_box(&tiles);
 }
 
 #[test]
-fn a_box_whose_sides_are_stitched_by_triangles_without_area_is_drawn_as_a_box() {
+fn a_box_stitched_by_zero_area_triangles_is_drawn_as_a_box() {
     for upon in [false, true] {
         let stitched = stitched_box(upon);
         assert_eq!(mesh(&stitched).cleaning.degenerate, 24);
@@ -157,18 +157,18 @@ fn a_box_whose_sides_are_stitched_by_triangles_without_area_is_drawn_as_a_box() 
 }
 
 #[test]
-fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
+fn curved_seams_with_different_chords_are_not_drawn() {
     let mut two = tube(24, -1.0, 0.0);
     two.add(tube(37, 0.0, 1.0));
     // Only the far ends are open.
-    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [24 + 37, 0]);
-    let drawn = stages(
+    assert_eq!(count_open_and_sharp_edges(&mesh(&two), 45.0), [24 + 37, 0]);
+    let drawn = run_stages(
         &scene([two]),
         &perspective(DVec3::new(5.0, 1.0, 1.5), DVec3::ZERO, 40.0),
         &LineOptions::default(),
     );
     let middle = drawn.view.frame.width / 2.0;
-    let across = drawn.visible_of(LineKind::Border);
+    let across = drawn.visible_segments_of_kind(LineKind::Border);
     assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
 }
 
@@ -194,13 +194,13 @@ fn plate_with_a_hole(chords: u32, wall: u32, turned: f64) -> Solid {
     for k in 0..wall {
         let wider = 2.0 - cos(TAU / f64::from(chords * 2));
         let [from, to] = [k, k + 1].map(|k| at(wall, k, turned) * wider);
-        tile(&mut solid, from, to - from, DVec3::NEG_Z);
+        add_tile(&mut solid, from, to - from, DVec3::NEG_Z);
     }
     solid
 }
 
 #[test]
-fn what_is_sewn_neither_turns_over_nor_leans() {
+fn sewing_does_not_flip_or_tilt_faces() {
     let mut sewn = 0;
     for (chords, wall) in [(12, 16), (16, 12), (8, 20), (20, 9), (24, 7), (40, 11), (12, 31)] {
         for turned in [0.02, 0.05, 0.11, 0.2] {
@@ -217,7 +217,7 @@ fn what_is_sewn_neither_turns_over_nor_leans() {
 }
 
 #[test]
-fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
+fn a_straight_side_next_to_a_rounded_corner_is_not_sewn() {
     // A plate with a long side that ends in a rounded corner.
     let mut plate = Solid { positions: vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO], ..Solid::default() };
     plate.positions.extend((0..=4).map(|k| {
@@ -236,7 +236,7 @@ fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
 }
 
 #[test]
-fn corners_on_both_sides_of_a_seam_are_one() {
+fn nearby_seam_vertices_are_welded() {
     // Offsets as large as those of programs that triangulate each surface separately.
     let mut dice = Dice::new(11);
     let mut two = tube(24, -1.0, 0.0);
@@ -244,32 +244,32 @@ fn corners_on_both_sides_of_a_seam_are_one() {
         tube(24, 0.0, 1.0).moved(|p| if p.z == 0.0 { p * 1.00004 + DVec3::new(0.0, 2e-5, -3e-5) } else { p }),
     );
     two.add(tube(24, 1.0, 1.5).moved(|p| DVec3::new(p.x, p.y + 5e-5, p.z - 3e-5)));
-    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [2 * 24, 0]);
+    assert_eq!(count_open_and_sharp_edges(&mesh(&two), 45.0), [2 * 24, 0]);
     // A strip narrower than the tolerance is not a seam.
     let narrow = tube(24, 0.0, 5e-5);
     let turned = dice.direction();
-    assert_eq!(open_and_sharp(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
+    assert_eq!(count_open_and_sharp_edges(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
 }
 
 #[test]
-fn a_gap_that_is_meant_stays_open() {
+fn intended_gaps_stay_open() {
     for gap in [0.01, 0.05] {
         let mut two = tube(24, -1.0, -gap);
         two.add(tube(37, 0.0, 1.0));
-        assert_eq!(open_and_sharp(&mesh(&two), 45.0)[0], 2 * (24 + 37), "{gap}");
+        assert_eq!(count_open_and_sharp_edges(&mesh(&two), 45.0)[0], 2 * (24 + 37), "{gap}");
     }
     let mut tiles = Solid::default();
-    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
-    tile(&mut tiles, DVec3::new(-0.3, 1.001, 0.0), DVec3::X * 1.5, DVec3::Y);
-    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 8);
+    add_tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    add_tile(&mut tiles, DVec3::new(-0.3, 1.001, 0.0), DVec3::X * 1.5, DVec3::Y);
+    assert_eq!(count_open_and_sharp_edges(&mesh(&tiles), 45.0)[0], 8);
 }
 
 #[test]
-fn what_is_painted_apart_is_not_sewn() {
+fn faces_with_discontinuous_uvs_are_not_sewn() {
     let mut tiles = Solid::default();
-    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
-    tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
-    tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
+    add_tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    add_tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
+    add_tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
     for shift in [0.0, 0.25] {
         // In the second round, the second and third tiles take their colours from another place in the
         // picture.
@@ -281,7 +281,7 @@ fn what_is_painted_apart_is_not_sewn() {
             corner_uvs: tiles.triangles.clone(),
             ..Soup::default()
         });
-        assert_eq!(open_and_sharp(&mesh, 45.0)[0], if shift == 0.0 { 7 } else { 10 });
+        assert_eq!(count_open_and_sharp_edges(&mesh, 45.0)[0], if shift == 0.0 { 7 } else { 10 });
         for (triangle, uvs) in mesh.triangles.iter().zip(&mesh.corner_uvs) {
             for (v, uv) in triangle.iter().zip(uvs) {
                 let place = mesh.positions[*v as usize] + mesh.origin;
@@ -318,7 +318,7 @@ fn wedge(degrees: f64, corners: [&[f64]; 2]) -> Solid {
 }
 
 #[test]
-fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
+fn t_vertices_in_an_edge_are_sewn_at_any_dihedral_angle() {
     let mut dice = Dice::new(3);
     for degrees in [3.0, 20.0, 45.0, 59.0, 61.0, 90.0, 130.0] {
         for corners in
@@ -330,13 +330,14 @@ fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
                 let round = |p: DVec3| if rounded { (p * 1e6).round() / 1e6 } else { p };
                 let [own, plain] = [corners, [&[][..], &[][..]]]
                     .map(|corners| wedge(degrees, corners).moved(|p| round(turn * p)));
-                let open = open_and_sharp(&mesh(&own), 45.0)[0];
+                let open = count_open_and_sharp_edges(&mesh(&own), 45.0)[0];
                 assert_eq!(open, 0, "{degrees} degrees, {corners:?}, rounded: {rounded}");
                 let way = dice.direction() * 9.0;
                 let [own, plain] = [own, plain].map(|solid| {
-                    let drawn = stages(&scene([solid]), &perspective(way, DVec3::ZERO, 40.0), &exact());
-                    assert!(drawn.visible_of(LineKind::Border).is_empty());
-                    [drawn.visible(), drawn.outline()]
+                    let drawn =
+                        run_stages(&scene([solid]), &perspective(way, DVec3::ZERO, 40.0), &exact_options());
+                    assert!(drawn.visible_segments_of_kind(LineKind::Border).is_empty());
+                    [drawn.visible_segments(), drawn.silhouette_segments()]
                         .map(|lines| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>())
                 });
                 let off = [0, 1].map(|k| (own[k] - plain[k]).abs());
@@ -350,43 +351,43 @@ fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
 }
 
 #[test]
-fn the_sides_of_a_card_that_share_no_corner_stay_apart() {
+fn front_and_back_of_a_thin_card_are_not_sewn() {
     // Front and back are closer than the seam tolerance. Each is divided at a different place.
     let mut card = Solid::default();
     for (z, part) in [(0.0, 0.3), (5e-5, 0.6)] {
         let mut side = Solid::default();
-        tile(&mut side, DVec3::Z * z, DVec3::X * part, DVec3::Y);
-        tile(&mut side, DVec3::new(part, 0.0, z), DVec3::X * (1.0 - part), DVec3::Y);
+        add_tile(&mut side, DVec3::Z * z, DVec3::X * part, DVec3::Y);
+        add_tile(&mut side, DVec3::new(part, 0.0, z), DVec3::X * (1.0 - part), DVec3::Y);
         if z == 0.0 {
             side.triangles.iter_mut().for_each(|triangle| triangle.reverse());
         }
         card.add(side);
     }
     let own = mesh(&card);
-    assert_eq!((own.triangles.len(), open_and_sharp(&own, 45.0)[0]), (8, 12));
+    assert_eq!((own.triangles.len(), count_open_and_sharp_edges(&own, 45.0)[0]), (8, 12));
 }
 
 #[test]
 fn surfaces_of_different_parts_are_not_sewn() {
     let solid = |low: f64, high: f64| {
         let mut solid = Solid::default();
-        tile(&mut solid, DVec3::new(low, low, 0.0), DVec3::X * (high - low), DVec3::Y);
+        add_tile(&mut solid, DVec3::new(low, low, 0.0), DVec3::X * (high - low), DVec3::Y);
         solid
     };
-    let drawn = stages(
+    let drawn = run_stages(
         &scene([solid(0.0, 1.0), solid(1.0, 3.0)]),
         &orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 9.0),
-        &exact(),
+        &exact_options(),
     );
     assert_eq!(drawn.mesh.triangles.len(), 4);
 }
 
 #[test]
-fn steps_stay_steps_however_low() {
+fn low_steps_keep_their_sharp_edges() {
     let mut plate = cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.2));
     // A tile half a pixel high on the plate, without a bottom.
     let mut tile = cuboid(DVec3::new(0.3, 0.3, 0.2), DVec3::new(0.7, 0.7, 0.2005));
     tile.triangles.drain(0..2);
     plate.add(tile);
-    assert_eq!(open_and_sharp(&mesh(&plate), 45.0)[1], 12 + 8);
+    assert_eq!(count_open_and_sharp_edges(&mesh(&plate), 45.0)[1], 12 + 8);
 }

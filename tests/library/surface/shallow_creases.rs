@@ -9,8 +9,8 @@ use ligne::lines::{FeatureSegment, LineKind, LineOptions};
 use ligne::mesh::{Mesh, Soup};
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{orthographic, scene, stages};
-use crate::support::scenes::profile_bars::{LENGTH, bar, steps};
+use crate::support::pipeline::{orthographic, run_stages, scene};
+use crate::support::scenes::profile_bars::{BAR_LENGTH, bar, step_profile};
 use crate::support::scenes::solids::Solid;
 
 fn mesh(solid: Solid) -> Mesh {
@@ -18,7 +18,7 @@ fn mesh(solid: Solid) -> Mesh {
 }
 
 /// Returns the profile corners (by index) along which a bar has a crease.
-fn creased(profile: &[[f64; 2]], crease_deg: f64) -> Vec<usize> {
+fn crease_corners(profile: &[[f64; 2]], crease_deg: f64) -> Vec<usize> {
     let mesh = mesh(bar(profile));
     let hard = Patches::new(&mesh, crease_deg, false).hard;
     let corner = |edge: &usize| {
@@ -35,7 +35,7 @@ fn creased(profile: &[[f64; 2]], crease_deg: f64) -> Vec<usize> {
 }
 
 /// A plate with upper corners cut at 30 degrees.
-fn chamfered() -> Vec<[f64; 2]> {
+fn chamfered_profile() -> Vec<[f64; 2]> {
     let low = 1.0 - 0.5 / 3f64.sqrt();
     vec![[-3.0, -1.0], [3.0, -1.0], [3.0, low], [2.5, 1.0], [-2.5, 1.0], [-3.0, low]]
 }
@@ -43,28 +43,28 @@ fn chamfered() -> Vec<[f64; 2]> {
 #[test]
 fn both_edges_of_a_chamfer_are_creases() {
     // The chamfer turns by 30 degrees at both ends and is far too wide to be a facet.
-    assert_eq!(creased(&chamfered(), 40.0), [0, 1, 2, 3, 4, 5]);
+    assert_eq!(crease_corners(&chamfered_profile(), 40.0), [0, 1, 2, 3, 4, 5]);
 }
 
 #[test]
-fn who_asks_for_sharper_creases_gets_these_alone() {
-    assert_eq!(creased(&chamfered(), 45.0), [0, 1, 2, 5]);
+fn a_larger_crease_angle_leaves_out_shallow_creases() {
+    assert_eq!(crease_corners(&chamfered_profile(), 45.0), [0, 1, 2, 5]);
 }
 
 #[test]
-fn facets_of_curves_have_no_creases_between() {
+fn facets_of_curved_surfaces_have_no_creases_between_them() {
     let cylinder: Vec<[f64; 2]> =
         (0..12).map(|k| TAU * f64::from(k) / 12.0).map(|turn| [cos(turn), sin(turn)]).collect();
-    assert_eq!(creased(&cylinder, 40.0), [0; 0], "twelve sides");
+    assert_eq!(crease_corners(&cylinder, 40.0), [0; 0], "twelve sides");
     // Half a cylinder: its last facets end at a corner.
     let mut half: Vec<[f64; 2]> =
         (0..=6).map(|k| TAU * f64::from(k) / 12.0).map(|turn| [cos(turn), sin(turn)]).collect();
     half.extend([[-1.0, -1.0], [1.0, -1.0]]);
-    assert_eq!(creased(&half, 40.0), [7, 8], "half of them on a block");
+    assert_eq!(crease_corners(&half, 40.0), [7, 8], "half of them on a block");
 }
 
 #[test]
-fn roundings_in_few_steps_have_no_creases_beside_them() {
+fn coarse_fillets_have_no_shallow_creases() {
     let corner = |steps: u32| {
         (0..=steps)
             .map(move |k| TAU / 4.0 * f64::from(k) / f64::from(steps))
@@ -75,16 +75,16 @@ fn roundings_in_few_steps_have_no_creases_beside_them() {
         profile.extend(corner(count));
         profile.push([-3.0, 2.0]);
         let sharp = if count == 2 { vec![0, 1, 3, 5] } else { vec![0, 1, 6] };
-        assert_eq!(creased(&profile, 40.0), sharp, "{count} steps");
+        assert_eq!(crease_corners(&profile, 40.0), sharp, "{count} steps");
     }
     // Half a turn in four facets: 45 degrees between the facets and 22.5 degrees at both ends.
     let turns = [22.5, 45.0, 45.0, 45.0, 22.5];
-    let mut profile = steps(
+    let mut profile = step_profile(
         [-3.0, -1.0],
         &[(4.0, turns[0]), (0.8, turns[1]), (0.8, turns[2]), (0.8, turns[3]), (0.8, turns[4]), (4.0, 90.0)],
     );
     profile.dedup_by(|a, b| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < 1e-9);
-    assert_eq!(creased(&profile, 40.0), [0, 2, 3, 4, 6], "four steps");
+    assert_eq!(crease_corners(&profile, 40.0), [0, 2, 3, 4, 6], "four steps");
 }
 
 #[test]
@@ -92,22 +92,22 @@ fn a_ramp_has_a_crease_at_both_its_ends() {
     let profile = [[-4.0, -1.0], [4.0, -1.0], [4.0, 1.5], [1.0, 1.5], [-1.0, 0.4], [-4.0, 0.4]];
     let turn = atan2(1.1, 2.0).to_degrees();
     assert!((20.0..40.0).contains(&turn));
-    assert_eq!(creased(&profile, 40.0), [0, 1, 2, 3, 4, 5]);
+    assert_eq!(crease_corners(&profile, 40.0), [0, 1, 2, 3, 4, 5]);
 }
 
 #[test]
-fn a_groove_that_is_round_at_its_bottom_may_be_round_at_its_sides() {
+fn a_groove_of_alternating_shallow_turns_has_no_creases() {
     // The profile turns down by 30 degrees, up by 30 twice, and down by 30 again.
     let groove = [[2.0, 1.5], [1.134, 1.0], [0.134, 1.0], [-0.732, 1.5]];
     let mut profile = vec![[-4.0, -1.0], [4.0, -1.0], [4.0, 1.5]];
     profile.extend(groove);
     profile.push([-4.0, 1.5]);
-    assert_eq!(creased(&profile, 40.0), [0, 1, 2, 7]);
+    assert_eq!(crease_corners(&profile, 40.0), [0, 1, 2, 7]);
 }
 
 /// A disc of ten sides with a conical rim. The facets are very wide: the direction perpendicular to one of
 /// their lateral sides leaves the facet at the top or bottom.
-fn bevelled() -> Solid {
+fn bevelled_disc() -> Solid {
     const SIDES: u32 = 10;
     let mut solid = Solid::default();
     for (radius, height) in [(1.0, 0.0), (0.8, 0.15)] {
@@ -124,8 +124,8 @@ fn bevelled() -> Solid {
 }
 
 #[test]
-fn a_bevel_has_both_its_rims_and_nothing_between() {
-    let mesh = mesh(bevelled());
+fn a_bevel_has_creases_at_both_rims_only() {
+    let mesh = mesh(bevelled_disc());
     let hard = Patches::new(&mesh, 40.0, false).hard;
     let level = |edge: &usize| {
         let [a, b] = mesh.edges.vertices[*edge].map(|v| mesh.positions[v as usize].z);
@@ -137,7 +137,7 @@ fn a_bevel_has_both_its_rims_and_nothing_between() {
 
 /// A roof on a box. The ridge begins above one side of the box and ends inside it. The triangle below its end
 /// leaves open whether the ridge is intended as a crease.
-fn hipped(ridge: f64) -> Solid {
+fn hipped_roof(ridge: f64) -> Solid {
     let mut solid = Solid::default();
     let corners = [[-1.0, 0.0], [1.0, 0.0], [1.0, 2.5], [-1.0, 2.5]];
     solid.positions.extend(corners.map(|[x, y]| DVec3::new(x, y, 0.0)));
@@ -175,8 +175,8 @@ fn hipped(ridge: f64) -> Solid {
 }
 
 #[test]
-fn a_shallow_crease_that_ends_inside_the_surface_is_none() {
-    let mesh = mesh(hipped(0.18));
+fn shallow_creases_that_end_inside_a_surface_are_left_out() {
+    let mesh = mesh(hipped_roof(0.18));
     let hard = Patches::new(&mesh, 40.0, false).hard;
     let along: Vec<[DVec3; 2]> = (0..mesh.edges.len())
         .filter(|edge| hard.is_hard(*edge))
@@ -188,8 +188,8 @@ fn a_shallow_crease_that_ends_inside_the_surface_is_none() {
 
 #[test]
 fn the_drawing_of_a_chamfered_plate_has_all_its_edges() {
-    let plate = scene([bar(&chamfered())]);
-    let drawn = stages(
+    let plate = scene([bar(&chamfered_profile())]);
+    let drawn = run_stages(
         &plate,
         &orthographic(DVec3::new(2.0, 9.0, 12.0), DVec3::new(0.0, 0.0, 3.0), 10.0),
         &LineOptions::default(),
@@ -198,11 +198,11 @@ fn the_drawing_of_a_chamfered_plate_has_all_its_edges() {
     let along = |kind: LineKind| {
         let is_along = |s: &&FeatureSegment| {
             let [a, b] = s.ends.map(|v| drawn.mesh.positions[v as usize]);
-            s.kind == kind && (a.z - b.z).abs() > 0.9 * LENGTH
+            s.kind == kind && (a.z - b.z).abs() > 0.9 * BAR_LENGTH
         };
         drawn.lines.segments.iter().filter(is_along).count()
     };
     assert_eq!(along(LineKind::Crease), 4);
     // One of them faces down. Four more are visible at one end of the plate.
-    assert_eq!(drawn.visible_of(LineKind::Crease).len(), 3 + 4);
+    assert_eq!(drawn.visible_segments_of_kind(LineKind::Crease).len(), 3 + 4);
 }

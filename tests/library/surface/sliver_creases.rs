@@ -6,31 +6,33 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::{LineKind, LineOptions};
-use ligne::mesh::{Mesh, Soup, Turns};
+use ligne::mesh::{DihedralCosines, Mesh, Soup};
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{orthographic, scene, stages};
+use crate::support::pipeline::{orthographic, run_stages, scene};
 use crate::support::scenes::solids::Solid;
 
-const CORNERS: usize = 24;
+const SHAFT_SIDES: usize = 24;
 
 /// A shaft of 24 sides with a tapered end: `narrowing` over a fifth of its radius. At sides where `halved`
 /// returns true, only the shaft is divided, which leaves a sliver between chord and extra corner.
 fn shaft(narrowing: f64, halved: impl Fn(usize) -> bool) -> Solid {
     let mut solid = Solid::default();
     let mut put = |turn: f64, radius: f64, height: f64| {
-        let turn = TAU * turn / CORNERS as f64;
+        let turn = TAU * turn / SHAFT_SIDES as f64;
         solid.positions.push(DVec3::new(radius * cos(turn), radius * sin(turn), height));
         solid.positions.len() as u32 - 1
     };
     let (bottom, top) = (put(0.0, 0.0, 0.0), put(0.0, 0.0, 2.2));
-    let rings = [(1.0, 0.0), (1.0, 2.0), (1.0 - narrowing, 2.2)]
-        .map(|(radius, height)| (0..CORNERS).map(|k| put(k as f64, radius, height)).collect::<Vec<u32>>());
-    let halves: Vec<Option<[u32; 2]>> = (0..CORNERS)
+    let rings = [(1.0, 0.0), (1.0, 2.0), (1.0 - narrowing, 2.2)].map(|(radius, height)| {
+        (0..SHAFT_SIDES).map(|k| put(k as f64, radius, height)).collect::<Vec<u32>>()
+    });
+    let halves: Vec<Option<[u32; 2]>> = (0..SHAFT_SIDES)
         .map(|k| halved(k).then(|| [0.0, 1.992].map(|height| put(k as f64 + 0.5, 1.0, height))))
         .collect();
     for (k, half) in halves.into_iter().enumerate() {
-        let [[a, b], [c, d], [e, f]] = [0, 1, 2].map(|ring| [rings[ring][k], rings[ring][(k + 1) % CORNERS]]);
+        let [[a, b], [c, d], [e, f]] =
+            [0, 1, 2].map(|ring| [rings[ring][k], rings[ring][(k + 1) % SHAFT_SIDES]]);
         solid.triangles.extend([[c, d, e], [d, f, e], [e, f, top]]);
         let columns = match half {
             None => vec![[a, b, c, d]],
@@ -51,7 +53,7 @@ fn mesh(solid: Solid) -> Mesh {
 }
 
 /// Returns the number of crease edges where the tapered end begins.
-fn creases(solid: Solid) -> usize {
+fn count_creases_at_the_taper(solid: Solid) -> usize {
     let mesh = mesh(solid);
     let hard = Patches::new(&mesh, 40.0, false).hard;
     let is_there = |edge: &usize| {
@@ -62,22 +64,22 @@ fn creases(solid: Solid) -> usize {
 }
 
 #[test]
-fn slivers_where_two_ways_to_cut_one_circle_differ_are_no_creases() {
+fn slivers_between_two_circle_subdivisions_are_no_creases() {
     // The end tapers by 20 degrees.
     let wrinkled = mesh(shaft(0.073, |side| side % 4 == 0));
-    let turns = Turns::of(&wrinkled);
+    let turns = DihedralCosines::of(&wrinkled);
     let sharp = (0..wrinkled.edges.len()).filter(|edge| turns.of_two(*edge) < 0.76).count();
-    assert_eq!(sharp, 12 + 30 + CORNERS, "two sides of each of six slivers, and both rims");
-    assert_eq!(creases(shaft(0.073, |side| side % 4 == 0)), 0);
+    assert_eq!(sharp, 12 + 30 + SHAFT_SIDES, "two sides of each of six slivers, and both rims");
+    assert_eq!(count_creases_at_the_taper(shaft(0.073, |side| side % 4 == 0)), 0);
     // Without slivers, the end meets the shaft at a crease.
-    assert_eq!(creases(shaft(0.073, |_| false)), CORNERS);
+    assert_eq!(count_creases_at_the_taper(shaft(0.073, |_| false)), SHAFT_SIDES);
 }
 
 #[test]
-fn creases_beside_slivers_stay_and_so_do_lines_that_go_on() {
+fn creases_next_to_slivers_stay() {
     // By 60 degrees: 18 sides, and both halves of 6.
-    assert_eq!(creases(shaft(0.346, |side| side % 4 == 0)), 30);
-    assert_eq!(creases(shaft(0.073, |_| true)), 2 * CORNERS);
+    assert_eq!(count_creases_at_the_taper(shaft(0.346, |side| side % 4 == 0)), 30);
+    assert_eq!(count_creases_at_the_taper(shaft(0.073, |_| true)), 2 * SHAFT_SIDES);
 }
 
 /// A mound on a plate, shaped like a roof with round ends and steep on both sides. Its ridge is a sliver.
@@ -119,17 +121,17 @@ fn mound() -> Solid {
 }
 
 #[test]
-fn a_ridge_is_a_crease_however_thin() {
+fn thin_ridges_are_creases() {
     // Around it, the surface turns by a hundred degrees.
-    assert_eq!(creases(mound()), 4);
+    assert_eq!(count_creases_at_the_taper(mound()), 4);
 }
 
 #[test]
-fn an_outline_along_a_sliver_has_its_corners() {
+fn contours_along_slivers_keep_their_corners() {
     // From above and from one side. The slivers on the far side have their lower edges on the outline.
     let eye = DVec3::new(10.0 * cos(1.3), 0.0, 10.0 * sin(1.3));
     let wrinkled = scene([shaft(0.073, |side| side % 4 == 0)]);
-    let drawn = stages(&wrinkled, &orthographic(eye, DVec3::Z, 4.0), &LineOptions::default());
+    let drawn = run_stages(&wrinkled, &orthographic(eye, DVec3::Z, 4.0), &LineOptions::default());
     let height = |v: u32| (drawn.mesh.positions[v as usize] + drawn.mesh.origin).z;
     let contours = || {
         let of_kind = drawn.lines.segments.iter().filter(|s| s.kind == LineKind::Contour);

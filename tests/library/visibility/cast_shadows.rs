@@ -2,7 +2,9 @@
 
 use crate::support::pipeline;
 use crate::support::pipeline::scene;
-use crate::support::references::shadow_rays::{check_crossings, check_lines, check_points, lights, middle};
+use crate::support::references::shadow_rays::{
+    check_crossings, check_lines, check_points, face_centroid, test_lights,
+};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::random_scenes;
 use crate::support::scenes::round_solids;
@@ -33,7 +35,7 @@ fn sheet(low: [f64; 2], high: [f64; 2], z: f64) -> Solid {
 
 /// Returns the shadow lines on the faces of one part: the number of closed loops, their length, and their
 /// points in world coordinates. Panics if a point does not join two segments.
-fn loops(mesh: &Mesh, shadows: &Shadows, part: usize) -> (usize, f64, Vec<DVec3>) {
+fn shadow_loops(mesh: &Mesh, shadows: &Shadows, part: usize) -> (usize, f64, Vec<DVec3>) {
     let lines = &shadows.lines;
     let on_part = |face: u32| mesh.face_part[face as usize].index() == part;
     let chosen: Vec<[u32; 2]> = lines.segments.iter().filter(|s| on_part(s.face)).map(|s| s.ends).collect();
@@ -76,14 +78,14 @@ fn perimeter(corners: &[DVec3]) -> f64 {
 }
 
 #[test]
-fn a_box_casts_the_hexagon_that_it_must() {
+fn the_shadow_of_a_box_is_the_projected_hexagon() {
     for towards in [DVec3::new(1.0, 0.7, 2.0), DVec3::new(-0.3, 0.2, 0.5)] {
         let mesh = mesh([
             sheet([-10.0, -9.0], [9.5, 10.0], 0.0),
             cuboid(DVec3::new(-1.0, -1.0, 0.5), DVec3::new(1.0, 1.0, 2.0)),
         ]);
         let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
-        let (count, length, points) = loops(&mesh, &shadows, 0);
+        let (count, length, points) = shadow_loops(&mesh, &shadows, 0);
         let fall = |p: DVec3| p - towards * (p.z / towards.z);
         // The contour has all corners except the ones nearest to the light and farthest from it.
         let s = DVec3::new(towards.x.signum(), towards.y.signum(), 0.0);
@@ -144,7 +146,7 @@ fn a_point_light_enlarges_shadows() {
         let light = DVec3::new(0.3, 0.2, height);
         let mesh = mesh([sheet([-12.0, -12.0], [12.0, 12.0], 0.0), sheet([-1.0, -0.5], [1.0, 0.5], 1.0)]);
         let shadows = Shadows::new(&mesh, &[Caster::Point { position: light - mesh.origin }]);
-        let (count, length, points) = loops(&mesh, &shadows, 0);
+        let (count, length, points) = shadow_loops(&mesh, &shadows, 0);
         let enlarged = |x: f64, y: f64| {
             let p = DVec3::new(x, y, 1.0);
             light + (p - light) * (height / (height - 1.0))
@@ -162,7 +164,7 @@ fn the_shadow_of_a_ring_has_a_hole() {
     let mesh = mesh([sheet([-10.0, -10.0], [10.0, 10.0], 0.0), ring]);
     let towards = DVec3::new(0.4, 0.1, 1.0);
     let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
-    let (count, _, _) = loops(&mesh, &shadows, 0);
+    let (count, _, _) = shadow_loops(&mesh, &shadows, 0);
     assert_eq!(count, 2);
     let ground = |x: f64, y: f64| DVec3::new(x, y, 0.0) - mesh.origin;
     let middle = DVec3::new(-0.8, -0.2, 0.0);
@@ -174,7 +176,7 @@ fn the_shadow_of_a_ring_has_a_hole() {
 }
 
 #[test]
-fn nothing_in_the_way_casts_nothing() {
+fn convex_solids_and_sheets_cast_no_shadow_on_themselves() {
     let lights = [
         Caster::Directional { towards: DVec3::new(0.3, -0.4, 0.8) },
         Caster::Directional { towards: DVec3::Z },
@@ -191,20 +193,21 @@ fn nothing_in_the_way_casts_nothing() {
         let shadows = Shadows::new(&mesh, &lights);
         assert!(shadows.lines.segments.is_empty(), "{:?}", shadows.lines.segments);
         let middles: Vec<(u32, DVec3)> =
-            (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
+            (0..mesh.triangles.len() as u32).map(|f| (f, face_centroid(&mesh, f))).collect();
         assert!(shadows.shadowed(&mesh, &middles).iter().all(|mask| *mask == 0));
     }
 }
 
 #[test]
-fn faces_of_solids_that_are_turned_away_are_not_in_a_cast_shadow_but_sheets_are() {
+fn sheets_are_shadowed_on_both_sides_and_averted_solid_faces_are_not() {
     let mesh = mesh([
         cuboid(DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 2.0)),
         sheet([-1.0, -1.0], [1.0, 1.0], 0.0),
         sheet([-1.0, -1.0], [1.0, 1.0], -1.0).moved(|p| DVec3::new(-p.x, p.y, p.z)),
     ]);
     let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::Z }]);
-    let asked: Vec<(u32, DVec3)> = (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
+    let asked: Vec<(u32, DVec3)> =
+        (0..mesh.triangles.len() as u32).map(|f| (f, face_centroid(&mesh, f))).collect();
     for ((face, p), mask) in asked.iter().zip(shadows.shadowed(&mesh, &asked)) {
         // Both sheets lie in the shadow of the box, for either winding.
         assert_eq!(mask, u32::from((p + mesh.origin).z < 0.5), "{face}");
@@ -212,7 +215,7 @@ fn faces_of_solids_that_are_turned_away_are_not_in_a_cast_shadow_but_sheets_are(
 }
 
 #[test]
-fn sheets_side_by_side_cast_no_seam() {
+fn adjacent_sheets_cast_one_shadow_without_a_seam() {
     // Two sheets that touch along x = 0 without a common vertex, above a ground.
     let mesh = mesh([
         sheet([-10.0, -10.0], [10.0, 10.0], 0.0),
@@ -220,7 +223,7 @@ fn sheets_side_by_side_cast_no_seam() {
         sheet([0.0, -1.5], [1.0, 1.5], 2.0),
     ]);
     let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::new(0.1, 0.2, 1.0) }]);
-    let (count, length, _) = loops(&mesh, &shadows, 0);
+    let (count, length, _) = shadow_loops(&mesh, &shadows, 0);
     assert_eq!(count, 1);
     assert!((length - 10.0).abs() < 1e-5, "{length}");
 }
@@ -253,7 +256,7 @@ fn points_and_lines_agree_with_rays_in_random_scenes() {
             part.geometry = scene.geometries.len() - 1;
             scene.parts.push(part);
             let mesh = Mesh::build(scene.to_soup());
-            let shadows = Shadows::new(&mesh, &lights(&mesh, &mut dice));
+            let shadows = Shadows::new(&mesh, &test_lights(&mesh, &mut dice));
             check_points(&mesh, &shadows, 300, &mut dice);
             let checked = check_lines(&mesh, &shadows);
             println!("{kind}: {checked} of {} lines checked", shadows.lines.segments.len());
@@ -263,7 +266,7 @@ fn points_and_lines_agree_with_rays_in_random_scenes() {
 }
 
 #[test]
-fn nothing_is_missing_between_separate_boxes() {
+fn shadow_borders_between_separate_boxes_are_complete() {
     let mut dice = Dice::new(12);
     for _ in 0..6 {
         let mut solids = vec![sheet([-4.0, -4.0], [4.0, 4.0], -1.6)];
@@ -277,7 +280,7 @@ fn nothing_is_missing_between_separate_boxes() {
             }
         }
         let mesh = mesh(solids);
-        let mut casters = lights(&mesh, &mut dice);
+        let mut casters = test_lights(&mesh, &mut dice);
         // Between the boxes, but inside none of them.
         casters[2] = Caster::Point { position: DVec3::new(0.5, dice.between(-1.0, 1.0), 0.5) - mesh.origin };
         let shadows = Shadows::new(&mesh, &casters);
@@ -288,7 +291,7 @@ fn nothing_is_missing_between_separate_boxes() {
 }
 
 #[test]
-fn size_place_and_threads_change_nothing() {
+fn cast_shadows_do_not_depend_on_scale_place_or_thread_count() {
     let at = |scale: f64, place: DVec3| {
         let put = |solid: Solid| solid.moved(|p| p * scale + place);
         let mesh = mesh([
@@ -322,7 +325,7 @@ fn size_place_and_threads_change_nothing() {
 }
 
 #[test]
-fn models_cast_shadows_on_themselves() {
+fn self_shadows_of_models_agree_with_rays() {
     let own = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/");
     for name in ["castle.obj", "pump.glb", "gear.obj", "bear.ply"] {
         let scene = Scene::open(std::path::Path::new(own).join(name)).expect("a model");

@@ -1,10 +1,11 @@
 //! Scenes with drawings in closed form: visible lines and their end points.
 
-use crate::support::measures::segment_sets::{cover_alike, distance, doubled, length};
+use crate::support::measures::segment_sets::{check_equal_cover, distance, doubled_length, total_length};
 use crate::support::pipeline::{
-    Stages, counting, exact, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+    Stages, exact_options, exact_options_with_hidden, orthographic, perspective, run_stages, scene,
+    scene_of_geometries, solid_geometry,
 };
-use crate::support::references::textbook_camera::Eye;
+use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::Point;
@@ -16,7 +17,7 @@ use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::visibility::ViewVertexKind;
 
 /// Largest distance of a computed end point from the known one, px.
-const EXACT_PX: f64 = 1e-6;
+const MAX_END_ERROR_PX: f64 = 1e-6;
 
 fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
@@ -59,26 +60,27 @@ fn outline(corners: &[DVec3]) -> Vec<[DVec3; 2]> {
 }
 
 /// Asserts that the visible lines cover exactly the given world segments, each once.
-fn shows(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
-    let wanted = Eye::new(camera).images(wanted);
-    let visible = stages.visible();
-    cover_alike(&visible, &wanted, EXACT_PX, 1e-5).unwrap_or_else(|message| panic!("{message}: {visible:?}"));
-    assert!(doubled(&visible, 1e-3) < 1e-2, "ink twice: {visible:?}");
+fn assert_visible_lines(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
+    let wanted = TextbookCamera::new(camera).project_segments(wanted);
+    let visible = stages.visible_segments();
+    check_equal_cover(&visible, &wanted, MAX_END_ERROR_PX, 1e-5)
+        .unwrap_or_else(|message| panic!("{message}: {visible:?}"));
+    assert!(doubled_length(&visible, 1e-3) < 1e-2, "ink twice: {visible:?}");
 }
 
 /// Counts visible view edges longer than a hundredth of a px. This skips lines seen end-on.
 fn count_visible(stages: &Stages) -> usize {
-    stages.visible().iter().filter(|[a, b]| distance(*a, *b) > 0.01).count()
+    stages.visible_segments().iter().filter(|[a, b]| distance(*a, *b) > 0.01).count()
 }
 
 #[test]
 fn a_cube_shows_nine_edges_and_hides_three() {
     for camera in generic_views() {
-        let drawn = stages(&scene([cube()]), &camera, &counting());
-        assert_eq!((count_visible(&drawn), drawn.hidden().len()), (9, 3));
+        let drawn = run_stages(&scene([cube()]), &camera, &exact_options_with_hidden());
+        assert_eq!((count_visible(&drawn), drawn.hidden_segments().len()), (9, 3));
         assert!(drawn.map.edges.iter().all(|e| e.invisibility <= 1), "one face lies before the hidden edges");
-        let contours = drawn.visible_of(LineKind::Contour).len();
-        assert_eq!((contours, drawn.visible_of(LineKind::Crease).len()), (6, 3));
+        let contours = drawn.visible_segments_of_kind(LineKind::Contour).len();
+        assert_eq!((contours, drawn.visible_segments_of_kind(LineKind::Crease).len()), (6, 3));
         assert!(drawn.map.edges.iter().all(|e| e.silhouette == (e.kind == LineKind::Contour)));
     }
 }
@@ -86,12 +88,12 @@ fn a_cube_shows_nine_edges_and_hides_three() {
 #[test]
 fn a_cube_from_the_front_is_a_square() {
     let camera = from_front(4.0);
-    let drawn = stages(&scene([cube()]), &camera, &counting());
+    let drawn = run_stages(&scene([cube()]), &camera, &exact_options_with_hidden());
     let front = [at(-1.0, -1.0, 1.0), at(1.0, -1.0, 1.0), at(1.0, 1.0, 1.0), at(-1.0, 1.0, 1.0)];
-    shows(&drawn, &camera, &outline(&front));
-    assert_eq!(drawn.visible().iter().filter(|[a, b]| distance(*a, *b) > 1.0).count(), 4);
+    assert_visible_lines(&drawn, &camera, &outline(&front));
+    assert_eq!(drawn.visible_segments().iter().filter(|[a, b]| distance(*a, *b) > 1.0).count(), 4);
     // The back square lies exactly behind the front one.
-    assert!((length(&drawn.hidden()) - 4.0 * 500.0).abs() < 1e-6);
+    assert!((total_length(&drawn.hidden_segments()) - 4.0 * 500.0).abs() < 1e-6);
 }
 
 #[test]
@@ -101,18 +103,18 @@ fn the_contour_of_a_sphere_is_a_circle() {
     let span = std::f64::consts::PI / around as f64 * std::f64::consts::SQRT_2;
     let (eye, distance_of_eye) = (at(1.0, 2.0, 5.0), 30.0_f64.sqrt());
     let perspective_view = perspective(eye, DVec3::ZERO, 40.0);
-    let scale = Eye::new(&perspective_view).scale;
+    let scale = TextbookCamera::new(&perspective_view).scale;
     let circles = [
         (perspective_view, scale / (distance_of_eye * distance_of_eye - 1.0).sqrt()),
         (orthographic(eye, DVec3::ZERO, 4.0), 250.0),
     ];
     for (camera, radius) in circles {
-        let drawn = stages(&scene([sphere(around, 1.0)]), &camera, &counting());
+        let drawn = run_stages(&scene([sphere(around, 1.0)]), &camera, &exact_options_with_hidden());
         let centre = Point::new(500.0, 500.0);
         let mut turned = 0.0;
         for edge in &drawn.map.edges {
             assert_eq!(edge.kind, LineKind::Contour);
-            let [a, b] = drawn.ends(edge);
+            let [a, b] = drawn.edge_ends(edge);
             for p in [a, b] {
                 let r = distance(p, centre);
                 let sagitta = radius * (1.0 - ligne::geometry::numbers::portable_math::cos(span)) * 1.3;
@@ -129,18 +131,18 @@ fn the_contour_of_a_sphere_is_a_circle() {
 }
 
 #[test]
-fn a_post_before_a_plate_ends_its_lines_at_computed_points() {
+fn a_post_in_front_of_a_plate_has_t_junctions_at_computed_points() {
     let plate = cuboid(at(-2.0, -1.0, -1.0), at(2.0, 1.0, 0.0));
     let post = cuboid(at(-0.3, -3.0, 2.0), at(0.5, 3.0, 3.0));
     let eye_point = at(0.7, 0.4, 10.0);
     let camera = perspective(eye_point, at(0.7, 0.4, 0.0), 40.0);
-    let drawn = stages(&scene([plate, post]), &camera, &counting());
-    let eye = Eye::new(&camera);
+    let drawn = run_stages(&scene([plate, post]), &camera, &exact_options_with_hidden());
+    let eye = TextbookCamera::new(&camera);
     // The post's contours, projected from the camera onto the plane z = 0.
     let shadow = |x: f64, z: f64| 0.7 + (x - 0.7) * 10.0 / (10.0 - z);
     let mut wanted = Vec::new();
     for x in [shadow(-0.3, 3.0), shadow(0.5, 2.0)] {
-        wanted.extend([-1.0, 1.0].map(|y| eye.image(at(x, y, 0.0))));
+        wanted.extend([-1.0, 1.0].map(|y| eye.project(at(x, y, 0.0))));
     }
     let visible = drawn.map.edges.iter().filter(|e| e.invisibility == 0);
     let nodes = visible.flat_map(|e| [e.start, e.end]).map(|v| drawn.map.vertices[v.index()]);
@@ -149,7 +151,7 @@ fn a_post_before_a_plate_ends_its_lines_at_computed_points() {
     assert_eq!(found.len(), 4, "{found:?}");
     for point in wanted {
         let nearest = found.iter().map(|p| distance(*p, point)).fold(f64::INFINITY, f64::min);
-        assert!(nearest < EXACT_PX, "no T-junction at {point}, {found:?}");
+        assert!(nearest < MAX_END_ERROR_PX, "no T-junction at {point}, {found:?}");
     }
 }
 
@@ -163,15 +165,15 @@ fn a_bar_is_seen_through_a_hole() {
     ]);
     let bar = rectangle([-2.5, 2.5], [-0.25, 0.5], 0.0);
     let camera = from_front(8.0);
-    let drawn = stages(&scene([frame, bar]), &camera, &counting());
-    let eye = Eye::new(&camera);
+    let drawn = run_stages(&scene([frame, bar]), &camera, &exact_options_with_hidden());
+    let eye = TextbookCamera::new(&camera);
     let inside = |[a, b]: &[Point; 2]| {
         let middle = a.midpoint(*b) - Point::new(500.0, 500.0);
         middle.x.abs() < 124.0 && middle.y.abs() < 124.0
     };
-    let seen: Vec<[Point; 2]> = drawn.visible().into_iter().filter(|s| inside(s)).collect();
+    let seen: Vec<[Point; 2]> = drawn.visible_segments().into_iter().filter(|s| inside(s)).collect();
     let wanted = [-0.25, 0.5].map(|y| [at(-1.0, y, 0.0), at(1.0, y, 0.0)]);
-    cover_alike(&seen, &eye.images(&wanted), EXACT_PX, 1e-5).unwrap();
+    check_equal_cover(&seen, &eye.project_segments(&wanted), MAX_END_ERROR_PX, 1e-5).unwrap();
 }
 
 #[test]
@@ -184,7 +186,7 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
         let (s, c) = (sin(elevation.to_radians()), cos(elevation.to_radians()));
         let thick = tube > s * s;
         let camera = orthographic(at(0.0, -10.0 * c, 10.0 * s), DVec3::ZERO, 4.0);
-        let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &exact());
+        let drawn = run_stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &exact_options());
         let chains = chains::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
         let open: Vec<_> = chains.iter().filter(|c| !c.closed && c.invisibility == 0).collect();
         let ends: Vec<Point> =
@@ -206,60 +208,67 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
             assert_eq!((closed, open.len()), (2, 0), "elevation {elevation}, tube {tube}");
         }
         // The outermost points of the image.
-        let reach = drawn.visible().iter().flatten().map(|p| (p.x - 500.0).abs()).fold(0.0, f64::max);
+        let reach =
+            drawn.visible_segments().iter().flatten().map(|p| (p.x - 500.0).abs()).fold(0.0, f64::max);
         let known = 250.0 * (1.0 + tube);
         assert!(reach <= known + 1e-6 && reach > known * 0.998, "{reach} of {known}");
     }
 }
 
 #[test]
-fn a_beam_through_a_cube_is_marked_where_it_enters() {
+fn a_beam_through_a_cube_has_intersection_lines() {
     let camera = perspective(at(5.0, 3.0, 4.0), DVec3::ZERO, 50.0);
     let beam = cuboid(at(-3.0, -0.5, -0.25), at(3.0, 0.5, 0.25));
-    let drawn = stages(&scene([cube(), beam]), &camera, &counting());
+    let drawn = run_stages(&scene([cube(), beam]), &camera, &exact_options_with_hidden());
     let seen = [[at(1.0, 0.5, -0.25), at(1.0, 0.5, 0.25)], [at(1.0, -0.5, 0.25), at(1.0, 0.5, 0.25)]];
-    let found = drawn.visible_of(LineKind::Intersection);
-    cover_alike(&found, &Eye::new(&camera).images(&seen), EXACT_PX, 2e-3).unwrap();
+    let found = drawn.visible_segments_of_kind(LineKind::Intersection);
+    check_equal_cover(&found, &TextbookCamera::new(&camera).project_segments(&seen), MAX_END_ERROR_PX, 2e-3)
+        .unwrap();
 }
 
 #[test]
 fn a_square_exactly_behind_another_is_hidden() {
     let camera = perspective(at(0.0, 0.0, 4.0), DVec3::ZERO, 60.0);
     let square = |half: f64, z: f64| rectangle([-half, half], [-half, half], z);
-    let drawn = stages(&scene([square(2.0, 0.0), square(1.0, 2.0)]), &camera, &counting());
+    let drawn =
+        run_stages(&scene([square(2.0, 0.0), square(1.0, 2.0)]), &camera, &exact_options_with_hidden());
     let front = [at(-1.0, -1.0, 2.0), at(1.0, -1.0, 2.0), at(1.0, 1.0, 2.0), at(-1.0, 1.0, 2.0)];
-    shows(&drawn, &camera, &outline(&front));
-    assert!((length(&drawn.hidden()) - length(&drawn.visible())).abs() < 1e-6);
+    assert_visible_lines(&drawn, &camera, &outline(&front));
+    assert!((total_length(&drawn.hidden_segments()) - total_length(&drawn.visible_segments())).abs() < 1e-6);
 }
 
 #[test]
 fn squares_that_overlap_in_one_plane_are_both_drawn_once() {
     let camera = from_front(8.0);
     let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [1.0, 3.0], 0.0)];
-    let drawn = stages(&scene(squares), &camera, &counting());
-    assert!((length(&drawn.visible()) - 16.0 * 125.0).abs() < 1e-6);
-    assert!(drawn.hidden().is_empty());
+    let drawn = run_stages(&scene(squares), &camera, &exact_options_with_hidden());
+    assert!((total_length(&drawn.visible_segments()) - 16.0 * 125.0).abs() < 1e-6);
+    assert!(drawn.hidden_segments().is_empty());
 
     // Two sides coincide over one unit each.
     let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [0.0, 2.0], 0.0)];
-    let drawn = stages(&scene(squares), &camera, &counting());
-    assert!((length(&drawn.visible()) - 14.0 * 125.0).abs() < 0.1, "{}", length(&drawn.visible()));
+    let drawn = run_stages(&scene(squares), &camera, &exact_options_with_hidden());
+    assert!(
+        (total_length(&drawn.visible_segments()) - 14.0 * 125.0).abs() < 0.1,
+        "{}",
+        total_length(&drawn.visible_segments())
+    );
 }
 
 #[test]
-fn faces_hardly_apart_are_drawn_as_one() {
+fn nearly_coincident_faces_are_drawn_as_one() {
     for camera in generic_views() {
         let square = |z: f64| rectangle([-1.0, 1.0], [-1.0, 1.0], z);
-        let drawn = stages(&scene([square(0.0), square(1e-7)]), &camera, &counting());
+        let drawn = run_stages(&scene([square(0.0), square(1e-7)]), &camera, &exact_options_with_hidden());
         let corners = [at(-1.0, -1.0, 0.0), at(1.0, -1.0, 0.0), at(1.0, 1.0, 0.0), at(-1.0, 1.0, 0.0)];
-        let wanted = Eye::new(&camera).images(&outline(&corners));
-        cover_alike(&drawn.visible(), &wanted, 1e-3, 1e-2).unwrap();
-        assert!(doubled(&drawn.visible(), 1e-3) < 1e-2);
+        let wanted = TextbookCamera::new(&camera).project_segments(&outline(&corners));
+        check_equal_cover(&drawn.visible_segments(), &wanted, 1e-3, 1e-2).unwrap();
+        assert!(doubled_length(&drawn.visible_segments(), 1e-3) < 1e-2);
     }
 }
 
 #[test]
-fn nothing_shines_through_the_cracks_at_t_vertices() {
+fn t_vertices_leave_no_visible_cracks() {
     // The left half of the plate has no vertex at the middle of its right side.
     let plate = joined([
         rectangle([-2.0, 0.1], [-2.0, 2.0], 0.0),
@@ -268,22 +277,23 @@ fn nothing_shines_through_the_cracks_at_t_vertices() {
     ]);
     let behind = cuboid(at(-0.9, -0.9, -3.0), at(0.9, 0.9, -2.0));
     for camera in [perspective(at(0.3, 0.2, 9.0), DVec3::ZERO, 40.0), from_front(5.0)] {
-        let drawn = stages(&scene([plate.clone(), behind.clone()]), &camera, &counting());
+        let drawn =
+            run_stages(&scene([plate.clone(), behind.clone()]), &camera, &exact_options_with_hidden());
         let of_behind = drawn.map.edges.iter().filter(|e| e.part.index() == 1 && e.invisibility == 0);
-        let shining: f64 = of_behind.map(|e| length(&[drawn.ends(e)])).sum();
+        let shining: f64 = of_behind.map(|e| total_length(&[drawn.edge_ends(e)])).sum();
         assert_eq!(shining, 0.0);
-        assert!(doubled(&drawn.visible(), 1e-3) < 1e-2, "{:?}", drawn.visible());
+        assert!(doubled_length(&drawn.visible_segments(), 1e-3) < 1e-2, "{:?}", drawn.visible_segments());
     }
 }
 
 #[test]
-fn doubled_faces_change_nothing() {
+fn duplicated_faces_change_no_lines() {
     for camera in generic_views() {
         let mut twice = cube();
         let flipped = twice.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect::<Vec<_>>();
         twice.triangles.extend(flipped);
-        let drawn = stages(&scene([twice]), &camera, &counting());
-        assert_eq!((count_visible(&drawn), drawn.hidden().len()), (9, 3));
+        let drawn = run_stages(&scene([twice]), &camera, &exact_options_with_hidden());
+        assert_eq!((count_visible(&drawn), drawn.hidden_segments().len()), (9, 3));
     }
 }
 
@@ -293,25 +303,30 @@ fn cubes_that_share_an_edge_or_a_vertex_show_all_their_lines() {
     let first = || cuboid(DVec3::ZERO, DVec3::ONE);
     for camera in [orthographic(eye, at(1.0, 1.0, 0.5), 5.0), perspective(eye, at(1.0, 1.0, 0.5), 35.0)] {
         let second = cuboid(at(1.0, 1.0, 0.0), at(2.0, 2.0, 1.0));
-        let drawn = stages(&scene([joined([first(), second])]), &camera, &counting());
+        let drawn = run_stages(&scene([joined([first(), second])]), &camera, &exact_options_with_hidden());
         assert_eq!(count_visible(&drawn), 17, "an edge");
         let second = cuboid(at(1.0, 1.0, 1.0), at(2.0, 2.0, 2.0));
-        let drawn = stages(&scene([joined([first(), second])]), &camera, &counting());
+        let drawn = run_stages(&scene([joined([first(), second])]), &camera, &exact_options_with_hidden());
         assert_eq!(count_visible(&drawn), 18, "a vertex");
     }
 }
 
 #[test]
-fn an_inner_wall_is_not_seen() {
+fn inner_walls_are_not_visible() {
     // A box of two chambers. The outer sides are split where the wall meets them.
     let halves = joined([
         cuboid(at(-1.0, -0.5, -0.5), at(0.0, 0.5, 0.5)),
         cuboid(at(0.0, -0.5, -0.5), at(1.0, 0.5, 0.5)),
     ]);
     for camera in generic_views() {
-        let drawn = stages(&scene([halves.clone()]), &camera, &counting());
-        let plain = stages(&scene([cuboid(at(-1.0, -0.5, -0.5), at(1.0, 0.5, 0.5))]), &camera, &counting());
-        cover_alike(&drawn.visible(), &plain.visible(), EXACT_PX, 1e-5).unwrap();
+        let drawn = run_stages(&scene([halves.clone()]), &camera, &exact_options_with_hidden());
+        let plain = run_stages(
+            &scene([cuboid(at(-1.0, -0.5, -0.5), at(1.0, 0.5, 0.5))]),
+            &camera,
+            &exact_options_with_hidden(),
+        );
+        check_equal_cover(&drawn.visible_segments(), &plain.visible_segments(), MAX_END_ERROR_PX, 1e-5)
+            .unwrap();
     }
 }
 
@@ -320,9 +335,13 @@ fn a_bow_tie_shows_its_six_sides() {
     let camera = from_front(4.0);
     let left = [at(0.0, 0.0, 0.0), at(-1.0, 0.5, 0.0), at(-1.0, -0.5, 0.0)];
     let right = [at(0.0, 0.0, 0.0), at(1.0, -0.5, 0.0), at(1.0, 0.5, 0.0)];
-    let drawn = stages(&scene([joined([polygon(&left), polygon(&right)])]), &camera, &counting());
+    let drawn = run_stages(
+        &scene([joined([polygon(&left), polygon(&right)])]),
+        &camera,
+        &exact_options_with_hidden(),
+    );
     assert_eq!(count_visible(&drawn), 6);
-    shows(&drawn, &camera, &[outline(&left), outline(&right)].concat());
+    assert_visible_lines(&drawn, &camera, &[outline(&left), outline(&right)].concat());
 }
 
 /// A strip with half a twist.
@@ -347,29 +366,29 @@ fn moebius(around: usize) -> Solid {
 fn a_moebius_strip_has_one_border_and_no_crease() {
     let around = 120;
     for camera in generic_views() {
-        let drawn = stages(&scene([moebius(around)]), &camera, &counting());
+        let drawn = run_stages(&scene([moebius(around)]), &camera, &exact_options_with_hidden());
         let mut borders: Vec<u32> =
             drawn.map.edges.iter().filter(|e| e.kind == LineKind::Border).map(|e| e.segment).collect();
         borders.dedup();
         assert_eq!(borders.len(), 2 * around);
         assert!(drawn.map.edges.iter().all(|e| e.kind == LineKind::Border || e.kind == LineKind::Contour));
-        assert!(!drawn.visible_of(LineKind::Contour).is_empty(), "it turns away somewhere");
+        assert!(!drawn.visible_segments_of_kind(LineKind::Contour).is_empty(), "it turns away somewhere");
     }
 }
 
 #[test]
-fn the_near_plane_cuts_at_known_places() {
+fn the_near_plane_clips_at_computed_points() {
     // A rail from the side of the camera into the distance. The near plane lies 2 in front of the camera.
     let rail = rectangle([-1.0, 1.0], [-0.1, 0.1], 0.0).moved(|p| at(p.x, -0.5, 5.0 * p.y * 2.0));
     let camera = Camera { near: Some(2.0), ..perspective(at(0.0, 0.0, 2.0), at(0.0, 0.0, 0.0), 90.0) };
-    let drawn = stages(&scene([rail]), &camera, &counting());
+    let drawn = run_stages(&scene([rail]), &camera, &exact_options_with_hidden());
     // The rail reaches from z = −1 to 1. The part nearer than z = 0 is clipped.
     let wanted = [
         [at(-1.0, -0.5, -1.0), at(1.0, -0.5, -1.0)],
         [at(-1.0, -0.5, -1.0), at(-1.0, -0.5, 0.0)],
         [at(1.0, -0.5, -1.0), at(1.0, -0.5, 0.0)],
     ];
-    shows(&drawn, &camera, &wanted);
+    assert_visible_lines(&drawn, &camera, &wanted);
     let cut = drawn.map.vertices.iter().filter(|v| v.kind == ViewVertexKind::Frame);
     let depths: Vec<f64> = cut.map(|v| v.depth).collect();
     assert_eq!(depths.len(), 2);
@@ -377,82 +396,95 @@ fn the_near_plane_cuts_at_known_places() {
 }
 
 #[test]
-fn an_eye_inside_a_cube_sees_its_edges_from_within() {
+fn a_camera_inside_a_cube_shows_its_edges() {
     let camera = perspective(DVec3::ZERO, at(0.0, 0.0, -1.0), 120.0);
-    let drawn = stages(&scene([cube()]), &camera, &counting());
+    let drawn = run_stages(&scene([cube()]), &camera, &exact_options_with_hidden());
     // The edges towards the camera continue outside the frame.
     let tan = ligne::geometry::numbers::portable_math::tan(60.0_f64.to_radians());
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let far: Vec<DVec3> = corners.iter().map(|(x, y)| at(*x, *y, -1.0)).collect();
     let mut wanted = outline(&far);
     wanted.extend(corners.iter().map(|(x, y)| [at(*x, *y, -1.0), at(*x, *y, -1.0 / tan)]));
-    shows(&drawn, &camera, &wanted);
+    assert_visible_lines(&drawn, &camera, &wanted);
     assert!(drawn.map.edges.iter().all(|e| e.kind == LineKind::Crease && e.invisibility == 0));
 }
 
 #[test]
-fn wires_are_seen_and_hidden_like_other_lines() {
+fn wires_are_visible_or_hidden_like_other_lines() {
     let wire = Geometry {
         positions: vec![at(-2.0, 0.25, -1.0), at(2.0, 0.25, -1.0), at(-2.0, -0.25, 1.0), at(2.0, -0.25, 1.0)],
         wires: vec![[0, 1], [2, 3]],
         ..Geometry::default()
     };
-    let plate = geometry(rectangle([-1.0, 0.5], [-1.0, 1.0], 0.0));
+    let plate = solid_geometry(rectangle([-1.0, 0.5], [-1.0, 1.0], 0.0));
     let camera = from_front(5.0);
-    let drawn = stages(&scene_of_geometries(vec![wire, plate]), &camera, &counting());
+    let drawn = run_stages(&scene_of_geometries(vec![wire, plate]), &camera, &exact_options_with_hidden());
     let wanted = [
         [at(-2.0, -0.25, 1.0), at(2.0, -0.25, 1.0)],
         [at(-2.0, 0.25, -1.0), at(-1.0, 0.25, -1.0)],
         [at(0.5, 0.25, -1.0), at(2.0, 0.25, -1.0)],
     ];
-    cover_alike(&drawn.visible_of(LineKind::Wire), &Eye::new(&camera).images(&wanted), EXACT_PX, 1e-5)
-        .unwrap();
+    check_equal_cover(
+        &drawn.visible_segments_of_kind(LineKind::Wire),
+        &TextbookCamera::new(&camera).project_segments(&wanted),
+        MAX_END_ERROR_PX,
+        1e-5,
+    )
+    .unwrap();
 }
 
 #[test]
 fn a_border_between_materials_is_a_line() {
-    let two =
-        Geometry { triangle_material: vec![0, 1], ..geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0)) };
+    let two = Geometry {
+        triangle_material: vec![0, 1],
+        ..solid_geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
+    };
     let with_materials = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![two]) };
     let camera = from_front(4.0);
-    let drawn = stages(&with_materials, &camera, &counting());
+    let drawn = run_stages(&with_materials, &camera, &exact_options_with_hidden());
     let diagonal = [[at(-1.0, -1.0, 0.0), at(1.0, 1.0, 0.0)]];
-    cover_alike(&drawn.visible_of(LineKind::Material), &Eye::new(&camera).images(&diagonal), EXACT_PX, 1e-5)
-        .unwrap();
+    check_equal_cover(
+        &drawn.visible_segments_of_kind(LineKind::Material),
+        &TextbookCamera::new(&camera).project_segments(&diagonal),
+        MAX_END_ERROR_PX,
+        1e-5,
+    )
+    .unwrap();
     assert_eq!(count_visible(&drawn), 5);
 }
 
 #[test]
-fn parts_of_two_materials_that_lie_on_each_other_have_no_border_inside() {
+fn coincident_parts_of_two_materials_have_no_inner_border() {
     let sheet = |material: u32| Geometry {
         triangle_material: vec![material; 2],
-        ..geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
+        ..solid_geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
     };
     let both =
         Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), sheet(1)]) };
-    let drawn = stages(&both, &from_front(4.0), &counting());
-    assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (4, 0));
+    let drawn = run_stages(&both, &from_front(4.0), &exact_options_with_hidden());
+    assert_eq!((count_visible(&drawn), drawn.visible_segments_of_kind(LineKind::Material).len()), (4, 0));
 
     // If one of them ends inside the other, there is a border.
     let half = Geometry { triangles: vec![[0, 1, 2]], triangle_material: vec![1], ..sheet(1) };
     let both = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), half]) };
-    let drawn = stages(&both, &from_front(4.0), &counting());
-    assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (5, 1));
+    let drawn = run_stages(&both, &from_front(4.0), &exact_options_with_hidden());
+    assert_eq!((count_visible(&drawn), drawn.visible_segments_of_kind(LineKind::Material).len()), (5, 1));
 }
 
 #[test]
-fn marks_of_the_file_make_and_unmake_creases() {
-    let mut square = geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0));
+fn edge_marks_of_the_file_add_and_remove_creases() {
+    let mut square = solid_geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0));
     let plain = EdgeMark::Unmarked;
     square.edge_marks = vec![[plain, plain, EdgeMark::Hard], [plain; 3]];
-    let drawn = stages(&scene_of_geometries(vec![square]), &from_front(4.0), &counting());
-    assert_eq!(drawn.visible_of(LineKind::Crease).len(), 1);
+    let drawn =
+        run_stages(&scene_of_geometries(vec![square]), &from_front(4.0), &exact_options_with_hidden());
+    assert_eq!(drawn.visible_segments_of_kind(LineKind::Crease).len(), 1);
 
     for camera in generic_views() {
-        let mut soft = geometry(cube());
+        let mut soft = solid_geometry(cube());
         soft.edge_marks = vec![[EdgeMark::Hidden; 3]; soft.triangles.len()];
-        let drawn = stages(&scene_of_geometries(vec![soft]), &camera, &counting());
-        assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Contour).len()), (6, 6));
+        let drawn = run_stages(&scene_of_geometries(vec![soft]), &camera, &exact_options_with_hidden());
+        assert_eq!((count_visible(&drawn), drawn.visible_segments_of_kind(LineKind::Contour).len()), (6, 6));
     }
 }
 
@@ -460,8 +492,11 @@ fn marks_of_the_file_make_and_unmake_creases() {
 fn lines_seen_end_on_leave_no_dots() {
     let camera = from_front(5.0);
     let plate = cuboid(at(-2.0, -2.0, 0.0), at(2.0, 2.0, 0.5));
-    let drawn =
-        stages(&scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]), &camera, &counting());
+    let drawn = run_stages(
+        &scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]),
+        &camera,
+        &exact_options_with_hidden(),
+    );
     let off = Length::px(0.0);
     let plain = ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
     let chains = chains::link(&drawn.map, &plain, Unit::Px, HiddenLines::None);

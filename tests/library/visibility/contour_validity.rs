@@ -7,21 +7,23 @@
 use crate::support::readers::shared_folder;
 use std::path::PathBuf;
 
-use crate::support::references::contour_stops::{Tally, cameras, check, view_map};
-use crate::support::references::polyhedron_contour::{Both, summary};
+use crate::support::references::contour_stops::{
+    ContourEndCounts, build_view_map, count_contour_ends, cube_cameras,
+};
+use crate::support::references::polyhedron_contour::{SmoothAndMeshSurface, distance_summary};
 use ligne::lines::{LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene};
 
 /// A model, the largest number of polyhedron contour pieces drawn per view, and the smallest share of
 /// explained stops in percent.
-type Level = (&'static str, f64, f64);
+type ContourLevel = (&'static str, f64, f64);
 
 /// Levels for every third view.
-const QUICK: [Level; 1] = [("examples/models/knot.ply", 3.9, 97.3)];
+const QUICK_LEVELS: [ContourLevel; 1] = [("examples/models/knot.ply", 3.9, 97.3)];
 
 /// Levels for all views. `examples/…` is in the repository; the others are shared models.
-const ALL: [Level; 8] = [
+const NIGHTLY_LEVELS: [ContourLevel; 8] = [
     ("examples/models/knot.ply", 4.0, 98.2),
     ("organic/spot.obj", 8.0, 85.0),
     ("organic/suzanne.obj", 70.1, 71.7),
@@ -41,23 +43,23 @@ fn open(name: &str) -> Option<Scene> {
 }
 
 /// Checks models against their levels, in every `step`-th view.
-fn hold(levels: &[Level], step: usize) {
+fn check_levels(levels: &[ContourLevel], step: usize) {
     let options = LineOptions::default();
     let mut faults = Vec::new();
-    println!("{}", Tally::header());
+    println!("{}", ContourEndCounts::header());
     for (name, bare, explained) in levels {
         let Some(scene) = open(name) else { continue };
         let surface = Surface::new(Mesh::build(scene.to_soup()), &options);
-        let mut tally = Tally::default();
-        for camera in cameras(&scene).into_iter().step_by(step) {
-            tally.add(check(&view_map(&surface, &camera, &options)));
+        let mut tally = ContourEndCounts::default();
+        for camera in cube_cameras(&scene).into_iter().step_by(step) {
+            tally.add(count_contour_ends(&build_view_map(&surface, &camera, &options)));
         }
         println!("{}", tally.row(name));
         assert!(
             tally.stops > 100 && tally.curves * step as u64 > 25,
             "{name} has hardly any smooth contours"
         );
-        if tally.bare_a_view() > *bare || tally.explained() < *explained {
+        if tally.mesh_contours_per_view() > *bare || tally.explained_percent() < *explained {
             faults.push(format!(
                 "{name}: more than {bare} bare pieces a view or less than {explained} % explained"
             ));
@@ -67,30 +69,30 @@ fn hold(levels: &[Level], step: usize) {
 }
 
 #[test]
-fn contours_stop_where_something_explains_it() {
-    hold(&QUICK, 3);
+fn contours_stop_only_at_explained_places() {
+    check_levels(&QUICK_LEVELS, 3);
 }
 
 #[test]
 #[ignore = "long: .ci/nightly"]
-fn contours_of_all_models_stop_where_something_explains_it() {
-    hold(&ALL, 1);
+fn contours_of_all_models_stop_only_at_explained_places() {
+    check_levels(&NIGHTLY_LEVELS, 1);
 }
 
 /// Checks the smallest share (percent) of the smooth contours within half a px of the polyhedron's contour,
 /// per model.
-fn lie_near(models: &[(&str, f64)], views: &[[f64; 2]]) {
+fn check_polyhedron_distances(models: &[(&str, f64)], views: &[[f64; 2]]) {
     let mut faults = Vec::new();
     for (name, least) in models {
         let Some(scene) = open(name) else { continue };
-        let both = Both::of(&scene);
+        let both = SmoothAndMeshSurface::of(&scene);
         let mut distances = Vec::new();
         for [azimuth, elevation] in views {
             let camera = Camera::azimuth_elevation(*azimuth, *elevation, scene.up).fit(&scene);
             distances.extend(both.distances(&camera).expect("smooth contours"));
         }
         distances.sort_by(f64::total_cmp);
-        let [half, most, all, share] = summary(&distances);
+        let [half, most, all, share] = distance_summary(&distances);
         println!(
             "{name}: {half:.3} px at half, {most:.3} at 95 %, {all:.3} at most; {share:.2} % within 0.5"
         );
@@ -104,7 +106,7 @@ fn lie_near(models: &[(&str, f64)], views: &[[f64; 2]]) {
 
 #[test]
 fn smooth_contours_of_a_fine_model_lie_on_those_of_the_polyhedron() {
-    lie_near(&[("organic/stanford-bunny.obj", 96.5)], &[[35.0, 22.0]]);
+    check_polyhedron_distances(&[("organic/stanford-bunny.obj", 96.5)], &[[35.0, 22.0]]);
 }
 
 #[test]
@@ -116,5 +118,5 @@ fn smooth_contours_of_fine_models_lie_on_those_of_the_polyhedron() {
         ("organic/armadillo.obj", 89.1),
         ("mechanical/rocker-arm.obj", 91.7),
     ];
-    lie_near(&models, &[[35.0, 22.0], [125.0, 0.0], [215.0, 50.0], [305.0, -20.0]]);
+    check_polyhedron_distances(&models, &[[35.0, 22.0], [125.0, 0.0], [215.0, 50.0], [305.0, -20.0]]);
 }

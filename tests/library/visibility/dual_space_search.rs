@@ -1,14 +1,14 @@
 //! The contour search in dual space finds exactly the lines of testing every edge, and tests few edges.
 
-use crate::support::long_run::{is_long, some};
-use crate::support::pipeline::{exact, orthographic, perspective, scene};
+use crate::support::long_run::{is_long, select_for_run};
+use crate::support::pipeline::{exact_options, orthographic, perspective, scene};
 use crate::support::readers::shared_folder;
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{CAMERAS, SCENES, random_camera, random_scene};
+use crate::support::scenes::random_scenes::{ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene};
 use crate::support::scenes::round_solids;
 use crate::support::scenes::solids::{Solid, cuboid, sphere};
 use glam::DVec3;
-use ligne::lines::{self, Contours, EdgeSearch, Known, LineKind, LineOptions, Surface};
+use ligne::lines::{self, Contours, EdgeSearch, LineKind, LineOptions, SharedSearches, Surface};
 use ligne::mesh::bvh::ToneTree;
 use ligne::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::scene::{Camera, Projection, Scene};
@@ -19,7 +19,7 @@ use ligne::view::View;
 fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &LineOptions) -> (usize, usize) {
     let view = View::new(&surface.mesh, camera);
     let plain = lines::extract(surface, &view, options);
-    let known = Known { search: Some(search), ..Known::default() };
+    let known = SharedSearches { search: Some(search), ..SharedSearches::default() };
     assert_eq!(lines::extract_with(surface, known, &view, options), plain, "{camera:?}");
 
     let found = search.tree().candidates(view.frame.homogeneous_eye()).items;
@@ -41,7 +41,7 @@ fn check_all(scene: &Scene, cameras: &[Camera], options: &LineOptions) {
 }
 
 /// Directions to the 6 faces, 12 edges and 8 corners of a cube.
-fn around() -> Vec<DVec3> {
+fn cube_directions() -> Vec<DVec3> {
     let steps = [-1.0, 0.0, 1.0];
     let all = steps.iter().flat_map(|x| steps.map(|y| (*x, y)));
     all.flat_map(|(x, y)| steps.map(|z| DVec3::new(x, y, z))).filter(|d| *d != DVec3::ZERO).collect()
@@ -53,19 +53,19 @@ fn views(distance: f64) -> Vec<Camera> {
         let eye = d.normalize() * distance;
         [orthographic(eye, DVec3::ZERO, 3.0), perspective(eye, DVec3::ZERO, 40.0)]
     };
-    around().into_iter().flat_map(both).collect()
+    cube_directions().into_iter().flat_map(both).collect()
 }
 
 #[test]
-fn random_scenes_have_the_same_lines() {
+fn dual_search_finds_the_same_lines_in_random_scenes() {
     let mut dice = Dice::new(31);
-    let mut asked_for = [exact(), LineOptions::default(), exact()];
+    let mut asked_for = [exact_options(), LineOptions::default(), exact_options()];
     asked_for[1].contours = Contours::Smooth;
     asked_for[2].kinds = vec![LineKind::Contour];
-    for kind in SCENES {
+    for kind in ALL_SCENE_KINDS {
         for options in &asked_for {
             let scene = random_scene(kind, &mut dice);
-            let cameras: Vec<Camera> = CAMERAS
+            let cameras: Vec<Camera> = ALL_CAMERA_KINDS
                 .iter()
                 .flat_map(|c| [random_camera(c, &mut dice), random_camera(c, &mut dice)])
                 .collect();
@@ -76,7 +76,7 @@ fn random_scenes_have_the_same_lines() {
 }
 
 #[test]
-fn mixed_winding_materials_and_stitches_change_nothing() {
+fn dual_search_handles_mixed_winding_materials_and_stitches() {
     let mut dice = Dice::new(5);
     for round in 0..6 {
         let mut solid = sphere(9, 0.8);
@@ -95,16 +95,16 @@ fn mixed_winding_materials_and_stitches_change_nothing() {
         let mut soup = scene([solid]).to_soup();
         soup.triangle_material =
             (0..soup.triangles.len()).map(|_| MaterialId(dice.below(9) as u32 / 8)).collect();
-        let surface = Surface::new(Mesh::build(soup), &exact());
+        let surface = Surface::new(Mesh::build(soup), &exact_options());
         let search = EdgeSearch::new(&surface);
         for camera in views(3.0) {
-            check(&surface, &search, &camera, &exact());
+            check(&surface, &search, &camera, &exact_options());
         }
     }
 }
 
 #[test]
-fn any_size_place_and_eye_will_do() {
+fn dual_search_works_at_any_scale_place_and_camera() {
     let grains = |scale: f64, place: DVec3| {
         scene([
             sphere(11, 1.0).moved(|p| p * scale + place),
@@ -114,19 +114,19 @@ fn any_size_place_and_eye_will_do() {
     for scale in [1e-120, 1e-60, 1e-9, 1.0, 1e9, 1e60, 1e110] {
         for place in [DVec3::ZERO, DVec3::new(3e5, -2e6, 1.0) * scale] {
             let scene = grains(scale, place);
-            let surface = Surface::new(Mesh::build(scene.to_soup()), &exact());
+            let surface = Surface::new(Mesh::build(scene.to_soup()), &exact_options());
             let search = EdgeSearch::new(&surface);
             let origin = surface.mesh.origin;
             let vertex = origin + surface.mesh.positions[17];
             for distance in [0.0, 1e-9, 0.3, 3.0, 1e12, 1e60] {
-                for direction in some(around()) {
+                for direction in select_for_run(cube_directions()) {
                     let away = direction.normalize() * (scale * distance);
                     for camera in [
                         perspective(origin + away, origin - direction * scale, 40.0),
                         perspective(vertex + away, vertex - direction * scale, 40.0),
                         orthographic(origin + direction * scale, origin, 3.0 * scale),
                     ] {
-                        check(&surface, &search, &camera, &exact());
+                        check(&surface, &search, &camera, &exact_options());
                     }
                 }
             }
@@ -135,13 +135,13 @@ fn any_size_place_and_eye_will_do() {
 }
 
 #[test]
-fn a_box_has_the_contours_it_must_have() {
+fn a_box_has_the_contours_of_its_visible_sides() {
     let boxes = scene([cuboid(DVec3::NEG_ONE, DVec3::ONE)]);
-    let options = LineOptions { crease_deg: 180.0, ..exact() };
+    let options = LineOptions { crease_deg: 180.0, ..exact_options() };
     let surface = Surface::new(Mesh::build(boxes.to_soup()), &options);
     let search = EdgeSearch::new(&surface);
     assert_eq!((search.tree().len(), search.fixed().len()), (18, 0));
-    for direction in around() {
+    for direction in cube_directions() {
         // One, two or three sides are visible.
         let contours = [4, 6, 6][direction.abs().element_sum() as usize - 1];
         for camera in
@@ -155,15 +155,15 @@ fn a_box_has_the_contours_it_must_have() {
 }
 
 #[test]
-fn few_edges_of_a_round_solid_are_asked() {
+fn dual_search_tests_few_edges_of_round_solids() {
     let mut shares = Vec::new();
     for level in [3, 4, 5, 6] {
         let globe = scene([round_solids::icosphere(level)]);
-        let surface = Surface::new(Mesh::build(globe.to_soup()), &exact());
+        let surface = Surface::new(Mesh::build(globe.to_soup()), &exact_options());
         let search = EdgeSearch::new(&surface);
         let (mut asked, mut contours, mut count) = (0, 0, 0);
         for camera in views(4.0) {
-            let (a, c) = check(&surface, &search, &camera, &exact());
+            let (a, c) = check(&surface, &search, &camera, &exact_options());
             (asked, contours, count) = (asked + a, contours + c, count + 1);
         }
         assert!(asked >= contours);
@@ -176,7 +176,7 @@ fn few_edges_of_a_round_solid_are_asked() {
 }
 
 #[test]
-fn edges_that_are_left_out_are_no_contours() {
+fn edges_left_out_by_the_dual_search_are_no_contours() {
     let mut dice = Dice::new(77);
     let scene = random_scene("mixture", &mut dice);
     let mesh = Mesh::build(scene.to_soup());
@@ -203,7 +203,7 @@ fn edges_that_are_left_out_are_no_contours() {
 }
 
 #[test]
-fn triangles_that_hold_the_border_of_a_tone_are_found() {
+fn tone_tree_finds_all_triangles_with_a_tone_border() {
     let mut dice = Dice::new(8);
     let ball = round_solids::icosphere(5);
     let corners: Vec<[DVec3; 3]> =
@@ -237,7 +237,7 @@ fn triangles_that_hold_the_border_of_a_tone_are_found() {
 }
 
 #[test]
-fn models_have_the_same_lines() {
+fn dual_search_finds_the_same_lines_in_models() {
     let own = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/");
     let own = ["gear.obj", "pump.glb", "knot.ply", "bracket.stl", "bear.ply", "castle.obj", "teapot.obj"]
         .map(|name| Some(std::path::PathBuf::from(format!("{own}{name}"))));
@@ -246,10 +246,10 @@ fn models_have_the_same_lines() {
     for path in own.into_iter().chain(shared).flatten() {
         let scene = Scene::open(&path).expect("a model");
         let mesh = Mesh::build(scene.to_soup());
-        for options in [exact(), LineOptions::default()] {
+        for options in [exact_options(), LineOptions::default()] {
             let surface = Surface::new(mesh.clone(), &options);
             let search = EdgeSearch::new(&surface);
-            for direction in around().into_iter().step_by(5) {
+            for direction in cube_directions().into_iter().step_by(5) {
                 let camera =
                     Camera { eye: direction.normalize(), target: DVec3::ZERO, ..Camera::three_quarter() };
                 let parallel = camera.with_projection(Projection::Orthographic { height: 1.0 }).fit(&scene);
@@ -267,15 +267,15 @@ fn models_have_the_same_lines() {
 }
 
 #[test]
-fn an_empty_surface_is_searched_too() {
-    let surface = Surface::new(Mesh::build(scene([Solid::default()]).to_soup()), &exact());
+fn dual_search_accepts_an_empty_surface() {
+    let surface = Surface::new(Mesh::build(scene([Solid::default()]).to_soup()), &exact_options());
     let search = EdgeSearch::new(&surface);
-    assert_eq!(check(&surface, &search, &perspective(DVec3::Z, DVec3::ZERO, 30.0), &exact()), (0, 0));
+    assert_eq!(check(&surface, &search, &perspective(DVec3::Z, DVec3::ZERO, 30.0), &exact_options()), (0, 0));
 }
 
 /// Repeated views build the search trees. They must not change any drawing.
 #[test]
-fn views_with_and_without_the_search_are_alike() {
+fn cached_dual_search_does_not_change_drawings() {
     let ball = scene([round_solids::icosphere(5)]);
     let style = ligne::style::Style::load("technical", &["lines.contours=mesh".to_owned()]).unwrap();
     let page = |camera: &Camera| ligne::drawing::Page {
@@ -285,7 +285,7 @@ fn views_with_and_without_the_search_are_alike() {
         background: None,
     };
     let prepared = ligne::pipeline::Prepared::new(&ball, &style);
-    assert!(prepared_edges(&ball) > 20_000);
+    assert!(edge_count(&ball) > 20_000);
     // The trees are built for the hundredth view.
     let small = Camera { width: 40.0, height: 40.0, ..views(4.0)[0] };
     (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None).unwrap()));
@@ -298,6 +298,6 @@ fn views_with_and_without_the_search_are_alike() {
 }
 
 /// Returns the number of edges of a scene's mesh.
-fn prepared_edges(scene: &Scene) -> usize {
+fn edge_count(scene: &Scene) -> usize {
     Mesh::build(scene.to_soup()).edges.len()
 }

@@ -5,15 +5,15 @@ use glam::DVec3;
 use kurbo::{Point, Vec2};
 use ligne::drawing::{Drawing, LayerKind};
 use ligne::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
-use ligne::mesh::Extents;
+use ligne::mesh::MeshMetrics;
 use ligne::scene::{NamedView, UpAxis};
 use ligne::visibility::overlap::hidden_line_precedence::{self, Ink};
 use ligne::visibility::{ViewEdge, ViewMap};
 use ligne::{Camera, Scene, Style, render};
 
-use crate::support::pipeline::{counting, orthographic, scene, stages};
+use crate::support::pipeline::{exact_options_with_hidden, orthographic, run_stages, scene};
 use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{SCENES, random_camera, random_scene};
+use crate::support::scenes::random_scenes::{ALL_SCENE_KINDS, random_camera, random_scene};
 use crate::support::scenes::solids::{Solid, cuboid, tube};
 
 fn marks(drawing: &Drawing, kind: LayerKind) -> usize {
@@ -26,7 +26,7 @@ fn technical(scene: &Scene, view: NamedView) -> Drawing {
 }
 
 #[test]
-fn a_box_seen_square_on_has_no_hidden_line() {
+fn a_box_seen_face_on_has_no_hidden_lines() {
     let scene = scene([cuboid(DVec3::ZERO, DVec3::new(1.0, 0.7, 2.0))]);
     for view in [NamedView::Front, NamedView::Back, NamedView::Left, NamedView::Top, NamedView::Bottom] {
         let drawing = technical(&scene, view);
@@ -38,8 +38,8 @@ fn a_box_seen_square_on_has_no_hidden_line() {
 }
 
 /// Returns the map without hidden lines inside the ink of visible lines, for lines of zero width.
-fn apart(map: &ViewMap, extents: &Extents, perspective: bool) -> Option<ViewMap> {
-    hidden_line_precedence::apart(
+fn without_covered_hidden_lines(map: &ViewMap, extents: &MeshMetrics, perspective: bool) -> Option<ViewMap> {
+    hidden_line_precedence::without_hidden_in_ink(
         map,
         &Ink { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 },
     )
@@ -144,7 +144,7 @@ fn ends(map: &ViewMap, edge: &ViewEdge) -> [Point; 2] {
 
 /// Returns the distance of a point from the line of an edge. Returns `None` unless the point lies next to the
 /// edge and `way` is parallel to it.
-fn off(map: &ViewMap, edge: &ViewEdge, point: Point, way: Vec2) -> Option<f64> {
+fn distance_if_parallel(map: &ViewMap, edge: &ViewEdge, point: Point, way: Vec2) -> Option<f64> {
     let [a, b] = ends(map, edge);
     let along = b - a;
     let length = along.hypot();
@@ -159,7 +159,7 @@ fn off(map: &ViewMap, edge: &ViewEdge, point: Point, way: Vec2) -> Option<f64> {
 fn a_hidden_point_is_drawn_unless_a_visible_line_runs_there() {
     let mut dice = Dice::new(41);
     let (mut covered, mut kept) = (0, 0);
-    for kind in SCENES {
+    for kind in ALL_SCENE_KINDS {
         for turn in 0..4 {
             let scene = if turn < 2 { straight_boxes(&mut dice) } else { random_scene(kind, &mut dice) };
             let camera = match turn {
@@ -167,9 +167,9 @@ fn a_hidden_point_is_drawn_unless_a_visible_line_runs_there() {
                 1 => orthographic(DVec3::X * 5.0, DVec3::ZERO, 3.0),
                 _ => random_camera("perspective", &mut dice),
             };
-            let made = stages(&scene, &camera, &counting());
+            let made = run_stages(&scene, &camera, &exact_options_with_hidden());
             let (map, extents) = (made.map, made.mesh.extents);
-            let apart = apart(&map, &extents, turn > 1);
+            let apart = without_covered_hidden_lines(&map, &extents, turn > 1);
             let apart = apart.as_ref().unwrap_or(&map);
             let visible: Vec<&ViewEdge> = map.edges.iter().filter(|edge| edge.invisibility == 0).collect();
             let same = apart.edges.iter().filter(|edge| edge.invisibility == 0);
@@ -179,11 +179,15 @@ fn a_hidden_point_is_drawn_unless_a_visible_line_runs_there() {
                 let way = (b - a) / (b - a).hypot().max(1e-12);
                 for share in [0.13, 0.37, 0.5, 0.71, 0.93] {
                     let point = a.lerp(b, share);
-                    let near = visible.iter().filter_map(|other| off(&map, other, point, way));
+                    let near =
+                        visible.iter().filter_map(|other| distance_if_parallel(&map, other, point, way));
                     let nearest = near.fold(f64::INFINITY, f64::min);
                     let mine = |other: &&ViewEdge| other.invisibility > 0 && other.segment == edge.segment;
-                    let drawn =
-                        apart.edges.iter().filter(mine).any(|own| off(apart, own, point, way).is_some());
+                    let drawn = apart
+                        .edges
+                        .iter()
+                        .filter(mine)
+                        .any(|own| distance_if_parallel(apart, own, point, way).is_some());
                     if nearest < BEHIND_INK_PX * 0.99 {
                         assert!(!drawn, "{kind} {turn}: {point:?} lies in ink");
                         covered += 1;
@@ -198,13 +202,14 @@ fn a_hidden_point_is_drawn_unless_a_visible_line_runs_there() {
 }
 
 #[test]
-fn what_is_cut_away_runs_along_a_line_that_stays() {
+fn removed_hidden_lines_run_along_remaining_lines() {
     let mut dice = Dice::new(42);
-    for kind in SCENES {
+    for kind in ALL_SCENE_KINDS {
         let scene = straight_boxes(&mut dice);
-        let made = stages(&scene, &orthographic(DVec3::Z * 5.0, DVec3::ZERO, 3.0), &counting());
+        let made =
+            run_stages(&scene, &orthographic(DVec3::Z * 5.0, DVec3::ZERO, 3.0), &exact_options_with_hidden());
         let (map, extents) = (made.map, made.mesh.extents);
-        let Some(apart) = apart(&map, &extents, false) else { continue };
+        let Some(apart) = without_covered_hidden_lines(&map, &extents, false) else { continue };
         for edge in map.edges.iter().filter(|edge| edge.invisibility > 0) {
             let [a, b] = ends(&map, edge);
             // Distances may add up if a line yields to one that itself yields.
@@ -224,7 +229,7 @@ fn what_is_cut_away_runs_along_a_line_that_stays() {
 }
 
 #[test]
-fn visible_lines_are_those_without_hidden_ones_cut() {
+fn hidden_lines_behind_the_outline_of_a_bracket_are_left_out() {
     let bracket = std::path::Path::new("../shared/models/cad/bracket.glb");
     if !bracket.exists() {
         eprintln!("skipped: {} is absent", bracket.display());

@@ -13,7 +13,7 @@ use ligne::style::Style;
 use ligne::view::Frame;
 
 /// Marks closer than this to the image bounding box of a part may change with it, px.
-const NEAR_PX: f64 = 3.0;
+const BOX_MARGIN_PX: f64 = 3.0;
 
 fn open(name: &str) -> (Scene, Camera) {
     let path = format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -25,7 +25,7 @@ fn open(name: &str) -> (Scene, Camera) {
 }
 
 /// Returns a text with everything that defines a mark.
-fn written(layer: LayerKind, mark: &Mark) -> String {
+fn mark_text(layer: LayerKind, mark: &Mark) -> String {
     let mut text = format!("{layer:?} {:?} ", mark.provenance);
     let path = |text: &mut String, path: &kurbo::BezPath| {
         let mut point = |p: Point| {
@@ -63,11 +63,16 @@ fn written(layer: LayerKind, mark: &Mark) -> String {
 }
 
 /// Counts equal marks among the marks that lie apart from the boxes.
-fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTreeMap<String, u32> {
+fn count_marks_outside(
+    scene: &Scene,
+    camera: &Camera,
+    style: &Style,
+    boxes: &[Rect],
+) -> BTreeMap<String, u32> {
     let mut marks = BTreeMap::new();
     for layer in &render(scene, camera, style).unwrap().layers {
         for mark in &layer.marks {
-            let around = mark.path.bounding_box().inflate(NEAR_PX, NEAR_PX);
+            let around = mark.path.bounding_box().inflate(BOX_MARGIN_PX, BOX_MARGIN_PX);
             let is_near = |other: &Rect| {
                 around.x0 <= other.x1
                     && other.x0 <= around.x1
@@ -75,7 +80,7 @@ fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTree
                     && other.y0 <= around.y1
             };
             if !boxes.iter().any(is_near) {
-                *marks.entry(written(layer.kind, mark)).or_default() += 1;
+                *marks.entry(mark_text(layer.kind, mark)).or_default() += 1;
             }
         }
     }
@@ -98,7 +103,7 @@ fn image_of(scene: &Scene, camera: &Camera, name: &str) -> Rect {
 
 /// Compares a scene with a changed one. Returns the number of differing marks apart from the part, and the
 /// number of all such marks.
-fn differing(
+fn count_differing_marks(
     (scene, camera): &(Scene, Camera),
     style: &Style,
     name: &str,
@@ -110,8 +115,8 @@ fn differing(
     if changed.parts.iter().any(|part| part.name == name) {
         boxes.push(image_of(&changed, camera, name));
     }
-    let before = apart(scene, camera, style, &boxes);
-    let after = apart(&changed, camera, style, &boxes);
+    let before = count_marks_outside(scene, camera, style, &boxes);
+    let after = count_marks_outside(&changed, camera, style, &boxes);
     let only = |a: &BTreeMap<String, u32>, b: &BTreeMap<String, u32>| -> Vec<String> {
         a.iter().filter(|(mark, count)| b.get(*mark) != Some(count)).map(|(mark, _)| mark.clone()).collect()
     };
@@ -153,8 +158,8 @@ fn check(model: &str, styles: &[&str], parts: &[&str], most: f64) {
                 }
             };
             for (what, (differ, all)) in [
-                ("hiding", differing(&seen, &style, name, hide)),
-                ("moving", differing(&seen, &style, name, shove)),
+                ("hiding", count_differing_marks(&seen, &style, name, hide)),
+                ("moving", count_differing_marks(&seen, &style, name, shove)),
             ] {
                 if differ as f64 > most * all as f64 || std::env::var_os("LIGNE_SHOW").is_some() {
                     let _ = writeln!(
@@ -193,13 +198,13 @@ fn hiding_or_moving_any_part_changes_little_elsewhere() {
 }
 
 #[test]
-fn hatching_elsewhere_stays_but_for_a_few_strokes() {
+fn hiding_or_moving_a_part_changes_few_hatch_strokes_elsewhere() {
     check("pump.glb", &["pen"], &PUMP[..2], 0.06);
 }
 
 #[test]
 #[ignore = "long: .ci/nightly"]
-fn hatching_elsewhere_stays_whatever_part_is_hidden() {
+fn hiding_or_moving_any_part_changes_few_hatch_strokes_elsewhere() {
     check("castle.obj", &["pen"], &CASTLE, 0.06);
     check("pump.glb", &["pen"], &PUMP, 0.06);
 }

@@ -5,12 +5,12 @@ use crate::support::measures::line_picture;
 use crate::support::references::torus_contour;
 use std::collections::HashMap;
 
-use crate::support::measures::line_picture::{Ink, beyond, samples};
+use crate::support::measures::line_picture::{SegmentGrid, length_farther_than, sample_segments};
 use crate::support::pipeline::{
-    Stages, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+    Stages, orthographic, perspective, run_stages, scene, scene_of_geometries, solid_geometry,
 };
-use crate::support::references::textbook_camera::Eye;
-use crate::support::references::torus_contour::{Piece, visible_pieces};
+use crate::support::references::textbook_camera::TextbookCamera;
+use crate::support::references::torus_contour::{VisibleArc, visible_arcs};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::round_solids::{cylinder, globe, icosphere, octasphere, saddle};
 use crate::support::scenes::solids::{Solid, torus};
@@ -23,7 +23,7 @@ use ligne::lines::{Contours, HiddenLines, LineKind, LineOptions};
 use ligne::scene::{Camera, Geometry, Projection, Scene};
 use ligne::visibility::ViewVertexKind;
 
-fn with(contours: Contours) -> LineOptions {
+fn contour_options(contours: Contours) -> LineOptions {
     LineOptions { contours, ..LineOptions::default() }
 }
 
@@ -52,28 +52,28 @@ fn cameras(seed: u64, count: usize, reach: f64) -> Vec<Camera> {
 }
 
 /// Returns the largest distance of the drawn lines from the true ones, and of the true from the drawn, px.
-fn apart(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
+fn max_deviations(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
     let farthest = |of: &[[Point; 2]], from: &[[Point; 2]]| {
-        let ink = Ink::new(from.to_vec(), 8.0);
-        samples(of, 0.5).iter().map(|(p, _)| ink.distance(*p)).fold(0.0, f64::max)
+        let ink = SegmentGrid::new(from.to_vec(), 8.0);
+        sample_segments(of, 0.5).iter().map(|(p, _)| ink.distance(*p)).fold(0.0, f64::max)
     };
     [farthest(drawn, truth), farthest(truth, drawn)]
 }
 
 /// Returns a closed curve through the images of points.
 fn ring(camera: &Camera, point: impl Fn(f64) -> DVec3) -> Vec<[Point; 2]> {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     let count = 2000;
-    let at = |k: usize| eye.image(point(std::f64::consts::TAU * k as f64 / f64::from(count)));
+    let at = |k: usize| eye.project(point(std::f64::consts::TAU * k as f64 / f64::from(count)));
     (0..count as usize).map(|k| [at(k), at(k + 1)]).collect()
 }
 
 /// Returns the contour of an ellipsoid with these half axes. It is the contour of a sphere, scaled.
 fn contour_of_ellipsoid(axes: DVec3, camera: &Camera) -> Vec<[Point; 2]> {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     // On the sphere, the solutions of n·v = 0 form a circle around the direction to the camera.
     let (way, height) = if eye.perspective {
-        let to_eye = eye.eye / axes;
+        let to_eye = eye.position / axes;
         (to_eye.normalize(), 1.0 / to_eye.length())
     } else {
         ((-eye.forward / axes).normalize(), 0.0)
@@ -84,18 +84,18 @@ fn contour_of_ellipsoid(axes: DVec3, camera: &Camera) -> Vec<[Point; 2]> {
 }
 
 /// Draws a solid and compares the result with its single closed contour.
-fn one_ring(
+fn assert_one_closed_contour(
     what: &str,
     solid: &Solid,
     contours: Contours,
     truth: impl Fn(&Camera) -> Vec<[Point; 2]>,
     within: [f64; 2],
 ) {
-    one_ring_of(what, &scene([solid.clone()]), contours, truth, within);
+    assert_one_closed_contour_of_scene(what, &scene([solid.clone()]), contours, truth, within);
 }
 
 /// Draws a scene and compares the result with its single closed contour.
-fn one_ring_of(
+fn assert_one_closed_contour_of_scene(
     what: &str,
     scene: &Scene,
     contours: Contours,
@@ -106,14 +106,14 @@ fn one_ring_of(
     let reach = places.map(|p| p.length()).fold(0.0, f64::max);
     let mut worst = [[0.0_f64; 2]; 2];
     for camera in cameras(5, 10, reach) {
-        let drawn = stages(scene, &camera, &with(contours));
+        let drawn = run_stages(scene, &camera, &contour_options(contours));
         let truth = truth(&camera);
         for (k, options) in [plain_chains(), ChainOptions::default()].iter().enumerate() {
             let chains = chains(&drawn, options);
             let kinds: Vec<LineKind> = chains.iter().map(|c| c.kind).collect();
             assert_eq!(kinds, [LineKind::Contour], "{what} from {}", camera.eye);
             assert!(chains[0].closed && chains[0].silhouette, "{what} from {}", camera.eye);
-            let off = apart(&line_picture::drawn(&chains), &truth);
+            let off = max_deviations(&line_picture::drawn_segments(&chains), &truth);
             worst[k] = [0, 1].map(|i| worst[k][i].max(off[i]));
         }
     }
@@ -127,23 +127,47 @@ fn one_ring_of(
 }
 
 /// Largest errors of plain lines, and of default lines, whose curves may lie 0.15 px from the lines they fit.
-const BALL_PX: [f64; 2] = [0.1, 0.2];
+const MAX_BALL_ERROR_PX: [f64; 2] = [0.1, 0.2];
 
 #[test]
-fn the_contour_of_a_sphere_is_a_circle_however_it_is_cut() {
+fn contours_of_sphere_meshes_are_circles() {
     let ball = |camera: &Camera| contour_of_ellipsoid(DVec3::ONE, camera);
     for level in 1..=3 {
-        one_ring(&format!("icosphere {level}"), &icosphere(level), Contours::Smooth, ball, BALL_PX);
-        one_ring(&format!("icosphere {level}, auto"), &icosphere(level), Contours::Auto, ball, BALL_PX);
-        one_ring(&format!("octasphere {level}"), &octasphere(level), Contours::Smooth, ball, BALL_PX);
+        assert_one_closed_contour(
+            &format!("icosphere {level}"),
+            &icosphere(level),
+            Contours::Smooth,
+            ball,
+            MAX_BALL_ERROR_PX,
+        );
+        assert_one_closed_contour(
+            &format!("icosphere {level}, auto"),
+            &icosphere(level),
+            Contours::Auto,
+            ball,
+            MAX_BALL_ERROR_PX,
+        );
+        assert_one_closed_contour(
+            &format!("octasphere {level}"),
+            &octasphere(level),
+            Contours::Smooth,
+            ball,
+            MAX_BALL_ERROR_PX,
+        );
     }
     for around in [8, 16, 48] {
-        one_ring(&format!("globe {around}"), &globe(around), Contours::Smooth, ball, BALL_PX);
+        assert_one_closed_contour(
+            &format!("globe {around}"),
+            &globe(around),
+            Contours::Smooth,
+            ball,
+            MAX_BALL_ERROR_PX,
+        );
     }
 }
 
 #[test]
-fn normals_that_were_left_behind_when_a_ball_was_turned_say_nothing_of_it() {
+fn stale_normals_of_a_rotated_ball_do_not_affect_its_contour() {
     let ball = |camera: &Camera| contour_of_ellipsoid(DVec3::ONE, camera);
     for (what, solid) in [("globe", globe(32)), ("icosphere", icosphere(4)), ("octasphere", octasphere(5))] {
         // The normals of the ball, and normals from before its rotation.
@@ -151,9 +175,15 @@ fn normals_that_were_left_behind_when_a_ball_was_turned_say_nothing_of_it() {
             let before = DMat3::from_rotation_x(f64::to_radians(degrees));
             let normals = solid.positions.iter().map(|p| (before * *p).as_vec3().to_array()).collect();
             let corner_normals = solid.triangles.clone();
-            let shape = Geometry { normals, corner_normals, ..geometry(solid.clone()) };
+            let shape = Geometry { normals, corner_normals, ..solid_geometry(solid.clone()) };
             let scene = scene_of_geometries(vec![shape]);
-            one_ring_of(&format!("{what}, {degrees} degrees"), &scene, Contours::Auto, ball, BALL_PX);
+            assert_one_closed_contour_of_scene(
+                &format!("{what}, {degrees} degrees"),
+                &scene,
+                Contours::Auto,
+                ball,
+                MAX_BALL_ERROR_PX,
+            );
         }
     }
 }
@@ -164,8 +194,8 @@ fn the_contour_of_an_ellipsoid_is_an_ellipse() {
     let truth = |camera: &Camera| contour_of_ellipsoid(axes, camera);
     for (level, within) in [(3, [0.3, 0.3]), (4, [0.1, 0.2]), (5, [0.1, 0.2])] {
         let solid = icosphere(level).moved(|p| p * axes);
-        one_ring(&format!("ellipsoid {level}"), &solid, Contours::Smooth, truth, within);
-        one_ring(&format!("ellipsoid {level}, auto"), &solid, Contours::Auto, truth, within);
+        assert_one_closed_contour(&format!("ellipsoid {level}"), &solid, Contours::Smooth, truth, within);
+        assert_one_closed_contour(&format!("ellipsoid {level}, auto"), &solid, Contours::Auto, truth, within);
     }
 }
 
@@ -195,7 +225,7 @@ fn drawn_pieces(drawn: &Stages) -> Vec<DrawnPiece> {
     for edge in seen() {
         let own = first(&mut group, edge.start.0);
         let piece = pieces.entry(own).or_insert(DrawnPiece { length: 0.0, ends: 0, cusps: 0 });
-        let [a, b] = drawn.ends(edge);
+        let [a, b] = drawn.edge_ends(edge);
         piece.length += (b - a).hypot();
         for end in [edge.start, edge.end].iter().filter(|v| degree[&v.0] == 1) {
             piece.ends += 1;
@@ -240,7 +270,7 @@ struct TorusTally {
 }
 
 /// Shorter pieces and gaps are not counted, because they depend on the view on a coarse torus, px.
-const LEAST_PX: f64 = 14.0;
+const MIN_PIECE_LENGTH_PX: f64 = 14.0;
 
 fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64) -> TorusTally {
     let solid = scene([torus(around, along, radius, tube)]);
@@ -250,18 +280,19 @@ fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64)
         if !is_parallel && camera.eye.z.abs() < 1.2 * tube {
             continue;
         }
-        let drawn = stages(&solid, &camera, &with(Contours::Smooth));
-        let loops = torus_contour::contours(radius, tube, &camera, 8000);
-        let truth = visible_pieces(&loops);
-        let should: Vec<[Point; 2]> = truth.iter().flat_map(Piece::segments).collect();
+        let drawn = run_stages(&solid, &camera, &contour_options(Contours::Smooth));
+        let loops = torus_contour::torus_contours(radius, tube, &camera, 8000);
+        let truth = visible_arcs(&loops);
+        let should: Vec<[Point; 2]> = truth.iter().flat_map(VisibleArc::segments).collect();
         let whole = loops.iter().flat_map(|l| (0..l.len()).map(|k| [l[k].image, l[(k + 1) % l.len()].image]));
         let whole: Vec<[Point; 2]> = whole.collect();
-        let is = drawn.visible();
-        let wanted = census(&truth, LEAST_PX, |p| (length(&p.segments()), p.closed, p.cusps));
+        let is = drawn.visible_segments();
+        let wanted = census(&truth, MIN_PIECE_LENGTH_PX, |p| (length(&p.segments()), p.closed, p.cusps));
         let pieces = drawn_pieces(&drawn);
-        let found = census(&pieces, LEAST_PX, |p| (p.length, p.ends == 0, p.cusps));
-        let off = apart(&is, &whole)[0];
-        let (extra, missing) = (beyond(&is, &should, within), beyond(&should, &is, within));
+        let found = census(&pieces, MIN_PIECE_LENGTH_PX, |p| (p.length, p.ends == 0, p.cusps));
+        let off = max_deviations(&is, &whole)[0];
+        let (extra, missing) =
+            (length_farther_than(&is, &should, within), length_farther_than(&should, &is, within));
         if wanted != found || extra > 0.0 || missing > 0.0 {
             println!(
                 "torus {around}x{along} of {tube} from {:.3?} {:?}: loops, lines, cusps {found:?}, \
@@ -306,17 +337,17 @@ fn a_saddle_has_its_contour_and_borders() {
         let patch = scene([saddle(cells)]);
         let (mut astray, mut all) = (0.0, 0.0);
         for camera in cameras(12, 24, 1.5) {
-            let drawn = stages(&patch, &camera, &with(Contours::Smooth));
-            let eye = Eye::new(&camera);
+            let drawn = run_stages(&patch, &camera, &contour_options(Contours::Smooth));
+            let eye = TextbookCamera::new(&camera);
             let contour: Vec<[Point; 2]> =
-                contour_of_saddle(&camera).iter().map(|p| [eye.image(*p); 2]).collect();
+                contour_of_saddle(&camera).iter().map(|p| [eye.project(*p); 2]).collect();
             let border: Vec<[Point; 2]> =
-                borders_of_saddle(&camera).iter().map(|p| [eye.image(*p); 2]).collect();
-            let is = drawn.visible_of(LineKind::Contour);
-            let off = beyond(&is, &contour, SADDLE_PX);
-            let drawn_all = Ink::new(drawn.visible(), SADDLE_PX);
+                borders_of_saddle(&camera).iter().map(|p| [eye.project(*p); 2]).collect();
+            let is = drawn.visible_segments_of_kind(LineKind::Contour);
+            let off = length_farther_than(&is, &contour, MAX_SADDLE_ERROR_PX);
+            let drawn_all = SegmentGrid::new(drawn.visible_segments(), MAX_SADDLE_ERROR_PX);
             let missing = |truth: &[[Point; 2]]| {
-                truth.iter().filter(|[p, _]| drawn_all.distance(*p) > SADDLE_PX).count() as f64
+                truth.iter().filter(|[p, _]| drawn_all.distance(*p) > MAX_SADDLE_ERROR_PX).count() as f64
                     / truth.len().max(1) as f64
             };
             let missing = [missing(&contour), missing(&border)];
@@ -335,20 +366,20 @@ fn a_saddle_has_its_contour_and_borders() {
             assert!(missing.iter().all(|m| *m <= 0.045), "saddle {cells} from {}: {missing:?}", camera.eye);
         }
         let share = 100.0 * (1.0 - astray / all);
-        println!("saddle {cells}: {share:.2} % of the contours within {SADDLE_PX} px");
+        println!("saddle {cells}: {share:.2} % of the contours within {MAX_SADDLE_ERROR_PX} px");
         assert!(share >= least, "saddle {cells}: {share} %");
     }
 }
 
 /// Largest distance of the saddle's contours and borders, except at their ends.
-const SADDLE_PX: f64 = 1.0;
+const MAX_SADDLE_ERROR_PX: f64 = 1.0;
 
 /// Returns points of the contour of z = x² − y² over the square. All of it is visible, because a tangent line
 /// of sight meets the surface nowhere else.
 fn contour_of_saddle(camera: &Camera) -> Vec<DVec3> {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     // n·v = a (x² − y²) − 2 x ex + 2 y ey + ez, with a = 1 for perspective and 0 for orthographic views.
-    let (a, e) = if eye.perspective { (1.0, eye.eye) } else { (0.0, -eye.forward) };
+    let (a, e) = if eye.perspective { (1.0, eye.position) } else { (0.0, -eye.forward) };
     let mut points = Vec::new();
     let mut push = |x: f64, y: f64| {
         if x.abs() <= 1.0 && y.abs() <= 1.0 {
@@ -380,14 +411,14 @@ fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
 /// Returns the visible border points of the saddle. A line of sight through a border point meets the surface
 /// once more; the point is hidden if that is in front and inside the square.
 fn borders_of_saddle(camera: &Camera) -> Vec<DVec3> {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     let mut points = Vec::new();
     let count = 8000;
     for k in 0..=count {
         let s = 2.0 * f64::from(k) / f64::from(count) - 1.0;
         for (x, y) in [(s, -1.0), (s, 1.0), (-1.0, s), (1.0, s)] {
             let p = DVec3::new(x, y, x * x - y * y);
-            let d = if eye.perspective { eye.eye - p } else { -eye.forward };
+            let d = if eye.perspective { eye.position - p } else { -eye.forward };
             // z − x² + y² along p + t d vanishes at 0 and at −b / a.
             let (a, b) = (d.y * d.y - d.x * d.x, d.z - 2.0 * p.x * d.x + 2.0 * p.y * d.y);
             let q = p - d * (b / a);
@@ -401,13 +432,14 @@ fn borders_of_saddle(camera: &Camera) -> Vec<DVec3> {
 }
 
 #[test]
-fn a_cylinder_is_drawn_from_rim_to_rim() {
+fn cylinder_contours_run_from_rim_to_rim() {
     for around in [32, 128] {
         let mut worst = [0.0_f64; 2];
         for camera in cameras(3, 20, 1.5) {
             let part = cylinder(around, 8);
-            let drawn = stages(&scene_of_geometries(vec![part]), &camera, &with(Contours::Auto));
-            let off = apart(&drawn.visible(), &lines_of_cylinder(&camera));
+            let drawn =
+                run_stages(&scene_of_geometries(vec![part]), &camera, &contour_options(Contours::Auto));
+            let off = max_deviations(&drawn.visible_segments(), &lines_of_cylinder(&camera));
             worst = [0, 1].map(|i| worst[i].max(off[i]));
         }
         println!("cylinder {around}: off, missing {worst:?}");
@@ -420,16 +452,16 @@ fn a_cylinder_is_drawn_from_rim_to_rim() {
 /// Returns the visible lines of the cylinder of radius 1 from z = −1 to 1: rims next to a front face, and the
 /// two contour lines of its side.
 fn lines_of_cylinder(camera: &Camera) -> Vec<[Point; 2]> {
-    let eye = Eye::new(camera);
+    let eye = TextbookCamera::new(camera);
     // How far the outward normal at angle t faces the camera.
     let side = |t: f64| {
         let n = DVec3::new(cos(t), sin(t), 0.0);
-        if eye.perspective { eye.eye.dot(n) - 1.0 } else { -eye.forward.dot(n) }
+        if eye.perspective { eye.position.dot(n) - 1.0 } else { -eye.forward.dot(n) }
     };
-    let cap = |z: f64| if eye.perspective { z * eye.eye.z > 1.0 } else { -z * eye.forward.z > 0.0 };
+    let cap = |z: f64| if eye.perspective { z * eye.position.z > 1.0 } else { -z * eye.forward.z > 0.0 };
     let count = 8000;
     let angle = |k: usize| std::f64::consts::TAU * k as f64 / f64::from(count);
-    let point = |t: f64, z: f64| eye.image(DVec3::new(cos(t), sin(t), z));
+    let point = |t: f64, z: f64| eye.project(DVec3::new(cos(t), sin(t), z));
     let mut lines = Vec::new();
     for k in 0..count as usize {
         let (t, next) = (angle(k), angle(k + 1));

@@ -8,9 +8,9 @@ use ligne::pipeline::render;
 use ligne::scene::Camera;
 use ligne::style::Style;
 
-use crate::support::measures::segment_sets::length;
+use crate::support::measures::segment_sets::total_length;
 use crate::support::pipeline::{orthographic, scene};
-use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
 use crate::support::scenes::solids::Solid;
 
 /// A square of side 40 with a step in its middle, 20 long from tip to tip. The surface rises to the step and
@@ -46,45 +46,46 @@ fn step(width: f64) -> Solid {
 
 /// A view from the front at a given elevation, with 25 px per unit. Below 26.6 degrees, the falling side of
 /// the step faces away.
-fn before(elevation_deg: f64) -> Camera {
+fn front_camera(elevation_deg: f64) -> Camera {
     let angle = elevation_deg.to_radians();
     let eye = DVec3::new(0.0, -100.0 * cos(angle), 100.0 * sin(angle));
     Camera { up: DVec3::Z, ..orthographic(eye, DVec3::ZERO, 40.0) }
 }
 
 /// Returns the drawn length near the middle of the page, px.
-fn drawn(solid: Solid, elevation_deg: f64, tidy: Option<f64>) -> f64 {
+fn drawn_length(solid: Solid, elevation_deg: f64, tidy: Option<f64>) -> f64 {
     let mut style = Style::preset("ink").unwrap();
     if let Some(tidy) = tidy {
         style.chain.tidy = Length::px(tidy);
     }
-    let drawing = render(&scene([solid]), &before(elevation_deg), &style).unwrap();
+    let drawing = render(&scene([solid]), &front_camera(elevation_deg), &style).unwrap();
     let is_inside = |p: Point| (100.0..900.0).contains(&p.x) && (400.0..600.0).contains(&p.y);
     let inside = |s: &[Point; 2]| s.iter().all(|p| is_inside(*p));
-    let strokes: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).filter(inside).collect();
-    length(&strokes)
+    let strokes: Vec<[Point; 2]> =
+        visible_line_marks(&drawing).flat_map(centre_line).filter(inside).collect();
+    total_length(&strokes)
 }
 
 #[test]
 fn a_fold_thinner_than_a_pen_is_not_drawn() {
     // 0.3 px in the image, and 2.8 px in space.
     let thin = 0.1;
-    assert_eq!(drawn(step(thin), 20.0, None), 0.0);
-    assert!((drawn(step(thin), 20.0, Some(0.0)) - 500.0).abs() < 1.0, "it is a contour that is seen");
+    assert_eq!(drawn_length(step(thin), 20.0, None), 0.0);
+    assert!((drawn_length(step(thin), 20.0, Some(0.0)) - 500.0).abs() < 1.0, "it is a contour that is seen");
 }
 
 #[test]
 fn a_step_wider_than_a_pen_is_drawn() {
     // Also where its back faces are nearly edge-on and take no more image area than a thin fold.
     for elevation_deg in [20.0, 26.0] {
-        let wide = drawn(step(0.5), elevation_deg, None);
+        let wide = drawn_length(step(0.5), elevation_deg, None);
         assert!((wide - 500.0).abs() < 5.0, "{elevation_deg}: {wide}");
     }
 }
 
 /// The same step with tips 28 apart and a zigzag edge: one needle triangle faces away, the next faces the
 /// camera.
-fn step_to_and_fro() -> Solid {
+fn zigzag_step() -> Solid {
     let (up, needle) = (0.25, 0.04);
     let foot = needle + 3.0_f64.sqrt() * up;
     let positions = [
@@ -127,8 +128,8 @@ fn step_to_and_fro() -> Solid {
 }
 
 #[test]
-fn a_line_that_needles_lead_to_and_fro_is_drawn() {
-    let line = drawn(step_to_and_fro(), 20.0, None);
+fn a_contour_folded_by_needle_triangles_is_drawn() {
+    let line = drawn_length(zigzag_step(), 20.0, None);
     // Parts of it are drawn twice.
     assert!(line > 695.0, "{line}");
 }
@@ -148,6 +149,6 @@ fn a_spike_thinner_than_a_pen_is_drawn() {
     solid.positions.push(DVec3::Z * 4.0);
     let tip = first + around;
     solid.triangles.extend((0..around).map(|k| [first + k, first + (k + 1) % around, tip]));
-    let spike = drawn(solid, 20.0, None);
+    let spike = drawn_length(solid, 20.0, None);
     assert!(spike > 90.0, "{spike}");
 }

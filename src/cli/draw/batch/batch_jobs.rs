@@ -1,4 +1,4 @@
-//! [`Job`]: drawings of one model with their output paths. No two drawings share a path.
+//! [`BatchJob`]: drawings of one model with their output paths. No two drawings share a path.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
@@ -12,12 +12,12 @@ use crate::scene::NamedView;
 
 /// Drawings of one model.
 #[derive(Debug)]
-pub(crate) struct Job {
+pub(crate) struct BatchJob {
     /// One request per view.
     pub(crate) requests: Vec<DrawRequest>,
 }
 
-impl Job {
+impl BatchJob {
     /// Path of the model, for messages.
     pub(crate) fn model(&self) -> &Path {
         self.requests.first().map_or(Path::new(""), |request| &request.model)
@@ -35,10 +35,10 @@ pub(crate) fn models(args: &DrawArgs) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// If options contradict each other, or if drawings of two models would have the same path.
-pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
+pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<BatchJob>, Error> {
     let models = models(args);
     let piped = args.many.piped(&models)?;
-    let mut jobs: Vec<Job> = Vec::with_capacity(models.len());
+    let mut jobs: Vec<BatchJob> = Vec::with_capacity(models.len());
     let mut taken: HashMap<PathBuf, &Path> = HashMap::new();
     'models: for model in &models {
         let plain = match &args.many.out_dir {
@@ -52,7 +52,7 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
             return Err(Error::new("standard output can hold a single drawing only")
                 .remedy("name the drawing, such as drawing.svg"));
         }
-        let mut job = Job { requests: Vec::new() };
+        let mut job = BatchJob { requests: Vec::new() };
         for view in views(args) {
             let outputs = plain.iter().map(|path| Output::new(seen_from(path, view, args)));
             let outputs = outputs.collect::<Result<Vec<_>, _>>()?;

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::output::file_stamp::stamp;
 use crate::cli::request::draw_request::DrawRequest;
-use crate::cli::request::viewpoint::View;
+use crate::cli::request::viewpoint::ViewRequest;
 use crate::style::Style;
 
 /// Maximum number of input files. Stops at cyclic style sheets.
-const MOST_SHEETS: usize = 32;
+const MAX_INPUT_FILES: usize = 32;
 
 /// Input files of a drawing: the model, the camera record, the style sheet and the sheets it extends.
 pub(crate) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {
@@ -17,11 +17,11 @@ pub(crate) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {
     if request.piped.is_none() {
         files.push(request.model.clone());
     }
-    if let View::Recorded(name) = &request.view {
+    if let ViewRequest::Recorded(name) = &request.view {
         files.extend(Some(PathBuf::from(name)).filter(|path| path.is_file()));
     }
     let mut sheet = sheet(&request.style, Path::new(""));
-    while let Some(path) = sheet.filter(|path| files.len() < MOST_SHEETS && !files.contains(path)) {
+    while let Some(path) = sheet.filter(|path| files.len() < MAX_INPUT_FILES && !files.contains(path)) {
         sheet = parent(&path);
         files.push(path);
     }

@@ -4,44 +4,44 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::batch_jobs::Job;
+use super::batch_jobs::BatchJob;
 use super::drawing_inputs::inputs;
-use crate::cli::output::file_stamp::{Stamp, stamp};
+use crate::cli::output::file_stamp::{FileStamp, stamp};
 
 /// Time between two checks of all files.
-const LOOK: Duration = Duration::from_millis(60);
+const POLL_INTERVAL: Duration = Duration::from_millis(60);
 
 /// Time that a file must stay unchanged before it is read, because programs write files in several steps.
-const REST: Duration = Duration::from_millis(80);
+const SETTLE_TIME: Duration = Duration::from_millis(80);
 
-type Stamps = BTreeMap<PathBuf, Stamp>;
+type Stamps = BTreeMap<PathBuf, FileStamp>;
 
 /// Watch over the input files of jobs.
-pub(crate) struct Watch<'a> {
-    jobs: &'a [Job],
+pub(crate) struct InputWatch<'a> {
+    jobs: &'a [BatchJob],
     /// Input files of each job. They change when a style sheet extends another sheet.
     files: Vec<Vec<PathBuf>>,
     seen: Stamps,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> InputWatch<'a> {
     /// Starts watching. Later changes are detected.
-    pub(crate) fn new(jobs: &'a [Job]) -> Self {
+    pub(crate) fn new(jobs: &'a [BatchJob]) -> Self {
         let files = files(jobs);
         let seen = stamps(&files);
         Self { jobs, files, seen }
     }
 
     /// Waits for a change, and returns the jobs with changed inputs.
-    pub(crate) fn changed(&mut self) -> Vec<&'a Job> {
+    pub(crate) fn changed(&mut self) -> Vec<&'a BatchJob> {
         loop {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_INTERVAL);
             let mut now = stamps(&self.files);
             if now == self.seen {
                 continue;
             }
             loop {
-                std::thread::sleep(REST);
+                std::thread::sleep(SETTLE_TIME);
                 let later = stamps(&self.files);
                 let rests = later == now;
                 now = later;
@@ -54,7 +54,7 @@ impl<'a> Watch<'a> {
             let is_new =
                 |path: &PathBuf| now.get(path).is_some_and(|stamp| self.seen.get(path) != Some(stamp));
             let files_of_jobs = self.jobs.iter().zip(&self.files);
-            let jobs: Vec<&Job> =
+            let jobs: Vec<&BatchJob> =
                 files_of_jobs.filter(|(_, files)| files.iter().any(is_new)).map(|(job, _)| job).collect();
             self.seen.extend(now);
             if jobs.is_empty() {
@@ -69,7 +69,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-fn files(jobs: &[Job]) -> Vec<Vec<PathBuf>> {
+fn files(jobs: &[BatchJob]) -> Vec<Vec<PathBuf>> {
     jobs.iter().map(|job| job.requests.first().map(inputs).unwrap_or_default()).collect()
 }
 

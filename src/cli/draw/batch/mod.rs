@@ -15,10 +15,10 @@ mod worker_pool;
 use std::path::Path;
 use std::process::ExitCode;
 
-use batch_jobs::Job;
+use batch_jobs::BatchJob;
 use drawing_inputs::is_current;
-use input_watch::Watch;
-use worker_pool::{Crew, Tally, Task};
+use input_watch::InputWatch;
+use worker_pool::{BatchTally, DrawTask, WorkerPool};
 
 use crate::cli::options::draw_args::DrawArgs;
 use crate::cli::options::values::shard::{Shard, of_array};
@@ -30,7 +30,7 @@ use crate::error::Error;
 use crate::pipeline::Stopwatch;
 
 /// Whether a call draws more than one drawing once.
-pub(crate) fn is_asked(args: &DrawArgs) -> bool {
+pub(crate) fn is_batch(args: &DrawArgs) -> bool {
     args.many.is_asked() || args.how.view.len() > 1
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let jobs = batch_jobs::jobs(&args)?;
     let shard = shard(&args, jobs.len())?;
     let mine = |(number, job)| shard.is_none_or(|shard| shard.has(number)).then_some(job);
-    let jobs: Vec<Job> = jobs.into_iter().enumerate().filter_map(mine).collect();
+    let jobs: Vec<BatchJob> = jobs.into_iter().enumerate().filter_map(mine).collect();
     if let Some(request) = jobs.iter().flat_map(|job| &job.requests).next() {
         // Style errors are reported once, not for each model.
         library_calls::load_style(&request.style, &request.sets, request.background)?;
@@ -61,18 +61,20 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let pool = library_calls::pool(args.how.threads)?;
     let into = args.many.out_dir.as_deref();
     let quiet = args.how.quiet;
-    let crew = Crew {
+    let crew = WorkerPool {
         pool: &pool,
         into: into.unwrap_or(&args.model),
         quiet,
         in_detail: into.is_none() || args.many.watch,
     };
 
-    let mut watching = args.many.watch.then(|| Watch::new(&jobs));
+    let mut watching = args.many.watch.then(|| InputWatch::new(&jobs));
     let tasks = tasks(&jobs, args.many.resume);
     if args.many.resume {
         let requests = tasks.iter().flat_map(|task| &task.requests);
-        temp_files::sweep(requests.flat_map(|request| &request.outputs).map(|output| output.path.as_path()));
+        temp_files::remove_temp_files(
+            requests.flat_map(|request| &request.outputs).map(|output| output.path.as_path()),
+        );
     }
     let current = (jobs.len() - tasks.len()) as u64;
     let tally = crew.draw(&tasks);
@@ -83,7 +85,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
         say(&format!("watching {}; Ctrl-C ends", number_text::counted(jobs.len() as u64, "model")));
     }
     while let Some(watching) = &mut watching {
-        let again: Vec<Task> = watching.changed().into_iter().map(whole).collect();
+        let again: Vec<DrawTask> = watching.changed().into_iter().map(whole).collect();
         crew.draw(&again);
     }
     Ok(ExitCode::from(tally.status()))
@@ -122,8 +124,8 @@ fn shard(args: &DrawArgs, models: usize) -> Result<Option<Shard>, Error> {
 }
 
 /// Drawings to make: all, or under `--resume` only missing and outdated ones.
-fn tasks(jobs: &[Job], resume: bool) -> Vec<Task<'_>> {
-    let mut tasks: Vec<Task> = jobs.iter().map(whole).collect();
+fn tasks(jobs: &[BatchJob], resume: bool) -> Vec<DrawTask<'_>> {
+    let mut tasks: Vec<DrawTask> = jobs.iter().map(whole).collect();
     if resume {
         for task in &mut tasks {
             task.requests.retain(|request| !is_current(request));
@@ -133,12 +135,12 @@ fn tasks(jobs: &[Job], resume: bool) -> Vec<Task<'_>> {
     tasks
 }
 
-fn whole(job: &Job) -> Task<'_> {
-    Task { job, requests: job.requests.iter().collect() }
+fn whole(job: &BatchJob) -> DrawTask<'_> {
+    DrawTask { job, requests: job.requests.iter().collect() }
 }
 
 /// Summary line: `drawings: shard 2/4, 245 models drawn, 490 files, 1.2 MB, 3.40 s, 5 refused, 3 up to date`
-fn summary(into: &Path, tally: &Tally, current: u64, shard: Option<Shard>, seconds: f64) -> String {
+fn summary(into: &Path, tally: &BatchTally, current: u64, shard: Option<Shard>, seconds: f64) -> String {
     let shard = shard.map_or_else(String::new, |shard| format!("shard {shard}, "));
     let mut line = format!(
         "{}: {shard}{} drawn, {}, {}, {seconds:.2} s",
@@ -160,7 +162,7 @@ mod tests {
 
     #[test]
     fn the_summary_is_one_line() {
-        let tally = Tally { drawn: 245, files: 1490, bytes: 1_200_000, refused: 5, failed: 0 };
+        let tally = BatchTally { drawn: 245, files: 1490, bytes: 1_200_000, refused: 5, failed: 0 };
         assert_eq!(
             summary(Path::new("drawings"), &tally, 3, None, 3.4),
             "drawings: 245 models drawn, 1,490 files, 1.2 MB, 3.40 s, 5 refused, 3 up to date"

@@ -1,4 +1,4 @@
-//! [`Crew`]: worker threads that draw models in parallel, and their messages.
+//! [`WorkerPool`]: worker threads that draw models in parallel, and their messages.
 
 use std::cell::Cell;
 use std::fs;
@@ -8,24 +8,24 @@ use std::time::{Duration, Instant};
 
 use rayon_core::ThreadPool;
 
-use super::batch_jobs::Job;
+use super::batch_jobs::BatchJob;
 use crate::cli::draw::model_drawing;
 use crate::cli::output::output_files::Staging;
 use crate::cli::output::progress::Progress;
 use crate::cli::output::{exit_status, number_text};
 use crate::cli::request::draw_request::DrawRequest;
-use crate::cli::{LATER, WRONG};
+use crate::cli::{EXIT_TRY_LATER, EXIT_WRONG};
 use crate::error::{Error, ErrorKind};
 use crate::pipeline::Stopwatch;
 
 /// Drawings of one model that are still to be made.
-pub(crate) struct Task<'a> {
-    pub(crate) job: &'a Job,
+pub(crate) struct DrawTask<'a> {
+    pub(crate) job: &'a BatchJob,
     pub(crate) requests: Vec<&'a DrawRequest>,
 }
 
 /// Workers that draw models.
-pub(crate) struct Crew<'a> {
+pub(crate) struct WorkerPool<'a> {
     pub(crate) pool: &'a ThreadPool,
     /// Output folder or model, for messages.
     pub(crate) into: &'a Path,
@@ -36,7 +36,7 @@ pub(crate) struct Crew<'a> {
 
 /// Counts of drawn and failed models.
 #[derive(Debug, Default)]
-pub(crate) struct Tally {
+pub(crate) struct BatchTally {
     /// Models that were drawn.
     pub(crate) drawn: u64,
     pub(crate) files: u64,
@@ -49,7 +49,7 @@ pub(crate) struct Tally {
 
 /// Files that were written for a model.
 #[derive(Default)]
-struct Made {
+struct WrittenFiles {
     lines: Vec<String>,
     /// Hints and choices made for the user, without duplicates.
     notes: Vec<String>,
@@ -57,25 +57,25 @@ struct Made {
     bytes: u64,
 }
 
-impl Crew<'_> {
+impl WorkerPool<'_> {
     /// Draws all models, as many in parallel as there are threads. Failures are reported, and the other
     /// models continue.
-    pub(crate) fn draw(&self, tasks: &[Task]) -> Tally {
+    pub(crate) fn draw(&self, tasks: &[DrawTask]) -> BatchTally {
         let progress = Progress::start(self.quiet, self.into);
         let started = Instant::now();
         let next = Mutex::new(tasks.iter());
-        let tally = Mutex::new(Tally::default());
+        let tally = Mutex::new(BatchTally::default());
         let work = || {
             loop {
                 let task = next.lock().ok().and_then(|mut next| next.next());
                 let Some(task) = task else { return };
-                let made = self.pool.install(|| make(task));
+                let made = self.pool.install(|| draw_task(task));
                 let Ok(mut tally) = tally.lock() else { return };
                 self.take(task, made, &mut tally, &progress);
-                progress.step(course(&tally, tasks.len(), started.elapsed()));
+                progress.step(progress_text(&tally, tasks.len(), started.elapsed()));
             }
         };
-        progress.step(course(&Tally::default(), tasks.len(), Duration::ZERO));
+        progress.step(progress_text(&BatchTally::default(), tasks.len(), Duration::ZERO));
         // Models are started from separate threads. A pool thread that waits inside a drawing would begin
         // another drawing in the same stack.
         let at_once = self.pool.current_num_threads().min(tasks.len());
@@ -89,9 +89,9 @@ impl Crew<'_> {
 
     fn take(
         &self,
-        task: &Task,
-        made: Result<(Made, Vec<String>), Box<Failure>>,
-        tally: &mut Tally,
+        task: &DrawTask,
+        made: Result<(WrittenFiles, Vec<String>), Box<ModelFailure>>,
+        tally: &mut BatchTally,
         progress: &Progress,
     ) {
         match made {
@@ -101,46 +101,46 @@ impl Crew<'_> {
                 tally.bytes += made.bytes;
                 if !self.quiet {
                     for warning in warnings {
-                        progress.tell(&format!("warning: {}: {warning}", task.job.model().display()));
+                        progress.print_line(&format!("warning: {}: {warning}", task.job.model().display()));
                     }
                     for note in made.notes.iter().filter(|_| self.in_detail) {
-                        progress.tell(&format!("note: {}: {note}", task.job.model().display()));
+                        progress.print_line(&format!("note: {}: {note}", task.job.model().display()));
                     }
-                    made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.tell(line));
+                    made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.print_line(line));
                 }
             }
             Err(failure) => {
-                let Failure { error, passes } = *failure;
+                let ModelFailure { error, passes } = *failure;
                 *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
                 let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
-                progress.tell(&format!("error: {error}"));
+                progress.print_line(&format!("error: {error}"));
             }
         }
     }
 }
 
-impl Tally {
+impl BatchTally {
     /// Exit status. Temporary errors take precedence, because a second call can complete that work.
     pub(crate) const fn status(&self) -> u8 {
         match (self.failed, self.refused) {
             (0, 0) => 0,
-            (0, _) => WRONG,
-            _ => LATER,
+            (0, _) => EXIT_WRONG,
+            _ => EXIT_TRY_LATER,
         }
     }
 }
 
-struct Failure {
+struct ModelFailure {
     error: Error,
     /// Whether the same call may succeed later.
     passes: bool,
 }
 
 /// Draws a model from all views and writes the files, all or none. Returns the warnings without duplicates.
-fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
+fn draw_task(task: &DrawTask) -> Result<(WrittenFiles, Vec<String>), Box<ModelFailure>> {
     let (since, mut watch) = (Stopwatch::start(), Stopwatch::start());
     let mut staging = Staging::default();
-    let (mut made, mut warnings) = (Made::default(), Vec::new());
+    let (mut made, mut warnings) = (WrittenFiles::default(), Vec::new());
     let writes = Cell::new(false);
     let drawn = model_drawing::draw_views(
         &task.requests,
@@ -181,8 +181,8 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
     );
     // Any error of the output folder may be temporary, because it says nothing about the model.
     let failure = |error: Error, writes: bool| {
-        let passes = exit_status::passes(&error) || (writes && error.kind == ErrorKind::Io);
-        Box::new(Failure { error, passes })
+        let passes = exit_status::is_temporary(&error) || (writes && error.kind == ErrorKind::Io);
+        Box::new(ModelFailure { error, passes })
     };
     drawn.map_err(|error| failure(error, writes.get()))?;
     staging.commit().map_err(|error| failure(error, true))?;
@@ -190,7 +190,7 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
 }
 
 /// Progress text: `312 drawn, 3 failed, 688 left, 12 s to go, into`
-fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
+fn progress_text(tally: &BatchTally, all: usize, elapsed: Duration) -> String {
     let failed = tally.refused + tally.failed;
     let done = tally.drawn + failed;
     let left = (all as u64).saturating_sub(done);
@@ -221,11 +221,11 @@ mod tests {
 
     #[test]
     fn the_course_tells_what_is_left() {
-        let none = Tally::default();
-        assert_eq!(course(&none, 1000, Duration::ZERO), "0 drawn, 1,000 left, into");
-        let some = Tally { drawn: 98, refused: 2, ..Tally::default() };
+        let none = BatchTally::default();
+        assert_eq!(progress_text(&none, 1000, Duration::ZERO), "0 drawn, 1,000 left, into");
+        let some = BatchTally { drawn: 98, refused: 2, ..BatchTally::default() };
         assert_eq!(
-            course(&some, 1000, Duration::from_secs(1)),
+            progress_text(&some, 1000, Duration::from_secs(1)),
             "98 drawn, 2 failed, 900 left, 9 s to go, into"
         );
         assert_eq!([100.0, 600.0, 12_000.0].map(time), ["100 s", "10 min", "3 h 20 min"]);
@@ -233,7 +233,10 @@ mod tests {
 
     #[test]
     fn what_may_pass_goes_before_what_is_wrong() {
-        let status = |refused, failed| Tally { refused, failed, ..Tally::default() }.status();
-        assert_eq!([status(0, 0), status(2, 0), status(0, 1), status(2, 1)], [0, WRONG, LATER, LATER]);
+        let status = |refused, failed| BatchTally { refused, failed, ..BatchTally::default() }.status();
+        assert_eq!(
+            [status(0, 0), status(2, 0), status(0, 1), status(2, 1)],
+            [0, EXIT_WRONG, EXIT_TRY_LATER, EXIT_TRY_LATER]
+        );
     }
 }

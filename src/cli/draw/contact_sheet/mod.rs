@@ -13,14 +13,14 @@ mod style_grid;
 mod style_grid_args;
 mod view_grid;
 
-pub(crate) use self::picture_grid::{Picture, SIDE_PX};
+pub(crate) use self::picture_grid::{GridPicture, PICTURE_SIDE_PX};
 pub(crate) use self::style_grid::run as of_styles;
 pub(crate) use self::style_grid_args::StyleSheetArgs;
 pub(crate) use self::view_grid::run as of_views;
 use super::model_drawing;
-use super::model_drawing::Drawn;
+use super::model_drawing::EncodedDrawing;
 pub(crate) use crate::cli::options::contact_sheet_args::{MomentSheetArgs, ViewSheetArgs};
-use crate::cli::options::values::paper_size::Extent;
+use crate::cli::options::values::paper_size::PaperSize;
 use crate::cli::output::number_text;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place};
 use crate::cli::request::draw_request::DrawRequest;
@@ -31,27 +31,27 @@ use crate::export::DxfOptions;
 use crate::export::encoding::gzip;
 
 /// Number of columns of views and moments.
-pub(crate) const COLUMNS: usize = 3;
+pub(crate) const COLUMN_COUNT: usize = 3;
 
 /// Number of pictures on a sheet of views or moments.
-pub(crate) const PICTURES: usize = 9;
+pub(crate) const PICTURE_COUNT: usize = 9;
 
 /// Contact sheet that is being filled.
 #[derive(Debug, Default)]
-pub(crate) struct Sheet {
-    pictures: Vec<Picture>,
+pub(crate) struct ContactSheet {
+    pictures: Vec<GridPicture>,
     warnings: Vec<String>,
 }
 
-impl Sheet {
+impl ContactSheet {
     /// Adds a drawing, and its warnings if they are new.
-    fn add(&mut self, drawn: Drawn, caption: String, key: String) {
+    fn add(&mut self, drawn: EncodedDrawing, caption: String, key: String) {
         for warning in &drawn.report.warnings {
             if !self.warnings.contains(warning) {
                 self.warnings.push(warning.clone());
             }
         }
-        self.pictures.push(Picture { drawing: drawn.into_drawing(), caption, key });
+        self.pictures.push(GridPicture { drawing: drawn.into_drawing(), caption, key });
     }
 
     /// Writes the sheet and prints a summary. `what` is the noun for a picture.
@@ -84,7 +84,7 @@ impl Sheet {
 
 /// Request for one picture: without outputs, and small unless a size is given.
 pub(crate) fn picture_request(mut request: DrawRequest) -> DrawRequest {
-    let side = Extent { width: SIDE_PX, height: SIDE_PX };
+    let side = PaperSize { width: PICTURE_SIDE_PX, height: PICTURE_SIDE_PX };
     request.sheet.extent = request.sheet.extent.or(Some((side, Unit::Px)));
     request.outputs = Vec::new();
     request
@@ -98,7 +98,7 @@ pub(crate) fn check_outputs(outputs: &[Output]) -> Result<(), Error> {
 
 /// Writes the pictures as one sheet. Returns the number of bytes of each file.
 pub(crate) fn write<'a>(
-    pictures: Vec<Picture>,
+    pictures: Vec<GridPicture>,
     columns: usize,
     request: &DrawRequest,
     outputs: &'a [Output],

@@ -5,25 +5,25 @@ use std::collections::BTreeSet;
 use kurbo::{BezPath, Point, Rect, Shape, Vec2};
 
 use crate::colour::srgb::Colour;
-use crate::drawing::stroke_font::lettered;
+use crate::drawing::stroke_font::stroke_text;
 use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 
 /// Default side length of a picture, px.
-pub(crate) const SIDE_PX: f64 = 320.0;
+pub(crate) const PICTURE_SIDE_PX: f64 = 320.0;
 
 /// Gap between pictures and around the sheet, px.
 const GAP_PX: f64 = 20.0;
 
 /// Height of the caption area, and height and line width of its letters, px.
-const CAPTION_PX: f64 = 34.0;
-const LETTER_PX: f64 = 9.0;
-const PEN_PX: f64 = 1.4;
+const CAPTION_HEIGHT_PX: f64 = 34.0;
+const LETTER_HEIGHT_PX: f64 = 9.0;
+const PEN_WIDTH_PX: f64 = 1.4;
 
 /// Captioned drawing of the grid.
 #[derive(Debug)]
-pub(crate) struct Picture {
+pub(crate) struct GridPicture {
     /// The drawing. All drawings of a grid have the same size in px.
     pub(crate) drawing: Drawing,
     pub(crate) caption: String,
@@ -32,14 +32,15 @@ pub(crate) struct Picture {
 }
 
 /// Arranges pictures in rows with captions below them. Layers are named by the picture's key.
-pub(crate) fn grid(pictures: Vec<Picture>, columns: usize) -> Drawing {
+pub(crate) fn grid(pictures: Vec<GridPicture>, columns: usize) -> Drawing {
     let columns = columns.min(pictures.len()).max(1);
     let rows = pictures.len().div_ceil(columns);
-    let (width, height) =
-        pictures.first().map_or((SIDE_PX, SIDE_PX), |p| (p.drawing.page.width, p.drawing.page.height));
+    let (width, height) = pictures
+        .first()
+        .map_or((PICTURE_SIDE_PX, PICTURE_SIDE_PX), |p| (p.drawing.page.width, p.drawing.page.height));
     let page = Page {
         width: columns as f64 * (width + GAP_PX) + GAP_PX,
-        height: rows as f64 * (height + CAPTION_PX) + GAP_PX,
+        height: rows as f64 * (height + CAPTION_HEIGHT_PX) + GAP_PX,
         unit: Unit::Px,
         background: Some(Colour::WHITE),
     };
@@ -47,9 +48,10 @@ pub(crate) fn grid(pictures: Vec<Picture>, columns: usize) -> Drawing {
     let mut captions: Vec<Mark> = Vec::new();
     let mut keys = BTreeSet::new();
     let mut title = String::new();
-    for (place, Picture { drawing, caption, key }) in pictures.into_iter().enumerate() {
+    for (place, GridPicture { drawing, caption, key }) in pictures.into_iter().enumerate() {
         let (column, row) = ((place % columns) as f64, (place / columns) as f64);
-        let corner = Vec2::new(GAP_PX + column * (width + GAP_PX), GAP_PX + row * (height + CAPTION_PX));
+        let corner =
+            Vec2::new(GAP_PX + column * (width + GAP_PX), GAP_PX + row * (height + CAPTION_HEIGHT_PX));
         let key = unique(&key, &mut keys);
         title = drawing.title;
         layers.extend(drawing.page.background.filter(|colour| *colour != Colour::WHITE).map(|colour| {
@@ -61,7 +63,11 @@ pub(crate) fn grid(pictures: Vec<Picture>, columns: usize) -> Drawing {
             let marks = own.marks.into_iter().map(|mark| mark.moved(corner)).collect();
             layer(own.kind, &key, marks, own.ordered)
         }));
-        captions.push(written(&caption, Point::new(width / 2.0, height + CAPTION_PX / 2.0) + corner, width));
+        captions.push(caption_mark(
+            &caption,
+            Point::new(width / 2.0, height + CAPTION_HEIGHT_PX / 2.0) + corner,
+            width,
+        ));
     }
     layers.push(Layer { kind: LayerKind::Callouts, pen: None, ordered: false, marks: captions });
     Drawing::new(title, page, layers)
@@ -84,13 +90,13 @@ fn layer(kind: LayerKind, key: &str, marks: Vec<Mark>, ordered: bool) -> Layer {
 }
 
 /// Caption drawn as strokes and shrunk to the width of its picture. The text is stored as a note as well.
-fn written(caption: &str, middle: Point, width: f64) -> Mark {
-    let path: BezPath = lettered(caption, LETTER_PX, middle);
+fn caption_mark(caption: &str, middle: Point, width: f64) -> Mark {
+    let path: BezPath = stroke_text(caption, LETTER_HEIGHT_PX, middle);
     let long = path.bounding_box().width();
     let shrink = if long > width { width / long } else { 1.0 };
-    let path = if shrink < 1.0 { lettered(caption, LETTER_PX * shrink, middle) } else { path };
+    let path = if shrink < 1.0 { stroke_text(caption, LETTER_HEIGHT_PX * shrink, middle) } else { path };
     let paint = Paint::Stroke(StrokePaint {
-        width: PEN_PX * shrink,
+        width: PEN_WIDTH_PX * shrink,
         colour: Colour::rgb(0x33, 0x33, 0x33),
         cap: Cap::Round,
         join: Join::Round,
@@ -104,10 +110,10 @@ fn written(caption: &str, middle: Point, width: f64) -> Mark {
 mod tests {
     use super::*;
 
-    fn picture(caption: &str, side: f64) -> Picture {
+    fn picture(caption: &str, side: f64) -> GridPicture {
         let page = Page { width: side, height: side, unit: Unit::Px, background: None };
         let drawing = Drawing::new("a", page, Vec::new());
-        Picture { drawing, caption: caption.to_owned(), key: caption.to_owned() }
+        GridPicture { drawing, caption: caption.to_owned(), key: caption.to_owned() }
     }
 
     #[test]

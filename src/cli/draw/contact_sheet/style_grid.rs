@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::style_grid_args::StyleSheetArgs;
-use super::{Sheet, check_outputs, picture_request};
+use super::{ContactSheet, check_outputs, picture_request};
 use crate::cli::draw::model_drawing;
 use crate::cli::library_calls;
 use crate::cli::models::opened_model;
@@ -16,7 +16,7 @@ use crate::pipeline::Stopwatch;
 use crate::style::Style;
 
 /// Number of columns.
-const COLUMNS: usize = 6;
+const STYLE_COLUMN_COUNT: usize = 6;
 
 /// Draws the model in the named styles, or in all built-in styles.
 pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), Error> {
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), 
     };
     let requests: Vec<DrawRequest> = styles.iter().map(request).collect::<Result<_, _>>()?;
     let Some(first) = requests.first() else { return Err(Error::new("there is no style")) };
-    let mut sheet = Sheet::default();
+    let mut sheet = ContactSheet::default();
     library_calls::in_threads(first.threads, || {
         let progress = Progress::start(first.quiet, &model);
         progress.step("reading");
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), 
         }
         Ok(())
     })??;
-    sheet.finish(first, &outputs, COLUMNS, "style")
+    sheet.finish(first, &outputs, STYLE_COLUMN_COUNT, "style")
 }
 
 /// Name of the layers of a style.

@@ -24,14 +24,14 @@ struct SheetArg {
 }
 
 /// Options without effect on a sheet.
-const HIDDEN: [&str; 5] = ["page", "landscape", "margin", "scale", "group"];
+const UNUSED_OPTIONS: [&str; 5] = ["page", "landscape", "margin", "scale", "group"];
 
 impl Args for StyleSheetArgs {
     fn augment_args(command: Command) -> Command {
         let how = HowArgs::augment_args(Command::new("how"));
         let arguments = how.get_arguments().cloned().map(|argument| {
             let id = argument.get_id().to_string();
-            let argument = argument.requires("sheet").hide(HIDDEN.contains(&&*id));
+            let argument = argument.requires("sheet").hide(UNUSED_OPTIONS.contains(&&*id));
             if id == "style" {
                 argument
                     .action(ArgAction::Append)

@@ -1,6 +1,6 @@
 //! `ligne draw --contact-sheet`: one model drawn from nine sides.
 
-use super::{COLUMNS, PICTURES, Sheet, check_outputs, picture_request};
+use super::{COLUMN_COUNT, ContactSheet, PICTURE_COUNT, check_outputs, picture_request};
 use crate::cli::draw::model_drawing;
 use crate::cli::library_calls;
 use crate::cli::options::draw_args::DrawArgs;
@@ -12,8 +12,8 @@ use crate::pipeline::Stopwatch;
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 
 /// Angle between the views around the model, and elevation of the view from above, degrees.
-const AROUND_DEG: f64 = 45.0;
-const ABOVE_DEG: f64 = 70.0;
+const VIEW_SPACING_DEG: f64 = 45.0;
+const TOP_ELEVATION_DEG: f64 = 70.0;
 
 /// Angles between neighbouring views, degrees.
 const AZIMUTH_STEP_DEG: f64 = 20.0;
@@ -33,7 +33,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
     };
     let requests: Vec<DrawRequest> = angles.into_iter().map(request).collect::<Result<_, Error>>()?;
     let all: Vec<&DrawRequest> = requests.iter().collect();
-    let mut sheet = Sheet::default();
+    let mut sheet = ContactSheet::default();
     let mut captions = angles.into_iter().map(caption);
     library_calls::in_threads(whole.threads, || {
         let progress = Progress::start(whole.quiet, &whole.model);
@@ -44,7 +44,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
             Ok(())
         })
     })??;
-    sheet.finish(&whole, &whole.outputs, COLUMNS, "view")
+    sheet.finish(&whole, &whole.outputs, COLUMN_COUNT, "view")
 }
 
 /// Caption: the options that repeat the view.
@@ -54,14 +54,14 @@ fn caption([azimuth, elevation]: [f64; 2]) -> String {
 
 /// Azimuth and elevation of each view, degrees. Without given angles the views go around the model, with the
 /// default view in the middle and a view from above last. Otherwise they surround the given view.
-fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] {
+fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURE_COUNT] {
     let centre =
         [azimuth.unwrap_or(THREE_QUARTER_AZIMUTH_DEG), elevation.unwrap_or(THREE_QUARTER_ELEVATION_DEG)];
-    let middle = PICTURES / 2;
+    let middle = PICTURE_COUNT / 2;
     if azimuth.is_none() && elevation.is_none() {
         return std::array::from_fn(|place| match place {
-            8 => [centre[0], ABOVE_DEG],
-            _ => [turned(centre[0] + (place as f64 - middle as f64) * AROUND_DEG), centre[1]],
+            8 => [centre[0], TOP_ELEVATION_DEG],
+            _ => [turned(centre[0] + (place as f64 - middle as f64) * VIEW_SPACING_DEG), centre[1]],
         });
     }
     // Near a pole all rows lie on one side of it.
@@ -73,7 +73,7 @@ fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] 
         1.0
     };
     std::array::from_fn(|place| {
-        let (column, row) = ((place % COLUMNS) as f64, (place / COLUMNS) as f64);
+        let (column, row) = ((place % COLUMN_COUNT) as f64, (place / COLUMN_COUNT) as f64);
         [turned(centre[0] + (column - 1.0) * AZIMUTH_STEP_DEG), centre[1] + (up - row) * ELEVATION_STEP_DEG]
     })
 }

@@ -1,4 +1,4 @@
-//! [`Offered`]: values for shell completion of an option that also accepts other values.
+//! [`CompletionValues`]: values for shell completion of an option that also accepts other values.
 
 use std::ffi::OsStr;
 
@@ -8,14 +8,14 @@ use clap::{Arg, Command, Error};
 
 /// Parser with a list of values for shell completion.
 #[derive(Clone)]
-pub(crate) struct Offered<T> {
+pub(crate) struct CompletionValues<T> {
     values: Vec<&'static str>,
     /// Values that are computed when needed.
     late: Option<fn() -> &'static [&'static str]>,
     parse: fn(&str) -> Result<T, String>,
 }
 
-impl<T> Offered<T> {
+impl<T> CompletionValues<T> {
     pub(crate) fn new(
         values: impl IntoIterator<Item = &'static str>,
         parse: fn(&str) -> Result<T, String>,
@@ -32,7 +32,7 @@ impl<T> Offered<T> {
     }
 }
 
-impl<T: Clone + Send + Sync + 'static> TypedValueParser for Offered<T> {
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for CompletionValues<T> {
     type Value = T;
 
     fn parse_ref(&self, command: &Command, option: Option<&Arg>, value: &OsStr) -> Result<T, Error> {

@@ -21,9 +21,9 @@ pub(crate) enum ModelUnit {
 }
 
 /// Plausible range of the longest side of a model without a stated unit, mm, and maximum for glTF, metres.
-const SHORTEST_MM: f64 = 1.0;
-const LONGEST_MM: f64 = 10_000.0;
-const LONGEST_METRES: f64 = 1_000.0;
+const MIN_PLAUSIBLE_MM: f64 = 1.0;
+const MAX_PLAUSIBLE_MM: f64 = 10_000.0;
+const MAX_PLAUSIBLE_M: f64 = 1_000.0;
 
 impl ModelUnit {
     /// Length of the unit in mm.
@@ -67,7 +67,7 @@ fn is_in_metres(scene: &Scene) -> bool {
 
 /// Warning about a model of implausible size. `longest` is its longest side in model units. For models
 /// without a given unit.
-pub(crate) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
+pub(crate) fn implausible_size(scene: &Scene, longest: f64) -> Option<String> {
     let number = |value: f64| plain(value, if value < 1.0 { 4 } else { 1 });
     let long = number(longest);
     if !(longest.is_finite() && longest > 0.0) {
@@ -78,18 +78,18 @@ pub(crate) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
         return None;
     }
     if is_in_metres(scene) {
-        return (longest > LONGEST_METRES).then(|| {
+        return (longest > MAX_PLAUSIBLE_M).then(|| {
             let metres = number(longest / 1000.0);
             format!("the model is {long} m long, as glTF uses metres; if its numbers are mm, it is {metres} m long: --unit mm")
         });
     }
     let counted = "the file does not store its unit";
-    if longest < SHORTEST_MM {
+    if longest < MIN_PLAUSIBLE_MM {
         let (mm, inches) = (number(longest * 1000.0), number(longest * ModelUnit::In.mm()));
         Some(format!(
             "{counted}; in mm the model is only {long} mm long, in metres {mm} mm (--unit m), in inches {inches} mm (--unit in)"
         ))
-    } else if longest > LONGEST_MM {
+    } else if longest > MAX_PLAUSIBLE_MM {
         let metres = number(longest / 1000.0);
         Some(format!(
             "{counted}; in mm the model is {metres} m long; if that is too long, its unit is smaller"
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     fn doubted(format: &'static str, longest: f64) -> Option<String> {
-        doubt(&Scene { format, ..Scene::default() }, longest)
+        implausible_size(&Scene { format, ..Scene::default() }, longest)
     }
 
     #[test]

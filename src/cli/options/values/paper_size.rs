@@ -5,10 +5,10 @@ use crate::drawing::{Length, Page, Unit};
 use crate::error::Error;
 
 /// Maximum side length, user units. Rejects typing errors.
-const LARGEST: f64 = 1e6;
+const MAX_SIDE_UNITS: f64 = 1e6;
 
 /// Named sheets: width and height in mm, portrait.
-const SHEETS: [(&str, f64, f64); 10] = [
+const NAMED_SHEETS_MM: [(&str, f64, f64); 10] = [
     ("A0", 841.0, 1189.0),
     ("A1", 594.0, 841.0),
     ("A2", 420.0, 594.0),
@@ -23,17 +23,17 @@ const SHEETS: [(&str, f64, f64); 10] = [
 
 /// A width and a height, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extent {
+pub(crate) struct PaperSize {
     pub(crate) width: f64,
     pub(crate) height: f64,
 }
 
-impl Extent {
+impl PaperSize {
     fn new(width: f64, height: f64) -> Result<Self, String> {
-        if [width, height].into_iter().all(|side| side > 0.0 && side <= LARGEST) {
+        if [width, height].into_iter().all(|side| side > 0.0 && side <= MAX_SIDE_UNITS) {
             Ok(Self { width, height })
         } else {
-            Err(format!("sides must be above 0 and at most {LARGEST}"))
+            Err(format!("sides must be above 0 and at most {MAX_SIDE_UNITS}"))
         }
     }
 
@@ -44,7 +44,7 @@ impl Extent {
 }
 
 /// Reads `1000x800` or `1000`, in px.
-pub(crate) fn size_px(text: &str) -> Result<Extent, String> {
+pub(crate) fn size_px(text: &str) -> Result<PaperSize, String> {
     let side = |text: &str| {
         let text = text.trim().trim_end_matches("px");
         text.parse::<f64>().map_err(|_| "write WIDTHxHEIGHT in px, such as 1000x800".to_owned())
@@ -52,36 +52,36 @@ pub(crate) fn size_px(text: &str) -> Result<Extent, String> {
     match text.split_once(['x', 'X', '×']) {
         // The x in `800px` is not a separator.
         Some((width, height)) if !width.trim_end().ends_with(['p', 'P']) => {
-            Extent::new(side(width)?, side(height.trim_start())?)
+            PaperSize::new(side(width)?, side(height.trim_start())?)
         }
-        _ => side(text).and_then(|side| Extent::new(side, side)),
+        _ => side(text).and_then(|side| PaperSize::new(side, side)),
     }
 }
 
 /// Names of the named sheets.
 pub(crate) fn sheet_names() -> impl Iterator<Item = &'static str> {
-    SHEETS.iter().map(|(name, _, _)| *name)
+    NAMED_SHEETS_MM.iter().map(|(name, _, _)| *name)
 }
 
 /// Reads `A4`, `Letter` or `210x297mm`, in mm.
-pub(crate) fn page_mm(text: &str) -> Result<Extent, String> {
+pub(crate) fn page_mm(text: &str) -> Result<PaperSize, String> {
     if let Some((_, width, height)) =
-        SHEETS.iter().find(|(name, _, _)| name.eq_ignore_ascii_case(text.trim()))
+        NAMED_SHEETS_MM.iter().find(|(name, _, _)| name.eq_ignore_ascii_case(text.trim()))
     {
-        return Extent::new(*width, *height);
+        return PaperSize::new(*width, *height);
     }
     let wrong = || {
-        let names: Vec<&str> = SHEETS.iter().map(|(name, _, _)| *name).collect();
+        let names: Vec<&str> = NAMED_SHEETS_MM.iter().map(|(name, _, _)| *name).collect();
         format!("write one of {}, or WIDTHxHEIGHT such as 210x297mm", names.join(", "))
     };
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
-    let height = Measure::parse(height).ok_or_else(wrong)?;
-    let mut width = Measure::parse(width).ok_or_else(wrong)?;
+    let height = PageLength::parse(height).ok_or_else(wrong)?;
+    let mut width = PageLength::parse(width).ok_or_else(wrong)?;
     // A unit after the height applies to both sides.
     if width.unit_left_out && !height.unit_left_out {
-        width = Measure::parse(&format!("{}{}", width.length.value, unit_of(text))).ok_or_else(wrong)?;
+        width = PageLength::parse(&format!("{}{}", width.length.value, unit_of(text))).ok_or_else(wrong)?;
     }
-    Extent::new(width.in_unit(Unit::Mm), height.in_unit(Unit::Mm))
+    PaperSize::new(width.in_unit(Unit::Mm), height.in_unit(Unit::Mm))
 }
 
 fn unit_of(text: &str) -> &str {
@@ -90,12 +90,12 @@ fn unit_of(text: &str) -> &str {
 
 /// Length whose default unit is the unit of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measure {
+pub(crate) struct PageLength {
     length: Length,
     unit_left_out: bool,
 }
 
-impl Measure {
+impl PageLength {
     fn parse(text: &str) -> Option<Self> {
         let length = Length::parse(text)?;
         Some(Self { length, unit_left_out: !text.trim().ends_with(|c: char| c.is_ascii_alphabetic()) })
@@ -108,8 +108,8 @@ impl Measure {
 }
 
 /// Reads `10mm`, `0.5in`, or `10` in the unit of the page.
-pub(crate) fn margin(text: &str) -> Result<Measure, String> {
-    Measure::parse(text)
+pub(crate) fn margin(text: &str) -> Result<PageLength, String> {
+    PageLength::parse(text)
         .filter(|margin| margin.length.value >= 0.0)
         .ok_or_else(|| "write a length such as 10mm".to_owned())
 }
@@ -128,7 +128,7 @@ pub(crate) fn scale(text: &str) -> Result<f64, String> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Paper {
     /// Width and height in user units.
-    pub(crate) extent: Extent,
+    pub(crate) extent: PaperSize,
     /// User unit.
     pub(crate) unit: Unit,
     /// Width of the margin in user units.
@@ -137,7 +137,7 @@ pub(crate) struct Paper {
 
 impl Paper {
     /// Sheet with a margin. The default margin is 10 mm on a page in mm and 0 on a picture in px.
-    pub(crate) fn new(extent: Extent, unit: Unit, margin: Option<Measure>) -> Result<Self, Error> {
+    pub(crate) fn new(extent: PaperSize, unit: Unit, margin: Option<PageLength>) -> Result<Self, Error> {
         let margin = match (margin, unit) {
             (Some(margin), unit) => margin.in_unit(unit),
             (None, Unit::Mm) => 10.0,
@@ -178,8 +178,8 @@ impl Paper {
 mod tests {
     use super::*;
 
-    fn extent(width: f64, height: f64) -> Result<Extent, String> {
-        Ok(Extent { width, height })
+    fn extent(width: f64, height: f64) -> Result<PaperSize, String> {
+        Ok(PaperSize { width, height })
     }
 
     #[test]
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(page_mm("100x50"), extent(100.0, 50.0));
         assert_eq!(page_mm("21x29.7cm"), extent(210.0, 297.0));
         assert_eq!(page_mm("20mmx3cm"), extent(20.0, 30.0));
-        assert_eq!(page_mm("A3").map(Extent::lying), extent(420.0, 297.0));
+        assert_eq!(page_mm("A3").map(PaperSize::lying), extent(420.0, 297.0));
         for wrong in ["", "A9", "210", "0x5mm", "5x5furlong"] {
             assert!(page_mm(wrong).is_err(), "{wrong}");
         }
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn the_margin_leaves_a_frame() -> Result<(), Error> {
-        let sheet = Extent { width: 210.0, height: 297.0 };
+        let sheet = PaperSize { width: 210.0, height: 297.0 };
         assert_eq!(Paper::new(sheet, Unit::Mm, None)?.frame(), (190.0, 277.0));
         assert_eq!(Paper::new(sheet, Unit::Px, None)?.frame(), (210.0, 297.0));
         assert_eq!(Paper::new(sheet, Unit::Mm, margin("1cm").ok())?.margin, 10.0);

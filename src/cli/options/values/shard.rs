@@ -13,11 +13,11 @@ pub(crate) struct Shard {
 
 /// Value of `--shard`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Share {
+pub(crate) enum ShardSpec {
     /// Shard K of N: `2/4`.
     Given(Shard),
     /// Number of shards; the job array provides the index: `/4`.
-    Of(usize),
+    InJobArray(usize),
 }
 
 impl Shard {
@@ -33,13 +33,13 @@ impl fmt::Display for Shard {
     }
 }
 
-impl Share {
+impl ShardSpec {
     /// Reads `K/N` or `/N`.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let share = text.split_once('/').and_then(|(k, n)| {
             let of: usize = n.parse().ok().filter(|of| *of > 0)?;
             if k.is_empty() {
-                return Some(Self::Of(of));
+                return Some(Self::InJobArray(of));
             }
             let k: usize = k.parse().ok().filter(|k| (1..=of).contains(k))?;
             Some(Self::Given(Shard { first: k - 1, of }))
@@ -54,7 +54,7 @@ impl Share {
     pub(crate) fn shard(self) -> Result<Shard, Error> {
         match self {
             Self::Given(shard) => Ok(shard),
-            Self::Of(of) => numbered(of, &variable)?.ok_or_else(|| {
+            Self::InJobArray(of) => numbered(of, &variable)?.ok_or_else(|| {
                 Error::new("this is not a task of a job array: neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set")
                     .at("--shard")
                     .remedy(format!("write the number of the shard, such as 1/{of}"))
@@ -148,11 +148,11 @@ mod tests {
 
     #[test]
     fn shards_count_from_one() {
-        assert_eq!(Share::parse("1/4"), Ok(Share::Given(Shard { first: 0, of: 4 })));
-        assert_eq!(Share::parse("4/4"), Ok(Share::Given(Shard { first: 3, of: 4 })));
-        assert_eq!(Share::parse("/4"), Ok(Share::Of(4)));
+        assert_eq!(ShardSpec::parse("1/4"), Ok(ShardSpec::Given(Shard { first: 0, of: 4 })));
+        assert_eq!(ShardSpec::parse("4/4"), Ok(ShardSpec::Given(Shard { first: 3, of: 4 })));
+        assert_eq!(ShardSpec::parse("/4"), Ok(ShardSpec::InJobArray(4)));
         for wrong in ["0/4", "5/4", "1", "a/b", "1/0", "-1/2", "/0", "/"] {
-            assert!(Share::parse(wrong).is_err(), "{wrong}");
+            assert!(ShardSpec::parse(wrong).is_err(), "{wrong}");
         }
         let all: Vec<usize> = (0..10).filter(|n| Shard { first: 1, of: 4 }.has(*n)).collect();
         assert_eq!(all, [1, 5, 9]);

@@ -61,11 +61,11 @@ fn bodies_meet_as_columns_through_both_say() {
             [box_between(0.0, 1.0), box_between(2.0, 3.0)]
         };
         let (a, b) = (random(), random());
-        let shadow = |boxes: &[Box3]| Shadow::new(&body(boxes), &DVec3::AXES);
+        let shadow = |boxes: &[Box3]| AxisProjection::new(&body(boxes), &DVec3::AXES);
         let (of_a, of_b) = (shadow(&a), shadow(&b));
-        let meeting = of_a.meeting(&of_b, 1e-9);
-        assert_eq!(of_b.meeting(&of_a, 1e-9), meeting.turned(), "round {round}");
-        let graze = GRAZE * of_a.area.min(of_b.area);
+        let meeting = of_a.contact_with(&of_b, 1e-9);
+        assert_eq!(of_b.contact_with(&of_a, 1e-9), meeting.turned(), "round {round}");
+        let graze = MAX_GRAZE_AREA_RATIO * of_a.area.min(of_b.area);
         // Columns count once even if several boxes overlap there.
         let columns = by_columns(&a, &b);
         let said = [meeting.meets, meeting.blocks_up, meeting.blocks_down];
@@ -87,8 +87,8 @@ fn what_stands_in_a_ring_is_surrounded() {
         block([-2.0, 2.0], [-3.0, -2.0]),
         block([-2.0, 2.0], [2.0, 3.0]),
     ];
-    let shadow = |boxes: &[Box3]| Shadow::new(&body(boxes), &DVec3::AXES);
-    let within = |inner: &[Box3], outer: &[Box3]| shadow(inner).meeting(&shadow(outer), 1e-9).is_within;
+    let shadow = |boxes: &[Box3]| AxisProjection::new(&body(boxes), &DVec3::AXES);
+    let within = |inner: &[Box3], outer: &[Box3]| shadow(inner).contact_with(&shadow(outer), 1e-9).is_within;
     assert!(within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring));
     assert!(within(&ring, &[block([-2.0, 2.0], [-2.0, 2.0])]));
     // A gap in the ring is a free path outward.

@@ -12,19 +12,19 @@ use kurbo::{Affine, BezPath, PathEl, Point};
 use crate::geometry::numbers::portable_math::{acos, cos, sin};
 
 /// Angles of the plates relative to black in degrees: cyan, magenta, yellow, black.
-const TURNS: [f64; 4] = [-30.0, 30.0, -45.0, 0.0];
+const PLATE_ANGLES_DEG: [f64; 4] = [-30.0, 30.0, -45.0, 0.0];
 
 /// Least amount of ink that counts as solid. Up to one minus this amount, no ink is printed.
-const SOLID: f64 = 0.99;
+const MIN_SOLID_INK: f64 = 0.99;
 
 /// Number of dot sizes.
-const STEPS: f64 = 255.0;
+const DOT_SIZE_STEPS: f64 = 255.0;
 
 /// Flatness of outlines in lattice units.
-const TOLERANCE: f64 = 0.02;
+const FLATNESS_PITCHES: f64 = 0.02;
 
 /// Most dots per fill. More would be finer than any press prints.
-const MOST_DOTS: f64 = 4e6;
+const MAX_DOTS_PER_FILL: f64 = 4e6;
 
 /// A halftone screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,28 +37,28 @@ pub struct Screen {
 
 /// How an amount of ink is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tone {
+pub(crate) enum InkTone {
     None,
     Solid,
-    /// As dots of one of [`STEPS`] sizes.
+    /// As dots of one of [`DOT_SIZE_STEPS`] sizes.
     Dots,
 }
 
 /// Classifies an amount of ink, 0 to 1.
-pub(crate) fn tone(ink: f64) -> Tone {
-    if ink >= SOLID {
-        Tone::Solid
-    } else if ink <= 1.0 - SOLID {
-        Tone::None
+pub(crate) fn tone(ink: f64) -> InkTone {
+    if ink >= MIN_SOLID_INK {
+        InkTone::Solid
+    } else if ink <= 1.0 - MIN_SOLID_INK {
+        InkTone::None
     } else {
-        Tone::Dots
+        InkTone::Dots
     }
 }
 
 impl Screen {
     /// Transform from the lattice of a plate, with unit spacing, to page units; `mm` is page units per mm.
     pub(crate) fn lattice(&self, plate: usize, mm: f64) -> Affine {
-        let turn = TURNS.get(plate).copied().unwrap_or(0.0);
+        let turn = PLATE_ANGLES_DEG.get(plate).copied().unwrap_or(0.0);
         let angle = (-(self.angle_deg + turn)).to_radians();
         let pitch = 25.4 / self.lpi * mm;
         let (s, c) = (sin(angle) * pitch, cos(angle) * pitch);
@@ -91,8 +91,8 @@ pub(crate) fn dots(outline: &BezPath, share: impl Fn(Point) -> f64) -> Option<BT
         for (from, to) in spans {
             let (from, to) = ((from.ceil() as i64).max(last.saturating_add(1)), to.floor() as i64);
             for column in from..=to {
-                let size =
-                    (share(Point::new(column as f64, row as f64)).clamp(0.0, 1.0) * STEPS).round() as u8;
+                let size = (share(Point::new(column as f64, row as f64)).clamp(0.0, 1.0) * DOT_SIZE_STEPS)
+                    .round() as u8;
                 if size > 0 {
                     dots.entry(size).or_default().push((column as i32, row as i32));
                 }
@@ -105,7 +105,7 @@ pub(crate) fn dots(outline: &BezPath, share: impl Fn(Point) -> f64) -> Option<BT
 
 /// Share covered by dots of a size.
 pub(crate) fn share_of(size: u8) -> f64 {
-    f64::from(size) / STEPS
+    f64::from(size) / DOT_SIZE_STEPS
 }
 
 /// For each lattice row, the stretches where dots of radius `reach` are visible inside an outline, sorted by
@@ -115,7 +115,7 @@ fn rows(outline: &BezPath, reach: f64) -> Option<BTreeMap<i64, Vec<(f64, f64)>>>
     let mut crossings: BTreeMap<i64, Vec<(f64, i32)>> = BTreeMap::new();
     let mut edges: Vec<(Point, Point)> = Vec::new();
     let (mut start, mut pen) = (Point::ZERO, Point::ZERO);
-    kurbo::flatten(outline.elements().iter().copied(), TOLERANCE, |element| match element {
+    kurbo::flatten(outline.elements().iter().copied(), FLATNESS_PITCHES, |element| match element {
         PathEl::MoveTo(p) => {
             edges.push((pen, start));
             (start, pen) = (p, p);
@@ -163,7 +163,7 @@ fn rows(outline: &BezPath, reach: f64) -> Option<BTreeMap<i64, Vec<(f64, f64)>>>
         }
     }
     let length: f64 = spans.values().flatten().map(|(from, to)| to - from).sum();
-    if length > MOST_DOTS {
+    if length > MAX_DOTS_PER_FILL {
         return None;
     }
     for inner in spans.values_mut() {

@@ -14,7 +14,7 @@ use crate::error::{Error, ErrorKind};
 
 /// Ink of a colour; all amounts are 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Ink {
+pub(crate) enum PressInk {
     /// RGB for screens.
     Rgb([f64; 3]),
     Cmyk([f64; 4]),
@@ -114,33 +114,33 @@ impl Plates {
     }
 
     /// Ink of a colour.
-    pub fn ink(&self, colour: Colour) -> Ink {
+    pub fn ink(&self, colour: Colour) -> PressInk {
         match self.spots.iter().position(|spot| same(spot.colour, colour)) {
-            Some(number) => Ink::Spot(number),
+            Some(number) => PressInk::Spot(number),
             None => self.process(colour),
         }
     }
 
     /// Ink of a colour without spot inks.
-    pub fn process(&self, colour: Colour) -> Ink {
+    pub fn process(&self, colour: Colour) -> PressInk {
         let black = |light: f64| if light <= self.solid_black { 1.0 } else { 1.0 - light };
         match (&self.inks, &self.transform) {
-            (Inks::Screen, _) => Ink::Rgb(colour.channels()),
+            (Inks::Screen, _) => PressInk::Rgb(colour.channels()),
             (Inks::Cmyk(_), Some(transform)) if !(colour.r == colour.g && colour.g == colour.b) => {
                 let mut out = [0_u8; 4];
                 // Both slices hold one pixel, so the conversion cannot fail.
                 let done = transform.transform(&[colour.r, colour.g, colour.b], &mut out).is_ok();
                 let inks = out.map(|ink| f64::from(ink) / 255.0);
-                Ink::Cmyk(if done { self.limited(inks) } else { [0.0, 0.0, 0.0, black(colour.luma())] })
+                PressInk::Cmyk(if done { self.limited(inks) } else { [0.0, 0.0, 0.0, black(colour.luma())] })
             }
-            _ => Ink::Cmyk([0.0, 0.0, 0.0, black(colour.luma())]),
+            _ => PressInk::Cmyk([0.0, 0.0, 0.0, black(colour.luma())]),
         }
     }
 
     /// Process inks that approximate a colour on a press without its spot ink.
-    pub fn seen_as(&self, colour: Colour) -> [f64; 4] {
+    pub fn process_equivalent(&self, colour: Colour) -> [f64; 4] {
         match self.process(colour) {
-            Ink::Cmyk(inks) if self.transform.is_some() => inks,
+            PressInk::Cmyk(inks) if self.transform.is_some() => inks,
             // A rough conversion without a profile.
             _ => {
                 let [r, g, b] = colour.channels();
@@ -153,7 +153,7 @@ impl Plates {
 
     /// Whether marks of a colour overprint what is below: solid black does.
     pub fn overprints(&self, colour: Colour) -> bool {
-        self.ink(colour) == Ink::Cmyk([0.0, 0.0, 0.0, 1.0])
+        self.ink(colour) == PressInk::Cmyk([0.0, 0.0, 0.0, 1.0])
     }
 
     /// Reduces inks to the ink limit: first the grey component is moved to black, then the colours are scaled
@@ -208,7 +208,7 @@ mod tests {
     fn black_is_black_alone() {
         let plates = Plates::new(&PdfOptions::default().with_inks(Inks::K)).unwrap();
         let k = |colour: Colour| match plates.ink(colour) {
-            Ink::Cmyk([0.0, 0.0, 0.0, k]) => k,
+            PressInk::Cmyk([0.0, 0.0, 0.0, k]) => k,
             other => panic!("{other:?}"),
         };
         assert_eq!(k(Colour::BLACK), 1.0);

@@ -1,4 +1,4 @@
-//! [`Turned`]: the margin of each vertex of a rounded surface from being seen edge-on, which skips most
+//! [`EdgeOnMargin`]: the margin of each vertex of a rounded surface from being seen edge-on, which skips most
 //! edges.
 //!
 //! For an edge between normals that differ little ([`SmoothNormals::gentle`]) the margins of its ends are
@@ -8,9 +8,9 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::mesh::Mesh;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
-use crate::surface::normals::straight_edges::GENTLE_COSINE;
+use crate::surface::normals::straight_edges::MIN_GENTLE_COSINE;
 use crate::view::Frame;
 
 /// Margins for rounding, much larger than the error: absolute for facing values, a factor for lengths, and a
@@ -21,7 +21,7 @@ const SINGLE_MARGIN: f64 = 1.0 - 1e-6;
 
 /// Margins of the vertices of a mesh from being seen edge-on in a view.
 #[derive(Debug)]
-pub(crate) struct Turned {
+pub(crate) struct EdgeOnMargin {
     /// Largest turn of the line of sight, along a gentle edge from each vertex, that keeps the field from
     /// vanishing. Negative where the surface is averted; zero where the field may vanish at once.
     room: Vec<f32>,
@@ -30,14 +30,14 @@ pub(crate) struct Turned {
     nearest: f64,
 }
 
-impl Turned {
+impl EdgeOnMargin {
     /// Margins in a view. The field must vary along an edge by at most `reach` times the turn of normal and
     /// line of sight.
     pub fn of(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, reach: f64) -> Self {
-        let most = (2.0 - 2.0 * GENTLE_COSINE).sqrt();
+        let most = (2.0 - 2.0 * MIN_GENTLE_COSINE).sqrt();
         // Vertices on edges that separate surfaces have several normals, and only one is used here. No gentle
         // edge ends at them.
-        let vertices = mesh.positions.par_iter().zip(&smooth.normals).with_min_len(GRAIN);
+        let vertices = mesh.positions.par_iter().zip(&smooth.normals).with_min_len(MIN_TASK_ITEMS);
         let of_vertex = |(at, normal): (&DVec3, &DVec3)| {
             let facing = normal.dot(frame.to_eye(*at));
             let room = (facing.abs() - FACING_MARGIN) / reach - most;
@@ -48,7 +48,7 @@ impl Turned {
             let squared = |at: &DVec3| frame.eye.distance_squared(*at);
             mesh.positions
                 .par_iter()
-                .with_min_len(GRAIN)
+                .with_min_len(MIN_TASK_ITEMS)
                 .map(squared)
                 .reduce(|| f64::INFINITY, f64::min)
                 .sqrt()
@@ -60,7 +60,7 @@ impl Turned {
 
     /// Whether the field cannot vanish over a gentle edge between two vertices, given its squared length.
     #[inline]
-    pub fn all_along(&self, ends: [u32; 2], length_squared: f64) -> bool {
+    pub fn cannot_vanish(&self, ends: [u32; 2], length_squared: f64) -> bool {
         let [a, b] = ends.map(|vertex| f64::from(self.room[vertex as usize]));
         // Unit vectors from two points to the eye differ by at most the distance between the points, divided
         // by that to the nearer one.
@@ -120,7 +120,7 @@ mod tests {
             let (target, up) = (DVec3::ZERO, DVec3::Z);
             let camera = Camera { eye, target, up, projection, width: 1e3, height: 800.0, near: None };
             let frame = Frame::new(&camera, mesh.origin);
-            let known = Turned::of(&mesh, &smooth, &frame, REACH);
+            let known = EdgeOnMargin::of(&mesh, &smooth, &frame, REACH);
             for edge in 0..mesh.edges.len() {
                 let Some(ends) = smooth.across(&mesh, edge) else { continue };
                 let at = ends.map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
@@ -131,7 +131,7 @@ mod tests {
                 let is_turned =
                     facing[0] * facing[1] > 0.0 && facing[0].abs().min(facing[1].abs()) > REACH * turn;
                 let is_told = smooth.gentle.contains(edge)
-                    && known.all_along(mesh.edges.vertices[edge], at[0].distance_squared(at[1]));
+                    && known.cannot_vanish(mesh.edges.vertices[edge], at[0].distance_squared(at[1]));
                 assert!(is_turned || !is_told, "edge {edge} from {eye}");
                 told += u32::from(is_told);
                 turned += u32::from(is_turned);

@@ -1,4 +1,4 @@
-//! [`Cones`]: bounds of runs of edges, used by a view to skip whole runs that cannot contain its contour.
+//! [`NormalCones`]: bounds of runs of edges, used by a view to skip whole runs that cannot contain its contour.
 //!
 //! 1. Edges are stored in spatial order, so a run covers a small patch of the surface.
 //! 2. A ball bounds the points of a run, and a cone its normals.
@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
-use crate::surface::refine::edge_marks::RUN;
+use crate::surface::refine::edge_marks::EDGES_PER_RUN;
 use crate::view::Frame;
 
 /// Margins for rounding, much larger than the error: a factor of lengths, and an absolute margin of facing
@@ -21,17 +21,17 @@ use crate::view::Frame;
 const LENGTH_MARGIN: f64 = 1.0 + 1e-9;
 const FACING_MARGIN: f64 = 1e-6;
 /// Depth, as a share of the distance, below which too many digits are lost to use it.
-const SHALLOW: f64 = 1e-3;
+const MIN_DEPTH_SHARE: f64 = 1e-3;
 
 /// Bounds of the rounded edges of a mesh, independent of the view.
 #[derive(Debug)]
-pub struct Cones {
-    runs: Vec<Option<Cone>>,
+pub struct NormalCones {
+    runs: Vec<Option<NormalCone>>,
 }
 
 /// Bounds of the rounded edges of one run.
 #[derive(Debug, Clone, Copy)]
-struct Cone {
+struct NormalCone {
     /// Ball around their ends.
     middle: DVec3,
     radius: f64,
@@ -45,13 +45,16 @@ struct Cone {
     turn: f64,
 }
 
-impl Cones {
+impl NormalCones {
     /// Computes the bounds of all runs of edges.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
-        let runs = mesh.edges.len().div_ceil(RUN);
-        let runs =
-            (0..runs).into_par_iter().with_min_len(1 << 8).map(|run| Cone::of(mesh, smooth, run)).collect();
+        let runs = mesh.edges.len().div_ceil(EDGES_PER_RUN);
+        let runs = (0..runs)
+            .into_par_iter()
+            .with_min_len(1 << 8)
+            .map(|run| NormalCone::of(mesh, smooth, run))
+            .collect();
         Self { runs }
     }
 
@@ -66,9 +69,9 @@ impl Cones {
     }
 }
 
-impl Cone {
+impl NormalCone {
     fn of(mesh: &Mesh, smooth: &SmoothNormals, run: usize) -> Option<Self> {
-        let edges = run * RUN..((run + 1) * RUN).min(mesh.edges.len());
+        let edges = run * EDGES_PER_RUN..((run + 1) * EDGES_PER_RUN).min(mesh.edges.len());
         let rounded = || {
             let of_edge = |edge: usize| {
                 let ends = smooth.across(mesh, edge).filter(|_| !smooth.straight.contains(edge))?;
@@ -128,7 +131,7 @@ impl Cone {
             // divided by that to the nearer one.
             turn += self.length / near;
             least_depth = frame.depth(self.middle) - self.radius;
-            if least_depth < far * SHALLOW {
+            if least_depth < far * MIN_DEPTH_SHARE {
                 least_depth = 0.0;
             }
         }
@@ -178,7 +181,7 @@ mod tests {
     fn cuts_are_the_same_and_most_runs_are_passed() {
         let mesh = dented(100);
         let smooth = SmoothNormals::new(&mesh, |_| true, |edge| edge % 97 == 0);
-        let cones = Cones::new(&mesh, &smooth);
+        let cones = NormalCones::new(&mesh, &smooth);
         let mut dice = Dice::new(7);
         let mut passed = 0;
         for view in 0..24 {

@@ -1,18 +1,18 @@
-//! [`Lattice`]: lines along the cracks between pixels, from corner to corner.
+//! [`CrackLattice`]: lines along the cracks between pixels, from corner to corner.
 
 use crate::parallel::prelude::*;
 
 use super::crest_test::is_crest;
-use super::jump_tiles::JumpMap;
+use super::jump_tiles::JumpTiles;
 
 /// Directions from a corner: right, down, left, up.
-pub(crate) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+pub(crate) const CRACK_DIRECTIONS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
 /// Corners that are skipped at once where no line runs.
-const RUN: usize = 64;
+const CORNERS_PER_BLOCK: usize = 64;
 
 /// Corners of pixels, and the cracks between pixels that carry lines.
-pub(crate) struct Lattice {
+pub(crate) struct CrackLattice {
     /// Corners per row: one more than pixels.
     pub stride: usize,
     /// Number of rows of corners.
@@ -28,9 +28,9 @@ pub(crate) struct Crack {
     pub way: usize,
 }
 
-impl Lattice {
+impl CrackLattice {
     /// Cracks whose jump is a local maximum and no echo.
-    pub fn crests(jumps: &JumpMap) -> Self {
+    pub fn crests(jumps: &JumpTiles) -> Self {
         let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
@@ -59,8 +59,8 @@ impl Lattice {
             let own = &self.flags[row * stride..(row + 1) * stride];
             let above = row.checked_sub(1).map_or(&*none, |above| &self.flags[above * stride..row * stride]);
             let mut found = Vec::new();
-            for first in (0..stride).step_by(RUN) {
-                let run = first..(first + RUN).min(stride);
+            for first in (0..stride).step_by(CORNERS_PER_BLOCK) {
+                let run = first..(first + CORNERS_PER_BLOCK).min(stride);
                 // The corner before the run holds the flag of the crack to its first corner.
                 let any = any(&own[first.saturating_sub(1)..run.end]) | any(&above[run.clone()]);
                 if any != 0 {
@@ -86,7 +86,7 @@ impl Lattice {
     #[inline]
     pub fn end(&self, crack: Crack) -> Option<usize> {
         let [column, row] = self.place(crack.corner);
-        let [dx, dy] = WAYS[crack.way];
+        let [dx, dy] = CRACK_DIRECTIONS[crack.way];
         let (column, row) = (column as i32 + dx, row as i32 + dy);
         let inside = column >= 0 && row >= 0 && column < self.stride as i32 && row < self.height as i32;
         inside.then(|| row as usize * self.stride + column as usize)
@@ -138,7 +138,7 @@ impl Lattice {
     }
 
     /// Jump across a crack.
-    pub fn jump(&self, jumps: &JumpMap, crack: Crack) -> f32 {
+    pub fn jump(&self, jumps: &JumpTiles, crack: Crack) -> f32 {
         let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
         let [column, row] = self.place(corner);
         if column >= jumps.columns || row >= jumps.rows {

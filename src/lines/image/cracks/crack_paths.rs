@@ -1,33 +1,33 @@
-//! [`Path`]: crack lines from junction to junction, joined straight through junctions.
+//! [`CrackPath`]: crack lines from junction to junction, joined straight through junctions.
 
 use rustc_hash::FxHashMap;
 
-use super::crack_lattice::{Crack, Lattice};
+use super::crack_lattice::{Crack, CrackLattice};
 
 /// Window for the direction of a line at a junction, in cracks.
-const DIRECTION: usize = 10;
+const DIRECTION_CRACKS: usize = 10;
 
 /// Cosine of the sharpest turn (50 degrees) of a line at a junction.
-const STRAIGHT: f64 = 0.643;
+const MIN_STRAIGHT_COSINE: f64 = 0.643;
 
 /// Line along cracks.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Path {
+pub(crate) struct CrackPath {
     pub cracks: Vec<Crack>,
     /// Whether it is closed.
     pub closed: bool,
 }
 
-impl Path {
+impl CrackPath {
     /// Corner after the given number of cracks.
-    pub fn corner(&self, lattice: &Lattice, after: usize) -> usize {
+    pub fn corner(&self, lattice: &CrackLattice, after: usize) -> usize {
         match self.cracks.get(after) {
             Some(crack) => crack.corner,
             None => self.cracks.last().and_then(|crack| lattice.end(*crack)).unwrap_or(0),
         }
     }
 
-    fn turned(&self, lattice: &Lattice) -> Self {
+    fn turned(&self, lattice: &CrackLattice) -> Self {
         let back = |crack: &Crack| Crack {
             corner: lattice.end(*crack).unwrap_or(crack.corner),
             way: (crack.way + 2) % 4,
@@ -36,8 +36,8 @@ impl Path {
     }
 
     /// Unit direction at its start.
-    fn direction(&self, lattice: &Lattice) -> [f64; 2] {
-        let [from, to] = [0, self.cracks.len().min(DIRECTION)]
+    fn direction(&self, lattice: &CrackLattice) -> [f64; 2] {
+        let [from, to] = [0, self.cracks.len().min(DIRECTION_CRACKS)]
             .map(|after| lattice.place(self.corner(lattice, after)).map(|i| i as f64));
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
@@ -46,17 +46,17 @@ impl Path {
 }
 
 /// All lines of a lattice, with each crack in exactly one. At junctions the straightest pairs are joined.
-pub(crate) fn paths(lattice: &Lattice) -> Vec<Path> {
+pub(crate) fn paths(lattice: &CrackLattice) -> Vec<CrackPath> {
     let branches = branches(lattice);
     join(lattice, branches)
 }
 
 /// Lines between junctions and free ends, followed by rings without either.
-fn branches(lattice: &Lattice) -> Vec<Path> {
+fn branches(lattice: &CrackLattice) -> Vec<CrackPath> {
     let mut done = vec![0_u8; lattice.len()];
     let mut branches = Vec::new();
     let mut follow = |first: Crack, done: &mut Vec<u8>| {
-        let mut path = Path::default();
+        let mut path = CrackPath::default();
         let mut next = Some(first);
         while let Some(crack) = next {
             let Some(end) = lattice.end(crack) else { break };
@@ -88,10 +88,10 @@ fn branches(lattice: &Lattice) -> Vec<Path> {
 }
 
 /// End of a branch: its index, and whether it is the far end.
-type End = (usize, bool);
+type BranchEnd = (usize, bool);
 
 /// Joins branches that continue each other at junctions.
-fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
+fn join(lattice: &CrackLattice, branches: Vec<CrackPath>) -> Vec<CrackPath> {
     let next = pairs(lattice, &branches);
     let mut used = vec![false; branches.len()];
     let mut paths = Vec::with_capacity(branches.len());
@@ -102,7 +102,7 @@ fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
                 if used[start] || (!rings && next.contains_key(&(start, end))) {
                     continue;
                 }
-                let mut path = Path { closed: branches[start].closed, ..Path::default() };
+                let mut path = CrackPath { closed: branches[start].closed, ..CrackPath::default() };
                 let mut at = Some((start, end));
                 while let Some((branch, from)) = at.filter(|(branch, _)| !used[*branch]) {
                     used[branch] = true;
@@ -119,8 +119,8 @@ fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
 }
 
 /// Pairs of branch ends that continue each other.
-fn pairs(lattice: &Lattice, branches: &[Path]) -> FxHashMap<End, End> {
-    let mut ends: Vec<(usize, End, [f64; 2])> = Vec::with_capacity(2 * branches.len());
+fn pairs(lattice: &CrackLattice, branches: &[CrackPath]) -> FxHashMap<BranchEnd, BranchEnd> {
+    let mut ends: Vec<(usize, BranchEnd, [f64; 2])> = Vec::with_capacity(2 * branches.len());
     for (id, branch) in branches.iter().enumerate().filter(|(_, branch)| !branch.closed) {
         ends.push((branch.corner(lattice, 0), (id, false), branch.direction(lattice)));
         let turned = branch.turned(lattice);
@@ -129,11 +129,11 @@ fn pairs(lattice: &Lattice, branches: &[Path]) -> FxHashMap<End, End> {
     ends.sort_unstable_by_key(|(corner, end, _)| (*corner, *end));
     let mut next = FxHashMap::default();
     for meeting in ends.chunk_by(|a, b| a.0 == b.0) {
-        let mut turns: Vec<(f64, End, End)> = Vec::new();
+        let mut turns: Vec<(f64, BranchEnd, BranchEnd)> = Vec::new();
         for (i, (_, a, to_a)) in meeting.iter().enumerate() {
             for (_, b, to_b) in &meeting[i + 1..] {
                 let cosine = -(to_a[0] * to_b[0] + to_a[1] * to_b[1]);
-                if cosine > STRAIGHT {
+                if cosine > MIN_STRAIGHT_COSINE {
                     turns.push((cosine, *a, *b));
                 }
             }

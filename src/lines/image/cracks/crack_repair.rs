@@ -1,28 +1,30 @@
 //! Repair of crack lines: closes small gaps and removes spurs.
 
-use super::crack_lattice::{Crack, Lattice};
-use super::jump_tiles::JumpMap;
+use super::crack_lattice::{Crack, CrackLattice};
+use super::jump_tiles::JumpTiles;
 
 /// Largest gap that is closed, in cracks. There must be a jump all along it.
-const GAP: usize = 4;
+const MAX_GAP_CRACKS: usize = 4;
 
 /// Longest branch with a free end that is removed, in cracks.
-const SPUR: usize = 4;
+const MAX_SPUR_CRACKS: usize = 4;
 
 /// Extends free ends along the largest jumps, if that reaches another line within a few cracks.
-pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
+pub(crate) fn close_gaps(lattice: &mut CrackLattice, jumps: &JumpTiles) {
     let loose: Vec<usize> = ends(lattice);
     for start in loose {
         let Some(first) = lattice.leaving(start).next().filter(|_| lattice.degree(start) == 1) else {
             continue;
         };
-        let mut way: Vec<Crack> = Vec::with_capacity(GAP);
+        let mut way: Vec<Crack> = Vec::with_capacity(MAX_GAP_CRACKS);
         // The last corners of the line itself, which do not close a gap.
         let mut own = vec![start];
-        own.extend(walk(lattice, first, 2 * GAP).iter().filter_map(|crack| lattice.end(*crack)));
+        own.extend(
+            branch_from(lattice, first, 2 * MAX_GAP_CRACKS).iter().filter_map(|crack| lattice.end(*crack)),
+        );
         let mut at = start;
         let mut met = false;
-        while way.len() < GAP && !met {
+        while way.len() < MAX_GAP_CRACKS && !met {
             let next = (0..4)
                 .map(|way| Crack { corner: at, way })
                 .filter(|crack| !lattice.has(*crack))
@@ -44,25 +46,25 @@ pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
 }
 
 /// Removes short branches, and short isolated lines.
-pub(crate) fn take_off_spurs(lattice: &mut Lattice) {
+pub(crate) fn remove_spurs(lattice: &mut CrackLattice) {
     for start in ends(lattice) {
         let Some(first) = lattice.leaving(start).next().filter(|_| lattice.degree(start) == 1) else {
             continue;
         };
-        let branch = walk(lattice, first, SPUR + 1);
-        if branch.len() <= SPUR {
+        let branch = branch_from(lattice, first, MAX_SPUR_CRACKS + 1);
+        if branch.len() <= MAX_SPUR_CRACKS {
             branch.into_iter().for_each(|crack| lattice.put(crack, false));
         }
     }
 }
 
 /// Corners with exactly one line.
-fn ends(lattice: &Lattice) -> Vec<usize> {
+fn ends(lattice: &CrackLattice) -> Vec<usize> {
     lattice.corners().into_iter().filter(|corner| lattice.degree(*corner) == 1).collect()
 }
 
 /// Cracks of a line from a free end to its next branch or end, at most `most`.
-fn walk(lattice: &Lattice, first: Crack, most: usize) -> Vec<Crack> {
+fn branch_from(lattice: &CrackLattice, first: Crack, most: usize) -> Vec<Crack> {
     let mut branch = vec![first];
     while branch.len() < most {
         let Some(last) = branch.last().copied() else { break };

@@ -1,13 +1,13 @@
 //! Both sides of a crack line: the part and material it belongs to, and whether it is a silhouette.
 
-use super::crack_lattice::{Crack, Lattice};
-use super::pixel_jumps::Jumps;
+use super::crack_lattice::{Crack, CrackLattice};
+use super::pixel_jumps::PixelJumps;
 use crate::mesh::{MaterialId, Mesh, PartId};
-use crate::view::raster::{Maps, NO_FRONT};
+use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 
 /// Surface that a crack belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Owner {
+pub(crate) struct CrackOwner {
     pub part: PartId,
     pub material: MaterialId,
     /// Whether depth is continuous, so that both surfaces are seen.
@@ -16,8 +16,8 @@ pub(crate) struct Owner {
 
 /// Properties of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Side {
-    pub owner: Owner,
+pub(crate) struct CrackSides {
+    pub owner: CrackOwner,
     /// Depth of the nearer side, world units.
     pub depth: f64,
     /// Whether its other side is background.
@@ -25,22 +25,29 @@ pub(crate) struct Side {
 }
 
 /// Minimum length of a run of one owner, in cracks. Shorter runs join the run before.
-const SHORTEST_RUN: usize = 8;
+const MIN_RUN_CRACKS: usize = 8;
 
 /// Properties of each crack of a path.
 pub(crate) fn sides(
     mesh: &Mesh,
-    maps: &Maps,
-    jumps: &Jumps,
-    lattice: &Lattice,
+    maps: &NormalDepthMaps,
+    jumps: &PixelJumps,
+    lattice: &CrackLattice,
     cracks: &[Crack],
-) -> Vec<Side> {
-    let mut sides: Vec<Side> = cracks.iter().map(|crack| side(mesh, maps, jumps, lattice, *crack)).collect();
-    settle(&mut sides);
+) -> Vec<CrackSides> {
+    let mut sides: Vec<CrackSides> =
+        cracks.iter().map(|crack| side(mesh, maps, jumps, lattice, *crack)).collect();
+    merge_short_runs(&mut sides);
     sides
 }
 
-fn side(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, crack: Crack) -> Side {
+fn side(
+    mesh: &Mesh,
+    maps: &NormalDepthMaps,
+    jumps: &PixelJumps,
+    lattice: &CrackLattice,
+    crack: Crack,
+) -> CrackSides {
     let pixels = lattice.pixels(crack).map(|[column, row]| [column.max(0) as usize, row.max(0) as usize]);
     let [a, b] = pixels.map(|[column, row]| row * maps.columns + column);
     let near = if maps.depths[a] <= maps.depths[b] && maps.faces[a] != NO_FRONT { a } else { b };
@@ -56,21 +63,21 @@ fn side(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, crack: Crack
     let part = mesh.face_part.get(face).copied().unwrap_or(PartId(0));
     let material = mesh.face_material.get(face).copied().unwrap_or(MaterialId(0));
     let silhouette = maps.faces[a] == NO_FRONT || maps.faces[b] == NO_FRONT;
-    Side {
-        owner: Owner { part, material, both_seen: !silhouette && jumps.of_depth(line) < 1.0 },
+    CrackSides {
+        owner: CrackOwner { part, material, both_seen: !silhouette && jumps.of_depth(line) < 1.0 },
         depth: maps.depth(near),
         silhouette,
     }
 }
 
 /// Merges short runs into the run before; at the start of the path, into the run after.
-fn settle(sides: &mut [Side]) {
-    let mut kept: Option<Owner> = None;
+fn merge_short_runs(sides: &mut [CrackSides]) {
+    let mut kept: Option<CrackOwner> = None;
     let mut at = 0;
     while at < sides.len() {
         let owner = sides[at].owner;
         let run = sides[at..].iter().take_while(|side| side.owner == owner).count();
-        if run >= SHORTEST_RUN {
+        if run >= MIN_RUN_CRACKS {
             // Short runs before the first long one join it.
             if kept.is_none() {
                 sides[..at].iter_mut().for_each(|side| side.owner = owner);

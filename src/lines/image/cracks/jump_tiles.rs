@@ -1,14 +1,14 @@
-//! [`JumpMap`]: the jumps of an image, stored in tiles. Lines pass all rows but few tiles, and untouched
+//! [`JumpTiles`]: the jumps of an image, stored in tiles. Lines pass all rows but few tiles, and untouched
 //! memory is free.
 
 use crate::parallel::prelude::*;
 
 /// Rows and columns of a tile, which fills a memory page.
-const HIGH: usize = 16;
-const WIDE: usize = 32;
+const TILE_ROWS: usize = 16;
+const TILE_COLUMNS: usize = 32;
 
 /// Jumps between neighbouring pixels that may be edges; 0 elsewhere.
-pub(crate) struct JumpMap {
+pub(crate) struct JumpTiles {
     pub columns: usize,
     pub rows: usize,
     /// Columns with jumps, for each row.
@@ -17,15 +17,15 @@ pub(crate) struct JumpMap {
     jumps: Vec<[f32; 2]>,
 }
 
-impl JumpMap {
+impl JumpTiles {
     /// Builds the map; `of_row` reports the jumps of a row, each with its column.
     pub fn new(
         columns: usize,
         rows: usize,
         of_row: impl Fn(usize, &mut dyn FnMut(usize, [f32; 2])) + Sync + Send,
     ) -> Self {
-        let band = columns.next_multiple_of(WIDE) * HIGH;
-        let mut jumps = vec![[0.0; 2]; band * rows.div_ceil(HIGH)];
+        let band = columns.next_multiple_of(TILE_COLUMNS) * TILE_ROWS;
+        let mut jumps = vec![[0.0; 2]; band * rows.div_ceil(TILE_ROWS)];
         let of_band = |(number, own): (usize, &mut [[f32; 2]])| {
             let in_row = |row: usize| {
                 let mut found = Vec::new();
@@ -35,15 +35,15 @@ impl JumpMap {
                 });
                 found
             };
-            (number * HIGH..((number + 1) * HIGH).min(rows)).map(in_row).collect::<Vec<_>>()
+            (number * TILE_ROWS..((number + 1) * TILE_ROWS).min(rows)).map(in_row).collect::<Vec<_>>()
         };
         let with_jumps = jumps.par_chunks_mut(band).enumerate().flat_map_iter(of_band).collect();
         Self { columns, rows, with_jumps, jumps }
     }
 
     fn at(&self, column: usize, row: usize) -> [f32; 2] {
-        let band = self.columns.next_multiple_of(WIDE) * HIGH;
-        self.jumps[row / HIGH * band + in_band(column, row)]
+        let band = self.columns.next_multiple_of(TILE_COLUMNS) * TILE_ROWS;
+        self.jumps[row / TILE_ROWS * band + in_band(column, row)]
     }
 
     /// Jump from the left neighbour to a pixel.
@@ -62,5 +62,7 @@ impl JumpMap {
 /// Index of a pixel's jumps within its row of tiles.
 #[inline]
 fn in_band(column: usize, row: usize) -> usize {
-    column / WIDE * (WIDE * HIGH) + row % HIGH * WIDE + column % WIDE
+    column / TILE_COLUMNS * (TILE_COLUMNS * TILE_ROWS)
+        + row % TILE_ROWS * TILE_COLUMNS
+        + column % TILE_COLUMNS
 }

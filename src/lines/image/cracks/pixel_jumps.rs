@@ -1,47 +1,47 @@
-//! [`Jumps`]: differences of depth and normals between neighbouring pixels.
+//! [`PixelJumps`]: differences of depth and normals between neighbouring pixels.
 //!
 //! Edges of an image lie between pixels. Among neighbouring pairs, the one with the largest jump locates the
 //! edge.
 
 use std::ops::Range;
 
-use super::crest_test::NO_ECHO;
-use super::jump_tiles::JumpMap;
+use super::crest_test::MIN_INDEPENDENT_JUMP;
+use super::jump_tiles::JumpTiles;
 use crate::lines::image::{EdgeTest, ImageOptions};
 use crate::mesh::Mesh;
-use crate::view::raster::{Maps, NO_FRONT};
+use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 
 /// Jumps of depth and normals that the opposite test takes for an edge. For depth this is half a step of its
 /// hardware; for normals it is 29 degrees, halfway into the picture. Only the ratio of the two matters.
-const OPPOSITE: [f32; 2] = [0.0442, 0.33];
+const OPPOSITE_TEST_JUMPS: [f32; 2] = [0.0442, 0.33];
 
 /// Jump over a straight edge for which the gradient test has p = 0.75, in units of its k. Pixels next to the
 /// edge have half the jump as gradient, and those behind them none.
-const GRADIENT: f32 = 1.732;
+const GRADIENT_JUMP_RATIO: f32 = 1.732;
 
 /// Smallest jump between two surfaces.
-const SURE: f32 = 1.01 * NO_ECHO;
+const MIN_SURFACE_JUMP: f32 = 1.01 * MIN_INDEPENDENT_JUMP;
 
 /// Columns that are skipped at once where no pixel is an edge.
-const RUN: usize = 32;
+const COLUMNS_PER_BLOCK: usize = 32;
 
 /// Jumps between pixels, in units of the jump that alone makes an edge.
-pub(crate) struct Jumps<'a> {
+pub(crate) struct PixelJumps<'a> {
     mesh: &'a Mesh,
-    maps: &'a Maps,
+    maps: &'a NormalDepthMaps,
     /// Whether borders between parts or materials count as jumps.
     parts: bool,
     depth: f32,
     normal: f32,
 }
 
-impl<'a> Jumps<'a> {
-    pub fn new(mesh: &'a Mesh, maps: &'a Maps, options: &ImageOptions) -> Self {
+impl<'a> PixelJumps<'a> {
+    pub fn new(mesh: &'a Mesh, maps: &'a NormalDepthMaps, options: &ImageOptions) -> Self {
         let [depth, normal] = match options.test {
             EdgeTest::Gradient => {
-                [options.gradient_depth, options.gradient_normal].map(|k| GRADIENT * k as f32)
+                [options.gradient_depth, options.gradient_normal].map(|k| GRADIENT_JUMP_RATIO * k as f32)
             }
-            EdgeTest::Opposite => OPPOSITE,
+            EdgeTest::Opposite => OPPOSITE_TEST_JUMPS,
         };
         let differ = |face: usize| {
             mesh.face_part[face] != mesh.face_part[0] || mesh.face_material[face] != mesh.face_material[0]
@@ -72,7 +72,7 @@ impl<'a> Jumps<'a> {
     #[inline]
     fn of(&self, line: [usize; 4], are_edges: bool) -> f32 {
         let parts = self.parts && self.part_things(line[1], line[2]);
-        let least = |parts: bool| if parts { SURE } else { 0.0 };
+        let least = |parts: bool| if parts { MIN_SURFACE_JUMP } else { 0.0 };
         if !are_edges {
             return least(parts);
         }
@@ -109,11 +109,11 @@ impl<'a> Jumps<'a> {
     }
 
     /// Map of the jumps between edge pixels.
-    pub fn map(&self, edges: &[bool]) -> JumpMap {
+    pub fn map(&self, edges: &[bool]) -> JumpTiles {
         let columns = self.maps.columns;
-        JumpMap::new(columns, self.maps.rows, |row, put| {
-            for first in (0..columns).step_by(RUN) {
-                let run = first..(first + RUN).min(columns);
+        JumpTiles::new(columns, self.maps.rows, |row, put| {
+            for first in (0..columns).step_by(COLUMNS_PER_BLOCK) {
+                let run = first..(first + COLUMNS_PER_BLOCK).min(columns);
                 if self.may_jump(edges, row, run.clone()) {
                     self.along(edges, row, run, put);
                 }

@@ -12,14 +12,14 @@ pub(crate) type Gate = [DVec2; 2];
 
 /// Bend of a taut path, and the number of gates before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bend {
+pub(crate) struct TautBend {
     pub at: DVec2,
     pub gate: usize,
 }
 
 /// Shortest line from `start` through the gates to `end`, as its bends. Both ends are included.
-pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
-    let mut bends = vec![Bend { at: start, gate: 0 }];
+pub(crate) fn shortest_path(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<TautBend> {
+    let mut bends = vec![TautBend { at: start, gate: 0 }];
     let gate = |i: usize| if i < gates.len() { gates[i] } else { [end, end] };
     // Tip of the funnel, its two sides, and the gates that last moved these.
     let mut tip = start;
@@ -34,7 +34,7 @@ pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
                 (right, right_at) = (to_right, i);
             } else {
                 (tip, i) = (left, left_at);
-                bends.push(Bend { at: tip, gate: left_at });
+                bends.push(TautBend { at: tip, gate: left_at });
                 (left, right, left_at, right_at) = (tip, tip, i, i);
                 i += 1;
                 continue;
@@ -45,7 +45,7 @@ pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
                 (left, left_at) = (to_left, i);
             } else {
                 (tip, i) = (right, right_at);
-                bends.push(Bend { at: tip, gate: right_at });
+                bends.push(TautBend { at: tip, gate: right_at });
                 (left, right, left_at, right_at) = (tip, tip, i, i);
                 i += 1;
                 continue;
@@ -53,7 +53,7 @@ pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
         }
         i += 1;
     }
-    bends.push(Bend { at: end, gate: gates.len() });
+    bends.push(TautBend { at: end, gate: gates.len() });
     bends.dedup_by(|later, first| later.at == first.at);
     bends
 }
@@ -64,7 +64,7 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 }
 
 /// Points where a taut path crosses each gate.
-pub(crate) fn crossings(bends: &[Bend], gates: &[Gate]) -> Vec<DVec2> {
+pub(crate) fn crossings(bends: &[TautBend], gates: &[Gate]) -> Vec<DVec2> {
     let mut piece = 0;
     let mut crossings = Vec::with_capacity(gates.len());
     for (i, [left, right]) in gates.iter().enumerate() {
@@ -97,7 +97,7 @@ mod tests {
     fn a_straight_way_has_no_bend() {
         let steps: Vec<[f64; 2]> =
             (0..40).map(|i| (f64::from(i) * 0.3).floor()).map(|y| [y - 0.5, y + 0.5]).collect();
-        let bends = taut(DVec2::new(-1.0, -0.3), &gates(&steps), DVec2::new(40.0, 11.7));
+        let bends = shortest_path(DVec2::new(-1.0, -0.3), &gates(&steps), DVec2::new(40.0, 11.7));
         assert!(bends.len() <= 4, "{bends:?}");
         let length: f64 = bends.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum();
         assert!(length < DVec2::new(41.0, 12.0).length() + 0.02);
@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn it_bends_round_what_is_in_the_way_and_nowhere_else() {
-        let bends = taut(DVec2::ZERO, &gates(&[[-1.0, 1.0], [1.0, 2.0], [-1.0, 1.0]]), DVec2::new(3.0, 0.0));
+        let bends =
+            shortest_path(DVec2::ZERO, &gates(&[[-1.0, 1.0], [1.0, 2.0], [-1.0, 1.0]]), DVec2::new(3.0, 0.0));
         let at: Vec<[f64; 2]> = bends.iter().map(|bend| bend.at.to_array()).collect();
         assert_eq!(at, [[0.0, 0.0], [1.0, 1.0], [3.0, 0.0]]);
         assert_eq!(bends[1].gate, 1);
@@ -126,7 +127,7 @@ mod tests {
                 (0..30).map(|_| chance() * 6.0).map(|low| [low, low + 0.5]).collect();
             let gates = gates(&heights);
             let (start, end) = (DVec2::new(-1.0, 3.0), DVec2::new(30.0, 3.0));
-            let bends = taut(start, &gates, end);
+            let bends = shortest_path(start, &gates, end);
             let length: f64 = bends.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum();
             let mut ys: Vec<f64> = heights.iter().map(|[a, b]| f64::midpoint(*a, *b)).collect();
             for _ in 0..20_000 {

@@ -8,10 +8,10 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 
 use crate::lines::image::ImageOptions;
-use crate::view::raster::{Maps, NO_FRONT};
+use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 
 /// Rows per task; their gradients fit into the cache.
-const BAND: usize = 32;
+const ROWS_PER_TASK: usize = 32;
 
 /// Flags of edge pixels, row by row.
 ///
@@ -21,16 +21,16 @@ const BAND: usize = 32;
 /// A pixel is an edge if p of depth plus p of normals reaches the threshold. Outside the image the nearest
 /// pixels are used.
 #[must_use]
-pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
+pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
     let spans = spans(maps);
     let k = [options.gradient_depth as f32, options.gradient_normal as f32];
     let least = options.gradient_least as f32;
     let mut edges = vec![false; columns * rows];
-    edges.par_chunks_mut(BAND * columns).enumerate().for_each_init(
+    edges.par_chunks_mut(ROWS_PER_TASK * columns).enumerate().for_each_init(
         || [Gradients::default(), Gradients::default()],
         |[depths, normals], (band, edges)| {
-            let own = band * BAND..((band + 1) * BAND).min(rows);
+            let own = band * ROWS_PER_TASK..((band + 1) * ROWS_PER_TASK).min(rows);
             let around = own.start.saturating_sub(1)..(own.end + 1).min(rows);
             depths.fill(&maps.depths, columns, &spans, around.clone());
             normals.fill(maps.normals.as_flattened(), columns, &spans, around);
@@ -54,7 +54,7 @@ struct Spans {
     columns: usize,
 }
 
-fn spans(maps: &Maps) -> Spans {
+fn spans(maps: &NormalDepthMaps) -> Spans {
     let span = |faces: &[u32]| {
         let is_shown = |face: &u32| *face != NO_FRONT;
         let first = faces.iter().position(is_shown).unwrap_or(faces.len());

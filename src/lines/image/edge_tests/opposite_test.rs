@@ -7,7 +7,7 @@ use crate::parallel::prelude::*;
 
 use super::pixel_neighbours::around;
 use crate::lines::image::ImageOptions;
-use crate::view::raster::{Maps, NO_FRONT};
+use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 
 /// Half a step of the listing's hardware, which computes in steps of 1/256. Less than that has no effect.
 const HALF_STEP: f32 = 1.0 / 512.0;
@@ -20,7 +20,7 @@ const HALF_STEP: f32 = 1.0 / 512.0;
 /// 3. A pixel is an edge if (1 − N) + d₁² + d₂² + 2c exceeds 1/2, with the depth differences d and the depth
 ///    threshold c.
 #[must_use]
-pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
+pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
     let [normal, far, depth] =
         [options.opposite_normal, options.opposite_far, options.opposite_depth].map(|x| x as f32);
@@ -46,7 +46,7 @@ pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
 
 /// Cosine between the normals of two pixels. Background agrees with background only.
 #[inline]
-fn cosine(maps: &Maps, a: usize, b: usize) -> f32 {
+fn cosine(maps: &NormalDepthMaps, a: usize, b: usize) -> f32 {
     if maps.faces[a] == NO_FRONT && maps.faces[b] == NO_FRONT {
         return 1.0;
     }

@@ -10,15 +10,15 @@ use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
 use super::ridges::maximum;
-use super::{InsideOptions, Seen, positive};
+use super::{CurvatureView, InsideOptions, positive};
 use crate::geometry::numbers::tolerance;
 use crate::lines::zero_sets::zero_set::{EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// View-dependent curvature at a smooth vertex.
 #[derive(Debug, Clone, Copy, Default)]
-struct Apparent {
+struct ApparentCurvature {
     /// Square of the largest singular value of Q.
     q1: f64,
     /// Unit direction of that curvature on the surface.
@@ -26,12 +26,15 @@ struct Apparent {
 }
 
 /// Adds the apparent ridges.
-pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLines) {
+pub(crate) fn find(seen: &CurvatureView, options: &InsideOptions, lines: &mut FeatureLines) {
     let count = seen.eye.len();
-    let apparent: Vec<Apparent> =
-        (0..count).into_par_iter().with_min_len(GRAIN).map(|v| bend(seen, v)).collect();
+    let apparent: Vec<ApparentCurvature> = (0..count)
+        .into_par_iter()
+        .with_min_len(MIN_TASK_ITEMS)
+        .map(|v| apparent_curvature(seen, v))
+        .collect();
     let uphill: Vec<DVec3> =
-        (0..count).into_par_iter().with_min_len(GRAIN).map(|v| uphill(seen, &apparent, v)).collect();
+        (0..count).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(|v| uphill(seen, &apparent, v)).collect();
     let position = |v: u32| seen.mesh.positions[seen.smooth.vertices[v as usize] as usize];
     let set = trace_crossings(
         seen.mesh,
@@ -46,7 +49,7 @@ pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
     seen.add(&set, |_| Some(LineKind::Ridge), measure, lines);
 }
 
-fn bend(seen: &Seen, vertex: usize) -> Apparent {
+fn apparent_curvature(seen: &CurvatureView, vertex: usize) -> ApparentCurvature {
     let (p, eye) = (&seen.curvature.principal[vertex], seen.eye[vertex]);
     let sin2 = eye.x * eye.x + eye.y * eye.y;
     let (uu, uv, vv) = if sin2 > 0.0 {
@@ -55,7 +58,7 @@ fn bend(seen: &Seen, vertex: usize) -> Apparent {
         (0.0, 0.0, 0.0)
     };
     // Q = S + (sec θ − 1) S w wᵀ, in the principal directions.
-    let stretch = 1.0 / eye.z.abs().max(tolerance::LEAST_FACING) - 1.0;
+    let stretch = 1.0 / eye.z.abs().max(tolerance::MIN_FACING_COSINE) - 1.0;
     let q = [
         DVec2::new(p.k1 * (1.0 + stretch * uu), p.k2 * stretch * uv),
         DVec2::new(p.k1 * stretch * uv, p.k2 * (1.0 + stretch * vv)),
@@ -66,11 +69,11 @@ fn bend(seen: &Seen, vertex: usize) -> Apparent {
     let half = 0.5 * (a - c);
     let t = if half >= 0.0 { DVec2::new(half + spread, b) } else { DVec2::new(b, spread - half) };
     let t = t.try_normalize().unwrap_or(DVec2::X);
-    Apparent { q1: 0.5 * (a + c) + spread, t1: p.dir1 * t.x + p.dir2 * t.y }
+    ApparentCurvature { q1: 0.5 * (a + c) + spread, t1: p.dir1 * t.x + p.dir2 * t.y }
 }
 
 /// Gradient of the view-dependent curvature along its own direction.
-fn uphill(seen: &Seen, apparent: &[Apparent], vertex: usize) -> DVec3 {
+fn uphill(seen: &CurvatureView, apparent: &[ApparentCurvature], vertex: usize) -> DVec3 {
     let position = |v: u32| seen.mesh.positions[seen.smooth.vertices[v as usize] as usize];
     let own = &apparent[vertex];
     let (at, across) = (position(vertex as u32), seen.curvature.normals[vertex].cross(own.t1));

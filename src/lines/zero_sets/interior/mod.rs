@@ -25,15 +25,15 @@ use super::zero_set::{EdgePoint, ZeroSet};
 use crate::geometry::numbers::tolerance;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::Mesh;
-use crate::parallel::task_size::GRAIN;
-use crate::surface::curvature::feature_size::MOST_OF_PART;
-use crate::surface::{Curvature, Origin, SmoothNormals};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::curvature::feature_size::MAX_FEATURE_OF_PART;
+use crate::surface::{Curvature, MeshSource, SmoothNormals};
 use crate::view::View;
 
 /// Smallest measure of a line with full strength.
-const FULL: f64 = 8.0;
+const FULL_STRENGTH_MEASURE: f64 = 8.0;
 
-const UNSET: u32 = u32::MAX;
+const NO_POINT: u32 = u32::MAX;
 
 /// Whether any interior line is drawn.
 #[must_use]
@@ -44,7 +44,7 @@ pub fn wanted(options: &LineOptions) -> bool {
 /// Curvature used for the interior lines of a mesh.
 #[must_use]
 pub fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
-    Curvature::new(mesh, smooth, options.smooth * MOST_OF_PART)
+    Curvature::new(mesh, smooth, options.smooth * MAX_FEATURE_OF_PART)
 }
 
 /// Adds the interior lines of the wanted kinds.
@@ -56,7 +56,7 @@ pub fn find(
     options: &LineOptions,
     lines: &mut FeatureLines,
 ) {
-    let seen = Seen::new(mesh, view, smooth, curvature);
+    let seen = CurvatureView::new(mesh, view, smooth, curvature);
     let wants = |kind| options.kinds.contains(&kind);
     if wants(LineKind::Suggestive) {
         suggestive_contours::find(&seen, &options.inside, lines);
@@ -71,7 +71,7 @@ pub fn find(
 }
 
 /// Surface with its curvature and view directions.
-pub(crate) struct Seen<'a> {
+pub(crate) struct CurvatureView<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     smooth: &'a SmoothNormals,
@@ -82,12 +82,12 @@ pub(crate) struct Seen<'a> {
     eye: Vec<DVec3>,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> CurvatureView<'a> {
     fn new(mesh: &'a Mesh, view: &'a View, smooth: &'a SmoothNormals, curvature: &'a Curvature) -> Self {
         let frame = &view.frame;
         let eye = (0..smooth.vertices.len())
             .into_par_iter()
-            .with_min_len(GRAIN)
+            .with_min_len(MIN_TASK_ITEMS)
             .map(|v| {
                 let at = mesh.positions[smooth.vertices[v] as usize];
                 let to_eye =
@@ -108,7 +108,7 @@ impl<'a> Seen<'a> {
 
     /// A value for each smooth vertex.
     fn field(&self, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
-        (0..self.eye.len()).into_par_iter().with_min_len(GRAIN).map(value).collect()
+        (0..self.eye.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(value).collect()
     }
 
     /// Whether a face can be visible.
@@ -131,7 +131,7 @@ impl<'a> Seen<'a> {
     ) {
         let first = self.mesh.positions.len() as u32;
         lines.strengths.resize(lines.points.len(), 1.0);
-        let mut ids = vec![UNSET; set.points.len()];
+        let mut ids = vec![NO_POINT; set.points.len()];
         for segment in &set.segments {
             let Some(kind) = kind(segment.face) else { continue };
             let side = self.side(segment.face);
@@ -153,7 +153,7 @@ impl<'a> Seen<'a> {
                     return point(positions[1 - i].lerp(positions[i], t.clamp(0.0, 1.0)), 0.0);
                 }
                 let id = &mut ids[segment.ends[i] as usize];
-                if *id == UNSET {
+                if *id == NO_POINT {
                     *id = point(positions[i], strength(measures[i]));
                 }
                 *id
@@ -164,7 +164,7 @@ impl<'a> Seen<'a> {
                 kind,
                 both_seen: true,
                 smooth: true,
-                origin: Origin::default(),
+                origin: MeshSource::default(),
                 role: Role::Line,
                 strength: 0.0,
                 part: self.mesh.face_part[segment.face as usize],
@@ -176,10 +176,10 @@ impl<'a> Seen<'a> {
 
 /// Threshold that is safe to divide by.
 fn positive(threshold: f64) -> f64 {
-    threshold.max(tolerance::LEAST_THRESHOLD)
+    threshold.max(tolerance::MIN_LINE_THRESHOLD)
 }
 
-/// Strength of a line with the given measure: 0 at 1, and 1 from [`FULL`] on.
+/// Strength of a line with the given measure: 0 at 1, and 1 from [`FULL_STRENGTH_MEASURE`] on.
 fn strength(measure: f64) -> f64 {
-    ((1.0 - 1.0 / measure) / (1.0 - 1.0 / FULL)).clamp(0.0, 1.0)
+    ((1.0 - 1.0 / measure) / (1.0 - 1.0 / FULL_STRENGTH_MEASURE)).clamp(0.0, 1.0)
 }

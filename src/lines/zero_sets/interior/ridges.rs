@@ -8,13 +8,13 @@
 
 use glam::DVec3;
 
-use super::{InsideOptions, Seen, positive};
+use super::{CurvatureView, InsideOptions, positive};
 use crate::lines::zero_sets::zero_set::{Crossing, EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 
 /// Adds ridges, valleys or both.
 pub(crate) fn find(
-    seen: &Seen,
+    seen: &CurvatureView,
     ridges: bool,
     valleys: bool,
     options: &InsideOptions,
@@ -47,7 +47,7 @@ pub(crate) fn find(
 }
 
 /// Crossing on an edge whose ends are both convex (`sign` 1) or both concave (−1).
-fn crossing(seen: &Seen, sign: f64, a: usize, b: usize) -> Option<Crossing> {
+fn crossing(seen: &CurvatureView, sign: f64, a: usize, b: usize) -> Option<Crossing> {
     let principal = &seen.curvature.principal;
     if principal[a].k1 * sign <= 0.0 || principal[b].k1 * sign <= 0.0 {
         return None;

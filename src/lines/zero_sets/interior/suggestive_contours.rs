@@ -13,19 +13,19 @@
 //!   the surface.
 //! - DeCarlo and Rusinkiewicz, "Highlight lines for conveying shape", NPAR 2007.
 
-use super::{InsideOptions, Seen, positive};
+use super::{CurvatureView, InsideOptions, positive};
 use crate::lines::zero_sets::zero_set::{EdgePoint, trace};
 use crate::lines::{FeatureLines, LineKind};
 
 /// Adds suggestive contours, and highlights if wanted.
-pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLines) {
+pub(crate) fn find(seen: &CurvatureView, options: &InsideOptions, lines: &mut FeatureLines) {
     // κ_r sin² θ, with the zeros of κ_r.
     let radial = seen.field(|v| {
         let (p, eye) = (&seen.curvature.principal[v], seen.eye[v]);
         p.k1 * eye.x * eye.x + p.k2 * eye.y * eye.y
     });
     let set = trace(seen.mesh, seen.smooth, &radial, |face| seen.shows(face));
-    let change = seen.field(|v| change(seen, v));
+    let change = seen.field(|v| radial_derivative(seen, v));
     let size2 = |point: &EdgePoint| seen.size(point) * seen.size(point);
     let cosine = |point: &EdgePoint| {
         let [a, b] = point.between.map(|v| seen.eye[v as usize].z);
@@ -51,7 +51,7 @@ pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
 }
 
 /// D_w κ_r · sin θ at a smooth vertex: the derivative of the radial curvature towards the camera.
-fn change(seen: &Seen, vertex: usize) -> f64 {
+fn radial_derivative(seen: &CurvatureView, vertex: usize) -> f64 {
     let (p, eye) = (&seen.curvature.principal[vertex], seen.eye[vertex]);
     let [a, b, c, d] = seen.curvature.derivative[vertex];
     let (u, v) = (eye.x, eye.y);

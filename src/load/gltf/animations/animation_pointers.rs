@@ -3,7 +3,7 @@
 //! Source: Khronos Group, KHR_animation_pointer, and the glTF 2.0 asset object model.
 
 use crate::animation::material_factors::AlphaMode;
-use crate::animation::{Finish, Lens, Property, Shine, Target};
+use crate::animation::{AnimationTarget, CameraProperty, LightProperty, MaterialProperty, NodeProperty};
 use crate::error::Error;
 use crate::load::gltf::json::Root;
 use crate::load::gltf::material_reader;
@@ -12,7 +12,7 @@ use crate::load::gltf::material_reader;
 ///
 /// # Errors
 /// If it refers to something that the file lacks, or that has no such value.
-pub fn pointed(root: &Root, pointer: &str) -> Result<Option<Target>, Error> {
+pub fn pointed(root: &Root, pointer: &str) -> Result<Option<AnimationTarget>, Error> {
     let mut steps = pointer.strip_prefix('/').unwrap_or_default().splitn(2, '/');
     let (list, rest) = (steps.next().unwrap_or_default(), steps.next().unwrap_or_default());
     let numbered = |rest: &str| {
@@ -31,26 +31,26 @@ pub fn pointed(root: &Root, pointer: &str) -> Result<Option<Target>, Error> {
     }
 }
 
-fn node(number: usize, path: &str) -> Option<Target> {
+fn node(number: usize, path: &str) -> Option<AnimationTarget> {
     let property = match path {
-        "translation" => Property::Translation,
-        "rotation" => Property::Rotation,
-        "scale" => Property::Scale,
-        "weights" => Property::Weights,
-        "extensions/KHR_node_visibility/visible" => Property::Visible,
+        "translation" => NodeProperty::Translation,
+        "rotation" => NodeProperty::Rotation,
+        "scale" => NodeProperty::Scale,
+        "weights" => NodeProperty::Weights,
+        "extensions/KHR_node_visibility/visible" => NodeProperty::Visible,
         _ => return None,
     };
-    Some(Target::Node(number, property))
+    Some(AnimationTarget::Node(number, property))
 }
 
-fn camera(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+fn camera(root: &Root, number: usize, path: &str) -> Result<Option<AnimationTarget>, Error> {
     let (lens, is_perspective) = match path {
-        "perspective/yfov" => (Lens::FieldOfView, true),
-        "perspective/aspectRatio" => (Lens::Aspect, true),
-        "perspective/znear" => (Lens::Near, true),
-        "orthographic/xmag" => (Lens::HalfWidth, false),
-        "orthographic/ymag" => (Lens::HalfHeight, false),
-        "orthographic/znear" => (Lens::Near, false),
+        "perspective/yfov" => (CameraProperty::FieldOfView, true),
+        "perspective/aspectRatio" => (CameraProperty::Aspect, true),
+        "perspective/znear" => (CameraProperty::Near, true),
+        "orthographic/xmag" => (CameraProperty::HalfWidth, false),
+        "orthographic/ymag" => (CameraProperty::HalfHeight, false),
+        "orthographic/znear" => (CameraProperty::Near, false),
         // There is no far plane.
         _ => return Ok(None),
     };
@@ -59,44 +59,44 @@ fn camera(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Erro
         let kind = if is_perspective { "perspective" } else { "orthographic" };
         return Err(Error::new(format!("it moves `{path}` of camera {number}, which is not {kind}")));
     }
-    Ok(Some(Target::Camera(number, lens)))
+    Ok(Some(AnimationTarget::Camera(number, lens)))
 }
 
-fn light(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+fn light(root: &Root, number: usize, path: &str) -> Result<Option<AnimationTarget>, Error> {
     let shine = match path {
-        "color" => Shine::Colour,
-        "intensity" => Shine::Intensity,
-        "range" => Shine::Range,
-        "spot/innerConeAngle" => Shine::InnerAngle,
-        "spot/outerConeAngle" => Shine::OuterAngle,
+        "color" => LightProperty::Colour,
+        "intensity" => LightProperty::Intensity,
+        "range" => LightProperty::Range,
+        "spot/innerConeAngle" => LightProperty::InnerAngle,
+        "spot/outerConeAngle" => LightProperty::OuterAngle,
         _ => return Ok(None),
     };
     let lights = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let own = lights.get(number).ok_or_else(|| absent("light", number, lights.len()))?;
-    if matches!(shine, Shine::InnerAngle | Shine::OuterAngle) && own.kind != "spot" {
+    if matches!(shine, LightProperty::InnerAngle | LightProperty::OuterAngle) && own.kind != "spot" {
         return Err(Error::new(format!("it moves `{path}` of light {number}, which is not a spot light")));
     }
-    Ok(Some(Target::Light(number, shine)))
+    Ok(Some(AnimationTarget::Light(number, shine)))
 }
 
-fn material(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+fn material(root: &Root, number: usize, path: &str) -> Result<Option<AnimationTarget>, Error> {
     let finish = match path {
-        "pbrMetallicRoughness/baseColorFactor" => Finish::Base,
-        "pbrMetallicRoughness/roughnessFactor" => Finish::Roughness,
-        "emissiveFactor" => Finish::Emissive,
-        "alphaCutoff" => Finish::Cutoff,
-        "extensions/KHR_materials_transmission/transmissionFactor" => Finish::Transmission,
+        "pbrMetallicRoughness/baseColorFactor" => MaterialProperty::Base,
+        "pbrMetallicRoughness/roughnessFactor" => MaterialProperty::Roughness,
+        "emissiveFactor" => MaterialProperty::Emissive,
+        "alphaCutoff" => MaterialProperty::Cutoff,
+        "extensions/KHR_materials_transmission/transmissionFactor" => MaterialProperty::Transmission,
         _ => return Ok(None),
     };
     let own = root.materials.get(number).ok_or_else(|| absent("material", number, root.materials.len()))?;
     let rest = material_reader::factors(own);
     let is_drawn = match finish {
-        Finish::Base => !material_reader::is_glossy(own),
-        Finish::Emissive => rest.emissive.is_some(),
-        Finish::Cutoff => rest.mode == AlphaMode::Mask,
-        Finish::Roughness | Finish::Transmission => true,
+        MaterialProperty::Base => !material_reader::is_glossy(own),
+        MaterialProperty::Emissive => rest.emissive.is_some(),
+        MaterialProperty::Cutoff => rest.mode == AlphaMode::Mask,
+        MaterialProperty::Roughness | MaterialProperty::Transmission => true,
     };
-    Ok(is_drawn.then_some(Target::Material(number, finish)))
+    Ok(is_drawn.then_some(AnimationTarget::Material(number, finish)))
 }
 
 fn absent(kind: &str, number: usize, count: usize) -> Error {

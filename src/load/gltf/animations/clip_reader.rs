@@ -2,7 +2,9 @@
 
 use super::animation_pointers::pointed;
 use crate::animation::rig::Node;
-use crate::animation::{Channel, Clip, Finish, Interpolation, Property, Shine, Target, Track};
+use crate::animation::{
+    AnimationTarget, Clip, ClipChannel, Interpolation, LightProperty, MaterialProperty, NodeProperty, Track,
+};
 use crate::error::Error;
 use crate::load::gltf::json::{Animation, AnimationSampler, Channel as JsonChannel, ChannelTarget};
 use crate::load::gltf::storage::buffers::Buffers;
@@ -43,7 +45,7 @@ fn read(
     nodes: &[Node],
     animation: &Animation,
     channel: &JsonChannel,
-) -> Result<Option<Channel>, Error> {
+) -> Result<Option<ClipChannel>, Error> {
     let Some(target) = target(buffers, &channel.target)? else { return Ok(None) };
     let width = width(nodes, target)?;
     let number = channel.sampler.ok_or_else(|| Error::new("it has no sampler"))?;
@@ -55,7 +57,7 @@ fn read(
     if track.width() != numbers || numbers == 0 {
         return Err(Error::new(format!("{} numbers a key, where {numbers} are needed", track.width())));
     }
-    Ok(Some(Channel { target, track }))
+    Ok(Some(ClipChannel { target, track }))
 }
 
 /// Number of values per key.
@@ -77,41 +79,47 @@ impl Width {
     }
 }
 
-fn width(nodes: &[Node], target: Target) -> Result<Width, Error> {
+fn width(nodes: &[Node], target: AnimationTarget) -> Result<Width, Error> {
     Ok(match target {
-        Target::Node(node, property) => {
+        AnimationTarget::Node(node, property) => {
             let Some(own) = nodes.get(node) else {
                 return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
             };
             match property {
-                Property::Translation | Property::Scale => Width::Three,
-                Property::Rotation => Width::Four,
-                Property::Weights => Width::Scalars(own.weights.len()),
-                Property::Visible => Width::Scalars(1),
+                NodeProperty::Translation | NodeProperty::Scale => Width::Three,
+                NodeProperty::Rotation => Width::Four,
+                NodeProperty::Weights => Width::Scalars(own.weights.len()),
+                NodeProperty::Visible => Width::Scalars(1),
             }
         }
-        Target::Light(_, Shine::Colour) | Target::Material(_, Finish::Emissive) => Width::Three,
-        Target::Material(_, Finish::Base) => Width::Four,
-        Target::Camera(..) | Target::Light(..) | Target::Material(..) => Width::Scalars(1),
+        AnimationTarget::Light(_, LightProperty::Colour)
+        | AnimationTarget::Material(_, MaterialProperty::Emissive) => Width::Three,
+        AnimationTarget::Material(_, MaterialProperty::Base) => Width::Four,
+        AnimationTarget::Camera(..) | AnimationTarget::Light(..) | AnimationTarget::Material(..) => {
+            Width::Scalars(1)
+        }
     })
 }
 
 /// Target of a channel; `None` if it changes nothing visible.
-fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, Error> {
+fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<AnimationTarget>, Error> {
     if let Some(pointer) = &target.extensions.pointer {
         return pointed(buffers.root, &pointer.pointer);
     }
     let property = match target.path.as_str() {
-        "translation" => Property::Translation,
-        "rotation" => Property::Rotation,
-        "scale" => Property::Scale,
-        "weights" => Property::Weights,
+        "translation" => NodeProperty::Translation,
+        "rotation" => NodeProperty::Rotation,
+        "scale" => NodeProperty::Scale,
+        "weights" => NodeProperty::Weights,
         other => {
-            return Err(Error::new(format!("its path `{}` is unknown", crate::load::gltf::uri::shown(other))));
+            return Err(Error::new(format!(
+                "its path `{}` is unknown",
+                crate::load::gltf::uri::shortened(other)
+            )));
         }
     };
     // A channel without a node belongs to an extension.
-    Ok(target.node.map(|node| Target::Node(node, property)))
+    Ok(target.node.map(|node| AnimationTarget::Node(node, property)))
 }
 
 fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<Track, Error> {
@@ -122,7 +130,7 @@ fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<
         Some(other) => {
             return Err(Error::new(format!(
                 "its interpolation `{}` is unknown",
-                crate::load::gltf::uri::shown(other)
+                crate::load::gltf::uri::shortened(other)
             )));
         }
     };

@@ -20,9 +20,9 @@ impl From<i64> for Index {
 }
 
 /// An index for messages, formatted as in the file.
-pub struct Shown(pub usize);
+pub struct DisplayIndex(pub usize);
 
-impl fmt::Display for Shown {
+impl fmt::Display for DisplayIndex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0 as isize)
     }
@@ -59,7 +59,7 @@ mod tests {
     fn negative_indices_point_nowhere_and_are_shown_as_written() {
         for number in [-1_i64, 0, 7, i64::MIN, i64::MAX] {
             let Index(index) = serde_json::from_str(&number.to_string()).unwrap();
-            assert_eq!(Shown(index).to_string(), number.to_string());
+            assert_eq!(DisplayIndex(index).to_string(), number.to_string());
             assert_eq!((0..8).contains(&number), index < 8);
         }
         assert!(serde_json::from_str::<Index>("0.5").is_err());

@@ -3,14 +3,14 @@
 use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use glam::DVec3;
 
-use super::vertex_streams::Streams;
+use super::vertex_streams::VertexStreams;
 use crate::error::Error;
 use crate::load::gltf::json::{Draco, Primitive};
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::mesh::lattice;
 
 /// Maximum number of triangles, and of vertices, in a compressed stream, independent of its header.
-const MOST: u64 = 1 << 26;
+const MAX_DECODED_ELEMENTS: u64 = 1 << 26;
 
 /// Decodes the stream of a primitive.
 pub fn decode(
@@ -18,7 +18,7 @@ pub fn decode(
     primitive: &Primitive,
     packed: &Draco,
     uv_name: &str,
-) -> Result<Streams, Error> {
+) -> Result<VertexStreams, Error> {
     let broken = |message: String| {
         Error::new(format!("the Draco stream cannot be decoded ({message})"))
             .remedy("export the model again without Draco compression")
@@ -27,13 +27,13 @@ pub fn decode(
     let announced = |accessor: Option<usize>| {
         accessor
             .and_then(|accessor| buffers.announced(accessor))
-            .map_or(MOST, |count| (count as u64).min(MOST))
+            .map_or(MAX_DECODED_ELEMENTS, |count| (count as u64).min(MAX_DECODED_ELEMENTS))
     };
     let position = primitive.attributes.get("POSITION").copied();
     // The counts of the accessors limit the output; some exporters give too small counts.
     let limits = DecodeLimits::default()
-        .with_max_points(announced(position).saturating_mul(4).min(MOST))
-        .with_max_faces(announced(primitive.indices).min(MOST))
+        .with_max_points(announced(position).saturating_mul(4).min(MAX_DECODED_ELEMENTS))
+        .with_max_faces(announced(primitive.indices).min(MAX_DECODED_ELEMENTS))
         .with_max_decoded_bytes(announced(position).saturating_mul(1024).min(1 << 31));
     let mut mesh = Mesh::new();
     MeshDecoder::new()
@@ -75,8 +75,8 @@ pub fn decode(
         positions.map(|p: &[f32; 3]| DVec3::from_array(p.map(f64::from))).collect();
     let normals = values("NORMAL", 3)?.as_chunks().0.to_vec();
     let triangles: Vec<[u32; 3]> = mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
-    lattice::loosen(&mut positions, &triangles, &normals);
-    Ok(Streams {
+    lattice::dequantize(&mut positions, &triangles, &normals);
+    Ok(VertexStreams {
         positions,
         normals,
         uvs: values(uv_name, 2)?.as_chunks().0.to_vec(),

@@ -4,20 +4,20 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3};
 
-use super::primitive_modes::{Mode, Shape};
+use super::primitive_modes::{PrimitiveElements, PrimitiveMode};
 use super::{edge_visibility, skin_and_morphs, vertex_reader};
-use crate::animation::Body;
+use crate::animation::DeformableMesh;
 use crate::error::Error;
 use crate::load::gltf::json::Primitive;
-use crate::load::gltf::json::lenient_index::Shown;
-use crate::load::gltf::missing_references::Missing;
+use crate::load::gltf::json::lenient_index::DisplayIndex;
+use crate::load::gltf::missing_references::MissingReferences;
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::load::gltf::{material_reader, uri};
 use crate::mesh::EdgeMark;
 use crate::scene::{Geometry, Warnings};
 
 /// No normals or texture coordinates.
-const NONE: [u32; 3] = [u32::MAX; 3];
+const NO_INDICES: [u32; 3] = [u32::MAX; 3];
 
 /// Reads mesh `number`, and its deformable vertices if requested. `joints` transform its vertices to world
 /// space if its node has a skin.
@@ -29,13 +29,13 @@ pub fn geometry(
     number: usize,
     (weights, joints, rigged): (&[f64], Option<&[DAffine3]>, bool),
     warnings: &mut Warnings,
-    missing: &mut Missing,
-) -> Result<(Geometry, Vec<Body>), Error> {
+    missing: &mut MissingReferences,
+) -> Result<(Geometry, Vec<DeformableMesh>), Error> {
     let Some(mesh) = buffers.root.meshes.get(number) else {
         let message = format!("is pointed to, but the file has {}", buffers.root.meshes.len());
         return Err(Error::new(message).at(format!("mesh {number}")));
     };
-    let mut builder = Builder {
+    let mut builder = MeshBuilder {
         buffers,
         weights,
         joints,
@@ -47,7 +47,7 @@ pub fn geometry(
         wire_material: None,
     };
     let name = mesh.name.as_deref().filter(|name| !name.is_empty());
-    let name = name.map_or_else(String::new, |name| format!(" of `{}`", uri::shown(name)));
+    let name = name.map_or_else(String::new, |name| format!(" of `{}`", uri::shortened(name)));
     for (index, primitive) in mesh.primitives.iter().enumerate() {
         let here = || format!("mesh {number} primitive {index}{name}");
         builder.add(primitive, &here, warnings, missing).map_err(|error| error.within(here()))?;
@@ -56,21 +56,21 @@ pub fn geometry(
 }
 
 /// Identity of a primitive's vertices: attributes, morph targets and set of texture coordinates.
-type Key<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
+type VertexKey<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
 
 /// Corners of triangles.
 type Triangles = Vec<[u32; 3]>;
 
-struct Builder<'a> {
+struct MeshBuilder<'a> {
     buffers: &'a Buffers<'a>,
     weights: &'a [f64],
     joints: Option<&'a [DAffine3]>,
     /// Whether deformable vertices are returned.
     rigged: bool,
-    bodies: Vec<Body>,
+    bodies: Vec<DeformableMesh>,
     geometry: Geometry,
     /// Vertices that were read already; exporters often share them among primitives.
-    blocks: Vec<(Key<'a>, Block)>,
+    blocks: Vec<(VertexKey<'a>, VertexBlock)>,
     /// Material and number of triangles of each primitive.
     painted: Vec<(Option<usize>, usize)>,
     wire_material: Option<usize>,
@@ -78,32 +78,32 @@ struct Builder<'a> {
 
 /// Range of a primitive's vertices in the geometry, and its attributes.
 #[derive(Debug, Clone, Copy)]
-struct Block {
+struct VertexBlock {
     start: u32,
     count: u32,
     normals: bool,
     uvs: bool,
 }
 
-impl<'a> Builder<'a> {
+impl<'a> MeshBuilder<'a> {
     /// Adds a primitive; `here` names it in messages.
     fn add(
         &mut self,
         primitive: &'a Primitive,
         here: &dyn Fn() -> String,
         warnings: &mut Warnings,
-        missing: &mut Missing,
+        missing: &mut MissingReferences,
     ) -> Result<(), Error> {
         let materials = self.buffers.root.materials.len();
         let material = primitive.material.filter(|material| *material < materials);
         if let (Some(number), None) = (primitive.material, material) {
             missing.materials.add(|| {
-                let (here, number) = (here(), Shown(number));
+                let (here, number) = (here(), DisplayIndex(number));
                 format!("{here}: has material {number}, but the file has {materials}; it is drawn without a material")
             });
         }
-        let mode = Mode::new(primitive.mode)?;
-        if mode == Mode::Points {
+        let mode = PrimitiveMode::new(primitive.mode)?;
+        if mode == PrimitiveMode::Points {
             warnings.note("points are not drawn");
             return Ok(());
         }
@@ -145,9 +145,9 @@ impl<'a> Builder<'a> {
 
     /// Vertices of a primitive, reused if an earlier primitive had the same; and the triangles of a
     /// compressed primitive.
-    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
+    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(VertexBlock, Option<Triangles>), Error> {
         let variant = vertex_reader::uv_variant(self.buffers, primitive);
-        let key: Key = (&primitive.attributes, &primitive.targets, variant);
+        let key: VertexKey = (&primitive.attributes, &primitive.targets, variant);
         let shareable = primitive.extensions.draco.is_none();
         if let Some((_, block)) = self.blocks.iter().find(|(known, _)| shareable && *known == key) {
             return Ok((*block, None));
@@ -169,7 +169,7 @@ impl<'a> Builder<'a> {
         if start.saturating_add(count) >= u32::MAX as usize {
             return Err(Error::new("the mesh has more vertices than can be numbered"));
         }
-        let block = Block {
+        let block = VertexBlock {
             start: start as u32,
             count: count as u32,
             normals: !streams.normals.is_empty(),
@@ -197,12 +197,12 @@ impl<'a> Builder<'a> {
     fn shape(
         &self,
         primitive: &Primitive,
-        mode: Mode,
-        block: Block,
+        mode: PrimitiveMode,
+        block: VertexBlock,
         ready: Option<Triangles>,
         warnings: &mut Warnings,
-    ) -> Result<Shape, Error> {
-        let mut shape = Shape::default();
+    ) -> Result<PrimitiveElements, Error> {
+        let mut shape = PrimitiveElements::default();
         if let Some(triangles) = ready {
             let wrong = triangles.as_flattened().iter().find(|index| **index >= block.count);
             if let Some(index) = wrong {
@@ -241,8 +241,8 @@ impl<'a> Builder<'a> {
     /// Drops triangles and wires with a corner that is not finite.
     fn drop_unsound(
         &mut self,
-        block: Block,
-        shape: &mut Shape,
+        block: VertexBlock,
+        shape: &mut PrimitiveElements,
         marks: &mut Vec<[EdgeMark; 3]>,
         warnings: &mut Warnings,
     ) {
@@ -267,19 +267,19 @@ impl<'a> Builder<'a> {
         warnings.count("lines left out, with an end that is not a number", lines);
     }
 
-    fn append(&mut self, block: Block, shape: Shape, marks: Vec<[EdgeMark; 3]>) {
+    fn append(&mut self, block: VertexBlock, shape: PrimitiveElements, marks: Vec<[EdgeMark; 3]>) {
         let geometry = &mut self.geometry;
         let start = geometry.triangles.len();
         let corners = |has: bool| if has { shape.triangles.clone() } else { Vec::new() };
         let (normals, uvs) = (corners(block.normals), corners(block.uvs));
-        pad_after(&mut geometry.corner_normals, start, normals, shape.triangles.len(), NONE);
-        pad_after(&mut geometry.corner_uvs, start, uvs, shape.triangles.len(), NONE);
+        pad_after(&mut geometry.corner_normals, start, normals, shape.triangles.len(), NO_INDICES);
+        pad_after(&mut geometry.corner_uvs, start, uvs, shape.triangles.len(), NO_INDICES);
         pad_after(&mut geometry.edge_marks, start, marks, shape.triangles.len(), [EdgeMark::Unmarked; 3]);
-        append_or_take(&mut geometry.triangles, start, shape.triangles, NONE);
+        append_or_take(&mut geometry.triangles, start, shape.triangles, NO_INDICES);
         geometry.wires.extend(shape.wires);
     }
 
-    fn finish(self) -> (Geometry, Vec<Body>) {
+    fn finish(self) -> (Geometry, Vec<DeformableMesh>) {
         let mut geometry = self.geometry;
         // Replace unused invalid positions, which would widen the bounds.
         let sound = geometry.positions.iter().copied().find(|position| position.is_finite());

@@ -5,7 +5,7 @@ use crate::scene::Warnings;
 
 /// Primitive mode: how indices form triangles or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
+pub enum PrimitiveMode {
     Points,
     Lines,
     LineLoop,
@@ -15,7 +15,7 @@ pub enum Mode {
     TriangleFan,
 }
 
-impl Mode {
+impl PrimitiveMode {
     /// Mode of a number in the file; triangles by default.
     pub fn new(code: Option<u32>) -> Result<Self, Error> {
         Ok(match code {
@@ -38,33 +38,33 @@ impl Mode {
 
 /// Triangles and wires of a primitive.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub struct Shape {
+pub struct PrimitiveElements {
     pub triangles: Vec<[u32; 3]>,
     pub wires: Vec<[u32; 2]>,
 }
 
-impl Shape {
+impl PrimitiveElements {
     /// Adds a run of indices; left-over indices are counted.
-    pub fn add(&mut self, mode: Mode, run: &[u32], warnings: &mut Warnings) {
+    pub fn add(&mut self, mode: PrimitiveMode, run: &[u32], warnings: &mut Warnings) {
         let mut left_over = |rest: &[u32]| {
             if !rest.is_empty() {
                 warnings.count("indices left over at the end of a primitive", rest.len() as u64);
             }
         };
         match mode {
-            Mode::Points => {}
-            Mode::Lines => {
+            PrimitiveMode::Points => {}
+            PrimitiveMode::Lines => {
                 let (pairs, rest) = run.as_chunks::<2>();
                 left_over(rest);
                 self.wires.extend_from_slice(pairs);
             }
-            Mode::LineLoop | Mode::LineStrip => {
+            PrimitiveMode::LineLoop | PrimitiveMode::LineStrip => {
                 self.wires.extend(run.array_windows().map(|[a, b]| [*a, *b]));
-                if let (Mode::LineLoop, [first, .., last]) = (mode, run) {
+                if let (PrimitiveMode::LineLoop, [first, .., last]) = (mode, run) {
                     self.wires.push([*last, *first]);
                 }
             }
-            Mode::Triangles => {
+            PrimitiveMode::Triangles => {
                 let (triples, rest) = run.as_chunks::<3>();
                 left_over(rest);
                 if self.triangles.is_empty() {
@@ -73,13 +73,13 @@ impl Shape {
                     self.triangles.extend_from_slice(triples);
                 }
             }
-            Mode::TriangleStrip => {
+            PrimitiveMode::TriangleStrip => {
                 // Every other triangle of a strip has reversed winding.
                 let turned =
                     |(i, [a, b, c]): (usize, &[u32; 3])| if i % 2 == 0 { [*a, *b, *c] } else { [*a, *c, *b] };
                 self.triangles.extend(run.array_windows().enumerate().map(turned));
             }
-            Mode::TriangleFan => {
+            PrimitiveMode::TriangleFan => {
                 if let [hub, rim @ ..] = run {
                     self.triangles.extend(rim.array_windows().map(|[a, b]| [*a, *b, *hub]));
                 }
@@ -93,22 +93,22 @@ impl Shape {
 mod tests {
     use super::*;
 
-    fn shape(mode: u32, run: &[u32]) -> (Shape, Warnings) {
-        let (mut shape, mut warnings) = (Shape::default(), Warnings::default());
-        shape.add(Mode::new(Some(mode)).unwrap(), run, &mut warnings);
+    fn shape(mode: u32, run: &[u32]) -> (PrimitiveElements, Warnings) {
+        let (mut shape, mut warnings) = (PrimitiveElements::default(), Warnings::default());
+        shape.add(PrimitiveMode::new(Some(mode)).unwrap(), run, &mut warnings);
         (shape, warnings)
     }
 
     #[test]
     fn all_modes() {
-        assert_eq!(shape(0, &[0, 1]).0, Shape::default());
+        assert_eq!(shape(0, &[0, 1]).0, PrimitiveElements::default());
         assert_eq!(shape(1, &[0, 1, 2, 3]).0.wires, [[0, 1], [2, 3]]);
         assert_eq!(shape(2, &[0, 1, 2]).0.wires, [[0, 1], [1, 2], [2, 0]]);
         assert_eq!(shape(3, &[0, 1, 2]).0.wires, [[0, 1], [1, 2]]);
         assert_eq!(shape(4, &[0, 1, 2]).0.triangles, [[0, 1, 2]]);
         assert_eq!(shape(5, &[0, 1, 2, 3]).0.triangles, [[0, 1, 2], [1, 3, 2]]);
         assert_eq!(shape(6, &[0, 1, 2, 3]).0.triangles, [[1, 2, 0], [2, 3, 0]]);
-        assert!(Mode::new(Some(7)).is_err());
+        assert!(PrimitiveMode::new(Some(7)).is_err());
     }
 
     #[test]
@@ -116,8 +116,8 @@ mod tests {
         assert_eq!(shape(4, &[0, 1, 2, 3, 4]).1.lines(), ["2 indices left over at the end of a primitive"]);
         assert_eq!(shape(1, &[0]).1.lines(), ["1 indices left over at the end of a primitive"]);
         for mode in [2, 3, 5, 6] {
-            assert_eq!(shape(mode, &[0]).0, Shape::default());
-            assert_eq!(shape(mode, &[]).0, Shape::default());
+            assert_eq!(shape(mode, &[0]).0, PrimitiveElements::default());
+            assert_eq!(shape(mode, &[]).0, PrimitiveElements::default());
         }
     }
 }

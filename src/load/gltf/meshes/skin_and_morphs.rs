@@ -2,15 +2,15 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::vertex_streams::Streams;
-use crate::animation::deformable_mesh::{Body, Influences, Target};
+use super::vertex_streams::VertexStreams;
+use crate::animation::deformable_mesh::{DeformableMesh, Influences, MorphTarget};
 use crate::animation::rig::Skin;
 use crate::error::Error;
 use crate::load::gltf::json::Primitive;
 use crate::load::gltf::storage::buffers::Buffers;
 
 /// Maximum number of sets of four joints per vertex.
-const SETS: usize = 16;
+const MAX_JOINT_SETS: usize = 16;
 
 /// Joints of a skin, and their inverse bind matrices.
 pub fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
@@ -41,19 +41,19 @@ fn bind_matrix([a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _]: [f64; 16]) -> D
 /// Deformations of a primitive: its morph targets (all, or those with a weight), and its joint weights if it
 /// has a skin.
 pub fn body(
-    streams: &Streams,
+    streams: &VertexStreams,
     buffers: &Buffers,
     primitive: &Primitive,
     (weights, all): (&[f64], bool),
     joints: Option<usize>,
-) -> Result<Body, Error> {
-    let mut body = Body::default();
+) -> Result<DeformableMesh, Error> {
+    let mut body = DeformableMesh::default();
     for (number, target) in primitive.targets.iter().enumerate() {
         let weight = weights.get(number).copied().unwrap_or(0.0);
         body.targets.push(if all || weight != 0.0 {
             read_target(streams, buffers, target)?
         } else {
-            Target::default()
+            MorphTarget::default()
         });
     }
     if let Some(joints) = joints {
@@ -63,11 +63,11 @@ pub fn body(
 }
 
 fn read_target(
-    streams: &Streams,
+    streams: &VertexStreams,
     buffers: &Buffers,
     target: &std::collections::BTreeMap<String, usize>,
-) -> Result<Target, Error> {
-    let mut read = Target::default();
+) -> Result<MorphTarget, Error> {
+    let mut read = MorphTarget::default();
     if let Some(&accessor) = target.get("POSITION") {
         read.positions = buffers.read(accessor, DVec3::from_array)?;
         same_length(accessor, read.positions.len(), streams.positions.len())?;
@@ -86,7 +86,7 @@ fn influences(
     joints: usize,
 ) -> Result<Vec<Influences>, Error> {
     let mut sets = Vec::new();
-    for set in 0..SETS {
+    for set in 0..MAX_JOINT_SETS {
         let attribute = |name: &str| primitive.attributes.get(&format!("{name}_{set}")).copied();
         let Some((bones, shares)) = attribute("JOINTS").zip(attribute("WEIGHTS")) else { break };
         let indices = buffers.read(bones, |four: [f64; 4]| four.map(|v| v as u32))?;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::draco;
-use super::vertex_streams::Streams;
+use super::vertex_streams::VertexStreams;
 use crate::error::Error;
 use crate::geometry::numbers::portable_math;
 use crate::load::gltf::json::{Primitive, TextureTransform};
@@ -11,13 +11,13 @@ use crate::load::gltf::material_reader;
 use crate::load::gltf::storage::buffers::Buffers;
 
 /// Reads the vertex attributes that a drawing needs.
-pub fn read(buffers: &Buffers, primitive: &Primitive) -> Result<Streams, Error> {
+pub fn read(buffers: &Buffers, primitive: &Primitive) -> Result<VertexStreams, Error> {
     let attribute = |name: &str| primitive.attributes.get(name).copied();
     let position = attribute("POSITION").ok_or_else(|| Error::new("it has no POSITION"))?;
     let uv_name = uv_name(buffers, primitive);
     let mut streams = match &primitive.extensions.draco {
         Some(packed) if !buffers.is_stored(position) => draco::decode(buffers, primitive, packed, &uv_name)?,
-        _ => Streams {
+        _ => VertexStreams {
             positions: buffers.read(position, DVec3::from_array)?,
             normals: match attribute("NORMAL") {
                 Some(normal) => buffers.read(normal, |n: [f64; 3]| n.map(|v| v as f32))?,

@@ -1,4 +1,4 @@
-//! [`Streams`]: the vertices of a primitive, whether stored plainly or compressed by Draco.
+//! [`VertexStreams`]: the vertices of a primitive, whether stored plainly or compressed by Draco.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::error::Error;
 
 /// Vertices of a primitive; arrays are as long as `positions`, or empty.
 #[derive(Debug, Default)]
-pub struct Streams {
+pub struct VertexStreams {
     pub positions: Vec<DVec3>,
     pub normals: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
@@ -15,7 +15,7 @@ pub struct Streams {
     pub triangles: Option<Vec<[u32; 3]>>,
 }
 
-impl Streams {
+impl VertexStreams {
     /// Checks the lengths of the arrays.
     ///
     /// # Errors

@@ -1,15 +1,15 @@
 //! Index codecs: triangles that share edges with recent ones, and plain sequences.
 
-use super::{Cursor, unzigzag};
+use super::{ByteCursor, unzigzag};
 
 /// Ring buffer of the last sixteen items, newest first.
 #[derive(Debug)]
-struct Recent<T> {
+struct RecentRing<T> {
     slots: [T; 16],
     newest: usize,
 }
 
-impl<T: Copy> Recent<T> {
+impl<T: Copy> RecentRing<T> {
     fn new(filler: T) -> Self {
         Self { slots: [filler; 16], newest: 0 }
     }
@@ -27,7 +27,7 @@ impl<T: Copy> Recent<T> {
 
 /// Decodes `count` triangle indices, a multiple of three.
 pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
-    let mut data = Cursor(bytes);
+    let mut data = ByteCursor(bytes);
     // Codes of version 1 use the last two positions of the recent vertices for neighbours of `last`.
     let recent_codes = match data.byte()? {
         0xe0 => 15,
@@ -37,8 +37,8 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let table = data.tail(16)?;
     let codes = data.take(count / 3)?;
     let mut decoded = Vec::with_capacity(count * stride);
-    let mut edges = Recent::new([u32::MAX; 2]);
-    let mut vertices = Recent::new(u32::MAX);
+    let mut edges = RecentRing::new([u32::MAX; 2]);
+    let mut vertices = RecentRing::new(u32::MAX);
     let (mut next, mut last) = (0_u32, 0_u32);
     let fresh = |next: &mut u32| {
         let index = *next;
@@ -108,7 +108,7 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
 
 /// Decodes `count` indices in any order: differences from one of two running values.
 pub fn sequence(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
-    let mut data = Cursor(bytes);
+    let mut data = ByteCursor(bytes);
     if !matches!(data.byte()?, 0xd0 | 0xd1) {
         return None;
     }

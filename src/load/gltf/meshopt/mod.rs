@@ -11,7 +11,7 @@ mod vertex_codec;
 mod vertex_filters;
 
 use super::json::Meshopt;
-use super::uri::shown;
+use super::uri::shortened;
 use crate::error::Error;
 
 /// Decompresses a view.
@@ -23,7 +23,8 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         ("TRIANGLES", 2 | 4) if count % 3 == 0 => index_codec::triangles(bytes, count, stride),
         ("INDICES", 2 | 4) => index_codec::sequence(bytes, count, stride),
         (mode, _) => {
-            let message = format!("meshopt mode `{}` with {count} elements of {stride} bytes", shown(mode));
+            let message =
+                format!("meshopt mode `{}` with {count} elements of {stride} bytes", shortened(mode));
             return Err(Error::new(message));
         }
     };
@@ -40,7 +41,7 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         ("COLOR", 4) => vertex_filters::colour_8(&mut decoded),
         ("COLOR", 8) => vertex_filters::colour_16(&mut decoded),
         (other, _) => {
-            let message = format!("meshopt filter `{}` on elements of {stride} bytes", shown(other));
+            let message = format!("meshopt filter `{}` on elements of {stride} bytes", shortened(other));
             return Err(Error::new(message));
         }
     }
@@ -49,9 +50,9 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
 
 /// Unread bytes of a stream.
 #[derive(Debug, Clone, Copy)]
-struct Cursor<'a>(&'a [u8]);
+struct ByteCursor<'a>(&'a [u8]);
 
-impl<'a> Cursor<'a> {
+impl<'a> ByteCursor<'a> {
     fn byte(&mut self) -> Option<u8> {
         let (first, rest) = self.0.split_first()?;
         self.0 = rest;

@@ -1,17 +1,17 @@
 //! Vertex codec: blocks of up to 256 elements, stored by byte columns, as differences.
 
-use super::Cursor;
+use super::ByteCursor;
 
 /// Elements of a group with a common bit width.
-const GROUP: usize = 16;
+const GROUP_ELEMENTS: usize = 16;
 /// Maximum elements of a block.
-const BLOCK: usize = 256;
+const BLOCK_ELEMENTS: usize = 256;
 
 /// Decodes `count` elements of `stride` bytes, a multiple of 4 up to 256.
 ///
 /// Memory grows with the decoded data, not with the announced count.
 pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
-    let mut data = Cursor(bytes);
+    let mut data = ByteCursor(bytes);
     let version = match data.byte()? {
         0xa0 => 0,
         0xa1 => 1,
@@ -23,7 +23,7 @@ pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let (first, channels) = tail.split_at_checked(stride)?;
     let mut last = first.to_vec();
 
-    let per_block = ((8192 / stride) & !(GROUP - 1)).min(BLOCK);
+    let per_block = ((8192 / stride) & !(GROUP_ELEMENTS - 1)).min(BLOCK_ELEMENTS);
     let mut decoded = Vec::new();
     let mut left = count;
     while left > 0 {
@@ -33,7 +33,7 @@ pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
         let block = decoded.get_mut(start..)?;
         let controls = if version == 0 { &[][..] } else { data.take(stride / 4)? };
         for word in 0..stride / 4 {
-            let mut columns = [[0; BLOCK]; 4];
+            let mut columns = [[0; BLOCK_ELEMENTS]; 4];
             for (byte, column) in columns.iter_mut().enumerate() {
                 let control = controls.get(word).map(|control| control >> (2 * byte) & 3);
                 read_column(&mut data, control, column.get_mut(..size)?)?;
@@ -51,7 +51,7 @@ pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
 
 /// Reads one byte of each element of a block, still as differences. `control` is the mode of the column in
 /// version 1.
-fn read_column(data: &mut Cursor, control: Option<u8>, column: &mut [u8]) -> Option<()> {
+fn read_column(data: &mut ByteCursor, control: Option<u8>, column: &mut [u8]) -> Option<()> {
     let widths = match control {
         None => [0, 2, 4, 8],
         Some(0) => [0, 1, 2, 4],
@@ -62,8 +62,8 @@ fn read_column(data: &mut Cursor, control: Option<u8>, column: &mut [u8]) -> Opt
             return Some(());
         }
     };
-    let header = data.take(column.len().div_ceil(GROUP).div_ceil(4))?;
-    for (number, group) in column.chunks_mut(GROUP).enumerate() {
+    let header = data.take(column.len().div_ceil(GROUP_ELEMENTS).div_ceil(4))?;
+    for (number, group) in column.chunks_mut(GROUP_ELEMENTS).enumerate() {
         let choice = header.get(number / 4)? >> (number % 4 * 2) & 3;
         let width = *widths.get(usize::from(choice))?;
         read_group(data, width, group)?;
@@ -72,14 +72,14 @@ fn read_column(data: &mut Cursor, control: Option<u8>, column: &mut [u8]) -> Opt
 }
 
 /// Reads sixteen differences of `width` bits; the maximum value is an escape for a full byte that follows.
-fn read_group(data: &mut Cursor, width: usize, group: &mut [u8]) -> Option<()> {
-    let packed = data.take(GROUP * width / 8)?;
+fn read_group(data: &mut ByteCursor, width: usize, group: &mut [u8]) -> Option<()> {
+    let packed = data.take(GROUP_ELEMENTS * width / 8)?;
     match width {
         0 => group.fill(0),
         8 => group.copy_from_slice(packed.get(..group.len())?),
         _ => {
             let escape = (1_u8 << width) - 1;
-            for i in 0..GROUP {
+            for i in 0..GROUP_ELEMENTS {
                 let bit = i * width;
                 // Single bits are stored from the low end of a byte, wider values from the high end.
                 let shift = if width == 1 { bit % 8 } else { 8 - width - bit % 8 };
@@ -99,7 +99,7 @@ fn read_group(data: &mut Cursor, width: usize, group: &mut [u8]) -> Option<()> {
 
 /// Sums the differences of four byte columns, as bytes, as 16-bit numbers or by exclusive or.
 fn add_differences<'a>(
-    columns: &[[u8; BLOCK]; 4],
+    columns: &[[u8; BLOCK_ELEMENTS]; 4],
     channel: u8,
     before: &mut [u8; 4],
     elements: impl Iterator<Item = &'a mut [u8; 4]>,

@@ -5,24 +5,28 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use glam::{DAffine3, DVec3};
 
 use super::hierarchy::Hierarchy;
-use crate::animation::rig::Held;
-use crate::load::gltf::json::lenient_index::Shown;
+use crate::animation::rig::NodeAttachment;
+use crate::load::gltf::json::lenient_index::DisplayIndex;
 use crate::load::gltf::json::{Camera as JsonCamera, Light as JsonLight, Root};
-use crate::scene::warnings::Spots;
+use crate::scene::warnings::WarningExamples;
 use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 
 /// Height of the frame of a file's camera, px.
-const FRAME_PX: f64 = 1000.0;
+const FRAME_HEIGHT_PX: f64 = 1000.0;
 
 /// Cameras of visible nodes, with their number in the file and their node.
-pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<NamedCamera>, Vec<Held>) {
+pub fn cameras(
+    root: &Root,
+    nodes: &Hierarchy,
+    warnings: &mut Warnings,
+) -> (Vec<NamedCamera>, Vec<NodeAttachment>) {
     let (mut cameras, mut holders) = (Vec::new(), Vec::new());
-    let mut missing = Spots::default();
+    let mut missing = WarningExamples::default();
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.camera else { continue };
         let Some(camera) = root.cameras.get(number) else {
             missing.add(|| {
-                let (camera, count) = (Shown(number), root.cameras.len());
+                let (camera, count) = (DisplayIndex(number), root.cameras.len());
                 format!(
                     "node {index}: has camera {camera}, but the file has {count}; there is no view from it"
                 )
@@ -31,10 +35,10 @@ pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<
         };
         let named = [&camera.name, &node.name].into_iter().flatten().find(|name| !name.is_empty());
         let name = named.cloned().unwrap_or_else(|| format!("camera {number}"));
-        match look(camera, world) {
+        match camera_of_node(camera, world) {
             Some(camera) => {
                 cameras.push(NamedCamera { name, camera });
-                holders.push(Held { number, node: index });
+                holders.push(NodeAttachment { number, node: index });
             }
             None => warnings.note(format!("camera `{name}` sees nothing and is left out")),
         }
@@ -45,7 +49,7 @@ pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<
 
 /// Camera of a node: at its origin, looking along -z with y up. As glTF specifies, the node's scale has no
 /// other effect.
-fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
+fn camera_of_node(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
     let (projection, aspect, near) = if let Some(lens) = &camera.perspective {
         let fov_y_deg = Some(lens.yfov).filter(|angle| *angle > 0.0 && *angle < PI)?.to_degrees();
         (Projection::Perspective { fov_y_deg }, lens.aspect_ratio, lens.znear.filter(|near| *near > 0.0))
@@ -61,22 +65,22 @@ fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
         target: eye + world.transform_vector3(DVec3::NEG_Z).try_normalize()?,
         up: world.transform_vector3(DVec3::Y).try_normalize()?,
         projection,
-        width: FRAME_PX * aspect,
-        height: FRAME_PX,
+        width: FRAME_HEIGHT_PX * aspect,
+        height: FRAME_HEIGHT_PX,
         near: near.filter(|near| near.is_finite()),
     })
 }
 
 /// Lights of visible nodes (KHR_lights_punctual), with their number in the file and their node.
-pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<Light>, Vec<Held>) {
+pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<Light>, Vec<NodeAttachment>) {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let (mut lights, mut holders) = (Vec::new(), Vec::new());
-    let mut missing = Spots::default();
+    let mut missing = WarningExamples::default();
     for (index, node, world) in shown(root, nodes) {
         let Some(number) = node.extensions.light.as_ref().map(|light| light.light) else { continue };
         let Some(light) = known.get(number) else {
             missing.add(|| {
-                let (light, count) = (Shown(number), known.len());
+                let (light, count) = (DisplayIndex(number), known.len());
                 format!("node {index}: has light {light}, but the file has {count}; it gives no light")
             });
             continue;
@@ -90,7 +94,7 @@ pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<L
                     intensity: light.intensity.unwrap_or(1.0),
                     range: light.range,
                 });
-                holders.push(Held { number, node: index });
+                holders.push(NodeAttachment { number, node: index });
             }
             None => warnings.note(format!("light {number} of unknown kind or without direction is left out")),
         }

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::animation::rig::{self, Placement};
 use crate::animation::track::unit_quaternion;
-use crate::animation::{Clip, Property};
+use crate::animation::{Clip, NodeProperty};
 use crate::error::Error;
 use crate::load::gltf::json::{Node, Root};
 use crate::scene::Warnings;
@@ -47,10 +47,10 @@ impl Hierarchy {
     }
 
     /// Adds nodes that are hidden at rest and become visible in a clip.
-    pub fn wake(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
+    pub fn add_animated_visibility(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
         let mut wakes = vec![false; root.nodes.len()];
         for channel in clips.iter().flat_map(|clip| &clip.channels) {
-            let Some((node, Property::Visible)) = channel.target.of_node() else { continue };
+            let Some((node, NodeProperty::Visible)) = channel.target.of_node() else { continue };
             if let Some(own) = wakes.get_mut(node) {
                 let times = channel.track.times().iter();
                 *own |=

@@ -7,23 +7,23 @@ use glam::{DAffine3, DVec3};
 
 use super::hierarchy::{self, Hierarchy};
 use super::instances;
-use crate::animation::rig::{Form, Skin};
-use crate::animation::{Property, Rig};
+use crate::animation::rig::{GeometryRig, Skin};
+use crate::animation::{NodeProperty, Rig};
 use crate::error::{Error, ErrorKind};
-use crate::load::gltf::json::lenient_index::Shown;
+use crate::load::gltf::json::lenient_index::DisplayIndex;
 use crate::load::gltf::meshes::{mesh_geometry, skin_and_morphs};
-use crate::load::gltf::missing_references::Missing;
+use crate::load::gltf::missing_references::MissingReferences;
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::scene::{Geometry, Material, Part, Scene, Warnings, nothing_to_draw};
 
 /// Maximum number of parts, as instances take almost no space in a file.
-const MOST_PARTS: usize = 10_000_000;
+const MAX_PARTS: usize = 10_000_000;
 
 /// Maximum world coordinate; products of larger ones overflow.
-const LARGEST_COORDINATE: f64 = 1e50;
+const MAX_WORLD_COORDINATE: f64 = 1e50;
 
 /// Identity of a geometry: mesh, skin, bits of the weights; and the node, if its weights are animated.
-type Key = (usize, Option<usize>, Vec<u64>, Option<usize>);
+type GeometryKey = (usize, Option<usize>, Vec<u64>, Option<usize>);
 
 /// Adds geometries and parts to the scene; each mesh is stored once for each pose. With clips, the rig is
 /// filled as well.
@@ -31,15 +31,15 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
     let rigged = !rig.clips.is_empty();
     let mut morphing = vec![false; nodes.rest.len()];
     for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {
-        let Some((node, Property::Weights)) = channel.target.of_node() else { continue };
+        let Some((node, NodeProperty::Weights)) = channel.target.of_node() else { continue };
         if let Some(own) = morphing.get_mut(node) {
             *own = true;
         }
     }
     let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();
-    let mut known: BTreeMap<Key, usize> = BTreeMap::new();
+    let mut known: BTreeMap<GeometryKey, usize> = BTreeMap::new();
     let mut reach: Vec<DVec3> = Vec::new();
-    let mut missing = Missing::default();
+    let mut missing = MissingReferences::default();
     let no_weights: Vec<f64> = Vec::new();
     for &index in &nodes.shown {
         let (Some(node), Some(&world)) = (buffers.root.nodes.get(index), nodes.world.get(index)) else {
@@ -55,7 +55,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
         if number >= buffers.root.meshes.len() {
             missing.meshes.add(|| {
                 let (name, number, count) =
-                    (hierarchy::name(buffers.root, index), Shown(number), buffers.root.meshes.len());
+                    (hierarchy::name(buffers.root, index), DisplayIndex(number), buffers.root.meshes.len());
                 format!("node {index}: has mesh {number}, but the file has {count}; `{name}` is left out")
             });
             continue;
@@ -63,14 +63,14 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
         let skin = node.skin.filter(|skin| *skin < buffers.root.skins.len());
         if let (Some(number), None) = (node.skin, skin) {
             missing.skins.add(|| {
-                let (number, count) = (Shown(number), buffers.root.skins.len());
+                let (number, count) = (DisplayIndex(number), buffers.root.skins.len());
                 format!(
                     "node {index}: has skin {number}, but the file has {count}; it is drawn as if it had none"
                 )
             });
         }
         let own = Some(index).filter(|_| morphing.get(index).copied().unwrap_or(false));
-        let key: Key = (number, skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
+        let key: GeometryKey = (number, skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
         let geometry = match known.get(&key) {
             Some(geometry) => *geometry,
             None => {
@@ -88,7 +88,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
                 let (made, bodies) =
                     mesh_geometry::geometry(buffers, number, asked, &mut scene.warnings, &mut missing)?;
                 if rigged {
-                    rig.forms.push(Form { node: index, skin, bodies });
+                    rig.forms.push(GeometryRig { node: index, skin, bodies });
                 }
                 reach
                     .push(made.positions.iter().fold(DVec3::ZERO, |most, position| most.max(position.abs())));
@@ -103,8 +103,8 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
             Some(instancing) => instances::places(buffers, instancing).map_err(here)?,
             None => vec![DAffine3::IDENTITY],
         };
-        if scene.parts.len().saturating_add(places.len()) > MOST_PARTS {
-            return Err(here(Error::new(format!("the scene has more than {MOST_PARTS} instances"))));
+        if scene.parts.len().saturating_add(places.len()) > MAX_PARTS {
+            return Err(here(Error::new(format!("the scene has more than {MAX_PARTS} instances"))));
         }
         let reach = reach.get(geometry).copied().unwrap_or_default();
         for place in places {
@@ -153,11 +153,13 @@ fn check_size(world_from_part: DAffine3, reach: DVec3) -> Result<(), Error> {
     let m = world_from_part.matrix3;
     let farthest = m.x_axis.abs() * reach.x + m.y_axis.abs() * reach.y + m.z_axis.abs() * reach.z;
     let farthest = (farthest + world_from_part.translation.abs()).max_element();
-    if farthest <= LARGEST_COORDINATE {
+    if farthest <= MAX_WORLD_COORDINATE {
         return Ok(());
     }
-    Err(Error::new(format!("its coordinates reach {farthest:e}; at most {LARGEST_COORDINATE:e} is possible"))
-        .remedy("scale the model down"))
+    Err(Error::new(format!(
+        "its coordinates reach {farthest:e}; at most {MAX_WORLD_COORDINATE:e} is possible"
+    ))
+    .remedy("scale the model down"))
 }
 
 /// Drops parts without triangles and lines, and their entries in the rig.

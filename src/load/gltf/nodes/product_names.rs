@@ -12,11 +12,11 @@
 use crate::load::gltf::json::Root;
 
 /// Start of `asset.generator` in files of Open CASCADE.
-const GENERATOR: &str = "Open CASCADE";
+const OPEN_CASCADE: &str = "Open CASCADE";
 
 /// Names nodes after their products, if Open CASCADE wrote the file.
 pub fn name_after_products(root: &mut Root) {
-    if !root.asset.generator.as_ref().is_some_and(|generator| generator.starts_with(GENERATOR)) {
+    if !root.asset.generator.as_ref().is_some_and(|generator| generator.starts_with(OPEN_CASCADE)) {
         return;
     }
     let mut parents = vec![None; root.nodes.len()];

@@ -3,11 +3,11 @@
 use super::buffers::Buffers;
 use crate::error::Error;
 use crate::load::gltf::json;
-use crate::load::gltf::json::lenient_index::Shown;
+use crate::load::gltf::json::lenient_index::DisplayIndex;
 
 /// Type of one component of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Component {
+enum ComponentType {
     I8,
     U8,
     I16,
@@ -16,7 +16,7 @@ enum Component {
     F32,
 }
 
-impl Component {
+impl ComponentType {
     fn new(code: u32) -> Result<Self, Error> {
         Ok(match code {
             5120 => Self::I8,
@@ -54,7 +54,7 @@ struct Elements<'a> {
     bytes: Option<&'a [u8]>,
     stride: usize,
     count: usize,
-    component: Component,
+    component: ComponentType,
     normalized: bool,
 }
 
@@ -72,7 +72,7 @@ impl Buffers<'_> {
         self.root.accessors.get(index).ok_or_else(|| {
             let count = self.root.accessors.len();
             Error::new(format!("is pointed to, but the file has {count}"))
-                .at(format!("accessor {}", Shown(index)))
+                .at(format!("accessor {}", DisplayIndex(index)))
         })
     }
 
@@ -117,13 +117,13 @@ impl Buffers<'_> {
     /// Step of the values of an accessor with integer components; 0 for floating point.
     pub fn step(&self, index: usize) -> f64 {
         let Ok(accessor) = self.accessor(index) else { return 0.0 };
-        let largest = match Component::new(accessor.component_type) {
-            Ok(Component::I8) => f64::from(i8::MAX),
-            Ok(Component::U8) => f64::from(u8::MAX),
-            Ok(Component::I16) => f64::from(i16::MAX),
-            Ok(Component::U16) => f64::from(u16::MAX),
-            Ok(Component::U32) => f64::from(u32::MAX),
-            Ok(Component::F32) | Err(_) => return 0.0,
+        let largest = match ComponentType::new(accessor.component_type) {
+            Ok(ComponentType::I8) => f64::from(i8::MAX),
+            Ok(ComponentType::U8) => f64::from(u8::MAX),
+            Ok(ComponentType::I16) => f64::from(i16::MAX),
+            Ok(ComponentType::U16) => f64::from(u16::MAX),
+            Ok(ComponentType::U32) => f64::from(u32::MAX),
+            Ok(ComponentType::F32) | Err(_) => return 0.0,
         };
         if accessor.normalized { 1.0 / largest } else { 1.0 }
     }
@@ -135,7 +135,8 @@ impl Buffers<'_> {
         if accessor.shape != "SCALAR" {
             return Err(place(Error::new(format!("indices must be SCALAR, not {}", accessor.shape))));
         }
-        let restart = Component::new(accessor.component_type).and_then(Component::restart).map_err(place)?;
+        let restart =
+            ComponentType::new(accessor.component_type).and_then(ComponentType::restart).map_err(place)?;
         if accessor.sparse.is_some() {
             let values = self.read(index, |[value]: [f64; 1]| value as u32)?;
             return Ok(Indices { values, restart });
@@ -147,7 +148,7 @@ impl Buffers<'_> {
     /// Reads one byte per scalar: bit fields of some extensions, never normalised.
     pub fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
         let accessor = self.accessor(index)?;
-        if Component::new(accessor.component_type).is_ok_and(|component| component != Component::U8) {
+        if ComponentType::new(accessor.component_type).is_ok_and(|component| component != ComponentType::U8) {
             let message =
                 format!("bits are stored in unsigned bytes, not componentType {}", accessor.component_type);
             return Err(Error::new(message).at(format!("accessor {index}")));
@@ -159,7 +160,7 @@ impl Buffers<'_> {
     }
 
     fn elements(&self, accessor: &json::Accessor, lanes: usize) -> Result<Elements<'_>, Error> {
-        let component = Component::new(accessor.component_type)?;
+        let component = ComponentType::new(accessor.component_type)?;
         let size = lanes * component.size();
         let mut elements = Elements {
             bytes: None,
@@ -191,7 +192,7 @@ impl Buffers<'_> {
         like: Elements,
         make: impl Fn([f64; N]) -> R,
     ) -> Result<(), Error> {
-        let part = |view: usize, offset: usize, component: Component, lanes: usize, normalized: bool| {
+        let part = |view: usize, offset: usize, component: ComponentType, lanes: usize, normalized: bool| {
             let (bytes, _) = self.view(view)?;
             let stride = lanes * component.size();
             let mut part = Elements { bytes: None, stride, count: sparse.count, component, normalized };
@@ -200,7 +201,7 @@ impl Buffers<'_> {
             })?);
             Ok::<_, Error>(part)
         };
-        let places = Component::new(sparse.indices.component_type)?;
+        let places = ComponentType::new(sparse.indices.component_type)?;
         let places = part(sparse.indices.buffer_view, sparse.indices.byte_offset, places, 1, false)?;
         let changed =
             part(sparse.values.buffer_view, sparse.values.byte_offset, like.component, N, like.normalized)?;
@@ -241,34 +242,36 @@ impl<'a> Elements<'a> {
         };
         let stride = self.stride;
         match (self.component, self.normalized) {
-            (Component::F32, _) => gather(bytes, stride, |b: [u8; 4]| f64::from(f32::from_le_bytes(b)), make),
-            (Component::U32, false) => {
+            (ComponentType::F32, _) => {
+                gather(bytes, stride, |b: [u8; 4]| f64::from(f32::from_le_bytes(b)), make)
+            }
+            (ComponentType::U32, false) => {
                 gather(bytes, stride, |b: [u8; 4]| f64::from(u32::from_le_bytes(b)), make)
             }
-            (Component::U16, false) => {
+            (ComponentType::U16, false) => {
                 gather(bytes, stride, |b: [u8; 2]| f64::from(u16::from_le_bytes(b)), make)
             }
-            (Component::I16, false) => {
+            (ComponentType::I16, false) => {
                 gather(bytes, stride, |b: [u8; 2]| f64::from(i16::from_le_bytes(b)), make)
             }
-            (Component::U8, false) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b), make),
-            (Component::I8, false) => {
+            (ComponentType::U8, false) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b), make),
+            (ComponentType::I8, false) => {
                 gather(bytes, stride, |b: [u8; 1]| f64::from(i8::from_le_bytes(b)), make)
             }
-            (Component::U32, true) => {
+            (ComponentType::U32, true) => {
                 gather(bytes, stride, |b: [u8; 4]| f64::from(u32::from_le_bytes(b)) / 4_294_967_295.0, make)
             }
-            (Component::U16, true) => {
+            (ComponentType::U16, true) => {
                 gather(bytes, stride, |b: [u8; 2]| f64::from(u16::from_le_bytes(b)) / 65535.0, make)
             }
-            (Component::I16, true) => gather(
+            (ComponentType::I16, true) => gather(
                 bytes,
                 stride,
                 |b: [u8; 2]| (f64::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0),
                 make,
             ),
-            (Component::U8, true) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b) / 255.0, make),
-            (Component::I8, true) => {
+            (ComponentType::U8, true) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b) / 255.0, make),
+            (ComponentType::I8, true) => {
                 gather(bytes, stride, |b: [u8; 1]| (f64::from(i8::from_le_bytes(b)) / 127.0).max(-1.0), make)
             }
         }
@@ -281,18 +284,18 @@ impl<'a> Elements<'a> {
         };
         let size = self.component.size();
         let values = match self.component {
-            Component::U32 if self.stride == size => {
+            ComponentType::U32 if self.stride == size => {
                 bytes.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect()
             }
-            Component::U16 if self.stride == size => {
+            ComponentType::U16 if self.stride == size => {
                 bytes.as_chunks().0.iter().map(|b| u32::from(u16::from_le_bytes(*b))).collect()
             }
-            Component::U32 => bytes
+            ComponentType::U32 => bytes
                 .chunks(self.stride)
                 .filter_map(|b| b.first_chunk())
                 .map(|b| u32::from_le_bytes(*b))
                 .collect(),
-            Component::U16 => bytes
+            ComponentType::U16 => bytes
                 .chunks(self.stride)
                 .filter_map(|b| b.first_chunk())
                 .map(|b| u32::from(u16::from_le_bytes(*b)))
@@ -334,7 +337,7 @@ fn lanes(shape: &str) -> Result<usize, Error> {
         _ => {
             return Err(Error::new(format!(
                 "type `{}` is not defined in glTF",
-                crate::load::gltf::uri::shown(shape)
+                crate::load::gltf::uri::shortened(shape)
             )));
         }
     })

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::io;
 
 use crate::error::Error;
-use crate::load::gltf::json::lenient_index::Shown;
+use crate::load::gltf::json::lenient_index::DisplayIndex;
 use crate::load::gltf::json::{Buffer, Root};
 use crate::load::gltf::{meshopt, uri};
 
@@ -41,7 +41,7 @@ impl<'a> Buffers<'a> {
 
     /// Bytes of a view, and its stride, if it has one.
     pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
-        let place = || format!("bufferView {}", Shown(index));
+        let place = || format!("bufferView {}", DisplayIndex(index));
         let Some((view, cell)) = self.root.buffer_views.get(index).zip(self.decompressed.get(index)) else {
             let count = self.root.buffer_views.len();
             return Err(Error::new(format!("is pointed to, but the file has {count}")).at(place()));
@@ -65,7 +65,7 @@ impl<'a> Buffers<'a> {
         let Some(bytes) = self.buffers.get(buffer) else {
             return Err(Error::new(format!(
                 "points to buffer {}, the file has {}",
-                Shown(buffer),
+                DisplayIndex(buffer),
                 self.buffers.len()
             )));
         };

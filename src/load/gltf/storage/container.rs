@@ -3,9 +3,9 @@
 use crate::error::Error;
 use crate::scene::Warnings;
 
-const JSON: [u8; 4] = *b"JSON";
-const BIN: [u8; 4] = *b"BIN\0";
-const REEXPORT: &str = "export the model again as glTF 2.0";
+const JSON_CHUNK: [u8; 4] = *b"JSON";
+const BIN_CHUNK: [u8; 4] = *b"BIN\0";
+const REEXPORT_REMEDY: &str = "export the model again as glTF 2.0";
 
 /// The two parts of a glTF file.
 #[derive(Debug, Clone, Copy)]
@@ -25,12 +25,12 @@ pub fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'
     match text.trim_ascii_start().first() {
         Some(b'{') => Ok(Container { json: text, bin: None }),
         None => Err(Error::new("the file is empty: nothing to draw")),
-        Some(_) => Err(stranger(bytes)),
+        Some(_) => Err(unknown_file_error(bytes)),
     }
 }
 
 /// Error that describes a file that is not glTF.
-fn stranger(bytes: &[u8]) -> Error {
+fn unknown_file_error(bytes: &[u8]) -> Error {
     let text = bytes.trim_ascii_start();
     if text.starts_with(b"version https://git-lfs") {
         return Error::new("this is a Git LFS pointer, not the model")
@@ -45,7 +45,7 @@ fn stranger(bytes: &[u8]) -> Error {
     }
     Error::new("neither GLB (no `glTF` at the start) nor JSON (no `{` at the start)")
         .at("byte 0")
-        .remedy(REEXPORT)
+        .remedy(REEXPORT_REMEDY)
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
@@ -62,7 +62,7 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
     if version != 2 {
         return Err(Error::new(format!("GLB version {version}; only version 2 can be read"))
             .at("GLB header")
-            .remedy(REEXPORT));
+            .remedy(REEXPORT_REMEDY));
     }
     let total = total as usize;
     let Some(body) = bytes.get(..total) else {
@@ -96,11 +96,11 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
                 .remedy(truncated()));
         };
         match (number, *kind) {
-            (0, JSON) => container.json = data,
+            (0, JSON_CHUNK) => container.json = data,
             (0, _) => {
-                return Err(Error::new("the first chunk must be JSON").at(place()).remedy(REEXPORT));
+                return Err(Error::new("the first chunk must be JSON").at(place()).remedy(REEXPORT_REMEDY));
             }
-            (_, BIN) if container.bin.is_none() => container.bin = Some(data),
+            (_, BIN_CHUNK) if container.bin.is_none() => container.bin = Some(data),
             _ => {}
         }
         at = start + data.len();

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::plain_statements::{Corner, NONE, plain_triangle};
-use super::{Parser, Stop};
+use super::plain_statements::{CornerIndices, NO_INDEX, plain_triangle};
+use super::{ParseStop, Parser};
 use crate::error::Error;
 use crate::load::polygons::triangulation::{self, CutOutcome};
 use crate::load::text_cursor::Cursor;
@@ -13,7 +13,7 @@ use crate::scene::extent::coordinate_limits::is_drawable;
 impl Parser<'_> {
     /// Next corner of a face or line; `None` at the end of the line.
     #[inline]
-    fn corner(&mut self) -> Result<Option<Corner>, Stop> {
+    fn corner(&mut self) -> Result<Option<CornerIndices>, ParseStop> {
         self.cursor.skip_blanks();
         if self.cursor.at_line_end() {
             return Ok(None);
@@ -27,7 +27,7 @@ impl Parser<'_> {
             self.cursor.at = start;
             self.unusual_position()?
         };
-        let mut corner = [position, NONE, NONE];
+        let mut corner = [position, NO_INDEX, NO_INDEX];
         if self.cursor.peek() == b'/' {
             self.cursor.at += 1;
             corner[1] = self.attribute(self.out.uvs.len());
@@ -39,28 +39,29 @@ impl Parser<'_> {
         if self.cursor.at_word_end() { Ok(Some(corner)) } else { Err(self.not_an_index().into()) }
     }
 
-    /// Index of a texture coordinate or normal; [`NONE`] if it is out of range.
+    /// Index of a texture coordinate or normal; [`NO_INDEX`] if it is out of range.
     #[inline]
     fn attribute(&mut self, count: usize) -> u32 {
         match self.cursor.integer() {
-            Some(index) if index > 0 => u32::try_from(index - 1).unwrap_or(NONE),
-            Some(index) if index < 0 => {
-                usize::try_from(count as i64 + index).ok().and_then(|i| u32::try_from(i).ok()).unwrap_or(NONE)
-            }
-            _ => NONE,
+            Some(index) if index > 0 => u32::try_from(index - 1).unwrap_or(NO_INDEX),
+            Some(index) if index < 0 => usize::try_from(count as i64 + index)
+                .ok()
+                .and_then(|i| u32::try_from(i).ok())
+                .unwrap_or(NO_INDEX),
+            _ => NO_INDEX,
         }
     }
 
     /// Parses a negative index, or one of a vertex further below, or reports an error.
     #[cold]
-    fn unusual_position(&mut self) -> Result<u32, Stop> {
+    fn unusual_position(&mut self) -> Result<u32, ParseStop> {
         let place = self.cursor.clone();
         let Some(index) = self.cursor.integer() else { return Err(self.not_an_index().into()) };
         let count = self.position_count as i64;
         let found = if index < 0 { count + index } else { index - 1 };
         let fail = |message: String| {
             let place = format!("line {}", place.line());
-            Err(Stop::Error(
+            Err(ParseStop::Error(
                 Error::new(message).at(place).remedy("indices count from 1, or from −1 backwards"),
             ))
         };
@@ -76,13 +77,13 @@ impl Parser<'_> {
                 let all = if self.second_pass { all } else { self.position_count + all };
                 return fail(format!("vertex {index} does not exist; the file has {all}"));
             }
-            return Err(Stop::FaceFirst);
+            return Err(ParseStop::FaceFirst);
         }
         u32::try_from(found).or_else(|_| fail(format!("vertex {index} has coordinates that are too large")))
     }
 
     #[inline]
-    pub(crate) fn face(&mut self) -> Result<(), Stop> {
+    pub(crate) fn face(&mut self) -> Result<(), ParseStop> {
         if let Some((triangle, at)) = plain_triangle(self.cursor.bytes, self.cursor.at) {
             let exists = triangle.iter().all(|i| i.wrapping_sub(1) < self.position_count as u64);
             if exists && !self.out.has_bad_positions {
@@ -95,7 +96,7 @@ impl Parser<'_> {
     }
 
     #[inline(never)]
-    fn any_face(&mut self) -> Result<(), Stop> {
+    fn any_face(&mut self) -> Result<(), ParseStop> {
         self.corners.clear();
         while let Some(corner) = self.corner()? {
             self.corners.push(corner);
@@ -151,15 +152,15 @@ impl Parser<'_> {
     }
 
     #[inline]
-    fn triangle(&mut self, [a, b, c]: [Corner; 3], marks: [EdgeMark; 3]) {
+    fn triangle(&mut self, [a, b, c]: [CornerIndices; 3], marks: [EdgeMark; 3]) {
         let count = self.out.triangles.len();
         self.out.triangles.push([a[0], b[0], c[0]]);
-        if (a[1] & b[1] & c[1]) != NONE {
-            self.out.corner_uvs.resize(count, [NONE; 3]);
+        if (a[1] & b[1] & c[1]) != NO_INDEX {
+            self.out.corner_uvs.resize(count, [NO_INDEX; 3]);
             self.out.corner_uvs.push([a[1], b[1], c[1]]);
         }
-        if (a[2] & b[2] & c[2]) != NONE {
-            self.out.corner_normals.resize(count, [NONE; 3]);
+        if (a[2] & b[2] & c[2]) != NO_INDEX {
+            self.out.corner_normals.resize(count, [NO_INDEX; 3]);
             self.out.corner_normals.push([a[2], b[2], c[2]]);
         }
         if marks != [EdgeMark::Unmarked; 3] {
@@ -168,7 +169,7 @@ impl Parser<'_> {
         }
     }
 
-    pub(crate) fn line(&mut self) -> Result<(), Stop> {
+    pub(crate) fn line(&mut self) -> Result<(), ParseStop> {
         self.corners.clear();
         while let Some(corner) = self.corner()? {
             self.corners.push(corner);

@@ -6,19 +6,19 @@
 use glam::DVec3;
 
 use super::Parser;
-use crate::load::shown;
+use crate::load::quoted_start;
 use crate::load::text_cursor::Cursor;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
 /// Suffixes that Visual C writes after `1.` for values that are not numbers.
-const NO_NUMBERS: [&[u8]; 4] = [b"#QNAN", b"#SNAN", b"#IND", b"#INF"];
+const NAN_SUFFIXES: [&[u8]; 4] = [b"#QNAN", b"#SNAN", b"#IND", b"#INF"];
 
 /// Maximum bytes of a word with a decimal comma.
-const LONGEST_WORD: usize = 200;
+const MAX_WORD_BYTES: usize = 200;
 
 /// Meaning of a word in place of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Odd {
+enum UnusualWord {
     /// A number in a notation that OBJ does not have: a decimal comma, or a unit after it.
     Number(f64),
     /// A number, or NaN for a word such as `1.#QNAN`; possibly with a comment right after it.
@@ -61,11 +61,15 @@ impl Parser<'_> {
             let Some(read) = self.cursor.number() else {
                 let mut place = self.cursor.clone();
                 self.odd_numbers.add(|| {
-                    format!("line {}: `{}` after a vertex is ignored", place.line(), shown(place.word()))
+                    format!(
+                        "line {}: `{}` after a vertex is ignored",
+                        place.line(),
+                        quoted_start(place.word())
+                    )
                 });
                 return self.pass_line();
             };
-            let value = self.settled(start, Some(read)) as f32;
+            let value = self.checked_number(start, Some(read)) as f32;
             if let Some(slot) = extra.get_mut(count) {
                 *slot = value;
             }
@@ -87,12 +91,12 @@ impl Parser<'_> {
         self.cursor.skip_blanks();
         let start = self.cursor.at;
         let read = self.cursor.number();
-        self.settled(start, read)
+        self.checked_number(start, read)
     }
 
     /// Validates the number `read` at `start`; handles other words like [`Self::number`].
     #[inline]
-    pub(crate) fn settled(&mut self, start: usize, read: Option<f64>) -> f64 {
+    pub(crate) fn checked_number(&mut self, start: usize, read: Option<f64>) -> f64 {
         match read {
             Some(value) if self.cursor.at_word_end() && self.cursor.peek() != b'#' => value,
             _ => self.odd_number(start, read),
@@ -103,14 +107,14 @@ impl Parser<'_> {
     fn odd_number(&mut self, start: usize, read: Option<f64>) -> f64 {
         let from = Cursor { bytes: self.cursor.bytes, at: start };
         let value = match self.odd_word(start, read) {
-            Odd::Usual(value) => return value,
-            Odd::Number(value) => value,
-            Odd::Missing => {
+            UnusualWord::Usual(value) => return value,
+            UnusualWord::Number(value) => value,
+            UnusualWord::Missing => {
                 self.odd_numbers
                     .add(|| format!("line {}: a coordinate is missing and is read as 0", from.line()));
                 return 0.0;
             }
-            Odd::Unreadable => read.unwrap_or(0.0),
+            UnusualWord::Unreadable => read.unwrap_or(0.0),
         };
         self.note_odd(&from, value);
         value
@@ -118,7 +122,7 @@ impl Parser<'_> {
 
     fn note_odd(&mut self, from: &Cursor, value: f64) {
         self.odd_numbers.add(|| {
-            let word = shown(from.clone().word());
+            let word = quoted_start(from.clone().word());
             format!("line {}: `{word}` is not a number and is read as {value}", from.line())
         });
     }
@@ -141,17 +145,17 @@ impl Parser<'_> {
     fn odd_coordinate(&mut self, start: usize, read: Option<f64>) -> f64 {
         let from = Cursor { bytes: self.cursor.bytes, at: start };
         match self.odd_word(start, read) {
-            Odd::Usual(value) => value,
-            Odd::Number(value) => {
+            UnusualWord::Usual(value) => value,
+            UnusualWord::Number(value) => {
                 self.note_odd(&from, value);
                 value
             }
-            Odd::Missing => {
+            UnusualWord::Missing => {
                 self.note_unplaced(&from, |_| "a coordinate is missing".to_owned());
                 f64::NAN
             }
-            Odd::Unreadable => {
-                let word = |at: &Cursor| format!("`{}` is not a number", shown(at.clone().word()));
+            UnusualWord::Unreadable => {
+                let word = |at: &Cursor| format!("`{}` is not a number", quoted_start(at.clone().word()));
                 self.note_unplaced(&from, word);
                 f64::NAN
             }
@@ -167,28 +171,28 @@ impl Parser<'_> {
     }
 
     /// Skips the word at `start`, with the number `read` at its beginning, and classifies it.
-    fn odd_word(&mut self, start: usize, read: Option<f64>) -> Odd {
+    fn odd_word(&mut self, start: usize, read: Option<f64>) -> UnusualWord {
         let rest = self.cursor.bytes.get(self.cursor.at..).unwrap_or_default();
         if let Some(value) = read.filter(|_| rest.starts_with(b"#")) {
-            if !NO_NUMBERS.iter().any(|word| rest.starts_with(word)) {
-                return Odd::Usual(value);
+            if !NAN_SUFFIXES.iter().any(|word| rest.starts_with(word)) {
+                return UnusualWord::Usual(value);
             }
             self.cursor.skip_word();
-            return Odd::Usual(f64::NAN);
+            return UnusualWord::Usual(f64::NAN);
         }
         if (Cursor { bytes: self.cursor.bytes, at: start }).at_line_end() {
-            return Odd::Missing;
+            return UnusualWord::Missing;
         }
         let end_of_number = self.cursor.at;
         self.cursor.skip_word();
         let word = self.cursor.bytes.get(start..self.cursor.at).unwrap_or_default();
         let tail = self.cursor.bytes.get(end_of_number..self.cursor.at).unwrap_or_default();
         match (read, tail.first()) {
-            (Some(value), _) if !value.is_finite() => Odd::Usual(f64::NAN),
+            (Some(value), _) if !value.is_finite() => UnusualWord::Usual(f64::NAN),
             // Decimal comma of a localised program.
-            (_, Some(b',')) => comma_number(word).map_or(Odd::Unreadable, Odd::Number),
-            (Some(value), Some(_)) if is_unit(tail) => Odd::Number(value),
-            _ => Odd::Unreadable,
+            (_, Some(b',')) => comma_number(word).map_or(UnusualWord::Unreadable, UnusualWord::Number),
+            (Some(value), Some(_)) if is_unit(tail) => UnusualWord::Number(value),
+            _ => UnusualWord::Unreadable,
         }
     }
 }
@@ -202,7 +206,7 @@ fn is_unit(tail: &[u8]) -> bool {
 
 /// Number with a decimal comma, or with a comma after it.
 fn comma_number(word: &[u8]) -> Option<f64> {
-    let comma = word.iter().position(|b| *b == b',').filter(|_| word.len() <= LONGEST_WORD)?;
+    let comma = word.iter().position(|b| *b == b',').filter(|_| word.len() <= MAX_WORD_BYTES)?;
     let mut copy = word.to_vec();
     match word.len() - comma {
         1 => _ = copy.pop(),
@@ -213,7 +217,7 @@ fn comma_number(word: &[u8]) -> Option<f64> {
 }
 
 /// Describes the number of faces and lines that were left out because of their corners.
-pub(crate) fn left_out([faces, lines]: [u64; 2]) -> String {
+pub(crate) fn left_out_sentence([faces, lines]: [u64; 2]) -> String {
     let counted = |n: u64, noun: &str| match n {
         0 => None,
         1 => Some(format!("1 {noun}")),

@@ -13,21 +13,21 @@ mod plain_statements;
 use std::ops::Range;
 
 use glam::DVec3;
-use parallel_parse::{Ahead, Read, Run};
-pub(crate) use plain_statements::NONE;
-use plain_statements::{Corner, NO_CORNER, plain_position};
+use parallel_parse::{ParallelParse, RunValues, StatementRun};
+pub(crate) use plain_statements::NO_INDEX;
+use plain_statements::{CornerIndices, NO_CORNER, plain_position};
 
 use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
-use crate::load::shown;
+use crate::load::quoted_start;
 use crate::load::text_cursor::Cursor;
 use crate::mesh::EdgeMark;
 use crate::scene::extent::coordinate_limits::is_drawable;
-use crate::scene::warnings::{Spots, Warnings};
+use crate::scene::warnings::{WarningExamples, Warnings};
 
 /// Consecutive triangles and wires of one part and one material.
 #[derive(Debug, Clone)]
-pub(crate) struct FaceGroup {
+pub(crate) struct ElementRun {
     /// Index into `objects`.
     pub object: usize,
     /// Index into `materials`, if there was a `usemtl` before.
@@ -60,7 +60,7 @@ pub(crate) struct Statements<'a> {
     /// At most as long as `triangles`; the remaining triangles are unmarked.
     pub edge_marks: Vec<[EdgeMark; 3]>,
     pub wires: Vec<[u32; 2]>,
-    pub runs: Vec<FaceGroup>,
+    pub runs: Vec<ElementRun>,
     pub objects: Vec<Object<'a>>,
     /// Names of `usemtl`, each once, in order of first use.
     pub materials: Vec<&'a [u8]>,
@@ -73,13 +73,13 @@ pub(crate) struct Statements<'a> {
 }
 
 /// Reason for which parsing stopped.
-enum Stop {
+enum ParseStop {
     Error(Error),
     /// A face before its vertices.
     FaceFirst,
 }
 
-impl From<Error> for Stop {
+impl From<Error> for ParseStop {
     fn from(error: Error) -> Self {
         Self::Error(error)
     }
@@ -101,20 +101,20 @@ impl<'a> Statements<'a> {
         let parser = |positions| Parser { is_flat, ..Parser::new(bytes, positions) };
         match parser(Vec::new()).run() {
             Ok(statements) => Ok(statements),
-            Err(Stop::Error(error)) => Err(error),
-            Err(Stop::FaceFirst) => {
+            Err(ParseStop::Error(error)) => Err(error),
+            Err(ParseStop::FaceFirst) => {
                 // Some exporters write the faces first, but triangulation needs all positions, so they are
                 // read in a first pass.
                 let mut first = parser(Vec::new());
                 first.only_vertices = true;
-                let vertices = first.run().map_err(Stop::into_error)?;
-                parser(vertices.positions).run().map_err(Stop::into_error)
+                let vertices = first.run().map_err(ParseStop::into_error)?;
+                parser(vertices.positions).run().map_err(ParseStop::into_error)
             }
         }
     }
 }
 
-impl Stop {
+impl ParseStop {
     fn into_error(self) -> Error {
         match self {
             Self::Error(error) => error,
@@ -125,7 +125,7 @@ impl Stop {
 
 struct Parser<'a> {
     cursor: Cursor<'a>,
-    ahead: Ahead,
+    ahead: ParallelParse,
     out: Statements<'a>,
     /// Positions read so far; fewer than `out.positions` in a second pass.
     position_count: usize,
@@ -133,7 +133,7 @@ struct Parser<'a> {
     only_vertices: bool,
     /// Whether vertices of two coordinates have z = 0.
     is_flat: bool,
-    corners: Vec<Corner>,
+    corners: Vec<CornerIndices>,
     points: Vec<DVec3>,
     cut: Vec<[u32; 3]>,
     diagonals: Diagonals,
@@ -147,9 +147,9 @@ struct Parser<'a> {
     too_short: u64,
     points_passed: u64,
     not_understood: u64,
-    odd_numbers: Spots,
+    odd_numbers: WarningExamples,
     /// Vertices with a coordinate that cannot be read or drawn.
-    unplaced: Spots,
+    unplaced: WarningExamples,
     /// Whether the present vertex is one of them.
     is_unplaced: bool,
 }
@@ -160,7 +160,7 @@ impl<'a> Parser<'a> {
         let objects = vec![Object::Unnamed];
         Self {
             cursor: Cursor::new(bytes),
-            ahead: Ahead::of(bytes),
+            ahead: ParallelParse::of(bytes),
             out: Statements { positions, objects, ..Statements::default() },
             position_count: 0,
             second_pass,
@@ -179,13 +179,13 @@ impl<'a> Parser<'a> {
             too_short: 0,
             points_passed: 0,
             not_understood: 0,
-            odd_numbers: Spots::default(),
-            unplaced: Spots::default(),
+            odd_numbers: WarningExamples::default(),
+            unplaced: WarningExamples::default(),
             is_unplaced: false,
         }
     }
 
-    fn run(mut self) -> Result<Statements<'a>, Stop> {
+    fn run(mut self) -> Result<Statements<'a>, ParseStop> {
         self.out.has_bad_positions = self.out.positions.iter().any(|&p| !is_drawable(p));
         while !self.cursor.at_end() {
             if let Some(run) = self.ahead.take(self.cursor.bytes, self.cursor.at) {
@@ -209,7 +209,7 @@ impl<'a> Parser<'a> {
         let Self { mut out, unusable, too_short, points_passed, not_understood, odd_numbers, .. } = self;
         let (is_flat, unplaced) = (self.is_flat, self.unplaced);
         if let Some(vertices) = unplaced.sentence() {
-            out.warnings.note(format!("{vertices}; {}", lenient_numbers::left_out(unusable)));
+            out.warnings.note(format!("{vertices}; {}", lenient_numbers::left_out_sentence(unusable)));
         }
         if is_flat {
             out.warnings.note("no vertex has a z coordinate; all are drawn at z = 0");
@@ -223,24 +223,24 @@ impl<'a> Parser<'a> {
 
     /// Adds a run that was parsed in parallel and moves behind it. Does nothing if its indices are not valid
     /// yet.
-    fn add_run(&mut self, Run { end, read, .. }: Run) {
+    fn add_run(&mut self, StatementRun { end, read, .. }: StatementRun) {
         match read {
-            Read::Positions(points) => {
+            RunValues::Positions(points) => {
                 self.position_count += points.len();
                 if !self.second_pass {
                     self.out.positions.extend(points);
                 }
             }
-            Read::Uvs(uvs) => self.out.uvs.extend(uvs),
-            Read::Normals(normals) => self.out.normals.extend(normals),
-            Read::Triangles(..) | Read::Faces(..) if self.only_vertices => {}
-            Read::Triangles(_, largest) | Read::Faces(_, largest)
+            RunValues::Uvs(uvs) => self.out.uvs.extend(uvs),
+            RunValues::Normals(normals) => self.out.normals.extend(normals),
+            RunValues::Triangles(..) | RunValues::Faces(..) if self.only_vertices => {}
+            RunValues::Triangles(_, largest) | RunValues::Faces(_, largest)
                 if self.out.has_bad_positions || largest as usize >= self.position_count =>
             {
                 return;
             }
-            Read::Triangles(triangles, _) => self.out.triangles.extend(triangles),
-            Read::Faces(faces, _) => {
+            RunValues::Triangles(triangles, _) => self.out.triangles.extend(triangles),
+            RunValues::Faces(faces, _) => {
                 for face in faces {
                     self.corners.clear();
                     self.corners.extend(face.into_iter().filter(|corner| *corner != NO_CORNER));
@@ -252,7 +252,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Parses the less frequent statements.
-    fn other(&mut self) -> Result<(), Stop> {
+    fn other(&mut self) -> Result<(), ParseStop> {
         let start = self.cursor.at;
         let keyword = self.cursor.word();
         match keyword {
@@ -344,7 +344,7 @@ impl<'a> Parser<'a> {
             self.out.runs.last().map_or((0, 0), |run| (run.triangles.end, run.wires.end));
         let (triangles, wires) = (triangles..self.out.triangles.len(), wires..self.out.wires.len());
         if !triangles.is_empty() || !wires.is_empty() {
-            self.out.runs.push(FaceGroup { object: self.object, material: self.material, triangles, wires });
+            self.out.runs.push(ElementRun { object: self.object, material: self.material, triangles, wires });
         }
     }
 
@@ -379,7 +379,7 @@ impl<'a> Parser<'a> {
 
     #[cold]
     fn not_an_index(&self) -> Error {
-        let word = shown(self.cursor.clone().word());
+        let word = quoted_start(self.cursor.clone().word());
         Error::new(format!("`{word}` is not the index of a vertex"))
             .at(format!("line {}", self.cursor.line()))
     }

@@ -1,4 +1,4 @@
-//! [`Ahead`]: parses long runs of plain statements on several threads, ahead of the parser.
+//! [`ParallelParse`]: parses long runs of plain statements on several threads, ahead of the parser.
 //!
 //! Vertices and faces of plain numbers are the bulk of every large file, and can be parsed independently of
 //! each other. The text is divided into blocks at line ends, and plain statements in the blocks are parsed in
@@ -10,35 +10,35 @@ use std::collections::VecDeque;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::plain_statements::{Corner, NO_CORNER, plain_face, plain_position, plain_triangle};
+use super::plain_statements::{CornerIndices, NO_CORNER, plain_face, plain_position, plain_triangle};
 use crate::load::text_cursor::plain_number;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
 /// Minimum size of a text for parallel parsing, bytes. Shorter texts are parsed before other threads have
 /// started.
-const LEAST_TEXT: usize = 1 << 17;
+const MIN_PARALLEL_BYTES: usize = 1 << 17;
 /// Bytes per parallel task.
-const BLOCK: usize = 1 << 16;
+const BLOCK_BYTES: usize = 1 << 16;
 /// Blocks parsed at a time. Bounds the memory for data that is held twice.
-const BLOCKS: usize = 32;
-/// A block is left to the parser after this number of other statements, plus one for each `PLAIN_OF_OTHERS`
+const BLOCKS_PER_READ: usize = 32;
+/// A block is left to the parser after this number of other statements, plus one for each `PLAIN_PER_OTHER`
 /// plain ones.
-const MOST_OTHERS: usize = 64;
-const PLAIN_OF_OTHERS: usize = 16;
+const MAX_OTHER_STATEMENTS: usize = 64;
+const PLAIN_PER_OTHER: usize = 16;
 
 /// Consecutive statements of one kind.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Run {
+pub(crate) struct StatementRun {
     /// Byte index of the start of the first statement.
     start: usize,
     /// Byte index of the end of the last statement's line.
     pub end: usize,
-    pub read: Read,
+    pub read: RunValues,
 }
 
 /// Values of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Read {
+pub(crate) enum RunValues {
     /// `v`: positions that can be drawn.
     Positions(Vec<DVec3>),
     /// `vt`.
@@ -49,25 +49,25 @@ pub(crate) enum Read {
     Triangles(Vec<[u32; 3]>, u32),
     /// `f` with three or four corners, some with texture coordinates or normals, and the largest position
     /// index. The fourth corner of a triangle is [`NO_CORNER`].
-    Faces(Vec<[Corner; 4]>, u32),
+    Faces(Vec<[CornerIndices; 4]>, u32),
 }
 
 /// Runs that were parsed ahead of the parser.
 #[derive(Debug, Default)]
-pub(crate) struct Ahead {
+pub(crate) struct ParallelParse {
     /// Runs in text order.
-    runs: VecDeque<Run>,
+    runs: VecDeque<StatementRun>,
     /// Byte index of the next block.
     next: usize,
     /// Bytes per block; 0 if nothing is parsed ahead.
     block: usize,
 }
 
-impl Ahead {
+impl ParallelParse {
     /// Chooses parallel parsing if the text is long enough.
     pub fn of(bytes: &[u8]) -> Self {
-        let alone = bytes.len() < LEAST_TEXT || rayon_core::current_num_threads() == 1;
-        Self::with_blocks(if alone { 0 } else { BLOCK })
+        let alone = bytes.len() < MIN_PARALLEL_BYTES || rayon_core::current_num_threads() == 1;
+        Self::with_blocks(if alone { 0 } else { BLOCK_BYTES })
     }
 
     /// Parses in blocks of about `block` bytes.
@@ -77,7 +77,7 @@ impl Ahead {
 
     /// Takes the run that begins at `at`, the start of a statement.
     #[inline]
-    pub fn take(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
+    pub fn take(&mut self, bytes: &[u8], at: usize) -> Option<StatementRun> {
         if self.block == 0 || (at < self.next && self.runs.front().is_none_or(|run| at < run.start)) {
             return None;
         }
@@ -85,7 +85,7 @@ impl Ahead {
     }
 
     #[inline(never)]
-    fn take_there(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
+    fn take_there(&mut self, bytes: &[u8], at: usize) -> Option<StatementRun> {
         // Skip runs inside a statement that the parser has already consumed, such as a continued line.
         while self.runs.front().is_some_and(|run| run.start < at) {
             self.runs.pop_front();
@@ -100,7 +100,7 @@ impl Ahead {
     fn read(&mut self, bytes: &[u8], at: usize) {
         let mut starts = vec![at];
         while let Some(last) = starts.last().copied().filter(|last| *last < bytes.len()) {
-            if starts.len() > BLOCKS {
+            if starts.len() > BLOCKS_PER_READ {
                 break;
             }
             let from = (last + self.block).min(bytes.len());
@@ -109,15 +109,15 @@ impl Ahead {
         }
         self.next = starts.last().copied().unwrap_or(bytes.len());
         let blocks: Vec<[usize; 2]> = starts.array_windows().copied().collect();
-        let runs: Vec<Vec<Run>> =
+        let runs: Vec<Vec<StatementRun>> =
             blocks.into_par_iter().with_max_len(1).map(|[start, end]| runs(bytes, start, end)).collect();
         self.runs = runs.into_iter().flatten().collect();
     }
 }
 
 /// Runs in the lines between two byte indices.
-fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<StatementRun> {
+    let mut runs: Vec<StatementRun> = Vec::new();
     let (mut at, mut plain, mut others, mut joins) = (start, 0, 0, false);
     while at < end {
         let Some(first) = bytes.get(at) else { break };
@@ -135,7 +135,7 @@ fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
         let read = read.map(|(one, end)| {
             let run = runs.last_mut().filter(|_| joins);
             if !run.is_some_and(|run| run.takes(&one, end)) {
-                runs.push(Run { start: at, end, read: one.into() });
+                runs.push(StatementRun { start: at, end, read: one.into() });
             }
             end
         });
@@ -147,7 +147,7 @@ fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
             }
             None => {
                 others += 1;
-                if others > MOST_OTHERS + plain / PLAIN_OF_OTHERS {
+                if others > MAX_OTHER_STATEMENTS + plain / PLAIN_PER_OTHER {
                     break;
                 }
                 let rest = bytes.get(at..).unwrap_or_default();
@@ -159,27 +159,27 @@ fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
 }
 
 /// Values of one plain statement.
-enum One {
+enum PlainStatement {
     Position(DVec3),
     Uv([f32; 2]),
     Normal([f32; 3]),
     Triangle([u32; 3]),
-    Face([Corner; 4]),
+    Face([CornerIndices; 4]),
 }
 
-impl Run {
+impl StatementRun {
     /// Adds a statement that ends at `end`, if it has the same kind as the run.
     #[inline]
-    fn takes(&mut self, one: &One, end: usize) -> bool {
+    fn takes(&mut self, one: &PlainStatement, end: usize) -> bool {
         match (&mut self.read, one) {
-            (Read::Positions(all), One::Position(point)) => all.push(*point),
-            (Read::Uvs(all), One::Uv(uv)) => all.push(*uv),
-            (Read::Normals(all), One::Normal(normal)) => all.push(*normal),
-            (Read::Triangles(all, largest), One::Triangle(corners)) => {
+            (RunValues::Positions(all), PlainStatement::Position(point)) => all.push(*point),
+            (RunValues::Uvs(all), PlainStatement::Uv(uv)) => all.push(*uv),
+            (RunValues::Normals(all), PlainStatement::Normal(normal)) => all.push(*normal),
+            (RunValues::Triangles(all, largest), PlainStatement::Triangle(corners)) => {
                 *largest = corners.iter().fold(*largest, |largest, corner| largest.max(*corner));
                 all.push(*corners);
             }
-            (Read::Faces(all, largest), One::Face(corners)) => {
+            (RunValues::Faces(all, largest), PlainStatement::Face(corners)) => {
                 *largest = largest_of(corners).max(*largest);
                 all.push(*corners);
             }
@@ -190,65 +190,65 @@ impl Run {
     }
 }
 
-impl From<One> for Read {
-    fn from(one: One) -> Self {
+impl From<PlainStatement> for RunValues {
+    fn from(one: PlainStatement) -> Self {
         match one {
-            One::Position(point) => Self::Positions(vec![point]),
-            One::Uv(uv) => Self::Uvs(vec![uv]),
-            One::Normal(normal) => Self::Normals(vec![normal]),
-            One::Triangle(corners @ [a, b, c]) => Self::Triangles(vec![corners], a.max(b).max(c)),
-            One::Face(corners) => Self::Faces(vec![corners], largest_of(&corners)),
+            PlainStatement::Position(point) => Self::Positions(vec![point]),
+            PlainStatement::Uv(uv) => Self::Uvs(vec![uv]),
+            PlainStatement::Normal(normal) => Self::Normals(vec![normal]),
+            PlainStatement::Triangle(corners @ [a, b, c]) => Self::Triangles(vec![corners], a.max(b).max(c)),
+            PlainStatement::Face(corners) => Self::Faces(vec![corners], largest_of(&corners)),
         }
     }
 }
 
 /// Largest position index of a face.
-fn largest_of(corners: &[Corner; 4]) -> u32 {
+fn largest_of(corners: &[CornerIndices; 4]) -> u32 {
     corners.iter().filter(|corner| **corner != NO_CORNER).fold(0, |largest, corner| largest.max(corner[0]))
 }
 
 #[inline]
-fn position(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+fn position(bytes: &[u8], at: usize) -> Option<(PlainStatement, usize)> {
     let (point, end) = plain_position(bytes, at).filter(|(point, _)| is_drawable(*point))?;
-    Some((One::Position(point), end))
+    Some((PlainStatement::Position(point), end))
 }
 
 #[inline]
-fn normal(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+fn normal(bytes: &[u8], at: usize) -> Option<(PlainStatement, usize)> {
     let (normal, end) = plain_position(bytes, at)?;
-    Some((One::Normal(normal.to_array().map(|n| n as f32)), end))
+    Some((PlainStatement::Normal(normal.to_array().map(|n| n as f32)), end))
 }
 
 #[inline]
-fn uv(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+fn uv(bytes: &[u8], at: usize) -> Option<(PlainStatement, usize)> {
     let (u, at) = plain_number(bytes, at)?;
     let (v, at) = plain_number(bytes, at + 1).filter(|_| bytes.get(at) == Some(&b' '))?;
-    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((One::Uv([u as f32, v as f32]), at))
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((PlainStatement::Uv([u as f32, v as f32]), at))
 }
 
 #[inline]
-fn face(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+fn face(bytes: &[u8], at: usize) -> Option<(PlainStatement, usize)> {
     let Some((corners, end)) = plain_triangle(bytes, at) else {
         let (corners, end) = plain_face(bytes, at)?;
-        return Some((One::Face(corners), end));
+        return Some((PlainStatement::Face(corners), end));
     };
     let [a, b, c] = corners.map(|index| index.wrapping_sub(1));
     u32::try_from(a.max(b).max(c)).ok()?;
-    Some((One::Triangle([a as u32, b as u32, c as u32]), end))
+    Some((PlainStatement::Triangle([a as u32, b as u32, c as u32]), end))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Parser, Statements, Stop};
+    use super::super::{ParseStop, Parser, Statements};
     use super::*;
     use std::fmt::Write;
 
     fn parsed(text: &[u8], block: usize) -> Result<Statements<'_>, String> {
         let mut parser = Parser::new(text, Vec::new());
-        parser.ahead = Ahead::with_blocks(block);
+        parser.ahead = ParallelParse::with_blocks(block);
         parser.run().map_err(|stop| match stop {
-            Stop::Error(error) => error.to_string(),
-            Stop::FaceFirst => "a face first".to_owned(),
+            ParseStop::Error(error) => error.to_string(),
+            ParseStop::FaceFirst => "a face first".to_owned(),
         })
     }
 
@@ -329,7 +329,7 @@ mod tests {
         let found = runs(text, 0, text.len());
         let ends: Vec<[usize; 2]> = found.iter().map(|run| [run.start, run.end]).collect();
         assert_eq!(ends, [[0, 15], [17, 24], [35, 42], [51, 58]]);
-        assert_eq!(found[1].read, Read::Triangles(vec![[0, 1, 2]], 2));
+        assert_eq!(found[1].read, RunValues::Triangles(vec![[0, 1, 2]], 2));
         // Parallel parsing gives up soon on a file of other statements.
         let others = "s 1\n".repeat(1000) + "v 1 2 3\n";
         assert!(runs(others.as_bytes(), 0, others.len()).is_empty());

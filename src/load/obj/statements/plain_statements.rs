@@ -5,13 +5,13 @@ use glam::DVec3;
 use crate::load::text_cursor::{plain_digits, plain_index, plain_number};
 
 /// Index for "none".
-pub(crate) const NONE: u32 = u32::MAX;
+pub(crate) const NO_INDEX: u32 = u32::MAX;
 
 /// Indices of position, texture coordinate and normal of a corner.
-pub(crate) type Corner = [u32; 3];
+pub(crate) type CornerIndices = [u32; 3];
 
 /// Fourth corner of a face with three corners.
-pub(crate) const NO_CORNER: Corner = [NONE; 3];
+pub(crate) const NO_CORNER: CornerIndices = [NO_INDEX; 3];
 
 /// Three plain numbers and the end of the line.
 #[inline(always)]
@@ -39,7 +39,7 @@ pub(crate) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize
 }
 
 /// Three or four corners with short indices, and the end of the line. Gives the same result as the parser.
-pub(crate) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], usize)> {
+pub(crate) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([CornerIndices; 4], usize)> {
     let mut corners = [NO_CORNER; 4];
     let mut count = 0;
     loop {

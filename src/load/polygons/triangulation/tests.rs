@@ -86,7 +86,7 @@ fn slow_ears(p: &[DVec2]) -> Vec<[u32; 3]> {
                         && cross(p[a], p[b], p[m]) >= 0.0
                         && cross(p[b], p[c], p[m]) >= 0.0
                         && cross(p[c], p[a], p[m])
-                            >= -IN_LINE * (p[a] - p[c]).length() * (p[m] - p[c]).length()
+                            >= -MAX_COLLINEAR_SINE * (p[a] - p[c]).length() * (p[m] - p[c]).length()
                         && [a, b, c].iter().all(|&o| p[o] != p[m])
                 })
         });

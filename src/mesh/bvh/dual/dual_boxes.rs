@@ -13,13 +13,13 @@ use crate::parallel::prelude::*;
 use glam::DVec4;
 
 /// Number of halvings of each axis.
-const LEVELS: u32 = 16;
+const HALVINGS_PER_AXIS: u32 = 16;
 /// Number of items in a block, and in a cube that is not divided further.
-const BLOCK: usize = 8;
+const ITEMS_PER_BLOCK: usize = 8;
 
 /// Item with its box in the cube from −1 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Item {
+pub(crate) struct DualItem {
     /// Lower corner.
     pub low: DVec4,
     /// Upper corner.
@@ -39,7 +39,7 @@ impl Box4 {
     const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
     /// Rounds outward, so that the box still contains the item.
-    fn of(item: &Item) -> Self {
+    fn of(item: &DualItem) -> Self {
         Self {
             low: item.low.to_array().map(|x| (x as f32).next_down()),
             high: item.high.to_array().map(|x| (x as f32).next_up()),
@@ -83,7 +83,7 @@ struct Cube {
 
 /// Result of a query.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct DualFound {
+pub struct DualCandidates {
     /// Numbers of the items that the hyperplane may cut, ascending.
     pub items: Vec<u32>,
     /// Number of boxes tested.
@@ -106,10 +106,10 @@ pub(crate) struct DualBoxes {
 ///
 /// A cube sorts directly before its children.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Place(u128);
+struct TreeKey(u128);
 
-impl Place {
-    fn of(item: &Item) -> Self {
+impl TreeKey {
+    fn of(item: &DualItem) -> Self {
         let (low, high) = (morton(item.low), morton(item.high));
         let level = (low ^ high).leading_zeros() / 4;
         let cube = if level == 0 { 0 } else { low & u64::MAX << (64 - 4 * level) };
@@ -124,53 +124,53 @@ impl Place {
 
     /// Index of the child, 0 to 15, of its ancestor at a level.
     fn child(self, level: u32) -> u32 {
-        (self.0 >> (64 + 4 * (LEVELS - 1 - level))) as u32 & 15
+        (self.0 >> (64 + 4 * (HALVINGS_PER_AXIS - 1 - level))) as u32 & 15
     }
 }
 
 /// Items in tree order.
-struct Sorted<'a> {
-    items: &'a [Item],
-    places: &'a [(Place, u32)],
+struct SortedItems<'a> {
+    items: &'a [DualItem],
+    places: &'a [(TreeKey, u32)],
 }
 
 impl DualBoxes {
     /// Builds the tree; the result does not depend on the order of the items.
-    pub fn new(mut items: Vec<Item>) -> Self {
+    pub fn new(mut items: Vec<DualItem>) -> Self {
         items.par_sort_unstable_by_key(|item| item.id);
-        let mut places: Vec<(Place, u32)> = items
+        let mut places: Vec<(TreeKey, u32)> = items
             .par_iter()
             .with_min_len(1 << 10)
             .enumerate()
-            .map(|(i, item)| (Place::of(item), i as u32))
+            .map(|(i, item)| (TreeKey::of(item), i as u32))
             .collect();
         places.par_sort_unstable();
         let mut tree = Self::default();
         tree.ids.reserve_exact(items.len());
         if !items.is_empty() {
-            tree.add(&Sorted { items: &items, places: &places }, 0);
+            tree.add(&SortedItems { items: &items, places: &places }, 0);
         }
         tree.blocks.push((Box4::EMPTY, tree.ids.len() as u32));
         tree
     }
 
     /// Adds a cube of this level with all its contents, and returns the box around it.
-    fn add(&mut self, Sorted { items, places }: &Sorted, level: u32) -> Box4 {
-        let own = if places.len() <= BLOCK || level == LEVELS {
+    fn add(&mut self, SortedItems { items, places }: &SortedItems, level: u32) -> Box4 {
+        let own = if places.len() <= ITEMS_PER_BLOCK || level == HALVINGS_PER_AXIS {
             places.len()
         } else {
             places.iter().take_while(|(place, _)| place.level() == level).count()
         };
-        let child = |(place, _): &(Place, u32)| place.child(level);
+        let child = |(place, _): &(TreeKey, u32)| place.child(level);
         if own == 0 && child(&places[0]) == child(&places[places.len() - 1]) {
             // A cube with a single child and no items is replaced by the child.
-            return self.add(&Sorted { items, places }, level + 1);
+            return self.add(&SortedItems { items, places }, level + 1);
         }
         let cube = self.cubes.len();
         let first_block = self.blocks.len() as u32;
         self.cubes.push(Cube { children: Box4::EMPTY, own: Box4::EMPTY, first_block, after: 0 });
         let mut around = Box4::EMPTY;
-        for block in places[..own].chunks(BLOCK) {
+        for block in places[..own].chunks(ITEMS_PER_BLOCK) {
             let mut sum = Box4::EMPTY;
             let first = self.ids.len() as u32;
             for (_, index) in block {
@@ -185,7 +185,7 @@ impl DualBoxes {
         let mut children = Box4::EMPTY;
         if own < places.len() {
             for places in places[own..].chunk_by(|a, b| child(a) == child(b)) {
-                children = children.union(self.add(&Sorted { items, places }, level + 1));
+                children = children.union(self.add(&SortedItems { items, places }, level + 1));
             }
         }
         self.cubes[cube].children = children;
@@ -199,9 +199,9 @@ impl DualBoxes {
     }
 
     /// The items whose boxes contain points with a dot product between `low` and `high`.
-    pub fn find(&self, plane: DVec4, low: f64, high: f64) -> DualFound {
+    pub fn find(&self, plane: DVec4, low: f64, high: f64) -> DualCandidates {
         let plane = plane.to_array();
-        let mut found = DualFound::default();
+        let mut found = DualCandidates::default();
         let mut at = 0;
         while let Some(cube) = self.cubes.get(at) {
             found.boxes += 2;
@@ -226,7 +226,7 @@ impl DualBoxes {
 
 /// Position along the Morton curve of a point in the cube from −1 to 1: four bits per level.
 fn morton(p: DVec4) -> u64 {
-    let cells = f64::from((1_u32 << LEVELS) - 1);
+    let cells = f64::from((1_u32 << HALVINGS_PER_AXIS) - 1);
     let axis = |x: f64| spread(((x + 1.0) / 2.0 * cells).clamp(0.0, cells) as u64);
     axis(p.x) << 3 | axis(p.y) << 2 | axis(p.z) << 1 | axis(p.w)
 }
@@ -263,7 +263,7 @@ mod tests {
             let axis = |n: u32| f64::from(id.wrapping_mul(2_654_435_761 + 97 * n) >> 12 & 1023) / 512.0 - 1.0;
             let low = DVec4::new(axis(1), axis(2), axis(3), axis(4));
             let reach = if id % 10 == 0 { 0.3 } else { 0.001 };
-            items.push(Item { low, high: (low + DVec4::splat(reach)).min(DVec4::ONE), id });
+            items.push(DualItem { low, high: (low + DVec4::splat(reach)).min(DVec4::ONE), id });
         }
         let tree = DualBoxes::new(items.clone());
         for k in 0..30 {
@@ -290,6 +290,6 @@ mod tests {
     #[test]
     fn no_items_no_cubes() {
         let tree = DualBoxes::new(Vec::new());
-        assert_eq!((tree.cubes(), tree.find(DVec4::ONE, -1.0, 1.0)), (0, DualFound::default()));
+        assert_eq!((tree.cubes(), tree.find(DVec4::ONE, -1.0, 1.0)), (0, DualCandidates::default()));
     }
 }

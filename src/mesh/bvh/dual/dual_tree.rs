@@ -10,12 +10,12 @@
 use crate::parallel::prelude::*;
 use glam::{DVec3, DVec4};
 
-use super::dual_boxes::{DualBoxes, DualFound, Item};
+use super::dual_boxes::{DualBoxes, DualCandidates, DualItem};
 use crate::geometry::numbers::tolerance;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Squared areas above this, or below its inverse, lose precision. Edges of such faces are always candidates.
-const HUGE: f64 = 1e180;
+const MAX_SQUARED_AREA: f64 = 1e180;
 
 /// Edges of a mesh, indexed by the planes of their two faces.
 #[derive(Debug, Clone, Default)]
@@ -40,7 +40,7 @@ impl DualTree {
             let [a, b, c] = mesh.corners(FaceId(face));
             let normal = (b - a).cross(c - a);
             let square = normal.length_squared();
-            let sound = |x: f64| x < HUGE && x > 1.0 / HUGE;
+            let sound = |x: f64| x < MAX_SQUARED_AREA && x > 1.0 / MAX_SQUARED_AREA;
             if mesh.is_degenerate(FaceId(face)) || !sound(square) || !sound(square * radius * radius) {
                 return None;
             }
@@ -50,7 +50,7 @@ impl DualTree {
         let planes: Vec<Option<DVec4>> =
             (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(1 << 10).map(plane).collect();
         let plane = |face: u32| planes[face as usize];
-        let placed: Vec<Result<Item, u32>> = (0..mesh.edges.len())
+        let placed: Vec<Result<DualItem, u32>> = (0..mesh.edges.len())
             .into_par_iter()
             .with_min_len(1 << 10)
             .filter(|edge| active(*edge))
@@ -59,12 +59,12 @@ impl DualTree {
                 let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return Err(id) };
                 let (Some(p), Some(q)) = (plane(faces[0]), plane(faces[1])) else { return Err(id) };
                 let q = if same_way { -q } else { q };
-                Ok(Item { low: p.min(q), high: p.max(q), id })
+                Ok(DualItem { low: p.min(q), high: p.max(q), id })
             })
             .collect();
         let always: Vec<u32> = placed.iter().filter_map(|p| p.err()).collect();
         let len = placed.len();
-        let items: Vec<Item> = placed.into_iter().flatten().collect();
+        let items: Vec<DualItem> = placed.into_iter().flatten().collect();
         Self { boxes: DualBoxes::new(items), always, radius, len }
     }
 
@@ -93,11 +93,11 @@ impl DualTree {
     /// camera (different sides if they run along the edge in the same direction), and neither is seen
     /// edge-on.
     #[must_use]
-    pub fn candidates(&self, eye: DVec4) -> DualFound {
+    pub fn candidates(&self, eye: DVec4) -> DualCandidates {
         // Normal of the hyperplane of the camera. Offsets are in units of the radius.
         let plane = if eye.w == 0.0 { eye } else { (eye.truncate() / self.radius).extend(1.0) };
         let reach = plane.truncate().length() + plane.w;
-        let margin = tolerance::DUAL_OF_REACH * reach;
+        let margin = tolerance::EDGE_ON_PLANE_OF_REACH * reach;
         // Outside this range, products in the computation of a face may overflow.
         let mut found = if reach < 1e40 && reach > 1e-6 {
             self.boxes.find(plane, -margin, margin)
@@ -129,7 +129,7 @@ impl ToneTree {
     /// The boxes cover both interpolated normals and renormalised ones.
     #[must_use]
     pub fn new(corner_normals: &[[DVec3; 3]]) -> Self {
-        let items: Vec<Item> = corner_normals
+        let items: Vec<DualItem> = corner_normals
             .par_iter()
             .copied()
             .enumerate()
@@ -140,14 +140,14 @@ impl ToneTree {
                 // |m|² = Σ wᵢ|nᵢ|² − Σ wᵢwⱼ|nᵢ − nⱼ|² for m = Σ wᵢnᵢ, and the last sum of weights is at most
                 // a third. Normalisation moves m by 1 − |m|.
                 let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
-                let widen = 1.0 - shortest + tolerance::DUAL_OF_REACH;
+                let widen = 1.0 - shortest + tolerance::EDGE_ON_PLANE_OF_REACH;
                 let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
                 if shortest <= 0.1 || !are_units {
                     // Normals in opposite directions, or zero.
                     (low, high) = (DVec3::NEG_ONE, DVec3::ONE);
                 }
                 let (low, high) = ((low - widen).max(DVec3::NEG_ONE), (high + widen).min(DVec3::ONE));
-                Item { low: low.extend(0.0), high: high.extend(0.0), id: id as u32 }
+                DualItem { low: low.extend(0.0), high: high.extend(0.0), id: id as u32 }
             })
             .collect();
         Self { len: items.len(), boxes: DualBoxes::new(items) }
@@ -167,8 +167,8 @@ impl ToneTree {
 
     /// The triangles where L·n may take the value `level`, for the unit vector `towards_light`.
     #[must_use]
-    pub fn candidates(&self, towards_light: DVec3, level: f64) -> DualFound {
-        let margin = tolerance::DUAL_OF_REACH * 2.0;
+    pub fn candidates(&self, towards_light: DVec3, level: f64) -> DualCandidates {
+        let margin = tolerance::EDGE_ON_PLANE_OF_REACH * 2.0;
         self.boxes.find(towards_light.extend(0.0), level - margin, level + margin)
     }
 }

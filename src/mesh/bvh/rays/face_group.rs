@@ -3,16 +3,16 @@
 //! Loops over the faces are written out without closures over arrays, because only then do compilers
 //! vectorise them.
 
-use super::ray_grid::{Around, GridRay};
+use super::ray_grid::{GridRay, RayBox};
 
 /// Number of faces in a group. Plain loops of this length vectorise.
-pub(crate) const WIDTH: usize = 8;
+pub(crate) const FACES_PER_GROUP: usize = 8;
 
 /// Rounding error of sums of coordinates, as a multiple of that of one coordinate.
-const SUMS: f32 = 4.0;
+const ROUNDING_OF_SUMS: f32 = 4.0;
 
 /// One number per face.
-type Lanes = [f32; WIDTH];
+type Lanes = [f32; FACES_PER_GROUP];
 
 /// Faces in ray space, with the third axis along the rays.
 pub(crate) struct FaceGroup {
@@ -26,15 +26,15 @@ pub(crate) struct FaceGroup {
     plane_rooms: [Lanes; 2],
     /// One bit per face.
     all: u32,
-    pub around: Around,
+    pub around: RayBox,
 }
 
 impl FaceGroup {
     /// Builds a group from face corners whose coordinates are accurate to `slack`.
     #[inline]
     pub fn new(faces: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3], slack: f32) -> Self {
-        let mut of = [[[0.0; WIDTH]; 3]; 3];
-        for k in 0..WIDTH {
+        let mut of = [[[0.0; FACES_PER_GROUP]; 3]; 3];
+        for k in 0..FACES_PER_GROUP {
             // The last face fills missing entries.
             let corners = corners(faces[k.min(faces.len() - 1)]);
             for corner in 0..3 {
@@ -44,11 +44,12 @@ impl FaceGroup {
             }
         }
         let around = around(&of, slack);
-        let (width, wide) = (around.high[0] - around.low[0] + around.high[1] - around.low[1], SUMS * slack);
+        let (width, wide) =
+            (around.high[0] - around.low[0] + around.high[1] - around.low[1], ROUNDING_OF_SUMS * slack);
         let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = &of;
         let (mut normals, mut side_rooms, mut plane_rooms) =
-            ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 3], [[0.0; WIDTH]; 2]);
-        for k in 0..WIDTH {
+            ([[0.0; FACES_PER_GROUP]; 3], [[0.0; FACES_PER_GROUP]; 3], [[0.0; FACES_PER_GROUP]; 2]);
+        for k in 0..FACES_PER_GROUP {
             let (ux, uy, uz) = (bx[k] - ax[k], by[k] - ay[k], bz[k] - az[k]);
             let (vx, vy, vz) = (cx[k] - ax[k], cy[k] - ay[k], cz[k] - az[k]);
             let (wx, wy) = (cx[k] - bx[k], cy[k] - by[k]);
@@ -76,8 +77,8 @@ impl FaceGroup {
         let [[ax, ay, az], [bx, by, _], [cx, cy, _]] = &self.corners;
         let ([nx, ny, nz], [r, s, t]) = (&self.normals, &self.side_rooms);
         let [room, of_way] = &self.plane_rooms;
-        let mut found = [0_u32; WIDTH];
-        for k in 0..WIDTH {
+        let mut found = [0_u32; FACES_PER_GROUP];
+        for k in 0..FACES_PER_GROUP {
             let e = (bx[k] - ax[k]) * (y - ay[k]) - (by[k] - ay[k]) * (x - ax[k]);
             let f = (cx[k] - bx[k]) * (y - by[k]) - (cy[k] - by[k]) * (x - bx[k]);
             let g = (ax[k] - cx[k]) * (y - cy[k]) - (ay[k] - cy[k]) * (x - cx[k]);
@@ -98,23 +99,23 @@ impl FaceGroup {
 
 /// The box around all faces.
 #[inline]
-fn around(corners: &[[Lanes; 3]; 3], slack: f32) -> Around {
+fn around(corners: &[[Lanes; 3]; 3], slack: f32) -> RayBox {
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     let [a, b, c] = corners;
     for axis in 0..3 {
-        let (mut least, mut most) = ([0.0_f32; WIDTH], [0.0_f32; WIDTH]);
-        for k in 0..WIDTH {
+        let (mut least, mut most) = ([0.0_f32; FACES_PER_GROUP], [0.0_f32; FACES_PER_GROUP]);
+        for k in 0..FACES_PER_GROUP {
             let (p, q, r) = (a[axis][k], b[axis][k], c[axis][k]);
             let (below, above) = if p < q { (p, q) } else { (q, p) };
             least[k] = if below < r { below } else { r };
             most[k] = if above > r { above } else { r };
         }
-        for k in 0..WIDTH {
+        for k in 0..FACES_PER_GROUP {
             low[axis] = if least[k] < low[axis] { least[k] } else { low[axis] };
             high[axis] = if most[k] > high[axis] { most[k] } else { high[axis] };
         }
         low[axis] -= slack;
         high[axis] += slack;
     }
-    Around { low, high }
+    RayBox { low, high }
 }

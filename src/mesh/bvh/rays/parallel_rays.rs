@@ -8,19 +8,19 @@
 
 use glam::{DVec3, Vec3};
 
-use super::face_group::{FaceGroup, WIDTH};
-use super::ray_grid::{Around, RayGrid};
+use super::face_group::{FACES_PER_GROUP, FaceGroup};
+use super::ray_grid::{RayBox, RayGrid};
 use super::ray_tree::{RayTree, meets};
 use crate::geometry::numbers::tolerance;
 use crate::mesh::{FaceId, Mesh};
 
 /// Maximum number of ray and group comparisons, per ray and face of the input. After that the tree takes
 /// over.
-const PATIENCE: usize = 64;
+const MAX_TESTS_PER_ITEM: usize = 64;
 
 /// Ray: its start, and its length in lengths of the direction.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Start {
+pub(crate) struct RayStart {
     pub point: DVec3,
     pub reach: f64,
 }
@@ -43,7 +43,7 @@ impl<'a> ParallelRays<'a> {
         let slack = (tolerance::RAY_BOX_OF_MESH * (half + middle.length())) as f32;
         let has_area = |face: &u32| !mesh.is_degenerate(FaceId(*face));
         let faces: Vec<u32> = (0..mesh.triangles.len() as u32).filter(has_area).collect();
-        let boxes = faces.chunks(WIDTH).map(|group| {
+        let boxes = faces.chunks(FACES_PER_GROUP).map(|group| {
             let corners = group.iter().flat_map(|face| mesh.corners(FaceId(*face)));
             let (low, high) = corners
                 .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
@@ -60,7 +60,7 @@ impl<'a> ParallelRays<'a> {
     /// directions build the tree first, so that no task waits for another to build it.
     pub(crate) fn blocked(
         &self,
-        rays: &[Start],
+        rays: &[RayStart],
         direction: DVec3,
         tree: Option<&RayTree>,
     ) -> Option<Vec<bool>> {
@@ -75,16 +75,16 @@ impl<'a> ParallelRays<'a> {
     }
 
     /// Compares each group of faces with the rays that it covers; `None` if that takes too long.
-    fn sweep(&self, rays: &[Start], direction: DVec3, blocked: &mut [bool]) -> Option<()> {
+    fn sweep(&self, rays: &[RayStart], direction: DVec3, blocked: &mut [bool]) -> Option<()> {
         let (across, up) = direction.any_orthonormal_pair();
         let project = |p: DVec3| [p.dot(across) as f32, p.dot(up) as f32, p.dot(direction) as f32];
         let (grid, mut sorted) = RayGrid::sort(rays.iter().map(|ray| (project(ray.point), ray.reach as f32)));
         let corners: Vec<[f32; 3]> = self.mesh.positions.iter().map(|p| project(*p)).collect();
         let axes = [across.as_vec3(), up.as_vec3(), direction.as_vec3()];
-        let mut patience = PATIENCE * (rays.len() + self.faces.len());
-        for (faces, [middle, half]) in self.faces.chunks(WIDTH).zip(&self.boxes) {
+        let mut patience = MAX_TESTS_PER_ITEM * (rays.len() + self.faces.len());
+        for (faces, [middle, half]) in self.faces.chunks(FACES_PER_GROUP).zip(&self.boxes) {
             let around = box_along(&axes, *middle, *half, self.slack);
-            patience = patience.checked_sub(grid.cells(&around) / WIDTH)?;
+            patience = patience.checked_sub(grid.cells(&around) / FACES_PER_GROUP)?;
             if !grid.may_meet(&around) {
                 continue;
             }
@@ -100,7 +100,7 @@ impl<'a> ParallelRays<'a> {
                     while may_meet != 0 {
                         let face = FaceId(faces[may_meet.trailing_zeros() as usize]);
                         may_meet &= may_meet - 1;
-                        let Start { point, reach } = rays[ray.id as usize];
+                        let RayStart { point, reach } = rays[ray.id as usize];
                         if meets(&self.mesh.corners(face), point, direction, reach).is_some() {
                             blocked[ray.id as usize] = true;
                             ray.from = f32::INFINITY;
@@ -116,14 +116,14 @@ impl<'a> ParallelRays<'a> {
 
 /// Bounding box, along other axes, of a box given by its centre and half extents.
 #[inline]
-fn box_along(axes: &[Vec3; 3], middle: Vec3, half: Vec3, slack: f32) -> Around {
+fn box_along(axes: &[Vec3; 3], middle: Vec3, half: Vec3, slack: f32) -> RayBox {
     let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
     for axis in 0..3 {
         let (at, reach) = (axes[axis].dot(middle), axes[axis].abs().dot(half) + slack);
         low[axis] = at - reach;
         high[axis] = at + reach;
     }
-    Around { low, high }
+    RayBox { low, high }
 }
 
 #[cfg(test)]
@@ -159,8 +159,11 @@ mod tests {
         {
             let mesh = mesh(count, size);
             let (parallel, tree) = (ParallelRays::new(&mesh), RayTree::new(&mesh));
-            let starts: Vec<Start> = (0..rays)
-                .map(|n| Start { point: point(n + 20_000), reach: [0.3, 9.0, f64::INFINITY][n as usize % 3] })
+            let starts: Vec<RayStart> = (0..rays)
+                .map(|n| RayStart {
+                    point: point(n + 20_000),
+                    reach: [0.3, 9.0, f64::INFINITY][n as usize % 3],
+                })
                 .collect();
             let mut met = 0;
             for n in 0..12 {
@@ -185,8 +188,8 @@ mod tests {
         let mesh = mesh(200, 0.3);
         let parallel = ParallelRays::new(&mesh);
         for step in [DVec3::ZERO, DVec3::X * 0.01, DVec3::Z * 0.01] {
-            let starts: Vec<Start> =
-                (0..50).map(|n| Start { point: step * f64::from(n), reach: 5.0 }).collect();
+            let starts: Vec<RayStart> =
+                (0..50).map(|n| RayStart { point: step * f64::from(n), reach: 5.0 }).collect();
             let tree = RayTree::new(&mesh);
             let found = parallel.blocked(&starts, DVec3::Z, Some(&tree)).expect("an answer");
             let wanted: Vec<bool> =

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// Mean number of rays per cell.
-const RAYS_OF_CELL: usize = 2;
+const MEAN_RAYS_PER_CELL: usize = 2;
 
 /// Ray projected along its direction.
 #[derive(Debug, Clone, Copy, Default)]
@@ -17,12 +17,12 @@ pub(crate) struct GridRay {
 
 /// Box in ray space, with the third axis along the rays.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Around {
+pub(crate) struct RayBox {
     pub low: [f32; 3],
     pub high: [f32; 3],
 }
 
-impl Around {
+impl RayBox {
     /// Whether a ray misses the box.
     #[inline]
     pub fn is_beside(&self, ray: &GridRay) -> bool {
@@ -53,7 +53,7 @@ impl RayGrid {
         });
         let extent = [0, 1].map(|k| (high[k] - low[k]).max(0.0));
         // Cells are square, unless all rays lie on a line.
-        let cells = (rays.len() / RAYS_OF_CELL).max(1);
+        let cells = (rays.len() / MEAN_RAYS_PER_CELL).max(1);
         let of_line = extent[0].max(extent[1]) / cells as f32;
         let side = (extent[0] * extent[1] / cells as f32).sqrt().max(of_line);
         let size =
@@ -88,32 +88,32 @@ impl RayGrid {
 
     /// Number of cells that a box covers.
     #[inline]
-    pub fn cells(&self, around: &Around) -> usize {
+    pub fn cells(&self, around: &RayBox) -> usize {
         self.lines(around).len() * self.lines(around).next().map_or(0, |cells| cells.len())
     }
 
     /// Whether a box may block a ray, by the ranges of its cells.
     #[inline]
-    pub fn may_meet(&self, around: &Around) -> bool {
+    pub fn may_meet(&self, around: &RayBox) -> bool {
         self.lines(around).any(|cells| self.may_meet_in(cells, around))
     }
 
     /// Ranges of the rays in the cells that a box covers, row by row. Rows where it blocks no ray are
     /// skipped.
     #[inline]
-    pub fn rows(&self, around: &Around) -> impl Iterator<Item = Range<usize>> {
+    pub fn rows(&self, around: &RayBox) -> impl Iterator<Item = Range<usize>> {
         let lines = self.lines(around).filter(|cells| self.may_meet_in(cells.clone(), around));
         lines.map(|cells| self.starts[cells.start] as usize..self.starts[cells.end] as usize)
     }
 
     #[inline]
-    fn may_meet_in(&self, cells: Range<usize>, Around { low, high }: &Around) -> bool {
+    fn may_meet_in(&self, cells: Range<usize>, RayBox { low, high }: &RayBox) -> bool {
         self.spans[cells].iter().any(|[from, to]| (*from <= high[2]) & (*to >= low[2]))
     }
 
     /// The cells that a box covers, row by row.
     #[inline]
-    fn lines(&self, Around { low, high }: &Around) -> impl ExactSizeIterator<Item = Range<usize>> + use<> {
+    fn lines(&self, RayBox { low, high }: &RayBox) -> impl ExactSizeIterator<Item = Range<usize>> + use<> {
         let is_beside =
             |k: usize| high[k] < self.low[k] || (low[k] - self.low[k]) * self.scale[k] > self.size[k] as f32;
         let rows = if self.low[0] == f32::INFINITY || is_beside(0) || is_beside(1) {

@@ -12,19 +12,20 @@ use crate::mesh::order::morton_curve::spread;
 use crate::mesh::{FaceId, Mesh};
 
 /// Children of a node.
-const WIDTH: usize = 8;
+const NODE_CHILDREN: usize = 8;
 /// Maximum number of levels.
-const LEVELS: usize = 12;
+const MAX_LEVELS: usize = 12;
 
 /// Boxes of eight children: lowest and highest x, y and z.
 #[derive(Debug, Clone, Copy)]
-struct Node {
-    low: [[f32; WIDTH]; 3],
-    high: [[f32; WIDTH]; 3],
+struct RayNode {
+    low: [[f32; NODE_CHILDREN]; 3],
+    high: [[f32; NODE_CHILDREN]; 3],
 }
 
-impl Node {
-    const EMPTY: Self = Self { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+impl RayNode {
+    const EMPTY: Self =
+        Self { low: [[f32::INFINITY; NODE_CHILDREN]; 3], high: [[f32::NEG_INFINITY; NODE_CHILDREN]; 3] };
 
     fn put(&mut self, child: usize, low: [f32; 3], high: [f32; 3]) {
         for axis in 0..3 {
@@ -35,15 +36,15 @@ impl Node {
 
     /// The box around all children.
     fn around(&self) -> ([f32; 3], [f32; 3]) {
-        let least = |row: [f32; WIDTH]| row.into_iter().fold(f32::INFINITY, f32::min);
-        let most = |row: [f32; WIDTH]| row.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        let least = |row: [f32; NODE_CHILDREN]| row.into_iter().fold(f32::INFINITY, f32::min);
+        let most = |row: [f32; NODE_CHILDREN]| row.into_iter().fold(f32::NEG_INFINITY, f32::max);
         (self.low.map(least), self.high.map(most))
     }
 
     /// The children that a ray meets, one bit each.
     #[inline]
-    fn meets(&self, ray: &Ray) -> u32 {
-        let (mut near, mut far) = ([0.0_f32; WIDTH], [ray.reach; WIDTH]);
+    fn meets(&self, ray: &RaySlabs) -> u32 {
+        let (mut near, mut far) = ([0.0_f32; NODE_CHILDREN], [ray.reach; NODE_CHILDREN]);
         for axis in 0..3 {
             let (start, inverse) = (ray.start[axis], ray.inverse[axis]);
             let (first, last) = if inverse < 0.0 {
@@ -52,14 +53,14 @@ impl Node {
                 (&self.low[axis], &self.high[axis])
             };
             // No value is NaN, and plain comparisons vectorise.
-            for k in 0..WIDTH {
+            for k in 0..NODE_CHILDREN {
                 let (enter, leave) = ((first[k] - start) * inverse, (last[k] - start) * inverse);
                 near[k] = if enter > near[k] { enter } else { near[k] };
                 far[k] = if leave < far[k] { leave } else { far[k] };
             }
         }
         let mut bits = 0;
-        for k in 0..WIDTH {
+        for k in 0..NODE_CHILDREN {
             bits |= u32::from(near[k] <= far[k]) << k;
         }
         bits
@@ -67,7 +68,7 @@ impl Node {
 }
 
 /// Ray in single precision. The boxes have a margin for its rounding.
-struct Ray {
+struct RaySlabs {
     start: [f32; 3],
     inverse: [f32; 3],
     reach: f32,
@@ -81,7 +82,7 @@ pub struct RayTree {
     /// Face of each triangle.
     faces: Vec<u32>,
     /// Level 0 holds the boxes of the triangles; each level above holds those of the nodes below.
-    levels: Vec<Vec<Node>>,
+    levels: Vec<Vec<RayNode>>,
 }
 
 impl RayTree {
@@ -104,11 +105,11 @@ impl RayTree {
 
         // Exceeds the rounding of the rays.
         let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
-        let mut levels: Vec<Vec<Node>> = vec![
+        let mut levels: Vec<Vec<RayNode>> = vec![
             triangles
-                .chunks(WIDTH)
+                .chunks(NODE_CHILDREN)
                 .map(|group| {
-                    let mut node = Node::EMPTY;
+                    let mut node = RayNode::EMPTY;
                     for (child, [a, b, c]) in group.iter().enumerate() {
                         let (low, high) = (a.min(*b).min(*c) - slack, a.max(*b).max(*c) + slack);
                         node.put(child, low.as_vec3().to_array(), high.as_vec3().to_array());
@@ -117,10 +118,10 @@ impl RayTree {
                 })
                 .collect(),
         ];
-        while levels.last().is_some_and(|level| level.len() > 1) && levels.len() < LEVELS {
+        while levels.last().is_some_and(|level| level.len() > 1) && levels.len() < MAX_LEVELS {
             let below = &levels[levels.len() - 1];
-            let above = below.chunks(WIDTH).map(|group| {
-                let mut node = Node::EMPTY;
+            let above = below.chunks(NODE_CHILDREN).map(|group| {
+                let mut node = RayNode::EMPTY;
                 for (child, of) in group.iter().enumerate() {
                     let (low, high) = of.around();
                     node.put(child, low, high);
@@ -170,15 +171,15 @@ impl RayTree {
     /// Calls `go_on` for each triangle whose box a ray meets, until it returns false.
     fn each_near(&self, point: DVec3, direction: DVec3, reach: f64, mut go_on: impl FnMut(u32) -> bool) {
         let inverse = |x: f64| if x.abs() < 1e-30 { 1e30 } else { (1.0 / x) as f32 };
-        let ray = Ray {
+        let ray = RaySlabs {
             start: point.as_vec3().to_array(),
             inverse: direction.to_array().map(inverse),
             reach: (reach as f32).next_up(),
         };
         // The stack holds at most the children of one node per level.
-        let mut stack = [(0_u8, 0_u32); WIDTH * LEVELS];
+        let mut stack = [(0_u8, 0_u32); NODE_CHILDREN * MAX_LEVELS];
         let mut count = 0;
-        for node in 0..self.levels.last().map_or(0, Vec::len).min(WIDTH) {
+        for node in 0..self.levels.last().map_or(0, Vec::len).min(NODE_CHILDREN) {
             stack[count] = (self.levels.len() as u8 - 1, node as u32);
             count += 1;
         }
@@ -187,7 +188,7 @@ impl RayTree {
             let (level, node) = stack[count];
             let mut bits = self.levels[level as usize][node as usize].meets(&ray);
             while bits != 0 {
-                let child = node * WIDTH as u32 + bits.trailing_zeros();
+                let child = node * NODE_CHILDREN as u32 + bits.trailing_zeros();
                 bits &= bits - 1;
                 if level > 0 {
                     stack[count] = (level - 1, child);

@@ -1,4 +1,4 @@
-//! [`Candidate`]s for an overlap: surfaces whose planes and boxes may meet.
+//! [`OverlapCandidate`]s for an overlap: surfaces whose planes and boxes may meet.
 //!
 //! The key of a plane has three numbers: the squares of two coordinates of its normal, and its distance from
 //! the middle of the model. Squares are equal for both sides of the plane. Rounding of the corners turns each
@@ -9,22 +9,22 @@ use glam::DVec3;
 use crate::mesh::{FaceId, MaterialId, Mesh, PaintId};
 
 /// Width of a cell in squared normal coordinates.
-const NORMAL_CELL: f64 = 1.0 / 16.0;
+const NORMAL_CELL_WIDTH: f64 = 1.0 / 16.0;
 
 /// Number of distance cells over the diagonal of the model.
-const DISTANCE_STEPS: f64 = 512.0;
+const DISTANCE_CELLS_PER_DIAGONAL: f64 = 512.0;
 
 /// Maximum error of a normal by rounding (radians), and maximum number of distance cells of a plane. Other
 /// surfaces are skipped.
-const MAX_TURN: f64 = 1e-2;
-const MAX_CELLS: f64 = 8.0;
+const MAX_NORMAL_ERROR_RAD: f64 = 1e-2;
+const MAX_DISTANCE_CELLS: f64 = 8.0;
 
 /// Range of a plane key in cell widths: squares of two normal coordinates, and distance from the middle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlaneKey {
     low: DVec3,
     high: DVec3,
-    /// False for slivers, whose plane is uncertain by more than [`MAX_TURN`] or [`MAX_CELLS`].
+    /// False for slivers, whose plane is uncertain by more than [`MAX_NORMAL_ERROR_RAD`] or [`MAX_DISTANCE_CELLS`].
     is_known: bool,
 }
 
@@ -40,12 +40,12 @@ impl PlaneKey {
         let turn = 2.0 * contact * longest / area;
         let (normal, way) = (across / area, a - mesh.extents.middle);
         let reach = turn * (way.length() + longest) + 2.0 * contact;
-        let squares = normal * normal / NORMAL_CELL;
-        let step = (mesh.extents.diagonal / DISTANCE_STEPS).max(f64::MIN_POSITIVE);
+        let squares = normal * normal / NORMAL_CELL_WIDTH;
+        let step = (mesh.extents.diagonal / DISTANCE_CELLS_PER_DIAGONAL).max(f64::MIN_POSITIVE);
         let middle = DVec3::new(squares.x, squares.y, normal.dot(way).abs() / step);
-        let reach = DVec3::new(2.0 * turn / NORMAL_CELL, 2.0 * turn / NORMAL_CELL, reach / step);
+        let reach = DVec3::new(2.0 * turn / NORMAL_CELL_WIDTH, 2.0 * turn / NORMAL_CELL_WIDTH, reach / step);
         let (low, high) = (middle - reach, middle + reach);
-        let is_known = turn <= MAX_TURN && high.z.floor() - low.z.floor() < MAX_CELLS;
+        let is_known = turn <= MAX_NORMAL_ERROR_RAD && high.z.floor() - low.z.floor() < MAX_DISTANCE_CELLS;
         Self { low, high, is_known }
     }
 
@@ -59,7 +59,7 @@ impl PlaneKey {
 }
 
 /// Surface in the sweep of one cell, with its box widened by the contact distance.
-pub(crate) struct Candidate {
+pub(crate) struct OverlapCandidate {
     pub(crate) low: DVec3,
     pub(crate) high: DVec3,
     pub(crate) key: PlaneKey,
@@ -67,7 +67,7 @@ pub(crate) struct Candidate {
     pub(crate) surface: u32,
 }
 
-impl Candidate {
+impl OverlapCandidate {
     /// False only for surfaces of one colour, in different planes, or out of contact.
     #[inline]
     pub(crate) fn may_overlap(&self, other: &Self) -> bool {
@@ -79,7 +79,7 @@ impl Candidate {
 }
 
 /// The axis along which the candidates are most spread out.
-pub(crate) fn widest_axis(own: &[Candidate]) -> usize {
+pub(crate) fn widest_axis(own: &[OverlapCandidate]) -> usize {
     let low = own.iter().fold(DVec3::INFINITY, |low, own| low.min(own.low));
     let high = own.iter().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));
     let size = high - low;

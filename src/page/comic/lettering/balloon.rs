@@ -15,28 +15,28 @@ use crate::error::Error;
 use crate::geometry::numbers::noise::hash;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin};
 use crate::page::comic::comic_keys::BalloonKind;
-use crate::page::layout::Polygon;
-use crate::text::{Block, Setting};
+use crate::page::layout::ConvexPolygon;
+use crate::text::{Setting, TextBlock};
 
 /// Padding between letters and outline, in ems.
-const PAD: f64 = 0.55;
+const PADDING_EM: f64 = 0.55;
 /// Half the width of a tail where it leaves the balloon, in ems.
-const TAIL: f64 = 0.42;
+const TAIL_HALF_WIDTH_EM: f64 = 0.42;
 /// Height of the spikes of a burst and of the bumps of a cloud outside the ellipse, in ems.
-const SPIKE: f64 = 1.1;
-const BUMP: f64 = 0.75;
+const SPIKE_HEIGHT_EM: f64 = 1.1;
+const BUMP_HEIGHT_EM: f64 = 0.75;
 /// Factor of the aspect ratio for captions.
-const FLATTER: f64 = 0.75;
+const CAPTION_ASPECT_FACTOR: f64 = 0.75;
 /// Number of sides of the hull polygon.
-const SIDES: usize = 24;
+const HULL_SIDES: usize = 24;
 /// Tolerance of curves, mm.
-const FINE: f64 = 0.005;
+const CURVE_TOLERANCE_MM: f64 = 0.005;
 
 /// A text in an outline, both centred at the origin.
 pub(crate) struct Balloon {
     kind: BalloonKind,
     /// The set text.
-    pub block: Block,
+    pub block: TextBlock,
     /// Half width and half height of the ellipse or box around the text, with padding.
     half: Vec2,
     em: f64,
@@ -44,7 +44,7 @@ pub(crate) struct Balloon {
 }
 
 /// Colours and line width of a balloon.
-pub(crate) struct Ink {
+pub(crate) struct BalloonPaint {
     pub fill: Colour,
     pub colour: Colour,
     /// Line width, mm.
@@ -61,18 +61,19 @@ impl Balloon {
             return Err(Error::new("this balloon has no text").remedy("write its text, or leave it out"));
         }
         let em = setting.em();
-        let pad = Vec2::new(PAD, PAD) * em;
+        let pad = Vec2::new(PADDING_EM, PADDING_EM) * em;
         let (block, half) = match kind {
             BalloonKind::Caption => {
                 // A box holds more text in its corners and should look flatter than an ellipse.
-                let (ellipse, _) = Block::in_ellipse(text, setting, FLATTER * aspect * aspect)?;
+                let (ellipse, _) =
+                    TextBlock::in_ellipse(text, setting, CAPTION_ASPECT_FACTOR * aspect * aspect)?;
                 // 0.1 % wider than the longest line, because widths are sums with rounding errors.
-                let block = Block::balanced(text, setting, ellipse.width * 1.001)?;
+                let block = TextBlock::balanced(text, setting, ellipse.width * 1.001)?;
                 let half = Vec2::new(block.width, block.height) / 2.0 + pad;
                 (block, half)
             }
             _ => {
-                let (block, half) = Block::in_ellipse(text, setting, aspect)?;
+                let (block, half) = TextBlock::in_ellipse(text, setting, aspect)?;
                 (block, half + pad)
             }
         };
@@ -83,8 +84,8 @@ impl Balloon {
     /// Half width and half height of the balloon with spikes or bumps.
     fn reach(&self) -> Vec2 {
         let beyond = match self.kind {
-            BalloonKind::Shout => SPIKE,
-            BalloonKind::Thought => BUMP,
+            BalloonKind::Shout => SPIKE_HEIGHT_EM,
+            BalloonKind::Thought => BUMP_HEIGHT_EM,
             _ => 0.0,
         };
         self.half + Vec2::new(beyond, beyond) * self.em
@@ -106,26 +107,26 @@ impl Balloon {
             * match self.kind {
                 BalloonKind::Shout => 1.4,
                 BalloonKind::Thought => 0.6,
-                _ => TAIL + 0.15,
+                _ => TAIL_HALF_WIDTH_EM + 0.15,
             }
     }
 
     /// A polygon around the balloon without its tail, centred at the origin.
-    pub fn hull(&self) -> Polygon {
+    pub fn hull(&self) -> ConvexPolygon {
         let reach = self.reach();
         if self.kind == BalloonKind::Caption {
-            return Polygon::from(kurbo::Rect::new(-reach.x, -reach.y, reach.x, reach.y));
+            return ConvexPolygon::from(kurbo::Rect::new(-reach.x, -reach.y, reach.x, reach.y));
         }
-        let grown = 1.0 / cos(PI / SIDES as f64);
+        let grown = 1.0 / cos(PI / HULL_SIDES as f64);
         let corner = |k: usize| {
-            let angle = TAU * k as f64 / SIDES as f64;
+            let angle = TAU * k as f64 / HULL_SIDES as f64;
             Point::new(reach.x * cos(angle), reach.y * sin(angle)).to_vec2() * grown
         };
-        Polygon((0..SIDES).map(|k| corner(k).to_point()).collect())
+        ConvexPolygon((0..HULL_SIDES).map(|k| corner(k).to_point()).collect())
     }
 
     /// The outline and the letters of the balloon. `middle` is its centre, `tip` the end of its tail.
-    pub fn marks(&self, middle: Point, tip: Option<Point>, ink: &Ink) -> Vec<Mark> {
+    pub fn marks(&self, middle: Point, tip: Option<Point>, ink: &BalloonPaint) -> Vec<Mark> {
         let place = Affine::translate(middle.to_vec2());
         let tip = tip.map(|tip| tip - middle);
         let mut outline = place * self.outline(tip);
@@ -167,7 +168,7 @@ impl Balloon {
             BalloonKind::Shout => self.burst(tip),
             BalloonKind::Caption => {
                 let (x, y) = (self.half.x, self.half.y);
-                RoundedRect::new(-x, -y, x, y, self.em * 0.12).to_path(FINE)
+                RoundedRect::new(-x, -y, x, y, self.em * 0.12).to_path(CURVE_TOLERANCE_MM)
             }
         }
     }
@@ -185,16 +186,16 @@ impl Balloon {
     fn ellipse(&self, tip: Option<Vec2>) -> BezPath {
         let half = self.half;
         let Some(tip) = tip else {
-            return kurbo::Ellipse::new((0.0, 0.0), half, 0.0).to_path(FINE);
+            return kurbo::Ellipse::new((0.0, 0.0), half, 0.0).to_path(CURVE_TOLERANCE_MM);
         };
         let middle = self.angle(tip);
         let along = Vec2::new(-half.x * sin(middle), half.y * cos(middle)).hypot();
-        let wide = (TAIL * self.em / along).min(PI / 6.0);
+        let wide = (TAIL_HALF_WIDTH_EM * self.em / along).min(PI / 6.0);
         let arc = Arc::new((0.0, 0.0), half, middle + wide, TAU - 2.0 * wide, 0.0);
         let mut path = BezPath::new();
         let (from, to) = (self.on_ellipse(half, middle + wide), self.on_ellipse(half, middle - wide));
         path.move_to(from);
-        path.extend(arc.append_iter(FINE));
+        path.extend(arc.append_iter(CURVE_TOLERANCE_MM));
         // Both sides of the tail bend slightly in the same direction.
         let aside = Vec2::new(tip.y, -tip.x) * 0.06 * if tip.x < 0.0 { -1.0 } else { 1.0 };
         let tip = tip.to_point();
@@ -223,7 +224,7 @@ impl Balloon {
             let before = self.on_ellipse(self.half, angle(k - 1));
             let out = self.on_ellipse(self.half, (angle(k - 1) + angle(k)) / 2.0).to_vec2().normalize();
             // A cubic reaches three quarters of the distance to its handles.
-            let out = out * (BUMP * self.em);
+            let out = out * (BUMP_HEIGHT_EM * self.em);
             path.curve_to(before + out, at + out, at);
         }
         path.close_path();
@@ -237,7 +238,7 @@ impl Balloon {
         let mut path = BezPath::new();
         for (share, radius) in [(0.18, 0.5), (0.58, 0.36), (0.92, 0.24)] {
             let at = reach.lerp(tip, share).to_point();
-            path.extend(Circle::new(at, radius * self.em).to_path(FINE));
+            path.extend(Circle::new(at, radius * self.em).to_path(CURVE_TOLERANCE_MM));
         }
         path
     }
@@ -253,15 +254,16 @@ impl Balloon {
         for k in 0..count {
             let chance = |n: u64| (hash(self.seed, &[k, n]) % 1000) as f64 / 1000.0;
             let middle = first + step * k as f64;
-            // Letters end at the ellipse; spikes reach up to `SPIKE` ems outside it.
-            let out = SPIKE * self.em * (0.55 + 0.45 * chance(0));
+            // Letters end at the ellipse; spikes reach up to `SPIKE_HEIGHT_EM` ems outside it.
+            let out = SPIKE_HEIGHT_EM * self.em * (0.55 + 0.45 * chance(0));
             let spike = match tip.filter(|_| k == 0) {
                 Some(tip) => tip.to_point(),
                 None => {
                     self.on_ellipse(self.half + Vec2::new(out, out), middle + step * 0.25 * (chance(1) - 0.5))
                 }
             };
-            let valley = |at: f64| self.on_ellipse(self.half + Vec2::new(PAD, PAD) * 0.2 * self.em, at);
+            let valley =
+                |at: f64| self.on_ellipse(self.half + Vec2::new(PADDING_EM, PADDING_EM) * 0.2 * self.em, at);
             if k == 0 {
                 path.move_to(valley(middle - step / 2.0));
             }

@@ -16,45 +16,45 @@ use kurbo::{Affine, Point, Rect};
 use toml::Spanned;
 
 use super::comic_keys::{BalloonKeys, BalloonKind, LetteringKeys, PanelKeys, SoundKeys};
-use super::panel_drawing::Seen;
-use super::panel_outlines::{Shape, Sheet};
-use crate::drawing::{Drawing, Item, Layer, LayerKind, Mark, Page, Unit};
+use super::panel_drawing::PanelScene;
+use super::panel_outlines::{PageBoxes, PanelOutline};
+use crate::drawing::{Drawing, Layer, LayerKind, Mark, Page, PlacedDrawing, Unit};
 use crate::error::Error;
-use crate::page::balloon_placement::{self, Placed, Room, Wish};
-use crate::page::layout::{Polygon, Reading};
+use crate::page::balloon_placement::{self, PlacedBalloon, PlacementArea, PlacementRequest};
+use crate::page::layout::{ConvexPolygon, Reading};
 use crate::page::mm_length::Mm;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::text::{Font, Setting};
-use balloon::{Balloon, Ink};
-use tail_target::Target;
+use balloon::{Balloon, BalloonPaint};
+use tail_target::TailTarget;
 
 /// Letter sizes that are tried until all balloons fit, as shares of the requested size.
-const SIZES: [f64; 5] = [1.0, 0.92, 0.85, 0.78, 0.7];
+const LETTER_SIZE_FACTORS: [f64; 5] = [1.0, 0.92, 0.85, 0.78, 0.7];
 
 /// Aspect ratios (height by width) of balloons, preferred first.
-const ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
+const BALLOON_ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
 
 /// Gap from a balloon to the panel border, other balloons and faces, in ems.
-const GAP: f64 = 0.45;
+const BALLOON_GAP_EM: f64 = 0.45;
 
 /// Maximum number of balloons in a panel.
-const MOST_BALLOONS: usize = 50;
+const MAX_BALLOONS: usize = 50;
 
 /// Maximum number of letters in a balloon.
-const MOST_LETTERS: usize = 1000;
+const MAX_LETTERS: usize = 1000;
 
 /// Sets the letters of all panels of a page.
 pub(crate) struct Lettering<'a> {
     keys: &'a LetteringKeys,
     reading: Reading,
     setting: Setting,
-    source: &'a Source,
+    source: &'a PageSource,
 }
 
 /// The keys of a balloon, and the target of its tail.
-struct Told<'a> {
+struct BalloonSpec<'a> {
     keys: &'a BalloonKeys,
-    target: Option<Target>,
+    target: Option<TailTarget>,
 }
 
 impl<'a> Lettering<'a> {
@@ -62,11 +62,11 @@ impl<'a> Lettering<'a> {
     ///
     /// # Errors
     /// Returns an error if there is no such font, or the letter size is not above 0.
-    pub fn new(keys: &'a LetteringKeys, reading: Reading, source: &'a Source) -> Result<Self, Error> {
+    pub fn new(keys: &'a LetteringKeys, reading: Reading, source: &'a PageSource) -> Result<Self, Error> {
         let mut setting = Setting::new(font(&keys.font, source)?).with_leading(1.1);
         setting.upper_case = keys.upper_case;
         setting.language.clone_from(&keys.language);
-        Ok(Self { keys, reading, setting: setting.with_em(above(&keys.size, source)?), source })
+        Ok(Self { keys, reading, setting: setting.with_em(positive_length(&keys.size, source)?), source })
     }
 
     /// The letters of a panel as a drawing of the whole page; `None` if it has none.
@@ -76,11 +76,11 @@ impl<'a> Lettering<'a> {
     /// that does not fit.
     pub fn letter(
         &self,
-        shape: &Shape,
-        seen: Option<&Seen>,
-        sheet: &Sheet,
+        shape: &PanelOutline,
+        seen: Option<&PanelScene>,
+        sheet: &PageBoxes,
         warnings: &mut Vec<String>,
-    ) -> Result<Option<Item>, Error> {
+    ) -> Result<Option<PlacedDrawing>, Error> {
         let Some(keys) = shape.keys.map(Spanned::get_ref) else { return Ok(None) };
         if keys.balloon.is_empty() && keys.sound.is_empty() {
             return Ok(None);
@@ -100,7 +100,7 @@ impl<'a> Lettering<'a> {
         // Balloons and their words overlap in the order of the page file.
         let layers = vec![Layer { kind: LayerKind::Callouts, pen: None, ordered: false, marks }];
         let drawing = Drawing::new(&name, page, layers);
-        Ok(Some(Item { name, drawing, place: Affine::IDENTITY, clip: None }))
+        Ok(Some(PlacedDrawing { name, drawing, place: Affine::IDENTITY, clip: None }))
     }
 
     fn sound(
@@ -108,13 +108,13 @@ impl<'a> Lettering<'a> {
         keys: &SoundKeys,
         bounds: Rect,
         warnings: &mut Vec<String>,
-    ) -> Result<(Vec<Mark>, Polygon), Error> {
+    ) -> Result<(Vec<Mark>, ConvexPolygon), Error> {
         let font = match &keys.font {
             Some(name) => font(name, self.source)?,
             None => self.setting.font.clone(),
         };
-        let size = keys.size.as_ref().map_or(Ok(12.0), |size| above(size, self.source))?;
-        let line = keys.line.as_ref().map_or(Ok(size / 10.0), |line| above(line, self.source))?;
+        let size = keys.size.as_ref().map_or(Ok(12.0), |size| positive_length(size, self.source))?;
+        let line = keys.line.as_ref().map_or(Ok(size / 10.0), |line| positive_length(line, self.source))?;
         within_panel(&keys.at, self.source)?;
         for turn in [&keys.rotate, &keys.arc] {
             if !(-360.0..=360.0).contains(turn.get_ref()) {
@@ -132,42 +132,42 @@ impl<'a> Lettering<'a> {
         }
         let mut setting = Setting::new(font).with_capitals(size);
         setting.upper_case = self.keys.upper_case;
-        let made = sound_effect::sound(keys.text.get_ref(), &setting, keys, stretch, bounds);
+        let made = sound_effect::sound_outlines(keys.text.get_ref(), &setting, keys, stretch, bounds);
         let (letters, fallbacks) = made.map_err(|error| self.source.about(&keys.text.span(), error))?;
-        tell(fallbacks, warnings);
+        add_new_warnings(fallbacks, warnings);
         let colours = [keys.fill.unwrap_or(self.keys.fill), keys.colour.unwrap_or(self.keys.colour)];
-        Ok(sound_effect::painted(letters, colours, line))
+        Ok(sound_effect::paint_letters(letters, colours, line))
     }
 
     /// The placed balloons of a panel.
     fn balloons(
         &self,
-        shape: &Shape,
+        shape: &PanelOutline,
         keys: &PanelKeys,
-        (seen, obstacles): (Option<&Seen>, Vec<Polygon>),
-        sheet: &Sheet,
+        (seen, obstacles): (Option<&PanelScene>, Vec<ConvexPolygon>),
+        sheet: &PageBoxes,
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Mark>, Error> {
         if keys.balloon.is_empty() {
             return Ok(Vec::new());
         }
-        if let Some(extra) = keys.balloon.get(MOST_BALLOONS) {
-            let message = format!("a panel can hold at most {MOST_BALLOONS} balloons");
+        if let Some(extra) = keys.balloon.get(MAX_BALLOONS) {
+            let message = format!("a panel can hold at most {MAX_BALLOONS} balloons");
             return Err(self.source.fault(&extra.text.span(), &message, "spread them over several panels"));
         }
         for keys in &keys.balloon {
             keys.at.as_ref().map_or(Ok(()), |at| within_panel(at, self.source))?;
             let letters = keys.text.get_ref().chars().count();
-            if letters > MOST_LETTERS {
+            if letters > MAX_LETTERS {
                 let message = format!("a text of {letters} letters is too long for a balloon");
-                let advice = format!("write at most {MOST_LETTERS}, or part it among several balloons");
+                let advice = format!("write at most {MAX_LETTERS}, or part it among several balloons");
                 return Err(self.source.fault(&keys.text.span(), &message, &advice));
             }
         }
-        let told: Vec<Told> = keys
+        let told: Vec<BalloonSpec> = keys
             .balloon
             .iter()
-            .map(|keys| Ok(Told { keys, target: self.target(keys, shape, seen)? }))
+            .map(|keys| Ok(BalloonSpec { keys, target: self.target(keys, shape, seen)? }))
             .collect::<Result<_, Error>>()?;
         let mut kept = Vec::new();
         for glob in &keys.keep {
@@ -179,29 +179,32 @@ impl<'a> Lettering<'a> {
                 ));
             };
             let places = seen.places(glob, self.source)?;
-            let within = |hull| Polygon(hull).common(&shape.outline);
+            let within = |hull| ConvexPolygon(hull).common(&shape.outline);
             kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
         }
         kept.extend(told.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
         let parts: Vec<&str> =
             told.iter().filter_map(|told| Some(told.target.as_ref()?.part.as_str())).collect();
-        let cover = seen.map(|seen| seen.cover(&parts));
+        let cover = seen.map(|seen| seen.coverage(&parts));
         let mut stuck = 0;
-        for size in SIZES {
+        for size in LETTER_SIZE_FACTORS {
             let balloons: Vec<Vec<Balloon>> =
                 told.iter().map(|told| self.set(told, size)).collect::<Result<_, _>>()?;
-            let gap = GAP * self.setting.em() * size;
-            let room = Room {
-                outline: shape.outline.inset(gap).common(&Polygon::from(sheet.safe)),
+            let gap = BALLOON_GAP_EM * self.setting.em() * size;
+            let room = PlacementArea {
+                outline: shape.outline.inset(gap).common(&ConvexPolygon::from(sheet.safe)),
                 kept: kept.clone(),
                 obstacles: obstacles.clone(),
                 cover: cover.clone(),
                 gap,
                 reading: self.reading,
             };
-            let wishes: Vec<Wish> =
-                balloons.iter().zip(&told).map(|(shapes, told)| wish(shapes, told, shape)).collect();
-            match balloon_placement::place(&wishes, &room) {
+            let wishes: Vec<PlacementRequest> = balloons
+                .iter()
+                .zip(&told)
+                .map(|(shapes, told)| placement_request(shapes, told, shape))
+                .collect();
+            match balloon_placement::place_balloons(&wishes, &room) {
                 Ok(places) => {
                     if size < 1.0 {
                         let percent = (size * 100.0).round();
@@ -225,9 +228,9 @@ impl<'a> Lettering<'a> {
     fn target(
         &self,
         keys: &BalloonKeys,
-        shape: &Shape,
-        seen: Option<&Seen>,
-    ) -> Result<Option<Target>, Error> {
+        shape: &PanelOutline,
+        seen: Option<&PanelScene>,
+    ) -> Result<Option<TailTarget>, Error> {
         let Some(glob) = &keys.tail else { return Ok(None) };
         if keys.kind == BalloonKind::Caption {
             return Err(self.source.fault(
@@ -244,7 +247,7 @@ impl<'a> Lettering<'a> {
             ));
         };
         let places = seen.places(glob, self.source)?;
-        match Target::of(&places, &shape.outline) {
+        match TailTarget::of(&places, &shape.outline) {
             Some(target) => Ok(Some(target)),
             None => {
                 let message = format!("the part `{}` is not in the picture of this panel", glob.get_ref());
@@ -258,57 +261,58 @@ impl<'a> Lettering<'a> {
     }
 
     /// A balloon with its text set, once for each aspect ratio.
-    fn set(&self, told: &Told, size: f64) -> Result<Vec<Balloon>, Error> {
-        let Told { keys, .. } = told;
-        let own = keys.size.as_ref().map_or(Ok(self.setting.em()), |size| above(size, self.source))?;
+    fn set(&self, told: &BalloonSpec, size: f64) -> Result<Vec<Balloon>, Error> {
+        let BalloonSpec { keys, .. } = told;
+        let own =
+            keys.size.as_ref().map_or(Ok(self.setting.em()), |size| positive_length(size, self.source))?;
         let setting = self.setting.clone().with_em(own * size);
         let set = |aspect| {
             Balloon::new(keys.text.get_ref(), keys.kind, &setting, aspect)
                 .map_err(|error| self.source.about(&keys.text.span(), error))
         };
-        ASPECTS.into_iter().map(set).collect()
+        BALLOON_ASPECTS.into_iter().map(set).collect()
     }
 
     fn painted(
         &self,
         balloons: &[Vec<Balloon>],
-        told: &[Told],
-        places: &[Placed],
+        told: &[BalloonSpec],
+        places: &[PlacedBalloon],
         warnings: &mut Vec<String>,
     ) -> Vec<Mark> {
         let mut marks = Vec::new();
         for ((shapes, told), place) in balloons.iter().zip(told).zip(places) {
             let Some(balloon) = shapes.get(place.shape) else { continue };
             let fill = told.keys.fill.unwrap_or(self.keys.fill);
-            let ink = Ink { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
+            let ink = BalloonPaint { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
             marks.extend(balloon.marks(place.middle, place.tip, &ink));
-            tell(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
+            add_new_warnings(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
         }
         marks
     }
 }
 
 /// The placement request of a balloon with its possible shapes.
-fn wish(shapes: &[Balloon], told: &Told, shape: &Shape) -> Wish {
+fn placement_request(shapes: &[Balloon], told: &BalloonSpec, shape: &PanelOutline) -> PlacementRequest {
     let bounds = shape.outline.bounds();
     let at = told.keys.at.as_ref().map(|at| {
         let [x, y] = *at.get_ref();
         Point::new(bounds.x0 + x * bounds.width(), bounds.y0 + y * bounds.height())
     });
     let of = |measure: fn(&Balloon) -> f64| shapes.first().map_or(0.0, measure);
-    Wish {
+    PlacementRequest {
         hulls: shapes.iter().map(Balloon::hull).collect(),
         target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
         at,
         em: of(Balloon::em),
         tail: of(Balloon::shortest_tail),
         foot: of(Balloon::foot),
-        cornered: told.keys.kind == BalloonKind::Caption,
+        is_caption: told.keys.kind == BalloonKind::Caption,
     }
 }
 
 /// A bundled font by its name, or a font file relative to the page file.
-fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
+fn font(name: &Spanned<String>, source: &PageSource) -> Result<Font, Error> {
     let is_name = !name.get_ref().contains(['/', '\\', '.']);
     if !is_name {
         return Font::open(source.existing(name, "font")?);
@@ -321,7 +325,7 @@ fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
 }
 
 /// Checks that a position is not far outside its panel.
-fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
+fn within_panel(at: &Spanned<[f64; 2]>, source: &PageSource) -> Result<(), Error> {
     if at.get_ref().iter().all(|share| (-0.5..=1.5).contains(share)) {
         return Ok(());
     }
@@ -330,7 +334,7 @@ fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
 }
 
 /// A length above 0, in mm.
-fn above(length: &Spanned<Mm>, source: &Source) -> Result<f64, Error> {
+fn positive_length(length: &Spanned<Mm>, source: &PageSource) -> Result<f64, Error> {
     let Mm(mm) = *length.get_ref();
     if mm > 0.0 {
         return Ok(mm);
@@ -338,7 +342,7 @@ fn above(length: &Spanned<Mm>, source: &Source) -> Result<f64, Error> {
     Err(source.fault(&length.span(), "sizes of letters and lines must be above 0", "write such as \"3.4mm\""))
 }
 
-fn tell(fallbacks: Vec<String>, warnings: &mut Vec<String>) {
+fn add_new_warnings(fallbacks: Vec<String>, warnings: &mut Vec<String>) {
     for fallback in fallbacks {
         if !warnings.contains(&fallback) {
             warnings.push(fallback);

@@ -7,14 +7,14 @@ use crate::drawing::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::page::comic::comic_keys::SoundKeys;
-use crate::page::layout::Polygon;
-use crate::text::{Block, Setting};
+use crate::page::layout::ConvexPolygon;
+use crate::text::{Setting, TextBlock};
 
 /// The outlines of the letters in position, and messages about missing glyphs.
 ///
 /// # Errors
 /// Returns an error if the text is empty, or no font has a glyph.
-pub(crate) fn sound(
+pub(crate) fn sound_outlines(
     text: &str,
     setting: &Setting,
     keys: &SoundKeys,
@@ -24,7 +24,7 @@ pub(crate) fn sound(
     if text.trim().is_empty() {
         return Err(Error::new("this sound has no letters").remedy("write its text, or leave it out"));
     }
-    let block = Block::unbroken(text, setting)?;
+    let block = TextBlock::unbroken(text, setting)?;
     let corner = Point::new(-block.width / 2.0, -block.height / 2.0);
     let arc = keys.arc.get_ref().to_radians();
     let [x, y] = *keys.at.get_ref();
@@ -41,13 +41,13 @@ pub(crate) fn sound(
         Point::new((radius - p.y) * sin(angle), radius - (radius - p.y) * cos(angle))
     };
     let letters = block.marks(corner, Colour::BLACK).into_iter().map(|mark| {
-        let path: BezPath = mark.path.elements().iter().map(|element| moved(*element, bent)).collect();
+        let path: BezPath = mark.path.elements().iter().map(|element| map_element(*element, bent)).collect();
         place * path
     });
     Ok((letters.collect(), block.fallbacks.iter().map(ToString::to_string).collect()))
 }
 
-fn moved(element: PathEl, to: impl Fn(Point) -> Point) -> PathEl {
+fn map_element(element: PathEl, to: impl Fn(Point) -> Point) -> PathEl {
     match element {
         PathEl::MoveTo(p) => PathEl::MoveTo(to(p)),
         PathEl::LineTo(p) => PathEl::LineTo(to(p)),
@@ -58,7 +58,11 @@ fn moved(element: PathEl, to: impl Fn(Point) -> Point) -> PathEl {
 }
 
 /// The painted letters with their outline below, and a box around everything.
-pub(crate) fn painted(letters: Vec<BezPath>, [fill, colour]: [Colour; 2], line: f64) -> (Vec<Mark>, Polygon) {
+pub(crate) fn paint_letters(
+    letters: Vec<BezPath>,
+    [fill, colour]: [Colour; 2],
+    line: f64,
+) -> (Vec<Mark>, ConvexPolygon) {
     let boxes = letters.iter().map(Shape::bounding_box);
     let all = boxes.reduce(|a, b| a.union(b)).unwrap_or_default().inset(line);
     let provenance = || Provenance { classes: vec!["sound"], ..Provenance::default() };
@@ -76,5 +80,5 @@ pub(crate) fn painted(letters: Vec<BezPath>, [fill, colour]: [Colour; 2], line: 
     let below = letters.iter().map(|path| (path.clone(), stroke()));
     let above = letters.iter().map(|path| (path.clone(), Paint::Fill(fill)));
     let marks = below.chain(above).map(|(path, paint)| Mark { path, paint, provenance: provenance() });
-    (marks.collect(), Polygon::from(all))
+    (marks.collect(), ConvexPolygon::from(all))
 }

@@ -2,7 +2,7 @@
 //!
 //! A ring is a rectangle around the view with slots for balloons.
 //!
-//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`leaders`], [`spokes`]).
+//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`assign_leaders`], [`assign_radially`]).
 //! 2. If there are too few slots, or a leader crosses another one, a text or a balloon, the next rings are
 //!    tried.
 //! 3. The next rings are farther out, or there are two. Slots of two rings are staggered, so leaders of the
@@ -12,42 +12,42 @@ use kurbo::{Affine, Circle, Point, Rect, Shape as _, Vec2};
 
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::page::sheet::canvas::annotation_board::Board;
-use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
-use crate::page::sheet::canvas::sheet_canvas::NARROW;
+use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
+use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, OccupantKind};
+use crate::page::sheet::canvas::sheet_canvas::THIN_LINE_MM;
 use crate::page::sheet::part_balloons::leader_assignment::{
-    RADIUS, cross, leaders, runs_through, slots, spokes,
+    BALLOON_RADIUS_MM, assign_leaders, assign_radially, balloon_slots, passes_through_balloon, segments_meet,
 };
-use crate::page::sheet::parts_list::parts_list_items::Item;
+use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
 
 /// Letter height of numbers, mm.
-const LETTERS: f64 = 3.5;
+const NUMBER_HEIGHT_MM: f64 = 3.5;
 
 /// Distance from the view to the first ring, and from ring to ring, mm.
-const FIRST: f64 = 10.0;
-const STEP: f64 = 9.5;
+const FIRST_RING_OFFSET_MM: f64 = 10.0;
+const RING_SPACING_MM: f64 = 9.5;
 
 /// Length of border per balloon in a single ring, mm.
-const ALONE: f64 = 10.0;
+const SINGLE_RING_PITCH_MM: f64 = 10.0;
 
 /// Distance from the centre of a balloon to a leader that passes it, mm: radius, clearance, and the slant of
 /// leaders.
-const PASSING: f64 = 5.2;
+const LEADER_PASSING_DISTANCE_MM: f64 = 5.2;
 
 /// Clearance around a balloon, mm.
-const CLEAR: f64 = 0.8;
+const BALLOON_CLEARANCE_MM: f64 = 0.8;
 
 /// Maximum number of rings; outward step of the outermost ring, mm; number of such steps.
-const RINGS: u32 = 2;
-const FARTHER: f64 = 3.0;
-const STEPS: u32 = 32;
+const MAX_RINGS: u32 = 2;
+const OUTWARD_STEP_MM: f64 = 3.0;
+const MAX_OUTWARD_STEPS: u32 = 32;
 
 /// Draws the balloons of all items that have an anchor.
-pub(crate) fn draw(
+pub(crate) fn draw_balloons(
     rect: Rect,
-    items: &[Item],
+    items: &[PartsListItem],
     anchors: &[Option<Point>],
-    board: &mut Board,
+    board: &mut AnnotationBoard,
 ) -> Result<(), Error> {
     let seen: Vec<(usize, Point)> =
         anchors.iter().enumerate().filter_map(|(k, anchor)| anchor.map(|anchor| (k, anchor))).collect();
@@ -57,21 +57,25 @@ pub(crate) fn draw(
     }
     // The offset of the outermost ring decides, because the view needs that much room. If nothing else fits,
     // leaders may cross those of diameters, and then arrow heads.
-    let ways = [(Clear::Leaders, STEPS / 3), (Clear::Solids, STEPS / 3), (Clear::Texts, STEPS)];
+    let ways = [
+        (Clearance::Leaders, MAX_OUTWARD_STEPS / 3),
+        (Clearance::Solids, MAX_OUTWARD_STEPS / 3),
+        (Clearance::Texts, MAX_OUTWARD_STEPS),
+    ];
     let rings = ways.into_iter().flat_map(|(clear, steps)| {
         (0..steps).flat_map(move |step| {
-            let away = FARTHER * f64::from(step);
-            let farther = move |rings: u32| (clear, rings, away - STEP * f64::from(rings - 1));
-            (1..=RINGS).map(farther).filter(|(.., farther)| *farther >= 0.0)
+            let away = OUTWARD_STEP_MM * f64::from(step);
+            let farther = move |rings: u32| (clear, rings, away - RING_SPACING_MM * f64::from(rings - 1));
+            (1..=MAX_RINGS).map(farther).filter(|(.., farther)| *farther >= 0.0)
         })
     });
     let found = rings.into_iter().find_map(|(clear, rings, farther)| {
-        let places = places(rect, (rings, farther), board);
+        let places = free_slots(rect, (rings, farther), board);
         if places.len() < points.len() {
             return None;
         }
         let is_blocked = |p: &Point, place: &Point| {
-            !board.taken.is_free(&Shape::line(*p, *place, NARROW).wider(0.3), clear)
+            !board.taken.is_free(&ConvexShape::line(*p, *place, THIN_LINE_MM).wider(0.3), clear)
         };
         let blocked: Vec<Vec<bool>> =
             points.iter().map(|p| places.iter().map(|place| is_blocked(p, place)).collect()).collect();
@@ -86,15 +90,17 @@ pub(crate) fn draw(
             lines.iter().enumerate().all(|(k, own)| {
                 !blocked[k][of[k]]
                     && lines.iter().enumerate().all(|(n, other)| {
-                        n == k || !runs_through(*own, other[1]) && (n < k || !cross(*own, *other))
+                        n == k
+                            || !passes_through_balloon(*own, other[1])
+                                && (n < k || !segments_meet(*own, *other))
                     })
             })
         };
-        let nearest = leaders(&points, &places, &|k, place| blocked[k][place]);
+        let nearest = assign_leaders(&points, &places, &|k, place| blocked[k][place]);
         if is_clear(&nearest) {
             return Some(lines(&nearest));
         }
-        let spokes = spokes(&points, &places, &|k, place| blocked[k][place]);
+        let spokes = assign_radially(&points, &places, &|k, place| blocked[k][place]);
         is_clear(&spokes).then(|| lines(&spokes))
     });
     let Some(lines) = found else {
@@ -109,15 +115,16 @@ pub(crate) fn draw(
     for ((item, _), [anchor, centre]) in seen.iter().zip(lines) {
         let towards = anchor - centre;
         let far = towards.hypot2().sqrt();
-        if far > RADIUS {
-            let end = centre + towards * (RADIUS / far);
-            board.balloons.line(end, anchor, NARROW);
-            board.taken.take(Shape::line(end, anchor, NARROW), Kind::Leader);
+        if far > BALLOON_RADIUS_MM {
+            let end = centre + towards * (BALLOON_RADIUS_MM / far);
+            board.balloons.line(end, anchor, THIN_LINE_MM);
+            board.taken.take(ConvexShape::line(end, anchor, THIN_LINE_MM), OccupantKind::Leader);
         }
         board.balloons.fill(Circle::new(anchor, 0.5).to_path(1e-3));
-        board.balloons.circle(centre, RADIUS, NARROW);
-        board.taken.take(Shape::disc(centre, RADIUS), Kind::Solid);
-        let word = board.word_within(&items[*item].number, LETTERS, 2.0 * RADIUS - 1.5)?;
+        board.balloons.circle(centre, BALLOON_RADIUS_MM, THIN_LINE_MM);
+        board.taken.take(ConvexShape::disc(centre, BALLOON_RADIUS_MM), OccupantKind::Solid);
+        let word =
+            board.word_within(&items[*item].number, NUMBER_HEIGHT_MM, 2.0 * BALLOON_RADIUS_MM - 1.5)?;
         // All numbers share a baseline, whether or not they have descenders.
         let at = Point::new(centre.x - word.bounds.center().x, centre.y - word.bounds.y0 / 2.0);
         board.write_in_balloon(&word, Affine::translate(at.to_vec2()));
@@ -126,14 +133,17 @@ pub(crate) fn draw(
 }
 
 /// Slots of one ring or two that are on free paper.
-fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point> {
-    let inner = rect.inflate(FIRST + farther, FIRST + farther);
-    let all = if rings == 1 { slots(inner, ALONE, 0.5) } else { staggered(inner) };
+fn free_slots(rect: Rect, (rings, farther): (u32, f64), board: &AnnotationBoard) -> Vec<Point> {
+    let inner = rect.inflate(FIRST_RING_OFFSET_MM + farther, FIRST_RING_OFFSET_MM + farther);
+    let all =
+        if rings == 1 { balloon_slots(inner, SINGLE_RING_PITCH_MM, 0.5) } else { staggered_slots(inner) };
     // At corners, slots of neighbouring sides may be close to each other.
     let mut kept: Vec<Point> = Vec::new();
     for p in all {
-        let near = 2.0 * RADIUS + CLEAR;
-        let is_free = board.taken.is_free(&Shape::disc(p, RADIUS + CLEAR), Clear::All);
+        let near = 2.0 * BALLOON_RADIUS_MM + BALLOON_CLEARANCE_MM;
+        let is_free = board
+            .taken
+            .is_free(&ConvexShape::disc(p, BALLOON_RADIUS_MM + BALLOON_CLEARANCE_MM), Clearance::All);
         if is_free && kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
             kept.push(p);
         }
@@ -143,8 +153,8 @@ fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point>
 
 /// Slots on rays from the centre, alternating between this ring and the one around it. Each ray passes the
 /// balloons of its neighbours.
-fn staggered(inner: Rect) -> Vec<Point> {
-    let outer = inner.inflate(STEP, STEP);
+fn staggered_slots(inner: Rect) -> Vec<Point> {
+    let outer = inner.inflate(RING_SPACING_MM, RING_SPACING_MM);
     let middle = inner.center();
     let at = |ring: Rect, turn: f64| {
         let way = Vec2::new(cos(turn), sin(turn));
@@ -153,7 +163,7 @@ fn staggered(inner: Rect) -> Vec<Point> {
     };
     let step = |turn: f64| {
         let far = at(inner, turn).hypot2().sqrt();
-        (PASSING / far).min(1.0)
+        (LEADER_PASSING_DISTANCE_MM / far).min(1.0)
     };
     let mut turns = Vec::new();
     let mut turn = 0.0;

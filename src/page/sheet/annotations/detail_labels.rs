@@ -4,51 +4,58 @@ use kurbo::{Point, Rect, Vec2};
 
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::page::sheet::canvas::annotation_board::Board;
-use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
-use crate::page::sheet::canvas::sheet_canvas::NARROW;
+use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
+use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, OccupantKind};
+use crate::page::sheet::canvas::sheet_canvas::THIN_LINE_MM;
 
 /// Letter height, mm.
-const LETTERS: f64 = 5.0;
+const LETTER_HEIGHT_MM: f64 = 5.0;
 
 /// First length of a leader, step size of the length, mm, and maximum number of steps.
-const OUT: f64 = 4.0;
-const FARTHER: f64 = 2.0;
-const STEPS: u32 = 60;
+const FIRST_LEADER_LENGTH_MM: f64 = 4.0;
+const LEADER_STEP_MM: f64 = 2.0;
+const MAX_LEADER_STEPS: u32 = 60;
 
 /// Number of leader directions, from the upper right to both sides.
-const WAYS: u32 = 48;
+const LEADER_DIRECTIONS: u32 = 48;
 
 /// Distance from a view to its title, and how far the title moves up at most, mm.
-const TITLE: f64 = 3.0;
-const HIGHEST: u32 = 400;
+const TITLE_GAP_MM: f64 = 3.0;
+const MAX_TITLE_SHIFT_MM: u32 = 400;
 
 /// Draws the circle around a detail.
-pub(crate) fn circle(centre: Point, radius: f64, board: &mut Board) {
+pub(crate) fn draw_circle(centre: Point, radius: f64, board: &mut AnnotationBoard) {
     let circle = kurbo::Circle::new(centre, radius);
-    board.take_path(&kurbo::Shape::to_path(&circle, 1e-3), NARROW, Kind::Line);
-    board.ink.circle(centre, radius, NARROW);
+    board.take_path(&kurbo::Shape::to_path(&circle, 1e-3), THIN_LINE_MM, OccupantKind::Line);
+    board.ink.circle(centre, radius, THIN_LINE_MM);
 }
 
 /// Writes the letter of a detail, with a leader to its circle.
-pub(crate) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Board) -> Result<(), Error> {
-    let word = board.word(label, LETTERS)?;
-    for clear in [Clear::Leaders, Clear::Texts] {
-        for step in 0..STEPS {
-            for k in 0..WAYS {
+pub(crate) fn draw_detail_label(
+    label: &str,
+    centre: Point,
+    radius: f64,
+    board: &mut AnnotationBoard,
+) -> Result<(), Error> {
+    let word = board.word(label, LETTER_HEIGHT_MM)?;
+    for clear in [Clearance::Leaders, Clearance::Texts] {
+        for step in 0..MAX_LEADER_STEPS {
+            for k in 0..LEADER_DIRECTIONS {
                 let aside = if k % 2 == 0 { -f64::from(k / 2) } else { f64::from(k.div_ceil(2)) };
-                let turn = std::f64::consts::TAU * (0.125 + aside / f64::from(WAYS));
+                let turn = std::f64::consts::TAU * (0.125 + aside / f64::from(LEADER_DIRECTIONS));
                 let out = Vec2::new(cos(turn), -sin(turn));
                 let from = centre + out * radius;
-                let to = from + out * (OUT + FARTHER * f64::from(step));
+                let to = from + out * (FIRST_LEADER_LENGTH_MM + LEADER_STEP_MM * f64::from(step));
                 // The letter stands past the end of the leader.
                 let half = word.bounds.size().to_vec2() / 2.0;
                 let clearance = 0.8 + (out.x * half.x).abs() + (out.y * half.y).abs();
                 let place = word.centred(to + out * clearance);
                 let is_free = board.is_free(&word, place)
-                    && board.taken.is_free(&Shape::line(from + out * 0.5, to, NARROW).wider(0.3), clear);
+                    && board
+                        .taken
+                        .is_free(&ConvexShape::line(from + out * 0.5, to, THIN_LINE_MM).wider(0.3), clear);
                 if is_free {
-                    board.line(from, to, NARROW, Kind::Leader);
+                    board.line(from, to, THIN_LINE_MM, OccupantKind::Leader);
                     board.write(&word, place);
                     return Ok(());
                 }
@@ -60,11 +67,12 @@ pub(crate) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Boa
 }
 
 /// Writes the title of a view above it.
-pub(crate) fn title(words: &str, rect: Rect, board: &mut Board) -> Result<(), Error> {
-    let word = board.word(words, LETTERS)?;
+pub(crate) fn draw_title(words: &str, rect: Rect, board: &mut AnnotationBoard) -> Result<(), Error> {
+    let word = board.word(words, LETTER_HEIGHT_MM)?;
     let half = word.bounds.height() / 2.0;
-    let middle = |k: u32| Point::new(rect.center().x, rect.y0 - TITLE - half - f64::from(k));
-    let place = (0..HIGHEST).map(|k| word.centred(middle(k))).find(|place| board.is_free(&word, *place));
+    let middle = |k: u32| Point::new(rect.center().x, rect.y0 - TITLE_GAP_MM - half - f64::from(k));
+    let place =
+        (0..MAX_TITLE_SHIFT_MM).map(|k| word.centred(middle(k))).find(|place| board.is_free(&word, *place));
     match place {
         Some(place) => board.write(&word, place),
         None => board.unplaced.push(format!("the title `{words}`")),

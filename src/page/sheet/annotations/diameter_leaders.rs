@@ -7,27 +7,27 @@
 
 use kurbo::{Circle, Point, Rect, Shape as _, Vec2};
 
-use super::dimension_style::{ARROW, HIGH};
+use super::dimension_style::{ARROW_LENGTH_MM, VALUE_HEIGHT_MM};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::page::sheet::canvas::annotation_board::{Board, Word};
-use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind};
-use crate::page::sheet::canvas::sheet_canvas::{CHAIN, NARROW, way};
-use crate::page::sheet::dimensions::dimension_set::Led;
+use crate::page::sheet::canvas::annotation_board::{AnnotationBoard, SetWord};
+use crate::page::sheet::canvas::paper_occupancy::{Clearance, OccupantKind};
+use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, polyline};
+use crate::page::sheet::dimensions::dimension_set::DiameterLeader;
 
 /// First distance of a value from the view, step size of the distance, mm, and number of steps.
-const OUT: f64 = 5.0;
-const FARTHER: f64 = 5.0;
-const STEPS: u32 = 16;
+const FIRST_VALUE_OFFSET_MM: f64 = 5.0;
+const OUTWARD_STEP_MM: f64 = 5.0;
+const MAX_OUTWARD_STEPS: u32 = 16;
 
 /// Number of leader directions.
-const WAYS: u32 = 72;
+const LEADER_DIRECTIONS: u32 = 72;
 
 /// Extra cost of a value on the left and below, in mm of leader.
-const LEFT: f64 = 25.0;
-const BELOW: f64 = 15.0;
+const LEFT_COST_MM: f64 = 25.0;
+const BELOW_COST_MM: f64 = 15.0;
 
-struct Leader {
+struct LeaderCandidate {
     tip: Point,
     knee: Point,
     shelf: Point,
@@ -37,50 +37,64 @@ struct Leader {
 }
 
 /// Draws a diameter or a radius.
-pub(crate) fn draw(rect: Rect, led: &Led, board: &mut Board) -> Result<(), Error> {
-    let word = board.word(&led.text, HIGH)?;
+pub(crate) fn draw_diameter(
+    rect: Rect,
+    led: &DiameterLeader,
+    board: &mut AnnotationBoard,
+) -> Result<(), Error> {
+    let word = board.word(&led.text, VALUE_HEIGHT_MM)?;
     if let Some((middle, radius)) = led.pitch {
         let circle = Circle::new(middle, radius).to_path(1e-3);
-        board.take_path(&circle, NARROW, Kind::Line);
-        board.ink.path(circle, NARROW, &CHAIN);
+        board.take_path(&circle, THIN_LINE_MM, OccupantKind::Line);
+        board.ink.path(circle, THIN_LINE_MM, &CHAIN_DASH_MM);
     }
-    let mut leaders: Vec<Leader> = (0..STEPS)
-        .flat_map(|step| (0..WAYS).map(move |k| (k, f64::from(step) * FARTHER)))
-        .map(|(k, more)| leader(led, rect, &word, (k, more)))
+    let mut leaders: Vec<LeaderCandidate> = (0..MAX_OUTWARD_STEPS)
+        .flat_map(|step| (0..LEADER_DIRECTIONS).map(move |k| (k, f64::from(step) * OUTWARD_STEP_MM)))
+        .map(|(k, more)| leader_candidate(led, rect, &word, (k, more)))
         .collect();
     leaders.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let is_free = |leader: &&Leader, clear: Clear| {
+    let is_free = |leader: &&LeaderCandidate, clear: Clearance| {
         let both = rect.intersect(word.shape(word.centred(leader.middle)).bounds());
         (both.width() <= 0.0 || both.height() <= 0.0)
             && board.is_free(&word, word.centred(leader.middle))
             && board.is_line_free(leader.tip, leader.knee, clear)
-            && board.is_line_free(leader.knee, leader.shelf, Clear::Solids)
-            && board.taken.is_free(&Board::head(leader.tip, leader.tip - leader.knee, ARROW), Clear::Texts)
+            && board.is_line_free(leader.knee, leader.shelf, Clearance::Solids)
+            && board.taken.is_free(
+                &AnnotationBoard::head(leader.tip, leader.tip - leader.knee, ARROW_LENGTH_MM),
+                Clearance::Texts,
+            )
     };
-    let found = [Clear::Leaders, Clear::Solids, Clear::Texts]
+    let found = [Clearance::Leaders, Clearance::Solids, Clearance::Texts]
         .into_iter()
         .find_map(|clear| leaders.iter().find(|leader| is_free(leader, clear)));
-    let Some(Leader { tip, knee, shelf, middle, .. }) = found else {
+    let Some(LeaderCandidate { tip, knee, shelf, middle, .. }) = found else {
         board.unplaced.push(format!("the diameter `{}`", led.text));
         return Ok(());
     };
-    board.ink.line(*knee, *tip, NARROW);
-    board
-        .taken
-        .take(crate::page::sheet::canvas::paper_occupancy::Shape::line(*knee, *tip, NARROW), Kind::Leader);
-    board.arrow(*tip, *tip - *knee, ARROW);
-    board.ink.path(way(&[*knee, *shelf]), NARROW, &[]);
-    board
-        .taken
-        .take(crate::page::sheet::canvas::paper_occupancy::Shape::line(*knee, *shelf, NARROW), Kind::Leader);
+    board.ink.line(*knee, *tip, THIN_LINE_MM);
+    board.taken.take(
+        crate::page::sheet::canvas::paper_occupancy::ConvexShape::line(*knee, *tip, THIN_LINE_MM),
+        OccupantKind::Leader,
+    );
+    board.arrow(*tip, *tip - *knee, ARROW_LENGTH_MM);
+    board.ink.path(polyline(&[*knee, *shelf]), THIN_LINE_MM, &[]);
+    board.taken.take(
+        crate::page::sheet::canvas::paper_occupancy::ConvexShape::line(*knee, *shelf, THIN_LINE_MM),
+        OccupantKind::Leader,
+    );
     let place = word.centred(*middle);
     board.write(&word, place);
     Ok(())
 }
 
-fn leader(led: &Led, rect: Rect, word: &Word, (k, more): (u32, f64)) -> Leader {
-    let outer = rect.inflate(OUT, OUT);
-    let turn = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(WAYS);
+fn leader_candidate(
+    led: &DiameterLeader,
+    rect: Rect,
+    word: &SetWord,
+    (k, more): (u32, f64),
+) -> LeaderCandidate {
+    let outer = rect.inflate(FIRST_VALUE_OFFSET_MM, FIRST_VALUE_OFFSET_MM);
+    let turn = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(LEADER_DIRECTIONS);
     let out = Vec2::new(cos(turn), -sin(turn));
     // Distances to the border of the view.
     let reach = |p: f64, d: f64, low: f64, high: f64| match d {
@@ -91,13 +105,13 @@ fn leader(led: &Led, rect: Rect, word: &Word, (k, more): (u32, f64)) -> Leader {
     let (x, y) = (led.centre.x, led.centre.y);
     let far = reach(x, out.x, outer.x0, outer.x1).min(reach(y, out.y, outer.y0, outer.y1));
     let tip = led.centre + out * led.radius;
-    let knee = led.centre + out * (far.max(led.radius + OUT) + more);
+    let knee = led.centre + out * (far.max(led.radius + FIRST_VALUE_OFFSET_MM) + more);
     let wide = word.bounds.width() + 2.0;
     let side = if out.x >= 0.0 { 1.0 } else { -1.0 };
     let shelf = knee + Vec2::new(side * wide, 0.0);
     let rise = 1.0 + word.bounds.y1.max(0.0) + word.bounds.height() / 2.0;
     let middle = knee + Vec2::new(side * wide / 2.0, -rise);
-    let aside = if side > 0.0 { 0.0 } else { LEFT };
-    let below = if knee.y <= rect.y1 { 0.0 } else { BELOW };
-    Leader { tip, knee, shelf, middle, cost: far + more + aside + below }
+    let aside = if side > 0.0 { 0.0 } else { LEFT_COST_MM };
+    let below = if knee.y <= rect.y1 { 0.0 } else { BELOW_COST_MM };
+    LeaderCandidate { tip, knee, shelf, middle, cost: far + more + aside + below }
 }

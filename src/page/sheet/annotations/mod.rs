@@ -27,49 +27,54 @@ mod view_drawings;
 use glam::DVec2;
 use kurbo::{Point, Rect, Vec2};
 
-pub(crate) use crate::page::sheet::canvas::annotation_board::Board;
-pub(crate) use view_drawings::DrawnViews;
+pub(crate) use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
+pub(crate) use view_drawings::ViewDrawings;
 
 use super::arrangement::titles_and_notes;
 use crate::error::Error;
-use crate::page::sheet::arrangement::view_arrangement::{AROUND, ELEMENTS_CLEAR};
-use crate::page::sheet::arrangement::view_plan::Plan;
-use crate::page::sheet::canvas::paper_occupancy::{Kind, Shape};
-use crate::page::sheet::dimensions::dimension_set::{Measures, Slanted};
-use crate::page::sheet::parts_list::parts_list_items::Item;
-use crate::page::sheet::view::view_side::{Side, Told};
+use crate::page::sheet::arrangement::view_arrangement::{ANNOTATION_MARGIN_MM, VIEW_MARGIN_MM};
+use crate::page::sheet::arrangement::view_plan::ViewPlan;
+use crate::page::sheet::canvas::paper_occupancy::{ConvexShape, OccupantKind};
+use crate::page::sheet::dimensions::dimension_set::{DimensionSet, SlantedLength};
+use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
+use crate::page::sheet::view::view_side::{SideLength, ViewSide};
 use crate::surface::Cylinder;
 use crate::text::Font;
-use section_marks::CutMark;
+use section_marks::SectionMark;
 
 /// Radius of the free paper around the start of a leader, mm.
-const ANCHOR: f64 = 1.5;
+const ANCHOR_RADIUS_MM: f64 = 1.5;
 
 /// The annotations of all views.
-pub(crate) struct Layout<'a> {
+pub(crate) struct Annotations<'a> {
     pub font: &'a Font,
-    pub measures: &'a Measures,
+    pub measures: &'a DimensionSet,
     /// Cylinders with centre lines.
     pub cylinders: &'a [Cylinder],
     /// Items with balloons. Each anchor is relative to the corner of the view, in model units, x right and y
     /// down.
-    pub items: &'a [Item],
+    pub items: &'a [PartsListItem],
     pub anchors: &'a [Option<DVec2>],
     /// The scale of the sheet.
     pub scale: f64,
 }
 
-impl Layout<'_> {
+impl Annotations<'_> {
     /// Places all annotations of a view.
     ///
     /// # Errors
     /// Returns an error if a text cannot be set.
-    pub fn board(&self, view: usize, plan: &Plan, drawn: &DrawnViews) -> Result<Board, Error> {
-        let mut board = Board::new(self.font);
+    pub fn board(
+        &self,
+        view: usize,
+        plan: &ViewPlan,
+        drawn: &ViewDrawings,
+    ) -> Result<AnnotationBoard, Error> {
+        let mut board = AnnotationBoard::new(self.font);
         let sight = &plan.views[view].sight;
         let rect = sight.rect();
         for ([a, b], width) in drawn.chords(view, plan) {
-            board.taken.take(Shape::line(a, b, width), Kind::Geometry);
+            board.taken.take(ConvexShape::line(a, b, width), OccupantKind::Geometry);
         }
         let anchors: Vec<Option<Point>> = if plan.balloons == Some(view) {
             let anchor = |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.unit);
@@ -79,19 +84,19 @@ impl Layout<'_> {
         };
         // Texts must not cover the start of a leader.
         for anchor in anchors.iter().flatten() {
-            board.taken.take(Shape::disc(*anchor, ANCHOR), Kind::Geometry);
+            board.taken.take(ConvexShape::disc(*anchor, ANCHOR_RADIUS_MM), OccupantKind::Geometry);
         }
         centre_lines::centre_lines(plan, view, self.cylinders, &mut board);
         for circled in &plan.circled {
             if circled.of == view && circled.meets(sight) {
-                detail_labels::circle(sight.page(circled.at), circled.radius * sight.unit, &mut board);
+                detail_labels::draw_circle(sight.page(circled.at), circled.radius * sight.unit, &mut board);
             }
             if circled.shown == view {
-                detail_labels::circle(rect.center(), rect.width() / 2.0, &mut board);
+                detail_labels::draw_circle(rect.center(), rect.width() / 2.0, &mut board);
             }
         }
         let mut marks = self.cut_marks(view, plan, &mut board);
-        let told: Vec<&Told> =
+        let told: Vec<&SideLength> =
             self.measures.lengths.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
         let kept = |out: Vec2| -> Vec<f64> {
             told.iter()
@@ -99,51 +104,53 @@ impl Layout<'_> {
                 .flat_map(|told| told.span())
                 .collect()
         };
-        let slanted: Vec<&Slanted> =
+        let slanted: Vec<&SlantedLength> =
             self.measures.slanted.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
-        board.kept = dimension_lines::passing(rect, slanted.iter().copied());
+        board.reserved = dimension_lines::extension_line_paper(rect, slanted.iter().copied());
         for mark in &mut marks {
             mark.place_near(&kept, &mut board)?;
         }
-        for side in Side::ALL {
-            let own: Vec<&Told> = told.iter().copied().filter(|told| told.side == side).collect();
-            let open: Vec<f64> =
-                marks.iter().filter_map(|mark| mark.open_at(side.is_across(), side.outward())).collect();
-            dimension_lines::rows(rect, &own, &open, &mut board)?;
+        for side in ViewSide::ALL {
+            let own: Vec<&SideLength> = told.iter().copied().filter(|told| told.side == side).collect();
+            let open: Vec<f64> = marks
+                .iter()
+                .filter_map(|mark| mark.open_crossing(side.is_across(), side.outward()))
+                .collect();
+            dimension_lines::draw_rows(rect, &own, &open, &mut board)?;
         }
         for (k, own) in slanted.iter().enumerate() {
-            board.kept = dimension_lines::passing(rect, slanted.iter().skip(k + 1).copied());
-            dimension_lines::slanted(rect, own, &mut board)?;
+            board.reserved = dimension_lines::extension_line_paper(rect, slanted.iter().skip(k + 1).copied());
+            dimension_lines::draw_slanted(rect, own, &mut board)?;
         }
         for (_, led) in self.measures.led.iter().filter(|(of, _)| *of == view) {
-            diameter_leaders::draw(rect, led, &mut board)?;
+            diameter_leaders::draw_diameter(rect, led, &mut board)?;
         }
         for mark in marks {
             mark.finish(&mut board)?;
         }
         for circled in plan.circled.iter().filter(|circled| circled.of == view && circled.meets(sight)) {
             let (centre, radius) = (sight.page(circled.at), circled.radius * sight.unit);
-            detail_labels::of_detail(&circled.label, centre, radius, &mut board)?;
+            detail_labels::draw_detail_label(&circled.label, centre, radius, &mut board)?;
         }
-        if let Some(title) = titles_and_notes::title(plan, view, self.scale) {
-            detail_labels::title(&title, rect, &mut board)?;
+        if let Some(title) = titles_and_notes::view_title(plan, view, self.scale) {
+            detail_labels::draw_title(&title, rect, &mut board)?;
         }
-        balloon_rings::draw(rect, self.items, &anchors, &mut board)?;
+        balloon_rings::draw_balloons(rect, self.items, &anchors, &mut board)?;
         Ok(board)
     }
 
     /// The section marks of a view, ordered so that no arrow lies on a mark placed later.
-    fn cut_marks(&self, view: usize, plan: &Plan, board: &mut Board) -> Vec<CutMark> {
+    fn cut_marks(&self, view: usize, plan: &ViewPlan, board: &mut AnnotationBoard) -> Vec<SectionMark> {
         let sight = &plan.views[view].sight;
         let rect = sight.rect();
-        let mut marks: Vec<CutMark> = Vec::new();
-        for cut in plan.cuts.iter().filter(|cut| titles_and_notes::crossed(plan, cut) == Some(view)) {
+        let mut marks: Vec<SectionMark> = Vec::new();
+        for cut in plan.cuts.iter().filter(|cut| titles_and_notes::edge_on_view(plan, cut) == Some(view)) {
             let normal = cut.plane.normal();
             // Towards the viewer of the section, on the page.
             let back = sight.page(plan.middle + normal) - sight.page(plan.middle);
             let back = back / back.hypot2().sqrt();
             let on = sight.page(plan.middle - normal * cut.plane.distance(plan.middle));
-            marks.push(CutMark::new(&cut.label, on, back, rect));
+            marks.push(SectionMark::new(&cut.label, on, back, rect));
         }
         marks.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
         for mark in &marks {
@@ -153,9 +160,9 @@ impl Layout<'_> {
     }
 
     /// The extra margins that annotations need outside the regular margin: left, above, right, below, mm.
-    pub fn room(board: &Board, rect: Rect) -> [f64; 4] {
+    pub fn room(board: &AnnotationBoard, rect: Rect) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
-        let own = AROUND - ELEMENTS_CLEAR;
+        let own = VIEW_MARGIN_MM - ANNOTATION_MARGIN_MM;
         let past = [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
         past.map(|past| (past - own).max(0.0))
     }

@@ -9,35 +9,35 @@
 use kurbo::{Point, Rect, Vec2};
 
 use crate::error::Error;
-use crate::page::sheet::canvas::annotation_board::{Board, TEXT_CLEAR, Word};
-use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
-use crate::page::sheet::canvas::sheet_canvas::{CHAIN, NARROW, WIDE, way};
+use crate::page::sheet::canvas::annotation_board::{AnnotationBoard, SetWord, TEXT_CLEARANCE_MM};
+use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, OccupantKind};
+use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THICK_LINE_MM, THIN_LINE_MM, polyline};
 
 /// Letter height, mm.
-const LETTERS: f64 = 5.0;
+const LETTER_HEIGHT_MM: f64 = 5.0;
 
 /// Distance from the view to the end of the line, mm; outward step, mm; maximum number of steps, near the
 /// view and later.
-const REACH: f64 = 7.0;
-const FARTHER: f64 = 1.0;
-const NEAR: u32 = 24;
-const FAR: u32 = 240;
+const FIRST_END_OFFSET_MM: f64 = 7.0;
+const OUTWARD_STEP_MM: f64 = 1.0;
+const MAX_NEAR_STEPS: u32 = 24;
+const MAX_OUTER_STEPS: u32 = 240;
 
 /// Length of a thick end, distance from its end to the arrow, length of the arrow, and length of its head,
 /// mm.
-const THICK: f64 = 5.0;
-const INSET: f64 = 1.0;
-const TAIL: f64 = 9.0;
-const HEAD: f64 = 4.0;
+const THICK_END_LENGTH_MM: f64 = 5.0;
+const ARROW_INSET_MM: f64 = 1.0;
+const ARROW_TAIL_MM: f64 = 9.0;
+const ARROW_HEAD_MM: f64 = 4.0;
 
 /// Clearance between a letter and future extension lines, mm.
-const KEPT: f64 = 0.8;
+const DIMENSION_CLEARANCE_MM: f64 = 0.8;
 
 /// Positions of future extension lines on the side of a view in a direction.
-type Kept<'a> = &'a dyn Fn(Vec2) -> Vec<f64>;
+type DimensionCrossings<'a> = &'a dyn Fn(Vec2) -> Vec<f64>;
 
 /// The section mark of a cutting plane in a view.
-pub(crate) struct CutMark {
+pub(crate) struct SectionMark {
     label: String,
     on: Point,
     /// Unit vectors along the line, and across it against the arrows.
@@ -49,7 +49,7 @@ pub(crate) struct CutMark {
     ends: [Option<f64>; 2],
 }
 
-impl CutMark {
+impl SectionMark {
     /// A mark through point `on` of a view; its section is seen from the side of `back`.
     pub fn new(label: &str, on: Point, back: Vec2, rect: Rect) -> Self {
         let along = Vec2::new(-back.y, back.x);
@@ -78,48 +78,56 @@ impl CutMark {
 
     /// Where the line crosses the side of the view in direction `outward`, if its end there has no place yet:
     /// the x coordinate if `across`, else y.
-    pub fn open_at(&self, across: bool, outward: Vec2) -> Option<f64> {
+    pub fn open_crossing(&self, across: bool, outward: Vec2) -> Option<f64> {
         let passes = self.open.iter().any(|(sign, _)| (self.along * *sign).dot(outward) > 0.7);
         passes.then_some(if across { self.on.x } else { self.on.y })
     }
 
     /// Marks the paper of the line within the view as occupied.
-    pub fn take_inside(&self, board: &mut Board) {
+    pub fn take_inside(&self, board: &mut AnnotationBoard) {
         if let [(_, low), (_, high)] = self.open[..] {
-            board.taken.take(Shape::line(self.at(low), self.at(high), NARROW), Kind::Line);
+            board
+                .taken
+                .take(ConvexShape::line(self.at(low), self.at(high), THIN_LINE_MM), OccupantKind::Line);
         }
     }
 
     /// Places ends near the view. `kept` returns the positions of future extension lines for a direction.
-    pub fn place_near(&mut self, kept: Kept, board: &mut Board) -> Result<(), Error> {
-        self.place(board, NEAR, Some(kept))
+    pub fn place_near(&mut self, kept: DimensionCrossings, board: &mut AnnotationBoard) -> Result<(), Error> {
+        self.place(board, MAX_NEAR_STEPS, Some(kept))
     }
 
     /// Places the remaining ends and draws the line.
-    pub fn finish(mut self, board: &mut Board) -> Result<(), Error> {
-        self.place(board, FAR, None)?;
+    pub fn finish(mut self, board: &mut AnnotationBoard) -> Result<(), Error> {
+        self.place(board, MAX_OUTER_STEPS, None)?;
         for _ in &self.open {
             board.unplaced.push(format!("the letter of the section `{}`", self.label));
         }
         if let [Some(low), Some(high)] = self.ends {
-            board.ink.path(way(&[self.at(low), self.at(high)]), NARROW, &CHAIN);
+            board.ink.path(polyline(&[self.at(low), self.at(high)]), THIN_LINE_MM, &CHAIN_DASH_MM);
         }
         Ok(())
     }
 
-    fn place(&mut self, board: &mut Board, tries: u32, kept: Option<Kept>) -> Result<(), Error> {
-        let word = board.word(&self.label, LETTERS)?;
+    fn place(
+        &mut self,
+        board: &mut AnnotationBoard,
+        tries: u32,
+        kept: Option<DimensionCrossings>,
+    ) -> Result<(), Error> {
+        let word = board.word(&self.label, LETTER_HEIGHT_MM)?;
         for (sign, border) in std::mem::take(&mut self.open) {
             // If nothing else is left, a line may cross an arrow head.
-            let ways = [Clear::All, Clear::Solids, Clear::Texts];
-            let found =
-                ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::All).find_map(|clear| {
+            let ways = [Clearance::All, Clearance::Solids, Clearance::Texts];
+            let found = ways.into_iter().filter(|clear| kept.is_none() || *clear == Clearance::All).find_map(
+                |clear| {
                     (0..tries).find_map(|k| {
-                        let end = border + sign * (REACH + FARTHER * f64::from(k));
+                        let end = border + sign * (FIRST_END_OFFSET_MM + OUTWARD_STEP_MM * f64::from(k));
                         let letter = self.letter((sign, border, end), &word, (clear, kept), board)?;
                         Some((end, letter))
                     })
-                });
+                },
+            );
             let Some((end, letter)) = found else {
                 self.open.push((sign, border));
                 continue;
@@ -134,16 +142,19 @@ impl CutMark {
     fn letter(
         &self,
         (sign, border, end): (f64, f64, f64),
-        word: &Word,
-        (clear, kept): (Clear, Option<Kept>),
-        board: &Board,
+        word: &SetWord,
+        (clear, kept): (Clearance, Option<DimensionCrossings>),
+        board: &AnnotationBoard,
     ) -> Option<Point> {
-        let tip = self.at(end - sign * INSET);
+        let tip = self.at(end - sign * ARROW_INSET_MM);
         let out = self.along * sign;
-        let thick = Shape::line(self.at(end), self.at(end - sign * THICK), 2.0 * WIDE).wider(TEXT_CLEAR);
-        let shaft = Shape::line(tip + self.back * TAIL, tip + self.back * 3.0, NARROW).wider(TEXT_CLEAR);
-        let head = Board::head(tip, -self.back, HEAD).wider(TEXT_CLEAR);
-        let solids = if clear == Clear::Texts { Clear::Texts } else { Clear::Solids };
+        let thick =
+            ConvexShape::line(self.at(end), self.at(end - sign * THICK_END_LENGTH_MM), 2.0 * THICK_LINE_MM)
+                .wider(TEXT_CLEARANCE_MM);
+        let shaft = ConvexShape::line(tip + self.back * ARROW_TAIL_MM, tip + self.back * 3.0, THIN_LINE_MM)
+            .wider(TEXT_CLEARANCE_MM);
+        let head = AnnotationBoard::head(tip, -self.back, ARROW_HEAD_MM).wider(TEXT_CLEARANCE_MM);
+        let solids = if clear == Clearance::Texts { Clearance::Texts } else { Clearance::Solids };
         let is_free = board.taken.is_free(&thick, solids)
             && board.taken.is_free(&head, clear)
             && board.taken.is_free(&shaft, clear)
@@ -151,8 +162,8 @@ impl CutMark {
         if !is_free {
             return None;
         }
-        let passes = |shape: &Shape| {
-            let bounds = shape.bounds().inflate(KEPT, KEPT);
+        let passes = |shape: &ConvexShape| {
+            let bounds = shape.bounds().inflate(DIMENSION_CLEARANCE_MM, DIMENSION_CLEARANCE_MM);
             kept.is_some_and(|kept| {
                 let vertical = out.y.abs() > out.x.abs();
                 let (low, high) = if vertical { (bounds.x0, bounds.x1) } else { (bounds.y0, bounds.y1) };
@@ -176,23 +187,28 @@ impl CutMark {
         .map(|way| tip + way)
         .find(|middle| {
             let place = word.centred(*middle);
-            let own = word.shape(place).wider(TEXT_CLEAR);
+            let own = word.shape(place).wider(TEXT_CLEARANCE_MM);
             board.is_free(word, place)
                 && !passes(&own)
                 && ![thick, shaft, head].iter().any(|part| part.touches(&own))
         })
     }
 
-    fn draw(&self, (sign, border, end): (f64, f64, f64), (word, letter): (&Word, Point), board: &mut Board) {
-        let tip = self.at(end - sign * INSET);
-        let (a, b) = (self.at(end), self.at(end - sign * THICK));
-        board.ink.line(a, b, 2.0 * WIDE);
-        board.taken.take(Shape::line(a, b, 2.0 * WIDE), Kind::Arrow);
-        board.taken.take(Shape::line(self.at(border), a, NARROW), Kind::Line);
-        board.line(tip + self.back * TAIL, tip + self.back * 3.0, NARROW, Kind::Line);
-        board.arrow(tip, -self.back, HEAD);
+    fn draw(
+        &self,
+        (sign, border, end): (f64, f64, f64),
+        (word, letter): (&SetWord, Point),
+        board: &mut AnnotationBoard,
+    ) {
+        let tip = self.at(end - sign * ARROW_INSET_MM);
+        let (a, b) = (self.at(end), self.at(end - sign * THICK_END_LENGTH_MM));
+        board.ink.line(a, b, 2.0 * THICK_LINE_MM);
+        board.taken.take(ConvexShape::line(a, b, 2.0 * THICK_LINE_MM), OccupantKind::Arrow);
+        board.taken.take(ConvexShape::line(self.at(border), a, THIN_LINE_MM), OccupantKind::Line);
+        board.line(tip + self.back * ARROW_TAIL_MM, tip + self.back * 3.0, THIN_LINE_MM, OccupantKind::Line);
+        board.arrow(tip, -self.back, ARROW_HEAD_MM);
         // Nothing may pass between the arrow and its letter.
-        board.taken.take(Shape::line(tip + self.back * 3.0, letter, NARROW), Kind::Arrow);
+        board.taken.take(ConvexShape::line(tip + self.back * 3.0, letter, THIN_LINE_MM), OccupantKind::Arrow);
         board.write(word, word.centred(letter));
     }
 }

@@ -1,24 +1,24 @@
-//! [`DrawnViews`]: the drawings of the views, and their lines as chords that occupy paper.
+//! [`ViewDrawings`]: the drawings of the views, and their lines as chords that occupy paper.
 //!
 //! A view is drawn at one scale. While the sheet is arranged, its lines are only scaled. It is drawn again
 //! once its scale is settled.
 
 use kurbo::{Point, Shape as _, Vec2};
 
-use crate::drawing::{Item, Paint};
+use crate::drawing::{Paint, PlacedDrawing};
 use crate::error::Error;
-use crate::page::sheet::arrangement::titles_and_notes::circle_of;
-use crate::page::sheet::arrangement::view_plan::Plan;
-use crate::page::sheet::canvas::annotation_board::flat_lines;
-use crate::page::sheet::view::sheet_view::RIM;
+use crate::page::sheet::arrangement::titles_and_notes::detail_circle;
+use crate::page::sheet::arrangement::view_plan::ViewPlan;
+use crate::page::sheet::canvas::annotation_board::for_each_chord;
+use crate::page::sheet::view::sheet_view::LINE_MARGIN_MM;
 use crate::pipeline::Prepared;
 
 /// Tolerance of curves that are clipped to a circle, mm.
-const TOLERANCE: f64 = 0.01;
+const CLIP_TOLERANCE_MM: f64 = 0.01;
 
 /// The drawing of a view.
-struct DrawnView {
-    item: Item,
+struct ViewDrawing {
+    item: PlacedDrawing,
     warnings: Vec<String>,
     /// Length on paper of a model unit at the time of drawing, mm.
     unit: f64,
@@ -27,12 +27,12 @@ struct DrawnView {
 }
 
 /// The drawings of the views.
-pub(crate) struct DrawnViews<'a> {
+pub(crate) struct ViewDrawings<'a> {
     prepared: Vec<Option<Prepared<'a>>>,
-    views: Vec<Option<DrawnView>>,
+    views: Vec<Option<ViewDrawing>>,
 }
 
-impl<'a> DrawnViews<'a> {
+impl<'a> ViewDrawings<'a> {
     /// Empty, for prepared scenes, with room for `views` drawings.
     pub fn new(prepared: Vec<Option<Prepared<'a>>>, views: usize) -> Self {
         Self { prepared, views: (0..views).map(|_| None).collect() }
@@ -42,7 +42,7 @@ impl<'a> DrawnViews<'a> {
     ///
     /// # Errors
     /// Returns an error if a view cannot be drawn.
-    pub fn update(&mut self, plan: &Plan) -> Result<bool, Error> {
+    pub fn update(&mut self, plan: &ViewPlan) -> Result<bool, Error> {
         let mut any = false;
         for view in 0..plan.views.len() {
             let unit = plan.views[view].sight.unit;
@@ -54,15 +54,15 @@ impl<'a> DrawnViews<'a> {
         Ok(any)
     }
 
-    fn drawn(&self, view: usize, plan: &Plan) -> Result<Option<DrawnView>, Error> {
+    fn drawn(&self, view: usize, plan: &ViewPlan) -> Result<Option<ViewDrawing>, Error> {
         let sight = &plan.views[view].sight;
         let Some(prepared) = self.prepared.get(plan.set_of[view]).and_then(Option::as_ref) else {
             return Ok(None);
         };
         let (mut item, mut warnings) = sight.item(prepared)?;
         if let Some(circled) = plan.circled.iter().find(|circled| circled.shown == view) {
-            let circle = item.place.inverse() * circle_of(sight).to_path(1e-4);
-            item.drawing.cut(&circle, TOLERANCE);
+            let circle = item.place.inverse() * detail_circle(sight).to_path(1e-4);
+            item.drawing.cut(&circle, CLIP_TOLERANCE_MM);
             if item.drawing.layers.iter().all(|layer| layer.marks.is_empty()) {
                 // This warning is more useful than the one about an empty drawing.
                 warnings.clear();
@@ -74,21 +74,21 @@ impl<'a> DrawnViews<'a> {
             }
         }
         let mut chords = Vec::new();
-        let corner = Vec2::new(RIM, RIM);
+        let corner = Vec2::new(LINE_MARGIN_MM, LINE_MARGIN_MM);
         for mark in item.drawing.layers.iter().flat_map(|layer| &layer.marks) {
             let width = if let Paint::Stroke(stroke) = &mark.paint { stroke.width } else { 0.0 };
-            flat_lines(&mark.path, |a, b| {
+            for_each_chord(&mark.path, |a, b| {
                 chords.push(([a, b].map(|p: Point| p.to_vec2() - corner), width));
             });
         }
-        Ok(Some(DrawnView { item, warnings, unit: sight.unit, chords }))
+        Ok(Some(ViewDrawing { item, warnings, unit: sight.unit, chords }))
     }
 
     /// The chords of a view at its present position and scale, with their widths.
-    pub fn chords(&self, view: usize, plan: &Plan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
+    pub fn chords(&self, view: usize, plan: &ViewPlan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
         let sight = &plan.views[view].sight;
         let (corner, unit) = (sight.corner, sight.unit);
-        let of = move |drawn: &'_ DrawnView| {
+        let of = move |drawn: &'_ ViewDrawing| {
             let larger = unit / drawn.unit;
             drawn
                 .chords
@@ -100,11 +100,11 @@ impl<'a> DrawnViews<'a> {
     }
 
     /// The drawings at their positions, and their distinct warnings.
-    pub fn into_items(self, plan: &Plan) -> (Vec<Item>, Vec<String>) {
+    pub fn into_items(self, plan: &ViewPlan) -> (Vec<PlacedDrawing>, Vec<String>) {
         let (mut items, mut warnings) = (Vec::new(), Vec::new());
         for (view, drawn) in self.views.into_iter().enumerate() {
             let Some(drawn) = drawn else { continue };
-            items.push(Item { place: plan.views[view].sight.place(), ..drawn.item });
+            items.push(PlacedDrawing { place: plan.views[view].sight.place(), ..drawn.item });
             let scene = &plan.sets[plan.set_of[view]].scene;
             for warning in scene.warnings.lines().into_iter().chain(drawn.warnings) {
                 if !warnings.contains(&warning) {

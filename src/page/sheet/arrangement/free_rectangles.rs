@@ -1,4 +1,4 @@
-//! [`Room`]: the free paper of a sheet, for placing views one after another.
+//! [`FreeRectangles`]: the free paper of a sheet, for placing views one after another.
 //!
 //! Algorithm: maximal rectangles, with the best short side fit.
 //!
@@ -7,20 +7,20 @@
 use kurbo::{Point, Rect};
 
 /// Rounding tolerance of positions, mm.
-const SLACK: f64 = 1e-6;
+const ROUNDING_MM: f64 = 1e-6;
 
 /// Whether a rectangle lies inside another one.
 fn holds(outer: Rect, rect: Rect) -> bool {
-    outer.inflate(SLACK, SLACK).contains_rect(rect)
+    outer.inflate(ROUNDING_MM, ROUNDING_MM).contains_rect(rect)
 }
 
 /// The free paper of a sheet as its maximal free rectangles.
 #[derive(Debug, Clone)]
-pub(crate) struct Room {
+pub(crate) struct FreeRectangles {
     free: Vec<Rect>,
 }
 
-impl Room {
+impl FreeRectangles {
     pub fn new(space: Rect) -> Self {
         Self { free: vec![space] }
     }
@@ -39,7 +39,7 @@ impl Room {
     }
 
     /// Whether a rectangle is free.
-    pub fn has(&self, rect: Rect) -> bool {
+    pub fn is_free(&self, rect: Rect) -> bool {
         self.free.iter().any(|own| holds(*own, rect))
     }
 

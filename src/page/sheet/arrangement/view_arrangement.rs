@@ -1,4 +1,4 @@
-//! [`arrange`]: the position of each view on a sheet, and the scale of the sheet.
+//! [`arrange_views`]: the position of each view on a sheet, and the scale of the sheet.
 //!
 //! 1. Views in projection stand in rows and columns around the front view, in the upper left corner.
 //! 2. The other views go to free rectangles, in the order that makes them largest.
@@ -9,96 +9,96 @@
 
 use kurbo::{Point, Rect};
 
-use super::free_rectangles::Room;
+use super::free_rectangles::FreeRectangles;
 use crate::geometry::numbers::portable_math::ln;
-use crate::page::sheet::annotations::Board;
-use crate::page::sheet::view::projection_method::Method;
-use crate::page::sheet::view::scale_series::SERIES;
-use crate::page::sheet::view::sheet_view::Sight;
+use crate::page::sheet::annotations::AnnotationBoard;
+use crate::page::sheet::view::projection_method::ProjectionMethod;
+use crate::page::sheet::view::scale_series::STANDARD_SCALES;
+use crate::page::sheet::view::sheet_view::SheetView;
 use crate::scene::NamedView;
 
 /// Minimum margin around a view, mm.
-pub(crate) const AROUND: f64 = 7.0;
+pub(crate) const VIEW_MARGIN_MM: f64 = 7.0;
 
 /// Offset of the views from the edge of the free paper where centring marks are in the way, mm.
-const PAST_MARKS: f64 = 9.0;
+const CENTRING_MARK_OFFSET_MM: f64 = 9.0;
 
 /// Distance from the annotations of a view to the edge of its rectangle, mm.
-pub(crate) const ELEMENTS_CLEAR: f64 = 3.0;
+pub(crate) const ANNOTATION_MARGIN_MM: f64 = 3.0;
 
-/// Views without a scale are at most `LARGEST` times as large as the others. They shrink by `FREE_STEP` until
-/// they fit, at most `FREE_STEPS` times.
-const LARGEST: f64 = 4.0;
-const FREE_STEP: f64 = 0.94;
-const FREE_STEPS: i32 = 72;
+/// Views without a scale are at most `MAX_FREE_ENLARGEMENT` times as large as the others. They shrink by `FREE_SCALE_FACTOR` until
+/// they fit, at most `FREE_SCALE_STEPS` times.
+const MAX_FREE_ENLARGEMENT: f64 = 4.0;
+const FREE_SCALE_FACTOR: f64 = 0.94;
+const FREE_SCALE_STEPS: i32 = 72;
 
 /// Separate views may be smaller than the others by up to this number of steps of the series.
-const SMALLER: usize = 3;
+const MAX_SMALLER_SCALES: usize = 3;
 
 /// A view and its position on the sheet.
 #[derive(Debug)]
-pub(crate) struct Placed {
-    pub sight: Sight,
-    pub stands: Stands,
+pub(crate) struct PlacedView {
+    pub sight: SheetView,
+    pub placement: ViewPlacement,
     /// Extra margin for annotations: left, above, right, below, mm. One entry for each length on paper of a
     /// model unit that was tried.
-    pub rooms: Vec<(f64, [f64; 4])>,
+    pub margins: Vec<(f64, [f64; 4])>,
     /// The rectangle of the view with all its margins, page mm.
     place: Rect,
 }
 
-impl Placed {
+impl PlacedView {
     /// A view without annotations.
-    pub fn new(sight: Sight, stands: Stands) -> Self {
-        Self { sight, stands, rooms: Vec::new(), place: Rect::ZERO }
+    pub fn new(sight: SheetView, stands: ViewPlacement) -> Self {
+        Self { sight, placement: stands, margins: Vec::new(), place: Rect::ZERO }
     }
 }
 
-impl Placed {
+impl PlacedView {
     /// Extra margins if a model unit is `unit` mm long on paper: left, above, right, below.
     ///
     /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
     /// the margins found last.
-    pub fn around_at(&self, unit: f64) -> [f64; 4] {
-        let known = self.rooms.iter().find(|(known, _)| (known / unit - 1.0).abs() < 1e-9);
+    pub fn margins_at(&self, unit: f64) -> [f64; 4] {
+        let known = self.margins.iter().find(|(known, _)| (known / unit - 1.0).abs() < 1e-9);
         if let Some((_, around)) = known {
             return *around;
         }
-        let last = self.rooms.last().filter(|_| self.stands.largest(unit).is_some());
+        let last = self.margins.last().filter(|_| self.placement.max_unit(unit).is_some());
         last.map_or([0.0; 4], |(_, around)| *around)
     }
 
     /// Widens the margins at the present scale to at least `needed`.
-    pub fn make_room(&mut self, needed: [f64; 4]) {
+    pub fn widen_margins(&mut self, needed: [f64; 4]) {
         let unit = self.sight.unit;
-        let own = self.around_at(unit);
-        self.rooms.retain(|(known, _)| (known / unit - 1.0).abs() >= 1e-9);
-        self.rooms.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
+        let own = self.margins_at(unit);
+        self.margins.retain(|(known, _)| (known / unit - 1.0).abs() >= 1e-9);
+        self.margins.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
     }
 
     /// Changes the scale from `from` to `to` and keeps the centre of the view.
-    pub fn enlarge(&mut self, from: f64, to: f64) {
+    pub fn rescale(&mut self, from: f64, to: f64) {
         let ([w, h], [wide, high]) = (self.sight.size(from), self.sight.size(to));
         self.sight.unit = to;
         self.sight.corner += kurbo::Vec2::new((w - wide) / 2.0, (h - high) / 2.0);
     }
 
     /// Whether the view and all its annotations fit into its rectangle.
-    pub fn has_room_for(&self, board: &Board) -> bool {
+    pub fn has_room_for(&self, board: &AnnotationBoard) -> bool {
         let rect = self.sight.rect();
         let extents = board.extents().map_or(rect, |extents| extents.union(rect));
-        let own = self.place.inflate(1e-6 - ELEMENTS_CLEAR, 1e-6 - ELEMENTS_CLEAR);
+        let own = self.place.inflate(1e-6 - ANNOTATION_MARGIN_MM, 1e-6 - ANNOTATION_MARGIN_MM);
         own.contains_rect(extents) && board.unplaced.is_empty()
     }
 }
 
 /// Position and scale that a view may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Stands {
+pub(crate) enum ViewPlacement {
     /// In the row and column of the front view that its projection requires.
-    Beside(NamedView),
+    Projected(NamedView),
     /// Anywhere, at the scale of the sheet or a smaller one.
-    Alone,
+    Separate,
     /// Anywhere, at the scale of the sheet or a smaller one; it may be enlarged later, because it is not to
     /// scale.
     Pictorial,
@@ -110,24 +110,27 @@ pub(crate) enum Stands {
     At(f64),
 }
 
-impl Stands {
+impl ViewPlacement {
     /// The maximum length on paper of a model unit; `None` for views that are to scale.
-    pub fn largest(self, unit: f64) -> Option<f64> {
+    pub fn max_unit(self, unit: f64) -> Option<f64> {
         match self {
-            Self::Pictorial | Self::Free => Some(unit * LARGEST),
+            Self::Pictorial | Self::Free => Some(unit * MAX_FREE_ENLARGEMENT),
             _ => None,
         }
     }
 }
 
 /// A scale, and the next smaller ones of the series.
-fn smaller(scale: f64, place: usize) -> Vec<f64> {
-    [scale].into_iter().chain(SERIES.iter().skip(place + 1).copied().take(SMALLER)).collect()
+fn with_smaller_scales(scale: f64, place: usize) -> Vec<f64> {
+    [scale]
+        .into_iter()
+        .chain(STANDARD_SCALES.iter().skip(place + 1).copied().take(MAX_SMALLER_SCALES))
+        .collect()
 }
 
 /// Column and row of a view; the front view is at 0, 0.
-fn field(view: NamedView, method: Method) -> [i32; 2] {
-    let towards = if method == Method::First { 1 } else { -1 };
+fn grid_cell(view: NamedView, method: ProjectionMethod) -> [i32; 2] {
+    let towards = if method == ProjectionMethod::First { 1 } else { -1 };
     match view {
         NamedView::Left => [towards, 0],
         NamedView::Right => [-towards, 0],
@@ -142,20 +145,20 @@ fn field(view: NamedView, method: Method) -> [i32; 2] {
 ///
 /// `unit_mm` is the length of a model unit in mm, `told` a scale from the page file. Of the two largest
 /// scales that fit, the one with the larger product of view sizes wins.
-pub(crate) fn arrange(
-    views: &mut [Placed],
+pub(crate) fn arrange_views(
+    views: &mut [PlacedView],
     (space, taken): (Rect, &[Rect]),
-    (method, unit_mm, told): (Method, f64, Option<f64>),
+    (method, unit_mm, told): (ProjectionMethod, f64, Option<f64>),
 ) -> Option<f64> {
-    let mut room = Room::new(space);
+    let mut room = FreeRectangles::new(space);
     taken.iter().for_each(|taken| room.take(*taken));
     let told = told.map(|scale| vec![scale]);
     let alone: Vec<usize> =
-        (0..views.len()).filter(|k| !matches!(views[*k].stands, Stands::Beside(_))).collect();
-    let orders = orders(&alone);
+        (0..views.len()).filter(|k| !matches!(views[*k].placement, ViewPlacement::Projected(_))).collect();
+    let orders = placement_orders(&alone);
     let mut best: Option<(f64, f64, &Vec<usize>)> = None;
     let mut fitting = 0;
-    for scale in told.as_deref().unwrap_or(&SERIES) {
+    for scale in told.as_deref().unwrap_or(&STANDARD_SCALES) {
         let mut fits = false;
         for order in &orders {
             let mut room = room.clone();
@@ -176,12 +179,12 @@ pub(crate) fn arrange(
     let (_, scale, order) = best?;
     let free = room.clone();
     try_scale(views, (&mut room, space), (method, scale, unit_mm), order)?;
-    settle(views, &free, order);
+    centre_free_views(views, &free, order);
     Some(scale)
 }
 
 /// Moves each separate view to the middle of the free rectangle around it.
-fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
+fn centre_free_views(views: &mut [PlacedView], free: &FreeRectangles, order: &[usize]) {
     for k in order {
         let mut room = free.clone();
         let others = views.iter().enumerate().filter(|(other, _)| other != k);
@@ -195,15 +198,15 @@ fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
     }
 }
 
-/// All possible orders of placing views, the given one first. More than `MOST` views are placed in the given
+/// All possible orders of placing views, the given one first. More than `MAX_PERMUTED_VIEWS` views are placed in the given
 /// order only.
-fn orders(views: &[usize]) -> Vec<Vec<usize>> {
-    const MOST: usize = 5;
-    let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MOST) else {
+fn placement_orders(views: &[usize]) -> Vec<Vec<usize>> {
+    const MAX_PERMUTED_VIEWS: usize = 5;
+    let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MAX_PERMUTED_VIEWS) else {
         return vec![views.to_vec()];
     };
     let mut all = Vec::new();
-    for order in orders(rest) {
+    for order in placement_orders(rest) {
         for at in 0..=order.len() {
             let mut order = order.clone();
             order.insert(at, *first);
@@ -215,15 +218,15 @@ fn orders(views: &[usize]) -> Vec<Vec<usize>> {
 }
 
 fn try_scale(
-    views: &mut [Placed],
-    (room, space): (&mut Room, Rect),
-    (method, scale, unit_mm): (Method, f64, f64),
+    views: &mut [PlacedView],
+    (room, space): (&mut FreeRectangles, Rect),
+    (method, scale, unit_mm): (ProjectionMethod, f64, f64),
     order: &[usize],
 ) -> Option<()> {
     let unit = scale * unit_mm;
-    let group = |views: &[Placed]| -> Vec<(usize, [i32; 2])> {
-        let of = |(k, placed): (usize, &Placed)| match placed.stands {
-            Stands::Beside(view) => Some((k, field(view, method))),
+    let group = |views: &[PlacedView]| -> Vec<(usize, [i32; 2])> {
+        let of = |(k, placed): (usize, &PlacedView)| match placed.placement {
+            ViewPlacement::Projected(view) => Some((k, grid_cell(view, method))),
             _ => None,
         };
         views.iter().enumerate().filter_map(of).collect()
@@ -235,7 +238,7 @@ fn try_scale(
             let own = beside.iter().filter(|(_, field)| field[line] == at);
             own.fold(None, |reach: Option<[f64; 2]>, (k, _)| {
                 let (low, high) = (views[*k].sight.low * unit, views[*k].sight.high * unit);
-                let around = views[*k].around_at(unit);
+                let around = views[*k].margins_at(unit);
                 let [before, after] = if line == 0 {
                     [around[0] - low.x, high.x + around[2]]
                 } else {
@@ -247,16 +250,16 @@ fn try_scale(
         };
         let mut middles = [Vec::new(), Vec::new()];
         for (line, middles) in middles.iter_mut().enumerate() {
-            let mut at = AROUND;
+            let mut at = VIEW_MARGIN_MM;
             for k in -2..=3 {
                 if let Some([before, after]) = reach(line, k) {
                     middles.push((k, at + before));
-                    at += before + after + 2.0 * AROUND;
+                    at += before + after + 2.0 * VIEW_MARGIN_MM;
                 }
             }
         }
         // The rectangle of a view with its margins, and the corner of the view itself.
-        let place = |placed: &Placed, field: [i32; 2], start: [f64; 2]| {
+        let place = |placed: &PlacedView, field: [i32; 2], start: [f64; 2]| {
             let middle = |line: usize| {
                 let found = middles[line].iter().find(|(at, _)| *at == field[line]);
                 start[line] + found.map_or(0.0, |(_, middle)| *middle)
@@ -267,14 +270,20 @@ fn try_scale(
                 space.y0 + middle(1) - sight.high.y * unit,
             );
             let [w, h] = sight.size(unit);
-            let [left, above, right, below] = placed.around_at(unit).map(|room| AROUND + room);
+            let [left, above, right, below] = placed.margins_at(unit).map(|room| VIEW_MARGIN_MM + room);
             let (x1, y1) = (corner.x + w + right, corner.y + h + below);
             (Rect { x0: corner.x - left, y0: corner.y - above, x1, y1 }, corner)
         };
         // The group stands in the upper left corner, either between the centring marks or clear of them.
-        let starts = [[0.0, 0.0], [0.0, PAST_MARKS], [PAST_MARKS, 0.0], [PAST_MARKS, PAST_MARKS]];
-        let fits =
-            |start: &[f64; 2]| beside.iter().all(|(k, field)| room.has(place(&views[*k], *field, *start).0));
+        let starts = [
+            [0.0, 0.0],
+            [0.0, CENTRING_MARK_OFFSET_MM],
+            [CENTRING_MARK_OFFSET_MM, 0.0],
+            [CENTRING_MARK_OFFSET_MM, CENTRING_MARK_OFFSET_MM],
+        ];
+        let fits = |start: &[f64; 2]| {
+            beside.iter().all(|(k, field)| room.is_free(place(&views[*k], *field, *start).0))
+        };
         let start = starts.into_iter().find(fits)?;
         for (k, field) in &beside {
             let (place, corner) = place(&views[*k], *field, start);
@@ -285,26 +294,30 @@ fn try_scale(
     }
     for k in order {
         let placed = &mut views[*k];
-        let from = SERIES.iter().position(|own| *own <= scale * (1.0 + 1e-9)).unwrap_or_default();
-        let scales: Vec<f64> = match placed.stands {
-            Stands::Beside(_) => continue,
-            Stands::Enlarged(times) => vec![scale * times],
-            Stands::At(scale) => vec![scale],
-            Stands::Alone => smaller(scale, from),
-            Stands::Pictorial => (0..FREE_STEPS).map(|k| scale * FREE_STEP.powi(k)).collect(),
-            Stands::Free => (0..FREE_STEPS).map(|k| scale * LARGEST * FREE_STEP.powi(k)).collect(),
+        let from = STANDARD_SCALES.iter().position(|own| *own <= scale * (1.0 + 1e-9)).unwrap_or_default();
+        let scales: Vec<f64> = match placed.placement {
+            ViewPlacement::Projected(_) => continue,
+            ViewPlacement::Enlarged(times) => vec![scale * times],
+            ViewPlacement::At(scale) => vec![scale],
+            ViewPlacement::Separate => with_smaller_scales(scale, from),
+            ViewPlacement::Pictorial => {
+                (0..FREE_SCALE_STEPS).map(|k| scale * FREE_SCALE_FACTOR.powi(k)).collect()
+            }
+            ViewPlacement::Free => (0..FREE_SCALE_STEPS)
+                .map(|k| scale * MAX_FREE_ENLARGEMENT * FREE_SCALE_FACTOR.powi(k))
+                .collect(),
         };
         let found = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
-            let [left, above, right, below] = placed.around_at(scale * unit_mm);
-            room.put(w + 2.0 * AROUND + left + right, h + 2.0 * AROUND + above + below)
+            let [left, above, right, below] = placed.margins_at(scale * unit_mm);
+            room.put(w + 2.0 * VIEW_MARGIN_MM + left + right, h + 2.0 * VIEW_MARGIN_MM + above + below)
                 .map(|place| (scale, place))
         });
         let (scale, place) = found?;
-        let [left, above, ..] = placed.around_at(scale * unit_mm);
+        let [left, above, ..] = placed.margins_at(scale * unit_mm);
         placed.place = place;
         placed.sight.unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + AROUND + left, place.y0 + AROUND + above);
+        placed.sight.corner = Point::new(place.x0 + VIEW_MARGIN_MM + left, place.y0 + VIEW_MARGIN_MM + above);
     }
     Some(())
 }

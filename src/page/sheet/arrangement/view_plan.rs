@@ -1,4 +1,4 @@
-//! [`Plan`]: the views of a sheet, and the scenes they show.
+//! [`ViewPlan`]: the views of a sheet, and the scenes they show.
 //!
 //! 1. The model is read once; it is the scene of the regular views.
 //! 2. Each section cuts a copy of the model and becomes a view in projection if its direction allows that.
@@ -10,28 +10,28 @@ use std::sync::Arc;
 use glam::DVec3;
 use toml::Spanned;
 
-use super::view_arrangement::{Placed, Stands};
+use super::view_arrangement::{PlacedView, ViewPlacement};
 use crate::edit::explode::{explode, with_trails};
 use crate::edit::section::{CutPlane, Plane, cut};
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::lines::HiddenLines;
 use crate::page::figure;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::page::sheet::keys::explosion_keys;
 use crate::page::sheet::keys::sheet_keys::{DetailKeys, SheetPage};
-use crate::page::sheet::lengths::length_format::Values;
+use crate::page::sheet::lengths::length_format::LengthFormat;
 use crate::page::sheet::lengths::true_length::Foreshortening;
 use crate::page::sheet::view::scale_series;
-use crate::page::sheet::view::sheet_view::Sight;
-use crate::pipeline::{hatched_for, trailed};
+use crate::page::sheet::view::sheet_view::SheetView;
+use crate::pipeline::{with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, NamedView, Scene};
 use crate::style::Style;
 use crate::surface::Cylinder;
 
 /// A scene with its style.
-pub(crate) struct Set {
+pub(crate) struct ShownScene {
     pub scene: Scene,
     pub style: Style,
 }
@@ -46,7 +46,7 @@ pub(crate) struct CutLine {
 }
 
 /// The circle around a detail.
-pub(crate) struct Circled {
+pub(crate) struct DetailCircle {
     pub label: String,
     /// The view that contains the circle, and the view that shows the detail.
     pub of: usize,
@@ -55,25 +55,25 @@ pub(crate) struct Circled {
     pub radius: f64,
 }
 
-impl Circled {
+impl DetailCircle {
     /// Whether the circle reaches into a view; otherwise it is not drawn.
-    pub fn meets(&self, sight: &Sight) -> bool {
+    pub fn meets(&self, sight: &SheetView) -> bool {
         let radius = self.radius * sight.unit;
         sight.rect().inflate(radius, radius).contains(sight.page(self.at))
     }
 }
 
 /// The views of a sheet, and the scenes they show.
-pub(crate) struct Plan {
+pub(crate) struct ViewPlan {
     /// The scenes; the whole model is first.
-    pub sets: Vec<Arc<Set>>,
-    pub views: Vec<Placed>,
+    pub sets: Vec<Arc<ShownScene>>,
+    pub views: Vec<PlacedView>,
     /// The index of each view's scene in `sets`.
     pub set_of: Vec<usize>,
     pub cuts: Vec<CutLine>,
-    pub circled: Vec<Circled>,
+    pub circled: Vec<DetailCircle>,
     /// How lengths are written.
-    pub values: Values,
+    pub values: LengthFormat,
     /// Centre of the model, world.
     pub middle: DVec3,
     /// The view with balloons, if any.
@@ -81,18 +81,18 @@ pub(crate) struct Plan {
 }
 
 /// Positions of a cylinder are equal within this share of its radius, because of single precision.
-const SAME: f64 = 5e-3;
+const MAX_GAP_OF_RADIUS: f64 = 5e-3;
 
 /// The views that a section may be seen from, preferred first.
-const SIDES: [NamedView; 6] =
+const SIDE_VIEWS: [NamedView; 6] =
     [NamedView::Front, NamedView::Left, NamedView::Top, NamedView::Right, NamedView::Bottom, NamedView::Back];
 
-impl Plan {
+impl ViewPlan {
     /// Reads the model and plans its views: views, sections, exploded view, details.
     ///
     /// # Errors
     /// Returns an error at the key that is wrong.
-    pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
+    pub fn new(sheet: &SheetPage, source: &PageSource) -> Result<Self, Error> {
         let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
         let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
         style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
@@ -101,8 +101,8 @@ impl Plan {
                 .in_file(&source.path)
                 .remedy("name one: model = \"part.glb\""));
         }
-        let scene = figure::staged(&sheet.model, None, None, &style, source)?;
-        let values = Values::new(sheet, scene.format == "glTF", source)?;
+        let scene = figure::assemble_scene(&sheet.model, None, None, &style, source)?;
+        let values = LengthFormat::new(sheet, scene.format == "glTF", source)?;
         let (low, high) = scene.bounds().ok_or_else(|| {
             Error::new("the model has nothing to draw").in_file(&source.path).remedy("name another one")
         })?;
@@ -121,19 +121,23 @@ impl Plan {
         pictorial.lines.hidden = HiddenLines::None;
         let names = |text: &str| Spanned::new(0..0, text.to_owned());
         let views = sheet.views.clone().unwrap_or_else(|| ["front", "top", "left", "iso"].map(names).into());
-        let views = views.iter().map(|name| named(name, source)).collect::<Result<Vec<_>, _>>()?;
+        let views = views.iter().map(|name| parse_view(name, source)).collect::<Result<Vec<_>, _>>()?;
         for view in &views {
-            let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Pictorial };
+            let stands = if SIDE_VIEWS.contains(view) {
+                ViewPlacement::Projected(*view)
+            } else {
+                ViewPlacement::Pictorial
+            };
             let camera = Camera::named(*view, scene.up);
             plan.add(view.name(), camera, &points, (0, stands));
         }
-        plan.sets.push(Arc::new(Set { scene, style: style.clone() }));
+        plan.sets.push(Arc::new(ShownScene { scene, style: style.clone() }));
         plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
-        if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
+        if sheet.hidden && views.iter().any(|view| !SIDE_VIEWS.contains(view)) {
             let scene = plan.sets[0].scene.clone();
-            plan.sets.push(Arc::new(Set { scene, style: pictorial.clone() }));
+            plan.sets.push(Arc::new(ShownScene { scene, style: pictorial.clone() }));
             for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
-                if *set == 0 && placed.stands == Stands::Pictorial {
+                if *set == 0 && placed.placement == ViewPlacement::Pictorial {
                     *set = plan.sets.len() - 1;
                 }
             }
@@ -147,11 +151,11 @@ impl Plan {
         Ok(plan)
     }
 
-    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, Stands)) {
+    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, ViewPlacement)) {
         let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
-        let sight = Sight::new(&name, camera, self.middle, points);
-        self.views.push(Placed::new(sight, stands));
+        let sight = SheetView::new(&name, camera, self.middle, points);
+        self.views.push(PlacedView::new(sight, stands));
         self.set_of.push(set);
     }
 
@@ -160,7 +164,7 @@ impl Plan {
         sheet: &SheetPage,
         views: &[NamedView],
         (points, style): (&[DVec3], &Style),
-        source: &Source,
+        source: &PageSource,
     ) -> Result<(), Error> {
         let mut taken: Vec<NamedView> = views.to_vec();
         for (k, keys) in sheet.section.iter().enumerate() {
@@ -170,24 +174,26 @@ impl Plan {
             let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
             let (normal, _) = told.normal();
             let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
-            let preferred = SIDES.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
+            let preferred =
+                SIDE_VIEWS.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
             let plane = told
                 .of(whole, self.unit_mm(), preferred.unwrap_or(-normal))
                 .map_err(|error| source.about(&span, error))?;
-            let side = SIDES.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
-            let camera = side.map_or_else(|| looking_at(&plane, whole), |view| Camera::named(view, whole.up));
+            let side = SIDE_VIEWS.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
+            let camera =
+                side.map_or_else(|| camera_facing(&plane, whole), |view| Camera::named(view, whole.up));
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
             let mut section = cut(whole.clone(), &plane, &uncut);
-            let style = hatched_for(style, &mut section.scene, &mut section.faces, &[camera]);
-            self.sets.push(Arc::new(Set { scene: std::mem::take(&mut section.scene), style }));
+            let style = with_cut_hatching_for(style, &mut section.scene, &mut section.faces, &[camera]);
+            self.sets.push(Arc::new(ShownScene { scene: std::mem::take(&mut section.scene), style }));
             let stands = match side.filter(|view| !taken.contains(view)) {
                 Some(view) => {
                     taken.push(view);
-                    Stands::Beside(view)
+                    ViewPlacement::Projected(view)
                 }
-                None => Stands::Alone,
+                None => ViewPlacement::Separate,
             };
-            let label = keys.label.clone().unwrap_or_else(|| letter(k));
+            let label = keys.label.clone().unwrap_or_else(|| label_letter(k));
             let set = self.sets.len() - 1;
             self.add(&format!("section-{label}"), camera, points, (set, stands));
             if let Some(placed) = self.views.last_mut() {
@@ -198,20 +204,20 @@ impl Plan {
         Ok(())
     }
 
-    fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &Source) -> Result<(), Error> {
+    fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &PageSource) -> Result<(), Error> {
         let Some(keys) = &sheet.exploded else { return Ok(()) };
-        let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| named(view, source))?;
+        let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| parse_view(view, source))?;
         let whole = &self.sets[0].scene;
         let ways = explode(whole, &explosion_keys::explosion(keys, whole, source)?);
         let scene = with_trails(whole.clone(), &ways);
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
-        self.sets.push(Arc::new(Set { scene, style: trailed(style) }));
+        self.sets.push(Arc::new(ShownScene { scene, style: with_trail_lines(style) }));
         let set = self.sets.len() - 1;
-        self.add("exploded", camera, &points, (set, Stands::Free));
+        self.add("exploded", camera, &points, (set, ViewPlacement::Free));
         Ok(())
     }
 
-    fn choose_balloons(&mut self, sheet: &SheetPage, source: &Source) -> Result<(), Error> {
+    fn choose_balloons(&mut self, sheet: &SheetPage, source: &PageSource) -> Result<(), Error> {
         if !sheet.has_parts_list() {
             return Ok(());
         }
@@ -225,7 +231,7 @@ impl Plan {
         Ok(())
     }
 
-    fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &Source) -> Result<(), Error> {
+    fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &PageSource) -> Result<(), Error> {
         let of = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
         let radius = *keys.radius.get_ref();
         if !(radius.is_finite() && radius > 0.0) {
@@ -235,17 +241,17 @@ impl Plan {
                 "write units of the model above 0",
             ));
         }
-        let label = keys.label.clone().unwrap_or_else(|| letter(number));
+        let label = keys.label.clone().unwrap_or_else(|| label_letter(number));
         let at = DVec3::from_array(keys.at);
         let mut sight = self.views[of].sight.around(&format!("detail-{label}"), at, radius);
         sight.title = Some(label.clone());
         // A step of the series enlarges by 2 or 2.5; two steps by about 5.
         let stands = match &keys.scale {
-            None => Stands::Enlarged(5.0),
-            Some(told) => Stands::At(read_scale(told, source)?),
+            None => ViewPlacement::Enlarged(5.0),
+            Some(told) => ViewPlacement::At(read_scale(told, source)?),
         };
-        self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
-        self.views.push(Placed::new(sight, stands));
+        self.circled.push(DetailCircle { label, of, shown: self.views.len(), at, radius });
+        self.views.push(PlacedView::new(sight, stands));
         self.set_of.push(self.set_of[of]);
         Ok(())
     }
@@ -258,16 +264,16 @@ impl Plan {
     /// How lengths in a view relate to lengths of the model.
     pub fn foreshortening(&self, view: usize) -> Foreshortening {
         let shown = self.circled.iter().find(|circled| circled.shown == view);
-        match (shown, self.views[view].stands) {
+        match (shown, self.views[view].placement) {
             (Some(detail), _) => self.foreshortening(detail.of),
-            (None, Stands::Pictorial) => Foreshortening::Pictorial,
-            (None, Stands::Free) => Foreshortening::Moved,
+            (None, ViewPlacement::Pictorial) => Foreshortening::Pictorial,
+            (None, ViewPlacement::Free) => Foreshortening::Moved,
             (None, _) => Foreshortening::None,
         }
     }
 
     /// The part of a cylinder that remains in a section; the whole cylinder without a section.
-    pub fn left_of(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
+    pub fn remaining_cylinder(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
         let Some(section) = section else { return Some(*cylinder) };
         let scene = &self.sets[0].scene;
         let part = scene.parts.get(cylinder.part.index());
@@ -277,7 +283,7 @@ impl Plan {
             return positions.iter().any(is_behind).then_some(*cylinder);
         }
         let away = cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
-        let near = SAME * cylinder.radius;
+        let near = MAX_GAP_OF_RADIUS * cylinder.radius;
         if (away[0] - away[1]).abs() <= near {
             return (away[0] <= near).then_some(*cylinder);
         }
@@ -289,12 +295,12 @@ impl Plan {
     }
 
     /// The section plane of a section view.
-    pub fn cut_of(&self, view: usize) -> Option<&CutLine> {
+    pub fn section_of(&self, view: usize) -> Option<&CutLine> {
         self.cuts.iter().find(|cut| cut.shown == view)
     }
 
     /// The index of a view, by its name.
-    pub fn view(&self, name: &Spanned<String>, source: &Source) -> Result<usize, Error> {
+    pub fn view(&self, name: &Spanned<String>, source: &PageSource) -> Result<usize, Error> {
         let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
         names
             .iter()
@@ -304,24 +310,24 @@ impl Plan {
 }
 
 /// Parses a scale.
-pub(crate) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64, Error> {
-    scale_series::read(told.get_ref())
+pub(crate) fn read_scale(told: &Spanned<String>, source: &PageSource) -> Result<f64, Error> {
+    scale_series::parse_scale(told.get_ref())
         .ok_or_else(|| source.fault(&told.span(), "this is not a scale", "write such as 1:5 or 2:1"))
 }
 
-fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {
+fn parse_view(name: &Spanned<String>, source: &PageSource) -> Result<NamedView, Error> {
     let known: Vec<&str> = NamedView::ALL.map(NamedView::name).into();
     NamedView::parse(name.get_ref()).ok_or_else(|| source.unknown(name, "view", &known))
 }
 
 /// The letter of a section or detail: A, B, C and so on, without I, O and Q.
-fn letter(number: usize) -> String {
+fn label_letter(number: usize) -> String {
     let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O' | 'Q')).collect();
     letters.get(number).map_or_else(|| format!("S{number}"), char::to_string)
 }
 
 /// A camera that faces a plane, from the side of its normal.
-fn looking_at(plane: &Plane, scene: &Scene) -> Camera {
+fn camera_facing(plane: &Plane, scene: &Scene) -> Camera {
     let up = Camera::named(NamedView::Front, scene.up).up;
     let normal = plane.normal();
     let up = if normal.cross(up).length() < 1e-6 { Camera::named(NamedView::Top, scene.up).up } else { up };

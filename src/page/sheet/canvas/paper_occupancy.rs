@@ -7,21 +7,21 @@
 //! The distance of two shapes is the smallest distance between their sides. A shape inside another one
 //! touches it.
 //!
-//! Each shape has a [`Kind`]. Texts and balloons need free paper. Lines may cross lines, but no texts, arrows
+//! Each shape has a [`OccupantKind`]. Texts and balloons need free paper. Lines may cross lines, but no texts, arrows
 //! or balloons.
 
 use kurbo::{Point, Rect, Vec2};
 use rustc_hash::FxHashMap;
 
-use crate::geometry::plane::planar_distance::distance2;
-use crate::page::sheet::part_balloons::leader_assignment::cross;
+use crate::geometry::plane::planar_distance::segment_distance_squared;
+use crate::page::sheet::part_balloons::leader_assignment::segments_meet;
 
 /// Side of a grid cell, mm.
-const CELL: f64 = 5.0;
+const CELL_SIDE_MM: f64 = 5.0;
 
 /// Kind of a shape that occupies paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum OccupantKind {
     /// Lines and areas of a view: edges, hatching, centre lines.
     Geometry,
     /// Annotation lines: dimension lines, section lines, circles of details.
@@ -36,7 +36,7 @@ pub(crate) enum Kind {
 
 /// The kinds that a new shape must not touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Clear {
+pub(crate) enum Clearance {
     /// All kinds; for texts, arrows and balloons.
     All,
     /// Texts, balloons and arrow heads; for lines.
@@ -49,13 +49,13 @@ pub(crate) enum Clear {
 
 /// A convex shape on the page with a margin around it, mm.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shape {
+pub(crate) struct ConvexShape {
     corners: [Point; 4],
     count: usize,
     margin: f64,
 }
 
-impl Shape {
+impl ConvexShape {
     /// A disc.
     pub fn disc(centre: Point, radius: f64) -> Self {
         Self { corners: [centre; 4], count: 1, margin: radius }
@@ -113,45 +113,45 @@ impl Shape {
             || other.holds(self.corners[0])
             || self
                 .sides()
-                .any(|a| other.sides().any(|b| is_crossed(a, b) || squared_distance(a, b) < near * near))
+                .any(|a| other.sides().any(|b| segments_cross(a, b) || squared_distance(a, b) < near * near))
     }
 }
 
 /// Whether two segments cross. A degenerate segment crosses nothing.
-fn is_crossed(one: [Point; 2], other: [Point; 2]) -> bool {
-    one[0] != one[1] && other[0] != other[1] && cross(one, other)
+fn segments_cross(one: [Point; 2], other: [Point; 2]) -> bool {
+    one[0] != one[1] && other[0] != other[1] && segments_meet(one, other)
 }
 
 /// Squared distance of two segments that do not cross.
 fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
-    let from = |p: Point, [a, b]: [Point; 2]| distance2(p, a, b);
+    let from = |p: Point, [a, b]: [Point; 2]| segment_distance_squared(p, a, b);
     let ends = [from(one[0], other), from(one[1], other), from(other[0], one), from(other[1], one)];
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// Shapes in a grid of square cells.
 #[derive(Debug, Clone, Default)]
-struct Cells {
-    shapes: Vec<(Shape, Rect, Kind)>,
+struct ShapeGrid {
+    shapes: Vec<(ConvexShape, Rect, OccupantKind)>,
     cells: FxHashMap<[i32; 2], Vec<u32>>,
 }
 
-impl Cells {
-    fn add(&mut self, shape: Shape, kind: Kind) {
+impl ShapeGrid {
+    fn add(&mut self, shape: ConvexShape, kind: OccupantKind) {
         let bounds = shape.bounds();
         if !bounds.is_finite() {
             return;
         }
         let number = self.shapes.len() as u32;
         self.shapes.push((shape, bounds, kind));
-        for cell in cells(bounds) {
+        for cell in grid_cells(bounds) {
             self.cells.entry(cell).or_default().push(number);
         }
     }
 
-    fn any(&self, shape: &Shape, matters: impl Fn(Kind) -> bool) -> bool {
+    fn any(&self, shape: &ConvexShape, matters: impl Fn(OccupantKind) -> bool) -> bool {
         let bounds = shape.bounds();
-        for cell in cells(bounds) {
+        for cell in grid_cells(bounds) {
             for number in self.cells.get(&cell).into_iter().flatten() {
                 let (other, its, kind) = &self.shapes[*number as usize];
                 if matters(*kind) && its.overlaps(bounds) && other.touches(shape) {
@@ -167,52 +167,54 @@ impl Cells {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Occupancy {
     /// Lines of the view itself. They are many, and only texts must avoid them.
-    geometry: Cells,
+    geometry: ShapeGrid,
     /// Annotations.
-    written: Cells,
+    written: ShapeGrid,
 }
 
 impl Occupancy {
     /// Marks the paper of a shape as occupied.
-    pub fn take(&mut self, shape: Shape, kind: Kind) {
-        let own = if kind == Kind::Geometry { &mut self.geometry } else { &mut self.written };
-        for piece in pieces(shape) {
+    pub fn take(&mut self, shape: ConvexShape, kind: OccupantKind) {
+        let own = if kind == OccupantKind::Geometry { &mut self.geometry } else { &mut self.written };
+        for piece in split_line(shape) {
             own.add(piece, kind);
         }
     }
 
     /// Whether a shape touches none of the kinds that `clear` excludes.
-    pub fn is_free(&self, shape: &Shape, clear: Clear) -> bool {
-        let matters = |kind: Kind| match clear {
-            Clear::All => true,
-            Clear::Solids => matches!(kind, Kind::Solid | Kind::Arrow),
-            Clear::Texts => kind == Kind::Solid,
-            Clear::Leaders => matches!(kind, Kind::Solid | Kind::Arrow | Kind::Leader),
+    pub fn is_free(&self, shape: &ConvexShape, clear: Clearance) -> bool {
+        let matters = |kind: OccupantKind| match clear {
+            Clearance::All => true,
+            Clearance::Solids => matches!(kind, OccupantKind::Solid | OccupantKind::Arrow),
+            Clearance::Texts => kind == OccupantKind::Solid,
+            Clearance::Leaders => {
+                matches!(kind, OccupantKind::Solid | OccupantKind::Arrow | OccupantKind::Leader)
+            }
         };
-        !pieces(*shape).any(|piece| {
-            self.written.any(&piece, matters) || clear == Clear::All && self.geometry.any(&piece, matters)
+        !split_line(*shape).any(|piece| {
+            self.written.any(&piece, matters) || clear == Clearance::All && self.geometry.any(&piece, matters)
         })
     }
 }
 
 /// A line cut into pieces that touch few cells; other shapes unchanged.
-fn pieces(shape: Shape) -> impl Iterator<Item = Shape> {
+fn split_line(shape: ConvexShape) -> impl Iterator<Item = ConvexShape> {
     let [a, b] = [shape.corners[0], shape.corners[1]];
     let count = if shape.count == 2 {
-        ((b - a).hypot2().sqrt() / (2.0 * CELL)).ceil().clamp(1.0, 1000.0) as u32
+        ((b - a).hypot2().sqrt() / (2.0 * CELL_SIDE_MM)).ceil().clamp(1.0, 1000.0) as u32
     } else {
         1
     };
     (0..count).map(move |k| {
         let at = |k: u32| a.lerp(b, f64::from(k) / f64::from(count));
-        if count == 1 { shape } else { Shape::line(at(k), at(k + 1), 2.0 * shape.margin) }
+        if count == 1 { shape } else { ConvexShape::line(at(k), at(k + 1), 2.0 * shape.margin) }
     })
 }
 
 /// The grid cells that a box touches.
-fn cells(bounds: Rect) -> impl Iterator<Item = [i32; 2]> {
-    const FAR: f64 = 1e4;
-    let cell = |x: f64| (x.clamp(-FAR, FAR) / CELL).floor() as i32;
+fn grid_cells(bounds: Rect) -> impl Iterator<Item = [i32; 2]> {
+    const MAX_COORDINATE_MM: f64 = 1e4;
+    let cell = |x: f64| (x.clamp(-MAX_COORDINATE_MM, MAX_COORDINATE_MM) / CELL_SIDE_MM).floor() as i32;
     let (columns, rows) = (cell(bounds.x0)..=cell(bounds.x1), cell(bounds.y0)..=cell(bounds.y1));
     rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
 }
@@ -222,38 +224,44 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shapes_touch_where_they_are_nearer_than_their_margins() {
+    fn shapes_closer_than_their_margins_touch() {
         let p = Point::new;
-        let text = Shape::rect(Rect::new(0.0, 0.0, 10.0, 4.0));
+        let text = ConvexShape::rect(Rect::new(0.0, 0.0, 10.0, 4.0));
         for (shape, touches) in [
-            (Shape::line(p(-5.0, 2.0), p(15.0, 2.0), 0.25), true),
-            (Shape::line(p(4.0, 2.0), p(6.0, 2.0), 0.25), true),
-            (Shape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25), false),
-            (Shape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25).wider(1.0), true),
-            (Shape::disc(p(5.0, 2.0), 0.1), true),
-            (Shape::disc(p(13.0, 8.0), 4.9), false),
-            (Shape::disc(p(13.0, 8.0), 5.1), true),
-            (Shape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(11.0, 2.0)]), false),
-            (Shape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(9.0, 2.0)]), true),
-            (Shape::rect(Rect::new(-9.0, -9.0, 30.0, 30.0)), true),
+            (ConvexShape::line(p(-5.0, 2.0), p(15.0, 2.0), 0.25), true),
+            (ConvexShape::line(p(4.0, 2.0), p(6.0, 2.0), 0.25), true),
+            (ConvexShape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25), false),
+            (ConvexShape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25).wider(1.0), true),
+            (ConvexShape::disc(p(5.0, 2.0), 0.1), true),
+            (ConvexShape::disc(p(13.0, 8.0), 4.9), false),
+            (ConvexShape::disc(p(13.0, 8.0), 5.1), true),
+            (ConvexShape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(11.0, 2.0)]), false),
+            (ConvexShape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(9.0, 2.0)]), true),
+            (ConvexShape::rect(Rect::new(-9.0, -9.0, 30.0, 30.0)), true),
         ] {
             let mut taken = Occupancy::default();
-            taken.take(shape, Kind::Line);
+            taken.take(shape, OccupantKind::Line);
             assert_eq!(text.touches(&shape), touches, "{shape:?}");
             assert_eq!(shape.touches(&text), touches, "{shape:?}");
-            assert_eq!(!taken.is_free(&text, Clear::All), touches, "{shape:?}");
-            assert!(taken.is_free(&text, Clear::Solids));
+            assert_eq!(!taken.is_free(&text, Clearance::All), touches, "{shape:?}");
+            assert!(taken.is_free(&text, Clearance::Solids));
         }
     }
 
     #[test]
-    fn long_lines_are_found_all_along() {
+    fn long_lines_occupy_their_whole_length() {
         let mut taken = Occupancy::default();
-        taken.take(Shape::line(Point::new(-500.0, -250.0), Point::new(500.0, 250.0), 0.5), Kind::Leader);
+        taken.take(
+            ConvexShape::line(Point::new(-500.0, -250.0), Point::new(500.0, 250.0), 0.5),
+            OccupantKind::Leader,
+        );
         for k in -49..50 {
             let at = Point::new(10.0 * f64::from(k), 5.0 * f64::from(k));
-            assert!(!taken.is_free(&Shape::disc(at, 0.1), Clear::Leaders), "{k}");
-            assert!(taken.is_free(&Shape::disc(at + Vec2::new(0.0, 2.0), 1.0), Clear::Leaders), "{k}");
+            assert!(!taken.is_free(&ConvexShape::disc(at, 0.1), Clearance::Leaders), "{k}");
+            assert!(
+                taken.is_free(&ConvexShape::disc(at + Vec2::new(0.0, 2.0), 1.0), Clearance::Leaders),
+                "{k}"
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
-//! [`Ink`]: collects lines and words of a sheet as marks, in mm.
+//! [`SheetCanvas`]: collects lines and words of a sheet as marks, in mm.
 //!
-//! All marks are black. Words are single lines set by `crate::text`; texts for tables are wrapped and shrunk
+//! All marks are black. Words are single lines set by `crate::path_text`; texts for tables are wrapped and shrunk
 //! to fit.
 
 use kurbo::{BezPath, Circle, Point, Rect, Shape, Vec2};
@@ -10,21 +10,21 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 use crate::error::Error;
-use crate::text::{Align, Block, Font, Setting};
+use crate::text::{Align, Font, Setting, TextBlock};
 
 /// Widths of wide and narrow lines, mm (ISO 128-2, group 0.5).
-pub(crate) const WIDE: f64 = 0.5;
-pub(crate) const NARROW: f64 = 0.25;
+pub(crate) const THICK_LINE_MM: f64 = 0.5;
+pub(crate) const THIN_LINE_MM: f64 = 0.25;
 
 /// Dash pattern of narrow chain lines: long dash, gap, short dash, gap, mm (ISO 128-2, line type 04.1).
-pub(crate) const CHAIN: [f64; 4] = [6.0, 0.75, 0.13, 0.75];
+pub(crate) const CHAIN_DASH_MM: [f64; 4] = [6.0, 0.75, 0.13, 0.75];
 
 /// Maximum length of a text in a table, bytes.
-const LONGEST: usize = 2000;
+const MAX_TABLE_TEXT_BYTES: usize = 2000;
 
 /// Horizontal anchor of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stand {
+pub(crate) enum WordAnchor {
     /// The word starts at the point.
     Left,
     /// The word is centred at the point.
@@ -33,20 +33,20 @@ pub(crate) enum Stand {
 
 /// Lines and words of a sheet as marks, in mm.
 #[derive(Debug, Clone)]
-pub(crate) struct Ink {
+pub(crate) struct SheetCanvas {
     font: Font,
     class: &'static str,
     pub marks: Vec<Mark>,
 }
 
-impl Ink {
+impl SheetCanvas {
     /// An empty canvas; `class` becomes the class of all lines.
     pub fn new(font: &Font, class: &'static str) -> Self {
         Self { font: font.clone(), class, marks: Vec::new() }
     }
 
     /// An empty canvas with the same font and class.
-    pub fn emptied(&self) -> Self {
+    pub fn new_like(&self) -> Self {
         Self { font: self.font.clone(), class: self.class, marks: Vec::new() }
     }
 
@@ -74,17 +74,17 @@ impl Ink {
 
     /// Adds a straight line.
     pub fn line(&mut self, a: Point, b: Point, width: f64) {
-        self.path(way(&[a, b]), width, &[]);
+        self.path(polyline(&[a, b]), width, &[]);
     }
 
     /// Adds the outline of a rectangle.
     pub fn rect(&mut self, rect: Rect, width: f64) {
-        self.path(rect.to_path(TOLERANCE), width, &[]);
+        self.path(rect.to_path(CIRCLE_TOLERANCE_MM), width, &[]);
     }
 
     /// Adds a circle.
     pub fn circle(&mut self, centre: Point, radius: f64, width: f64) {
-        self.path(Circle::new(centre, radius).to_path(TOLERANCE), width, &[]);
+        self.path(Circle::new(centre, radius).to_path(CIRCLE_TOLERANCE_MM), width, &[]);
     }
 
     /// Adds a filled path.
@@ -97,7 +97,7 @@ impl Ink {
         let back = -towards * (length / towards.hypot2().sqrt());
         // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
         let side = Vec2::new(-back.y, back.x) * 0.268;
-        let mut path = way(&[tip, tip + back + side, tip + back - side]);
+        let mut path = polyline(&[tip, tip + back + side, tip + back - side]);
         path.close_path();
         self.fill(path);
     }
@@ -107,15 +107,22 @@ impl Ink {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn word(&mut self, words: &str, at: Point, high: f64, stand: Stand, most: f64) -> Result<f64, Error> {
+    pub fn word(
+        &mut self,
+        words: &str,
+        at: Point,
+        high: f64,
+        stand: WordAnchor,
+        most: f64,
+    ) -> Result<f64, Error> {
         let Some((mut block, mut setting)) = self.set(words, high)? else { return Ok(0.0) };
         if block.width > most && most > 0.0 {
             setting = setting.with_capitals(high * most / block.width);
-            block = Block::unbroken(words, &setting)?;
+            block = TextBlock::unbroken(words, &setting)?;
         }
         let aside = match stand {
-            Stand::Left => 0.0,
-            Stand::Middle => block.width / 2.0,
+            WordAnchor::Left => 0.0,
+            WordAnchor::Middle => block.width / 2.0,
         };
         let baseline = block.lines.first().map_or(0.0, |line| line.baseline);
         self.marks.extend(block.marks(Point::new(at.x - aside, at.y - baseline), Colour::BLACK));
@@ -129,7 +136,7 @@ impl Ink {
     /// Returns an error if no font has a glyph, or a word is too wide.
     pub fn lines(&mut self, words: &str, corner: Point, high: f64, width: f64) -> Result<f64, Error> {
         let Some((_, setting)) = self.set(words, high)? else { return Ok(0.0) };
-        let block = Block::in_width(words, &setting, width)?;
+        let block = TextBlock::in_width(words, &setting, width)?;
         self.marks.extend(block.marks(corner, Colour::BLACK));
         Ok(block.height)
     }
@@ -176,9 +183,9 @@ impl Ink {
         width: f64,
         fits: impl Fn(f64, usize) -> bool,
     ) -> Result<(f64, Vec<String>), Error> {
-        if words.len() > LONGEST {
+        if words.len() > MAX_TABLE_TEXT_BYTES {
             return Err(Error::new(format!("a text of {} bytes is too long for a table", words.len()))
-                .remedy(format!("write at most {LONGEST} bytes")));
+                .remedy(format!("write at most {MAX_TABLE_TEXT_BYTES} bytes")));
         }
         let mut found = (0.0, Vec::new());
         for high in heights {
@@ -198,12 +205,12 @@ impl Ink {
         Ok(self.set(words, high)?.map_or(0.0, |(block, _)| block.width))
     }
 
-    fn set(&self, words: &str, high: f64) -> Result<Option<(Block, Setting)>, Error> {
+    fn set(&self, words: &str, high: f64) -> Result<Option<(TextBlock, Setting)>, Error> {
         if words.trim().is_empty() {
             return Ok(None);
         }
         let setting = Setting::new(self.font.clone()).with_capitals(high).aligned(Align::Left);
-        Ok(Some((Block::unbroken(words, &setting)?, setting)))
+        Ok(Some((TextBlock::unbroken(words, &setting)?, setting)))
     }
 
     /// All marks as a drawing of the given size.
@@ -215,10 +222,10 @@ impl Ink {
 }
 
 /// Tolerance of circles and rectangles as Bézier paths, mm.
-const TOLERANCE: f64 = 1e-3;
+const CIRCLE_TOLERANCE_MM: f64 = 1e-3;
 
 /// The polyline through some points.
-pub(crate) fn way(points: &[Point]) -> BezPath {
+pub(crate) fn polyline(points: &[Point]) -> BezPath {
     let mut path = BezPath::new();
     for (k, p) in points.iter().enumerate() {
         if k == 0 { path.move_to(*p) } else { path.line_to(*p) }

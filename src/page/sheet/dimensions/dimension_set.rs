@@ -1,4 +1,4 @@
-//! [`Measures`]: the dimensions of all views: lengths, diameters and radii with their texts.
+//! [`DimensionSet`]: the dimensions of all views: lengths, diameters and radii with their texts.
 //!
 //! Automatic dimensions are the overall size, the diameters of whole cylinders, and the positions of holes.
 //! Each of them is shown in one view only.
@@ -6,21 +6,21 @@
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 
-use super::hole_dimensions::Round;
-use crate::page::sheet::arrangement::titles_and_notes::crossed;
-use crate::page::sheet::arrangement::view_arrangement::Stands;
-use crate::page::sheet::arrangement::view_plan::Plan;
-use crate::page::sheet::lengths::length_precision::{Measured, Precision};
-use crate::page::sheet::view::view_side::{Side, Told};
+use super::hole_dimensions::HoleDimension;
+use crate::page::sheet::arrangement::titles_and_notes::edge_on_view;
+use crate::page::sheet::arrangement::view_arrangement::ViewPlacement;
+use crate::page::sheet::arrangement::view_plan::ViewPlan;
+use crate::page::sheet::lengths::length_precision::{LengthPrecision, MeasuredPoint};
+use crate::page::sheet::view::view_side::{SideLength, ViewSide};
 
 /// Minimum distance of a dimensioned position from the side, on paper, mm; maximum number of positions per
 /// side.
-const SAME: f64 = 0.05;
-const MOST: usize = 6;
+const MIN_OFFSET_MM: f64 = 0.05;
+const MAX_POSITIONS_PER_SIDE: usize = 6;
 
 /// A diameter or radius with a leader.
 #[derive(Debug, Clone)]
-pub(crate) struct Led {
+pub(crate) struct DiameterLeader {
     pub centre: Point,
     /// Radius on paper, mm.
     pub radius: f64,
@@ -31,7 +31,7 @@ pub(crate) struct Led {
 
 /// A length that is not in a row: in any direction, or at a given distance.
 #[derive(Debug, Clone)]
-pub(crate) struct Slanted {
+pub(crate) struct SlantedLength {
     pub ends: [Point; 2],
     /// Unit vector of the length.
     pub along: Vec2,
@@ -43,52 +43,52 @@ pub(crate) struct Slanted {
 
 /// The dimensions of all views, each with the number of its view.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Measures {
-    pub lengths: Vec<(usize, Told)>,
-    pub slanted: Vec<(usize, Slanted)>,
-    pub led: Vec<(usize, Led)>,
+pub(crate) struct DimensionSet {
+    pub lengths: Vec<(usize, SideLength)>,
+    pub slanted: Vec<(usize, SlantedLength)>,
+    pub led: Vec<(usize, DiameterLeader)>,
 }
 
-impl Measures {
+impl DimensionSet {
     /// Adds a length along a side of a view.
-    pub fn add(&mut self, view: usize, ends: [Point; 2], side: Side, text: String) {
-        self.lengths.push((view, Told { ends, side, text }));
+    pub fn add(&mut self, view: usize, ends: [Point; 2], side: ViewSide, text: String) {
+        self.lengths.push((view, SideLength { ends, side, text }));
     }
 
     /// Adds the overall length, height and depth: below and to the left of the first side view, the third one
     /// in another side view.
-    pub fn add_overall(&mut self, plan: &Plan) {
-        let points = Measured::of_parts(&plan.sets[0].scene, |_| true);
+    pub fn add_overall(&mut self, plan: &ViewPlan) {
+        let points = MeasuredPoint::of_parts(&plan.sets[0].scene, |_| true);
         let mut told: Vec<DVec3> = Vec::new();
-        let is_side = |k: &usize| matches!(plan.views[*k].stands, Stands::Beside(_));
+        let is_side = |k: &usize| matches!(plan.views[*k].placement, ViewPlacement::Projected(_));
         let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
         // Views without section marks come first, because the marks take the space of dimensions.
-        sides.sort_by_key(|k| plan.cuts.iter().any(|cut| crossed(plan, cut) == Some(*k)));
+        sides.sort_by_key(|k| plan.cuts.iter().any(|cut| edge_on_view(plan, cut) == Some(*k)));
         for view in sides {
             let sight = &plan.views[view].sight;
             let [right, up, _] = sight.axes();
-            for (axis, side) in [(right, Side::Below), (up, Side::Left)] {
+            for (axis, side) in [(right, ViewSide::Below), (up, ViewSide::Left)] {
                 if told.iter().any(|known| known.dot(axis).abs() > 1.0 - 1e-9) {
                     continue;
                 }
                 told.push(axis);
                 // From the outermost points, take those nearest to the dimension line.
-                let key = |p: &Measured| {
+                let key = |p: &MeasuredPoint| {
                     let page = sight.page(p.at);
                     if side.is_across() { (page.x, -page.y) } else { (page.y, page.x) }
                 };
-                let order = |a: &Measured, b: &Measured| {
+                let order = |a: &MeasuredPoint, b: &MeasuredPoint| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(c.total_cmp(&d))
                 };
-                let last = |a: &Measured, b: &Measured| {
+                let last = |a: &MeasuredPoint, b: &MeasuredPoint| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(d.total_cmp(&c))
                 };
                 let ends = (points.iter().copied().min_by(order), points.iter().copied().max_by(last));
                 if let (Some(from), Some(to)) = ends {
                     let length = (to.at - from.at).dot(axis).abs();
-                    let text = plan.values.written(length, Precision::between([from, to], axis));
+                    let text = plan.values.written(length, LengthPrecision::between([from, to], axis));
                     self.add(view, [from, to].map(|p| sight.page(p.at)), side, text);
                 }
             }
@@ -96,7 +96,7 @@ impl Measures {
     }
 
     /// Adds diameters, and the positions of holes from the left and lower edges of the view.
-    pub fn add_rounds(&mut self, plan: &Plan, rounds: &[Round]) {
+    pub fn add_rounds(&mut self, plan: &ViewPlan, rounds: &[HoleDimension]) {
         for round in rounds {
             let sight = &plan.views[round.view].sight;
             let count =
@@ -113,15 +113,15 @@ impl Measures {
                 continue;
             };
             let radius = round.radius * sight.unit;
-            self.led.push((round.view, Led { centre, radius, text, pitch }));
+            self.led.push((round.view, DiameterLeader { centre, radius, text, pitch }));
         }
         let mut views: Vec<usize> = rounds.iter().map(|round| round.view).collect();
         views.dedup();
-        let step = if views.is_empty() { 0.0 } else { Measured::coarsest(&plan.sets[0].scene) };
+        let step = if views.is_empty() { 0.0 } else { MeasuredPoint::coarsest(&plan.sets[0].scene) };
         for view in views {
             let sight = &plan.views[view].sight;
             let rect = sight.rect();
-            let own: Vec<&Round> = rounds.iter().filter(|round| round.view == view).collect();
+            let own: Vec<&HoleDimension> = rounds.iter().filter(|round| round.view == view).collect();
             // Positions of holes, except holes that are concentric with something round, which is positioned
             // already.
             let outer: Vec<Point> = own
@@ -129,15 +129,19 @@ impl Measures {
                 .filter(|round| !round.hollow)
                 .flat_map(|round| round.centres.iter().map(|at| sight.page(*at)))
                 .collect();
-            let places: Vec<(DVec3, Precision)> = own
+            let places: Vec<(DVec3, LengthPrecision)> = own
                 .iter()
                 .filter(|round| round.hollow && round.pitch.is_none())
                 .flat_map(|round| round.centres.iter().map(|at| (*at, round.precision)))
-                .filter(|(at, _)| outer.iter().all(|other| (*other - sight.page(*at)).hypot2() > SAME * SAME))
+                .filter(|(at, _)| {
+                    outer
+                        .iter()
+                        .all(|other| (*other - sight.page(*at)).hypot2() > MIN_OFFSET_MM * MIN_OFFSET_MM)
+                })
                 .collect();
             let [right, up, _] = sight.axes();
             let corner = plan.middle + right * sight.low.x + up * sight.low.y;
-            for (side, axis) in [(Side::Below, right), (Side::Left, up)] {
+            for (side, axis) in [(ViewSide::Below, right), (ViewSide::Left, up)] {
                 let mut done: Vec<String> = Vec::new();
                 let mut sorted = places.clone();
                 // Of several holes in line, the nearest to the side comes first.
@@ -148,9 +152,13 @@ impl Measures {
                 });
                 for (at, precision) in sorted {
                     let far = (at - corner).dot(axis);
-                    let ends = [Measured { at: corner, step }, Measured::exact(at)];
-                    let text = plan.values.written(far, Precision::between(ends, axis).coarser(precision));
-                    if far * sight.unit < SAME || done.len() >= MOST || done.contains(&text) {
+                    let ends = [MeasuredPoint { at: corner, step }, MeasuredPoint::exact(at)];
+                    let text =
+                        plan.values.written(far, LengthPrecision::between(ends, axis).coarser(precision));
+                    if far * sight.unit < MIN_OFFSET_MM
+                        || done.len() >= MAX_POSITIONS_PER_SIDE
+                        || done.contains(&text)
+                    {
                         continue;
                     }
                     done.push(text.clone());

@@ -1,4 +1,4 @@
-//! [`rounds`]: automatic diameters of whole cylinders that a view sees end-on and unobstructed.
+//! [`find_hole_dimensions`]: automatic diameters of whole cylinders that a view sees end-on and unobstructed.
 //!
 //! 1. Whole cylinders of the mesh are found by their arc.
 //! 2. A face-id buffer of each side view shows whether the front rim of a cylinder is visible.
@@ -8,22 +8,22 @@
 use glam::DVec3;
 
 use crate::mesh::{FaceId, Mesh};
-use crate::page::sheet::arrangement::view_arrangement::Stands;
-use crate::page::sheet::arrangement::view_plan::Plan;
-use crate::page::sheet::lengths::length_precision::Precision;
-use crate::page::sheet::view::sheet_view::Sight;
+use crate::page::sheet::arrangement::view_arrangement::ViewPlacement;
+use crate::page::sheet::arrangement::view_plan::ViewPlan;
+use crate::page::sheet::lengths::length_precision::LengthPrecision;
+use crate::page::sheet::view::sheet_view::SheetView;
 use crate::surface::{Cylinder, cylinders};
 use crate::view::View;
-use crate::view::raster::{FaceBuffer, Screen};
+use crate::view::raster::{FaceBuffer, PixelGrid};
 
 /// Cylinders of one radius in a view that are dimensioned together.
 #[derive(Debug, Clone)]
-pub(crate) struct Round {
+pub(crate) struct HoleDimension {
     /// Number of the view.
     pub view: usize,
     pub radius: f64,
     /// Precision of the radius and the positions.
-    pub precision: Precision,
+    pub precision: LengthPrecision,
     pub hollow: bool,
     /// Points on the axes, projected along the viewing direction, world.
     pub centres: Vec<DVec3>,
@@ -32,48 +32,48 @@ pub(crate) struct Round {
 }
 
 /// Minimum arc of a whole cylinder, radians.
-const WHOLE: f64 = 5.8;
+const MIN_WHOLE_ARC_RAD: f64 = 5.8;
 
 /// Positions are equal within this share of the radius.
-const SAME: f64 = 5e-3;
+const MAX_OFFSET_OF_RADIUS: f64 = 5e-3;
 
 /// Pixels along the longer side of the view for the visibility test.
-const PIXELS: f64 = 900.0;
+const LONGER_SIDE_PX: f64 = 900.0;
 
 /// Maximum number of different diameters per view.
-const MOST: usize = 8;
+const MAX_DIAMETERS_PER_VIEW: usize = 8;
 
 /// The whole cylinders of a mesh.
-pub(crate) fn whole(mesh: &Mesh) -> Vec<Cylinder> {
-    cylinders(mesh).into_iter().filter(|cylinder| cylinder.arc > WHOLE).collect()
+pub(crate) fn whole_cylinders(mesh: &Mesh) -> Vec<Cylinder> {
+    cylinders(mesh).into_iter().filter(|cylinder| cylinder.arc > MIN_WHOLE_ARC_RAD).collect()
 }
 
 /// The diameters of all side views, each in the first view that shows it, largest first.
-pub(crate) fn rounds(plan: &Plan) -> Vec<Round> {
+pub(crate) fn find_hole_dimensions(plan: &ViewPlan) -> Vec<HoleDimension> {
     let mesh = Mesh::build(plan.sets[0].scene.to_soup());
-    let mut left = whole(&mesh);
-    let mut found: Vec<Round> = Vec::new();
+    let mut left = whole_cylinders(&mesh);
+    let mut found: Vec<HoleDimension> = Vec::new();
     for (view, placed) in plan.views.iter().enumerate() {
-        let is_side = matches!(placed.stands, Stands::Beside(_)) && plan.set_of[view] == 0;
+        let is_side = matches!(placed.placement, ViewPlacement::Projected(_)) && plan.set_of[view] == 0;
         if !is_side {
             continue;
         }
         let forward = placed.sight.axes()[2];
         let (along, others): (Vec<Cylinder>, Vec<Cylinder>) =
             left.into_iter().partition(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
-        let (shown, hidden): (Vec<Cylinder>, Vec<Cylinder>) = seen(&mesh, &placed.sight, along);
+        let (shown, hidden): (Vec<Cylinder>, Vec<Cylinder>) = split_visible(&mesh, &placed.sight, along);
         left = others.into_iter().chain(hidden).collect();
-        let mut own: Vec<Round> = Vec::new();
+        let mut own: Vec<HoleDimension> = Vec::new();
         for cylinder in shown {
             let flat = cylinder.point - forward * cylinder.point.dot(forward);
-            let precision = Precision::of_cylinder(&cylinder);
+            let precision = LengthPrecision::of_cylinder(&cylinder);
             let written = plan.values.written(2.0 * cylinder.radius, precision);
-            let is_same = |round: &&mut Round| {
+            let is_same = |round: &&mut HoleDimension| {
                 round.hollow == cylinder.hollow
                     && plan.values.written(2.0 * round.radius, round.precision) == written
             };
             match own.iter_mut().find(is_same) {
-                None => own.push(Round {
+                None => own.push(HoleDimension {
                     view,
                     radius: cylinder.radius,
                     precision,
@@ -83,22 +83,26 @@ pub(crate) fn rounds(plan: &Plan) -> Vec<Round> {
                 }),
                 Some(known) => {
                     known.precision = known.precision.coarser(precision);
-                    if known.centres.iter().all(|at| at.distance(flat) > SAME * cylinder.radius) {
+                    if known
+                        .centres
+                        .iter()
+                        .all(|at| at.distance(flat) > MAX_OFFSET_OF_RADIUS * cylinder.radius)
+                    {
                         known.centres.push(flat);
                     }
                 }
             }
         }
         own.sort_by(|a, b| b.radius.total_cmp(&a.radius));
-        own.truncate(MOST);
-        own.iter_mut().for_each(|round| round.pitch = pitch(&round.centres));
+        own.truncate(MAX_DIAMETERS_PER_VIEW);
+        own.iter_mut().for_each(|round| round.pitch = pitch_circle(&round.centres));
         found.extend(own);
     }
     found
 }
 
 /// The circle through equally spaced points, if there are at least three.
-fn pitch(centres: &[DVec3]) -> Option<(DVec3, f64)> {
+fn pitch_circle(centres: &[DVec3]) -> Option<(DVec3, f64)> {
     let count = centres.len();
     if count < 3 {
         return None;
@@ -111,20 +115,21 @@ fn pitch(centres: &[DVec3]) -> Option<(DVec3, f64)> {
         let far = |other: &&DVec3| *other != at;
         let nearest =
             centres.iter().filter(far).map(|other| other.distance(*at)).fold(f64::INFINITY, f64::min);
-        (at.distance(middle) - radius).abs() < SAME * radius && (nearest - even).abs() < SAME * even
+        (at.distance(middle) - radius).abs() < MAX_OFFSET_OF_RADIUS * radius
+            && (nearest - even).abs() < MAX_OFFSET_OF_RADIUS * even
     };
     (radius > 0.0 && centres.iter().all(stands)).then_some((middle, radius))
 }
 
 /// Splits cylinders along the viewing direction into visible and hidden ones, by sampling 8 points of their
 /// front rims.
-fn seen(mesh: &Mesh, sight: &Sight, cylinders: Vec<Cylinder>) -> (Vec<Cylinder>, Vec<Cylinder>) {
+fn split_visible(mesh: &Mesh, sight: &SheetView, cylinders: Vec<Cylinder>) -> (Vec<Cylinder>, Vec<Cylinder>) {
     if cylinders.is_empty() {
         return (Vec::new(), Vec::new());
     }
-    let camera = sight.taken();
+    let camera = sight.view_camera();
     let view = View::new(mesh, &camera);
-    let screen = Screen::of_side(mesh, &view, PIXELS);
+    let screen = PixelGrid::of_side(mesh, &view, LONGER_SIDE_PX);
     let buffer = FaceBuffer::new(&screen);
     let [right, up, forward] = sight.axes();
     let inner = sight.place().inverse();

@@ -1,4 +1,4 @@
-//! [`add_told`]: the dimensions that a page file requests, between points, sides and centres of parts.
+//! [`add_requested`]: the dimensions that a page file requests, between points, sides and centres of parts.
 //!
 //! 1. Keys name points: coordinates, named points, or a side of a part, which is its outermost drawn point in
 //!    the view.
@@ -10,29 +10,29 @@ use glam::DVec3;
 use kurbo::{Point, Vec2};
 use toml::Spanned;
 
-use super::dimension_set::{Led, Measures, Slanted};
+use super::dimension_set::{DiameterLeader, DimensionSet, SlantedLength};
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::mesh::Mesh;
-use crate::page::page_source::Source;
-use crate::page::sheet::arrangement::view_plan::Plan;
-use crate::page::sheet::keys::sheet_keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
-use crate::page::sheet::lengths::length_precision::{Measured, Precision};
-use crate::page::sheet::lengths::true_length::{Foreshortening, IN_EXPLODED, true_length};
-use crate::page::sheet::view::sheet_view::Sight;
-use crate::page::sheet::view::view_side::Side;
+use crate::page::page_source::PageSource;
+use crate::page::sheet::arrangement::view_plan::ViewPlan;
+use crate::page::sheet::keys::sheet_keys::{DimensionKeys, DimensionKind, PlaceKeys, SheetPage};
+use crate::page::sheet::lengths::length_precision::{LengthPrecision, MeasuredPoint};
+use crate::page::sheet::lengths::true_length::{Foreshortening, REFUSED_IN_EXPLODED_VIEW, true_length};
+use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::sheet::view::view_side::ViewSide;
 use crate::scene::Scene;
 use crate::surface::{Cylinder, cylinders};
 
 /// The sides that the name of a place may end with.
-const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
+const PLACE_ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
 
 /// Adds the requested dimensions.
-pub(crate) fn add_told(
+pub(crate) fn add_requested(
     sheet: &SheetPage,
-    plan: &Plan,
-    measures: &mut Measures,
-    source: &Source,
+    plan: &ViewPlan,
+    measures: &mut DimensionSet,
+    source: &PageSource,
 ) -> Result<(), Error> {
     let mut found: Option<Vec<Cylinder>> = None;
     for keys in &sheet.dimension {
@@ -44,7 +44,7 @@ pub(crate) fn add_told(
         let sight = &plan.views[view].sight;
         let scene = &plan.sets[0].scene;
         let place = |told: &Option<Spanned<PlaceKeys>>, key: &str| match told {
-            Some(told) => point(told, sheet, scene, sight, source),
+            Some(told) => resolve_place(told, sheet, scene, sight, source),
             None => Err(source.fault(
                 &span,
                 &format!("this dimension has no `{key}`"),
@@ -52,13 +52,13 @@ pub(crate) fn add_told(
             )),
         };
         let measure = keys.measure.unwrap_or_default();
-        if matches!(measure, Measure::Diameter | Measure::Radius) {
+        if matches!(measure, DimensionKind::Diameter | DimensionKind::Radius) {
             if plan.foreshortening(view) == Foreshortening::Moved {
-                return Err(source.fault(&span, IN_EXPLODED[0], IN_EXPLODED[1]));
+                return Err(source.fault(&span, REFUSED_IN_EXPLODED_VIEW[0], REFUSED_IN_EXPLODED_VIEW[1]));
             }
             let at = place(&keys.at, "at")?.at;
             let own = found.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
-            let led = of_cylinder(own, at, (measure, keys), (plan, sight));
+            let led = nearest_cylinder_leader(own, at, (measure, keys), (plan, sight));
             let told = keys.at.as_ref().map_or(span, Spanned::span);
             let remedy = "name a point on a cylinder that is seen along its axis in this view";
             let led = led.ok_or_else(|| source.fault(&told, "there is no cylinder in this view", remedy))?;
@@ -76,17 +76,17 @@ pub(crate) fn add_told(
 }
 
 /// The point on the model that a key names.
-fn point(
+fn resolve_place(
     told: &Spanned<PlaceKeys>,
     sheet: &SheetPage,
     scene: &Scene,
-    sight: &Sight,
-    source: &Source,
-) -> Result<Measured, Error> {
+    sight: &SheetView,
+    source: &PageSource,
+) -> Result<MeasuredPoint, Error> {
     let finite = |p: &[f64; 3]| {
         let advice = "write three numbers such as [0, 12.5, 3]";
         let is_finite = p.iter().all(|x| x.is_finite());
-        let point = is_finite.then(|| Measured::exact(DVec3::from_array(*p)));
+        let point = is_finite.then(|| MeasuredPoint::exact(DVec3::from_array(*p)));
         point.ok_or_else(|| source.fault(&told.span(), "this is not a point", advice))
     };
     let name = match told.get_ref() {
@@ -98,12 +98,12 @@ fn point(
     }
     let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
     let end = if end == "center" { "centre" } else { end };
-    if !ENDS.contains(&end) {
-        let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(ENDS).collect();
+    if !PLACE_ENDS.contains(&end) {
+        let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(PLACE_ENDS).collect();
         return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
     }
     let glob = Glob::new(part);
-    let points = Measured::of_parts(scene, |part| glob.matches(&part.name));
+    let points = MeasuredPoint::of_parts(scene, |part| glob.matches(&part.name));
     if points.is_empty() {
         let message = format!("there is no part `{part}`");
         return Err(source.fault(
@@ -120,25 +120,25 @@ fn point(
         "right" => outermost(right),
         "top" => outermost(up),
         "bottom" => outermost(-up),
-        _ => Some(centre(&points)),
+        _ => Some(box_centre(&points)),
     };
-    Ok(found.unwrap_or(Measured::exact(DVec3::ZERO)))
+    Ok(found.unwrap_or(MeasuredPoint::exact(DVec3::ZERO)))
 }
 
 /// The centre of the bounding box of some points, with their coarsest step.
-fn centre(points: &[Measured]) -> Measured {
+fn box_centre(points: &[MeasuredPoint]) -> MeasuredPoint {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(p.at), h.max(p.at)));
-    Measured { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
+    MeasuredPoint { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
 }
 
 /// The leader of the cylinder that is seen end-on and whose surface is nearest to a point.
-fn of_cylinder(
+fn nearest_cylinder_leader(
     found: &[Cylinder],
     at: DVec3,
-    (measure, keys): (Measure, &DimensionKeys),
-    (plan, sight): (&Plan, &Sight),
-) -> Option<Led> {
+    (measure, keys): (DimensionKind, &DimensionKeys),
+    (plan, sight): (&ViewPlan, &SheetView),
+) -> Option<DiameterLeader> {
     let forward = sight.axes()[2];
     let beside = |cylinder: &Cylinder| {
         let away = at - cylinder.point;
@@ -149,27 +149,26 @@ fn of_cylinder(
     };
     let seen = found.iter().filter(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
     let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
-    let is_radius = measure == Measure::Radius;
+    let is_radius = measure == DimensionKind::Radius;
     let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
-    let text = keys
-        .text
-        .clone()
-        .unwrap_or_else(|| format!("{sign}{}", plan.values.written(length, Precision::of_cylinder(nearest))));
+    let text = keys.text.clone().unwrap_or_else(|| {
+        format!("{sign}{}", plan.values.written(length, LengthPrecision::of_cylinder(nearest)))
+    });
     let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
-    Some(Led { centre, radius, text, pitch: None })
+    Some(DiameterLeader { centre, radius, text, pitch: None })
 }
 
 /// Adds a length, in a row if it is horizontal or vertical and has no offset.
 fn add_length(
     ends: [Point; 2],
-    (measure, text): (Measure, String),
+    (measure, text): (DimensionKind, String),
     keys: &DimensionKeys,
     view: usize,
-    measures: &mut Measures,
+    measures: &mut DimensionSet,
 ) {
     let along = match measure {
-        Measure::Horizontal => Vec2::new(1.0, 0.0),
-        Measure::Vertical => Vec2::new(0.0, 1.0),
+        DimensionKind::Horizontal => Vec2::new(1.0, 0.0),
+        DimensionKind::Vertical => Vec2::new(0.0, 1.0),
         _ => ends[1] - ends[0],
     };
     let far = along.hypot2().sqrt();
@@ -180,9 +179,9 @@ fn add_length(
     let across = along.y.abs() < 1e-9;
     if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
         let side = keys.side.filter(|side| side.is_across() == across);
-        let side = side.unwrap_or(if across { Side::Below } else { Side::Left });
+        let side = side.unwrap_or(if across { ViewSide::Below } else { ViewSide::Left });
         measures.add(view, ends, side, text);
         return;
     }
-    measures.slanted.push((view, Slanted { ends, along, offset: keys.offset, text }));
+    measures.slanted.push((view, SlantedLength { ends, along, offset: keys.offset, text }));
 }

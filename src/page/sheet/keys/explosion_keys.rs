@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::sheet_keys::{ExplodedKeys, PartExplosionKeys};
 use crate::edit::explode::{Explosion, PartExplosion, direction};
 use crate::error::Error;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::scene::Scene;
 
 /// Converts the keys to the settings of an explosion.
@@ -14,7 +14,7 @@ use crate::scene::Scene;
 /// # Errors
 ///
 /// Returns an error if an axis or direction is invalid, a number is out of range, or no part has a name.
-pub(crate) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &Source) -> Result<Explosion, Error> {
+pub(crate) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &PageSource) -> Result<Explosion, Error> {
     let axis = keys.axis.as_ref().map(|axis| direction_of(axis, "axis", source)).transpose()?;
     let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
     if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
@@ -25,7 +25,11 @@ pub(crate) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &Source) -> 
     Ok(Explosion { axis, factor, parts })
 }
 
-fn part_explosion(keys: &PartExplosionKeys, scene: &Scene, source: &Source) -> Result<PartExplosion, Error> {
+fn part_explosion(
+    keys: &PartExplosionKeys,
+    scene: &Scene,
+    source: &PageSource,
+) -> Result<PartExplosion, Error> {
     let name = keys.name.get_ref();
     if !scene.parts.iter().any(|part| name.matches(&part.name)) {
         let advice = "write a name of the model, or a pattern such as bolt*; `ligne info` lists the names";
@@ -47,7 +51,7 @@ fn part_explosion(keys: &PartExplosionKeys, scene: &Scene, source: &Source) -> R
     })
 }
 
-fn direction_of(text: &Spanned<String>, what: &str, source: &Source) -> Result<DVec3, Error> {
+fn direction_of(text: &Spanned<String>, what: &str, source: &PageSource) -> Result<DVec3, Error> {
     direction(text.get_ref()).ok_or_else(|| {
         let message = format!("there is no {what} `{}`", text.get_ref());
         source.fault(&text.span(), &message, "write x, -y, or three numbers such as 1,0,1")

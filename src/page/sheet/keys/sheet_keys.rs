@@ -7,17 +7,17 @@ use toml::Spanned;
 
 use crate::geometry::names::glob::Glob;
 use crate::page::figure::Models;
-use crate::page::page_size::Size;
+use crate::page::page_size::PageSize;
 use crate::page::sheet::frame::title_block::TitleKeys;
-use crate::page::sheet::view::projection_method::Method;
-use crate::page::sheet::view::view_side::Side;
+use crate::page::sheet::view::projection_method::ProjectionMethod;
+use crate::page::sheet::view::view_side::ViewSide;
 
 /// A technical sheet in a page file.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SheetPage {
     /// Size of the sheet. Sheets larger than A4 are in landscape format. Default: A3.
-    pub size: Option<Size>,
+    pub size: Option<PageSize>,
     /// One or more models.
     pub model: Models,
     /// Unit of the model: `mm`, `cm`, `m`, `in` or `ft`. Default: m for glTF, mm otherwise.
@@ -36,7 +36,7 @@ pub struct SheetPage {
     /// Font of all texts. Default: technical.
     pub font: Option<Spanned<String>>,
     /// First- or third-angle projection. Default: first.
-    pub projection: Method,
+    pub projection: ProjectionMethod,
     /// Scale of the views, such as `1:5`. Default: the largest of the standard series that fits.
     pub scale: Option<Spanned<String>>,
     /// The views. Default: front, top, left and iso.
@@ -162,13 +162,13 @@ pub struct DimensionKeys {
     /// used.
     pub at: Option<Spanned<PlaceKeys>>,
     /// What is measured: `horizontal`, `vertical`, `aligned`, `diameter` or `radius`. Default: aligned.
-    pub measure: Option<Measure>,
+    pub measure: Option<DimensionKind>,
     /// Distance of the dimension line from its points in mm, to the right or below if positive. Default: in a
     /// row with others, on `side`.
     pub offset: Option<f64>,
     /// Side of the view for the dimension: `left`, `right`, `above` or `below`. Default: below, or left for
     /// vertical lengths.
-    pub side: Option<Side>,
+    pub side: Option<ViewSide>,
     /// Text that replaces the length.
     pub text: Option<String>,
 }
@@ -191,7 +191,7 @@ pub enum PlaceKeys {
 /// The quantity that a dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Measure {
+pub enum DimensionKind {
     /// Horizontal distance on the page.
     Horizontal,
     /// Vertical distance on the page.

@@ -1,4 +1,4 @@
-//! [`Values`]: formats lengths for dimensions.
+//! [`LengthFormat`]: formats lengths for dimensions.
 //!
 //! 1. A length is rounded to the precision of the input, a power of ten in model units. For example,
 //!    53.974998 in single precision becomes 53.975 again.
@@ -8,84 +8,84 @@
 
 use toml::Spanned;
 
-use super::length_precision::{Precision, power_of_ten};
+use super::length_precision::{LengthPrecision, power_of_ten};
 use crate::error::Error;
-use crate::page::page_source::Source;
+use crate::page::page_source::PageSource;
 use crate::page::sheet::keys::sheet_keys::SheetPage;
 
 /// The units that a page file may name.
-const UNITS: [Unit; 5] = [
-    Unit { name: "mm", mm: 1.0 },
-    Unit { name: "cm", mm: 10.0 },
-    Unit { name: "m", mm: 1000.0 },
-    Unit { name: "in", mm: 25.4 },
-    Unit { name: "ft", mm: 304.8 },
+const LENGTH_UNITS: [LengthUnit; 5] = [
+    LengthUnit { name: "mm", mm: 1.0 },
+    LengthUnit { name: "cm", mm: 10.0 },
+    LengthUnit { name: "m", mm: 1000.0 },
+    LengthUnit { name: "in", mm: 25.4 },
+    LengthUnit { name: "ft", mm: 304.8 },
 ];
 
 /// Default maximum of decimals, in millimetres and in other units.
-const DECIMALS: [u8; 2] = [2, 3];
+const DEFAULT_MAX_DECIMALS: [u8; 2] = [2, 3];
 
 /// Largest number of decimals in a page file.
 const MAX_DECIMALS: u8 = 9;
 
 /// Decimals that are enough for the smallest double.
-const ALL_DECIMALS: usize = 330;
+const DOUBLE_DECIMALS: usize = 330;
 
 /// Maximum relative error of a product of few factors in double precision. A value this close below a tie
 /// counts as a tie.
-const TIE: f64 = 8.0 * f64::EPSILON;
+const TIE_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 /// Doubles are integers from here on (2^53).
-const WHOLE: f64 = 9_007_199_254_740_992.0;
+const MAX_EXACT_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// A unit of length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Unit {
+pub(crate) struct LengthUnit {
     pub name: &'static str,
     /// Millimetres per unit.
     pub mm: f64,
 }
 
-impl Unit {
+impl LengthUnit {
     /// Parses the unit in a key.
     ///
     /// # Errors
     /// Returns an error if there is no such unit.
-    pub fn read(told: &Spanned<String>, source: &Source) -> Result<Self, Error> {
-        let found = UNITS.into_iter().find(|unit| unit.name == told.get_ref());
-        found.ok_or_else(|| source.unknown(told, "unit", &UNITS.map(|unit| unit.name)))
+    pub fn read(told: &Spanned<String>, source: &PageSource) -> Result<Self, Error> {
+        let found = LENGTH_UNITS.into_iter().find(|unit| unit.name == told.get_ref());
+        found.ok_or_else(|| source.unknown(told, "unit", &LENGTH_UNITS.map(|unit| unit.name)))
     }
 }
 
 /// The format of lengths on a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Values {
+pub(crate) struct LengthFormat {
     /// Unit of the model, and unit of the dimensions.
-    model: Unit,
-    pub unit: Unit,
+    model: LengthUnit,
+    pub unit: LengthUnit,
     decimals: u8,
     has_comma: bool,
 }
 
-impl Values {
+impl LengthFormat {
     /// Reads the format from the keys of a sheet. `is_gltf` makes the metre the default unit of the model.
     ///
     /// # Errors
     /// Returns an error if a unit is unknown, or there are too many decimals.
-    pub fn new(sheet: &SheetPage, is_gltf: bool, source: &Source) -> Result<Self, Error> {
-        let [mm, _, metre, inch, foot] = UNITS;
+    pub fn new(sheet: &SheetPage, is_gltf: bool, source: &PageSource) -> Result<Self, Error> {
+        let [mm, _, metre, inch, foot] = LENGTH_UNITS;
         let model = match &sheet.unit {
-            Some(told) => Unit::read(told, source)?,
+            Some(told) => LengthUnit::read(told, source)?,
             None if is_gltf => metre,
             None => mm,
         };
         let unit = match &sheet.dimension_unit {
-            Some(told) => Unit::read(told, source)?,
+            Some(told) => LengthUnit::read(told, source)?,
             None if model == inch || model == foot => model,
             None => mm,
         };
         let decimals = match &sheet.decimals {
-            None => DECIMALS[usize::from(unit != mm)],
+            None => DEFAULT_MAX_DECIMALS[usize::from(unit != mm)],
             Some(told) => {
                 u8::try_from(*told.get_ref()).ok().filter(|n| *n <= MAX_DECIMALS).ok_or_else(|| {
                     let advice = format!("write a whole number from 0 to {MAX_DECIMALS}");
@@ -102,27 +102,27 @@ impl Values {
     }
 
     /// Formats a length in model units.
-    pub fn written(&self, length: f64, precision: Precision) -> String {
+    pub fn written(&self, length: f64, precision: LengthPrecision) -> String {
         let carried = precision.rounded(length.abs());
         let value = if self.model == self.unit { carried } else { carried * self.model.mm / self.unit.mm };
-        let text = decimal(value, usize::from(self.decimals));
+        let text = format_decimal(value, usize::from(self.decimals));
         if self.has_comma { text.replace('.', ",") } else { text }
     }
 }
 
 /// Formats a non-negative number with at most `decimals` decimals, or more if it would be written as 0.
-fn decimal(value: f64, decimals: usize) -> String {
+fn format_decimal(value: f64, decimals: usize) -> String {
     let rounded = |decimals: usize| {
         let power = power_of_ten(decimals);
-        let scaled = value * power * (1.0 + TIE);
-        if scaled < WHOLE { (scaled + 0.5).floor() / power } else { value }
+        let scaled = value * power * (1.0 + TIE_TOLERANCE);
+        if scaled < MAX_EXACT_INTEGER { (scaled + 0.5).floor() / power } else { value }
     };
     let mut decimals = decimals;
     while value > 0.0 && rounded(decimals) == 0.0 {
         decimals += 1;
     }
     if power_of_ten(decimals).is_infinite() {
-        decimals = ALL_DECIMALS;
+        decimals = DOUBLE_DECIMALS;
     }
     let text = format!("{:.decimals$}", rounded(decimals));
     match text.contains('.') {
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ties_go_away_from_zero() {
+    fn ties_round_away_from_zero() {
         for (value, decimals, wanted) in [
             (53.975, 2, "53.98"),
             (9.525, 2, "9.53"),
@@ -153,7 +153,7 @@ mod tests {
             (1e20, 2, "100000000000000000000"),
             (0.1 + 0.2, 9, "0.3"),
         ] {
-            assert_eq!(decimal(value, decimals), wanted, "{value}");
+            assert_eq!(format_decimal(value, decimals), wanted, "{value}");
         }
     }
 
@@ -169,10 +169,10 @@ mod tests {
             (0.0, 2, "0"),
             (0.0, 0, "0"),
         ] {
-            assert_eq!(decimal(value, decimals), wanted, "{value}");
+            assert_eq!(format_decimal(value, decimals), wanted, "{value}");
         }
         for value in [1e-300, f64::MIN_POSITIVE, 5e-324] {
-            assert!(decimal(value, 2).starts_with("0.0"));
+            assert!(format_decimal(value, 2).starts_with("0.0"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! [`Precision`]: how many decimals the input carries of a length.
+//! [`LengthPrecision`]: how many decimals the input carries of a length.
 //!
 //! Each point of the model has a step, the resolution of its coordinates:
 //!
@@ -18,7 +18,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::{FITTED_OF_COORDINATE, ROUNDED_OF_COORDINATE};
+use crate::geometry::numbers::tolerance::{MAX_CIRCLE_FIT_OF_COORDINATE, MAX_ROUNDING_OF_COORDINATE};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};
@@ -26,14 +26,14 @@ use crate::surface::Cylinder;
 
 /// A point of the model or of a page file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measured {
+pub(crate) struct MeasuredPoint {
     /// Position, world.
     pub at: DVec3,
     /// Step of its coordinates, world; 0 in double precision.
     pub step: f64,
 }
 
-impl Measured {
+impl MeasuredPoint {
     /// A point with exact coordinates.
     pub fn exact(at: DVec3) -> Self {
         Self { at, step: 0.0 }
@@ -65,18 +65,18 @@ fn step_of(scene: &Scene, part: &Part) -> f64 {
 
 /// The number of decimals that the input carries of a length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Precision {
+pub(crate) struct LengthPrecision {
     /// Minus the exponent of the power of ten used for rounding.
     decimals: i32,
     /// Lengths up to this value cannot be distinguished from 0.
     noise: f64,
 }
 
-impl Precision {
+impl LengthPrecision {
     /// Precision of a length between two points along a direction.
-    pub fn between(ends: [Measured; 2], along: DVec3) -> Self {
+    pub fn between(ends: [MeasuredPoint; 2], along: DVec3) -> Self {
         let [a, b] = ends.map(|end| end.step);
-        let rounding = ROUNDED_OF_COORDINATE * largest(ends.map(|end| end.at));
+        let rounding = MAX_ROUNDING_OF_COORDINATE * largest_coordinate(ends.map(|end| end.at));
         // Half a step at both ends, summed over the three coordinates.
         let error = (a + b) / 2.0 * along.abs().element_sum() + rounding;
         let step = a.max(b);
@@ -88,7 +88,7 @@ impl Precision {
     /// Precision of a fitted radius, diameter or axis position.
     pub fn of_cylinder(cylinder: &Cylinder) -> Self {
         let largest = cylinder.point.abs().max_element().max(cylinder.radius);
-        let error = cylinder.spread.max(FITTED_OF_COORDINATE * largest);
+        let error = cylinder.spread.max(MAX_CIRCLE_FIT_OF_COORDINATE * largest);
         Self { decimals: -power_above(error), noise: error }
     }
 
@@ -109,7 +109,7 @@ impl Precision {
     }
 }
 
-fn largest(points: [DVec3; 2]) -> f64 {
+fn largest_coordinate(points: [DVec3; 2]) -> f64 {
     points.into_iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max)
 }
 
@@ -133,12 +133,12 @@ mod tests {
     use super::*;
 
     fn rounded(length: f64, from: f64, step: f64) -> f64 {
-        let end = |x: f64| Measured { at: DVec3::new(x, 0.0, 0.0), step };
-        Precision::between([end(from), end(from + length)], DVec3::X).rounded(length)
+        let end = |x: f64| MeasuredPoint { at: DVec3::new(x, 0.0, 0.0), step };
+        LengthPrecision::between([end(from), end(from + length)], DVec3::X).rounded(length)
     }
 
     #[test]
-    fn lengths_are_rounded_to_what_the_input_carries() {
+    fn lengths_are_rounded_to_the_precision_of_the_input() {
         for length in [53.975, 9.525, 20.125, 0.1, 1234.565, 7.0] {
             for from in [0.0, 3.7, -812.35] {
                 // The three lines test single precision, double precision, and decimals.
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn only_rounding_is_0() {
+    fn only_rounding_noise_becomes_0() {
         assert_eq!(rounded(1e-17, 0.3, 0.0), 0.0);
         assert_eq!(rounded(0.004, 0.0, 0.0), 0.004);
         assert_eq!(rounded(1e-6, 900.0, 1e-6), 1e-6);

@@ -7,9 +7,9 @@
 
 use glam::DVec3;
 
-use super::length_precision::{Measured, Precision};
-use crate::page::sheet::keys::sheet_keys::Measure;
-use crate::page::sheet::view::sheet_view::Sight;
+use super::length_precision::{LengthPrecision, MeasuredPoint};
+use crate::page::sheet::keys::sheet_keys::DimensionKind;
+use crate::page::sheet::view::sheet_view::SheetView;
 
 /// How lengths in a view relate to those of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,51 +25,51 @@ pub(crate) enum Foreshortening {
 /// The reason why a dimension is refused, and what to do.
 pub(crate) type Refusal = [&'static str; 2];
 
-pub(crate) const IN_EXPLODED: Refusal =
+pub(crate) const REFUSED_IN_EXPLODED_VIEW: Refusal =
     ["an exploded view has no dimensions, because its parts are moved", "name another view with `of`"];
 
-const NOT_ALONG_AXIS: Refusal = [
+const REFUSED_OFF_AXIS: Refusal = [
     "a pictorial view shows true lengths only along the axes of the model",
     "name points that differ only in x, y or z and leave out `measure`, or name a side view with `of`",
 ];
 
-const BEHIND: Refusal =
+const REFUSED_BEHIND_EACH_OTHER: Refusal =
     ["these two points lie behind each other in this view", "name another point, or another view with `of`"];
 
 /// Maximum distance of two points from a line along an axis, as a share of their distance.
-const ALONG: f64 = 1e-9;
+const MAX_OFF_AXIS_SHARE: f64 = 1e-9;
 
 /// The length that a dimension measures between two points in a view, in model units, with its precision.
 pub(crate) fn true_length(
-    ends: [Measured; 2],
-    measure: Measure,
-    sight: &Sight,
+    ends: [MeasuredPoint; 2],
+    measure: DimensionKind,
+    sight: &SheetView,
     foreshortening: Foreshortening,
-) -> Result<(f64, Precision), Refusal> {
+) -> Result<(f64, LengthPrecision), Refusal> {
     let [right, up, forward] = sight.axes();
     let between = ends[1].at - ends[0].at;
     let along = match (foreshortening, measure) {
-        (Foreshortening::Moved, _) => return Err(IN_EXPLODED),
-        (Foreshortening::Pictorial, _) => along_axis(ends, measure, [right, up]).ok_or(NOT_ALONG_AXIS)?,
-        (Foreshortening::None, Measure::Horizontal) => right,
-        (Foreshortening::None, Measure::Vertical) => up,
+        (Foreshortening::Moved, _) => return Err(REFUSED_IN_EXPLODED_VIEW),
+        (Foreshortening::Pictorial, _) => along_axis(ends, measure, [right, up]).ok_or(REFUSED_OFF_AXIS)?,
+        (Foreshortening::None, DimensionKind::Horizontal) => right,
+        (Foreshortening::None, DimensionKind::Vertical) => up,
         (Foreshortening::None, _) => {
-            (between - forward * between.dot(forward)).try_normalize().ok_or(BEHIND)?
+            (between - forward * between.dot(forward)).try_normalize().ok_or(REFUSED_BEHIND_EACH_OTHER)?
         }
     };
-    Ok((between.dot(along).abs(), Precision::between(ends, along)))
+    Ok((between.dot(along).abs(), LengthPrecision::between(ends, along)))
 }
 
 /// The axis of the model along which two points differ, if the dimension runs along it on the page.
-fn along_axis(ends: [Measured; 2], measure: Measure, [right, up]: [DVec3; 2]) -> Option<DVec3> {
+fn along_axis(ends: [MeasuredPoint; 2], measure: DimensionKind, [right, up]: [DVec3; 2]) -> Option<DVec3> {
     let between = ends[1].at - ends[0].at;
     let axis = DVec3::AXES[between.abs().max_position()];
     let aside = between - axis * between.dot(axis);
     let step = ends[0].step.max(ends[1].step);
-    let within = |off: f64| off <= (ALONG * between.length()).max(2.0 * step);
+    let within = |off: f64| off <= (MAX_OFF_AXIS_SHARE * between.length()).max(2.0 * step);
     let on_page = match measure {
-        Measure::Horizontal => within(between.dot(up).abs()),
-        Measure::Vertical => within(between.dot(right).abs()),
+        DimensionKind::Horizontal => within(between.dot(up).abs()),
+        DimensionKind::Vertical => within(between.dot(right).abs()),
         _ => true,
     };
     (between != DVec3::ZERO && within(aside.length()) && on_page).then_some(axis)

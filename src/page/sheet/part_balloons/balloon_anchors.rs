@@ -1,4 +1,4 @@
-//! [`anchors`]: for each item of the parts list, a point where it is visible in a view.
+//! [`find_anchors`]: for each item of the parts list, a point where it is visible in a view.
 //!
 //! The view is rasterised with a face id per pixel. A two-pass city-block distance transform gives the depth
 //! of each pixel inside the visible area of its part. The deepest pixel is the anchor.
@@ -6,22 +6,22 @@
 use kurbo::Point;
 
 use crate::mesh::Mesh;
-use crate::page::sheet::parts_list::parts_list_items::Item;
-use crate::page::sheet::view::sheet_view::Sight;
+use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
+use crate::page::sheet::view::sheet_view::SheetView;
 use crate::scene::Scene;
 use crate::view::View;
-use crate::view::raster::{FaceBuffer, Screen};
+use crate::view::raster::{FaceBuffer, PixelGrid};
 
 /// Pixels along the longer side of the rasterised view.
-const PIXELS: f64 = 700.0;
+const LONGER_SIDE_PX: f64 = 700.0;
 
 /// For each item a point on the page, well inside the visible area of its most visible part; `None` if no
 /// part is visible.
-pub(crate) fn anchors(sight: &Sight, scene: &Scene, items: &[Item]) -> Vec<Option<Point>> {
+pub(crate) fn find_anchors(sight: &SheetView, scene: &Scene, items: &[PartsListItem]) -> Vec<Option<Point>> {
     let mesh = Mesh::build(scene.to_soup());
-    let camera = sight.taken();
+    let camera = sight.view_camera();
     let view = View::new(&mesh, &camera);
-    let screen = Screen::of_side(&mesh, &view, PIXELS);
+    let screen = PixelGrid::of_side(&mesh, &view, LONGER_SIDE_PX);
     let buffer = FaceBuffer::new(&screen);
     let (columns, rows) = (screen.columns, screen.rows);
     let part = |pixel: usize| buffer.front(pixel).map(|face| mesh.face_part[face as usize].index());
@@ -55,7 +55,7 @@ pub(crate) fn anchors(sight: &Sight, scene: &Scene, items: &[Item]) -> Vec<Optio
             deepest[part] = Some(k);
         }
     }
-    let of = |item: &Item| {
+    let of = |item: &PartsListItem| {
         let best = item.parts.iter().copied().max_by(|a, b| counts[*a].cmp(&counts[*b]).then(b.cmp(a)))?;
         let pixel = deepest[best]?;
         let at = Point::new((pixel % columns) as f64 + 0.5, (pixel / columns) as f64 + 0.5);

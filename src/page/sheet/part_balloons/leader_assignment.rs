@@ -1,4 +1,4 @@
-//! [`leaders`]: assigns items to balloon slots around a view so that no two leaders cross.
+//! [`assign_leaders`]: assigns items to balloon slots around a view so that no two leaders cross.
 //!
 //! 1. Each anchor takes the nearest free slot.
 //! 2. Two leaders that cross are exchanged. By the triangle inequality this shortens both together, so the
@@ -11,28 +11,28 @@ use kurbo::{Point, Rect, Vec2};
 use robust::{Coord, orient2d};
 
 /// Radius of a balloon, and the clearance of leaders around it, mm.
-pub const RADIUS: f64 = 4.0;
-const CLEAR: f64 = 0.6;
+pub const BALLOON_RADIUS_MM: f64 = 4.0;
+const LEADER_CLEARANCE_MM: f64 = 0.6;
 
 /// Maximum number of slots on a border.
-const MOST_SLOTS: usize = 2000;
+const MAX_SLOTS: usize = 2000;
 
-/// The search stops after `PATIENCE` steps without a gain. A leader may not return to a slot for `BARRED`
+/// The search stops after `MAX_STEPS_WITHOUT_GAIN` steps without a gain. A leader may not return to a slot for `TABU_STEPS`
 /// steps.
-const PATIENCE: usize = 60;
-const BARRED: usize = 8;
+const MAX_STEPS_WITHOUT_GAIN: usize = 60;
+const TABU_STEPS: usize = 8;
 
 /// Maximum number of sweeps over all pairs of leaders.
-const MOST_SWEEPS: usize = 1000;
+const MAX_SWEEPS: usize = 1000;
 
 /// Slots for balloons on the border of a rectangle, clockwise from its upper left corner.
 ///
 /// `room` is the minimum length of border per slot, `begin` the offset of the first slot as a fraction of a
 /// slot.
 #[must_use]
-pub fn slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
+pub fn balloon_slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
     let around = 2.0 * (border.width() + border.height());
-    let number = ((around / room).floor() as usize).clamp(1, MOST_SLOTS);
+    let number = ((around / room).floor() as usize).clamp(1, MAX_SLOTS);
     let step = around / number as f64;
     let at = |along: f64| {
         let (w, h) = (border.width(), border.height());
@@ -51,7 +51,11 @@ pub fn slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
 /// Leaders do not cross or touch unless more than two points are collinear. Blocked pairs of anchor and slot
 /// are avoided if possible.
 #[must_use]
-pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
+pub fn assign_leaders(
+    anchors: &[Point],
+    slots: &[Point],
+    is_blocked: &dyn Fn(usize, usize) -> bool,
+) -> Vec<usize> {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
     let mut free = vec![true; slots.len()];
     let mut of: Vec<usize> = Vec::with_capacity(anchors.len());
@@ -72,7 +76,11 @@ pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, us
 /// Anchors and slots are matched in angular order around the centre of the anchors. The rotation with the
 /// shortest leaders wins. There must be at least as many slots as anchors.
 #[must_use]
-pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
+pub fn assign_radially(
+    anchors: &[Point],
+    slots: &[Point],
+    is_blocked: &dyn Fn(usize, usize) -> bool,
+) -> Vec<usize> {
     let count = anchors.len();
     let middle = anchors.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count.max(1) as f64;
     let angle = |p: &Point| crate::geometry::numbers::portable_math::atan2(p.y - middle.y, p.x - middle.x);
@@ -94,19 +102,19 @@ pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usi
     };
     let shortest = (0..places.len()).map(turned).min_by(|a, b| long(a).total_cmp(&long(b)));
     let mut of = shortest.unwrap_or_default();
-    clear(anchors, slots, is_blocked, &mut of);
+    resolve_conflicts(anchors, slots, is_blocked, &mut of);
     of
 }
 
 /// Exchanges slots while that shortens leaders, then resolves the conflicts that remain.
 fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
-    for _ in 0..MOST_SWEEPS {
+    for _ in 0..MAX_SWEEPS {
         let mut exchanged = false;
         for a in 0..of.len() {
             for b in 0..a {
                 let gain = length(a, of[a]) + length(b, of[b]) - length(a, of[b]) - length(b, of[a]);
-                let crosses = || cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]);
+                let crosses = || segments_meet([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]);
                 if gain > 1e-9 || gain > 0.0 && crosses() {
                     of.swap(a, b);
                     exchanged = true;
@@ -117,14 +125,19 @@ fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize
             break;
         }
     }
-    clear(anchors, slots, is_blocked, of);
+    resolve_conflicts(anchors, slots, is_blocked, of);
 }
 
 /// Moves leaders to other slots until no conflicts remain or the search stalls. A step may increase the
 /// number of conflicts; a tabu list prevents cycles.
 ///
 /// Source: F. Glover, "Tabu search, part I", ORSA Journal on Computing 1(3), 1989.
-fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
+fn resolve_conflicts(
+    anchors: &[Point],
+    slots: &[Point],
+    is_blocked: &dyn Fn(usize, usize) -> bool,
+    of: &mut [usize],
+) {
     let line = |k: usize, slot: usize| [anchors[k], slots[slot]];
     let long = |k: usize, slot: usize| (anchors[k] - slots[slot]).hypot2().sqrt();
     let mut holder: Vec<Option<usize>> = vec![None; slots.len()];
@@ -134,7 +147,7 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     // For each anchor and slot, the conflicts of that leader with all others.
     let faults_at = |k: usize, slot: usize, of: &[usize]| {
         let others = (0..of.len()).filter(|other| *other != k);
-        others.map(|other| between(line(k, slot), line(other, of[other]))).sum::<usize>()
+        others.map(|other| count_conflicts(line(k, slot), line(other, of[other]))).sum::<usize>()
             + usize::from(is_blocked(k, slot))
     };
     let row = |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, of)).collect::<Vec<usize>>();
@@ -146,7 +159,7 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     // The step until which an anchor may not return to a slot.
     let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
     let (mut step, mut found) = (0, 0);
-    while best.0 > 0 && step < found + PATIENCE {
+    while best.0 > 0 && step < found + MAX_STEPS_WITHOUT_GAIN {
         step += 1;
         // The move that leaves the fewest conflicts; ties go to the smaller increase in length.
         let mut next: Option<(usize, usize, f64, usize, usize)> = None;
@@ -156,10 +169,10 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
                 let (mut old, mut new) = (faults[k][from], faults[k][slot]);
                 let mut longer = long(k, slot) - long(k, from);
                 if let Some(other) = holder[slot] {
-                    old += faults[other][slot] - between(line(k, from), line(other, slot));
-                    new -= between(line(k, slot), line(other, slot));
-                    new += faults[other][from] - between(line(other, from), line(k, from));
-                    new += between(line(k, slot), line(other, from));
+                    old += faults[other][slot] - count_conflicts(line(k, from), line(other, slot));
+                    new -= count_conflicts(line(k, slot), line(other, slot));
+                    new += faults[other][from] - count_conflicts(line(other, from), line(k, from));
+                    new += count_conflicts(line(k, slot), line(other, from));
                     longer += long(other, from) - long(other, slot);
                 }
                 let is_better = next.is_none_or(|(its_new, its_old, length, ..)| {
@@ -179,12 +192,12 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
             [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten()
         {
             of[moved] = new;
-            barred[moved][old] = step + BARRED;
+            barred[moved][old] = step + TABU_STEPS;
             let [before, after] = [line(moved, old), line(moved, new)];
             for (k, row) in faults.iter_mut().enumerate().filter(|(k, _)| *k != moved) {
                 for (slot, faults) in row.iter_mut().enumerate() {
-                    *faults += between(line(k, slot), after);
-                    *faults -= between(line(k, slot), before);
+                    *faults += count_conflicts(line(k, slot), after);
+                    *faults -= count_conflicts(line(k, slot), before);
                 }
             }
         }
@@ -198,31 +211,31 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
 
 /// The number of conflicts between two leaders: a crossing, and each leader that passes through the other
 /// balloon.
-fn between([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
-    const NEAR: f64 = RADIUS + CLEAR;
-    let is_apart = a.x.max(b.x) + NEAR < c.x.min(d.x)
-        || c.x.max(d.x) + NEAR < a.x.min(b.x)
-        || a.y.max(b.y) + NEAR < c.y.min(d.y)
-        || c.y.max(d.y) + NEAR < a.y.min(b.y);
+fn count_conflicts([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
+    const MIN_LEADER_DISTANCE_MM: f64 = BALLOON_RADIUS_MM + LEADER_CLEARANCE_MM;
+    let is_apart = a.x.max(b.x) + MIN_LEADER_DISTANCE_MM < c.x.min(d.x)
+        || c.x.max(d.x) + MIN_LEADER_DISTANCE_MM < a.x.min(b.x)
+        || a.y.max(b.y) + MIN_LEADER_DISTANCE_MM < c.y.min(d.y)
+        || c.y.max(d.y) + MIN_LEADER_DISTANCE_MM < a.y.min(b.y);
     if is_apart {
         return 0;
     }
-    usize::from(cross([a, b], [c, d]))
-        + usize::from(runs_through([a, b], d))
-        + usize::from(runs_through([c, d], b))
+    usize::from(segments_meet([a, b], [c, d]))
+        + usize::from(passes_through_balloon([a, b], d))
+        + usize::from(passes_through_balloon([c, d], b))
 }
 
 /// Whether a leader passes through the circle of a balloon at `centre`, with clearance.
 #[must_use]
-pub fn runs_through([a, b]: [Point; 2], centre: Point) -> bool {
+pub fn passes_through_balloon([a, b]: [Point; 2], centre: Point) -> bool {
     let way = b - a;
     let share = ((centre - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (a + way * share - centre).hypot2().sqrt() < RADIUS + CLEAR
+    (a + way * share - centre).hypot2().sqrt() < BALLOON_RADIUS_MM + LEADER_CLEARANCE_MM
 }
 
 /// Whether two segments have a common point, by exact predicates.
 #[must_use]
-pub fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+pub fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let side = |p: Point, q: Point, r: Point| orient2d(coord(p), coord(q), coord(r));
     let [c_side, d_side] = [side(a, b, c), side(a, b, d)];
     if c_side > 0.0 && d_side > 0.0 || c_side < 0.0 && d_side < 0.0 {

@@ -1,4 +1,4 @@
-//! [`Shape`]: the shape of a part, compared with others up to a rotation and a translation.
+//! [`PartShape`]: the shape of a part, compared with others up to a rotation and a translation.
 //!
 //! Two shapes are congruent if a rigid motion maps each corner of one to a corner of the other, and the
 //! mapped faces cover the same surface.
@@ -16,24 +16,24 @@
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
-use crate::geometry::numbers::tolerance::{F32_STEP, ROUNDING_OF_LATTICE, ROUNDING_OF_SINGLE};
+use crate::geometry::numbers::tolerance::{F32_STEP, MAX_F32_ROUNDING_STEPS, MAX_LATTICE_ROUNDING_STEPS};
 use crate::scene::{Geometry, Part, Scene};
 
 /// Rounding error in double precision of a transformed corner and of a mean, as a share of the largest
 /// coordinate.
-const ROUNDING_OF_DOUBLE: f64 = 1e-12;
+const DOUBLE_ROUNDING_SHARE: f64 = 1e-12;
 
 /// Minimum distance of the first corner from the mean, as a share of the largest distance.
-const SHORT: f64 = 0.5;
+const MIN_FIRST_CORNER_SHARE: f64 = 0.5;
 
 /// Maximum number of corner comparisons for all candidates; shapes that need more count as different.
-const MOST_CHECKS: usize = 20_000_000;
+const MAX_CORNER_CHECKS: usize = 20_000_000;
 
 /// Maximum number of faces that are split along other diagonals.
-const MOST_FLIPPED: usize = 4000;
+const MAX_FLIPPED_FACES: usize = 4000;
 
 /// The shape of a part.
-pub(crate) struct Shape {
+pub(crate) struct PartShape {
     /// Geometry, and the Gram matrix of the axes. Parts that share both, and are mirrored alike, have the
     /// same shape.
     instance: (usize, DMat3),
@@ -49,13 +49,13 @@ pub(crate) struct Shape {
     rounding: f64,
 }
 
-impl Shape {
+impl PartShape {
     /// The shape of a part; `None` without faces.
     pub fn of(scene: &Scene, part: &Part) -> Option<Self> {
         let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
         let place = part.world_from_part;
-        let rounding = rounding(geometry, &place);
-        let mut grid = Grid::new(4.0 * rounding);
+        let rounding = file_rounding(geometry, &place);
+        let mut grid = CornerGrid::new(4.0 * rounding);
         let mut known: FxHashMap<u32, u32> = FxHashMap::default();
         let mut number = |p: u32| {
             *known.entry(p).or_insert_with(|| {
@@ -106,14 +106,14 @@ impl Shape {
             // All corners are on a line, so there are no faces.
             return true;
         }
-        let mut grid = Grid::new(16.0 * near);
+        let mut grid = CornerGrid::new(16.0 * near);
         other.corners.iter().for_each(|p| {
             grid.add(*p);
         });
         let apart = self.corners[first].distance(self.corners[second]);
         // The error of the first corner turns the shape and grows with the distance from the mean.
         let near_there = near * (2.0 + self.sorted.last().map_or(0.0, |most| most / self.far[first]));
-        let mut left = MOST_CHECKS;
+        let mut left = MAX_CORNER_CHECKS;
         for p in (0..other.corners.len()).filter(|p| (other.far[*p] - self.far[first]).abs() <= near) {
             for q in 0..other.corners.len() {
                 left = left.saturating_sub(1);
@@ -126,11 +126,11 @@ impl Shape {
                     return false;
                 }
                 let [from, to] = [(self, first, second), (other, p, q)].map(|(shape, first, second)| {
-                    frame(shape.corners[first] - shape.mean, shape.corners[second] - shape.mean)
+                    corner_frame(shape.corners[first] - shape.mean, shape.corners[second] - shape.mean)
                 });
                 let turn = to * from.transpose();
                 let brought = self.corners.iter().map(|p| other.mean + turn * (*p - self.mean));
-                let onto = onto(brought, &grid, near_there, &mut left);
+                let onto = match_corners(brought, &grid, near_there, &mut left);
                 if onto.is_some_and(|onto| same_faces(self, other, &onto, near_there)) {
                     return true;
                 }
@@ -143,7 +143,8 @@ impl Shape {
     fn rarest(&self, near: f64) -> Option<usize> {
         let most = self.sorted.last().copied().filter(|most| *most > near)?;
         let far = &self.far;
-        let mut order: Vec<usize> = (0..far.len()).filter(|k| far[*k] >= SHORT * most).collect();
+        let mut order: Vec<usize> =
+            (0..far.len()).filter(|k| far[*k] >= MIN_FIRST_CORNER_SHARE * most).collect();
         order.sort_by(|a, b| far[*a].total_cmp(&far[*b]).then(a.cmp(b)));
         let groups = order.chunk_by(|a, b| far[*b] - far[*a] <= near);
         groups.min_by(|a, b| a.len().cmp(&b.len()).then(far[b[0]].total_cmp(&far[a[0]])))?.first().copied()
@@ -151,7 +152,12 @@ impl Shape {
 }
 
 /// The corner at each point, all distinct; `None` if a point is on no free corner.
-fn onto(points: impl Iterator<Item = DVec3>, grid: &Grid, near: f64, left: &mut usize) -> Option<Vec<u32>> {
+fn match_corners(
+    points: impl Iterator<Item = DVec3>,
+    grid: &CornerGrid,
+    near: f64,
+    left: &mut usize,
+) -> Option<Vec<u32>> {
     let mut taken = vec![false; grid.corners.len()];
     points
         .map(|p| {
@@ -164,25 +170,25 @@ fn onto(points: impl Iterator<Item = DVec3>, grid: &Grid, near: f64, left: &mut 
 }
 
 /// Maximum shift of corners by the rounding of the file, world units.
-fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
+fn file_rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     let largest = geometry.positions.iter().fold(0.0_f64, |most, p| most.max(p.abs().max_element()));
-    let single = if geometry.single_precision { F32_STEP * largest * ROUNDING_OF_SINGLE } else { 0.0 };
-    let lattice = geometry.lattice_step * ROUNDING_OF_LATTICE;
+    let single = if geometry.single_precision { F32_STEP * largest * MAX_F32_ROUNDING_STEPS } else { 0.0 };
+    let lattice = geometry.lattice_step * MAX_LATTICE_ROUNDING_STEPS;
     let stretch =
         place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
     let world = largest * stretch + place.translation.abs().max_element();
-    single.max(lattice) * stretch + ROUNDING_OF_DOUBLE * world
+    single.max(lattice) * stretch + DOUBLE_ROUNDING_SHARE * world
 }
 
 /// An orthonormal frame: x along the first vector, z normal to both.
-fn frame(first: DVec3, second: DVec3) -> DMat3 {
+fn corner_frame(first: DVec3, second: DVec3) -> DMat3 {
     let x = first.normalize_or_zero();
     let z = x.cross(second).normalize_or_zero();
     DMat3::from_cols(x, z.cross(x), z)
 }
 
 /// Whether the mapped faces of one shape cover the same surface as those of the other.
-fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
+fn same_faces(one: &PartShape, other: &PartShape, to: &[u32], near: f64) -> bool {
     let key = |mut face: [u32; 3]| {
         face.sort_unstable();
         face
@@ -205,7 +211,7 @@ fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
         .copied()
         .filter(|face| left.get(&key(*face)).is_some_and(|count| *count > 0))
         .collect();
-    if mine.len().max(its.len()) > MOST_FLIPPED {
+    if mine.len().max(its.len()) > MAX_FLIPPED_FACES {
         return false;
     }
     let covered = |faces: &[[u32; 3]], by: &[[u32; 3]]| {
@@ -233,13 +239,13 @@ fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
 }
 
 /// Corners in a grid of cubic cells.
-struct Grid {
+struct CornerGrid {
     corners: Vec<DVec3>,
     cell: f64,
     cells: FxHashMap<[i64; 3], Vec<u32>>,
 }
 
-impl Grid {
+impl CornerGrid {
     fn new(cell: f64) -> Self {
         Self { corners: Vec::new(), cell: cell.max(f64::MIN_POSITIVE), cells: FxHashMap::default() }
     }
@@ -283,7 +289,7 @@ mod tests {
 
     /// A stepped wedge with moved corners, rounded to a number of decimals. `flipped` splits its faces along
     /// the other diagonals.
-    fn part(scene: &mut Scene, size: [f64; 3], place: DAffine3, decimals: i32, flipped: bool) -> Shape {
+    fn part(scene: &mut Scene, size: [f64; 3], place: DAffine3, decimals: i32, flipped: bool) -> PartShape {
         let [x, y, z] = size;
         let round = |p: f64| {
             let scale = 10.0_f64.powi(decimals);
@@ -311,7 +317,7 @@ mod tests {
         scene.geometries.push(Geometry { positions, triangles, lattice_step: step, ..Geometry::default() });
         let geometry = scene.geometries.len() - 1;
         let part = Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY };
-        Shape::of(scene, &part).unwrap()
+        PartShape::of(scene, &part).unwrap()
     }
 
     #[test]
@@ -350,8 +356,11 @@ mod tests {
             let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
             scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
             let geometry = scene.geometries.len() - 1;
-            Shape::of(&scene, &Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY })
-                .unwrap()
+            PartShape::of(
+                &scene,
+                &Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY },
+            )
+            .unwrap()
         };
         let [left, right, other] = [shape(1.0), shape(-1.0), shape(1.0)];
         assert!(left.equals(&other) && !left.equals(&right));

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::parts_list_items::Item;
+use super::parts_list_items::PartsListItem;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
@@ -16,7 +16,7 @@ use crate::style::{sheet_errors, toml_reader};
 /// A row of the file.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct Row {
+struct FileRow {
     /// Item number. Default: the next one.
     number: Option<String>,
     /// Pattern for the names of its parts. Default: the name.
@@ -31,12 +31,12 @@ struct Row {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct Rows {
-    item: Vec<toml::Spanned<Row>>,
+struct FileRows {
+    item: Vec<toml::Spanned<FileRow>>,
 }
 
 /// Column headings of CSV files with their synonyms; the key is first.
-const HEADINGS: [&[&str]; 6] = [
+const CSV_HEADINGS: [&[&str]; 6] = [
     &["number", "item", "no", "pos"],
     &["part", "parts", "node"],
     &["name", "description", "designation", "title"],
@@ -50,12 +50,17 @@ const HEADINGS: [&[&str]; 6] = [
 /// # Errors
 /// Returns an error if the file cannot be read, a key or heading is unknown, or a row without a quantity
 /// matches no part.
-pub(crate) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item>, Vec<String>), Error> {
+pub(crate) fn read(
+    path: &Path,
+    scene: &Scene,
+    own: &[PartsListItem],
+) -> Result<(Vec<PartsListItem>, Vec<String>), Error> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         Error::new(format!("cannot be read: {error}")).in_file(path).remedy("check the path")
     })?;
     let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    let rows = if is_toml { of_toml(&text) } else { of_csv(&text) }.map_err(|error| error.in_file(path))?;
+    let rows = if is_toml { rows_of_toml(&text) } else { rows_of_csv(&text) }
+        .map_err(|error| error.in_file(path))?;
     let mut items = Vec::new();
     let mut taken = vec![false; scene.parts.len()];
     for (k, (place, row)) in rows.into_iter().enumerate() {
@@ -76,7 +81,7 @@ pub(crate) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item
         let material = row.material.unwrap_or_else(|| {
             parts.first().and_then(of_part).map(|item| item.material.clone()).unwrap_or_default()
         });
-        items.push(Item {
+        items.push(PartsListItem {
             number: row.number.unwrap_or_else(|| (k + 1).to_string()),
             count: row.quantity.unwrap_or(parts.len()),
             name: row.name,
@@ -90,14 +95,15 @@ pub(crate) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item
     Ok((items, left))
 }
 
-fn of_toml(text: &str) -> Result<Vec<(String, Row)>, Error> {
-    let rows: Rows = toml_reader::from_text(text).map_err(|error| sheet_errors::in_sheet(text, &error))?;
+fn rows_of_toml(text: &str) -> Result<Vec<(String, FileRow)>, Error> {
+    let rows: FileRows =
+        toml_reader::from_text(text).map_err(|error| sheet_errors::in_sheet(text, &error))?;
     let line = |at: usize| text.get(..at).map_or(0, |before| before.matches('\n').count()) + 1;
-    let placed = |row: toml::Spanned<Row>| (format!("line {}", line(row.span().start)), row.into_inner());
+    let placed = |row: toml::Spanned<FileRow>| (format!("line {}", line(row.span().start)), row.into_inner());
     Ok(rows.item.into_iter().map(placed).collect())
 }
 
-fn of_csv(text: &str) -> Result<Vec<(String, Row)>, Error> {
+fn rows_of_csv(text: &str) -> Result<Vec<(String, FileRow)>, Error> {
     let text = text.trim_start_matches('\u{feff}');
     let head = text.lines().next().unwrap_or_default();
     let separator = [';', '\t', ','].into_iter().max_by_key(|c| head.matches(*c).count()).unwrap_or(',');
@@ -106,8 +112,8 @@ fn of_csv(text: &str) -> Result<Vec<(String, Row)>, Error> {
     let mut columns = Vec::new();
     for heading in &headings {
         let word = heading.trim().to_lowercase();
-        let key = HEADINGS.iter().position(|names| names.contains(&word.as_str()));
-        let known = HEADINGS.map(|names| names[0]);
+        let key = CSV_HEADINGS.iter().position(|names| names.contains(&word.as_str()));
+        let known = CSV_HEADINGS.map(|names| names[0]);
         columns.push(key.ok_or_else(|| {
             let near = sheet_errors::nearest(&word, &known).map(|near| format!("did you mean `{near}`?"));
             Error::new(format!("there is no column `{}`", heading.trim()))
@@ -118,7 +124,7 @@ fn of_csv(text: &str) -> Result<Vec<(String, Row)>, Error> {
     let mut rows = Vec::new();
     for (line, cells) in records.filter(|(_, cells)| cells.iter().any(|cell| !cell.trim().is_empty())) {
         let place = format!("line {line}");
-        let mut row = Row::default();
+        let mut row = FileRow::default();
         for (key, cell) in columns.iter().zip(&cells) {
             let cell = cell.trim();
             let told = || Some(cell.to_owned()).filter(|cell| !cell.is_empty());
@@ -184,13 +190,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_may_stand_in_quotes() {
+    fn csv_cells_may_be_quoted() {
         let text = "name;remark\nbolt;\"M6; \"\"long\"\"\"\n\nnut;\n";
-        let rows = of_csv(text).unwrap();
+        let rows = rows_of_csv(text).unwrap();
         assert_eq!(rows.len(), 2);
         assert_eq!((rows[0].0.as_str(), rows[0].1.remark.as_str()), ("line 2", "M6; \"long\""));
         assert_eq!((rows[1].0.as_str(), rows[1].1.name.as_str()), ("line 4", "nut"));
-        assert!(of_csv("nam\n").is_err() && of_csv("name,qty\na,b\n").is_err());
-        assert!(of_csv("").unwrap().is_empty());
+        assert!(rows_of_csv("nam\n").is_err() && rows_of_csv("name,qty\na,b\n").is_err());
+        assert!(rows_of_csv("").unwrap().is_empty());
     }
 }

@@ -1,16 +1,16 @@
-//! [`items`]: the parts list of a scene, with equal parts counted as one item.
+//! [`parts_list_items`]: the parts list of a scene, with equal parts counted as one item.
 //!
 //! Parts are compared only with items of the same geometry or the same name, so the exact comparison of
 //! shapes is rare.
 
 use std::collections::BTreeMap;
 
-use super::congruence::Shape;
+use super::congruence::PartShape;
 use crate::scene::Scene;
 
 /// An item of a parts list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Item {
+pub struct PartsListItem {
     /// Item number.
     pub number: String,
     /// Quantity.
@@ -21,7 +21,7 @@ pub struct Item {
     pub material: String,
     /// Remark; empty unless the list comes from a file.
     pub remark: String,
-    /// Parts of the item, as indices into [`Scene::parts`].
+    /// Parts of the item, as indices into [`Scene::split_by_ink`].
     pub parts: Vec<usize>,
 }
 
@@ -31,14 +31,14 @@ pub struct Item {
 /// a name. Names may differ by a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Mirror images are
 /// different items.
 #[must_use]
-pub fn items(scene: &Scene) -> Vec<Item> {
+pub fn parts_list_items(scene: &Scene) -> Vec<PartsListItem> {
     // Items of each geometry and each name, and the shape of each item's first part.
     let mut of_geometry: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut of_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    let mut shapes: Vec<Shape> = Vec::new();
-    let mut items: Vec<Item> = Vec::new();
+    let mut shapes: Vec<PartShape> = Vec::new();
+    let mut items: Vec<PartsListItem> = Vec::new();
     for (number, part) in scene.parts.iter().enumerate() {
-        let Some(shape) = Shape::of(scene, part) else { continue };
+        let Some(shape) = PartShape::of(scene, part) else { continue };
         let material = scene.geometry_of(part).and_then(|shape| shape.material_of(0));
         let material = material.and_then(|material| scene.materials.get(material as usize));
         let material = material.map(|material| material.name.clone()).unwrap_or_default();
@@ -48,7 +48,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
         let known =
             known.into_iter().find(|item| items[*item].material == material && shapes[*item].equals(&shape));
         let item = known.unwrap_or_else(|| {
-            items.push(Item {
+            items.push(PartsListItem {
                 number: (items.len() + 1).to_string(),
                 count: 0,
                 name: part.name.clone(),
@@ -69,14 +69,14 @@ pub fn items(scene: &Scene) -> Vec<Item> {
     for item in &mut items {
         item.count = item.parts.len();
         if item.parts.len() > 1 {
-            item.name = common(item.parts.iter().map(|part| &*scene.parts[*part].name));
+            item.name = common_name(item.parts.iter().map(|part| &*scene.parts[*part].name));
         }
     }
     items
 }
 
 /// The common name of several parts: without numbers at the end, and without the numbers that differ.
-fn common<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> String {
+fn common_name<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> String {
     let first = names.clone().next().unwrap_or_default();
     if names.clone().all(|name| stem(name) == stem(first)) {
         return stem(first).to_owned();
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_at_the_end_are_no_names() {
+    fn trailing_numbers_are_not_part_of_names() {
         for (name, own) in [
             ("bolt.001", "bolt"),
             ("bolt_M6x25_1", "bolt_M6x25"),

@@ -1,4 +1,4 @@
-//! [`Sight`]: a view on a sheet, with its direction, extent, scale and position.
+//! [`SheetView`]: a view on a sheet, with its direction, extent, scale and position.
 //!
 //! A view is orthographic. Its extent is the bounding box of the model's points along the axes of the camera.
 //! Scale and position are set by the arrangement.
@@ -6,17 +6,17 @@
 use glam::{DVec2, DVec3};
 use kurbo::{Affine, Point, Rect};
 
-use crate::drawing::{Drawing, Item, Page, Unit};
+use crate::drawing::{Drawing, Page, PlacedDrawing, Unit};
 use crate::error::Error;
 use crate::pipeline::Prepared;
 use crate::scene::{Camera, Projection};
 
 /// Margin around a view for the width of its lines, mm.
-pub(crate) const RIM: f64 = 1.5;
+pub(crate) const LINE_MARGIN_MM: f64 = 1.5;
 
 /// A view on a sheet.
 #[derive(Debug, Clone)]
-pub(crate) struct Sight {
+pub(crate) struct SheetView {
     /// Name of the view.
     pub name: String,
     /// Title above the view.
@@ -33,7 +33,7 @@ pub(crate) struct Sight {
     pub corner: Point,
 }
 
-impl Sight {
+impl SheetView {
     /// A view of some points along the direction of a camera.
     pub fn new(name: &str, camera: Camera, middle: DVec3, points: &[DVec3]) -> Self {
         let [right, up, _] = camera.axes();
@@ -82,11 +82,11 @@ impl Sight {
     }
 
     /// The camera of the view. Its frame is the view on paper with a margin, in mm.
-    pub fn taken(&self) -> Camera {
+    pub fn view_camera(&self) -> Camera {
         let [right, up, forward] = self.axes();
         let centre = (self.low + self.high) / 2.0;
         let target = self.middle + right * centre.x + up * centre.y;
-        let [w, h] = self.size(self.unit).map(|side| side + 2.0 * RIM);
+        let [w, h] = self.size(self.unit).map(|side| side + 2.0 * LINE_MARGIN_MM);
         Camera {
             eye: target - forward * (self.high - self.low).length().max(f64::MIN_POSITIVE),
             target,
@@ -100,17 +100,20 @@ impl Sight {
 
     /// Maps the camera's frame to the page.
     pub fn place(&self) -> Affine {
-        Affine::translate((self.corner.x - RIM, self.corner.y - RIM))
+        Affine::translate((self.corner.x - LINE_MARGIN_MM, self.corner.y - LINE_MARGIN_MM))
     }
 
     /// Draws the view and returns it with its warnings.
     ///
     /// # Errors
     /// Returns an error if there is nothing to draw.
-    pub fn item(&self, prepared: &Prepared) -> Result<(Item, Vec<String>), Error> {
-        let camera = self.taken();
+    pub fn item(&self, prepared: &Prepared) -> Result<(PlacedDrawing, Vec<String>), Error> {
+        let camera = self.view_camera();
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Mm, background: None };
         let (drawing, report): (Drawing, _) = prepared.draw(&camera, page, None)?;
-        Ok((Item { name: self.name.clone(), drawing, place: self.place(), clip: None }, report.warnings))
+        Ok((
+            PlacedDrawing { name: self.name.clone(), drawing, place: self.place(), clip: None },
+            report.warnings,
+        ))
     }
 }

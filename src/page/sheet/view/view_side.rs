@@ -1,11 +1,11 @@
-//! [`Told`]: a length along one side of a view.
+//! [`SideLength`]: a length along one side of a view.
 
 use kurbo::{Point, Vec2};
 
 /// A side of a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Side {
+pub enum ViewSide {
     /// The left side.
     Left,
     /// Above the view.
@@ -16,7 +16,7 @@ pub enum Side {
     Below,
 }
 
-impl Side {
+impl ViewSide {
     /// All sides.
     pub const ALL: [Self; 4] = [Self::Left, Self::Above, Self::Right, Self::Below];
 
@@ -40,16 +40,16 @@ impl Side {
 
 /// A length along a side of a view.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub struct SideLength {
     /// Its two points, page mm.
     pub ends: [Point; 2],
     /// The side of the view.
-    pub side: Side,
+    pub side: ViewSide,
     /// The text of the dimension.
     pub text: String,
 }
 
-impl Told {
+impl SideLength {
     /// Its extent along the side, in rising order: x on horizontal sides, y on vertical ones.
     #[must_use]
     pub fn span(&self) -> [f64; 2] {

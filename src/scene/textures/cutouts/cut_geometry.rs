@@ -1,16 +1,16 @@
-//! [`Rebuilt`]: assembles a geometry from whole triangles and pieces of cut ones.
+//! [`GeometryBuilder`]: assembles a geometry from whole triangles and pieces of cut ones.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::triangle_cut::{Pieces, Place};
+use super::triangle_cut::{PieceVertex, TrianglePieces};
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
-const NONE: u32 = u32::MAX;
+const NO_INDEX: u32 = u32::MAX;
 
 /// A geometry under construction.
-pub(crate) struct Rebuilt<'a> {
+pub(crate) struct GeometryBuilder<'a> {
     from: &'a Geometry,
     to: Geometry,
     /// Original triangle of each new one.
@@ -19,7 +19,7 @@ pub(crate) struct Rebuilt<'a> {
     on_sides: FxHashMap<([u32; 2], u64), u32>,
 }
 
-impl<'a> Rebuilt<'a> {
+impl<'a> GeometryBuilder<'a> {
     /// Starts with the vertices and wires of a geometry, without triangles.
     pub fn of(from: &'a Geometry) -> Self {
         let to = Geometry {
@@ -48,18 +48,19 @@ impl<'a> Rebuilt<'a> {
 
     /// Adds the pieces of a triangle. Each side comes with its crossings (bits of the positions along it) and
     /// its direction.
-    pub fn add(&mut self, triangle: usize, pieces: &Pieces, sides: [(&Vec<u64>, bool); 3]) {
+    pub fn add(&mut self, triangle: usize, pieces: &TrianglePieces, sides: [(&Vec<u64>, bool); 3]) {
         let from = self.from;
         let corners = from.triangles[triangle];
-        let shares: Vec<[f64; 3]> = pieces.places.iter().map(|place| shares_of(*place, sides)).collect();
+        let shares: Vec<[f64; 3]> =
+            pieces.places.iter().map(|place| barycentric_shares(*place, sides)).collect();
         let vertices: Vec<u32> = pieces
             .places
             .iter()
             .zip(&shares)
             .map(|(place, shares)| match *place {
-                Place::Corner(k) => corners[usize::from(k)],
-                Place::Inside(_) => self.vertex(corners, *shares),
-                Place::Side(k, number) => {
+                PieceVertex::Corner(k) => corners[usize::from(k)],
+                PieceVertex::Inside(_) => self.vertex(corners, *shares),
+                PieceVertex::Side(k, number) => {
                     let (first, second) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);
                     let (crossings, is_forward) = sides[usize::from(k)];
                     let ends = if is_forward { [first, second] } else { [second, first] };
@@ -127,18 +128,18 @@ impl<'a> Rebuilt<'a> {
     /// no attribute.
     fn blended(
         &mut self,
-        places: &[Place],
+        places: &[PieceVertex],
         shares: &[[f64; 3]],
         numbers: [u32; 3],
         corners: [Option<DVec3>; 3],
         add: impl Fn(&mut Geometry, DVec3) -> usize,
     ) -> Vec<u32> {
-        let of_place = |(place, shares): (&Place, &[f64; 3])| match (*place, corners) {
-            (Place::Corner(k), _) => numbers[usize::from(k)],
+        let of_place = |(place, shares): (&PieceVertex, &[f64; 3])| match (*place, corners) {
+            (PieceVertex::Corner(k), _) => numbers[usize::from(k)],
             (_, [Some(a), Some(b), Some(c)]) => {
                 add(&mut self.to, a * shares[0] + b * shares[1] + c * shares[2]) as u32 - 1
             }
-            _ => NONE,
+            _ => NO_INDEX,
         };
         places.iter().zip(shares).map(of_place).collect()
     }
@@ -150,12 +151,12 @@ impl<'a> Rebuilt<'a> {
 }
 
 /// Barycentric coordinates of a place.
-fn shares_of(place: Place, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
+fn barycentric_shares(place: PieceVertex, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
     let mut shares = [0.0; 3];
     match place {
-        Place::Inside(inside) => return inside,
-        Place::Corner(k) => shares[usize::from(k)] = 1.0,
-        Place::Side(k, number) => {
+        PieceVertex::Inside(inside) => return inside,
+        PieceVertex::Corner(k) => shares[usize::from(k)] = 1.0,
+        PieceVertex::Side(k, number) => {
             let (crossings, is_forward) = sides[usize::from(k)];
             let part = f64::from_bits(crossings[number as usize]);
             let part = if is_forward { part } else { 1.0 - part };
@@ -167,10 +168,10 @@ fn shares_of(place: Place, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
 }
 
 /// Whether a place is on the side after a corner.
-fn lies_on(place: Place, side: usize) -> bool {
+fn lies_on(place: PieceVertex, side: usize) -> bool {
     match place {
-        Place::Corner(k) => usize::from(k) == side || usize::from(k) == (side + 1) % 3,
-        Place::Side(k, _) => usize::from(k) == side,
-        Place::Inside(_) => false,
+        PieceVertex::Corner(k) => usize::from(k) == side || usize::from(k) == (side + 1) % 3,
+        PieceVertex::Side(k, _) => usize::from(k) == side,
+        PieceVertex::Inside(_) => false,
     }
 }

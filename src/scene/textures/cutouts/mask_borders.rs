@@ -1,21 +1,21 @@
-//! [`trace`]: traces the borders between opaque and transparent texels of a mask, in the texel plane.
+//! [`trace_mask_borders`]: traces the borders between opaque and transparent texels of a mask, in the texel plane.
 
-use super::opacity_mask::Mask;
-use crate::geometry::plane::marching_squares::level_lines;
-use crate::scene::textures::texel_plane::Traced;
+use super::opacity_mask::OpacityMask;
+use crate::geometry::plane::marching_squares::marching_squares;
+use crate::scene::textures::texel_plane::TracedBorders;
 
 /// Maximum deviation of a segment from the curved border, as a fraction of its length.
-const STRAIGHT: f64 = 1e-3;
+const MAX_CURVE_ERROR_TEXELS: f64 = 1e-3;
 
 /// Maximum number of opaque to transparent transitions between texels.
-const MOST_CROSSINGS: usize = 1 << 22;
+const MAX_CROSSINGS: usize = 1 << 22;
 
 /// Traces the borders of a mask, with opaque on their left (x to the right, y upwards); `None` if there are
 /// too many.
-pub(crate) fn trace(mask: &Mask) -> Option<Traced> {
+pub(crate) fn trace_mask_borders(mask: &OpacityMask) -> Option<TracedBorders> {
     let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
-    let lines = level_lines(&|i, j| mask.texel(i, j), reach, STRAIGHT, MOST_CROSSINGS)?;
-    Some(Traced { lines, parted: Vec::new(), reach, periods })
+    let lines = marching_squares(&|i, j| mask.texel(i, j), reach, MAX_CURVE_ERROR_TEXELS, MAX_CROSSINGS)?;
+    Some(TracedBorders { lines, parted: Vec::new(), reach, periods })
 }
 
 #[cfg(test)]
@@ -24,10 +24,10 @@ mod tests {
 
     use super::*;
     use crate::scene::material::Wrap;
-    use crate::scene::textures::texel_plane::texel_borders::Outline;
+    use crate::scene::textures::texel_plane::texel_borders::BorderIndex;
 
-    fn outline(mask: &Mask, tolerance: f64) -> Outline {
-        Outline::new(&trace(mask).unwrap(), tolerance)
+    fn outline(mask: &OpacityMask, tolerance: f64) -> BorderIndex {
+        BorderIndex::new(&trace_mask_borders(mask).unwrap(), tolerance)
     }
 
     fn disc(size: usize, radius: f64) -> Vec<u8> {
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn a_round_hole_is_round() {
-        let mask = Mask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
+        let mask = OpacityMask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
         let outline = outline(&mask, 0.02);
         let middle = DVec2::splat(31.5);
         assert!(outline.segments.len() > 40 && outline.segments.len() < 240, "{}", outline.segments.len());
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn borders_go_on_over_the_seam_or_beyond() {
         // The left half is opaque.
-        let half = |wrap| Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
+        let half = |wrap| OpacityMask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
         let repeated = outline(&half(Wrap::Repeat), 0.1);
         assert_eq!(repeated.segments.len(), 2);
         assert!(repeated.segments.iter().all(|[a, b]| (a.y - b.y).abs() == 4.0));
@@ -68,14 +68,14 @@ mod tests {
 
     #[test]
     fn a_picture_of_one_column_has_borders_along_it() {
-        let mask = Mask::of_opacities(1, vec![0, 0, 255, 255], Wrap::Clamp);
+        let mask = OpacityMask::of_opacities(1, vec![0, 0, 255, 255], Wrap::Clamp);
         let near = outline(&mask, 0.1).near(DVec2::new(-0.3, 0.0), DVec2::new(0.2, 3.0)).unwrap();
         assert!(!near.is_empty() && near.iter().flatten().all(|p| p.y == 1.5));
     }
 
     #[test]
     fn texture_coordinates_that_run_on_for_ever_are_too_many() {
-        let outline = outline(&Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
+        let outline = outline(&OpacityMask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
         assert!(outline.near(DVec2::new(0.0, 0.0), DVec2::new(9e8, 1e-3)).is_none());
     }
 }

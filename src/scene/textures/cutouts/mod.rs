@@ -23,15 +23,15 @@ use crate::parallel::prelude::*;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-use self::cut_geometry::Rebuilt;
-use self::opacity_mask::{Mask, Masked};
-use self::triangle_cut::{Pieces, TexelTriangle};
-use crate::scene::textures::texel_plane::side_crossings::{TexelSide, in_order, turn};
-use crate::scene::textures::texel_plane::texel_borders::{Outline, Segment};
+use self::cut_geometry::GeometryBuilder;
+use self::opacity_mask::{CutExtent, OpacityMask};
+use self::triangle_cut::{TexelTriangle, TrianglePieces};
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, doubled_area, sort_crossings};
+use crate::scene::textures::texel_plane::texel_borders::{BorderIndex, BorderSegment};
 use crate::scene::{Geometry, Scene, Warnings};
 
 /// A scene without the transparent parts of its materials.
-pub struct Cut<'a> {
+pub struct CutScene<'a> {
     /// The remaining scene; borrowed if nothing is cut away.
     pub scene: Cow<'a, Scene>,
     /// For each geometry that was cut, the original triangle of each new one.
@@ -42,27 +42,27 @@ pub struct Cut<'a> {
 
 /// Removes the transparent parts of materials from a scene.
 #[must_use]
-pub fn cut(scene: &Scene) -> Cut<'_> {
+pub fn cut_out(scene: &Scene) -> CutScene<'_> {
     let mut warnings = Warnings::default();
-    let read: Vec<_> = scene.materials.par_iter().map(|material| Masked::of(scene, material)).collect();
+    let read: Vec<_> = scene.materials.par_iter().map(|material| CutExtent::of(scene, material)).collect();
     let mut stencils = Vec::with_capacity(read.len());
     for (id, (masked, material)) in read.into_iter().zip(&scene.materials).enumerate() {
         let stencil = match masked {
-            Ok(Masked::Nowhere) => Ok(Stencil::Whole),
-            Ok(Masked::Everywhere) => Ok(Stencil::Clear),
-            Ok(Masked::Where(mask)) => match border_detail::outline(scene, id, &mask) {
-                Some(outline) => Ok(Stencil::Cut(Box::new((mask, outline)))),
+            Ok(CutExtent::Nowhere) => Ok(MaterialStencil::Whole),
+            Ok(CutExtent::Everywhere) => Ok(MaterialStencil::Clear),
+            Ok(CutExtent::Where(mask)) => match border_detail::border_index(scene, id, &mask) {
+                Some(outline) => Ok(MaterialStencil::Cut(Box::new((mask, outline)))),
                 None => Err("its picture has too much detail".to_owned()),
             },
             Err(message) => Err(message),
         };
         stencils.push(stencil.unwrap_or_else(|message| {
             warnings.note(format!("nothing is cut out of the material `{}`: {message}", material.name));
-            Stencil::Whole
+            MaterialStencil::Whole
         }));
     }
-    if stencils.iter().all(|stencil| matches!(stencil, Stencil::Whole)) {
-        return Cut { scene: Cow::Borrowed(scene), origins: Vec::new(), warnings };
+    if stencils.iter().all(|stencil| matches!(stencil, MaterialStencil::Whole)) {
+        return CutScene { scene: Cow::Borrowed(scene), origins: Vec::new(), warnings };
     }
     let mut cut = scene.clone();
     let mut origins = Vec::with_capacity(cut.geometries.len());
@@ -79,18 +79,18 @@ pub fn cut(scene: &Scene) -> Cut<'_> {
     if too_many > 0 {
         warnings.note(format!("{too_many} triangles show too much of a cut-out picture to be cut along it"));
     }
-    Cut { scene: Cow::Owned(cut), origins, warnings }
+    CutScene { scene: Cow::Owned(cut), origins, warnings }
 }
 
 /// Treatment of a material's triangles: kept, removed, or cut along the borders of a mask.
-enum Stencil {
+enum MaterialStencil {
     Whole,
     Clear,
-    Cut(Box<(Mask, Outline)>),
+    Cut(Box<(OpacityMask, BorderIndex)>),
 }
 
 /// Corners of a triangle in the texel plane; `None` if it has no valid texture coordinates.
-fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2; 3]> {
+fn texels_of(geometry: &Geometry, triangle: usize, mask: &OpacityMask) -> Option<[DVec2; 3]> {
     let [a, b, c] =
         geometry.corner_uvs.get(triangle)?.map(|uv| mask.texels.place(*geometry.uvs.get(uv as usize)?));
     Some([a?, b?, c?])
@@ -100,46 +100,46 @@ fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2
 type SideKey = [[u64; 3]; 2];
 
 /// Classification of a triangle against the mask, independent of its neighbours.
-enum Look<'a> {
+enum TriangleCoverage<'a> {
     Whole,
     Gone,
-    Crossed(Box<Crossed<'a>>),
+    Crossed(Box<CrossedTriangle<'a>>),
     /// Too many borders to cut along.
     TooMany,
 }
 
 /// A triangle that borders pass through.
-struct Crossed<'a> {
-    mask: &'a Mask,
+struct CrossedTriangle<'a> {
+    mask: &'a OpacityMask,
     corners: [DVec2; 3],
     sides: [TexelSide; 3],
-    borders: Vec<Segment>,
+    borders: Vec<BorderSegment>,
     /// Positions of the crossings on each side, 0 to 1.
     parts: [Vec<f64>; 3],
 }
 
 /// Cuts a geometry. Returns the new geometry with the original triangle of each new one, or `None` if nothing
 /// is cut away; and the number of triangles that could not be cut.
-fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry, Vec<u32>)>, usize) {
+fn cut_geometry(geometry: &Geometry, stencils: &[MaterialStencil]) -> (Option<(Geometry, Vec<u32>)>, usize) {
     let stencil = |triangle: usize| {
         let material = geometry.material_of(triangle).and_then(|id| stencils.get(id as usize));
-        material.unwrap_or(&Stencil::Whole)
+        material.unwrap_or(&MaterialStencil::Whole)
     };
     let count = geometry.triangles.len();
     let is_sound = geometry.triangles.as_flattened().iter().all(|v| (*v as usize) < geometry.positions.len());
-    if !is_sound || (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
+    if !is_sound || (0..count).all(|triangle| matches!(stencil(triangle), MaterialStencil::Whole)) {
         return (None, 0);
     }
     // Triangles that show the same part of a picture, such as the leaves of a tree, are classified and cut
     // once.
-    let shows = alike((0..count).map(|triangle| shown(geometry, triangle, stencil(triangle))));
-    let looks: Vec<Look> = shows
+    let shows = group_equal((0..count).map(|triangle| texel_key(geometry, triangle, stencil(triangle))));
+    let looks: Vec<TriangleCoverage> = shows
         .firsts
         .par_iter()
         .map(|triangle| match stencil(*triangle) {
-            Stencil::Whole => Look::Whole,
-            Stencil::Clear => Look::Gone,
-            Stencil::Cut(cut) => look(geometry, *triangle, &cut.0, &cut.1),
+            MaterialStencil::Whole => TriangleCoverage::Whole,
+            MaterialStencil::Clear => TriangleCoverage::Gone,
+            MaterialStencil::Cut(cut) => classify_triangle(geometry, *triangle, &cut.0, &cut.1),
         })
         .collect();
     let look_of = |triangle: usize| &looks[shows.kind[triangle] as usize];
@@ -149,8 +149,8 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
         side_keys(geometry, triangle)
             .map(|(key, is_forward)| (crossings.get(&key).unwrap_or(&none), is_forward))
     };
-    let cut_like = alike((0..count).map(|triangle| (shows.kind[triangle], of_sides(triangle))));
-    let pieces: Vec<Option<Pieces>> = cut_like
+    let cut_like = group_equal((0..count).map(|triangle| (shows.kind[triangle], of_sides(triangle))));
+    let pieces: Vec<Option<TrianglePieces>> = cut_like
         .firsts
         .par_iter()
         .map(|triangle| {
@@ -159,9 +159,9 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
                 .map(|(crossings, _)| crossings.iter().map(|bits| f64::from_bits(*bits)).collect::<Vec<_>>());
             let crossings = crossings.each_ref().map(Vec::as_slice);
             match look_of(*triangle) {
-                Look::Gone => Some(Pieces::default()),
-                Look::Crossed(crossed) => {
-                    let Crossed { mask, corners, sides, borders, .. } = crossed.as_ref();
+                TriangleCoverage::Gone => Some(TrianglePieces::default()),
+                TriangleCoverage::Crossed(crossed) => {
+                    let CrossedTriangle { mask, corners, sides, borders, .. } = crossed.as_ref();
                     TexelTriangle { corners: *corners, sides: *sides, crossings }.cut(borders, Some(mask))
                 }
                 _ if crossings.iter().all(|crossings| crossings.is_empty()) => None,
@@ -174,7 +174,7 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
             }
         })
         .collect();
-    let mut rebuilt = Rebuilt::of(geometry);
+    let mut rebuilt = GeometryBuilder::of(geometry);
     for triangle in 0..count {
         match &pieces[cut_like.kind[triangle] as usize] {
             None => rebuilt.keep(triangle),
@@ -182,9 +182,9 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
         }
     }
     let left_whole = |triangle: &usize| match look_of(*triangle) {
-        Look::TooMany => true,
-        Look::Crossed(_) => pieces[cut_like.kind[*triangle] as usize].is_none(),
-        Look::Whole | Look::Gone => false,
+        TriangleCoverage::TooMany => true,
+        TriangleCoverage::Crossed(_) => pieces[cut_like.kind[*triangle] as usize].is_none(),
+        TriangleCoverage::Whole | TriangleCoverage::Gone => false,
     };
     let too_many = (0..count).filter(left_whole).count();
     (Some(rebuilt.done()), too_many)
@@ -192,17 +192,17 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
 
 /// Key of the part of a picture that a triangle shows: material, texture coordinates, and the direction of
 /// its sides. `None` if it does not depend on a picture.
-type Shown = Option<(u32, [[u32; 2]; 3], [bool; 3])>;
+type TexelKey = Option<(u32, [[u32; 2]; 3], [bool; 3])>;
 
 /// Key of a triangle, and whether any of it may remain.
-fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Shown) {
+fn texel_key(geometry: &Geometry, triangle: usize, stencil: &MaterialStencil) -> (bool, TexelKey) {
     let corners = geometry.corner_uvs.get(triangle).map(|corners| {
         corners.map(|uv| geometry.uvs.get(uv as usize).map_or([u32::MAX; 2], |uv| uv.map(f32::to_bits)))
     });
     match stencil {
-        Stencil::Whole => (true, None),
-        Stencil::Clear => (false, None),
-        Stencil::Cut(_) => {
+        MaterialStencil::Whole => (true, None),
+        MaterialStencil::Clear => (false, None),
+        MaterialStencil::Cut(_) => {
             let is_forward = side_keys(geometry, triangle).map(|key| key.1);
             let material = geometry.material_of(triangle).unwrap_or(u32::MAX);
             (true, Some((material, corners.unwrap_or([[u32::MAX; 2]; 3]), is_forward)))
@@ -211,16 +211,16 @@ fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Show
 }
 
 /// Groups of equal items.
-struct Alike {
+struct EqualGroups {
     /// Group of each item.
     kind: Vec<u32>,
     /// First item of each group.
     firsts: Vec<usize>,
 }
 
-fn alike<T: Eq + Hash>(all: impl Iterator<Item = T>) -> Alike {
+fn group_equal<T: Eq + Hash>(all: impl Iterator<Item = T>) -> EqualGroups {
     let mut known: FxHashMap<T, u32> = FxHashMap::default();
-    let mut alike = Alike { kind: Vec::new(), firsts: Vec::new() };
+    let mut alike = EqualGroups { kind: Vec::new(), firsts: Vec::new() };
     for (number, one) in all.enumerate() {
         let next = alike.firsts.len() as u32;
         let kind = *known.entry(one).or_insert(next);
@@ -233,14 +233,22 @@ fn alike<T: Eq + Hash>(all: impl Iterator<Item = T>) -> Alike {
 }
 
 /// Classifies a triangle against a mask.
-fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outline) -> Look<'a> {
-    let Some(corners) = texels_of(geometry, triangle, mask) else { return Look::Whole };
+fn classify_triangle<'a>(
+    geometry: &Geometry,
+    triangle: usize,
+    mask: &'a OpacityMask,
+    outline: &BorderIndex,
+) -> TriangleCoverage<'a> {
+    let Some(corners) = texels_of(geometry, triangle, mask) else { return TriangleCoverage::Whole };
     let [a, b, c] = corners;
-    let whole_or_gone = || if mask.is_opaque((a + b + c) / 3.0) { Look::Whole } else { Look::Gone };
-    if turn(a, b, c) == 0.0 {
+    let whole_or_gone =
+        || if mask.is_opaque((a + b + c) / 3.0) { TriangleCoverage::Whole } else { TriangleCoverage::Gone };
+    if doubled_area(a, b, c) == 0.0 {
         return whole_or_gone();
     }
-    let Some(mut borders) = outline.near(a.min(b).min(c), a.max(b).max(c)) else { return Look::TooMany };
+    let Some(mut borders) = outline.near(a.min(b).min(c), a.max(b).max(c)) else {
+        return TriangleCoverage::TooMany;
+    };
     let sides = sides(corners, side_keys(geometry, triangle).map(|key| key.1));
     let mut parts: [Vec<f64>; 3] = Default::default();
     borders.retain(|border| {
@@ -252,7 +260,7 @@ fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outl
     if borders.is_empty() {
         return whole_or_gone();
     }
-    Look::Crossed(Box::new(Crossed { mask, corners, sides, borders, parts }))
+    TriangleCoverage::Crossed(Box::new(CrossedTriangle { mask, corners, sides, borders, parts }))
 }
 
 /// Sides of a triangle in the texel plane, each directed from the end that comes first in space.
@@ -260,7 +268,7 @@ fn sides(corners: [DVec2; 3], is_forward: [bool; 3]) -> [TexelSide; 3] {
     [0, 1, 2].map(|k| {
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
         let (from, to) = if is_forward[k] { (a, b) } else { (b, a) };
-        TexelSide { from, to, inside: turn(from, to, corners[(k + 2) % 3]) >= 0.0 }
+        TexelSide { from, to, inside: doubled_area(from, to, corners[(k + 2) % 3]) >= 0.0 }
     })
 }
 
@@ -277,10 +285,13 @@ fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
 
 /// Crossings of borders with all sides, from both adjacent triangles: sorted positions along the side, as
 /// bits.
-fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> FxHashMap<SideKey, Vec<u64>> {
+fn crossings<'a>(
+    geometry: &Geometry,
+    look: impl Fn(usize) -> &'a TriangleCoverage<'a>,
+) -> FxHashMap<SideKey, Vec<u64>> {
     let mut all: FxHashMap<SideKey, Vec<f64>> = FxHashMap::default();
     for triangle in 0..geometry.triangles.len() {
-        let Look::Crossed(crossed) = look(triangle) else { continue };
+        let TriangleCoverage::Crossed(crossed) = look(triangle) else { continue };
         for (parts, (key, _)) in crossed.parts.iter().zip(side_keys(geometry, triangle)) {
             if !parts.is_empty() {
                 all.entry(key).or_default().extend(parts);
@@ -288,7 +299,7 @@ fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> F
         }
     }
     let bits = |mut parts: Vec<f64>| {
-        in_order(&mut parts);
+        sort_crossings(&mut parts);
         parts.into_iter().map(f64::to_bits).collect()
     };
     all.into_iter().map(|(key, parts)| (key, bits(parts))).collect()

@@ -1,39 +1,39 @@
-//! [`Mask`]: which parts of a material's picture are transparent.
+//! [`OpacityMask`]: which parts of a material's picture are transparent.
 
 use glam::DVec2;
 
 use crate::colour::pixel_picture::Picture;
 use crate::scene::material::Alpha;
 use crate::scene::textures;
-use crate::scene::textures::texel_plane::Texels;
+use crate::scene::textures::texel_plane::TexelPlane;
 use crate::scene::{Material, Scene};
 
 /// Opacity of each texel of a picture, and the minimum opacity that counts as opaque.
 ///
 /// Opacity is bilinear between the centres of four texels, as in a magnified texture.
-pub(crate) struct Mask {
-    pub texels: Texels,
+pub(crate) struct OpacityMask {
+    pub texels: TexelPlane,
     opacity: Vec<u8>,
     /// Halfway between two whole numbers, so that no texel is exactly on it.
     level: f64,
 }
 
 /// The transparent parts of a material.
-pub(crate) enum Masked {
+pub(crate) enum CutExtent {
     /// Nothing is cut away.
     Nowhere,
     /// Everything is cut away.
     Everywhere,
     /// The mask decides.
-    Where(Mask),
+    Where(OpacityMask),
 }
 
-impl Masked {
+impl CutExtent {
     /// Finds the transparent parts of a material; an error if its picture is needed and cannot be read.
     pub fn of(scene: &Scene, material: &Material) -> Result<Self, String> {
         let constant = f64::from(material.colour.a) / 255.0;
         let (picture, is_own) = match (&material.opacity_map, &material.alpha) {
-            (Some(path), _) => (textures::beside(scene, path).transpose()?, true),
+            (Some(path), _) => (textures::picture_from_model_folder(scene, path).transpose()?, true),
             (None, Alpha::Opaque) => return Ok(Self::Nowhere),
             (None, _) if constant == 0.0 => return Ok(Self::Everywhere),
             (None, _) => (textures::picture_of(scene, material).transpose()?, false),
@@ -56,7 +56,7 @@ impl Masked {
         if f64::from(most) < level || most == 0 {
             return Ok(Self::Everywhere);
         }
-        Ok(Self::Where(Mask { texels: Texels::of(scene, material, &picture), opacity, level }))
+        Ok(Self::Where(OpacityMask { texels: TexelPlane::of(scene, material, &picture), opacity, level }))
     }
 }
 
@@ -72,7 +72,7 @@ fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
     pixels.iter().map(|c| c.a).collect()
 }
 
-impl Mask {
+impl OpacityMask {
     /// Opacity of a texel minus the level, never 0. Column and row may be outside the picture.
     pub fn texel(&self, column: i64, row: i64) -> f64 {
         let opacity = self.opacity.get(self.texels.index(column, row));
@@ -93,10 +93,10 @@ impl Mask {
 }
 
 #[cfg(test)]
-impl Mask {
+impl OpacityMask {
     /// Mask of given opacities, cut at half.
     pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
-        let texels = Texels {
+        let texels = TexelPlane {
             size: [width, opacity.len() / width],
             wrap: [wrap; 2],
             upward: false,
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn pictures_go_on_as_they_are_told() {
         let texels = |wrap| {
-            let mask = Mask::of_opacities(3, vec![0, 100, 200], wrap);
+            let mask = OpacityMask::of_opacities(3, vec![0, 100, 200], wrap);
             (-3..6).map(|k| (mask.texel(k, 0) + 127.5) as u8).collect::<Vec<_>>()
         };
         assert_eq!(texels(Wrap::Repeat), [0, 100, 200, 0, 100, 200, 0, 100, 200]);
@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn opacity_is_bilinear_between_texels() {
-        let mask = Mask::of_opacities(2, vec![255, 0, 255, 0], Wrap::Clamp);
+        let mask = OpacityMask::of_opacities(2, vec![255, 0, 255, 0], Wrap::Clamp);
         assert!(mask.is_opaque(DVec2::new(0.49, 0.7)) && !mask.is_opaque(DVec2::new(0.51, 0.7)));
     }
 }

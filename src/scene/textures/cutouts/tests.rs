@@ -86,7 +86,7 @@ fn borders(scene: &Scene) -> (Vec<[DVec2; 2]>, f64) {
 #[test]
 fn a_round_hole_in_a_plate_is_a_circle() {
     let scene = square(masked(png(256, &disc(256, 90.0)), Wrap::Repeat));
-    let Cut { scene: cut, warnings, .. } = cut(&scene);
+    let CutScene { scene: cut, warnings, .. } = cut_out(&scene);
     assert!(warnings.is_empty());
     let (edges, area) = borders(&cut);
     let radius = 90.0 / 256.0;
@@ -119,14 +119,18 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
                 [([0, 1, 2], [uvs[0], uvs[1], uvs[2]], 0), ([0, 2, 3], [uvs[0], uvs[2], uvs[3]], 0)];
             let material = masked(png(width, &opacity), wrap);
             let scene = scene(&SQUARE, &triangles, material);
-            let Ok(Masked::Where(mask)) = Masked::of(&scene, &scene.materials[0]) else { panic!("a mask") };
-            let Cut { scene: cut, .. } = cut(&scene);
+            let Ok(CutExtent::Where(mask)) = CutExtent::of(&scene, &scene.materials[0]) else {
+                panic!("a mask")
+            };
+            let CutScene { scene: cut, .. } = cut_out(&scene);
             let mesh = Mesh::build(cut.to_soup());
             let at = |v: u32| (mesh.origin + mesh.positions[v as usize]).truncate();
             let covered = |p: DVec2| {
                 mesh.triangles.iter().any(|t| {
                     let [a, b, c] = t.map(at);
-                    turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0
+                    doubled_area(a, b, p) >= 0.0
+                        && doubled_area(b, c, p) >= 0.0
+                        && doubled_area(c, a, p) >= 0.0
                 })
             };
             for _ in 0..300 {
@@ -159,7 +163,7 @@ fn neighbours_meet_whatever_they_show() {
         let first = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
         let triangles = [([0, 1, 2], first, 0), ([0, 2, 3], uvs, material)];
         let scene = scene(&SQUARE, &triangles, masked(png(64, &opacity), Wrap::Repeat));
-        let Cut { scene: cut, .. } = cut(&scene);
+        let CutScene { scene: cut, .. } = cut_out(&scene);
         // The diagonal is a border where one side is transparent; there the other side is complete.
         let on_diagonal = |[a, b]: &[DVec2; 2]| a.x == a.y && b.x == b.y;
         let (edges, _) = borders(&cut);
@@ -177,7 +181,7 @@ fn what_corners_have_is_blended() {
     geometry.normals = vec![[0.0, 0.0, 1.0]];
     geometry.corner_normals = vec![[0; 3]; 2];
     geometry.edge_marks = vec![[crate::mesh::EdgeMark::Hard; 3]; 2];
-    let Cut { scene: cut, .. } = cut(&scene);
+    let CutScene { scene: cut, .. } = cut_out(&scene);
     let cut = &cut.geometries[0];
     let used: Vec<u32> = cut.triangles.as_flattened().to_vec();
     for v in used {
@@ -199,7 +203,7 @@ fn what_corners_have_is_blended() {
 fn materials_say_what_is_cut() {
     let faces = |material: Material| {
         let scene = square(material);
-        let Cut { scene: cut, warnings, .. } = cut(&scene);
+        let CutScene { scene: cut, warnings, .. } = cut_out(&scene);
         (cut.geometries[0].triangles.len(), warnings.lines().len())
     };
     let half = || png(2, &[120, 60]);
@@ -222,13 +226,13 @@ fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
     let [a, b, c] = [[0.0, 0.0], [40.0, 0.0], [40.0, 40.0]];
     let triangles = vec![([0, 1, 2], [a, b, c], 0); 4];
     let noisy = scene(&SQUARE, &triangles, masked(png(128, &noise), Wrap::Repeat));
-    let Cut { scene: whole, warnings, .. } = cut(&noisy);
+    let CutScene { scene: whole, warnings, .. } = cut_out(&noisy);
     assert_eq!(whole.geometries[0].triangles.len(), 4);
     assert!(warnings.lines()[0].contains("too much"), "{:?}", warnings.lines());
     // A hand-made scene may have indices that are out of range.
     let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
     scene.geometries[0].triangles[1][2] = 99;
-    assert_eq!(cut(&scene).scene.geometries[0].triangles.len(), 2);
+    assert_eq!(cut_out(&scene).scene.geometries[0].triangles.len(), 2);
 }
 
 #[test]
@@ -243,8 +247,10 @@ fn where_there_is_much_borders_lie_a_px_off_at_most() {
         let [a, b, c, d] = SQUARE.map(|at| at.map(|x| x as f32 * times));
         let triangles = [([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)];
         let scene = scene(&SQUARE, &triangles, masked(png(256, &holes), Wrap::Repeat));
-        let Ok(Masked::Where(mask)) = Masked::of(&scene, &scene.materials[0]) else { panic!("no mask") };
-        let outline = super::border_detail::outline(&scene, 0, &mask).unwrap();
+        let Ok(CutExtent::Where(mask)) = CutExtent::of(&scene, &scene.materials[0]) else {
+            panic!("no mask")
+        };
+        let outline = super::border_detail::border_index(&scene, 0, &mask).unwrap();
         let px_texels = 2.0_f64.sqrt() / 4096.0 * 256.0 * f64::from(times);
         let off = outline.segments.iter().map(|[a, b]| {
             let middle = (*a + *b) / 2.0;
@@ -264,7 +270,7 @@ fn where_there_is_much_borders_lie_a_px_off_at_most() {
 #[test]
 fn pieces_have_the_paint_of_their_triangle() {
     let scene = square(masked(png(64, &disc(64, 20.0)), Wrap::Repeat));
-    let Cut { scene: cut, origins, .. } = cut(&scene);
+    let CutScene { scene: cut, origins, .. } = cut_out(&scene);
     let origins = origins[0].as_ref().unwrap();
     let (was, is) = (&scene.geometries[0], &cut.geometries[0]);
     assert_eq!(origins.len(), is.triangles.len());
@@ -272,6 +278,6 @@ fn pieces_have_the_paint_of_their_triangle() {
         let centre = triangle.iter().map(|v| is.positions[*v as usize]).sum::<DVec3>() / 3.0;
         let [a, b, c] = was.triangles[*origin as usize].map(|v| was.positions[v as usize].truncate());
         let p = centre.truncate();
-        assert!(turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0);
+        assert!(doubled_area(a, b, p) >= 0.0 && doubled_area(b, c, p) >= 0.0 && doubled_area(c, a, p) >= 0.0);
     }
 }

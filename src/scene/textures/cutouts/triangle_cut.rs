@@ -3,13 +3,13 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
-use super::opacity_mask::Mask;
-use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
-use crate::scene::textures::texel_plane::texel_borders::Segment;
+use super::opacity_mask::OpacityMask;
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, doubled_area};
+use crate::scene::textures::texel_plane::texel_borders::BorderSegment;
 
 /// Position of a piece's vertex on the original triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum PieceVertex {
     /// At a corner.
     Corner(u8),
     /// On the side after a corner, at the crossing with this index.
@@ -29,45 +29,45 @@ pub(crate) struct TexelTriangle<'a> {
 
 /// Remaining pieces of a triangle: their vertices, and triangles with the orientation of the original.
 #[derive(Debug, Default)]
-pub(crate) struct Pieces {
-    pub places: Vec<Place>,
+pub(crate) struct TrianglePieces {
+    pub places: Vec<PieceVertex>,
     pub triangles: Vec<[u32; 3]>,
 }
 
-type Faces = ConstrainedDelaunayTriangulation<Point2<f64>>;
+type CutTriangulation = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// A triangulation under construction.
 #[derive(Default)]
-struct Net {
-    faces: Faces,
+struct TriangulationBuilder {
+    faces: CutTriangulation,
     /// Position of each vertex on the triangle.
-    places: Vec<Place>,
+    places: Vec<PieceVertex>,
 }
 
 type VertexHandle = spade::handles::FixedVertexHandle;
 
-const UNKNOWN: u32 = u32::MAX;
+const UNASSIGNED: u32 = u32::MAX;
 
 impl TexelTriangle<'_> {
     /// Cuts the triangle and returns the opaque pieces, or all pieces without a mask. `None` if the
     /// triangulation fails.
-    pub fn cut(&self, borders: &[Segment], mask: Option<&Mask>) -> Option<Pieces> {
-        let mut net = Net::default();
+    pub fn cut(&self, borders: &[BorderSegment], mask: Option<&OpacityMask>) -> Option<TrianglePieces> {
+        let mut net = TriangulationBuilder::default();
         let corners = self.add_sides(&mut net)?;
         let mut drawn = Vec::new();
         for border in borders {
             self.add_border(&mut net, &corners, *border, &mut drawn)?;
         }
-        let Net { faces: net, places } = net;
+        let TriangulationBuilder { faces: net, places } = net;
         let (component, count) = components(&net);
         let kept = self.kept(&net, &component, count, &drawn, mask);
-        let turned = turn(self.corners[0], self.corners[1], self.corners[2]) < 0.0;
-        let mut pieces = Pieces::default();
-        let mut number = vec![UNKNOWN; net.num_vertices()];
+        let turned = doubled_area(self.corners[0], self.corners[1], self.corners[2]) < 0.0;
+        let mut pieces = TrianglePieces::default();
+        let mut number = vec![UNASSIGNED; net.num_vertices()];
         for face in net.inner_faces().filter(|face| kept[face.index()]) {
             let mut triangle = face.vertices().map(|vertex| {
                 let number = &mut number[vertex.index()];
-                if *number == UNKNOWN {
+                if *number == UNASSIGNED {
                     *number = pieces.places.len() as u32;
                     pieces.places.push(places[vertex.index()]);
                 }
@@ -83,10 +83,10 @@ impl TexelTriangle<'_> {
 
     /// Adds corners and crossings and constrains the outline. Returns the vertices of each side, ends
     /// included.
-    fn add_sides(&self, net: &mut Net) -> Option<[Vec<VertexHandle>; 3]> {
+    fn add_sides(&self, net: &mut TriangulationBuilder) -> Option<[Vec<VertexHandle>; 3]> {
         let mut corners = Vec::with_capacity(3);
         for (k, corner) in self.corners.iter().enumerate() {
-            corners.push(net.insert(*corner, Place::Corner(k as u8))?);
+            corners.push(net.insert(*corner, PieceVertex::Corner(k as u8))?);
         }
         let mut rows: [Vec<VertexHandle>; 3] = Default::default();
         for (k, row) in rows.iter_mut().enumerate() {
@@ -96,7 +96,7 @@ impl TexelTriangle<'_> {
             row.push(if is_forward { first } else { last });
             for (number, part) in self.crossings[k].iter().enumerate() {
                 let at = side.from + (side.to - side.from) * *part;
-                row.push(net.insert(at, Place::Side(k as u8, number as u32))?);
+                row.push(net.insert(at, PieceVertex::Side(k as u8, number as u32))?);
             }
             row.push(if is_forward { last } else { first });
         }
@@ -111,9 +111,9 @@ impl TexelTriangle<'_> {
     /// Adds the part of a border inside the triangle as constraints, and records them in `drawn`.
     fn add_border(
         &self,
-        net: &mut Net,
+        net: &mut TriangulationBuilder,
         rows: &[Vec<VertexHandle>; 3],
-        border: Segment,
+        border: BorderSegment,
         drawn: &mut Vec<[VertexHandle; 2]>,
     ) -> Option<()> {
         let mut met: Vec<(f64, VertexHandle)> = Vec::new();
@@ -134,7 +134,7 @@ impl TexelTriangle<'_> {
         }
         for (end, along) in [(border[0], 0.0), (border[1], 1.0)] {
             if self.sides.iter().all(|side| side.admits(end)) {
-                met.push((along, net.insert(end, Place::Inside(self.shares(end)))?));
+                met.push((along, net.insert(end, PieceVertex::Inside(self.shares(end)))?));
             }
         }
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -150,7 +150,7 @@ impl TexelTriangle<'_> {
     /// Barycentric coordinates of a point.
     fn shares(&self, p: DVec2) -> [f64; 3] {
         let [a, b, c] = self.corners;
-        let shares = [turn(b, c, p), turn(c, a, p), turn(a, b, p)];
+        let shares = [doubled_area(b, c, p), doubled_area(c, a, p), doubled_area(a, b, p)];
         let whole: f64 = shares.iter().sum();
         shares.map(|share| share / whole)
     }
@@ -161,11 +161,11 @@ impl TexelTriangle<'_> {
     /// other, the mask decides for each face.
     fn kept(
         &self,
-        net: &Faces,
+        net: &CutTriangulation,
         component: &[u32],
         count: u32,
         drawn: &[[VertexHandle; 2]],
-        mask: Option<&Mask>,
+        mask: Option<&OpacityMask>,
     ) -> Vec<bool> {
         let mut says: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
         for [from, to] in drawn {
@@ -193,9 +193,9 @@ impl TexelTriangle<'_> {
     }
 }
 
-impl Net {
+impl TriangulationBuilder {
     /// Adds a vertex; an existing vertex at the same position keeps its place.
-    fn insert(&mut self, at: DVec2, place: Place) -> Option<VertexHandle> {
+    fn insert(&mut self, at: DVec2, place: PieceVertex) -> Option<VertexHandle> {
         let vertex = self.faces.insert(spade::mitigate_underflow(Point2::new(at.x, at.y))).ok()?;
         if vertex.index() == self.places.len() {
             self.places.push(place);
@@ -215,15 +215,15 @@ impl Net {
 
 /// Components of faces that are connected without crossing a constraint, and their number. Component 0 is
 /// outside.
-fn components(net: &Faces) -> (Vec<u32>, u32) {
-    let mut component = vec![UNKNOWN; net.num_all_faces()];
+fn components(net: &CutTriangulation) -> (Vec<u32>, u32) {
+    let mut component = vec![UNASSIGNED; net.num_all_faces()];
     let mut stack = Vec::new();
     component[net.outer_face().index()] = 0;
     // Start outside, through hull edges that are not sides of the triangle.
     for edge in net.convex_hull() {
         let inner = edge.rev().face();
         let inner = if inner.is_outer() { edge.face() } else { inner };
-        if !edge.is_constraint_edge() && component[inner.index()] == UNKNOWN {
+        if !edge.is_constraint_edge() && component[inner.index()] == UNASSIGNED {
             component[inner.index()] = 0;
             stack.push(inner.fix());
         }
@@ -237,13 +237,13 @@ fn components(net: &Faces) -> (Vec<u32>, u32) {
             let Some(inner) = face.as_inner() else { continue };
             for edge in inner.adjacent_edges() {
                 let other = edge.rev().face();
-                if !edge.is_constraint_edge() && component[other.index()] == UNKNOWN {
+                if !edge.is_constraint_edge() && component[other.index()] == UNASSIGNED {
                     component[other.index()] = own;
                     stack.push(other.fix());
                 }
             }
         }
-        let Some(seed) = rest.find(|face| component[face.index()] == UNKNOWN) else { break };
+        let Some(seed) = rest.find(|face| component[face.index()] == UNASSIGNED) else { break };
         component[seed.index()] = count;
         count += 1;
         stack.push(seed.adjacent_edges()[0].face().fix());

@@ -1,28 +1,28 @@
-//! [`trace`]: traces the borders between the colour labels of a picture, in the texel plane.
+//! [`trace_label_borders`]: traces the borders between the colour labels of a picture, in the texel plane.
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-use super::colour_labels::{Cell, Labels, Parting};
-use crate::scene::textures::texel_plane::Traced;
+use super::colour_labels::{CellBorders, ColourLabels, LabelCell};
+use crate::scene::textures::texel_plane::TracedBorders;
 
 /// Maximum number of border pieces in a picture.
-const MOST_PIECES: usize = 1 << 22;
+const MAX_BORDER_PIECES: usize = 1 << 22;
 
 /// End of a border piece in a cell.
 ///
 /// A side is between adjacent texels: column and row of the first, and whether the second is below it.
 /// Otherwise the end is in the middle of the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-enum Place {
+enum BorderEnd {
     Side(u32, u32, bool),
     Middle(u32, u32),
 }
 
 /// Traces the borders between labels; `None` if there are too many.
-pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
+pub(crate) fn trace_label_borders(labels: &ColourLabels) -> Option<TracedBorders> {
     let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<BorderPiece> = Vec::new();
     let columns: Vec<usize> = (0..=reach[0] as i64).map(|i| labels.texels.index(i, 0)).collect();
     for j in 0..reach[1] as u32 {
         let rows = [0, 1].map(|down| labels.texels.index(0, i64::from(j) + down));
@@ -32,13 +32,13 @@ pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
             if [(0, 1), (1, 0), (1, 1)].iter().all(|(row, right)| colour(*row, *right) == own) {
                 continue;
             }
-            let cell = Cell::new(labels, i.into(), j.into());
+            let cell = LabelCell::new(labels, i.into(), j.into());
             let at = DVec2::new(f64::from(i), f64::from(j));
             let place = |side: usize| match side {
-                0 => Place::Side(i, j, false),
-                1 => Place::Side(i + 1, j, true),
-                2 => Place::Side(i, j + 1, false),
-                _ => Place::Side(i, j, true),
+                0 => BorderEnd::Side(i, j, false),
+                1 => BorderEnd::Side(i + 1, j, true),
+                2 => BorderEnd::Side(i, j + 1, false),
+                _ => BorderEnd::Side(i, j, true),
             };
             let end = |side: usize| Some((place(side), at + cell.crossing(side)?));
             let parted = |side: usize| {
@@ -46,41 +46,39 @@ pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
                 [a.min(b), a.max(b)]
             };
             match cell.parting() {
-                Parting::Not => {}
-                Parting::Across(ways) => {
+                CellBorders::Uniform => {}
+                CellBorders::Across(ways) => {
                     pieces.extend(ways.iter().filter_map(|way| {
-                        Some(Piece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
+                        Some(BorderPiece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
                     }));
                 }
-                Parting::Meeting(middle) => {
-                    let middle = (Place::Middle(i, j), at + middle);
-                    pieces.extend(
-                        (0..4).filter_map(|side| {
-                            Some(Piece { ends: [end(side)?, middle], parted: parted(side) })
-                        }),
-                    );
+                CellBorders::Meeting(middle) => {
+                    let middle = (BorderEnd::Middle(i, j), at + middle);
+                    pieces.extend((0..4).filter_map(|side| {
+                        Some(BorderPiece { ends: [end(side)?, middle], parted: parted(side) })
+                    }));
                 }
             }
         }
-        if pieces.len() > MOST_PIECES {
+        if pieces.len() > MAX_BORDER_PIECES {
             return None;
         }
     }
-    let (lines, parted) = linked(&pieces);
-    Some(Traced { lines, parted, reach, periods })
+    let (lines, parted) = link_pieces(&pieces);
+    Some(TracedBorders { lines, parted, reach, periods })
 }
 
 /// Piece of a border within a cell.
-struct Piece {
-    ends: [(Place, DVec2); 2],
+struct BorderPiece {
+    ends: [(BorderEnd, DVec2); 2],
     /// The two colours on its sides.
     parted: [u8; 2],
 }
 
 /// Links pieces to lines that end where three borders meet or where a border ends, with the two colours of
 /// each line.
-fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
-    let mut at: FxHashMap<Place, Vec<u32>> = FxHashMap::default();
+fn link_pieces(pieces: &[BorderPiece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
+    let mut at: FxHashMap<BorderEnd, Vec<u32>> = FxHashMap::default();
     for (number, piece) in pieces.iter().enumerate() {
         for (place, _) in piece.ends {
             at.entry(place).or_default().push(number as u32);
@@ -125,26 +123,26 @@ fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::soft_assignment::Guess;
-    use super::super::texel_assignments::Guesses;
+    use super::super::soft_assignment::SoftAssignment;
+    use super::super::texel_assignments::TexelAssignments;
     use super::*;
     use crate::scene::material::Wrap;
-    use crate::scene::textures::texel_plane::Texels;
+    use crate::scene::textures::texel_plane::TexelPlane;
 
-    fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> Labels {
+    fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> ColourLabels {
         let at = |k: usize| DVec2::new((k % size[0]) as f64, (k / size[0]) as f64);
         let guess = |k: usize| {
             let (nearest, second, way) = of(at(k));
-            Guess { nearest, second, way }
+            SoftAssignment { nearest, second, way }
         };
-        let guesses: Vec<Guess> = (0..size[0] * size[1]).map(guess).collect();
-        let texels = Texels {
+        let guesses: Vec<SoftAssignment> = (0..size[0] * size[1]).map(guess).collect();
+        let texels = TexelPlane {
             size,
             wrap: [wrap; 2],
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
-        Labels::of(&Guesses::new(texels, guesses), blur, 3)
+        ColourLabels::of(&TexelAssignments::new(texels, guesses), blur, 3)
     }
 
     /// Disc of colour 1 on colour 0 in the middle of 48 texels, with an edge one texel soft.
@@ -156,7 +154,7 @@ mod tests {
     #[test]
     fn a_disc_is_one_ring_where_its_border_is() {
         for blur in [0.0, 0.8] {
-            let traced = trace(&labels([48, 48], Wrap::Repeat, blur, disc)).unwrap();
+            let traced = trace_label_borders(&labels([48, 48], Wrap::Repeat, blur, disc)).unwrap();
             assert_eq!(traced.lines.len(), 1);
             let ring = &traced.lines[0];
             assert_eq!(ring.first(), ring.last());
@@ -172,7 +170,7 @@ mod tests {
             (false, true) => (1, 1, 0.0),
             (false, false) => (2, 2, 0.0),
         };
-        let traced = trace(&labels([8, 8], Wrap::Clamp, 0.0, third)).unwrap();
+        let traced = trace_label_borders(&labels([8, 8], Wrap::Clamp, 0.0, third)).unwrap();
         assert_eq!(traced.lines.len(), 3);
         let meeting = DVec2::new(3.5, 3.5);
         let ends = |line: &Vec<DVec2>| [line[0], line[line.len() - 1]];
@@ -189,7 +187,7 @@ mod tests {
         };
         for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
             let labels = labels([21, 18], wrap, 0.6, patch);
-            let traced = trace(&labels).unwrap();
+            let traced = trace_label_borders(&labels).unwrap();
             assert!(traced.lines.len() > 5, "{}", traced.lines.len());
             let beside = |a: DVec2, b: DVec2| {
                 let across = (b - a).perp().normalize_or_zero() * 1e-4;

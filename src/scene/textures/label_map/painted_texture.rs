@@ -1,4 +1,4 @@
-//! [`Painted`]: the texture of a material, prepared for painting in a few colours.
+//! [`PaintedTexture`]: the texture of a material, prepared for painting in a few colours.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -7,22 +7,22 @@ use std::sync::Arc;
 use crate::parallel::prelude::*;
 
 use super::blend_removal;
-use super::colour_labels::Labels;
-use super::colour_map::{ColourMap, MapOf, Sight};
-use super::soft_assignment::Guess;
+use super::colour_labels::ColourLabels;
+use super::colour_map::{ColourMap, MapKey, MapScale};
+use super::soft_assignment::SoftAssignment;
 use super::speck_removal;
-use super::texel_assignments::Guesses;
+use super::texel_assignments::TexelAssignments;
 use crate::colour::oklab::{self, Oklab, linear_table};
 use crate::colour::srgb::Colour;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::Filter;
-use crate::scene::textures::result_cache::Kept;
-use crate::scene::textures::texel_plane::Texels;
+use crate::scene::textures::result_cache::ResultCache;
+use crate::scene::textures::texel_plane::TexelPlane;
 
 /// The texture of a material, prepared for painting in a few colours.
 #[derive(Debug, Clone)]
-pub(crate) struct Painted {
-    pub(crate) texels: Texels,
+pub(crate) struct PaintedTexture {
+    pub(crate) texels: TexelPlane,
     pub(crate) colours: Vec<Colour>,
     /// Visible surface area of each texel.
     pub(crate) shown: Vec<f32>,
@@ -32,29 +32,29 @@ pub(crate) struct Painted {
     pub(crate) mean: Oklab,
     pub(crate) filter: Filter,
     /// Assignments and maps of earlier views.
-    pub(crate) guesses: Kept<Sight, Guesses>,
-    pub(crate) maps: Kept<MapOf, ColourMap>,
+    pub(crate) guesses: ResultCache<MapScale, TexelAssignments>,
+    pub(crate) maps: ResultCache<MapKey, ColourMap>,
 }
 
 /// Standard deviation of the blur of borders, px. Narrower details disappear, and borders are rounded by
 /// about as much.
-const BLUR_PX: f64 = 0.7;
+const MIN_BLUR_PX: f64 = 0.7;
 
 /// Minimum standard deviation of the blur, texels. Hides the steps of magnified texels.
-const BLUR_TEXELS: f64 = 0.8;
+const MIN_BLUR_TEXELS: f64 = 0.8;
 
 /// Side of a square, px. Smaller regions are specks and are merged with a neighbour.
-const SPECK_PX: f64 = 3.0;
+const MIN_REGION_SIDE_PX: f64 = 3.0;
 
 /// Maximum share of specks in a picture. With more, the picture has no visible detail at this scale.
-const MOST_LOST: f64 = 0.2;
+const MAX_SPECK_SHARE: f64 = 0.2;
 
 /// Reduction factor for such a picture.
-const AFAR: f64 = 8.0;
+const DISTANT_SCALE: f64 = 8.0;
 
-impl Painted {
+impl PaintedTexture {
     /// Layout of its texels.
-    pub fn texels(&self) -> &Texels {
+    pub fn texels(&self) -> &TexelPlane {
         &self.texels
     }
 
@@ -67,7 +67,7 @@ impl Painted {
     /// includes the mean colour.
     pub fn map_or_mean(&self, texels_per_px: f64) -> Arc<ColourMap> {
         let map = self.map_in(texels_per_px, false);
-        if map.lost <= MOST_LOST { map } else { self.map_in(texels_per_px * AFAR, true) }
+        if map.lost <= MAX_SPECK_SHARE { map } else { self.map_in(texels_per_px * DISTANT_SCALE, true) }
     }
 
     /// Map of the colours at a resolution, in texels per px.
@@ -81,25 +81,25 @@ impl Painted {
         // Halve until a texel is between 0.7 and 1.4 px.
         let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
         let blocks = self.filter == Filter::Blocks && scale <= 1.0;
-        let sight = Sight { halvings, with_mean, blocks };
+        let sight = MapScale { halvings, with_mean, blocks };
         if blocks {
-            let made = || ColourMap::new(Labels::blocks(&self.guesses(sight)), 0);
-            return self.maps.get(MapOf { sight, blur: 0.0, least: 0.0 }, made);
+            let made = || ColourMap::new(ColourLabels::blocks(&self.guesses(sight)), 0);
+            return self.maps.get(MapKey { sight, blur: 0.0, least: 0.0 }, made);
         }
         let per_px = scale * self.size(halvings)[0] as f64 / self.texels.size[0] as f64;
         // Rounded up, as specks have whole numbers of texels.
-        let least = (SPECK_PX * per_px).powi(2).ceil();
-        let of = MapOf { sight, blur: (BLUR_PX * per_px).max(BLUR_TEXELS), least };
+        let least = (MIN_REGION_SIDE_PX * per_px).powi(2).ceil();
+        let of = MapKey { sight, blur: (MIN_BLUR_PX * per_px).max(MIN_BLUR_TEXELS), least };
         self.maps.get(of, || {
             let guesses = self.guesses.get(sight, || self.guesses(sight));
-            let mut labels = Labels::of(&guesses, of.blur, self.colours_of(sight).len());
-            let lost = speck_removal::merge(&mut labels, of.least);
+            let mut labels = ColourLabels::of(&guesses, of.blur, self.colours_of(sight).len());
+            let lost = speck_removal::merge_specks(&mut labels, of.least);
             ColourMap::new(labels, lost)
         })
     }
 
     /// The few colours, and the mean if it is one of them.
-    fn colours_of(&self, sight: Sight) -> Cow<'_, [Oklab]> {
+    fn colours_of(&self, sight: MapScale) -> Cow<'_, [Oklab]> {
         if sight.with_mean {
             self.palette.iter().copied().chain([self.mean]).collect()
         } else {
@@ -108,14 +108,14 @@ impl Painted {
     }
 
     /// Assigns each texel of the reduced picture to palette colours.
-    fn guesses(&self, sight: Sight) -> Guesses {
+    fn guesses(&self, sight: MapScale) -> TexelAssignments {
         let palette = self.colours_of(sight);
         let (texels, labs) = self.reduced(sight.halvings);
-        let mut guesses = guesses(&texels, &palette, &labs);
+        let mut guesses = assign_texels(&texels, &palette, &labs);
         if !sight.blocks {
-            guesses = blend_removal::settle(&texels, &palette, &labs, &guesses);
+            guesses = blend_removal::remove_blends(&texels, &palette, &labs, &guesses);
         }
-        Guesses::new(texels, guesses)
+        TexelAssignments::new(texels, guesses)
     }
 
     /// Size of the picture after halving.
@@ -125,7 +125,7 @@ impl Painted {
     }
 
     /// The picture reduced by halving: the mean of visible texels, or `None` if none is visible.
-    fn reduced(&self, halvings: usize) -> (Texels, Vec<Option<Oklab>>) {
+    fn reduced(&self, halvings: usize) -> (TexelPlane, Vec<Option<Oklab>>) {
         let table = linear_table();
         let size = self.size(halvings);
         let range = |k: usize, axis: usize| {
@@ -147,25 +147,27 @@ impl Painted {
             (all > 0.0).then(|| oklab::of_linear(sum.map(|sum| sum / all)))
         };
         let labs = (0..size[0] * size[1]).into_par_iter().with_min_len(1 << 10).map(mean).collect();
-        (Texels { size, ..self.texels }, labs)
+        (TexelPlane { size, ..self.texels }, labs)
     }
 }
 
 /// The two nearest palette colours of each texel. Invisible texels copy the nearest visible one.
-fn guesses(texels: &Texels, palette: &[Oklab], labs: &[Option<Oklab>]) -> Vec<Guess> {
-    let of = |lab: &Option<Oklab>| Some(Guess::of((*lab)?, palette));
-    let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(GRAIN).map(of).collect();
+fn assign_texels(texels: &TexelPlane, palette: &[Oklab], labs: &[Option<Oklab>]) -> Vec<SoftAssignment> {
+    let of = |lab: &Option<Oklab>| Some(SoftAssignment::of((*lab)?, palette));
+    let known: Vec<Option<SoftAssignment>> = labs.par_iter().with_min_len(MIN_TASK_ITEMS).map(of).collect();
     let is_seen_beside_unseen = |texel: &usize| {
         known[*texel].is_some() && texels.beside(*texel).iter().any(|next| known[*next].is_none())
     };
-    let all = (0..known.len()).into_par_iter().with_min_len(GRAIN);
+    let all = (0..known.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     let mut open: VecDeque<usize> = all.filter(is_seen_beside_unseen).collect::<Vec<_>>().into();
-    let mut guesses: Vec<Guess> =
-        known.iter().map(|guess| guess.unwrap_or(Guess { nearest: u8::MAX, second: 0, way: 0.0 })).collect();
+    let mut guesses: Vec<SoftAssignment> = known
+        .iter()
+        .map(|guess| guess.unwrap_or(SoftAssignment { nearest: u8::MAX, second: 0, way: 0.0 }))
+        .collect();
     while let Some(k) = open.pop_front() {
         for next in texels.beside(k) {
             if guesses[next].nearest == u8::MAX {
-                guesses[next] = Guess { way: 0.0, ..guesses[k] };
+                guesses[next] = SoftAssignment { way: 0.0, ..guesses[k] };
                 open.push_back(next);
             }
         }

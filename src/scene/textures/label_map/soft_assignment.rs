@@ -1,21 +1,21 @@
-//! [`Guess`]: the two palette colours between which a texel's colour is.
+//! [`SoftAssignment`]: the two palette colours between which a texel's colour is.
 
 use crate::colour::oklab::{Oklab, distance2};
-use crate::scene::textures::palette::colour_kmeans::closest;
+use crate::scene::textures::palette::colour_kmeans::nearest_centre_index;
 
 /// The nearest and second nearest palette colour of a texel.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Guess {
+pub(crate) struct SoftAssignment {
     pub nearest: u8,
     pub second: u8,
     /// Position between the two, 0 (nearest) to 0.5.
     pub way: f32,
 }
 
-impl Guess {
+impl SoftAssignment {
     /// Finds the two nearest palette colours.
     pub fn of(lab: Oklab, palette: &[Oklab]) -> Self {
-        let nearest = closest(palette, lab);
+        let nearest = nearest_centre_index(palette, lab);
         let mut second = (nearest, f32::INFINITY);
         for (k, colour) in palette.iter().enumerate() {
             let far = distance2(*colour, lab);

@@ -1,13 +1,13 @@
-//! [`merge`]: merges small regions of one colour with their neighbours.
+//! [`merge_specks`]: merges small regions of one colour with their neighbours.
 
 use crate::parallel::prelude::*;
 
-use super::colour_labels::Labels;
-use crate::parallel::task_size::GRAIN;
+use super::colour_labels::ColourLabels;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Repaints connected regions of fewer than `least` texels like the neighbour with the longest common border,
 /// small ones first. Returns the number of texels in specks before.
-pub(crate) fn merge(labels: &mut Labels, least: f64) -> usize {
+pub(crate) fn merge_specks(labels: &mut ColourLabels, least: f64) -> usize {
     let first = merge_once(labels, least);
     // Merging may reveal specks within specks.
     if first > 0 && merge_once(labels, least) > 0 {
@@ -17,9 +17,9 @@ pub(crate) fn merge(labels: &mut Labels, least: f64) -> usize {
 }
 
 /// One pass; returns the number of texels repainted.
-fn merge_once(labels: &mut Labels, least: f64) -> usize {
+fn merge_once(labels: &mut ColourLabels, least: f64) -> usize {
     let texels = labels.texels;
-    let mut small = small(labels, least);
+    let mut small = small_components(labels, least);
     small.sort_by_key(|speck| (speck.len(), speck[0]));
     let mut changed = 0;
     for speck in small {
@@ -48,22 +48,23 @@ fn merge_once(labels: &mut Labels, least: f64) -> usize {
 /// Connected regions of fewer than `least` texels, each in ascending order.
 ///
 /// The search starts at borders and stops when a region is large enough, so most texels are never visited.
-fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+fn small_components(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
     let texels = labels.texels;
     let count = texels.size[0] * texels.size[1];
     let at_border = |texel: &usize| {
         texels.beside(*texel).iter().any(|next| labels.winner(*next) != labels.winner(*texel))
     };
-    let border: Vec<usize> = (0..count).into_par_iter().with_min_len(GRAIN).filter(at_border).collect();
-    let mut known = vec![Known::Not; count];
+    let border: Vec<usize> =
+        (0..count).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(at_border).collect();
+    let mut known = vec![SpeckState::Not; count];
     let mut small: Vec<Vec<usize>> = Vec::new();
     let mut own: Vec<usize> = Vec::new();
     for first in border {
-        if known[first] != Known::Not {
+        if known[first] != SpeckState::Not {
             continue;
         }
         let colour = labels.winner(first);
-        known[first] = Known::Small;
+        known[first] = SpeckState::Small;
         own.clear();
         own.push(first);
         let mut at = 0;
@@ -74,12 +75,12 @@ fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
                     continue;
                 }
                 match known[next] {
-                    Known::Not => {
-                        known[next] = Known::Small;
+                    SpeckState::Not => {
+                        known[next] = SpeckState::Small;
                         own.push(next);
                     }
-                    Known::Small => {}
-                    Known::Large => is_small = false,
+                    SpeckState::Small => {}
+                    SpeckState::Large => is_small = false,
                 }
             }
             at += 1;
@@ -88,7 +89,7 @@ fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
             own.sort_unstable();
             small.push(own.clone());
         } else {
-            own.iter().for_each(|texel| known[*texel] = Known::Large);
+            own.iter().for_each(|texel| known[*texel] = SpeckState::Large);
         }
     }
     small
@@ -96,7 +97,7 @@ fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
 
 /// State of a texel in the search: not visited, part of a small region so far, or part of a large one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Known {
+enum SpeckState {
     Not,
     Small,
     Large,
@@ -104,11 +105,11 @@ enum Known {
 
 #[cfg(test)]
 mod tests {
-    use super::super::soft_assignment::Guess;
-    use super::super::texel_assignments::Guesses;
+    use super::super::soft_assignment::SoftAssignment;
+    use super::super::texel_assignments::TexelAssignments;
     use super::*;
     use crate::scene::material::Wrap;
-    use crate::scene::textures::texel_plane::Texels;
+    use crate::scene::textures::texel_plane::TexelPlane;
 
     #[test]
     fn specks_take_the_colour_around_them_over_seams_too() {
@@ -119,18 +120,18 @@ mod tests {
             (8..=10, 2..=4) => 1,
             _ => 0,
         };
-        let guesses: Vec<Guess> =
-            (0..144).map(|k| Guess { nearest: colour(k), second: 0, way: 0.0 }).collect();
-        let texels = Texels {
+        let guesses: Vec<SoftAssignment> =
+            (0..144).map(|k| SoftAssignment { nearest: colour(k), second: 0, way: 0.0 }).collect();
+        let texels = TexelPlane {
             size: [12, 12],
             wrap: [Wrap::Repeat; 2],
             upward: false,
             placing: crate::scene::material::Placing::default(),
         };
-        let guesses = Guesses::new(texels, guesses);
+        let guesses = TexelAssignments::new(texels, guesses);
         let merged = |least: f64| {
-            let mut labels = Labels::of(&guesses, 0.0, 3);
-            merge(&mut labels, least);
+            let mut labels = ColourLabels::of(&guesses, 0.0, 3);
+            merge_specks(&mut labels, least);
             [0, 5 * 12 + 5, 3 * 12 + 9].map(|texel| labels.winner(texel))
         };
         assert_eq!(merged(4.0), [1, 0, 1]);
@@ -139,7 +140,7 @@ mod tests {
     }
 
     /// Reference: follows every region completely.
-    fn small_by_all(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+    fn small_by_all(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
         let count = labels.texels.size[0] * labels.texels.size[1];
         let mut is_known = vec![false; count];
         let mut small = Vec::new();
@@ -170,17 +171,17 @@ mod tests {
                 let size = [31, 22];
                 let guess = |k: usize| {
                     let colour = dice(k % size[0] / patch * 977 + k / size[0] / patch) >> 40;
-                    Guess { nearest: (colour % 3) as u8, second: 0, way: 0.0 }
+                    SoftAssignment { nearest: (colour % 3) as u8, second: 0, way: 0.0 }
                 };
-                let texels = Texels {
+                let texels = TexelPlane {
                     size,
                     wrap: [wrap; 2],
                     upward: false,
                     placing: crate::scene::material::Placing::default(),
                 };
-                let guesses = Guesses::new(texels, (0..size[0] * size[1]).map(guess).collect());
-                let labels = Labels::of(&guesses, 0.0, 3);
-                let mut found = small(&labels, least as f64);
+                let guesses = TexelAssignments::new(texels, (0..size[0] * size[1]).map(guess).collect());
+                let labels = ColourLabels::of(&guesses, 0.0, 3);
+                let mut found = small_components(&labels, least as f64);
                 found.sort_unstable_by_key(|speck| speck[0]);
                 assert_eq!(found, small_by_all(&labels, least as f64), "{wrap:?}, {patch}, {least}");
             }

@@ -1,34 +1,34 @@
-//! [`swatches`]: the flat colours of a palette texture, by clustering the colours of triangles.
+//! [`cluster_colours`]: the flat colours of a palette texture, by clustering the colours of triangles.
 
 use rustc_hash::FxHashMap;
 
 use crate::colour::srgb::Colour;
 
 /// Maximum number of palette colours; a picture with more is a photograph.
-const MOST: usize = 64;
+const MAX_PALETTE_COLOURS: usize = 64;
 
 /// Minimum channel difference between two palette colours.
-pub(crate) const ALIKE: u32 = 28;
+pub(crate) const MIN_CHANNEL_DIFFERENCE: u32 = 28;
 
 /// Maximum share of colours without a palette colour, such as blends at the borders of a palette.
-const STRANGERS: f64 = 0.02;
+const MAX_OUTLIER_SHARE: f64 = 0.02;
 
 /// Minimum share of triangles with a single colour in a palette texture.
-const FLAT: f64 = 0.7;
+const MIN_FLAT_TRIANGLE_SHARE: f64 = 0.7;
 
 /// Flat colour for each triangle, given its colour and whether it is its only one: a palette colour, or the
 /// mean of all if there is no palette.
-pub(crate) fn swatches(triangles: &[(Colour, bool)]) -> Vec<Colour> {
-    of_palette(triangles).unwrap_or_else(|| vec![mean(triangles); triangles.len()])
+pub(crate) fn cluster_colours(triangles: &[(Colour, bool)]) -> Vec<Colour> {
+    cluster_palette(triangles).unwrap_or_else(|| vec![mean(triangles); triangles.len()])
 }
 
 /// Palette colour for each triangle, given its colour and whether it is its only one.
 ///
 /// Returns `None` if the palette would have more than 64 colours, or if too many triangles have several
 /// colours.
-pub(crate) fn of_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
+pub(crate) fn cluster_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
     let flat = triangles.iter().filter(|(_, flat)| *flat).count();
-    if (flat as f64) < FLAT * triangles.len() as f64 {
+    if (flat as f64) < MIN_FLAT_TRIANGLE_SHARE * triangles.len() as f64 {
         return None;
     }
     let mut counts: FxHashMap<Colour, usize> = FxHashMap::default();
@@ -42,19 +42,19 @@ pub(crate) fn of_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
     let mut chosen: Vec<Colour> = Vec::new();
     let mut strangers = 0;
     for (colour, count) in &ranked {
-        if chosen.iter().all(|swatch| difference(*swatch, *colour) >= ALIKE) {
-            if chosen.len() < MOST {
+        if chosen.iter().all(|swatch| channel_difference(*swatch, *colour) >= MIN_CHANNEL_DIFFERENCE) {
+            if chosen.len() < MAX_PALETTE_COLOURS {
                 chosen.push(*colour);
             } else {
                 strangers += count;
             }
         }
     }
-    if strangers as f64 > STRANGERS * triangles.len() as f64 {
+    if strangers as f64 > MAX_OUTLIER_SHARE * triangles.len() as f64 {
         return None;
     }
     let nearest = |colour: Colour| {
-        chosen.iter().copied().min_by_key(|swatch| difference(*swatch, colour)).unwrap_or(colour)
+        chosen.iter().copied().min_by_key(|swatch| channel_difference(*swatch, colour)).unwrap_or(colour)
     };
     let of: FxHashMap<Colour, Colour> =
         ranked.iter().map(|(colour, _)| (*colour, nearest(*colour))).collect();
@@ -72,7 +72,7 @@ pub(crate) fn mean(triangles: &[(Colour, bool)]) -> Colour {
 }
 
 /// Maximum difference of two colours in any channel.
-pub(crate) fn difference(a: Colour, b: Colour) -> u32 {
+pub(crate) fn channel_difference(a: Colour, b: Colour) -> u32 {
     let of = |a: u8, b: u8| u32::from(a.abs_diff(b));
     of(a.r, b.r).max(of(a.g, b.g)).max(of(a.b, b.b))
 }
@@ -88,10 +88,10 @@ mod tests {
     #[test]
     fn a_palette_keeps_its_colours() {
         let (red, nearly, blue) = (Colour::rgb(200, 0, 0), Colour::rgb(205, 8, 0), Colour::rgb(0, 0, 200));
-        assert_eq!(of_palette(&flat(&[nearly, red, blue, red])).unwrap(), [red, red, blue, red]);
-        assert_eq!(swatches(&[(red, true), (blue, true)]), [red, blue]);
-        assert_eq!(swatches(&[(red, false), (blue, true)]), [Colour::rgb(100, 0, 100); 2]);
-        assert!(swatches(&[]).is_empty());
+        assert_eq!(cluster_palette(&flat(&[nearly, red, blue, red])).unwrap(), [red, red, blue, red]);
+        assert_eq!(cluster_colours(&[(red, true), (blue, true)]), [red, blue]);
+        assert_eq!(cluster_colours(&[(red, false), (blue, true)]), [Colour::rgb(100, 0, 100); 2]);
+        assert!(cluster_colours(&[]).is_empty());
     }
 
     #[test]
@@ -100,12 +100,12 @@ mod tests {
             (0..=255).flat_map(|r| greens.clone().map(move |g| Colour::rgb(r, g * 36, 100))).collect()
         };
         let photograph = flat(&shades(0..8));
-        assert_eq!(of_palette(&photograph), None);
+        assert_eq!(cluster_palette(&photograph), None);
         assert_eq!(mean(&photograph), Colour::rgb(128, 126, 100));
         // A smooth gradient of one hue gives a few colours, each near those that it represents.
         let run = shades(0..1);
-        let kept = of_palette(&flat(&run)).unwrap();
-        assert!(kept.iter().zip(&run).all(|(a, b)| difference(*a, *b) < ALIKE));
+        let kept = cluster_palette(&flat(&run)).unwrap();
+        assert!(kept.iter().zip(&run).all(|(a, b)| channel_difference(*a, *b) < MIN_CHANNEL_DIFFERENCE));
         assert!(kept.iter().any(|colour| *colour != kept[0]));
     }
 }

@@ -19,7 +19,7 @@ use crate::scene::{Material, Scene};
 /// The centre of the first texel is the origin; x runs along a row and y from the top row down. The unit is a
 /// texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Texels {
+pub(crate) struct TexelPlane {
     /// Width and height in texels; at least 1.
     pub size: [usize; 2],
     /// Wrapping along x and along y.
@@ -30,7 +30,7 @@ pub(crate) struct Texels {
     pub placing: Placing,
 }
 
-impl Texels {
+impl TexelPlane {
     /// Layout of a material's picture.
     pub fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let size = [picture.width, picture.height];
@@ -82,13 +82,13 @@ impl Texels {
     #[inline]
     pub fn index(&self, column: i64, row: i64) -> usize {
         let [width, height] = self.size;
-        wrapped(row, height as i64, self.wrap[1]) * width + wrapped(column, width as i64, self.wrap[0])
+        wrap_index(row, height as i64, self.wrap[1]) * width + wrap_index(column, width as i64, self.wrap[0])
     }
 }
 
 /// Wraps an index into `0..count`.
 #[inline]
-fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
+fn wrap_index(at: i64, count: i64, wrap: Wrap) -> usize {
     if (0..count).contains(&at) {
         return at as usize;
     }
@@ -105,7 +105,7 @@ fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
 
 /// Traced borders between areas of a picture, one period of them.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Traced {
+pub(crate) struct TracedBorders {
     /// Linked polylines. Open ones end where three borders meet, or at the border of the picture or period.
     pub lines: Vec<Vec<DVec2>>,
     /// The two colours on the sides of each line, or empty.
@@ -123,12 +123,12 @@ mod tests {
     #[test]
     fn middles_of_texels_are_whole_numbers() {
         let texels =
-            Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false, placing: Placing::default() };
+            TexelPlane { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false, placing: Placing::default() };
         assert_eq!(texels.place([0.25, 0.75]), Some(DVec2::new(0.0, 1.0)));
         assert_eq!(texels.place([f32::NAN, 0.0]), None);
-        assert_eq!(Texels { upward: true, ..texels }.place([0.25, 0.75]), Some(DVec2::ZERO));
+        assert_eq!(TexelPlane { upward: true, ..texels }.place([0.25, 0.75]), Some(DVec2::ZERO));
         let placing = Placing { scale: [2.0, 1.0], offset: [0.5, 0.0] };
-        assert_eq!(Texels { placing, ..texels }.place([0.25, 0.75]), Some(DVec2::new(1.5, 1.0)));
+        assert_eq!(TexelPlane { placing, ..texels }.place([0.25, 0.75]), Some(DVec2::new(1.5, 1.0)));
         assert_eq!([-1, 0, 1, 2].map(|k| texels.index(k, 1)), [3, 2, 3, 2]);
     }
 }

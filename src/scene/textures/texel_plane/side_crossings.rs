@@ -3,13 +3,13 @@
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
-use super::texel_borders::Segment;
+use super::texel_borders::BorderSegment;
 
 /// Crossings within this fraction of a side from its end count as the end.
-const AT_END: f64 = 1e-9;
+const END_OF_SIDE: f64 = 1e-9;
 
 /// Twice the signed area of a triangle, positive if it turns from x to y. The sign is exact.
-pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+pub(crate) fn doubled_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let at = |p: DVec2| Coord { x: p.x, y: p.y };
     orient2d(at(a), at(b), at(c))
 }
@@ -19,30 +19,30 @@ pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 pub(crate) struct TexelSide {
     pub from: DVec2,
     pub to: DVec2,
-    /// Whether the triangle is on the side where [`turn`] is not negative.
+    /// Whether the triangle is on the side where [`doubled_area`] is not negative.
     pub inside: bool,
 }
 
 impl TexelSide {
     /// Whether a point is on the triangle's side of the line.
     pub fn admits(&self, p: DVec2) -> bool {
-        (turn(self.from, self.to, p) >= 0.0) == self.inside
+        (doubled_area(self.from, self.to, p) >= 0.0) == self.inside
     }
 
     /// Crossing of a border segment with the side: positions on the side and on the segment, 0 to 1.
-    pub fn crossing(&self, [p, q]: Segment) -> Option<(f64, f64)> {
-        let (of_p, of_q) = (turn(self.from, self.to, p), turn(self.from, self.to, q));
+    pub fn crossing(&self, [p, q]: BorderSegment) -> Option<(f64, f64)> {
+        let (of_p, of_q) = (doubled_area(self.from, self.to, p), doubled_area(self.from, self.to, q));
         if (of_p >= 0.0) == (of_q >= 0.0) {
             return None;
         }
-        let (of_from, of_to) = (turn(p, q, self.from), turn(p, q, self.to));
+        let (of_from, of_to) = (doubled_area(p, q, self.from), doubled_area(p, q, self.to));
         if (of_from >= 0.0) == (of_to >= 0.0) {
             return None;
         }
         let part = of_from / (of_from - of_to);
-        let part = if part < AT_END {
+        let part = if part < END_OF_SIDE {
             0.0
-        } else if part > 1.0 - AT_END {
+        } else if part > 1.0 - END_OF_SIDE {
             1.0
         } else {
             part
@@ -52,10 +52,10 @@ impl TexelSide {
 }
 
 /// Sorts crossings along a side and removes duplicates and ends.
-pub(crate) fn in_order(parts: &mut Vec<f64>) {
+pub(crate) fn sort_crossings(parts: &mut Vec<f64>) {
     parts.retain(|part| *part > 0.0 && *part < 1.0);
     parts.sort_unstable_by(f64::total_cmp);
-    parts.dedup_by(|b, a| *b - *a < AT_END);
+    parts.dedup_by(|b, a| *b - *a < END_OF_SIDE);
 }
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn crossings_are_ordered_and_ends_are_none() {
         let mut parts = vec![1.0, 0.7, 0.2, 0.2 + 1e-12, 0.0];
-        in_order(&mut parts);
+        sort_crossings(&mut parts);
         assert_eq!(parts, [0.2, 0.7]);
     }
 }

@@ -1,57 +1,57 @@
-//! [`Outline`]: simplified borders in the texel plane, with a grid index for queries by box.
+//! [`BorderIndex`]: simplified borders in the texel plane, with a grid index for queries by box.
 //!
 //! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
 
 use glam::DVec2;
 
-use super::Traced;
-use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use super::TracedBorders;
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Segment of a border, in tracing direction.
-pub(crate) type Segment = [DVec2; 2];
+pub(crate) type BorderSegment = [DVec2; 2];
 
 /// Length of the extension of lines outside a picture with repeated border, texels.
-const FAR: f64 = 2e9;
+const CLAMPED_BORDER_TEXELS: f64 = 2e9;
 
 /// Maximum cells of the index along each side.
-const MOST_CELLS: usize = 64;
+const MAX_CELLS_PER_SIDE: usize = 64;
 
 /// Maximum points of a line, or part of a line, that is simplified as a whole.
-const SPAN: usize = 512;
+const MAX_SPAN_POINTS: usize = 512;
 
 /// Maximum segments that a query returns; larger queries fail.
-const MOST_SEGMENTS: usize = 100_000;
+const MAX_QUERY_SEGMENTS: usize = 100_000;
 
 /// Borders of one period, indexed by position.
 #[derive(Debug)]
-pub(crate) struct Outline {
-    pub segments: Vec<Segment>,
+pub(crate) struct BorderIndex {
+    pub segments: Vec<BorderSegment>,
     /// The two colours on the sides of each segment.
     parted: Vec<[u8; 2]>,
     /// Period along x and along y, texels.
     periods: [Option<f64>; 2],
     across: [usize; 2],
     cell: DVec2,
-    cells: Grouped<u32>,
+    cells: CsrLists<u32>,
 }
 
-impl Outline {
+impl BorderIndex {
     /// Simplifies traced borders with a tolerance in texels, and indexes them.
-    pub fn new(traced: &Traced, tolerance: f64) -> Self {
-        let Traced { lines, parted: of_lines, reach, periods } = traced;
+    pub fn new(traced: &TracedBorders, tolerance: f64) -> Self {
+        let TracedBorders { lines, parted: of_lines, reach, periods } = traced;
         let (reach, periods) = (*reach, *periods);
         let (mut segments, mut parted) = (Vec::new(), Vec::new());
         for (number, line) in lines.iter().enumerate() {
-            let mut line = thinned(line, tolerance);
-            extend(&mut line, reach, periods);
+            let mut line = simplified(line, tolerance);
+            extend_clamped_ends(&mut line, reach, periods);
             segments.extend(line.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b));
             parted.resize(segments.len(), of_lines.get(number).copied().unwrap_or_default());
         }
-        let across = reach.map(|count| (count / 4).clamp(1, MOST_CELLS));
+        let across = reach.map(|count| (count / 4).clamp(1, MAX_CELLS_PER_SIDE));
         let cell = DVec2::new(reach[0] as f64 / across[0] as f64, reach[1] as f64 / across[1] as f64);
         let periods = periods.map(|period| period.map(|count| count as f64));
-        let mut outline = Self { segments, parted, periods, across, cell, cells: Grouped::default() };
-        outline.cells = grouped(across[0] * across[1], |put| {
+        let mut outline = Self { segments, parted, periods, across, cell, cells: CsrLists::default() };
+        outline.cells = csr_lists(across[0] * across[1], |put| {
             for (number, [a, b]) in outline.segments.iter().enumerate() {
                 outline.each_cell(a.min(*b), a.max(*b), |cell| put(cell, number as u32));
             }
@@ -77,23 +77,23 @@ impl Outline {
     }
 
     /// Segments that may touch a box; `None` if there are too many.
-    pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<Segment>> {
-        self.near_as(low, high, |segment, _| segment)
+    pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<BorderSegment>> {
+        self.map_segments_in_box(low, high, |segment, _| segment)
     }
 
     /// Segments that may touch a box, mapped by `make` with their two colours; `None` if there are too many.
-    pub fn near_as<T>(
+    pub fn map_segments_in_box<T>(
         &self,
         low: DVec2,
         high: DVec2,
-        make: impl Fn(Segment, [u8; 2]) -> T,
+        make: impl Fn(BorderSegment, [u8; 2]) -> T,
     ) -> Option<Vec<T>> {
         let turns = |axis: usize| match self.periods[axis] {
             Some(period) => ((low[axis] / period).floor() as i64, (high[axis] / period).floor() as i64),
             None => (0, 0),
         };
         let ((left, right), (top, bottom)) = (turns(0), turns(1));
-        if (right - left + 1) * (bottom - top + 1) > MOST_SEGMENTS as i64 {
+        if (right - left + 1) * (bottom - top + 1) > MAX_QUERY_SEGMENTS as i64 {
             return None;
         }
         let mut found = Vec::new();
@@ -117,7 +117,7 @@ impl Outline {
                         .filter(|([a, b], _)| a.min(*b).cmple(high).all() && a.max(*b).cmpge(low).all())
                         .map(|(segment, parted)| make(segment, parted)),
                 );
-                if found.len() > MOST_SEGMENTS {
+                if found.len() > MAX_QUERY_SEGMENTS {
                     return None;
                 }
             }
@@ -127,7 +127,7 @@ impl Outline {
 }
 
 /// Extends the ends of a line outwards where the border texel is repeated.
-fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2]) {
+fn extend_clamped_ends(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2]) {
     let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
     if first == last {
         return;
@@ -136,9 +136,9 @@ fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2])
         (0..2).filter(|axis| periods[*axis].is_none()).find_map(|axis| {
             let mut far = p;
             far[axis] = if p[axis] == 0.0 {
-                -FAR
+                -CLAMPED_BORDER_TEXELS
             } else if p[axis] == reach[axis] as f64 {
-                FAR
+                CLAMPED_BORDER_TEXELS
             } else {
                 return None;
             };
@@ -152,13 +152,13 @@ fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2])
 }
 
 /// Simplifies a line with a tolerance. Closed lines narrower than the tolerance become empty.
-fn thinned(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
+fn simplified(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let count = line.len();
     let is_closed = line[0] == line[count - 1];
     let mut kept = vec![false; count];
     // The recursion on a long winding line would be quadratic, so it is simplified span by span.
-    let mut ends: Vec<usize> = (0..count - 1).step_by(SPAN).chain([count - 1]).collect();
-    if is_closed && count <= SPAN {
+    let mut ends: Vec<usize> = (0..count - 1).step_by(MAX_SPAN_POINTS).chain([count - 1]).collect();
+    if is_closed && count <= MAX_SPAN_POINTS {
         let from = |k: &usize| line[*k].distance_squared(line[0]);
         let farthest = (1..count).max_by(|a, b| from(a).total_cmp(&from(b)).then(b.cmp(a)));
         ends.extend(farthest);
@@ -192,7 +192,7 @@ mod tests {
     fn specks_thinner_than_the_tolerance_are_gone_and_long_lines_keep_their_shape() {
         let speck: Vec<DVec2> =
             [[0.0, 0.0], [3.0, 0.1], [6.0, 0.0], [3.0, -0.1], [0.0, 0.0]].map(DVec2::from).to_vec();
-        assert!(thinned(&speck, 0.2).is_empty() && thinned(&speck, 0.05).len() == 5);
+        assert!(simplified(&speck, 0.2).is_empty() && simplified(&speck, 0.05).len() == 5);
         let turn = |k: usize| std::f64::consts::TAU * (k % 3000) as f64 / 3000.0;
         let ring: Vec<DVec2> = (0..=3000)
             .map(|k| {
@@ -202,7 +202,7 @@ mod tests {
                 ) * 100.0
             })
             .collect();
-        let thin = thinned(&ring, 0.1);
+        let thin = simplified(&ring, 0.1);
         assert!((60..120).contains(&thin.len()), "{}", thin.len());
         assert!(thin.windows(2).all(|pair| (pair[0] + pair[1]).length() / 2.0 > 99.8));
     }

@@ -1,4 +1,4 @@
-//! [`middle_lines`]: centre edges of fillets, kept where they form whole lines.
+//! [`centre_lines`]: centre edges of fillets, kept where they form whole lines.
 //!
 //! On decimated meshes single edges may look like the middle of a fillet. A centre line must run along the
 //! whole fillet, except for a corner at its ends.
@@ -6,27 +6,27 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::surface_trace::Walk;
+use super::surface_trace::SurfaceTracer;
 use crate::mesh::EdgeFaces;
-use crate::parallel::task_size::GRAIN;
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Centre edge of a fillet, with the width of the fillet.
-pub(crate) type Middle = (usize, f64);
+pub(crate) type CentreEdge = (usize, f64);
 
 /// Minimum length of a line, in widths of its fillet.
-const LONG: f64 = 3.0;
+const MIN_LENGTH_PER_WIDTH: f64 = 3.0;
 /// Minimum length of a line, in lengths of the continuation of the fillet at both ends.
-const WHOLE: f64 = 2.0;
+const MIN_LENGTH_PER_EXTENSION: f64 = 2.0;
 /// Maximum number of edges followed from the end of a line. A longer continuation is no corner.
-const MOST: usize = 64;
+const MAX_EXTENSION_EDGES: usize = 64;
 /// Minimum cosine (40 degrees) of the turn between consecutive edges, and of the total turn after the end of
 /// a line.
-const ONWARD: f64 = 0.766;
+const MIN_ONWARD_COSINE: f64 = 0.766;
 
 /// The edges of `found` that belong to whole lines, ascending. `found` is a subset of `asked`; both are
 /// ascending.
-pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Vec<usize> {
-    let lines = Lines::new(walk, asked, found);
+pub(crate) fn centre_lines(walk: &SurfaceTracer, asked: &[usize], found: &[CentreEdge]) -> Vec<usize> {
+    let lines = CentreLines::new(walk, asked, found);
     let mut stays: Vec<usize> = Vec::new();
     let mut is_seen = vec![false; found.len()];
     for at in 0..found.len() {
@@ -51,13 +51,12 @@ pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Ve
         });
         let length: f64 = line.iter().map(|at| lines.length(found[*at].0)).sum();
         let wide = line.iter().map(|at| found[*at].1).fold(0.0, f64::max);
-        if length < LONG * wide {
+        if length < MIN_LENGTH_PER_WIDTH * wide {
             continue;
         }
-        let beyond = outside
-            .into_iter()
-            .flatten()
-            .try_fold(0.0, |beyond, (edge, end)| lines.beyond(edge, end, beyond, length / WHOLE));
+        let beyond = outside.into_iter().flatten().try_fold(0.0, |beyond, (edge, end)| {
+            lines.beyond(edge, end, beyond, length / MIN_LENGTH_PER_EXTENSION)
+        });
         if beyond.is_some() {
             stays.extend(line.iter().map(|at| found[*at].0));
         }
@@ -67,9 +66,9 @@ pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Ve
 }
 
 /// Fillet edges by end vertex.
-struct Lines<'a> {
-    walk: &'a Walk<'a>,
-    found: &'a [Middle],
+struct CentreLines<'a> {
+    walk: &'a SurfaceTracer<'a>,
+    found: &'a [CentreEdge],
     /// Vertices of the found edges with their indices, sorted; then vertices of all examined edges with their
     /// edges.
     found_at: Vec<(u32, usize)>,
@@ -78,8 +77,8 @@ struct Lines<'a> {
     is_on_line: Vec<bool>,
 }
 
-impl<'a> Lines<'a> {
-    fn new(walk: &'a Walk<'a>, asked: &[usize], found: &'a [Middle]) -> Self {
+impl<'a> CentreLines<'a> {
+    fn new(walk: &'a SurfaceTracer<'a>, asked: &[usize], found: &'a [CentreEdge]) -> Self {
         let edges = &walk.mesh.edges;
         let mut found_at: Vec<(u32, usize)> = Vec::with_capacity(2 * found.len());
         found_at.extend((0..found.len()).flat_map(|k| edges.vertices[found[k].0].map(|v| (v, k))));
@@ -92,7 +91,7 @@ impl<'a> Lines<'a> {
             |edge: &usize| walk.hard.is_hard(*edge) || !matches!(edges.faces(*edge), EdgeFaces::Two { .. });
         let of_lines: Vec<u32> = (0..edges.len())
             .into_par_iter()
-            .with_min_len(GRAIN)
+            .with_min_len(MIN_TASK_ITEMS)
             .filter(is_line)
             .flat_map_iter(|edge| edges.vertices[edge])
             .collect();
@@ -126,7 +125,8 @@ impl<'a> Lines<'a> {
     fn next_in_line(&self, edge: usize, end: u32) -> Option<usize> {
         let mut found = self.found_at(end, edge);
         let next = found.next().filter(|_| !self.is_on_line[end as usize])?;
-        (found.next().is_none() && self.onward(edge, end, self.found[next].0) > ONWARD).then_some(next)
+        (found.next().is_none() && self.onward(edge, end, self.found[next].0) > MIN_ONWARD_COSINE)
+            .then_some(next)
     }
 
     /// Cosine of the turn from an edge to another at a vertex.
@@ -140,7 +140,7 @@ impl<'a> Lines<'a> {
     fn beyond(&self, mut edge: usize, mut end: u32, mut length: f64, most: f64) -> Option<f64> {
         let convex = self.walk.is_convex(edge);
         let ahead = self.towards(edge, end).normalize_or_zero();
-        for _ in 0..MOST {
+        for _ in 0..MAX_EXTENSION_EDGES {
             if self.is_on_line[end as usize] || self.found_at(end, edge).next().is_some() {
                 return Some(length);
             }
@@ -152,7 +152,9 @@ impl<'a> Lines<'a> {
                 .filter(|other| *other != edge && self.walk.is_convex(*other) == convex)
                 .map(onward)
                 .max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, next)) = next.filter(|(onward, _)| *onward > ONWARD) else { return Some(length) };
+            let Some((_, next)) = next.filter(|(onward, _)| *onward > MIN_ONWARD_COSINE) else {
+                return Some(length);
+            };
             length += self.length(next);
             if length > most {
                 return None;

@@ -1,4 +1,4 @@
-//! [`Beyond`]: how a surface continues from an edge, straight across one of its faces.
+//! [`Continuation`]: how a surface continues from an edge, straight across one of its faces.
 //!
 //! Facets of a curve bend again by a similar angle in the same direction, at about the width of one facet. A
 //! surface cut at an angle does not. An edge where neither side continues as a curve is a crease.
@@ -7,36 +7,36 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::surface_trace::{Bend, Crossing, Walk};
+use super::surface_trace::{BentEdge, SurfaceTracer, TraceCrossing};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{EdgeFaces, FaceId};
 
 /// Minimum turn, as a share of the first turn, for the surface to bend again.
-const AGAIN: f64 = 0.35;
+const MIN_TURN_RATIO: f64 = 0.35;
 
 /// Maximum ratio of facet widths on one curve. A surface that bends again farther away is not part of the
 /// curve.
-const WIDE: f64 = 4.0;
+const MAX_FACET_WIDTH_RATIO: f64 = 4.0;
 /// Maximum ratio of the widths of two neighbouring steps of one fillet.
-const ALIKE: f64 = 1.5;
+const MAX_STEP_WIDTH_RATIO: f64 = 1.5;
 /// Maximum turn in the middle of a fillet, as a multiple of the turn at its ends: 2, plus rounding.
-const TWICE: f64 = 2.2;
+const MAX_MIDDLE_TURN_RATIO: f64 = 2.2;
 
 /// Maximum number of faces of a facet that is examined all around.
-const FACET: usize = 16;
+const MAX_FACET_FACES: usize = 16;
 /// Two sides of a facet are collinear above this cosine (a quarter of a degree), if their offset is below the
-/// share `ASIDE` of their distance or length.
-const STRAIGHT: f64 = 0.999_99;
-const ASIDE: f64 = 0.004;
+/// share `MAX_COLLINEAR_OFFSET` of their distance or length.
+const MIN_COLLINEAR_COSINE: f64 = 0.999_99;
+const MAX_COLLINEAR_OFFSET: f64 = 0.004;
 /// Minimum cosine (45 degrees) between parallel edges of a facet.
-const PARALLEL: f64 = 0.71;
+const MIN_PARALLEL_COSINE: f64 = 0.71;
 /// Minimum sideways offset between parallel edges, as a share of their distance. Below it they lie on one
 /// line.
-const SAME_LINE: f64 = 0.1;
+const MIN_PARALLEL_OFFSET: f64 = 0.1;
 
 /// Continuation of a surface straight across from an edge.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Beyond {
+enum Continuation {
     /// Ends at this distance: at a crease, or at a border of the mesh.
     Ends(f64),
     /// Bends again at this distance, in the same direction.
@@ -46,17 +46,16 @@ enum Beyond {
 }
 
 /// Whether surfaces with these two continuations end at the edge between them.
-fn is_end(beyond: [Beyond; 2]) -> bool {
+fn is_end(beyond: [Continuation; 2]) -> bool {
     match beyond {
-        [Beyond::Bends(far), Beyond::Ends(near)] | [Beyond::Ends(near), Beyond::Bends(far)] => {
-            far > WIDE * near
-        }
-        [Beyond::Ends(_), _] | [_, Beyond::Ends(_)] => true,
+        [Continuation::Bends(far), Continuation::Ends(near)]
+        | [Continuation::Ends(near), Continuation::Bends(far)] => far > MAX_FACET_WIDTH_RATIO * near,
+        [Continuation::Ends(_), _] | [_, Continuation::Ends(_)] => true,
         _ => false,
     }
 }
 
-impl Walk<'_> {
+impl SurfaceTracer<'_> {
     /// Whether the surfaces on both sides of an edge end at it. Returns the edges where they must bend back
     /// for that.
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
@@ -67,24 +66,26 @@ impl Walk<'_> {
         if !is_end(beyond) {
             return None;
         }
-        let first = self.seen_around(&bend, faces[0], beyond[0])?;
+        let first = self.continuation_around_facet(&bend, faces[0], beyond[0])?;
         // The other facet cannot turn this result into an end.
         if !is_end([first, beyond[1]]) {
             return None;
         }
-        let beyond = [first, self.seen_around(&bend, faces[1], beyond[1])?];
+        let beyond = [first, self.continuation_around_facet(&bend, faces[1], beyond[1])?];
         is_end(beyond).then_some(beyond.map(|beyond| match beyond {
-            Beyond::TurnsBack(edge) => Some(edge),
+            Continuation::TurnsBack(edge) => Some(edge),
             _ => None,
         }))
     }
 
     /// Continuation of the surface from an edge, straight across one of its faces; `None` if undecided.
-    fn beyond(&self, bend: &Bend, face: u32) -> Option<Beyond> {
+    fn beyond(&self, bend: &BentEdge, face: u32) -> Option<Continuation> {
         let (beyond, crossed) = self.across(bend, face)?;
         match (beyond, crossed) {
-            (Beyond::Ends(near), Some((sharp, last))) if self.is_of_rounding(bend, near, sharp, last) => {
-                Some(Beyond::Bends(near))
+            (Continuation::Ends(near), Some((sharp, last)))
+                if self.is_of_rounding(bend, near, sharp, last) =>
+            {
+                Some(Continuation::Bends(near))
             }
             _ => Some(beyond),
         }
@@ -92,30 +93,35 @@ impl Walk<'_> {
 
     /// Same, but checks the whole facet of the face for bends off the trace. `None` if the facet is a
     /// triangle.
-    fn seen_around(&self, bend: &Bend, face: u32, beyond: Beyond) -> Option<Beyond> {
+    fn continuation_around_facet(
+        &self,
+        bend: &BentEdge,
+        face: u32,
+        beyond: Continuation,
+    ) -> Option<Continuation> {
         let Some(around) = self.facet(face) else { return Some(beyond) };
         if self.is_triangle(&around) {
             return None;
         }
         match beyond {
-            Beyond::Bends(_) => Some(beyond),
-            _ => Some(self.bends_beside(bend, &around).map_or(beyond, Beyond::Bends)),
+            Continuation::Bends(_) => Some(beyond),
+            _ => Some(self.parallel_bend_distance(bend, &around).map_or(beyond, Continuation::Bends)),
         }
     }
 
     /// Whether a crease at distance `near` is the middle of a fillet of few steps: the next strip has a
     /// similar width and bends in the same direction.
-    fn is_of_rounding(&self, bend: &Bend, near: f64, sharp: usize, last: u32) -> bool {
-        let most = cos((TWICE * bend.turn).min(PI)) as f32;
+    fn is_of_rounding(&self, bend: &BentEdge, near: f64, sharp: usize, last: u32) -> bool {
+        let most = cos((MAX_MIDDLE_TURN_RATIO * bend.turn).min(PI)) as f32;
         let is_step =
             |edge: usize| self.turns.of_two(edge) >= most && self.is_convex(edge) == Some(bend.convex);
         let Some(other) = self.over(sharp, last).filter(|_| is_step(sharp)) else { return false };
-        let far = match self.across(&Bend { edge: sharp, ..*bend }, other) {
-            Some((Beyond::Bends(far), _)) => far,
-            Some((Beyond::Ends(far), Some((next, _)))) if is_step(next) => far,
+        let far = match self.across(&BentEdge { edge: sharp, ..*bend }, other) {
+            Some((Continuation::Bends(far), _)) => far,
+            Some((Continuation::Ends(far), Some((next, _)))) if is_step(next) => far,
             _ => return false,
         };
-        far < ALIKE * near && near < ALIKE * far
+        far < MAX_STEP_WIDTH_RATIO * near && near < MAX_STEP_WIDTH_RATIO * far
     }
 
     /// The edges around the facet of a face; `None` for a large facet.
@@ -129,7 +135,7 @@ impl Walk<'_> {
                 let Some(edge) = self.edge([a.min(b), a.max(b)]) else { continue };
                 match self.over(edge, face).filter(|_| self.flat.contains(edge)) {
                     Some(other) if own.contains(&other) => {}
-                    Some(_) if own.len() == FACET => return None,
+                    Some(_) if own.len() == MAX_FACET_FACES => return None,
                     Some(other) => own.push(other),
                     None => around.push(edge),
                 }
@@ -146,7 +152,8 @@ impl Walk<'_> {
             let along = (q - p).normalize_or_zero();
             let is_on = |[from, way]: &[DVec3; 2]| {
                 let (aside, far) = ((p - *from).reject_from(*way).length(), (p - *from).length());
-                along.dot(*way).abs() > STRAIGHT && aside <= ASIDE * far.max(p.distance(q))
+                along.dot(*way).abs() > MIN_COLLINEAR_COSINE
+                    && aside <= MAX_COLLINEAR_OFFSET * far.max(p.distance(q))
             };
             if !lines.iter().any(is_on) {
                 lines.push([p, along]);
@@ -156,10 +163,10 @@ impl Walk<'_> {
     }
 
     /// Distance to the nearest edge of the facet that is parallel to this one and bends again.
-    fn bends_beside(&self, bend: &Bend, around: &[usize]) -> Option<f64> {
+    fn parallel_bend_distance(&self, bend: &BentEdge, around: &[usize]) -> Option<f64> {
         let ends = |edge: usize| self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
         let [from, to] = ends(bend.edge);
-        let again = cos(AGAIN * bend.turn) as f32;
+        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
         let bends = |edge: usize| {
             let cosine = self.turns.of_two(edge);
             cosine < again && cosine >= self.most && self.is_convex(edge) == Some(bend.convex)
@@ -174,7 +181,8 @@ impl Walk<'_> {
             let away = (p + q) / 2.0 - (from + to) / 2.0;
             let apart = away.reject_from(along).length();
             // An edge on the same line belongs to the same crease.
-            let is_beside = way(edge).dot(along).abs() > PARALLEL && apart > SAME_LINE * away.length();
+            let is_beside = way(edge).dot(along).abs() > MIN_PARALLEL_COSINE
+                && apart > MIN_PARALLEL_OFFSET * away.length();
             is_beside.then_some(apart)
         };
         // So does an edge connected end to end around the facet.
@@ -185,7 +193,7 @@ impl Walk<'_> {
             let [a, b] = self.mesh.edges.vertices[last];
             others.retain(|edge| {
                 let meets = self.mesh.edges.vertices[*edge].iter().any(|v| *v == a || *v == b)
-                    && way(*edge).dot(way(last)).abs() > PARALLEL;
+                    && way(*edge).dot(way(last)).abs() > MIN_PARALLEL_COSINE;
                 if meets {
                     same.push(*edge);
                 }
@@ -197,12 +205,12 @@ impl Walk<'_> {
 
     /// Continuation found by a trace from the middle of an edge, with the edge where a crease ended it and
     /// the face before that edge.
-    fn across(&self, bend: &Bend, face: u32) -> Option<(Beyond, Option<(usize, u32)>)> {
-        let again = cos(AGAIN * bend.turn) as f32;
+    fn across(&self, bend: &BentEdge, face: u32) -> Option<(Continuation, Option<(usize, u32)>)> {
+        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
         for crossing in self.crossings(bend.edge, face) {
-            let Crossing { edge, before, reach } = crossing?;
+            let TraceCrossing { edge, before, reach } = crossing?;
             let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else {
-                return Some((Beyond::Ends(reach), None));
+                return Some((Continuation::Ends(reach), None));
             };
             let other = faces[usize::from(faces[0] == before)];
             if self.mesh.is_degenerate(FaceId(other)) {
@@ -210,16 +218,19 @@ impl Walk<'_> {
             }
             let cosine = self.turns.of_two(edge);
             if self.hard.is_hard(edge) || cosine < self.most {
-                return Some((Beyond::Ends(reach), Some((edge, before))));
+                return Some((Continuation::Ends(reach), Some((edge, before))));
             }
             if cosine < again {
                 let same = self.is_convex(edge)? == bend.convex;
-                return Some((if same { Beyond::Bends(reach) } else { Beyond::TurnsBack(edge) }, None));
+                return Some((
+                    if same { Continuation::Bends(reach) } else { Continuation::TurnsBack(edge) },
+                    None,
+                ));
             }
             if same_way {
                 return None;
             }
         }
-        Some((Beyond::Ends(f64::INFINITY), None))
+        Some((Continuation::Ends(f64::INFINITY), None))
     }
 }

@@ -1,4 +1,4 @@
-//! [`narrow_roundings`]: centre lines of fillets that have few steps and are narrow compared with the
+//! [`narrow_fillets`]: centre lines of fillets that have few steps and are narrow compared with the
 //! surfaces they join.
 //!
 //! A fillet of three or four steps turns by less than the crease angle at each of them, so a box with such
@@ -6,43 +6,44 @@
 
 use crate::parallel::prelude::*;
 
-use super::centre_lines::{Middle, middle_lines};
-use super::surface_trace::{Bend, Walk};
+use super::centre_lines::{CentreEdge, centre_lines};
+use super::surface_trace::{BentEdge, SurfaceTracer};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::Mesh;
 
 /// Minimum turn of a step, as a share of the turn at the middle edge.
-const AGAIN: f64 = 0.35;
+const MIN_TURN_RATIO: f64 = 0.35;
 /// Maximum number of steps on one side of the middle edge.
-const MOST_STEPS: usize = 4;
+const MAX_STEPS_PER_SIDE: usize = 4;
 /// Range of the total turn of a fillet, degrees.
-const TURN_DEG: [f64; 2] = [50.0, 130.0];
+const FILLET_TURN_RANGE_DEG: [f64; 2] = [50.0, 130.0];
 /// Minimum width of the surfaces next to a narrow fillet, in fillet widths: of both, and of the wider one.
-const NARROW: [f64; 2] = [1.5, 3.0];
+const MIN_NEIGHBOUR_WIDTH_RATIOS: [f64; 2] = [1.5, 3.0];
 /// Maximum ratio between the widths of the strips of one fillet, and between its inner turns.
-const REGULAR: f64 = 1.3;
+const MAX_STEP_RATIO: f64 = 1.3;
 /// Maximum turn at the ends of a fillet, in turns of its middle.
-const MOST_AT_END: f64 = 1.6;
+const MAX_END_TURN_RATIO: f64 = 1.6;
 /// Maximum difference between two half turns that count as equal, as a share of the total turn.
-const ALIKE: f64 = 0.03;
+const MAX_TURN_DIFFERENCE_OF_FILLET: f64 = 0.03;
 /// Minimum ratio of widths for one of two surfaces to count as wider.
-const WIDER: f64 = 1.5;
+const MIN_WIDER_RATIO: f64 = 1.5;
 /// Minimum difference between two normals along an axis.
-const APART: f32 = 0.1;
+const MIN_NORMAL_DIFFERENCE: f32 = 0.1;
 /// Minimum number of edges per task.
-const GRAIN: usize = 1 << 8;
+const MIN_EDGES_PER_TASK: usize = 1 << 8;
 
 /// The edges of `asked`, in order, that lie in the middle of a narrow fillet and cover most of its centre
 /// line.
-pub(crate) fn narrow_roundings(walk: &Walk, asked: &[usize]) -> Vec<usize> {
-    let wide_at = |edge: &usize| Some((*edge, Bent::at(walk, *edge)?.wide_if_middle(walk.mesh)?));
-    let found: Vec<Middle> = asked.par_iter().with_min_len(GRAIN).filter_map(wide_at).collect();
-    if found.is_empty() { Vec::new() } else { middle_lines(walk, asked, &found) }
+pub(crate) fn narrow_fillets(walk: &SurfaceTracer, asked: &[usize]) -> Vec<usize> {
+    let wide_at = |edge: &usize| Some((*edge, FilletCandidate::at(walk, *edge)?.wide_if_middle(walk.mesh)?));
+    let found: Vec<CentreEdge> =
+        asked.par_iter().with_min_len(MIN_EDGES_PER_TASK).filter_map(wide_at).collect();
+    if found.is_empty() { Vec::new() } else { centre_lines(walk, asked, &found) }
 }
 
 /// Edge where the surface turns.
 #[derive(Clone, Copy)]
-struct Step {
+struct FilletStep {
     /// Distance from the start edge, world units.
     reach: f64,
     /// Total turn since the start edge, radians.
@@ -53,24 +54,24 @@ struct Step {
 
 /// One side of an edge: the following steps of a fillet, nearest first, and the distance to the end of the
 /// surface behind the last step.
-struct Side {
-    steps: [Step; MOST_STEPS],
+struct FilletSide {
+    steps: [FilletStep; MAX_STEPS_PER_SIDE],
     count: usize,
     end: f64,
 }
 
-impl Side {
+impl FilletSide {
     /// Traces across `face` from an edge of the given length. `None` if no fillet ends on this side.
-    fn new(walk: &Walk, bend: &Bend, length: f64, face: u32) -> Option<Self> {
-        let again = cos(AGAIN * bend.turn) as f32;
-        let mut last = Step { reach: 0.0, turned: 0.0, face };
-        let mut side = Self { steps: [last; MOST_STEPS], count: 0, end: f64::INFINITY };
+    fn new(walk: &SurfaceTracer, bend: &BentEdge, length: f64, face: u32) -> Option<Self> {
+        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
+        let mut last = FilletStep { reach: 0.0, turned: 0.0, face };
+        let mut side = Self { steps: [last; MAX_STEPS_PER_SIDE], count: 0, end: f64::INFINITY };
         for crossing in walk.crossings(bend.edge, face) {
             let crossing = crossing?;
             let (edge, wide) = (crossing.edge, crossing.reach - last.reach);
             side.end = crossing.reach;
             // A gap this wide is a neighbouring surface of any fillet that is narrower than the edge is long.
-            if wide > NARROW[1] * length {
+            if wide > MIN_NEIGHBOUR_WIDTH_RATIOS[1] * length {
                 break;
             }
             let cosine = walk.turns.of_two(edge);
@@ -79,20 +80,23 @@ impl Side {
                 continue;
             }
             // The first strip sets the width of the others.
-            let is_strip = side.count == 0 || wide <= REGULAR * side.steps[0].reach;
+            let is_strip = side.count == 0 || wide <= MAX_STEP_RATIO * side.steps[0].reach;
             let Some((next, _)) = next.filter(|(next, _)| next.convex == bend.convex && is_strip) else {
                 break;
             };
             let turned = last.turned + next.turn;
-            if side.count == MOST_STEPS || crossing.reach > length || turned > TURN_DEG[1].to_radians() {
+            if side.count == MAX_STEPS_PER_SIDE
+                || crossing.reach > length
+                || turned > FILLET_TURN_RANGE_DEG[1].to_radians()
+            {
                 break;
             }
-            last = Step { reach: crossing.reach, turned, face: walk.over(edge, crossing.before)? };
+            last = FilletStep { reach: crossing.reach, turned, face: walk.over(edge, crossing.before)? };
             side.steps[side.count] = last;
             side.count += 1;
             side.end = f64::INFINITY;
         }
-        let ends = |step: usize| side.width(step) >= NARROW[0] * side.steps[step].reach;
+        let ends = |step: usize| side.width(step) >= MIN_NEIGHBOUR_WIDTH_RATIOS[0] * side.steps[step].reach;
         (0..side.count).any(ends).then_some(side)
     }
 
@@ -104,19 +108,19 @@ impl Side {
 }
 
 /// Bent edge, with the steps on both sides.
-struct Bent {
+struct FilletCandidate {
     turn: f64,
-    sides: [Side; 2],
+    sides: [FilletSide; 2],
     length: f64,
 }
 
-impl Bent {
-    fn at(walk: &Walk, edge: usize) -> Option<Self> {
+impl FilletCandidate {
+    fn at(walk: &SurfaceTracer, edge: usize) -> Option<Self> {
         let (bend, [a, b]) = walk.bend(edge)?;
         let [p, q] = walk.mesh.edges.vertices[edge].map(|v| walk.mesh.positions[v as usize]);
         let length = p.distance(q);
         // Most candidates are facets of cylinders, which the first side already rules out.
-        let sides = [Side::new(walk, &bend, length, a)?, Side::new(walk, &bend, length, b)?];
+        let sides = [FilletSide::new(walk, &bend, length, a)?, FilletSide::new(walk, &bend, length, b)?];
         Some(Self { turn: bend.turn, sides, length })
     }
 
@@ -128,7 +132,9 @@ impl Bent {
         let is_one = |run: &[usize; 2]| {
             let (wide, beside) = (wide(*run), [near.width(run[0]), far.width(run[1])]);
             let (least, most) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
-            wide <= self.length && least >= NARROW[0] * wide && most >= NARROW[1] * wide
+            wide <= self.length
+                && least >= MIN_NEIGHBOUR_WIDTH_RATIOS[0] * wide
+                && most >= MIN_NEIGHBOUR_WIDTH_RATIOS[1] * wide
         };
         runs.filter(is_one).min_by(|a, b| wide(*a).total_cmp(&wide(*b)))
     }
@@ -136,9 +142,9 @@ impl Bent {
     /// Whether the steps form an arc: strips of similar width, with similar turns between them.
     fn is_arc(&self, run: [usize; 2]) -> bool {
         let (mut strips, mut inner, mut most_at_end) =
-            (Range::default(), Range::default().with(self.turn), 0.0f64);
+            (ValueRange::default(), ValueRange::default().with(self.turn), 0.0f64);
         for (side, last) in self.sides.iter().zip(run) {
-            let mut before = Step { reach: 0.0, turned: 0.0, face: 0 };
+            let mut before = FilletStep { reach: 0.0, turned: 0.0, face: 0 };
             for (k, step) in side.steps[..=last].iter().enumerate() {
                 strips = strips.with(step.reach - before.reach);
                 let turn = step.turned - before.turned;
@@ -151,7 +157,9 @@ impl Bent {
                 before = *step;
             }
         }
-        strips.is_within(REGULAR) && inner.is_within(REGULAR) && most_at_end <= MOST_AT_END * inner.least
+        strips.is_within(MAX_STEP_RATIO)
+            && inner.is_within(MAX_STEP_RATIO)
+            && most_at_end <= MAX_END_TURN_RATIO * inner.least
     }
 
     /// Width of the narrow fillet whose middle edge this is. Of two middle edges, the one next to the wider
@@ -165,44 +173,44 @@ impl Bent {
     fn is_middle(&self, mesh: &Mesh, run: [usize; 2]) -> bool {
         let ends = [0, 1].map(|k| self.sides[k].steps[run[k]]);
         let whole = ends[0].turned + self.turn + ends[1].turned;
-        let [least, most] = TURN_DEG.map(f64::to_radians);
+        let [least, most] = FILLET_TURN_RANGE_DEG.map(f64::to_radians);
         if whole < least || whole > most {
             return false;
         }
         // Half of the total turn, minus the turn on each side.
         let less = ends.map(|end| whole / 2.0 - end.turned);
-        let alike = ALIKE * whole;
+        let alike = MAX_TURN_DIFFERENCE_OF_FILLET * whole;
         if less[0].min(less[1]) < -alike {
             return false;
         }
         let Some(other) = less.iter().position(|less| *less < alike) else { return true };
         let own = 1 - other;
         let widths = [own, other].map(|k| self.sides[k].width(run[k]));
-        if widths[0] > WIDER * widths[1] || widths[1] > WIDER * widths[0] {
+        if widths[0] > MIN_WIDER_RATIO * widths[1] || widths[1] > MIN_WIDER_RATIO * widths[0] {
             return widths[0] > widths[1];
         }
         let normals = [own, other].map(|k| mesh.face_normals[ends[k].face as usize]);
         (0..3)
             .rev()
             .map(|axis| normals[0][axis] - normals[1][axis])
-            .find(|by| by.abs() > APART)
+            .find(|by| by.abs() > MIN_NORMAL_DIFFERENCE)
             .is_some_and(|by| by > 0.0)
     }
 }
 
 /// Range of some numbers.
-struct Range {
+struct ValueRange {
     least: f64,
     most: f64,
 }
 
-impl Default for Range {
+impl Default for ValueRange {
     fn default() -> Self {
         Self { least: f64::INFINITY, most: 0.0 }
     }
 }
 
-impl Range {
+impl ValueRange {
     fn with(self, number: f64) -> Self {
         Self { least: self.least.min(number), most: self.most.max(number) }
     }

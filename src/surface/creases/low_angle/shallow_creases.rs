@@ -9,23 +9,23 @@ use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::surface_trace::Walk;
+use super::surface_trace::SurfaceTracer;
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::normals::dihedral::mark;
-use crate::mesh::{EdgeFaces, EdgeMark, Mesh, Turns};
-use crate::parallel::task_size::GRAIN;
+use crate::mesh::{DihedralCosines, EdgeFaces, EdgeMark, Mesh};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::HardEdges;
 
 /// Minimum turn of a shallow crease, as a share of the crease angle: 16 of 40 degrees.
-const SHALLOW: f64 = 0.4;
+const MIN_TURN_OF_CREASE: f64 = 0.4;
 
 /// Maximum crease angle, degrees, for which shallow creases are sought. A larger angle requests sharp creases
 /// only.
-const MOST_DEG: f64 = 40.0;
+const MAX_CREASE_DEG: f64 = 40.0;
 
 /// Possible shallow crease, with the edges where the surfaces on both sides must bend back.
-type Candidate = (usize, [Option<usize>; 2]);
+type ShallowCandidate = (usize, [Option<usize>; 2]);
 
 /// Edges, ascending, that turn by less than `crease_deg` degrees and separate surfaces that end there.
 ///
@@ -33,7 +33,7 @@ type Candidate = (usize, [Option<usize>; 2]);
 /// creases already.
 pub(crate) fn shallow_creases(
     mesh: &Mesh,
-    (turns, flat): (&Turns, &EdgeSet),
+    (turns, flat): (&DihedralCosines, &EdgeSet),
     crease_deg: f64,
     hard: &HardEdges,
     may: impl Fn(usize) -> bool + Sync,
@@ -42,31 +42,31 @@ pub(crate) fn shallow_creases(
     if asked.is_empty() {
         return Vec::new();
     }
-    let walk = Walk::new(mesh, (turns, flat), hard, crease_deg);
-    let found: Vec<Candidate> = asked
+    let walk = SurfaceTracer::new(mesh, (turns, flat), hard, crease_deg);
+    let found: Vec<ShallowCandidate> = asked
         .into_par_iter()
-        .with_min_len(GRAIN >> 3)
+        .with_min_len(MIN_TASK_ITEMS >> 3)
         .filter_map(|edge| Some((edge, walk.ends_at(edge)?)))
         .collect();
     if found.is_empty() {
         return Vec::new();
     }
-    settled(mesh, &found, hard)
+    consistent_candidates(mesh, &found, hard)
 }
 
 /// Edges, ascending, that turn by less than `crease_deg` degrees and by more than facets of a fine curve.
 /// Only edges that satisfy `may` and have no mark in the file are examined.
 pub(crate) fn shallow_edges(
     mesh: &Mesh,
-    turns: &Turns,
+    turns: &DihedralCosines,
     crease_deg: f64,
     hard: &HardEdges,
     may: impl Fn(usize) -> bool + Sync,
 ) -> Vec<usize> {
-    if crease_deg > MOST_DEG {
+    if crease_deg > MAX_CREASE_DEG {
         return Vec::new();
     }
-    let [least, most] = [SHALLOW * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
+    let [least, most] = [MIN_TURN_OF_CREASE * crease_deg, crease_deg].map(|deg| cos(deg.to_radians()) as f32);
     let is_unmarked = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces, .. } => mark(mesh, edge, faces) == EdgeMark::Unmarked,
         _ => true,
@@ -75,12 +75,12 @@ pub(crate) fn shallow_edges(
         let cosine = turns.of_two(*edge);
         cosine < least && cosine >= most && !hard.is_hard(*edge) && is_unmarked(*edge) && may(*edge)
     };
-    (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect()
+    (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(is_asked).collect()
 }
 
 /// The candidates (in edge order) that support each other. The edges where the surface must bend back must be
 /// shallow creases too, and no line may end inside the surface.
-fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
+fn consistent_candidates(mesh: &Mesh, found: &[ShallowCandidate], hard: &HardEdges) -> Vec<usize> {
     let vertices = |k: usize| mesh.edges.vertices[found[k].0];
     // Candidates by end vertex, and by the edges that they depend on.
     let mut ends: Vec<(u32, usize)> = (0..found.len()).flat_map(|k| vertices(k).map(|v| (v, k))).collect();
@@ -94,7 +94,7 @@ fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
         |edge: &usize| hard.is_hard(*edge) || !matches!(mesh.edges.faces(*edge), EdgeFaces::Two { .. });
     let of_others: Vec<usize> = (0..mesh.edges.len())
         .into_par_iter()
-        .with_min_len(GRAIN)
+        .with_min_len(MIN_TASK_ITEMS)
         .filter(is_line)
         .flat_map_iter(|edge| mesh.edges.vertices[edge])
         .map(at)

@@ -1,4 +1,4 @@
-//! [`Walk`]: traces that cross a surface from face to face, perpendicular to a start edge.
+//! [`SurfaceTracer`]: traces that cross a surface from face to face, perpendicular to a start edge.
 
 use std::iter::Take;
 
@@ -6,15 +6,15 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::surface::HardEdges;
 
 /// Maximum number of crossed faces. A level surface that goes on for longer counts as ended.
-const MOST: usize = 64;
+const MAX_CROSSED_FACES: usize = 64;
 
 /// Edge between two faces, with the turn of the surface there.
 #[derive(Clone, Copy)]
-pub(crate) struct Bend {
+pub(crate) struct BentEdge {
     pub edge: usize,
     pub convex: bool,
     /// Turn, radians.
@@ -22,9 +22,9 @@ pub(crate) struct Bend {
 }
 
 /// Mesh data for traces.
-pub(crate) struct Walk<'a> {
+pub(crate) struct SurfaceTracer<'a> {
     pub mesh: &'a Mesh,
-    pub turns: &'a Turns,
+    pub turns: &'a DihedralCosines,
     /// Edges inside facets, where the surface is flat.
     pub flat: &'a EdgeSet,
     pub hard: &'a HardEdges,
@@ -34,11 +34,11 @@ pub(crate) struct Walk<'a> {
     first: Vec<u32>,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> SurfaceTracer<'a> {
     /// Indexes the edges by vertex. Creases turn by more than `crease_deg` degrees.
     pub fn new(
         mesh: &'a Mesh,
-        (turns, flat): (&'a Turns, &'a EdgeSet),
+        (turns, flat): (&'a DihedralCosines, &'a EdgeSet),
         hard: &'a HardEdges,
         crease_deg: f64,
     ) -> Self {
@@ -71,23 +71,23 @@ impl<'a> Walk<'a> {
 
     /// An edge and its two faces. `None` at borders, between inconsistently wound faces, and at faces without
     /// area.
-    pub fn bend(&self, edge: usize) -> Option<(Bend, [u32; 2])> {
+    pub fn bend(&self, edge: usize) -> Option<(BentEdge, [u32; 2])> {
         let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
         if same_way || faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) {
             return None;
         }
         let turn = acos(f64::from(self.turns.of_two(edge)));
-        Some((Bend { edge, convex: self.is_convex(edge)?, turn }, faces))
+        Some((BentEdge { edge, convex: self.is_convex(edge)?, turn }, faces))
     }
 
     /// The edges crossed by a trace that starts at the middle of `edge`, enters `face`, and stays in the
     /// plane perpendicular to the edge. The trace ends where the surface ends. An item is `None` where the
     /// trace cannot be continued reliably, and the trace ends there too.
-    pub fn crossings(&self, edge: usize, face: u32) -> Take<Crossings<'_>> {
+    pub fn crossings(&self, edge: usize, face: u32) -> Take<TraceCrossings<'_>> {
         let entry = self.mesh.edges.vertices[edge];
         let [from, to] = entry.map(|v| self.mesh.positions[v as usize]);
-        Crossings { walk: self, middle: (from + to) / 2.0, along: to - from, entry, face: Some(face) }
-            .take(MOST)
+        TraceCrossings { walk: self, middle: (from + to) / 2.0, along: to - from, entry, face: Some(face) }
+            .take(MAX_CROSSED_FACES)
     }
 
     /// Whether an edge is convex, seen from the front of its faces.
@@ -102,7 +102,7 @@ impl<'a> Walk<'a> {
 }
 
 /// Crossing of a trace with an edge.
-pub(crate) struct Crossing {
+pub(crate) struct TraceCrossing {
     pub edge: usize,
     /// The face that the trace leaves.
     pub before: u32,
@@ -110,9 +110,9 @@ pub(crate) struct Crossing {
     pub reach: f64,
 }
 
-/// Iterator returned by [`Walk::crossings`].
-pub(crate) struct Crossings<'w> {
-    walk: &'w Walk<'w>,
+/// Iterator returned by [`SurfaceTracer::crossings`].
+pub(crate) struct TraceCrossings<'w> {
+    walk: &'w SurfaceTracer<'w>,
     middle: DVec3,
     along: DVec3,
     /// The edge crossed last, and the face behind it.
@@ -120,9 +120,9 @@ pub(crate) struct Crossings<'w> {
     face: Option<u32>,
 }
 
-impl Crossings<'_> {
+impl TraceCrossings<'_> {
     /// Crosses one face.
-    fn step(&mut self, face: u32) -> Option<Crossing> {
+    fn step(&mut self, face: u32) -> Option<TraceCrossing> {
         let mesh = self.walk.mesh;
         let along = |v: u32| (mesh.positions[v as usize] - self.middle).dot(self.along);
         let apex = *mesh.triangles[face as usize].iter().find(|v| !self.entry.contains(v))?;
@@ -138,12 +138,12 @@ impl Crossings<'_> {
         if let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) {
             self.face = Some(faces[usize::from(faces[0] == face)]);
         }
-        Some(Crossing { edge, before: face, reach })
+        Some(TraceCrossing { edge, before: face, reach })
     }
 }
 
-impl Iterator for Crossings<'_> {
-    type Item = Option<Crossing>;
+impl Iterator for TraceCrossings<'_> {
+    type Item = Option<TraceCrossing>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let face = self.face.take()?;

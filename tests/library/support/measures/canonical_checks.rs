@@ -3,20 +3,20 @@
 use ligne::diff::{DiffOptions, Finding, Picture, PixelDiff, canonical_svg, compare};
 
 /// The canonical form of an SVG text.
-pub fn form(svg: &str) -> String {
+pub fn canonical_form(svg: &str) -> String {
     canonical_svg(svg, None).unwrap_or_else(|error| panic!("{error}\n{svg}"))
 }
 
 /// The first pair of lines that differ, for messages.
-pub fn parting(a: &str, b: &str) -> String {
+pub fn first_difference(a: &str, b: &str) -> String {
     let differ = a.lines().zip(b.lines()).enumerate().find(|(_, (a, b))| a != b);
     differ.map_or("lengths differ".to_owned(), |(at, (a, b))| format!("line {}:\n{a}\n{b}", at + 1))
 }
 
 /// Fails with the first pair of lines that differ.
 #[track_caller]
-pub fn assert_text(found: &str, wanted: &str, name: &str) {
-    assert!(found == wanted, "{name}: {}", parting(found, wanted));
+pub fn assert_same_text(found: &str, wanted: &str, name: &str) {
+    assert!(found == wanted, "{name}: {}", first_difference(found, wanted));
 }
 
 /// Fails if two SVG texts show different pictures.

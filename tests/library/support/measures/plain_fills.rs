@@ -5,7 +5,7 @@ use ligne::drawing::{Drawing, Mark, Paint};
 use ligne::style::Style;
 
 /// A toon style with one tone, in the surface colour and without lines, plus overrides.
-pub fn plain(changes: &[&str]) -> Style {
+pub fn flat_fill_style(changes: &[&str]) -> Style {
     let mut all =
         vec!["lines.enabled=false", "fills.thresholds=[]", "fills.tones=[1.0]", "light.from_model=false"];
     all.extend(changes);
@@ -13,7 +13,7 @@ pub fn plain(changes: &[&str]) -> Style {
 }
 
 /// The filled marks of a drawing with their colours, in painting order.
-pub fn fills(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
+pub fn filled_marks(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
     let colour = |mark: &Mark| match &mark.paint {
         Paint::Fill(colour) => Some(*colour),
         _ => None,

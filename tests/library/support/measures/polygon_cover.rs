@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use kurbo::{BezPath, PathEl, Point};
 use ligne::mesh::{MaterialId, PaintId, PartId};
-use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
-use ligne::regions::{Ground, Look};
+use ligne::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
+use ligne::regions::{HatchRegions, SurfaceLabel};
 
 /// Hatch regions whose cells are polygons, given as facet number and corners.
 ///
 /// Polygons turn from x to y; adjacent ones share their corners. Cell 0 is the paper.
-pub fn ground(polygons: &[(u32, Vec<Point>)]) -> Ground {
-    let look = |bin: usize| Look {
+pub fn polygon_regions(polygons: &[(u32, Vec<Point>)]) -> HatchRegions {
+    let look = |bin: usize| SurfaceLabel {
         part: PartId(0),
         material: MaterialId(0),
         paint: PaintId(0),
@@ -19,14 +19,14 @@ pub fn ground(polygons: &[(u32, Vec<Point>)]) -> Ground {
         bin: bin as u16,
         cast: false,
     };
-    let mut cells = vec![Cell { look: look(0), facet: 0, area: 0.0 }];
+    let mut cells = vec![HatchCell { look: look(0), facet: 0, area: 0.0 }];
     let bits = |p: Point| (p.x.to_bits(), p.y.to_bits());
     let mut sides: BTreeMap<_, ([Point; 2], [u32; 2])> = BTreeMap::new();
     for (facet, corners) in polygons {
         let cell = cells.len() as u32;
         let pairs = || corners.iter().zip(corners.iter().cycle().skip(1));
         let area = pairs().map(|(a, b)| a.to_vec2().cross(b.to_vec2())).sum::<f64>() / 2.0;
-        cells.push(Cell { look: look(cells.len()), facet: *facet, area });
+        cells.push(HatchCell { look: look(cells.len()), facet: *facet, area });
         for (a, b) in pairs() {
             if let Some(known) = sides.get_mut(&(bits(*b), bits(*a))) {
                 known.1[1] = cell;
@@ -42,7 +42,7 @@ pub fn ground(polygons: &[(u32, Vec<Point>)]) -> Ground {
         parts_surfaces: facet(sides[0]) != facet(sides[1]),
     };
     let pieces = sides.into_values().map(piece).collect();
-    Ground::of_pieces(cells, pieces)
+    HatchRegions::of_pieces(cells, pieces)
 }
 
 /// The corners of a square.
@@ -51,14 +51,14 @@ pub fn square(x: f64, y: f64, side: f64) -> Vec<Point> {
 }
 
 /// Ink coverage of the pixels of a page square, 0 to 1, row by row, at eight pixels per unit.
-pub fn inked(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
-    const PIXELS: f64 = 8.0;
-    let size = (side * PIXELS) as u32;
+pub fn pixel_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
+    const PIXELS_PER_UNIT: f64 = 8.0;
+    let size = (side * PIXELS_PER_UNIT) as u32;
     let mut pixels = tiny_skia::Pixmap::new(size, size).expect("a picture");
     let mut paint = tiny_skia::Paint::default();
     paint.set_color_rgba8(0, 0, 0, 255);
     for path in paths {
-        let at = |p: Point| (((p.x - x) * PIXELS) as f32, ((p.y - y) * PIXELS) as f32);
+        let at = |p: Point| (((p.x - x) * PIXELS_PER_UNIT) as f32, ((p.y - y) * PIXELS_PER_UNIT) as f32);
         let mut out = tiny_skia::PathBuilder::new();
         for element in path.elements() {
             match *element {
@@ -80,7 +80,7 @@ pub fn inked(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
 }
 
 /// The share of a page square that paths cover.
-pub fn coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> f64 {
-    let pixels = inked(paths, x, y, side);
+pub fn mean_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> f64 {
+    let pixels = pixel_coverage(paths, x, y, side);
     pixels.iter().sum::<f64>() / pixels.len() as f64
 }

@@ -3,7 +3,7 @@
 use kurbo::Point;
 
 /// Total length.
-pub fn length(segments: &[[Point; 2]]) -> f64 {
+pub fn total_length(segments: &[[Point; 2]]) -> f64 {
     segments.iter().map(|[a, b]| distance(*a, *b)).sum()
 }
 
@@ -12,42 +12,42 @@ pub fn distance(a: Point, b: Point) -> f64 {
 }
 
 /// Length of `segments` that no segment of `by` covers within `nearness`.
-pub fn uncovered(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
+pub fn uncovered_length(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
     let others: Vec<&[Point; 2]> = by.iter().collect();
-    segments.iter().map(|s| whole(*s) - covered(*s, &others, nearness)).sum()
+    segments.iter().map(|s| segment_length(*s) - covered_length(*s, &others, nearness)).sum()
 }
 
 /// Length that is covered more than once.
-pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
+pub fn doubled_length(segments: &[[Point; 2]], nearness: f64) -> f64 {
     (0..segments.len())
-        .map(|i| covered(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
+        .map(|i| covered_length(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
         .sum()
 }
 
 /// Fails if either set covers more than `slack` of length that the other does not.
-pub fn cover_alike(
+pub fn check_equal_cover(
     one: &[[Point; 2]],
     other: &[[Point; 2]],
     nearness: f64,
     slack: f64,
 ) -> Result<(), String> {
-    let (missing, extra) = (uncovered(one, other, nearness), uncovered(other, one, nearness));
+    let (missing, extra) = (uncovered_length(one, other, nearness), uncovered_length(other, one, nearness));
     if missing > slack || extra > slack {
         return Err(format!(
             "{missing} of {} is not covered, and {extra} of {} too much",
-            length(one),
-            length(other)
+            total_length(one),
+            total_length(other)
         ));
     }
     Ok(())
 }
 
-fn whole([a, b]: [Point; 2]) -> f64 {
+fn segment_length([a, b]: [Point; 2]) -> f64 {
     distance(a, b)
 }
 
 /// Length of a segment that any of the others covers within `nearness`.
-fn covered([a, b]: [Point; 2], others: &[&[Point; 2]], nearness: f64) -> f64 {
+fn covered_length([a, b]: [Point; 2], others: &[&[Point; 2]], nearness: f64) -> f64 {
     let length = distance(a, b);
     if length == 0.0 {
         return 0.0;

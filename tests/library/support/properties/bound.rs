@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use kurbo::Point;
 
-use super::picture::{Key, Picture};
-use crate::support::measures::segment_sets::{length, uncovered};
+use super::picture::{LineKey, Picture};
+use crate::support::measures::segment_sets::{total_length, uncovered_length};
 
 /// How lines are grouped before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum By {
+pub enum GroupBy {
     Class,
     ClassAndPart,
 }
@@ -20,9 +20,9 @@ pub enum Bound {
     /// All bytes are equal.
     Bytes,
     /// Visible lines agree within `nearness` px, except for `slack` px plus a `share` of their length.
-    Lines { by: By, nearness: f64, slack: f64, share: f64 },
+    Lines { by: GroupBy, nearness: f64, slack: f64, share: f64 },
     /// The length of intersection lines per part is equal, and at least `least` parts have such lines.
-    Owners { least: usize },
+    IntersectionLengths { least: usize },
     /// The filled area per colour and part agrees within a share of the total.
     Areas { share: f64 },
     /// The length of hatching strokes per part agrees within a share of the total.
@@ -31,60 +31,68 @@ pub enum Bound {
 
 impl Bound {
     pub const fn by_class(nearness: f64, slack: f64) -> Self {
-        Self::by_class_but_for(nearness, slack, 0.0)
+        Self::by_class_with_share(nearness, slack, 0.0)
     }
 
-    pub const fn by_class_but_for(nearness: f64, slack: f64, share: f64) -> Self {
-        Self::Lines { by: By::Class, nearness, slack, share }
+    pub const fn by_class_with_share(nearness: f64, slack: f64, share: f64) -> Self {
+        Self::Lines { by: GroupBy::Class, nearness, slack, share }
     }
 
     pub const fn by_class_and_part(nearness: f64, slack: f64) -> Self {
-        Self::Lines { by: By::ClassAndPart, nearness, slack, share: 0.0 }
+        Self::Lines { by: GroupBy::ClassAndPart, nearness, slack, share: 0.0 }
     }
 
     /// Fails with the difference, or if there is nothing to compare.
     pub fn check(self, one: &Picture, other: &Picture) -> Result<(), String> {
         match self {
-            Self::Bytes => same_bytes(one.bytes(), other.bytes()),
+            Self::Bytes => check_bytes(one.bytes(), other.bytes()),
             Self::Lines { by, nearness, slack, share } => {
-                let [one, other] = [one, other].map(|picture| groups(picture, by));
-                lines_alike(&one, &other, nearness, slack, share)
+                let [one, other] = [one, other].map(|picture| group_lines(picture, by));
+                check_lines(&one, &other, nearness, slack, share)
             }
-            Self::Owners { least } => {
-                let (owned, others) = (one.owners(), other.owners());
+            Self::IntersectionLengths { least } => {
+                let (owned, others) = (one.intersection_lengths(), other.intersection_lengths());
                 if owned.len() < least || owned != others {
                     return Err(format!("lines along intersections belong to {owned:?}, then to {others:?}"));
                 }
                 Ok(())
             }
-            Self::Areas { share } => amounts_alike(&one.areas(), &other.areas(), share),
-            Self::Strokes { share } => amounts_alike(&one.strokes(), &other.strokes(), share),
+            Self::Areas { share } => check_amounts(&one.fill_areas(), &other.fill_areas(), share),
+            Self::Strokes { share } => {
+                check_amounts(&one.hatching_lengths(), &other.hatching_lengths(), share)
+            }
         }
     }
 }
 
 /// Lines by class and part.
-type Groups = BTreeMap<Key, Vec<[Point; 2]>>;
+type LineGroups = BTreeMap<LineKey, Vec<[Point; 2]>>;
 
-fn groups(picture: &Picture, by: By) -> Groups {
-    let mut groups = Groups::new();
+fn group_lines(picture: &Picture, by: GroupBy) -> LineGroups {
+    let mut groups = LineGroups::new();
     for ((class, part), lines) in &picture.lines {
-        let part = if by == By::Class { String::new() } else { part.clone() };
+        let part = if by == GroupBy::Class { String::new() } else { part.clone() };
         groups.entry((class.clone(), part)).or_default().extend(lines);
     }
     groups
 }
 
 /// Fails if the uncovered length, summed over all groups, exceeds the bound in either direction.
-fn lines_alike(one: &Groups, other: &Groups, nearness: f64, slack: f64, share: f64) -> Result<(), String> {
+fn check_lines(
+    one: &LineGroups,
+    other: &LineGroups,
+    nearness: f64,
+    slack: f64,
+    share: f64,
+) -> Result<(), String> {
     let nothing = Vec::new();
-    let lost = |from: &Groups, by: &Groups| -> BTreeMap<Key, f64> {
-        let of = |(key, lines): (&Key, &Vec<_>)| {
-            (key.clone(), uncovered(lines, by.get(key).unwrap_or(&nothing), nearness))
+    let lost = |from: &LineGroups, by: &LineGroups| -> BTreeMap<LineKey, f64> {
+        let of = |(key, lines): (&LineKey, &Vec<_>)| {
+            (key.clone(), uncovered_length(lines, by.get(key).unwrap_or(&nothing), nearness))
         };
         from.iter().map(of).collect()
     };
-    let whole: f64 = one.values().map(|lines| length(lines)).sum();
+    let whole: f64 = one.values().map(|lines| total_length(lines)).sum();
     let most = slack + share * whole;
     for (what, lost) in [("gone", lost(one, other)), ("new", lost(other, one))] {
         let sum: f64 = lost.values().sum();
@@ -97,7 +105,11 @@ fn lines_alike(one: &Groups, other: &Groups, nearness: f64, slack: f64, share: f
 }
 
 /// Fails if an amount differs by more than a share of the total.
-fn amounts_alike(one: &BTreeMap<Key, f64>, other: &BTreeMap<Key, f64>, share: f64) -> Result<(), String> {
+fn check_amounts(
+    one: &BTreeMap<LineKey, f64>,
+    other: &BTreeMap<LineKey, f64>,
+    share: f64,
+) -> Result<(), String> {
     let whole: f64 = one.values().sum();
     if whole <= 0.0 {
         return Err("there is nothing to compare".into());
@@ -112,7 +124,7 @@ fn amounts_alike(one: &BTreeMap<Key, f64>, other: &BTreeMap<Key, f64>, share: f6
 }
 
 /// Fails with the first differing byte and its surroundings.
-fn same_bytes(one: &str, other: &str) -> Result<(), String> {
+fn check_bytes(one: &str, other: &str) -> Result<(), String> {
     if one == other {
         return Ok(());
     }

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 use ligne::scene::Scene;
 
-use super::numbering::{renumbered, with_faces_turned, with_parts_shuffled};
-use super::shape::{moved, with_faces_split, with_hidden_things};
+use super::numbering::{renumbered, with_faces_reversed, with_parts_shuffled};
+use super::shape::{transformed, with_faces_split, with_hidden_objects};
 use super::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
@@ -24,9 +24,9 @@ pub enum Change {
     /// Each face is split into three.
     FacesSplit,
     /// The winding of faces is reversed.
-    FacesTurned(Turned),
+    FacesReversed(ReversedFaces),
     /// Objects are added in the first `places` hidden boxes of the subject.
-    HiddenThings { places: usize },
+    HiddenObjects { places: usize },
     /// The scene stays the same and is drawn with this number of threads.
     Threads(usize),
     /// The scene grows by 2 % under a fixed camera. This must change the drawing: it tests the harness.
@@ -35,55 +35,56 @@ pub enum Change {
 
 /// Faces whose winding is reversed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Turned {
+pub enum ReversedFaces {
     All,
-    OfEveryOtherShape,
-    Some,
+    OfEveryOtherGeometry,
+    Random,
 }
 
 /// The property that a change tests; there is one test per property.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Property {
     /// Invariance under similarity transforms of scene and camera.
-    Place,
+    SimilarityTransform,
     /// Invariance under renumbering of vertices and faces, also combined with a new order of parts.
     Numbering,
     /// Invariance under the order of parts.
-    OrderOfParts,
+    PartOrder,
     /// Invariance under the subdivision of flat faces.
-    Cuts,
+    FaceSubdivision,
     /// Invariance under the winding of faces.
     Winding,
     /// Invariance under hidden objects.
-    HiddenThings,
+    HiddenObjects,
     /// Invariance under the number of threads.
     Threads,
 }
 
 impl Change {
     /// A random rotation and a translation.
-    pub const RIGID: Self = Self::Moved { turned: true, scale: 1.0, by: DVec3::new(3.0, -2.0, 7.0) };
+    pub const RIGID_MOTION: Self = Self::Moved { turned: true, scale: 1.0, by: DVec3::new(3.0, -2.0, 7.0) };
     /// A translation so far that coordinates lose digits.
-    pub const FAR: Self = Self::Moved { turned: false, scale: 1.0, by: DVec3::new(1e6, -1e6, 1e6) };
+    pub const FAR_TRANSLATION: Self =
+        Self::Moved { turned: false, scale: 1.0, by: DVec3::new(1e6, -1e6, 1e6) };
 
     /// A uniform scaling.
-    pub const fn size(scale: f64) -> Self {
+    pub const fn scaled(scale: f64) -> Self {
         Self::Moved { turned: false, scale, by: DVec3::ZERO }
     }
 
     /// A random rotation and a uniform scaling.
-    pub const fn turned_size(scale: f64) -> Self {
+    pub const fn turned_and_scaled(scale: f64) -> Self {
         Self::Moved { turned: true, scale, by: DVec3::ZERO }
     }
 
     pub fn property(self) -> Property {
         match self {
-            Self::Moved { .. } | Self::Grown => Property::Place,
+            Self::Moved { .. } | Self::Grown => Property::SimilarityTransform,
             Self::Renumbered | Self::AllShuffled => Property::Numbering,
-            Self::PartsShuffled { .. } | Self::PartsReversed => Property::OrderOfParts,
-            Self::FacesSplit => Property::Cuts,
-            Self::FacesTurned(_) => Property::Winding,
-            Self::HiddenThings { .. } => Property::HiddenThings,
+            Self::PartsShuffled { .. } | Self::PartsReversed => Property::PartOrder,
+            Self::FacesSplit => Property::FaceSubdivision,
+            Self::FacesReversed(_) => Property::Winding,
+            Self::HiddenObjects { .. } => Property::HiddenObjects,
             Self::Threads(_) => Property::Threads,
         }
     }
@@ -95,7 +96,7 @@ impl Change {
         match self {
             Self::Moved { turned, scale, by } => {
                 let turn = if turned { dice.turn() } else { DMat3::IDENTITY };
-                moved(subject, turn, scale, by)
+                transformed(subject, turn, scale, by)
             }
             Self::Renumbered => with(renumbered(scene, dice)),
             Self::PartsShuffled { seed } => with(with_parts_shuffled(scene, &mut Dice::new(seed))),
@@ -105,12 +106,12 @@ impl Change {
             }
             Self::AllShuffled => with(with_parts_shuffled(&renumbered(scene, dice), dice)),
             Self::FacesSplit => with(with_faces_split(scene, dice)),
-            Self::FacesTurned(turned) => with(with_faces_turned(scene, |shape| match turned {
-                Turned::All => true,
-                Turned::OfEveryOtherShape => shape % 2 == 0,
-                Turned::Some => dice.below(2) == 0,
+            Self::FacesReversed(turned) => with(with_faces_reversed(scene, |shape| match turned {
+                ReversedFaces::All => true,
+                ReversedFaces::OfEveryOtherGeometry => shape % 2 == 0,
+                ReversedFaces::Random => dice.below(2) == 0,
             })),
-            Self::HiddenThings { places } => with(with_hidden_things(subject, places, dice)),
+            Self::HiddenObjects { places } => with(with_hidden_objects(subject, places, dice)),
             Self::Threads(_) => subject.clone(),
             Self::Grown => {
                 let mut scene = scene.clone();

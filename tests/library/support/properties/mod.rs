@@ -1,6 +1,6 @@
 //! Metamorphic tests: a drawing is invariant under changes such as rotation, renumbering or reversed winding.
 //!
-//! [`table`] lists which changes keep which drawings, and within which bounds; [`holds`] tests all rows for
+//! [`table`] lists which changes keep which drawings, and within which bounds; [`assert_property`] tests all rows for
 //! one property. A new scene, style or change needs only a new row.
 //!
 //! Reading order:
@@ -31,34 +31,34 @@ use self::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
 /// A row of the table: every subject is drawn in every way, before and after each change.
-pub struct Row {
+pub struct InvarianceRow {
     pub options: &'static [OptionSet],
     pub subjects: fn() -> Vec<Subject>,
     pub unchanged_by: &'static [(Change, &'static [Bound])],
     /// Minimum number of visible line segments; a drawing with fewer fails the test.
-    pub least: usize,
+    pub min_segments: usize,
 }
 
 /// A subject, a way to draw it, and the changes to test.
-pub struct Job {
+pub struct InvarianceJob {
     pub options: OptionSet,
     pub subject: Subject,
     pub changes: Vec<(Change, &'static [Bound])>,
-    pub least: usize,
+    pub min_segments: usize,
     /// Random seed of the changes.
     pub seed: u64,
 }
 
-impl Job {
+impl InvarianceJob {
     /// A message for each bound that is violated.
-    pub fn faults(&self) -> Vec<String> {
+    pub fn violations(&self) -> Vec<String> {
         let name = format!("{}, {}", self.subject.name, self.options.name);
         // Changes of the number of threads are compared with a drawing on two threads.
         let threads = self.changes.iter().find_map(|(change, _)| change.threads()).map(|_| 2);
         let here = self.draw(&self.subject, threads);
         let count: usize = here.lines.values().map(Vec::len).sum();
-        if count < self.least {
-            return vec![format!("{name}: {count} segments are drawn, fewer than {}", self.least)];
+        if count < self.min_segments {
+            return vec![format!("{name}: {count} segments are drawn, fewer than {}", self.min_segments)];
         }
         let mut faults = Vec::new();
         for (change, bounds) in &self.changes {
@@ -84,7 +84,7 @@ impl Job {
 }
 
 /// The jobs of all rows for one property.
-fn jobs(rows: &[Row], property: Property) -> Vec<Job> {
+fn jobs(rows: &[InvarianceRow], property: Property) -> Vec<InvarianceJob> {
     let mut jobs = Vec::new();
     for row in rows {
         let of_property = |(change, _): &&(Change, _)| change.property() == property;
@@ -95,7 +95,13 @@ fn jobs(rows: &[Row], property: Property) -> Vec<Job> {
         for (subject, seed) in (row.subjects)().into_iter().zip(31..) {
             for options in row.options {
                 let (subject, changes) = (subject.clone(), changes.clone());
-                jobs.push(Job { options: *options, subject, changes, least: row.least, seed });
+                jobs.push(InvarianceJob {
+                    options: *options,
+                    subject,
+                    changes,
+                    min_segments: row.min_segments,
+                    seed,
+                });
             }
         }
     }
@@ -103,16 +109,17 @@ fn jobs(rows: &[Row], property: Property) -> Vec<Job> {
 }
 
 /// Fails with a message for each drawing that violates a bound under a change of the given property.
-pub fn holds(rows: &[Row], property: Property) {
-    let is_asked = |row: &Row| row.unchanged_by.iter().any(|(change, _)| change.property() == property);
+pub fn assert_property(rows: &[InvarianceRow], property: Property) {
+    let is_asked =
+        |row: &InvarianceRow| row.unchanged_by.iter().any(|(change, _)| change.property() == property);
     assert!(rows.iter().any(is_asked), "nothing is said of {property:?}");
     let jobs = jobs(rows, property);
     let faults: Vec<String> = if property == Property::Threads {
         // Run sequentially: a waiting thread would otherwise start the next drawing nested in the current
         // one.
-        jobs.iter().flat_map(Job::faults).collect()
+        jobs.iter().flat_map(InvarianceJob::violations).collect()
     } else {
-        jobs.par_iter().flat_map_iter(Job::faults).collect()
+        jobs.par_iter().flat_map_iter(InvarianceJob::violations).collect()
     };
     assert!(faults.is_empty(), "{} faults in {} drawings\n{}", faults.len(), jobs.len(), faults.join("\n"));
 }

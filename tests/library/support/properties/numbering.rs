@@ -5,16 +5,16 @@ use ligne::scene::{Geometry, Scene};
 use crate::support::scenes::random_dice::Dice;
 
 /// The items in another order: item `order[k]` moves to position k.
-fn taken<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {
+fn permuted<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {
     if items.is_empty() { Vec::new() } else { order.iter().map(|k| items[*k as usize]).collect() }
 }
 
-fn shuffled_numbers(dice: &mut Dice, count: usize) -> Vec<u32> {
+fn random_permutation(dice: &mut Dice, count: usize) -> Vec<u32> {
     dice.shuffled((0..count as u32).collect())
 }
 
 /// The inverse of a permutation: the new position of each item.
-fn new_numbers(order: &[u32]) -> Vec<u32> {
+fn inverse_permutation(order: &[u32]) -> Vec<u32> {
     let mut new_id = vec![0; order.len()];
     order.iter().zip(0..).for_each(|(old, new)| new_id[*old as usize] = new);
     new_id
@@ -22,15 +22,15 @@ fn new_numbers(order: &[u32]) -> Vec<u32> {
 
 /// Shuffles values, and updates the indices in `corners`.
 fn renumber<T: Copy>(dice: &mut Dice, values: &mut Vec<T>, corners: &mut [u32]) {
-    let order = shuffled_numbers(dice, values.len());
-    let new_id = new_numbers(&order);
-    *values = taken(values, &order);
+    let order = random_permutation(dice, values.len());
+    let new_id = inverse_permutation(&order);
+    *values = permuted(values, &order);
     // Corners without a value have an index out of range, which stays.
     corners.iter_mut().for_each(|id| *id = new_id.get(*id as usize).copied().unwrap_or(*id));
 }
 
 /// Rotates the corner data of each triangle.
-fn turn<T: Copy>(corners: &mut [[T; 3]], turns: &[usize]) {
+fn rotate_corners<T: Copy>(corners: &mut [[T; 3]], turns: &[usize]) {
     for (corners, by) in corners.iter_mut().zip(turns) {
         corners.rotate_left(*by);
     }
@@ -39,10 +39,10 @@ fn turn<T: Copy>(corners: &mut [[T; 3]], turns: &[usize]) {
 /// The geometry with vertices, normals, triangles and wires shuffled, and the corners of triangles rotated.
 fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
     let mut mixed = geometry.clone();
-    let order = shuffled_numbers(dice, geometry.positions.len());
-    let new_id = new_numbers(&order);
-    mixed.positions = taken(&geometry.positions, &order);
-    mixed.colours = taken(&geometry.colours, &order);
+    let order = random_permutation(dice, geometry.positions.len());
+    let new_id = inverse_permutation(&order);
+    mixed.positions = permuted(&geometry.positions, &order);
+    mixed.colours = permuted(&geometry.colours, &order);
     let corners = mixed.triangles.as_flattened_mut().iter_mut().chain(mixed.wires.as_flattened_mut());
     corners.for_each(|v| *v = new_id[*v as usize]);
     renumber(dice, &mut mixed.normals, mixed.corner_normals.as_flattened_mut());
@@ -50,16 +50,16 @@ fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
 
     let count = geometry.triangles.len();
     let turns: Vec<usize> = (0..count).map(|_| dice.below(3)).collect();
-    turn(&mut mixed.triangles, &turns);
-    turn(&mut mixed.corner_normals, &turns);
-    turn(&mut mixed.corner_uvs, &turns);
-    turn(&mut mixed.edge_marks, &turns);
-    let order = shuffled_numbers(dice, count);
-    mixed.triangles = taken(&mixed.triangles, &order);
-    mixed.triangle_material = taken(&mixed.triangle_material, &order);
-    mixed.corner_normals = taken(&mixed.corner_normals, &order);
-    mixed.corner_uvs = taken(&mixed.corner_uvs, &order);
-    mixed.edge_marks = taken(&mixed.edge_marks, &order);
+    rotate_corners(&mut mixed.triangles, &turns);
+    rotate_corners(&mut mixed.corner_normals, &turns);
+    rotate_corners(&mut mixed.corner_uvs, &turns);
+    rotate_corners(&mut mixed.edge_marks, &turns);
+    let order = random_permutation(dice, count);
+    mixed.triangles = permuted(&mixed.triangles, &order);
+    mixed.triangle_material = permuted(&mixed.triangle_material, &order);
+    mixed.corner_normals = permuted(&mixed.corner_normals, &order);
+    mixed.corner_uvs = permuted(&mixed.corner_uvs, &order);
+    mixed.edge_marks = permuted(&mixed.edge_marks, &order);
     mixed.wires = dice.shuffled(mixed.wires);
     for wire in &mut mixed.wires {
         wire.rotate_left(dice.below(2));
@@ -81,8 +81,8 @@ pub fn with_parts_shuffled(scene: &Scene, dice: &mut Dice) -> Scene {
 /// An OBJ text with its vertices shuffled, and the faces of each object shuffled.
 pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
     let vertices: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
-    let order = shuffled_numbers(dice, vertices.len());
-    let new_id = new_numbers(&order);
+    let order = random_permutation(dice, vertices.len());
+    let new_id = inverse_permutation(&order);
     let renamed = |corner: &str| {
         let (vertex, rest) = corner.find('/').map_or((corner, ""), |slash| corner.split_at(slash));
         // The file counts from 1.
@@ -104,7 +104,7 @@ pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
 }
 
 /// The scene with the winding of some faces reversed; `is_turned` gets the geometry index for each face.
-pub fn with_faces_turned(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
+pub fn with_faces_reversed(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
     let mut scene = scene.clone();
     for (shape, geometry) in scene.geometries.iter_mut().enumerate() {
         for face in 0..geometry.triangles.len() {

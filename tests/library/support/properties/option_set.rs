@@ -6,56 +6,59 @@ use ligne::style::Style;
 
 use super::picture::Picture;
 use super::subject::Subject;
-use crate::support::pipeline::stages;
+use crate::support::pipeline::run_stages;
 
 /// A way to draw.
 #[derive(Debug, Clone, Copy)]
 pub struct OptionSet {
     pub name: &'static str,
-    from: From,
+    from: DrawingSource,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum From {
+enum DrawingSource {
     /// The visible edges of the view map, with unmerged creases.
     Lines(Contours),
     /// A style and its overrides.
-    Sheet(&'static str, &'static [&'static str]),
+    BuiltInStyle(&'static str, &'static [&'static str]),
 }
 
-const fn sheet(name: &'static str) -> OptionSet {
-    OptionSet { name, from: From::Sheet(name, &[]) }
+const fn built_in(name: &'static str) -> OptionSet {
+    OptionSet { name, from: DrawingSource::BuiltInStyle(name, &[]) }
 }
 
-const fn changed(name: &'static str, style: &'static str, sets: &'static [&'static str]) -> OptionSet {
-    OptionSet { name, from: From::Sheet(style, sets) }
+const fn with_overrides(name: &'static str, style: &'static str, sets: &'static [&'static str]) -> OptionSet {
+    OptionSet { name, from: DrawingSource::BuiltInStyle(style, sets) }
 }
 
 /// The exact lines of a polyhedron.
-pub const EXACT: OptionSet = OptionSet { name: "lines of the mesh", from: From::Lines(Contours::Mesh) };
-pub const SMOOTH_LINES: OptionSet = OptionSet { name: "smooth lines", from: From::Lines(Contours::Smooth) };
+pub const EXACT_LINES: OptionSet =
+    OptionSet { name: "lines of the mesh", from: DrawingSource::Lines(Contours::Mesh) };
+pub const SMOOTH_LINES: OptionSet =
+    OptionSet { name: "smooth lines", from: DrawingSource::Lines(Contours::Smooth) };
 
-pub const INK: OptionSet = sheet("ink");
-pub const INK_MESH: OptionSet = changed("ink, contours along the mesh", "ink", &["lines.contours=mesh"]);
-pub const INK_SMOOTH: OptionSet = changed("ink, smooth contours", "ink", &["lines.contours=smooth"]);
-pub const IMAGE: OptionSet = changed("ink found in the image", "ink", &["lines.source=both"]);
-pub const TECHNICAL: OptionSet = sheet("technical");
-pub const TOON: OptionSet = sheet("toon");
-pub const GOOCH: OptionSet = sheet("gooch");
-pub const COMIC: OptionSet = sheet("comic");
-pub const PENCIL: OptionSet = sheet("pencil");
-pub const PENCIL_OBJECT: OptionSet = sheet("pencil-object");
-pub const PEN: OptionSet = sheet("pen");
-pub const SUGGESTIVE: OptionSet = sheet("suggestive");
-pub const ENGRAVING: OptionSet = sheet("engraving");
-pub const STIPPLE: OptionSet = sheet("stipple");
+pub const INK: OptionSet = built_in("ink");
+pub const INK_MESH: OptionSet =
+    with_overrides("ink, contours along the mesh", "ink", &["lines.contours=mesh"]);
+pub const INK_SMOOTH: OptionSet = with_overrides("ink, smooth contours", "ink", &["lines.contours=smooth"]);
+pub const INK_FROM_IMAGE: OptionSet = with_overrides("ink found in the image", "ink", &["lines.source=both"]);
+pub const TECHNICAL: OptionSet = built_in("technical");
+pub const TOON: OptionSet = built_in("toon");
+pub const GOOCH: OptionSet = built_in("gooch");
+pub const COMIC: OptionSet = built_in("comic");
+pub const PENCIL: OptionSet = built_in("pencil");
+pub const PENCIL_OBJECT: OptionSet = built_in("pencil-object");
+pub const PEN: OptionSet = built_in("pen");
+pub const SUGGESTIVE: OptionSet = built_in("suggestive");
+pub const ENGRAVING: OptionSet = built_in("engraving");
+pub const STIPPLE: OptionSet = built_in("stipple");
 
-pub const RIDGES: OptionSet = changed(
+pub const RIDGES: OptionSet = with_overrides(
     "ridges and valleys",
     "ink",
     &["lines.kinds=[\"contour\", \"crease\", \"ridge\", \"valley\", \"suggestive\"]"],
 );
-pub const APPARENT: OptionSet = changed(
+pub const APPARENT: OptionSet = with_overrides(
     "apparent ridges",
     "ink",
     &["lines.kinds=[\"contour\", \"ridge\", \"valley\"]", "lines.inside.apparent=true"],
@@ -63,34 +66,34 @@ pub const APPARENT: OptionSet = changed(
 
 /// All built-in styles.
 pub const BUILT_IN: [OptionSet; 24] = [
-    sheet("blueprint"),
-    sheet("comic-flats"),
+    built_in("blueprint"),
+    built_in("comic-flats"),
     COMIC,
     ENGRAVING,
-    sheet("flat"),
+    built_in("flat"),
     GOOCH,
-    sheet("gradient"),
+    built_in("gradient"),
     INK,
-    sheet("noir"),
-    sheet("patent"),
+    built_in("noir"),
+    built_in("patent"),
     PEN,
     PENCIL_OBJECT,
-    sheet("pencil-plain"),
+    built_in("pencil-plain"),
     PENCIL,
-    sheet("plotter"),
-    sheet("rim"),
-    sheet("sketch"),
+    built_in("plotter"),
+    built_in("rim"),
+    built_in("sketch"),
     STIPPLE,
     SUGGESTIVE,
     TECHNICAL,
-    sheet("toon-highlight"),
-    sheet("toon-three"),
+    built_in("toon-highlight"),
+    built_in("toon-three"),
     TOON,
-    sheet("woodcut"),
+    built_in("woodcut"),
 ];
 
 /// Overrides for all hand-drawn effects at once, plus varying widths, halos and fills.
-pub const HAND_SETS: [&str; 15] = [
+pub const HAND_DRAWN_OVERRIDES: [&str; 15] = [
     "pen.contour.width=4",
     "pen.silhouette.width=4",
     "pen.width=4",
@@ -107,17 +110,17 @@ pub const HAND_SETS: [&str; 15] = [
     "fills.enabled=true",
     "lines.crease_deg=30",
 ];
-pub const HAND: OptionSet = changed("ink by a hand", "ink", &HAND_SETS);
+pub const HAND_DRAWN_INK: OptionSet = with_overrides("ink by a hand", "ink", &HAND_DRAWN_OVERRIDES);
 
 impl OptionSet {
     pub fn draw(&self, subject: &Subject) -> Picture {
         let Subject { scene, camera, .. } = subject;
         match self.from {
-            From::Lines(contours) => {
+            DrawingSource::Lines(contours) => {
                 let options = LineOptions { contours, ..LineOptions::default() };
-                Picture::of_stages(&stages(scene, camera, &options))
+                Picture::of_stages(&run_stages(scene, camera, &options))
             }
-            From::Sheet(name, sets) => {
+            DrawingSource::BuiltInStyle(name, sets) => {
                 let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
                 let style = Style::load(name, &sets).unwrap_or_else(|error| panic!("{error}"));
                 Picture::of_drawing(render(scene, camera, &style).unwrap())

@@ -8,38 +8,38 @@ use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 use ligne::export::SvgOptions;
 
 use crate::support::pipeline::Stages;
-use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
 
 /// The class of a line and the name of its part; either is empty if it does not count.
-pub type Key = (String, String);
+pub type LineKey = (String, String);
 
 /// The result of a drawing.
 pub struct Picture {
     /// Visible lines as short segments, by class and part.
-    pub lines: BTreeMap<Key, Vec<[Point; 2]>>,
+    pub lines: BTreeMap<LineKey, Vec<[Point; 2]>>,
     drawing: Option<Drawing>,
     bytes: OnceLock<String>,
 }
 
-fn key(mark: &Mark) -> Key {
+fn mark_key(mark: &Mark) -> LineKey {
     let class = mark.provenance.classes.first().unwrap_or(&"").to_string();
     (class, mark.provenance.part.as_deref().unwrap_or("").to_owned())
 }
 
 impl Picture {
     pub fn of_stages(stages: &Stages) -> Self {
-        let mut lines: BTreeMap<Key, Vec<[Point; 2]>> = BTreeMap::new();
+        let mut lines: BTreeMap<LineKey, Vec<[Point; 2]>> = BTreeMap::new();
         for edge in stages.map.edges.iter().filter(|edge| edge.invisibility == 0) {
             let class = format!("{:?}", edge.kind);
-            lines.entry((class, String::new())).or_default().push(stages.ends(edge));
+            lines.entry((class, String::new())).or_default().push(stages.edge_ends(edge));
         }
         Self { lines, drawing: None, bytes: OnceLock::new() }
     }
 
     pub fn of_drawing(drawing: Drawing) -> Self {
-        let mut lines: BTreeMap<Key, Vec<[Point; 2]>> = BTreeMap::new();
-        for mark in ink_marks(&drawing) {
-            lines.entry(key(mark)).or_default().extend(axis(mark));
+        let mut lines: BTreeMap<LineKey, Vec<[Point; 2]>> = BTreeMap::new();
+        for mark in visible_line_marks(&drawing) {
+            lines.entry(mark_key(mark)).or_default().extend(centre_line(mark));
         }
         Self { lines, drawing: Some(drawing), bytes: OnceLock::new() }
     }
@@ -58,33 +58,34 @@ impl Picture {
     }
 
     /// The length of intersection lines per part, in hundredths of a px.
-    pub fn owners(&self) -> BTreeMap<String, i64> {
+    pub fn intersection_lengths(&self) -> BTreeMap<String, i64> {
         let mut owned: BTreeMap<String, f64> = BTreeMap::new();
         let lines = self.marks(LayerKind::Lines).chain(self.marks(LayerKind::HiddenLines));
         for mark in lines.filter(|mark| mark.provenance.classes.first() == Some(&"intersection")) {
             let length = mark.path.segments().map(|segment| segment.arclen(1e-6)).sum::<f64>();
-            *owned.entry(key(mark).1).or_default() += length;
+            *owned.entry(mark_key(mark).1).or_default() += length;
         }
         owned.into_iter().map(|(part, length)| (part, (length * 100.0).round() as i64)).collect()
     }
 
     /// The filled area by colour and part, px².
-    pub fn areas(&self) -> BTreeMap<Key, f64> {
-        let mut areas: BTreeMap<Key, f64> = BTreeMap::new();
+    pub fn fill_areas(&self) -> BTreeMap<LineKey, f64> {
+        let mut areas: BTreeMap<LineKey, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Fills).chain(self.marks(LayerKind::Shadows)) {
             if let Paint::Fill(colour) = &mark.paint {
-                *areas.entry((format!("{colour:?}"), key(mark).1)).or_default() += mark.path.area().abs();
+                *areas.entry((format!("{colour:?}"), mark_key(mark).1)).or_default() +=
+                    mark.path.area().abs();
             }
         }
         areas
     }
 
     /// The length of hatching strokes per part, px.
-    pub fn strokes(&self) -> BTreeMap<Key, f64> {
-        let mut strokes: BTreeMap<Key, f64> = BTreeMap::new();
+    pub fn hatching_lengths(&self) -> BTreeMap<LineKey, f64> {
+        let mut strokes: BTreeMap<LineKey, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Hatching) {
-            let length = axis(mark).iter().map(|[a, b]| (*b - *a).hypot()).sum::<f64>();
-            *strokes.entry((String::new(), key(mark).1)).or_default() += length;
+            let length = centre_line(mark).iter().map(|[a, b]| (*b - *a).hypot()).sum::<f64>();
+            *strokes.entry((String::new(), mark_key(mark).1)).or_default() += length;
         }
         strokes
     }

@@ -7,7 +7,7 @@ use super::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
 /// Scene and camera, rotated, scaled and moved together.
-pub fn moved(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
+pub fn transformed(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
     let Subject { scene, camera, .. } = subject;
     assert!(scene.lights.is_empty(), "lights would have to move as well");
     let place = |p: DVec3| turn * p * scale + by;
@@ -52,13 +52,13 @@ pub fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
 }
 
 /// The scene with the subject's hideable objects added in its first hidden boxes.
-pub fn with_hidden_things(subject: &Subject, boxes: usize, dice: &mut Dice) -> Scene {
+pub fn with_hidden_objects(subject: &Subject, boxes: usize, dice: &mut Dice) -> Scene {
     let mut scene = subject.scene.clone();
-    let is_room = (1..=subject.unseen.len()).contains(&boxes) && !subject.hideable.is_empty();
+    let is_room = (1..=subject.hidden_boxes.len()).contains(&boxes) && !subject.hideable.is_empty();
     assert!(is_room, "{} hides nothing there", subject.name);
-    for unseen in &subject.unseen[..boxes] {
+    for unseen in &subject.hidden_boxes[..boxes] {
         let mut things = subject.hideable.clone();
-        put_into(*unseen, &mut things, dice);
+        fit_into_box(*unseen, &mut things, dice);
         for thing in things {
             let geometry = scene.geometries.len();
             let name = format!("hidden {geometry}");
@@ -70,7 +70,7 @@ pub fn with_hidden_things(subject: &Subject, boxes: usize, dice: &mut Dice) -> S
 }
 
 /// Rotates objects together and scales them to fit into a box.
-fn put_into([low, high]: [DVec3; 2], things: &mut [Geometry], dice: &mut Dice) {
+fn fit_into_box([low, high]: [DVec3; 2], things: &mut [Geometry], dice: &mut Dice) {
     let turn = dice.turn();
     things.iter_mut().flat_map(|thing| &mut thing.positions).for_each(|p| *p = turn * *p);
     let all = || things.iter().flat_map(|thing| thing.positions.iter().copied());

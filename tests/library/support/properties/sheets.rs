@@ -8,7 +8,7 @@ use ligne::mesh::EdgeMark;
 use ligne::scene::{Geometry, Material, Part, Scene};
 
 /// Two instances of the sheet side by side.
-pub fn sheets() -> Scene {
+pub fn two_sheets() -> Scene {
     let materials = ["front", "back"].map(|name| Material { name: name.into(), ..Default::default() });
     let place = |k: usize| Part {
         name: format!("sheet {k}"),
@@ -16,11 +16,11 @@ pub fn sheets() -> Scene {
         world_from_part: DAffine3::from_translation(DVec3::new(2.0 * k as f64, 0.0, k as f64)),
     };
     let parts = (0..2).map(place).collect();
-    Scene { geometries: vec![sheet()], materials: materials.into(), parts, ..Scene::default() }
+    Scene { geometries: vec![two_sided_sheet()], materials: materials.into(), parts, ..Scene::default() }
 }
 
 /// A curved sheet of 6 × 6 quads with faces on both sides.
-fn sheet() -> Geometry {
+fn two_sided_sheet() -> Geometry {
     let at = |x: u32, y: u32| y * 7 + x;
     let bend = |x: f64| (x - 3.0) * (x - 3.0) / 9.0;
     let mut sheet = Geometry::default();

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Scene};
 
-use crate::support::pipeline::{geometry, orthographic, perspective, scene};
+use crate::support::pipeline::{orthographic, perspective, scene, solid_geometry};
 use crate::support::readers::shared_folder;
-use crate::support::scenes::hard_scenes::{HARD_SCENES, any_camera, hard_parts, hard_scene};
+use crate::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene, hard_solids};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::random_scenes::{random_camera, random_scene};
 use crate::support::scenes::round_solids::{icosphere, saddle};
@@ -21,14 +21,14 @@ pub struct Subject {
     pub scene: Scene,
     pub camera: Camera,
     /// World-space boxes that are hidden from the camera, as opposite corners.
-    pub unseen: Vec<[DVec3; 2]>,
+    pub hidden_boxes: Vec<[DVec3; 2]>,
     /// Objects that may be put into the hidden boxes.
     pub hideable: Vec<Geometry>,
 }
 
 impl Subject {
     pub fn new(name: impl Into<String>, scene: Scene, camera: Camera) -> Self {
-        Self { name: name.into(), scene, camera, unseen: Vec::new(), hideable: Vec::new() }
+        Self { name: name.into(), scene, camera, hidden_boxes: Vec::new(), hideable: Vec::new() }
     }
 
     /// A scene from the default view, in a square frame with sides of `side` px.
@@ -41,7 +41,7 @@ impl Subject {
 }
 
 /// One random scene for each kind and each kind of camera.
-pub fn random(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
+pub fn random_subjects(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
     let one = |kind: &str, camera: &str| {
         let mut dice = Dice::new(seed);
         let (scene, seen) = (random_scene(kind, &mut dice), random_camera(camera, &mut dice));
@@ -50,43 +50,43 @@ pub fn random(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
     kinds.iter().flat_map(|kind| cameras.iter().map(|camera| one(kind, camera))).collect()
 }
 
-/// A random scene of each kind in `HARD_SCENES`, for each seed.
-pub fn hard(seeds: Range<u64>) -> Vec<Subject> {
+/// A random scene of each kind in `HARD_SCENE_KINDS`, for each seed.
+pub fn hard_subjects(seeds: Range<u64>) -> Vec<Subject> {
     let one = |kind: &str, seed: u64| {
         let mut dice = Dice::new(seed);
-        let (scene, camera) = (hard_scene(kind, &mut dice), any_camera(&mut dice));
+        let (scene, camera) = (hard_scene(kind, &mut dice), camera_from_any_side(&mut dice));
         Subject::new(format!("{kind}, seed {seed}"), scene, camera)
     };
-    HARD_SCENES.iter().flat_map(|kind| seeds.clone().map(|seed| one(kind, seed))).collect()
+    HARD_SCENE_KINDS.iter().flat_map(|kind| seeds.clone().map(|seed| one(kind, seed))).collect()
 }
 
 /// Every second subject on a small page, for styles that draw slowly.
-pub fn few_in_small(subjects: Vec<Subject>) -> Vec<Subject> {
+pub fn every_second_on_small_page(subjects: Vec<Subject>) -> Vec<Subject> {
     let mut few: Vec<Subject> = subjects.into_iter().step_by(2).collect();
     few.iter_mut().for_each(|few| (few.camera.width, few.camera.height) = (400.0, 400.0));
     few
 }
 
-/// The scenes of `HARD_SCENES`, shrunk to the right half, with a wall on the left.
+/// The scenes of `HARD_SCENE_KINDS`, shrunk to the right half, with a wall on the left.
 ///
 /// Copies of their parts can be hidden behind the wall, near and far.
-pub fn beside_a_wall(seed: u64) -> Vec<Subject> {
+pub fn next_to_wall(seed: u64) -> Vec<Subject> {
     let one = |kind: &str| {
-        let parts = hard_parts(kind, &mut Dice::new(seed));
+        let parts = hard_solids(kind, &mut Dice::new(seed));
         let wall = cuboid(DVec3::new(-1.4, -0.8, 0.3), DVec3::new(-0.2, 0.8, 0.4));
-        let hideable = parts.iter().cloned().map(geometry).collect();
+        let hideable = parts.iter().cloned().map(solid_geometry).collect();
         let small = parts.into_iter().map(|part| part.moved(|p| p * 0.4 + DVec3::X * 0.75));
         let camera = orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 3.6);
         let behind = |from: f64, to: f64| [DVec3::new(-1.3, -0.7, from), DVec3::new(-0.3, 0.7, to)];
         let unseen = vec![behind(-1.6, 0.2), behind(-21.0, -19.0)];
         let name = format!("{kind} beside a wall, seed {seed}");
-        Subject { unseen, hideable, ..Subject::new(name, scene(small.chain([wall])), camera) }
+        Subject { hidden_boxes: unseen, hideable, ..Subject::new(name, scene(small.chain([wall])), camera) }
     };
-    HARD_SCENES.iter().map(|kind| one(kind)).collect()
+    HARD_SCENE_KINDS.iter().map(|kind| one(kind)).collect()
 }
 
 /// A closed box with hidden space inside and behind, in perspective and orthographic views.
-pub fn shells() -> Vec<Subject> {
+pub fn box_shells() -> Vec<Subject> {
     let eye = DVec3::new(1.0, 0.5, 9.0);
     let mut dice = Dice::new(14);
     let mut one = |name: &str, camera: Camera| {
@@ -95,7 +95,7 @@ pub fn shells() -> Vec<Subject> {
         let inside = [DVec3::new(-1.9, -1.9, -0.9), DVec3::new(1.9, 1.9, 0.9)];
         let behind = [DVec3::new(-1.0, -1.0, -3.0), DVec3::new(1.0, 1.0, -2.0)];
         let unseen = vec![inside, behind];
-        Subject { unseen, hideable, ..Subject::new(name, scene([shell]), camera) }
+        Subject { hidden_boxes: unseen, hideable, ..Subject::new(name, scene([shell]), camera) }
     };
     vec![
         one("a shell, perspective", perspective(eye, DVec3::ZERO, 35.0)),
@@ -117,25 +117,25 @@ fn round_solids() -> Vec<(&'static str, Solid)> {
 }
 
 /// Rounded solids from the first `cameras` of three cameras.
-pub fn round(cameras: usize) -> Vec<Subject> {
-    round_solids().into_iter().flat_map(|solid| seen_round(solid, cameras)).collect()
+pub fn rounded(cameras: usize) -> Vec<Subject> {
+    round_solids().into_iter().flat_map(|solid| rounded_from_cameras(solid, cameras)).collect()
 }
 
 /// The closed rounded solids, from one camera.
-pub fn round_closed() -> Vec<Subject> {
+pub fn rounded_closed() -> Vec<Subject> {
     let closed = round_solids().into_iter().filter(|(name, _)| !["saddle", "bulging tube"].contains(name));
-    closed.flat_map(|solid| seen_round(solid, 1)).collect()
+    closed.flat_map(|solid| rounded_from_cameras(solid, 1)).collect()
 }
 
 /// Open surfaces from one camera that sees both sides.
-pub fn round_open() -> Vec<Subject> {
+pub fn open_surfaces() -> Vec<Subject> {
     let tubes = round_solids().into_iter().filter(|(name, _)| *name == "bulging tube");
     let uneven = |p: DVec3| p + DVec3::Z * (0.05 * p.x + 0.03 * p.y + (0.1 * p.x + 0.2 * p.y) * p.x * p.x);
     let uneven_saddle = ("uneven saddle", saddle(16).moved(uneven));
-    tubes.chain([uneven_saddle]).flat_map(|solid| seen_round(solid, 1)).collect()
+    tubes.chain([uneven_saddle]).flat_map(|solid| rounded_from_cameras(solid, 1)).collect()
 }
 
-fn seen_round((name, solid): (&str, Solid), cameras: usize) -> Vec<Subject> {
+fn rounded_from_cameras((name, solid): (&str, Solid), cameras: usize) -> Vec<Subject> {
     let all = [
         perspective(DVec3::new(3.1, -4.2, 2.3), DVec3::new(0.1, 0.0, -0.1), 35.0),
         perspective(DVec3::new(-2.0, 0.9, 5.4), DVec3::ZERO, 40.0),
@@ -198,7 +198,7 @@ pub fn ring_with_ball() -> Subject {
 }
 
 /// Intersecting solids, each placed by its part's transform.
-pub fn through_each_other() -> Vec<Subject> {
+pub fn intersecting_solids() -> Vec<Subject> {
     let mut dice = Dice::new(5);
     let one = |round: usize| {
         let mut scene = Scene::default();
@@ -210,7 +210,7 @@ pub fn through_each_other() -> Vec<Subject> {
                 _ => tube(24, 3, half.x / 2.0, 2.0 * half.y),
             };
             let place = DAffine3::from_mat3_translation(dice.turn(), dice.point(0.9));
-            scene.geometries.push(geometry(solid));
+            scene.geometries.push(solid_geometry(solid));
             scene.parts.push(Part { name: format!("part {k}"), geometry: k, world_from_part: place });
         }
         Subject::framed(format!("solids through each other, {round}"), scene, 500.0)
@@ -227,18 +227,18 @@ pub fn equal_cubes() -> Subject {
         world_from_part: DAffine3::from_translation(dice.point(0.9)),
     };
     let parts = (0..5).map(cube).collect();
-    let geometries = vec![geometry(cuboid(DVec3::NEG_ONE, DVec3::ONE))];
+    let geometries = vec![solid_geometry(cuboid(DVec3::NEG_ONE, DVec3::ONE))];
     Subject::framed("equal cubes", Scene { geometries, parts, ..Scene::default() }, 500.0)
 }
 
 /// The path of an example model.
-pub fn example(name: &str) -> PathBuf {
+pub fn example_path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
 
 /// Example models in a square frame.
 pub fn examples(names: &[&str], side: f64) -> Vec<Subject> {
-    names.iter().map(|name| Subject::framed(*name, Scene::open(example(name)).unwrap(), side)).collect()
+    names.iter().map(|name| Subject::framed(*name, Scene::open(example_path(name)).unwrap(), side)).collect()
 }
 
 /// Shared models in a square frame; absent ones are left out.

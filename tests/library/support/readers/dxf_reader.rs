@@ -1,7 +1,7 @@
 //! Reference reader for the entities of DXF files.
 
 /// The group codes and values of a file.
-pub fn pairs(bytes: &[u8]) -> Vec<(u16, String)> {
+pub fn group_codes(bytes: &[u8]) -> Vec<(u16, String)> {
     let text = std::str::from_utf8(bytes).expect("text");
     assert!(text.is_ascii());
     let lines: Vec<&str> = text.split_terminator("\r\n").collect();

@@ -6,32 +6,32 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 /// Coordinates x, y, z.
-pub type Point = [f64; 3];
+pub type Coordinates = [f64; 3];
 
 /// A part: its name, its points and its triangles.
-pub struct Part {
+pub struct FilePart {
     pub name: String,
-    pub points: Vec<Point>,
+    pub points: Vec<Coordinates>,
     pub faces: Vec<[usize; 3]>,
 }
 
 /// The path of an example model.
-pub fn path(name: &str) -> PathBuf {
+pub fn example_path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
 
-pub fn bytes(name: &str) -> Vec<u8> {
-    std::fs::read(path(name)).unwrap()
+pub fn example_bytes(name: &str) -> Vec<u8> {
+    std::fs::read(example_path(name)).unwrap()
 }
 
 /// The objects of an OBJ file, with faces fan-triangulated. Each part holds all points of the file.
-pub fn read_obj(name: &str) -> Vec<Part> {
-    let mut points: Vec<Point> = Vec::new();
-    let mut parts: Vec<Part> = Vec::new();
-    for line in String::from_utf8(bytes(name)).unwrap().lines() {
+pub fn read_obj(name: &str) -> Vec<FilePart> {
+    let mut points: Vec<Coordinates> = Vec::new();
+    let mut parts: Vec<FilePart> = Vec::new();
+    for line in String::from_utf8(example_bytes(name)).unwrap().lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[0] {
-            "o" => parts.push(Part { name: words[1].to_owned(), points: Vec::new(), faces: Vec::new() }),
+            "o" => parts.push(FilePart { name: words[1].to_owned(), points: Vec::new(), faces: Vec::new() }),
             "v" => points.push([1, 2, 3].map(|k| words[k].parse().unwrap())),
             "f" => {
                 let id = |word: &str| word.split('/').next().unwrap().parse::<usize>().unwrap() - 1;
@@ -46,28 +46,28 @@ pub fn read_obj(name: &str) -> Vec<Part> {
     parts
 }
 
-fn float(bytes: &[u8]) -> f64 {
+fn f32_at(bytes: &[u8]) -> f64 {
     f64::from(f32::from_le_bytes(bytes[..4].try_into().unwrap()))
 }
 
-fn int(bytes: &[u8]) -> usize {
+fn u32_at(bytes: &[u8]) -> usize {
     u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize
 }
 
-pub fn read_stl(name: &str) -> Part {
-    let bytes = bytes(name);
-    let count = int(&bytes[80..]);
+pub fn read_stl(name: &str) -> FilePart {
+    let bytes = example_bytes(name);
+    let count = u32_at(&bytes[80..]);
     assert_eq!(bytes.len(), 84 + 50 * count);
     let corners = (0..3 * count).map(|i| {
         let start = 84 + 50 * (i / 3) + 12 + 12 * (i % 3);
-        [0, 4, 8].map(|k| float(&bytes[start + k..]))
+        [0, 4, 8].map(|k| f32_at(&bytes[start + k..]))
     });
     let faces = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Part { name: name.to_owned(), points: corners.collect(), faces }
+    FilePart { name: name.to_owned(), points: corners.collect(), faces }
 }
 
-pub fn read_ply(name: &str) -> Part {
-    let bytes = bytes(name);
+pub fn read_ply(name: &str) -> FilePart {
+    let bytes = example_bytes(name);
     let mark = b"end_header\n";
     let end = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len();
     let header = String::from_utf8(bytes[..end].to_vec()).unwrap();
@@ -77,14 +77,14 @@ pub fn read_ply(name: &str) -> Part {
     let (vertices, faces) = (count("element vertex"), count("element face"));
     let stride = if header.contains("property float nx") { 24 } else { 12 };
     assert_eq!(bytes.len(), end + stride * vertices + 13 * faces);
-    let points = (0..vertices).map(|i| [0, 4, 8].map(|k| float(&bytes[end + stride * i + k..]))).collect();
+    let points = (0..vertices).map(|i| [0, 4, 8].map(|k| f32_at(&bytes[end + stride * i + k..]))).collect();
     let start = end + stride * vertices;
-    let faces = (0..faces).map(|i| [1, 5, 9].map(|k| int(&bytes[start + 13 * i + k..]))).collect();
-    Part { name: name.to_owned(), points, faces }
+    let faces = (0..faces).map(|i| [1, 5, 9].map(|k| u32_at(&bytes[start + 13 * i + k..]))).collect();
+    FilePart { name: name.to_owned(), points, faces }
 }
 
 /// The part with bitwise equal points merged.
-pub fn welded(part: &Part) -> Part {
+pub fn weld_points(part: &FilePart) -> FilePart {
     let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     let mut points = Vec::new();
     let ids: Vec<usize> = part
@@ -98,7 +98,7 @@ pub fn welded(part: &Part) -> Part {
         })
         .collect();
     let faces = part.faces.iter().map(|face| face.map(|corner| ids[corner])).collect();
-    Part { name: part.name.clone(), points, faces }
+    FilePart { name: part.name.clone(), points, faces }
 }
 
 /// A GLB file: its JSON document and its binary buffer.
@@ -109,9 +109,9 @@ pub struct Glb {
 
 impl Glb {
     pub fn read(name: &str) -> Self {
-        let bytes = bytes(name);
+        let bytes = example_bytes(name);
         assert_eq!(&bytes[..4], b"glTF");
-        let end = 20 + int(&bytes[12..]);
+        let end = 20 + u32_at(&bytes[12..]);
         let document = serde_json::from_slice(&bytes[20..end]).unwrap();
         Self { document, buffer: bytes[end + 8..].to_vec() }
     }
@@ -130,15 +130,15 @@ impl Glb {
         self.buffer[start..].chunks_exact(width).take(accessor["count"].as_u64().unwrap() as usize)
     }
 
-    pub fn points(&self, accessor: &Value) -> impl Iterator<Item = Point> {
-        self.values(accessor, 12).map(|point| [0, 4, 8].map(|at| float(&point[at..])))
+    pub fn points(&self, accessor: &Value) -> impl Iterator<Item = Coordinates> {
+        self.values(accessor, 12).map(|point| [0, 4, 8].map(|at| f32_at(&point[at..])))
     }
 
     pub fn indices(&self, accessor: &Value) -> Vec<usize> {
         match self.list("accessors")[accessor.as_u64().unwrap() as usize]["componentType"].as_u64().unwrap() {
             5121 => self.values(accessor, 1).map(|id| usize::from(id[0])).collect(),
             5123 => self.values(accessor, 2).map(|id| usize::from(id[0]) | usize::from(id[1]) << 8).collect(),
-            _ => self.values(accessor, 4).map(int).collect(),
+            _ => self.values(accessor, 4).map(u32_at).collect(),
         }
     }
 }

@@ -8,13 +8,13 @@ use super::shared_folder;
 use crate::support::scenes::solids::Solid;
 
 /// Reads a shared model by name; `None` if it is absent.
-pub fn read(name: &str) -> Option<Solid> {
+pub fn read_shared_model(name: &str) -> Option<Solid> {
     let bytes = std::fs::read(shared_folder::find(name)?).ok()?;
-    let solid = if name.ends_with(".ply") { ply(&bytes) } else { obj(&bytes) };
-    Some(welded(solid))
+    let solid = if name.ends_with(".ply") { parse_ply(&bytes) } else { parse_obj(&bytes) };
+    Some(weld_vertices(solid))
 }
 
-fn obj(bytes: &[u8]) -> Solid {
+fn parse_obj(bytes: &[u8]) -> Solid {
     let mut solid = Solid::default();
     for line in String::from_utf8_lossy(bytes).lines() {
         let mut words = line.split_whitespace();
@@ -31,7 +31,7 @@ fn obj(bytes: &[u8]) -> Solid {
                         (if index < 0 { count + index } else { index - 1 }) as u32
                     })
                     .collect();
-                fan(&corners, &mut solid.triangles);
+                triangulate_fan(&corners, &mut solid.triangles);
             }
             _ => {}
         }
@@ -39,7 +39,7 @@ fn obj(bytes: &[u8]) -> Solid {
     solid
 }
 
-fn ply(bytes: &[u8]) -> Solid {
+fn parse_ply(bytes: &[u8]) -> Solid {
     let marker = b"end_header\n";
     let end = bytes.windows(marker.len()).position(|w| w == marker).unwrap() + marker.len();
     let header = String::from_utf8_lossy(&bytes[..end]);
@@ -57,18 +57,18 @@ fn ply(bytes: &[u8]) -> Solid {
     for _ in 0..count("element face") {
         let corners = usize::from(rest[0]);
         let face: Vec<u32> = rest[1..=4 * corners].chunks(4).map(|c| u32::from_le_bytes(word(c))).collect();
-        fan(&face, &mut solid.triangles);
+        triangulate_fan(&face, &mut solid.triangles);
         rest = &rest[1 + 4 * corners..];
     }
     solid
 }
 
-fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
+fn triangulate_fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
     triangles.extend(corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]));
 }
 
 /// Welds vertices with equal positions and drops triangles that become degenerate.
-fn welded(solid: Solid) -> Solid {
+fn weld_vertices(solid: Solid) -> Solid {
     let mut seen = HashMap::new();
     let mut positions = Vec::new();
     let index: Vec<u32> = solid

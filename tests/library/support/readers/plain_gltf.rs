@@ -1,4 +1,4 @@
-//! [`Plain`]: reference reader for glTF files that evaluates poses directly from the specification's
+//! [`ReferenceGltf`]: reference reader for glTF files that evaluates poses directly from the specification's
 //! formulas.
 
 use std::path::Path;
@@ -10,12 +10,12 @@ use ligne::geometry::numbers::portable_math::{acos, sin};
 use serde_json::Value;
 
 /// A glTF file: its JSON document and its buffers.
-pub struct Plain {
+pub struct ReferenceGltf {
     json: Value,
     buffers: Vec<Vec<u8>>,
 }
 
-impl Plain {
+impl ReferenceGltf {
     pub fn open(path: &Path) -> Self {
         let bytes = std::fs::read(path).unwrap();
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
@@ -38,7 +38,7 @@ impl Plain {
     }
 
     /// The elements of an accessor, with sparse values applied.
-    fn read(&self, accessor: &Value) -> Vec<Vec<f64>> {
+    fn accessor_elements(&self, accessor: &Value) -> Vec<Vec<f64>> {
         let own = &self.json["accessors"][index(accessor).unwrap()];
         let width = match own["type"].as_str().unwrap() {
             "SCALAR" => 1,
@@ -52,7 +52,7 @@ impl Plain {
         let mut all = match index(&own["bufferView"]) {
             Some(view) => {
                 let offset = index(&own["byteOffset"]).unwrap_or(0);
-                self.numbers(view, offset, kind, width, count, own["normalized"] == true)
+                self.buffer_elements(view, offset, kind, width, count, own["normalized"] == true)
             }
             None => vec![vec![0.0; width]; count],
         };
@@ -60,7 +60,7 @@ impl Plain {
         if let Some(count) = index(&sparse["count"]) {
             let part = |part: &Value, kind: u64, width: usize| {
                 let offset = index(&part["byteOffset"]).unwrap_or(0);
-                self.numbers(index(&part["bufferView"]).unwrap(), offset, kind, width, count, false)
+                self.buffer_elements(index(&part["bufferView"]).unwrap(), offset, kind, width, count, false)
             };
             let places = part(&sparse["indices"], sparse["indices"]["componentType"].as_u64().unwrap(), 1);
             for (place, value) in places.iter().zip(part(&sparse["values"], kind, width)) {
@@ -71,7 +71,7 @@ impl Plain {
     }
 
     /// Elements of `width` numbers from a buffer view; normalised integers are scaled if `part` is set.
-    fn numbers(
+    fn buffer_elements(
         &self,
         view: usize,
         offset: usize,
@@ -105,11 +105,11 @@ impl Plain {
     }
 
     /// The interpolated value of a channel at a time.
-    fn value(&self, animation: &Value, channel: &Value, time: f64) -> Vec<f64> {
+    fn channel_value(&self, animation: &Value, channel: &Value, time: f64) -> Vec<f64> {
         let sampler = &animation["samplers"][index(&channel["sampler"]).unwrap()];
-        let times: Vec<f64> = self.read(&sampler["input"]).concat();
+        let times: Vec<f64> = self.accessor_elements(&sampler["input"]).concat();
         let cubic = sampler["interpolation"] == "CUBICSPLINE";
-        let numbers: Vec<f64> = self.read(&sampler["output"]).concat();
+        let numbers: Vec<f64> = self.accessor_elements(&sampler["output"]).concat();
         let width = numbers.len() / times.len() / if cubic { 3 } else { 1 };
         let row = |k: usize| numbers[k * width..(k + 1) * width].to_vec();
         let value = |k: usize| if cubic { row(3 * k + 1) } else { row(k) };
@@ -160,23 +160,29 @@ impl Plain {
     }
 
     /// The value of an animation pointer at a time of a clip.
-    pub fn pointed(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
+    pub fn pointer_value(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
         let animation = &self.json["animations"][clip];
         let leads =
             |channel: &&Value| channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == pointer;
         let channel = list(&animation["channels"]).iter().find(leads).unwrap();
-        self.value(animation, channel, time)
+        self.channel_value(animation, channel, time)
     }
 
     /// A property of a node at a time: from the clip, else from the node, else the default.
-    fn property(&self, node: usize, path: &str, playing: Option<(usize, f64)>, default: &[f64]) -> Vec<f64> {
+    fn node_property(
+        &self,
+        node: usize,
+        path: &str,
+        playing: Option<(usize, f64)>,
+        default: &[f64],
+    ) -> Vec<f64> {
         if let Some((clip, time)) = playing {
             let animation = &self.json["animations"][clip];
             let target = |channel: &&Value| {
                 index(&channel["target"]["node"]) == Some(node) && channel["target"]["path"] == path
             };
             if let Some(channel) = list(&animation["channels"]).iter().find(target) {
-                return self.value(animation, channel, time);
+                return self.channel_value(animation, channel, time);
             }
         }
         let own = &self.json["nodes"][node][path];
@@ -184,14 +190,14 @@ impl Plain {
     }
 
     /// The local matrix of a node.
-    fn local(&self, node: usize, playing: Option<(usize, f64)>) -> DMat4 {
+    fn local_matrix(&self, node: usize, playing: Option<(usize, f64)>) -> DMat4 {
         let matrix = &self.json["nodes"][node]["matrix"];
         if !matrix.is_null() {
             return DMat4::from_cols_slice(&floats(matrix));
         }
-        let t = self.property(node, "translation", playing, &[0.0; 3]);
-        let q = self.property(node, "rotation", playing, &[0.0, 0.0, 0.0, 1.0]);
-        let s = self.property(node, "scale", playing, &[1.0; 3]);
+        let t = self.node_property(node, "translation", playing, &[0.0; 3]);
+        let q = self.node_property(node, "rotation", playing, &[0.0, 0.0, 0.0, 1.0]);
+        let s = self.node_property(node, "scale", playing, &[1.0; 3]);
         let [x, y, z, w] = [q[0], q[1], q[2], q[3]];
         // The rotation matrix of a quaternion.
         let turn = [
@@ -204,7 +210,7 @@ impl Plain {
     }
 
     /// The world-space vertices of each node with a mesh, in depth-first order.
-    pub fn points(&self, playing: Option<(usize, f64)>) -> Vec<Vec<DVec3>> {
+    pub fn posed_vertices(&self, playing: Option<(usize, f64)>) -> Vec<Vec<DVec3>> {
         let nodes = list(&self.json["nodes"]).len();
         let mut parents = vec![None; nodes];
         for node in 0..nodes {
@@ -213,10 +219,10 @@ impl Plain {
             }
         }
         let world = |node: usize| {
-            let mut matrix = self.local(node, playing);
+            let mut matrix = self.local_matrix(node, playing);
             let mut at = node;
             while let Some(parent) = parents[at] {
-                matrix = self.local(parent, playing) * matrix;
+                matrix = self.local_matrix(parent, playing) * matrix;
                 at = parent;
             }
             matrix
@@ -233,20 +239,26 @@ impl Plain {
             waiting
                 .extend(list(&self.json["nodes"][node]["children"]).iter().rev().map(|n| index(n).unwrap()));
             if let Some(mesh) = index(&self.json["nodes"][node]["mesh"]) {
-                found.push(self.mesh(node, mesh, &all, playing));
+                found.push(self.mesh_vertices(node, mesh, &all, playing));
             }
         }
         found
     }
 
     /// The world-space vertices of a mesh, with morph targets and skinning applied.
-    fn mesh(&self, node: usize, mesh: usize, world: &[DMat4], playing: Option<(usize, f64)>) -> Vec<DVec3> {
+    fn mesh_vertices(
+        &self,
+        node: usize,
+        mesh: usize,
+        world: &[DMat4],
+        playing: Option<(usize, f64)>,
+    ) -> Vec<DVec3> {
         let mesh = &self.json["meshes"][mesh];
         let resting = if mesh["weights"].is_null() { Vec::new() } else { floats(&mesh["weights"]) };
-        let weights = self.property(node, "weights", playing, &resting);
+        let weights = self.node_property(node, "weights", playing, &resting);
         let skin = index(&self.json["nodes"][node]["skin"]).map(|skin| &self.json["skins"][skin]);
         let joints: Vec<DMat4> = skin.map_or_else(Vec::new, |skin| {
-            let binds = self.read(&skin["inverseBindMatrices"]);
+            let binds = self.accessor_elements(&skin["inverseBindMatrices"]);
             let joints = list(&skin["joints"]).iter().zip(binds);
             joints.map(|(joint, bind)| world[index(joint).unwrap()] * DMat4::from_cols_slice(&bind)).collect()
         });
@@ -258,11 +270,14 @@ impl Plain {
                 continue;
             }
             known.push(attributes);
-            let mut own: Vec<DVec3> =
-                self.read(&attributes["POSITION"]).iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+            let mut own: Vec<DVec3> = self
+                .accessor_elements(&attributes["POSITION"])
+                .iter()
+                .map(|p| DVec3::new(p[0], p[1], p[2]))
+                .collect();
             for (target, weight) in list(&primitive["targets"]).iter().zip(&weights) {
                 if !target["POSITION"].is_null() {
-                    let moves = self.read(&target["POSITION"]);
+                    let moves = self.accessor_elements(&target["POSITION"]);
                     own.iter_mut().zip(moves).for_each(|(p, m)| *p += DVec3::new(m[0], m[1], m[2]) * *weight);
                 }
             }
@@ -270,7 +285,7 @@ impl Plain {
                 let sets: Vec<[Vec<Vec<f64>>; 2]> = (0..4)
                     .filter(|k| !attributes[format!("JOINTS_{k}")].is_null())
                     .map(|k| {
-                        let read = |name: &str| self.read(&attributes[format!("{name}_{k}")]);
+                        let read = |name: &str| self.accessor_elements(&attributes[format!("{name}_{k}")]);
                         [read("JOINTS"), read("WEIGHTS")]
                     })
                     .collect();

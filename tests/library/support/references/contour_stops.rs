@@ -10,25 +10,25 @@ use ligne::view::View;
 use ligne::visibility::{self, ViewMap, ViewVertexKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::support::measures::line_picture::{Ink, nearest_on};
+use crate::support::measures::line_picture::{SegmentGrid, nearest_parameter};
 
 /// Maximum distance of a reason from the end of the contour, px.
-const NEAR_PX: f64 = 0.75;
+const MAX_REASON_DISTANCE_PX: f64 = 0.75;
 /// The contour's own last stretch of this length gives no reason, px.
-const OWN_PX: f64 = 2.5;
+const OWN_CHAIN_PX: f64 = 2.5;
 
 /// Maximum distance for gaps and lengths that are reported, px.
-const FAR_PX: f64 = 8.0;
+const MAX_MEASURED_PX: f64 = 8.0;
 /// Isolated chains shorter than this are not drawn, px.
-const CRUMB_PX: f64 = 4.0;
+const MIN_DRAWN_CHAIN_PX: f64 = 4.0;
 
 /// Counts of contour ends by reason, over one or more views.
 #[derive(Debug, Clone, Default)]
-pub struct Tally {
+pub struct ContourEndCounts {
     pub views: usize,
     /// Number of smooth contours, and of mesh contours drawn in their place, as counted by the view map.
     pub curves: u64,
-    pub bare: u64,
+    pub mesh_contours: u64,
     /// Ends of visible contours.
     pub stops: usize,
     /// Ends at an occluding line, at a cusp, at another line, and at the frame.
@@ -36,27 +36,27 @@ pub struct Tally {
     pub cusps: usize,
     pub at_lines: usize,
     pub at_frame: usize,
-    /// Ends within [`NEAR_PX`] of another end, and ends of chains too short to be drawn.
+    /// Ends within [`MAX_REASON_DISTANCE_PX`] of another end, and ends of chains too short to be drawn.
     pub slits: usize,
-    pub crumbs: usize,
+    pub short_chains: usize,
     /// Ends without a reason.
-    pub unexplained: Vec<Stop>,
+    pub unexplained: Vec<UnexplainedEnd>,
 }
 
 /// An end of a visible contour without a reason.
 #[derive(Debug, Clone, Copy)]
-pub struct Stop {
+pub struct UnexplainedEnd {
     pub position: Point,
     pub kind: ViewVertexKind,
     /// Whether a hidden contour continues there.
     pub goes_on: bool,
-    /// Distance to the nearest other end of a visible contour; infinite above [`FAR_PX`].
+    /// Distance to the nearest other end of a visible contour; infinite above [`MAX_MEASURED_PX`].
     pub gap: f64,
-    /// Length of the chain that ends, up to [`FAR_PX`].
+    /// Length of the chain that ends, up to [`MAX_MEASURED_PX`].
     pub length: f64,
 }
 
-impl std::fmt::Display for Stop {
+impl std::fmt::Display for UnexplainedEnd {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { position, kind, goes_on, gap, length } = self;
         let on = if *goes_on { "goes on hidden" } else { "nothing goes on" };
@@ -64,28 +64,28 @@ impl std::fmt::Display for Stop {
     }
 }
 
-impl Tally {
+impl ContourEndCounts {
     pub fn add(&mut self, other: Self) {
         self.views += other.views;
         self.curves += other.curves;
-        self.bare += other.bare;
+        self.mesh_contours += other.mesh_contours;
         self.stops += other.stops;
         self.junctions += other.junctions;
         self.cusps += other.cusps;
         self.at_lines += other.at_lines;
         self.at_frame += other.at_frame;
         self.slits += other.slits;
-        self.crumbs += other.crumbs;
+        self.short_chains += other.short_chains;
         self.unexplained.extend(other.unexplained);
     }
 
     /// Mean number of mesh contours drawn per view.
-    pub fn bare_a_view(&self) -> f64 {
-        self.bare as f64 / (self.views as f64).max(1.0)
+    pub fn mesh_contours_per_view(&self) -> f64 {
+        self.mesh_contours as f64 / (self.views as f64).max(1.0)
     }
 
     /// Share of ends with a reason, percent.
-    pub fn explained(&self) -> f64 {
+    pub fn explained_percent(&self) -> f64 {
         100.0 * (1.0 - self.unexplained.len() as f64 / (self.stops as f64).max(1.0))
     }
 
@@ -114,24 +114,24 @@ impl Tally {
             "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:6} {:6} {:7} {:8.3}",
             self.views,
             self.curves,
-            self.bare,
-            self.bare_a_view(),
+            self.mesh_contours,
+            self.mesh_contours_per_view(),
             self.stops,
             self.junctions,
             self.cusps,
             self.at_lines,
             self.at_frame,
             self.slits,
-            self.crumbs,
+            self.short_chains,
             self.unexplained.len(),
-            self.explained()
+            self.explained_percent()
         )
     }
 }
 
 /// Cameras from the 26 directions to a cube's faces, edges and corners, alternately perspective and
 /// orthographic.
-pub fn cameras(scene: &Scene) -> Vec<Camera> {
+pub fn cube_cameras(scene: &Scene) -> Vec<Camera> {
     let mut cameras = Vec::new();
     for code in (0..27).filter(|code| *code != 13) {
         let way = DVec3::new(f64::from(code % 3), f64::from(code / 3 % 3), f64::from(code / 9)) - DVec3::ONE;
@@ -150,7 +150,7 @@ pub fn cameras(scene: &Scene) -> Vec<Camera> {
 }
 
 /// The view map of a surface, refined for the camera.
-pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
+pub fn build_view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
     let surface = surface.clone().finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
@@ -158,9 +158,13 @@ pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> Vi
 }
 
 /// Counts the ends of the visible smooth contours of a view map by reason.
-pub fn check(map: &ViewMap) -> Tally {
-    let mut tally =
-        Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
+pub fn count_contour_ends(map: &ViewMap) -> ContourEndCounts {
+    let mut tally = ContourEndCounts {
+        views: 1,
+        curves: map.contours.curves,
+        mesh_contours: map.contours.bare,
+        ..ContourEndCounts::default()
+    };
     let place = |v: u32| map.vertices[v as usize].position;
     let seen: Vec<usize> = (0..map.edges.len()).filter(|e| map.edges[*e].invisibility == 0).collect();
     let ends = |e: usize| [map.edges[e].start.0, map.edges[e].end.0];
@@ -175,7 +179,7 @@ pub fn check(map: &ViewMap) -> Tally {
             }
         }
     }
-    let ink = Ink::new(seen.iter().map(|e| ends(*e).map(place)).collect(), NEAR_PX);
+    let ink = SegmentGrid::new(seen.iter().map(|e| ends(*e).map(place)).collect(), MAX_REASON_DISTANCE_PX);
     let is_smooth = |e: &&usize| map.edges[**e].kind == LineKind::Contour && map.edges[**e].smooth;
     // A vertex shared with another visible edge is no end.
     let stops: Vec<(usize, u32)> = seen
@@ -184,15 +188,15 @@ pub fn check(map: &ViewMap) -> Tally {
         .flat_map(|e| ends(*e).map(|v| (*e, v)))
         .filter(|(_, v)| at[v].len() == 1)
         .collect();
-    let others = Ink::new(stops.iter().map(|(_, v)| [place(*v); 2]).collect(), FAR_PX);
+    let others = SegmentGrid::new(stops.iter().map(|(_, v)| [place(*v); 2]).collect(), MAX_MEASURED_PX);
     tally.stops = stops.len();
     for (stop, &(e, v)) in stops.iter().enumerate() {
         let vertex = map.vertices[v as usize];
-        let (own, _) = behind(v, e, OWN_PX, &at, &ends, &place);
+        let (own, _) = chain_before_end(v, e, OWN_CHAIN_PX, &at, &ends, &place);
         let lines: Vec<(usize, f64)> = ink
-            .near(vertex.position)
-            .map(|(i, s)| (seen[i], nearest_on(vertex.position, s), s))
-            .filter(|(_, t, s)| (vertex.position - s[0].lerp(s[1], *t)).hypot() <= NEAR_PX)
+            .segments_near(vertex.position)
+            .map(|(i, s)| (seen[i], nearest_parameter(vertex.position, s), s))
+            .filter(|(_, t, s)| (vertex.position - s[0].lerp(s[1], *t)).hypot() <= MAX_REASON_DISTANCE_PX)
             .filter(|(e, _, _)| !own.contains(e))
             .map(|(e, t, _)| (e, t))
             .collect();
@@ -206,8 +210,8 @@ pub fn check(map: &ViewMap) -> Tally {
         let from = |(i, [p, _]): (usize, [Point; 2])| {
             if i == stop { f64::INFINITY } else { (p - vertex.position).hypot() }
         };
-        let gap = others.near(vertex.position).map(from).fold(f64::INFINITY, f64::min);
-        let (_, length) = behind(v, e, FAR_PX, &at, &ends, &place);
+        let gap = others.segments_near(vertex.position).map(from).fold(f64::INFINITY, f64::min);
+        let (_, length) = chain_before_end(v, e, MAX_MEASURED_PX, &at, &ends, &place);
         let kind = vertex.kind;
         if kind == ViewVertexKind::Frame {
             tally.at_frame += 1;
@@ -217,20 +221,20 @@ pub fn check(map: &ViewMap) -> Tally {
             tally.at_lines += 1;
         } else if kind == ViewVertexKind::Cusp || turns_back(map, v, e, &ends) {
             tally.cusps += 1;
-        } else if gap <= NEAR_PX {
+        } else if gap <= MAX_REASON_DISTANCE_PX {
             tally.slits += 1;
-        } else if length < CRUMB_PX {
-            tally.crumbs += 1;
+        } else if length < MIN_DRAWN_CHAIN_PX {
+            tally.short_chains += 1;
         } else {
             let (position, goes_on) = (vertex.position, hidden_at.contains(&v));
-            tally.unexplained.push(Stop { position, kind, goes_on, gap, length });
+            tally.unexplained.push(UnexplainedEnd { position, kind, goes_on, gap, length });
         }
     }
     tally
 }
 
 /// The visible edges that lead to `v` by edge `e`, for at least `reach` px, and their total length.
-fn behind(
+fn chain_before_end(
     v: u32,
     e: usize,
     reach: f64,

@@ -4,20 +4,20 @@ use kurbo::{Point, Vec2};
 use ligne::scene::{Camera, Scene};
 use rayon::prelude::*;
 
-use super::polyhedron_lines::{Kind, Line, lines};
-use super::ray_casts::{Before, Rays, around, project};
-use super::textbook_camera::Eye;
-use super::triangle_scene::Polygons;
+use super::polyhedron_lines::{ReferenceLine, ReferenceLineKind, feature_lines};
+use super::ray_casts::{Occluder, RayCaster, circle_points, project_point};
+use super::textbook_camera::TextbookCamera;
+use super::triangle_scene::TriangleScene;
 
 /// Edges with at least this angle may be drawn as creases.
-const MAY_CREASE_DEG: f64 = 15.0;
+const MIN_CREASE_DEG: f64 = 15.0;
 /// Maximum distance between samples, px.
-const STEP: f64 = 1.0;
+const MAX_SAMPLE_STEP_PX: f64 = 1.0;
 /// If a shift by this distance changes the visibility, the sample counts as unsure, px.
-const SHIFT: f64 = 0.75;
+const VISIBILITY_SHIFT_PX: f64 = 0.75;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
+pub enum SampleVisibility {
     Visible,
     Hidden,
     /// Too close to call.
@@ -25,97 +25,108 @@ pub enum State {
 }
 
 /// A sample: a short piece of a line.
-pub struct Place {
+pub struct LineSample {
     pub at: Point,
     /// Vector from the middle to the end of the piece.
     pub half: Vec2,
     pub line: u32,
-    pub state: State,
+    pub state: SampleVisibility,
     /// Whether another connected component clearly hides it.
-    pub behind_others: bool,
+    pub hidden_by_other_component: bool,
     /// Whether it is a contour or border with background on one side.
-    pub is_outline: bool,
+    pub is_silhouette: bool,
 }
 
-impl Place {
+impl LineSample {
     pub fn length(&self) -> f64 {
         2.0 * self.half.hypot2().sqrt()
     }
 
-    pub fn stretch(&self) -> [Point; 2] {
+    pub fn segment(&self) -> [Point; 2] {
         [self.at - self.half, self.at + self.half]
     }
 }
 
 /// The lines of a view and the samples along them, in line order.
-pub struct Truth {
-    pub lines: Vec<Line>,
-    pub places: Vec<Place>,
+pub struct ReferenceLines {
+    pub lines: Vec<ReferenceLine>,
+    pub samples: Vec<LineSample>,
 }
 
-impl Truth {
+impl ReferenceLines {
     pub fn of(scene: &Scene, camera: &Camera) -> Self {
-        let polygons = Polygons::of(scene);
-        let eye = Eye::new(camera);
-        let rays = Rays::new(&polygons, &eye, camera.width, camera.height);
-        let lines = lines(&polygons, &eye, MAY_CREASE_DEG);
+        let polygons = TriangleScene::of(scene);
+        let eye = TextbookCamera::new(camera);
+        let rays = RayCaster::new(&polygons, &eye, camera.width, camera.height);
+        let lines = feature_lines(&polygons, &eye, MIN_CREASE_DEG);
         let frame = kurbo::Rect::new(0.0, 0.0, camera.width, camera.height);
-        let along = |(id, line)| places(&rays, id, line).into_iter().filter(|place| frame.contains(place.at));
+        let along =
+            |(id, line)| sample_line(&rays, id, line).into_iter().filter(|place| frame.contains(place.at));
         let places = lines.par_iter().enumerate().flat_map_iter(along).collect();
-        Self { lines, places }
+        Self { lines, samples: places }
     }
 
-    pub fn kind(&self, place: &Place) -> Kind {
+    pub fn kind(&self, place: &LineSample) -> ReferenceLineKind {
         self.lines[place.line as usize].kind
     }
 
     /// The pieces of the samples that satisfy `wanted`.
-    pub fn stretches(&self, wanted: impl Fn(&Place) -> bool) -> Vec<[Point; 2]> {
-        self.places.iter().filter(|place| wanted(place)).map(Place::stretch).collect()
+    pub fn segments_where(&self, wanted: impl Fn(&LineSample) -> bool) -> Vec<[Point; 2]> {
+        self.samples.iter().filter(|place| wanted(place)).map(LineSample::segment).collect()
     }
 }
 
-fn places(rays: &Rays, id: usize, line: &Line) -> Vec<Place> {
-    let [(a, near_a), (b, near_b)] = line.ends.map(|end| project(rays.eye, end));
+fn sample_line(rays: &RayCaster, id: usize, line: &ReferenceLine) -> Vec<LineSample> {
+    let [(a, near_a), (b, near_b)] = line.ends.map(|end| project_point(rays.camera, end));
     let length = (b - a).hypot2().sqrt();
-    let count = (length / STEP).ceil().max(1.0) as usize;
+    let count = (length / MAX_SAMPLE_STEP_PX).ceil().max(1.0) as usize;
     let half = (b - a) / (2.0 * count as f64);
     let share = |k: usize| (k as f64 + 0.5) / count as f64;
-    let hidden: Vec<Before> = (0..count)
+    let hidden: Vec<Occluder> = (0..count)
         .map(|k| {
-            rays.before(a.lerp(b, share(k)), near_a + (near_b - near_a) * share(k), |f| {
-                touching(rays, line, f)
+            rays.occluder_at(a.lerp(b, share(k)), near_a + (near_b - near_a) * share(k), |f| {
+                contact_distance(rays, line, f)
             })
         })
         .collect();
-    let reach = (SHIFT / (length / count as f64).max(1e-9)).ceil().min(count as f64) as usize;
+    let reach = (VISIBILITY_SHIFT_PX / (length / count as f64).max(1e-9)).ceil().min(count as f64) as usize;
     (0..count)
         .map(|k| {
             let (at, nearness) = (a.lerp(b, share(k)), near_a + (near_b - near_a) * share(k));
-            let is_hidden = hidden[k] == Before::Something;
+            let is_hidden = hidden[k] == Occluder::Surface;
             let clears = |touching: &dyn Fn(u32) -> Option<f64>| {
-                [SHIFT, SHIFT / 2.0].into_iter().any(|radius| {
-                    around(at, radius).any(|p| rays.before(p, nearness, touching) != Before::Something)
+                [VISIBILITY_SHIFT_PX, VISIBILITY_SHIFT_PX / 2.0].into_iter().any(|radius| {
+                    circle_points(at, radius)
+                        .any(|p| rays.occluder_at(p, nearness, touching) != Occluder::Surface)
                 })
             };
             let near = k.saturating_sub(reach)..(k + reach + 1).min(count);
-            let changes = hidden[near].iter().any(|other| (*other == Before::Something) != is_hidden);
-            let touches = hidden[k] == Before::Contact;
+            let changes = hidden[near].iter().any(|other| (*other == Occluder::Surface) != is_hidden);
+            let touches = hidden[k] == Occluder::Contact;
             let state = match is_hidden {
-                true if changes || clears(&|face| touching(rays, line, face)) => State::Unsure,
-                true => State::Hidden,
-                false if changes || touches || line.unsure => State::Unsure,
-                false => State::Visible,
+                true if changes || clears(&|face| contact_distance(rays, line, face)) => {
+                    SampleVisibility::Unsure
+                }
+                true => SampleVisibility::Hidden,
+                false if changes || touches || line.unsure => SampleVisibility::Unsure,
+                false => SampleVisibility::Visible,
             };
-            let others = |face: u32| of_others(rays, line, face);
-            let behind_others = state == State::Hidden
-                && rays.before(at, nearness, others) == Before::Something
+            let others = |face: u32| other_component_contact_distance(rays, line, face);
+            let behind_others = state == SampleVisibility::Hidden
+                && rays.occluder_at(at, nearness, others) == Occluder::Surface
                 && !clears(&others);
             let beside = Vec2::new(-half.y, half.x) / half.hypot2().sqrt().max(1e-12);
-            let is_outline = matches!(line.kind, Kind::Contour | Kind::Border)
+            let is_outline = matches!(line.kind, ReferenceLineKind::Contour | ReferenceLineKind::Border)
                 && !is_hidden
                 && [-1.0, 1.0].into_iter().any(|side| rays.is_background(at + beside * side));
-            Place { at, half, line: id as u32, state, behind_others, is_outline }
+            LineSample {
+                at,
+                half,
+                line: id as u32,
+                state,
+                hidden_by_other_component: behind_others,
+                is_silhouette: is_outline,
+            }
         })
         .collect()
 }
@@ -123,21 +134,21 @@ fn places(rays: &Rays, id: usize, line: &Line) -> Vec<Place> {
 /// Depth distance within which a face does not hide a line; `None` for the line's own faces.
 ///
 /// The distance is smaller for faces that share one end of the line.
-fn touching(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
+fn contact_distance(rays: &RayCaster, line: &ReferenceLine, face: u32) -> Option<f64> {
     if line.hosts.contains(&face) {
         return None;
     }
     let own = &rays.polygons.faces[face as usize];
     match line.corners.iter().filter(|corner| own.contains(corner)).count() {
-        0 => Some(rays.contact()),
-        1 => Some(1e-4 * rays.contact()),
+        0 => Some(rays.contact_distance()),
+        1 => Some(1e-4 * rays.contact_distance()),
         _ => None,
     }
 }
 
 /// The contact distance for faces of other components; `None` for those of the line's own component.
-fn of_others(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
-    let piece = &rays.polygons.piece;
+fn other_component_contact_distance(rays: &RayCaster, line: &ReferenceLine, face: u32) -> Option<f64> {
+    let piece = &rays.polygons.component;
     let own = line.hosts.iter().any(|host| piece[*host as usize] == piece[face as usize]);
-    (!own).then_some(rays.contact())
+    (!own).then_some(rays.contact_distance())
 }

@@ -5,12 +5,12 @@
 
 use glam::DVec3;
 
-use super::textbook_camera::Eye;
-use super::triangle_intersections::piercings;
-use super::triangle_scene::Polygons;
+use super::textbook_camera::TextbookCamera;
+use super::triangle_intersections::intersection_segments;
+use super::triangle_scene::TriangleScene;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ReferenceLineKind {
     Contour,
     Border,
     Crease,
@@ -19,22 +19,22 @@ pub enum Kind {
 }
 
 /// A straight line that may be drawn.
-pub struct Line {
+pub struct ReferenceLine {
     pub ends: [DVec3; 2],
     /// The vertices at its ends; `u32::MAX` for intersections.
     pub corners: [u32; 2],
     /// The faces it lies on.
     pub hosts: Vec<u32>,
-    pub kind: Kind,
+    pub kind: ReferenceLineKind,
     /// Angle between the faces, degrees, 0 if coplanar. With more than two faces, the angle of the wedge that
     /// contains the camera.
-    pub turn_deg: f64,
+    pub angle_deg: f64,
     /// Whether the angle is at the crease limit; such a line may be drawn or not.
     pub unsure: bool,
 }
 
 /// A face at an edge.
-struct Side {
+struct EdgeFace {
     edge: [u32; 2],
     face: u32,
     /// The vertex that is not on the edge.
@@ -44,71 +44,82 @@ struct Side {
 }
 
 /// All lines that may be drawn. Edges with an angle below `crease_deg` are no creases.
-pub fn lines(polygons: &Polygons, eye: &Eye, crease_deg: f64) -> Vec<Line> {
-    let mut sides: Vec<Side> = Vec::new();
+pub fn feature_lines(polygons: &TriangleScene, eye: &TextbookCamera, crease_deg: f64) -> Vec<ReferenceLine> {
+    let mut sides: Vec<EdgeFace> = Vec::new();
     for (id, face) in polygons.faces.iter().enumerate() {
-        if polygons.is_flat(id) {
+        if polygons.is_degenerate(id) {
             continue;
         }
         for k in 0..3 {
             let [a, b, opposite] = [face[k], face[(k + 1) % 3], face[(k + 2) % 3]];
-            sides.push(Side { edge: [a.min(b), a.max(b)], face: id as u32, opposite, forward: a < b });
+            sides.push(EdgeFace { edge: [a.min(b), a.max(b)], face: id as u32, opposite, forward: a < b });
         }
     }
     sides.sort_by_key(|side| (side.edge, side.face));
-    let facing: Vec<bool> = (0..polygons.faces.len()).map(|face| faces_eye(polygons, eye, face)).collect();
-    let mut found: Vec<Line> = sides
+    let facing: Vec<bool> = (0..polygons.faces.len()).map(|face| faces_camera(polygons, eye, face)).collect();
+    let mut found: Vec<ReferenceLine> = sides
         .chunk_by(|a, b| a.edge == b.edge)
-        .filter_map(|sides| line_of(polygons, eye, &facing, sides, crease_deg))
+        .filter_map(|sides| classify_edge(polygons, eye, &facing, sides, crease_deg))
         .collect();
-    found.extend(piercings(polygons).into_iter().map(|(ends, hosts)| Line {
+    found.extend(intersection_segments(polygons).into_iter().map(|(ends, hosts)| ReferenceLine {
         ends,
         corners: [u32::MAX; 2],
         hosts: hosts.to_vec(),
-        kind: Kind::Intersection,
-        turn_deg: 0.0,
+        kind: ReferenceLineKind::Intersection,
+        angle_deg: 0.0,
         unsure: false,
     }));
     found
 }
 
-fn faces_eye(polygons: &Polygons, eye: &Eye, face: usize) -> bool {
+fn faces_camera(polygons: &TriangleScene, eye: &TextbookCamera, face: usize) -> bool {
     let [a, b, c] = polygons.corners(face);
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    let towards = if eye.perspective { (eye.eye - a).normalize() } else { -eye.forward };
+    let towards = if eye.perspective { (eye.position - a).normalize() } else { -eye.forward };
     normal.dot(towards) > 1e-10
 }
 
-fn line_of(polygons: &Polygons, eye: &Eye, facing: &[bool], sides: &[Side], crease_deg: f64) -> Option<Line> {
+fn classify_edge(
+    polygons: &TriangleScene,
+    eye: &TextbookCamera,
+    facing: &[bool],
+    sides: &[EdgeFace],
+    crease_deg: f64,
+) -> Option<ReferenceLine> {
     let corners = sides[0].edge;
     let ends = corners.map(|corner| polygons.points[corner as usize]);
     // Whether a face lies to the left of the edge in the image.
-    let left = |side: &&Side| facing[side.face as usize] == side.forward;
+    let left = |side: &&EdgeFace| facing[side.face as usize] == side.forward;
     let lefts = sides.iter().filter(left).count();
     let is_contour = sides.len() > 1 && (lefts == 0 || lefts == sides.len());
-    let (turn_deg, most) = turns(polygons, eye, ends, sides);
-    let material = |side: &Side| polygons.material[side.face as usize];
+    let (turn_deg, most) = wedge_angles(polygons, eye, ends, sides);
+    let material = |side: &EdgeFace| polygons.material[side.face as usize];
     let kind = if is_contour {
-        Kind::Contour
+        ReferenceLineKind::Contour
     } else if sides.len() == 1 {
-        Kind::Border
+        ReferenceLineKind::Border
     } else if turn_deg.max(most) > crease_deg - 0.05 {
-        Kind::Crease
+        ReferenceLineKind::Crease
     } else if sides.iter().any(|side| material(side) != material(&sides[0])) {
-        Kind::Material
+        ReferenceLineKind::Material
     } else {
         return None;
     };
     let hosts = sides.iter().map(|side| side.face).collect();
-    let unsure = kind == Kind::Crease && turn_deg < crease_deg + 0.05;
-    Some(Line { ends, corners, hosts, kind, turn_deg, unsure })
+    let unsure = kind == ReferenceLineKind::Crease && turn_deg < crease_deg + 0.05;
+    Some(ReferenceLine { ends, corners, hosts, kind, angle_deg: turn_deg, unsure })
 }
 
 /// The angle of the wedge between faces that contains the camera, and the largest of all such angles,
 /// degrees.
-fn turns(polygons: &Polygons, eye: &Eye, [a, b]: [DVec3; 2], sides: &[Side]) -> (f64, f64) {
+fn wedge_angles(
+    polygons: &TriangleScene,
+    eye: &TextbookCamera,
+    [a, b]: [DVec3; 2],
+    sides: &[EdgeFace],
+) -> (f64, f64) {
     let axis = (b - a).normalize();
-    let across = |side: &Side| {
+    let across = |side: &EdgeFace| {
         (polygons.points[side.opposite as usize] - a).reject_from_normalized(axis).normalize_or_zero()
     };
     let first = across(&sides[0]);
@@ -125,7 +136,7 @@ fn turns(polygons: &Polygons, eye: &Eye, [a, b]: [DVec3; 2], sides: &[Side]) -> 
     if angles.len() < 2 {
         return (0.0, 0.0);
     }
-    let towards = angle(if eye.perspective { eye.eye - a.midpoint(b) } else { -eye.forward });
+    let towards = angle(if eye.perspective { eye.position - a.midpoint(b) } else { -eye.forward });
     let (mut seen, mut most) = (0.0, 0.0_f64);
     for (k, from) in angles.iter().enumerate() {
         let gap = (angles[(k + 1) % angles.len()] - from).rem_euclid(360.0);

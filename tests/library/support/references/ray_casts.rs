@@ -2,25 +2,25 @@
 
 use kurbo::{Point, Vec2};
 
-use super::textbook_camera::Eye;
-use super::triangle_scene::Polygons;
+use super::textbook_camera::TextbookCamera;
+use super::triangle_scene::TriangleScene;
 
 /// Side of an image cell, px.
-const CELL: f64 = 8.0;
+const CELL_PX: f64 = 8.0;
 /// Surfaces closer than this share of the scene's size touch, and hide nothing from each other.
-const CONTACT: f64 = 1e-6;
+const CONTACT_SHARE: f64 = 1e-6;
 
 /// Result of a ray: the occluder in front of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Before {
+pub enum Occluder {
     Nothing,
     /// A surface that touches the point.
     Contact,
-    Something,
+    Surface,
 }
 
 /// A projected triangle: signed distances to its sides, and nearness as a linear function of the image.
-struct Seen {
+struct ProjectedTriangle {
     sides: [[f64; 3]; 3],
     nearness: [f64; 3],
     range: [f64; 2],
@@ -28,28 +28,30 @@ struct Seen {
 }
 
 /// Projected triangles of a scene, sorted into image cells.
-pub struct Rays<'a> {
-    pub polygons: &'a Polygons,
-    pub eye: &'a Eye,
-    seen: Vec<Seen>,
+pub struct RayCaster<'a> {
+    pub polygons: &'a TriangleScene,
+    pub camera: &'a TextbookCamera,
+    triangles: Vec<ProjectedTriangle>,
     cells: Vec<Vec<u32>>,
     columns: usize,
     rows: usize,
 }
 
-impl<'a> Rays<'a> {
+impl<'a> RayCaster<'a> {
     /// Projects all triangles into a frame of `width` x `height` px.
-    pub fn new(polygons: &'a Polygons, eye: &'a Eye, width: f64, height: f64) -> Self {
-        let (columns, rows) = ((width / CELL).ceil() as usize + 1, (height / CELL).ceil() as usize + 1);
+    pub fn new(polygons: &'a TriangleScene, eye: &'a TextbookCamera, width: f64, height: f64) -> Self {
+        let (columns, rows) = ((width / CELL_PX).ceil() as usize + 1, (height / CELL_PX).ceil() as usize + 1);
         let cells = vec![Vec::new(); columns * rows];
-        let mut rays = Self { polygons, eye, seen: Vec::new(), cells, columns, rows };
-        (0..polygons.faces.len()).filter(|face| !polygons.is_flat(*face)).for_each(|face| rays.add(face));
+        let mut rays = Self { polygons, camera: eye, triangles: Vec::new(), cells, columns, rows };
+        (0..polygons.faces.len())
+            .filter(|face| !polygons.is_degenerate(*face))
+            .for_each(|face| rays.add(face));
         rays
     }
 
     fn add(&mut self, face: usize) {
-        let mut corners = self.polygons.corners(face).map(|p| project(self.eye, p));
-        let area = turn(corners[0].0, corners[1].0, corners[2].0);
+        let mut corners = self.polygons.corners(face).map(|p| project_point(self.camera, p));
+        let area = doubled_area(corners[0].0, corners[1].0, corners[2].0);
         let longest =
             (0..3).map(|k| (corners[k].0 - corners[(k + 1) % 3].0).hypot2()).fold(0.0, f64::max).sqrt();
         if area.abs() <= 1e-8 * longest {
@@ -70,8 +72,8 @@ impl<'a> Rays<'a> {
         let y = (rise_v * u.x - rise_u * v.x) / area.abs();
         let nearness = [x, y, a.1 - x * a.0.x - y * a.0.y];
         let range = [a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1)];
-        let id = self.seen.len() as u32;
-        let cell = |value: f64, most: usize| ((value / CELL).floor().max(0.0) as usize).min(most - 1);
+        let id = self.triangles.len() as u32;
+        let cell = |value: f64, most: usize| ((value / CELL_PX).floor().max(0.0) as usize).min(most - 1);
         let low = |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::INFINITY, f64::min) - 1e-6;
         let high =
             |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::NEG_INFINITY, f64::max) + 1e-6;
@@ -79,27 +81,27 @@ impl<'a> Rays<'a> {
         let y_of = |p: &Point| p.y;
         for row in cell(low(y_of), self.rows)..=cell(high(y_of), self.rows) {
             for column in cell(low(x_of), self.columns)..=cell(high(x_of), self.columns) {
-                let (x, y) = ((column as f64 + 0.5) * CELL, (row as f64 + 0.5) * CELL);
+                let (x, y) = ((column as f64 + 0.5) * CELL_PX, (row as f64 + 0.5) * CELL_PX);
                 let reaches = |s: &[f64; 3]| {
-                    s[0] * x + s[1] * y + s[2] >= -(s[0].abs() + s[1].abs()) * CELL / 2.0 - 1e-6
+                    s[0] * x + s[1] * y + s[2] >= -(s[0].abs() + s[1].abs()) * CELL_PX / 2.0 - 1e-6
                 };
                 if sides.iter().all(reaches) {
                     self.cells[row * self.columns + column].push(id);
                 }
             }
         }
-        self.seen.push(Seen { sides, nearness, range, face: face as u32 });
+        self.triangles.push(ProjectedTriangle { sides, nearness, range, face: face as u32 });
     }
 
     /// The occluder in front of an image point at a given nearness.
     ///
     /// `touching` returns the depth distance within which a face does not hide the point, or `None` to skip
     /// the face.
-    pub fn before(&self, at: Point, nearness: f64, touching: impl Fn(u32) -> Option<f64>) -> Before {
+    pub fn occluder_at(&self, at: Point, nearness: f64, touching: impl Fn(u32) -> Option<f64>) -> Occluder {
         let depth = self.depth(nearness);
-        let contact = CONTACT * self.polygons.size;
-        let mut found = Before::Nothing;
-        for seen in self.through(at) {
+        let contact = CONTACT_SHARE * self.polygons.size;
+        let mut found = Occluder::Nothing;
+        for seen in self.triangles_at(at) {
             let hit = seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2];
             let lead = depth - self.depth(hit.clamp(seen.range[0], seen.range[1]));
             if lead <= -contact {
@@ -107,8 +109,8 @@ impl<'a> Rays<'a> {
             }
             match touching(seen.face) {
                 None => {}
-                Some(limit) if lead > limit => return Before::Something,
-                Some(_) => found = Before::Contact,
+                Some(limit) if lead > limit => return Occluder::Surface,
+                Some(_) => found = Occluder::Contact,
             }
         }
         found
@@ -116,43 +118,43 @@ impl<'a> Rays<'a> {
 
     /// The nearness of the nearest wanted face at an image point.
     pub fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
-        let seen = self.through(at).filter(|seen| wanted(seen.face));
+        let seen = self.triangles_at(at).filter(|seen| wanted(seen.face));
         let hits = seen.map(|seen| seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2]);
         hits.max_by(f64::total_cmp)
     }
 
     /// Whether an image point shows background.
     pub fn is_background(&self, at: Point) -> bool {
-        self.through(at).next().is_none()
+        self.triangles_at(at).next().is_none()
     }
 
     /// The depth distance within which surfaces touch, world units.
-    pub fn contact(&self) -> f64 {
-        CONTACT * self.polygons.size
+    pub fn contact_distance(&self) -> f64 {
+        CONTACT_SHARE * self.polygons.size
     }
 
-    fn through(&self, at: Point) -> impl Iterator<Item = &Seen> + '_ {
-        let (column, row) = ((at.x / CELL).floor(), (at.y / CELL).floor());
+    fn triangles_at(&self, at: Point) -> impl Iterator<Item = &ProjectedTriangle> + '_ {
+        let (column, row) = ((at.x / CELL_PX).floor(), (at.y / CELL_PX).floor());
         let inside =
             column >= 0.0 && row >= 0.0 && (column as usize) < self.columns && (row as usize) < self.rows;
         let cell = if inside { &self.cells[row as usize * self.columns + column as usize][..] } else { &[] };
         let covers = move |s: &[f64; 3]| s[0] * at.x + s[1] * at.y + s[2] >= -1e-7;
-        cell.iter().map(|id| &self.seen[*id as usize]).filter(move |seen| seen.sides.iter().all(covers))
+        cell.iter().map(|id| &self.triangles[*id as usize]).filter(move |seen| seen.sides.iter().all(covers))
     }
 
     fn depth(&self, nearness: f64) -> f64 {
-        if self.eye.perspective { 1.0 / nearness } else { -nearness }
+        if self.camera.perspective { 1.0 / nearness } else { -nearness }
     }
 }
 
 /// The image position of a point, and its nearness: a number that is linear along straight image lines.
-pub fn project(eye: &Eye, p: glam::DVec3) -> (Point, f64) {
+pub fn project_point(eye: &TextbookCamera, p: glam::DVec3) -> (Point, f64) {
     let depth = eye.depth(p);
-    (eye.image(p), if eye.perspective { 1.0 / depth } else { -depth })
+    (eye.project(p), if eye.perspective { 1.0 / depth } else { -depth })
 }
 
 /// Eight points on a circle around a point.
-pub fn around(at: Point, radius: f64) -> impl Iterator<Item = Point> {
+pub fn circle_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let ways = [
         (1.0, 0.0),
@@ -167,6 +169,6 @@ pub fn around(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     ways.into_iter().map(move |(x, y)| at + Vec2::new(x, y) * radius)
 }
 
-fn turn(a: Point, b: Point, c: Point) -> f64 {
+fn doubled_area(a: Point, b: Point, c: Point) -> f64 {
     (b - a).cross(c - a)
 }

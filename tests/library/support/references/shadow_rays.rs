@@ -7,7 +7,7 @@ use ligne::shadows::{Caster, Shadows};
 use crate::support::scenes::random_dice::Dice;
 
 /// The direction from a point towards a light, not normalised.
-fn towards(caster: &Caster, point: DVec3) -> DVec3 {
+fn light_direction(caster: &Caster, point: DVec3) -> DVec3 {
     match *caster {
         Caster::Directional { towards } => towards,
         Caster::Point { position } => position - point,
@@ -15,7 +15,7 @@ fn towards(caster: &Caster, point: DVec3) -> DVec3 {
 }
 
 /// The centroid of a face.
-pub fn middle(mesh: &Mesh, face: u32) -> DVec3 {
+pub fn face_centroid(mesh: &Mesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (a + b + c) / 3.0
 }
@@ -44,7 +44,7 @@ fn is_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3) -> bool {
 }
 
 /// Whether a point is in shadow; `None` if rays from four points at the distance `reach` disagree.
-fn surely_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64) -> Option<bool> {
+fn stable_shadow_state(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64) -> Option<bool> {
     let answer = is_blocked(mesh, caster, face, p);
     let [a, b, c] = mesh.corners(FaceId(face));
     let along = (b - a).normalize() * reach;
@@ -54,7 +54,7 @@ fn surely_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64)
 }
 
 /// Whether a point lies on a face, with the tolerance `slack` at its sides.
-fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
+fn is_on_face(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
     let normal = (b - a).cross(c - a).normalize();
     [(a, b), (b, c), (c, a)].iter().all(|(a, b)| normal.cross(*b - *a).normalize().dot(p - *a) >= -slack)
@@ -62,7 +62,7 @@ fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
 }
 
 /// Two directional and two point lights, three of them random.
-pub fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
+pub fn test_lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     let mut sun = dice.direction();
     sun.z = sun.z.abs() + 0.3;
     vec![
@@ -74,7 +74,7 @@ pub fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
 }
 
 /// A random point on a face.
-fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
+fn random_face_point(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     let (u, v) = (dice.between(0.0, 1.0), dice.between(0.0, 1.0));
     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
@@ -82,7 +82,7 @@ fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
 }
 
 /// For each part 1 if its normals point outward, and -1 if it is inside out.
-fn outward(mesh: &Mesh) -> Vec<f64> {
+fn outward_signs(mesh: &Mesh) -> Vec<f64> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
     let mut volumes = vec![0.0; parts];
     for (face, part) in mesh.face_part.iter().enumerate() {
@@ -94,11 +94,11 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
 
 /// Checks the shadow masks of random surface points against rays.
 pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
-    let outward = outward(mesh);
+    let outward = outward_signs(mesh);
     let asked: Vec<(u32, DVec3)> = (0..count)
         .map(|_| {
             let face = dice.below(mesh.triangles.len()) as u32;
-            (face, on_face(mesh, face, dice))
+            (face, random_face_point(mesh, face, dice))
         })
         .collect();
     let masks = shadows.shadowed(mesh, &asked);
@@ -106,12 +106,13 @@ pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dic
     for ((face, p), mask) in asked.iter().zip(masks) {
         let [a, b, c] = mesh.corners(FaceId(*face));
         for (k, caster) in shadows.casters().iter().enumerate() {
-            let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.extents.diagonal) else {
+            let Some(blocked) = stable_shadow_state(mesh, caster, *face, *p, 1e-5 * mesh.extents.diagonal)
+            else {
                 continue;
             };
             // The library does not test faces that are averted from the light.
             let outward = outward[mesh.face_part[*face as usize].index()];
-            let attached = (b - a).cross(c - a).dot(towards(caster, *p)) * outward <= 0.0;
+            let attached = (b - a).cross(c - a).dot(light_direction(caster, *p)) * outward <= 0.0;
             let dark = mask >> k & 1 == 1;
             if attached && !dark {
                 continue;
@@ -132,9 +133,9 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         let [a, b, c] = mesh.corners(FaceId(segment.face));
         let normal = (b - a).cross(c - a).normalize();
         // At grazing light, a small distance in the light's view is a larger one on the face.
-        let fall = normal.dot(towards(caster, p).normalize()).abs().max(1e-6);
+        let fall = normal.dot(light_direction(caster, p).normalize()).abs().max(1e-6);
         let slack = 1e-6 * mesh.extents.diagonal / fall;
-        assert!([p, q].iter().all(|p| inside(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
+        assert!([p, q].iter().all(|p| is_on_face(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
         let Some(across) = normal.cross(q - p).try_normalize() else { continue };
         if p.distance(q) < 1e-3 * mesh.extents.diagonal {
             continue;
@@ -142,11 +143,11 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         // In a narrow strip of shadow, both its borders may lie between the two sample points.
         let parts = |reach: f64| {
             let sides = [1.0, -1.0].map(|side| (p + q) / 2.0 + across * (side * reach));
-            if !sides.iter().all(|side| inside(mesh, segment.face, *side, 0.0)) {
+            if !sides.iter().all(|side| is_on_face(mesh, segment.face, *side, 0.0)) {
                 return None;
             }
             let [one, other] =
-                sides.map(|side| surely_blocked(mesh, caster, segment.face, side, 0.3 * reach));
+                sides.map(|side| stable_shadow_state(mesh, caster, segment.face, side, 0.3 * reach));
             Some(one? != other?)
         };
         let found = [1e-4, 1e-5, 2e-6].map(|reach| parts(reach * mesh.extents.diagonal / fall.max(0.1)));
@@ -179,11 +180,12 @@ pub fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut 
     let mut crossed = 0;
     for _ in 0..count {
         let face = dice.below(mesh.triangles.len()) as u32;
-        let (p, q) = (on_face(mesh, face, dice), on_face(mesh, face, dice));
+        let (p, q) = (random_face_point(mesh, face, dice), random_face_point(mesh, face, dice));
         let [a, b, c] = mesh.corners(FaceId(face));
         let normal = (b - a).cross(c - a).normalize();
         for (k, caster) in shadows.casters().iter().enumerate() {
-            let sides = [p, q].map(|p| surely_blocked(mesh, caster, face, p, 1e-5 * mesh.extents.diagonal));
+            let sides =
+                [p, q].map(|p| stable_shadow_state(mesh, caster, face, p, 1e-5 * mesh.extents.diagonal));
             let [Some(one), Some(other)] = sides else { continue };
             let side = |a: DVec3, b: DVec3, p: DVec3| (b - a).cross(p - a).dot(normal) > 0.0;
             let crossings = shadows

@@ -5,8 +5,8 @@ use kurbo::Point;
 use ligne::scene::{Camera, Projection};
 
 /// Position, axes and scale of a camera.
-pub struct Eye {
-    pub eye: DVec3,
+pub struct TextbookCamera {
+    pub position: DVec3,
     pub right: DVec3,
     pub up: DVec3,
     pub forward: DVec3,
@@ -17,7 +17,7 @@ pub struct Eye {
     height: f64,
 }
 
-impl Eye {
+impl TextbookCamera {
     pub fn new(camera: &Camera) -> Self {
         let forward = (camera.target - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();
@@ -31,36 +31,36 @@ impl Eye {
         };
         let up = right.cross(forward);
         let (width, height) = (camera.width, camera.height);
-        Self { eye: camera.eye, right, up, forward, perspective, scale, width, height }
+        Self { position: camera.eye, right, up, forward, perspective, scale, width, height }
     }
 
     /// Distance of a point along the viewing direction.
     pub fn depth(&self, p: DVec3) -> f64 {
-        (p - self.eye).dot(self.forward)
+        (p - self.position).dot(self.forward)
     }
 
     /// The image position of a world point.
-    pub fn image(&self, p: DVec3) -> Point {
-        let d = p - self.eye;
+    pub fn project(&self, p: DVec3) -> Point {
+        let d = p - self.position;
         let k = self.scale / if self.perspective { d.dot(self.forward) } else { 1.0 };
         Point::new(self.width / 2.0 + k * d.dot(self.right), self.height / 2.0 - k * d.dot(self.up))
     }
 
     /// The images of the ends of world segments.
-    pub fn images(&self, segments: &[[DVec3; 2]]) -> Vec<[Point; 2]> {
-        segments.iter().map(|s| s.map(|p| self.image(p))).collect()
+    pub fn project_segments(&self, segments: &[[DVec3; 2]]) -> Vec<[Point; 2]> {
+        segments.iter().map(|s| s.map(|p| self.project(p))).collect()
     }
 
     /// The world point at an image position and a depth.
-    pub fn world(&self, image: Point, depth: f64) -> DVec3 {
+    pub fn unproject(&self, image: Point, depth: f64) -> DVec3 {
         let k = if self.perspective { depth } else { 1.0 } / self.scale;
         let (x, y) = (image.x - self.width / 2.0, self.height / 2.0 - image.y);
-        self.eye + self.right * (x * k) + self.up * (y * k) + self.forward * depth
+        self.position + self.right * (x * k) + self.up * (y * k) + self.forward * depth
     }
 
     /// The part of a world segment inside the frame and farther than the depth `near`, by clipping with up to
     /// five half-spaces.
-    pub fn clipped(&self, a: DVec3, b: DVec3, near: Option<f64>) -> Option<[DVec3; 2]> {
+    pub fn clip_segment(&self, a: DVec3, b: DVec3, near: Option<f64>) -> Option<[DVec3; 2]> {
         let (x, y) = (self.width / 2.0 / self.scale, self.height / 2.0 / self.scale);
         // Homogeneous camera coordinates (right, up, forward, 1); the dot product with a plane is positive
         // inside.
@@ -71,7 +71,7 @@ impl Eye {
         let mut planes = vec![side(DVec3::X, x), side(-DVec3::X, x), side(DVec3::Y, y), side(-DVec3::Y, y)];
         planes.extend(near.map(|near| DVec4::new(0.0, 0.0, 1.0, -near)));
         let local = |p: DVec3| {
-            let d = p - self.eye;
+            let d = p - self.position;
             DVec4::new(d.dot(self.right), d.dot(self.up), d.dot(self.forward), 1.0)
         };
         let (start, end) = (local(a), local(b));

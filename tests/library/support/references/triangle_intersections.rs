@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::triangle_scene::Polygons;
+use super::triangle_scene::TriangleScene;
 
 /// Ends of each intersection segment, and its two faces. Faces that share a vertex or a plane have none.
-pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
+pub fn intersection_segments(polygons: &TriangleScene) -> Vec<([DVec3; 2], [u32; 2])> {
     let boxes: Vec<[DVec3; 2]> = (0..polygons.faces.len())
         .map(|face| {
             let [a, b, c] = polygons.corners(face);
@@ -22,7 +22,7 @@ pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
     } else {
         2
     };
-    let mut order: Vec<usize> = (0..boxes.len()).filter(|face| !polygons.is_flat(*face)).collect();
+    let mut order: Vec<usize> = (0..boxes.len()).filter(|face| !polygons.is_degenerate(*face)).collect();
     order.sort_by(|a, b| boxes[*a][0][axis].total_cmp(&boxes[*b][0][axis]));
     let meet =
         |a: usize, b: usize| boxes[a][0].cmple(boxes[b][1]).all() && boxes[b][0].cmple(boxes[a][1]).all();
@@ -35,7 +35,7 @@ pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
             later[..end].iter().copied().filter(move |other| meet(one, *other)).filter_map(move |other| {
                 let neighbours =
                     polygons.faces[one].iter().any(|corner| polygons.faces[other].contains(corner));
-                let line = if neighbours { None } else { pierce(polygons, one, other) };
+                let line = if neighbours { None } else { intersect_triangles(polygons, one, other) };
                 line.map(|ends| (ends, [one as u32, other as u32]))
             })
         })
@@ -43,7 +43,7 @@ pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
 }
 
 /// The intersection segment of two triangles: the overlap of their intervals on the line of their planes.
-fn pierce(polygons: &Polygons, one: usize, other: usize) -> Option<[DVec3; 2]> {
+fn intersect_triangles(polygons: &TriangleScene, one: usize, other: usize) -> Option<[DVec3; 2]> {
     let (p, q) = (polygons.corners(one), polygons.corners(other));
     let normal = |t: [DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let (n, m) = (normal(p), normal(q));

@@ -6,18 +6,18 @@ use rustc_hash::FxHashMap;
 
 /// World-space triangles that share vertices with bitwise equal positions.
 #[derive(Default)]
-pub struct Polygons {
+pub struct TriangleScene {
     pub points: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
     /// The part, the material and the connected component of each face.
     pub part: Vec<u32>,
     pub material: Vec<u32>,
-    pub piece: Vec<u32>,
+    pub component: Vec<u32>,
     /// Diagonal of the bounding box.
     pub size: f64,
 }
 
-impl Polygons {
+impl TriangleScene {
     /// Collects the triangles of a scene; triangles with two equal vertices are dropped.
     pub fn of(scene: &Scene) -> Self {
         let mut all = Self::default();
@@ -52,7 +52,7 @@ impl Polygons {
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
         all.size = low.distance(high);
-        all.find_pieces();
+        all.label_components();
         all
     }
 
@@ -61,26 +61,26 @@ impl Polygons {
     }
 
     /// Whether a face is too thin to hide anything.
-    pub fn is_flat(&self, face: usize) -> bool {
+    pub fn is_degenerate(&self, face: usize) -> bool {
         let [a, b, c] = self.corners(face);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         (b - a).cross(c - a).length() <= 1e-12 * self.size * longest
     }
 
     /// Labels connected components by union-find over the vertices.
-    fn find_pieces(&mut self) {
+    fn label_components(&mut self) {
         let mut leader: Vec<u32> = (0..self.points.len() as u32).collect();
         for face in &self.faces {
-            let [a, b, c] = face.map(|corner| root(&mut leader, corner));
+            let [a, b, c] = face.map(|corner| find_root(&mut leader, corner));
             leader[b as usize] = a;
-            let c = root(&mut leader, c);
+            let c = find_root(&mut leader, c);
             leader[c as usize] = a;
         }
-        self.piece = self.faces.iter().map(|face| root(&mut leader, face[0])).collect();
+        self.component = self.faces.iter().map(|face| find_root(&mut leader, face[0])).collect();
     }
 }
 
-fn root(leader: &mut [u32], mut id: u32) -> u32 {
+fn find_root(leader: &mut [u32], mut id: u32) -> u32 {
     while leader[id as usize] != id {
         leader[id as usize] = leader[leader[id as usize] as usize];
         id = leader[id as usize];

@@ -4,15 +4,15 @@ use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
 use super::body::Body;
-use super::model::Model;
+use super::model::RandomModel;
 use crate::support::readers::glb_writer::glb;
 use crate::support::scenes::random_dice::Dice;
 
-fn put(bytes: &mut Vec<u8>, point: DVec3) {
+fn push_f32_point(bytes: &mut Vec<u8>, point: DVec3) {
     point.as_vec3().to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
 }
 
-pub fn stl(model: &Model) -> Vec<u8> {
+pub fn write_stl(model: &RandomModel) -> Vec<u8> {
     let mut facets = Vec::new();
     let mut count = 0_u32;
     for body in &model.bodies {
@@ -20,8 +20,8 @@ pub fn stl(model: &Model) -> Vec<u8> {
         for [a, b, c] in body.faces.iter().flat_map(|face| body.triangles(face, 0)) {
             let corners = [a, b, c].map(|corner| points[corner as usize]);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-            put(&mut facets, normal);
-            corners.into_iter().for_each(|corner| put(&mut facets, corner));
+            push_f32_point(&mut facets, normal);
+            corners.into_iter().for_each(|corner| push_f32_point(&mut facets, corner));
             facets.extend([0, 0]);
             count += 1;
         }
@@ -32,11 +32,11 @@ pub fn stl(model: &Model) -> Vec<u8> {
     bytes
 }
 
-pub fn ply_single(model: &Model) -> Vec<u8> {
+pub fn write_ply_single(model: &RandomModel) -> Vec<u8> {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let (mut first, mut face_count) = (0, 0);
     for body in &model.bodies {
-        model.world_points(body).into_iter().for_each(|point| put(&mut vertices, point));
+        model.world_points(body).into_iter().for_each(|point| push_f32_point(&mut vertices, point));
         for face in &body.faces {
             faces.push(face.corners.len() as u8);
             face.corners.iter().for_each(|corner| faces.extend((first + corner).to_le_bytes()));
@@ -56,7 +56,7 @@ pub fn ply_single(model: &Model) -> Vec<u8> {
 
 /// A glTF document under construction.
 #[derive(Default)]
-struct Document {
+struct GltfBuilder {
     nodes: Vec<Value>,
     meshes: Vec<Value>,
     accessors: Vec<Value>,
@@ -64,7 +64,7 @@ struct Document {
     bytes: Vec<u8>,
 }
 
-impl Document {
+impl GltfBuilder {
     fn node(&mut self, node: Value) -> usize {
         self.nodes.push(node);
         self.nodes.len() - 1
@@ -82,7 +82,7 @@ impl Document {
     fn mesh(&mut self, part: &[Body], has_colours: bool, place: impl Fn(DVec3) -> DVec3) -> usize {
         let points: Vec<DVec3> = part.iter().flat_map(|body| &body.points).map(|p| place(*p)).collect();
         let mut data = Vec::new();
-        points.iter().for_each(|point| put(&mut data, *point));
+        points.iter().for_each(|point| push_f32_point(&mut data, *point));
         let [low, high] = [DVec3::min, DVec3::max]
             .map(|pick| points.iter().copied().reduce(pick).unwrap().as_vec3().to_array());
         let positions = self.accessor(
@@ -133,8 +133,8 @@ impl Document {
 }
 
 /// A GLB file with world coordinates and untransformed nodes.
-pub fn glb_baked(model: &Model) -> Vec<u8> {
-    let mut document = Document::default();
+pub fn write_glb_baked(model: &RandomModel) -> Vec<u8> {
+    let mut document = GltfBuilder::default();
     let mut roots = Vec::new();
     for part in model.parts() {
         let mesh = document.mesh(part, model.has_colours(), |p| model.world_from_model.transform_point3(p));
@@ -144,8 +144,8 @@ pub fn glb_baked(model: &Model) -> Vec<u8> {
 }
 
 /// A GLB file with short coordinates under nodes that move, scale, mirror and rotate them.
-pub fn glb_nested(model: &Model, dice: &mut Dice) -> Vec<u8> {
-    let mut document = Document::default();
+pub fn write_glb_nested(model: &RandomModel, dice: &mut Dice) -> Vec<u8> {
+    let mut document = GltfBuilder::default();
     let mut groups = Vec::new();
     for part in model.parts() {
         let shift = DVec3::new(dice.below(9) as f64, dice.below(9) as f64, dice.below(9) as f64) - 4.0;

@@ -53,15 +53,15 @@ impl Body {
     /// The triangles of a face. Another `start` gives other diagonals if the polygon allows several.
     pub fn triangles(&self, face: &Face, start: usize) -> Vec<[u32; 3]> {
         let points: Vec<DVec3> = face.corners.iter().map(|&corner| self.points[corner as usize]).collect();
-        let flat = flattened(&points);
+        let flat = project_to_plane(&points);
         let mut ring: Vec<usize> = (0..flat.len()).collect();
         ring.rotate_left(start % flat.len());
-        ears(&flat, ring).into_iter().map(|ear| ear.map(|k| face.corners[k])).collect()
+        clip_ears(&flat, ring).into_iter().map(|ear| ear.map(|k| face.corners[k])).collect()
     }
 }
 
 /// The polygon projected along a coordinate axis without rounding, counter-clockwise.
-fn flattened(points: &[DVec3]) -> Vec<DVec2> {
+fn project_to_plane(points: &[DVec3]) -> Vec<DVec2> {
     let mut normal = DVec3::ZERO;
     for (k, a) in points.iter().enumerate() {
         normal += (a - points[0]).cross(points[(k + 1) % points.len()] - points[0]);
@@ -76,7 +76,7 @@ fn flattened(points: &[DVec3]) -> Vec<DVec2> {
 }
 
 /// Triangulates by ear clipping: the first ear with positive area each time.
-fn ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
+fn clip_ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
     let mut found = Vec::new();
     let turn = |a: usize, b: usize, c: usize| (points[b] - points[a]).perp_dot(points[c] - points[a]);
     let scale = points.iter().map(|p| (*p - points[0]).length_squared()).fold(0.0, f64::max);

@@ -4,12 +4,12 @@
 use glam::DVec3;
 
 use super::body::{Body, Face};
-use super::model::Model;
+use super::model::RandomModel;
 use super::shapes::cuboid;
 use crate::support::scenes::random_dice::Dice;
 
 /// A random selection of at least one of `count` items, and not of all if there are several.
-fn some_of(count: usize, dice: &mut Dice) -> Vec<bool> {
+fn random_selection(count: usize, dice: &mut Dice) -> Vec<bool> {
     let mut chosen: Vec<bool> = (0..count).map(|_| dice.below(2) == 0).collect();
     if let Some(last) = count.checked_sub(1) {
         let sure = dice.below(count);
@@ -22,20 +22,20 @@ fn some_of(count: usize, dice: &mut Dice) -> Vec<bool> {
 }
 
 /// Reverses all faces.
-pub fn all_reversed(model: &mut Model) {
+pub fn reverse_all_faces(model: &mut RandomModel) {
     model.bodies.iter_mut().for_each(Body::reverse);
 }
 
 /// Reverses some bodies, but not all; `None` for a single body.
-pub fn some_reversed(model: &mut Model, dice: &mut Dice) -> Option<()> {
-    let chosen = some_of(model.bodies.len(), dice);
+pub fn reverse_some_bodies(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
+    let chosen = random_selection(model.bodies.len(), dice);
     let bodies = model.bodies.iter_mut().zip(chosen).filter(|(_, is_chosen)| *is_chosen);
     bodies.for_each(|(body, _)| body.reverse());
     (model.bodies.len() > 1).then_some(())
 }
 
 /// Triangulates each face. Another `start` gives other diagonals.
-pub fn triangulated(model: &mut Model, start: usize) {
+pub fn triangulate_faces(model: &mut RandomModel, start: usize) {
     for body in &mut model.bodies {
         let cut = |face: &Face| {
             let triangles = body.triangles(face, start).into_iter();
@@ -46,15 +46,15 @@ pub fn triangulated(model: &mut Model, start: usize) {
 }
 
 /// The bodies without rounded surfaces; `None` if there are none.
-fn flat_bodies(model: &mut Model) -> Option<Vec<&mut Body>> {
+fn flat_bodies(model: &mut RandomModel) -> Option<Vec<&mut Body>> {
     let flat: Vec<&mut Body> = model.bodies.iter_mut().filter(|body| !body.is_round).collect();
     (!flat.is_empty()).then_some(flat)
 }
 
 /// Splits some faces of flat bodies into triangles around interior points.
-pub fn faces_split(model: &mut Model, dice: &mut Dice) -> Option<()> {
+pub fn split_faces(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
     for body in flat_bodies(model)? {
-        let chosen = some_of(body.faces.len(), dice);
+        let chosen = random_selection(body.faces.len(), dice);
         for (face, is_chosen) in std::mem::take(&mut body.faces).into_iter().zip(chosen) {
             if !is_chosen {
                 body.faces.push(face);
@@ -74,13 +74,13 @@ pub fn faces_split(model: &mut Model, dice: &mut Dice) -> Option<()> {
 }
 
 /// Inserts vertices at the middle of some edges of flat bodies, in both faces of the edge or in one.
-pub fn vertices_in_edges(model: &mut Model, on_both_sides: bool, dice: &mut Dice) -> Option<()> {
+pub fn insert_edge_vertices(model: &mut RandomModel, on_both_sides: bool, dice: &mut Dice) -> Option<()> {
     for body in flat_bodies(model)? {
-        let mut edges: Vec<[u32; 2]> = body.faces.iter().flat_map(sides).collect();
+        let mut edges: Vec<[u32; 2]> = body.faces.iter().flat_map(directed_edges).collect();
         // Keep each edge once, in its first direction.
         let mut known = std::collections::BTreeSet::new();
         edges.retain(|[a, b]| known.insert([*a.min(b), *a.max(b)]));
-        let chosen = some_of(edges.len(), dice);
+        let chosen = random_selection(edges.len(), dice);
         for ([a, b], _) in edges.into_iter().zip(chosen).filter(|(_, is_chosen)| *is_chosen) {
             let middle = body.points.len() as u32;
             body.points.push(body.points[a as usize].midpoint(body.points[b as usize]));
@@ -100,15 +100,15 @@ pub fn vertices_in_edges(model: &mut Model, on_both_sides: bool, dice: &mut Dice
 }
 
 /// The directed edges of a face.
-fn sides(face: &Face) -> Vec<[u32; 2]> {
+fn directed_edges(face: &Face) -> Vec<[u32; 2]> {
     let next = face.corners.iter().cycle().skip(1);
     face.corners.iter().zip(next).map(|(a, b)| [*a, *b]).collect()
 }
 
 /// Duplicates some faces.
-pub fn faces_doubled(model: &mut Model, dice: &mut Dice) {
+pub fn duplicate_faces(model: &mut RandomModel, dice: &mut Dice) {
     for body in &mut model.bodies {
-        let chosen = some_of(body.faces.len(), dice);
+        let chosen = random_selection(body.faces.len(), dice);
         let doubles = body.faces.iter().zip(chosen).filter(|(_, is_chosen)| *is_chosen);
         let doubles: Vec<Face> = doubles.map(|(face, _)| face.clone()).collect();
         body.faces.extend(doubles);
@@ -116,11 +116,11 @@ pub fn faces_doubled(model: &mut Model, dice: &mut Dice) {
 }
 
 /// Adds degenerate faces: with a repeated corner, or with three corners on one edge.
-pub fn faces_without_area(model: &mut Model, dice: &mut Dice) {
+pub fn add_degenerate_faces(model: &mut RandomModel, dice: &mut Dice) {
     for body in &mut model.bodies {
         for _ in 0..3 {
             let face = &body.faces[dice.below(body.faces.len())];
-            let (colour, [a, b]) = (face.colour, sides(face)[dice.below(face.corners.len())]);
+            let (colour, [a, b]) = (face.colour, directed_edges(face)[dice.below(face.corners.len())]);
             let corners = if dice.below(2) == 0 {
                 vec![a, b, b]
             } else {
@@ -133,7 +133,7 @@ pub fn faces_without_area(model: &mut Model, dice: &mut Dice) {
 }
 
 /// Shuffles parts, bodies, faces and vertices, and rotates the corners of faces.
-pub fn reordered(model: &mut Model, dice: &mut Dice) {
+pub fn shuffle_model(model: &mut RandomModel, dice: &mut Dice) {
     let parts: Vec<Vec<Body>> = model.parts().map(<[Body]>::to_vec).collect();
     let parts = dice.shuffled(parts);
     model.bodies = parts.into_iter().flat_map(|part| dice.shuffled(part)).collect();
@@ -155,7 +155,7 @@ pub fn reordered(model: &mut Model, dice: &mut Dice) {
 }
 
 /// Adds a small box inside a closed body, as a separate part or in the same part; `None` if no body has room.
-pub fn hidden_body_added(model: &mut Model, dice: &mut Dice) -> Option<()> {
+pub fn add_hidden_body(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
     let with_room: Vec<usize> = (0..model.bodies.len()).filter(|k| model.bodies[*k].core.is_some()).collect();
     let host = *with_room.get(dice.below(with_room.len().max(1)))?;
     let [low, high] = model.bodies[host].core?;

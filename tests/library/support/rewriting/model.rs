@@ -1,4 +1,4 @@
-//! [`Model`]: a random scene of exact bodies, with its placement in the world and a camera.
+//! [`RandomModel`]: a random scene of exact bodies, with its placement in the world and a camera.
 
 use glam::{DAffine3, DVec3};
 use ligne::load::ModelFormat;
@@ -6,9 +6,10 @@ use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 
 use super::body::Body;
 use super::shapes::{
-    any_cuboid, any_house, any_plate, any_prism, any_round, any_sheet, any_stairs, cuboid, right_turn,
+    cuboid, random_axis_rotation, random_cuboid, random_house, random_plate, random_prism, random_round_body,
+    random_sheet, random_stairs,
 };
-use super::text_files::{Digits, obj};
+use super::text_files::{Digits, write_obj};
 use crate::support::scenes::random_dice::Dice;
 
 /// Kinds of bodies of a scene.
@@ -20,7 +21,7 @@ pub const CONTACTS: [&str; 4] = ["free", "touching", "flush", "overlapping"];
 
 /// The viewing direction of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Sight {
+pub enum ViewChoice {
     Named(NamedView),
     /// Azimuth and elevation, whole degrees.
     Angles(f64, f64),
@@ -33,17 +34,17 @@ pub enum Sight {
 }
 
 #[derive(Debug, Clone)]
-pub struct Model {
+pub struct RandomModel {
     /// The kind of its bodies and their contact.
     pub kind: String,
     pub seed: u64,
     pub bodies: Vec<Body>,
     pub world_from_model: DAffine3,
-    pub sight: Sight,
+    pub view: ViewChoice,
     pub camera: Camera,
 }
 
-impl Model {
+impl RandomModel {
     /// The model of a seed. Consecutive seeds run through all combinations of [`SHAPES`] and [`CONTACTS`].
     pub fn random(seed: u64) -> Self {
         let mut dice = Dice::new(seed);
@@ -51,9 +52,12 @@ impl Model {
         let shapes = SHAPES[seed as usize % SHAPES.len()];
         let contact = CONTACTS[seed as usize / SHAPES.len() % CONTACTS.len()];
         let count = [1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 14][dice.below(11)];
-        let mut bodies =
-            if shapes == "decals" { decals(&mut dice) } else { arranged(shapes, contact, count, &mut dice) };
-        let turn = right_turn(&mut dice);
+        let mut bodies = if shapes == "decals" {
+            walls_with_decals(&mut dice)
+        } else {
+            arrange_bodies(shapes, contact, count, &mut dice)
+        };
+        let turn = random_axis_rotation(&mut dice);
         for (k, body) in bodies.iter_mut().enumerate() {
             *body = std::mem::take(body).moved(|p| turn * p);
             if body.part.is_empty() {
@@ -67,16 +71,16 @@ impl Model {
             let shift = DVec3::new(3.0, -2.0, 5.0) * dice.below(3) as f64;
             DAffine3::from_mat3_translation(dice.turn(), shift)
         };
-        let sight = any_sight(is_upright, &mut dice);
+        let sight = random_view(is_upright, &mut dice);
         let kind = if shapes == "decals" { shapes.to_owned() } else { format!("{shapes}, {contact}") };
         let camera = Camera::three_quarter();
-        let mut model = Self { kind, seed, bodies, world_from_model, sight, camera };
-        model.frame();
+        let mut model = Self { kind, seed, bodies, world_from_model, view: sight, camera };
+        model.fit_camera();
         model
     }
 
     /// Fits the camera to the scene.
-    pub fn frame(&mut self) {
+    pub fn fit_camera(&mut self) {
         let along = |to_eye: DVec3, is_parallel: bool| {
             let to_eye = to_eye.normalize();
             let up = if to_eye.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
@@ -87,18 +91,20 @@ impl Model {
             };
             Camera { eye: to_eye, target: DVec3::ZERO, up, projection, ..Camera::three_quarter() }
         };
-        let camera = match self.sight {
-            Sight::Named(view) => Camera::named(view, UpAxis::Y),
-            Sight::Angles(azimuth, elevation) => Camera::azimuth_elevation(azimuth, elevation, UpAxis::Y),
-            Sight::AlongAxis(axis) => along(self.world_from_model.matrix3 * axis, true),
-            Sight::Direction { to_eye, is_parallel } => along(to_eye, is_parallel),
+        let camera = match self.view {
+            ViewChoice::Named(view) => Camera::named(view, UpAxis::Y),
+            ViewChoice::Angles(azimuth, elevation) => {
+                Camera::azimuth_elevation(azimuth, elevation, UpAxis::Y)
+            }
+            ViewChoice::AlongAxis(axis) => along(self.world_from_model.matrix3 * axis, true),
+            ViewChoice::Direction { to_eye, is_parallel } => along(to_eye, is_parallel),
         };
         self.camera = camera.fit(&self.scene());
     }
 
     /// The scene read from the reference file.
     pub fn scene(&self) -> Scene {
-        Scene::from_bytes(&obj(self, Digits::All), ModelFormat::Obj).unwrap()
+        Scene::from_bytes(&write_obj(self, Digits::All), ModelFormat::Obj).unwrap()
     }
 
     /// Whether any body approximates a rounded surface.
@@ -130,38 +136,39 @@ impl Model {
     }
 }
 
-fn any_sight(is_upright: bool, dice: &mut Dice) -> Sight {
-    let whole = |dice: &mut Dice| Sight::Angles(5.0 * dice.below(72) as f64, 5.0 * dice.below(17) as f64);
+fn random_view(is_upright: bool, dice: &mut Dice) -> ViewChoice {
+    let whole =
+        |dice: &mut Dice| ViewChoice::Angles(5.0 * dice.below(72) as f64, 5.0 * dice.below(17) as f64);
     match dice.below(6) {
-        0 | 1 if is_upright => Sight::Named(NamedView::ALL[dice.below(NamedView::ALL.len())]),
+        0 | 1 if is_upright => ViewChoice::Named(NamedView::ALL[dice.below(NamedView::ALL.len())]),
         2 | 3 if is_upright => whole(dice),
-        0 => Sight::AlongAxis(right_turn(dice) * DVec3::X),
+        0 => ViewChoice::AlongAxis(random_axis_rotation(dice) * DVec3::X),
         1 => whole(dice),
-        k => Sight::Direction { to_eye: dice.direction(), is_parallel: k % 2 == 0 },
+        k => ViewChoice::Direction { to_eye: dice.direction(), is_parallel: k % 2 == 0 },
     }
 }
 
-fn any_body(shapes: &str, dice: &mut Dice) -> Body {
+fn random_body(shapes: &str, dice: &mut Dice) -> Body {
     match shapes {
-        "boxes" => any_cuboid(dice),
-        "prisms" => any_prism(dice),
-        "plates" => any_plate(dice),
-        "stairs" => any_stairs(dice),
-        "houses" => any_house(dice),
+        "boxes" => random_cuboid(dice),
+        "prisms" => random_prism(dice),
+        "plates" => random_plate(dice),
+        "stairs" => random_stairs(dice),
+        "houses" => random_house(dice),
         // Sheets need a body to lie on.
-        "sheets" if dice.below(3) == 0 => any_cuboid(dice),
-        "sheets" => any_sheet(dice),
-        "round bodies" => any_round(dice),
-        _ => any_body(SHAPES[dice.below(8)], dice),
+        "sheets" if dice.below(3) == 0 => random_cuboid(dice),
+        "sheets" => random_sheet(dice),
+        "round bodies" => random_round_body(dice),
+        _ => random_body(SHAPES[dice.below(8)], dice),
     }
 }
 
 /// Random bodies, each placed apart from the others or in contact with an earlier one.
-fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<Body> {
+fn arrange_bodies(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<Body> {
     let mut bodies: Vec<Body> = Vec::new();
     for k in 0..count {
-        let turn = right_turn(dice);
-        let body = any_body(shapes, dice).moved(|p| turn * p);
+        let turn = random_axis_rotation(dice);
+        let body = random_body(shapes, dice).moved(|p| turn * p);
         let colour = if dice.below(3) == 0 { 1 + dice.below(2) as u8 } else { 0 };
         let [low, high] = body.bounds();
         let place = match bodies.last() {
@@ -172,7 +179,7 @@ fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<B
             }
             Some(_) => {
                 let neighbour = bodies[dice.below(bodies.len())].bounds();
-                against(neighbour, [low, high], contact, dice)
+                contact_offset(neighbour, [low, high], contact, dice)
             }
         };
         bodies.push(body.moved(|p| p + place).coloured(colour));
@@ -181,7 +188,7 @@ fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<B
 }
 
 /// The translation that puts a box in contact with another box.
-fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut Dice) -> DVec3 {
+fn contact_offset(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut Dice) -> DVec3 {
     let size = high - low;
     let room = there[1] - there[0];
     let normal = dice.below(3);
@@ -206,7 +213,7 @@ fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut
 }
 
 /// Boxes with coloured sheets in the planes of their sides, in the same part or in a separate one.
-fn decals(dice: &mut Dice) -> Vec<Body> {
+fn walls_with_decals(dice: &mut Dice) -> Vec<Body> {
     let mut bodies = Vec::new();
     for k in 0..1 + dice.below(3) {
         let size = DVec3::new(4.0, 3.0 + dice.below(3) as f64, 5.0);
@@ -219,7 +226,7 @@ fn decals(dice: &mut Dice) -> Vec<Body> {
             let (low, high) = ([0.5, 2.0][decal], [1.5, 3.5][decal]);
             let (from, to) = (0.5 + 0.5 * dice.below(3) as f64, 2.5);
             let z = if dice.below(2) == 0 { size.z } else { 0.0 };
-            let mut sheet = any_sheet(dice);
+            let mut sheet = random_sheet(dice);
             sheet.faces.truncate(1);
             sheet.points =
                 [(low, from), (high, from), (high, to), (low, to)].map(|(x, y)| DVec3::new(x, y, z)).to_vec();

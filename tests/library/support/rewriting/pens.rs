@@ -1,23 +1,23 @@
-//! [`Pens`]: the visible lines of a drawing grouped by pen, and the difference between two drawings.
+//! [`LinesByPen`]: the visible lines of a drawing grouped by pen, and the difference between two drawings.
 
 use std::collections::BTreeMap;
 
 use kurbo::Point;
 use ligne::drawing::{Drawing, Mark, Paint};
 
-use crate::support::measures::line_picture::{Ink, samples};
-use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::measures::line_picture::{SegmentGrid, sample_segments};
+use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
 
 /// Distance between samples along lines, px.
-const STEP_PX: f64 = 0.25;
+const SAMPLE_STEP_PX: f64 = 0.25;
 
 /// Visible lines as segments, by classes and pen width.
 #[derive(Debug, Clone)]
-pub struct Pens(BTreeMap<String, Vec<[Point; 2]>>);
+pub struct LinesByPen(BTreeMap<String, Vec<[Point; 2]>>);
 
 /// The lines of each drawing that are farther than a tolerance from the same pen in the other drawing.
 #[derive(Debug, Clone)]
-pub struct Difference {
+pub struct PenDifference {
     /// Length by pen of lines in the reference only, and of lines in the other drawing only; px of the
     /// reference.
     pub gone: BTreeMap<String, f64>,
@@ -26,13 +26,13 @@ pub struct Difference {
     pub at: Point,
 }
 
-impl Difference {
+impl PenDifference {
     pub fn length(&self) -> f64 {
         self.gone.values().chain(self.new.values()).sum()
     }
 }
 
-impl std::fmt::Display for Difference {
+impl std::fmt::Display for PenDifference {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{:.1} px differ, at ({:.1}, {:.1})", self.length(), self.at.x, self.at.y)?;
         for (what, pens) in [("gone", &self.gone), ("new", &self.new)] {
@@ -44,7 +44,7 @@ impl std::fmt::Display for Difference {
     }
 }
 
-fn width(mark: &Mark) -> f64 {
+fn pen_width(mark: &Mark) -> f64 {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke.width,
         Paint::Outline(outline) => outline.pen_width,
@@ -53,15 +53,15 @@ fn width(mark: &Mark) -> f64 {
 }
 
 /// The classes and width of a mark.
-fn pen(mark: &Mark) -> String {
-    format!("{} {}", mark.provenance.classes.join(" "), width(mark))
+fn pen_key(mark: &Mark) -> String {
+    format!("{} {}", mark.provenance.classes.join(" "), pen_width(mark))
 }
 
-impl Pens {
+impl LinesByPen {
     pub fn of(drawing: &Drawing) -> Self {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
-        for mark in ink_marks(drawing) {
-            pens.entry(pen(mark)).or_default().extend(axis(mark));
+        for mark in visible_line_marks(drawing) {
+            pens.entry(pen_key(mark)).or_default().extend(centre_line(mark));
         }
         Self(pens)
     }
@@ -69,8 +69,8 @@ impl Pens {
     /// The visible lines of a drawing, grouped by pen width only.
     pub fn by_width(drawing: &Drawing) -> Self {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
-        for mark in ink_marks(drawing) {
-            pens.entry(format!("width {}", width(mark))).or_default().extend(axis(mark));
+        for mark in visible_line_marks(drawing) {
+            pens.entry(format!("width {}", pen_width(mark))).or_default().extend(centre_line(mark));
         }
         Self(pens)
     }
@@ -82,13 +82,15 @@ impl Pens {
     }
 
     /// The lines that differ by more than `tolerance` px.
-    pub fn difference(&self, other: &Self, tolerance: f64) -> Difference {
+    pub fn difference(&self, other: &Self, tolerance: f64) -> PenDifference {
         let mut at = None;
         let mut lost = |of: &Self, by: &Self| {
             let mut lost = BTreeMap::new();
             for (pen, lines) in &of.0 {
-                let ink = Ink::new(by.0.get(pen).cloned().unwrap_or_default(), 4.0);
-                let far = samples(lines, STEP_PX).into_iter().filter(|(p, _)| ink.distance(*p) > tolerance);
+                let ink = SegmentGrid::new(by.0.get(pen).cloned().unwrap_or_default(), 4.0);
+                let far = sample_segments(lines, SAMPLE_STEP_PX)
+                    .into_iter()
+                    .filter(|(p, _)| ink.distance(*p) > tolerance);
                 let mut length = 0.0;
                 for (place, share) in far {
                     at = at.or(Some(place));
@@ -101,6 +103,6 @@ impl Pens {
             lost
         };
         let (gone, new) = (lost(self, other), lost(other, self));
-        Difference { gone, new, at: at.unwrap_or_default() }
+        PenDifference { gone, new, at: at.unwrap_or_default() }
     }
 }

@@ -4,10 +4,10 @@ use glam::{DAffine3, DMat3, DVec3};
 use ligne::load::ModelFormat;
 use ligne::scene::{Camera, NamedView, Projection, UpAxis};
 
-use super::binary_files::{glb_baked, glb_nested, ply_single, stl};
+use super::binary_files::{write_glb_baked, write_glb_nested, write_ply_single, write_stl};
 use super::changes;
-use super::model::{Model, Sight};
-use super::text_files::{Digits, obj, obj_in_groups, ply};
+use super::model::{RandomModel, ViewChoice};
+use super::text_files::{Digits, write_obj, write_obj_in_groups, write_ply};
 use crate::support::scenes::random_dice::Dice;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,7 +43,7 @@ pub enum Relation {
 }
 
 /// A model file, its camera, and the map from its drawing to the reference drawing.
-pub struct Rewritten {
+pub struct RewrittenFile {
     pub bytes: Vec<u8>,
     pub format: ModelFormat,
     pub camera: Camera,
@@ -53,9 +53,9 @@ pub struct Rewritten {
     pub scale: f64,
 }
 
-impl Rewritten {
+impl RewrittenFile {
     /// The extension of the model's file.
-    pub fn ending(&self) -> &'static str {
+    pub fn extension(&self) -> &'static str {
         match self.format {
             ModelFormat::Obj => "obj",
             ModelFormat::Stl => "stl",
@@ -129,7 +129,7 @@ impl Relation {
     }
 
     /// The model to compare with: in one part if the format has neither parts nor colours.
-    pub fn reference(self, model: &Model) -> Model {
+    pub fn reference(self, model: &RandomModel) -> RandomModel {
         if self.is_in_one_part() { model.clone().in_one_part() } else { model.clone() }
     }
 
@@ -139,68 +139,81 @@ impl Relation {
     }
 
     /// Writes the reference in another way; `None` if the relation does not apply.
-    pub fn rewrite(self, model: &Model, dice: &mut Dice) -> Option<Rewritten> {
+    pub fn rewrite(self, model: &RandomModel, dice: &mut Dice) -> Option<RewrittenFile> {
         let mut other = model.clone();
         match self {
-            Self::AllReversed => changes::all_reversed(&mut other),
-            Self::SomeReversed => changes::some_reversed(&mut other, dice)?,
-            Self::ObjSixDecimals => return Some(written(model, obj(model, Digits::Six), ModelFormat::Obj)),
-            Self::ObjSinglePrecision => {
-                return Some(written(model, obj(model, Digits::Single), ModelFormat::Obj));
+            Self::AllReversed => changes::reverse_all_faces(&mut other),
+            Self::SomeReversed => changes::reverse_some_bodies(&mut other, dice)?,
+            Self::ObjSixDecimals => {
+                return Some(rewritten_file(model, write_obj(model, Digits::Six), ModelFormat::Obj));
             }
-            Self::Stl => return Some(written(model, stl(model), ModelFormat::Stl)),
-            Self::Ply => return Some(written(model, ply(model), ModelFormat::Ply)),
-            Self::PlySinglePrecision => return Some(written(model, ply_single(model), ModelFormat::Ply)),
-            Self::GlbNested => return Some(written(model, glb_nested(model, dice), ModelFormat::Gltf)),
-            Self::GlbSinglePrecision => return Some(written(model, glb_baked(model), ModelFormat::Gltf)),
-            Self::Turned => place(&mut other, DAffine3::from_mat3(dice.turn())),
+            Self::ObjSinglePrecision => {
+                return Some(rewritten_file(model, write_obj(model, Digits::Single), ModelFormat::Obj));
+            }
+            Self::Stl => return Some(rewritten_file(model, write_stl(model), ModelFormat::Stl)),
+            Self::Ply => return Some(rewritten_file(model, write_ply(model), ModelFormat::Ply)),
+            Self::PlySinglePrecision => {
+                return Some(rewritten_file(model, write_ply_single(model), ModelFormat::Ply));
+            }
+            Self::GlbNested => {
+                return Some(rewritten_file(model, write_glb_nested(model, dice), ModelFormat::Gltf));
+            }
+            Self::GlbSinglePrecision => {
+                return Some(rewritten_file(model, write_glb_baked(model), ModelFormat::Gltf));
+            }
+            Self::Turned => transform_model(&mut other, DAffine3::from_mat3(dice.turn())),
             Self::Scaled => {
                 let scale = [1000.0, 0.001, 25.4, 1.0 / 3.0][dice.below(4)];
-                place(&mut other, DAffine3::from_scale(DVec3::splat(scale)));
+                transform_model(&mut other, DAffine3::from_scale(DVec3::splat(scale)));
             }
             Self::MovedFar => {
                 let shift = dice.direction() * [100.0, 1e4, 1e6][dice.below(3)];
-                place(&mut other, DAffine3::from_translation(shift.round()));
+                transform_model(&mut other, DAffine3::from_translation(shift.round()));
             }
             Self::Mirrored => {
-                place(&mut other, DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0))));
-                changes::all_reversed(&mut other);
+                transform_model(
+                    &mut other,
+                    DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0))),
+                );
+                changes::reverse_all_faces(&mut other);
             }
             Self::CameraRecord => other.camera = Camera::from_json(&model.camera.to_json()).unwrap(),
-            Self::CameraRecordRounded => other.camera = rounded(&model.camera),
-            Self::CameraByAngles => other.camera = by_angles(model)?,
-            Self::CameraByName => by_name(&mut other)?,
-            Self::FacesSplit => changes::faces_split(&mut other, dice)?,
-            Self::VertexInEdge => changes::vertices_in_edges(&mut other, true, dice)?,
-            Self::VertexInEdgeOneSided => changes::vertices_in_edges(&mut other, false, dice)?,
-            Self::OtherDiagonals => changes::triangulated(&mut other, 1),
-            Self::FacesDoubled => changes::faces_doubled(&mut other, dice),
-            Self::FacesWithoutArea => changes::faces_without_area(&mut other, dice),
-            Self::GroupPerFace => return Some(written(model, obj_in_groups(model), ModelFormat::Obj)),
-            Self::OtherOrder => changes::reordered(&mut other, dice),
-            Self::HiddenPart => changes::hidden_body_added(&mut other, dice)?,
+            Self::CameraRecordRounded => other.camera = round_camera(&model.camera),
+            Self::CameraByAngles => other.camera = camera_by_angles(model)?,
+            Self::CameraByName => use_next_named_view(&mut other)?,
+            Self::FacesSplit => changes::split_faces(&mut other, dice)?,
+            Self::VertexInEdge => changes::insert_edge_vertices(&mut other, true, dice)?,
+            Self::VertexInEdgeOneSided => changes::insert_edge_vertices(&mut other, false, dice)?,
+            Self::OtherDiagonals => changes::triangulate_faces(&mut other, 1),
+            Self::FacesDoubled => changes::duplicate_faces(&mut other, dice),
+            Self::FacesWithoutArea => changes::add_degenerate_faces(&mut other, dice),
+            Self::GroupPerFace => {
+                return Some(rewritten_file(model, write_obj_in_groups(model), ModelFormat::Obj));
+            }
+            Self::OtherOrder => changes::shuffle_model(&mut other, dice),
+            Self::HiddenPart => changes::add_hidden_body(&mut other, dice)?,
             Self::PictureSize => {
                 let scale = [0.6, 1.5, 2.3][dice.below(3)];
                 let size = other.camera.width * scale;
                 other.camera = other.camera.with_frame(size, size);
-                return Some(Rewritten { scale, ..exact(&other) });
+                return Some(RewrittenFile { scale, ..reference_file(&other) });
             }
         }
-        Some(Rewritten { is_mirrored: self == Self::Mirrored, ..exact(&other) })
+        Some(RewrittenFile { is_mirrored: self == Self::Mirrored, ..reference_file(&other) })
     }
 }
 
 /// The reference file of a model: OBJ with all digits.
-pub fn exact(model: &Model) -> Rewritten {
-    written(model, obj(model, Digits::All), ModelFormat::Obj)
+pub fn reference_file(model: &RandomModel) -> RewrittenFile {
+    rewritten_file(model, write_obj(model, Digits::All), ModelFormat::Obj)
 }
 
-fn written(model: &Model, bytes: Vec<u8>, format: ModelFormat) -> Rewritten {
-    Rewritten { bytes, format, camera: model.camera, is_mirrored: false, scale: 1.0 }
+fn rewritten_file(model: &RandomModel, bytes: Vec<u8>, format: ModelFormat) -> RewrittenFile {
+    RewrittenFile { bytes, format, camera: model.camera, is_mirrored: false, scale: 1.0 }
 }
 
 /// Transforms model and camera.
-fn place(model: &mut Model, by: DAffine3) {
+fn transform_model(model: &mut RandomModel, by: DAffine3) {
     model.world_from_model = by * model.world_from_model;
     let camera = &mut model.camera;
     camera.eye = by.transform_point3(camera.eye);
@@ -212,7 +225,7 @@ fn place(model: &mut Model, by: DAffine3) {
 }
 
 /// A camera rounded to nine decimals.
-fn rounded(camera: &Camera) -> Camera {
+fn round_camera(camera: &Camera) -> Camera {
     let short = |number: f64| (number * 1e9).round() / 1e9;
     let point = |p: DVec3| DVec3::new(short(p.x), short(p.y), short(p.z));
     let projection = match camera.projection {
@@ -224,7 +237,7 @@ fn rounded(camera: &Camera) -> Camera {
 }
 
 /// Azimuth and elevation of a named view, degrees; `None` for views without simple angles.
-fn angles(view: NamedView) -> Option<(f64, f64)> {
+fn view_angles(view: NamedView) -> Option<(f64, f64)> {
     Some(match view {
         NamedView::Front => (0.0, 0.0),
         NamedView::Right => (90.0, 0.0),
@@ -238,16 +251,16 @@ fn angles(view: NamedView) -> Option<(f64, f64)> {
 }
 
 /// The camera of a named view, built from its angles.
-fn by_angles(model: &Model) -> Option<Camera> {
-    let Sight::Named(view) = model.sight else { return None };
-    let (azimuth, elevation) = angles(view)?;
+fn camera_by_angles(model: &RandomModel) -> Option<Camera> {
+    let ViewChoice::Named(view) = model.view else { return None };
+    let (azimuth, elevation) = view_angles(view)?;
     let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Y);
     Some(camera.with_projection(Projection::Orthographic { height: 1.0 }).fit(&model.scene()))
 }
 
 /// Turns the model by a right angle about the vertical, and uses the next named view, which shows the same.
-fn by_name(model: &mut Model) -> Option<()> {
-    let Sight::Named(view) = model.sight else { return None };
+fn use_next_named_view(model: &mut RandomModel) -> Option<()> {
+    let ViewChoice::Named(view) = model.view else { return None };
     let next = match view {
         NamedView::Front => NamedView::Right,
         NamedView::Right => NamedView::Back,

@@ -6,18 +6,18 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use super::body::{Body, Face};
 use crate::support::scenes::random_dice::Dice;
 
-fn face(corners: impl IntoIterator<Item = u32>) -> Face {
+fn uncoloured_face(corners: impl IntoIterator<Item = u32>) -> Face {
     Face { corners: corners.into_iter().collect(), colour: 0 }
 }
 
 /// A prism over a counter-clockwise polygon of the xy plane, from z = 0 to `height`.
-pub fn extruded(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
+pub fn extrude(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
     let count = outline.len() as u32;
     let ring = |z: f64| outline.iter().map(move |&(x, y)| DVec3::new(x, y, z));
-    let mut faces = vec![face((0..count).rev()), face(count..2 * count)];
+    let mut faces = vec![uncoloured_face((0..count).rev()), uncoloured_face(count..2 * count)];
     faces.extend((0..count).map(|k| {
         let next = (k + 1) % count;
-        face([k, next, next + count, k + count])
+        uncoloured_face([k, next, next + count, k + count])
     }));
     let points = ring(0.0).chain(ring(height)).collect();
     Body { points, faces, is_closed: true, core: Some(core), ..Body::default() }
@@ -26,53 +26,66 @@ pub fn extruded(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
 /// An axis-aligned box with one corner at the origin.
 pub fn cuboid(size: DVec3) -> Body {
     let outline = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
-    extruded(&outline, size.z, [size * 0.25, size * 0.75])
+    extrude(&outline, size.z, [size * 0.25, size * 0.75])
 }
 
 /// A random multiple of 0.5, from `least` to `most` halves.
-fn length(dice: &mut Dice, least: usize, most: usize) -> f64 {
+fn random_half_units(dice: &mut Dice, least: usize, most: usize) -> f64 {
     0.5 * (least + dice.below(most - least + 1)) as f64
 }
 
-pub fn any_cuboid(dice: &mut Dice) -> Body {
-    cuboid(DVec3::new(length(dice, 1, 8), length(dice, 1, 8), length(dice, 1, 8)))
+pub fn random_cuboid(dice: &mut Dice) -> Body {
+    cuboid(DVec3::new(
+        random_half_units(dice, 1, 8),
+        random_half_units(dice, 1, 8),
+        random_half_units(dice, 1, 8),
+    ))
 }
 
 /// The core of a prism: the middle half of the box over the rectangle from `low` to `high`.
-fn core(low: (f64, f64), high: (f64, f64), height: f64) -> [DVec3; 2] {
+fn inner_box(low: (f64, f64), high: (f64, f64), height: f64) -> [DVec3; 2] {
     let (a, b) = (DVec3::new(low.0, low.1, 0.0), DVec3::new(high.0, high.1, height));
     [a + (b - a) * 0.25, a + (b - a) * 0.75]
 }
 
 /// A prism over a triangle, a trapezium or a hexagon.
-pub fn any_prism(dice: &mut Dice) -> Body {
-    let (a, h) = (length(dice, 2, 4), length(dice, 1, 8));
+pub fn random_prism(dice: &mut Dice) -> Body {
+    let (a, h) = (random_half_units(dice, 2, 4), random_half_units(dice, 1, 8));
     match dice.below(3) {
-        0 => extruded(
+        0 => extrude(
             &[(0.0, 0.0), (4.0 * a, 0.0), (a, 3.0 * a)].map(|(x, y)| (x / 2.0, y / 2.0)),
             h,
-            core((0.4 * a, 0.1 * a), (0.8 * a, 0.5 * a), h),
+            inner_box((0.4 * a, 0.1 * a), (0.8 * a, 0.5 * a), h),
         ),
         1 => {
             let outline = [(0.0, 0.0), (3.0 * a, 0.0), (2.0 * a, a), (a, a)];
-            extruded(&outline, h, core((a, 0.0), (2.0 * a, a), h))
+            extrude(&outline, h, inner_box((a, 0.0), (2.0 * a, a), h))
         }
         _ => {
             let outline = [(1.0, 0.0), (2.0, 0.0), (3.0, 1.5), (2.0, 3.0), (1.0, 3.0), (0.0, 1.5)];
-            extruded(&outline.map(|(x, y)| (x * a / 2.0, y * a / 2.0)), h, core((a / 2.0, 0.0), (a, a), h))
+            extrude(
+                &outline.map(|(x, y)| (x * a / 2.0, y * a / 2.0)),
+                h,
+                inner_box((a / 2.0, 0.0), (a, a), h),
+            )
         }
     }
 }
 
 /// A plate in the shape of a T, a plus, an L or a U.
-pub fn any_plate(dice: &mut Dice) -> Body {
-    let (a, b, c, h) = (length(dice, 1, 3), length(dice, 1, 3), length(dice, 1, 3), length(dice, 1, 3));
+pub fn random_plate(dice: &mut Dice) -> Body {
+    let (a, b, c, h) = (
+        random_half_units(dice, 1, 3),
+        random_half_units(dice, 1, 3),
+        random_half_units(dice, 1, 3),
+        random_half_units(dice, 1, 3),
+    );
     match dice.below(4) {
         0 => {
             let (x1, x2, x3) = (a, a + b, a + b + c);
             let outline =
                 [(x1, 0.0), (x2, 0.0), (x2, b), (x3, b), (x3, b + c), (0.0, b + c), (0.0, b), (x1, b)];
-            extruded(&outline, h, core((x1, 0.0), (x2, b + c), h))
+            extrude(&outline, h, inner_box((x1, 0.0), (x2, b + c), h))
         }
         1 => {
             let (x1, x2, x3, y1, y2, y3) = (a, a + b, a + b + c, b, b + c, 2.0 * b + c);
@@ -90,50 +103,59 @@ pub fn any_plate(dice: &mut Dice) -> Body {
                 (0.0, y1),
                 (x1, y1),
             ];
-            extruded(&outline, h, core((x1, 0.0), (x2, y3), h))
+            extrude(&outline, h, inner_box((x1, 0.0), (x2, y3), h))
         }
         2 => {
             let outline = [(0.0, 0.0), (a + b, 0.0), (a + b, c), (a, c), (a, b + c), (0.0, b + c)];
-            extruded(&outline, h, core((0.0, 0.0), (a, b + c), h))
+            extrude(&outline, h, inner_box((0.0, 0.0), (a, b + c), h))
         }
         _ => {
             let (x1, x2, x3, y) = (a, a + b, a + b + c, b + c);
             let outline = [(0.0, 0.0), (x3, 0.0), (x3, y), (x2, y), (x2, c), (x1, c), (x1, y), (0.0, y)];
-            extruded(&outline, h, core((0.0, 0.0), (x3, c), h))
+            extrude(&outline, h, inner_box((0.0, 0.0), (x3, c), h))
         }
     }
 }
 
-pub fn any_stairs(dice: &mut Dice) -> Body {
-    let (steps, run, rise, h) =
-        (2 + dice.below(3), length(dice, 1, 2), length(dice, 1, 2), length(dice, 2, 6));
+pub fn random_stairs(dice: &mut Dice) -> Body {
+    let (steps, run, rise, h) = (
+        2 + dice.below(3),
+        random_half_units(dice, 1, 2),
+        random_half_units(dice, 1, 2),
+        random_half_units(dice, 2, 6),
+    );
     let wide = run * steps as f64;
     let mut outline = vec![(0.0, 0.0), (wide, 0.0)];
     for step in (0..steps).rev() {
         let (x, y) = (run * step as f64, rise * (steps - step) as f64);
         outline.extend([(x + run, y), (x, y)]);
     }
-    extruded(&outline, h, core((0.0, 0.0), (wide, rise), h))
+    extrude(&outline, h, inner_box((0.0, 0.0), (wide, rise), h))
 }
 
 /// A house: an extruded gable with its ridge along z.
-pub fn any_house(dice: &mut Dice) -> Body {
-    let (half, wall, roof, h) =
-        (length(dice, 2, 4), length(dice, 2, 5), length(dice, 1, 4), length(dice, 3, 8));
+pub fn random_house(dice: &mut Dice) -> Body {
+    let (half, wall, roof, h) = (
+        random_half_units(dice, 2, 4),
+        random_half_units(dice, 2, 5),
+        random_half_units(dice, 1, 4),
+        random_half_units(dice, 3, 8),
+    );
     let (wide, top) = (2.0 * half, wall + roof);
     let outline = [(0.0, 0.0), (wide, 0.0), (wide, wall), (half, top), (0.0, wall)];
-    extruded(&outline, h, core((0.0, 0.0), (wide, wall), h))
+    extrude(&outline, h, inner_box((0.0, 0.0), (wide, wall), h))
 }
 
 /// An open sheet: a rectangle, or two rectangles that meet in a fold.
-pub fn any_sheet(dice: &mut Dice) -> Body {
-    let (x, y, z) = (length(dice, 2, 8), length(dice, 2, 8), length(dice, 2, 6));
+pub fn random_sheet(dice: &mut Dice) -> Body {
+    let (x, y, z) =
+        (random_half_units(dice, 2, 8), random_half_units(dice, 2, 8), random_half_units(dice, 2, 6));
     let mut points: Vec<DVec3> =
         [(0.0, 0.0), (x, 0.0), (x, y), (0.0, y)].map(|(x, y)| DVec3::new(x, y, 0.0)).into();
-    let mut faces = vec![face([0, 1, 2, 3])];
+    let mut faces = vec![uncoloured_face([0, 1, 2, 3])];
     if dice.below(2) == 0 {
         points.extend([DVec3::new(x, y, z), DVec3::new(0.0, y, z)]);
-        faces.push(face([3, 2, 4, 5]));
+        faces.push(uncoloured_face([3, 2, 4, 5]));
     }
     Body { points, faces, ..Body::default() }
 }
@@ -160,11 +182,11 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
         let [(low_radius, low_z), (high_radius, high_z)] = [profile[k], profile[(k + 1) % profile.len()]];
         // A flat end becomes one polygon.
         if low_z == high_z && low_radius == 0.0 {
-            body.faces.push(face(high.iter().rev().copied()));
+            body.faces.push(uncoloured_face(high.iter().rev().copied()));
             continue;
         }
         if low_z == high_z && high_radius == 0.0 {
-            body.faces.push(face(low.iter().copied()));
+            body.faces.push(uncoloured_face(low.iter().copied()));
             continue;
         }
         for i in 0..sides as usize {
@@ -174,7 +196,7 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
             if corners.first() == corners.last() {
                 corners.pop();
             }
-            body.faces.push(face(corners));
+            body.faces.push(uncoloured_face(corners));
         }
     }
     // A flat end uses no point on the axis.
@@ -182,8 +204,8 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
 }
 
 /// A cylinder, a cone, a stepped shaft, a sphere, a torus or a vase.
-pub fn any_round(dice: &mut Dice) -> Body {
-    let (r, h) = (length(dice, 1, 4), length(dice, 1, 8));
+pub fn random_round_body(dice: &mut Dice) -> Body {
+    let (r, h) = (random_half_units(dice, 1, 4), random_half_units(dice, 1, 8));
     let sides = 4 * (4 + dice.below(9)) as u32;
     let inner = |radius: f64, height: f64| {
         Some([DVec3::new(-radius, -radius, 0.25 * height), DVec3::new(radius, radius, 0.75 * height)])
@@ -234,7 +256,7 @@ pub fn any_round(dice: &mut Dice) -> Body {
 }
 
 /// One of the 24 rotations that keep boxes axis-aligned.
-pub fn right_turn(dice: &mut Dice) -> DMat3 {
+pub fn random_axis_rotation(dice: &mut Dice) -> DMat3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let first = dice.below(3);
     let second = (first + 1 + dice.below(2)) % 3;

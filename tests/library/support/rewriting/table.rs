@@ -7,8 +7,8 @@ use super::relations::Relation;
 use super::trial::{Outcome, Trial};
 
 #[derive(Debug, Clone, Default)]
-pub struct Row {
-    pub made: usize,
+pub struct RelationCounts {
+    pub compared: usize,
     /// Different drawings of scenes without rounded bodies.
     pub flat_different: usize,
     /// Different drawings of scenes with rounded bodies.
@@ -17,23 +17,23 @@ pub struct Row {
     pub longest: f64,
 }
 
-impl Row {
+impl RelationCounts {
     pub fn different(&self) -> usize {
         self.flat_different + self.round_different
     }
 }
 
 #[derive(Debug, Clone, Default)]
-pub struct Table(pub BTreeMap<Relation, Row>);
+pub struct Table(pub BTreeMap<Relation, RelationCounts>);
 
 impl Table {
     pub fn of(trials: &[Trial]) -> Self {
-        let mut rows: BTreeMap<Relation, Row> = BTreeMap::new();
-        for trial in trials.iter().filter(|trial| !matches!(trial.outcome, Outcome::NotMade)) {
+        let mut rows: BTreeMap<Relation, RelationCounts> = BTreeMap::new();
+        for trial in trials.iter().filter(|trial| !matches!(trial.outcome, Outcome::NotApplicable)) {
             let row = rows.entry(trial.relation).or_default();
-            row.made += 1;
+            row.compared += 1;
             row.longest = row.longest.max(trial.outcome.length());
-            let is_fault = usize::from(trial.outcome.is_fault());
+            let is_fault = usize::from(trial.outcome.is_failure());
             if trial.model.is_round() {
                 row.round_different += is_fault;
             } else {
@@ -51,19 +51,19 @@ impl fmt::Display for Table {
             "{:34} {:>6} {:>10} {:>6} {:>6} {:>11}",
             "relation", "made", "different", "flat", "round", "longest px"
         )?;
-        let mut sum = Row::default();
+        let mut sum = RelationCounts::default();
         for (relation, row) in &self.0 {
             writeln!(
                 f,
                 "{:34} {:>6} {:>10} {:>6} {:>6} {:>11.1}",
                 relation.name(),
-                row.made,
+                row.compared,
                 row.different(),
                 row.flat_different,
                 row.round_different,
                 row.longest
             )?;
-            sum.made += row.made;
+            sum.compared += row.compared;
             sum.flat_different += row.flat_different;
             sum.round_different += row.round_different;
         }
@@ -71,7 +71,7 @@ impl fmt::Display for Table {
             f,
             "{:34} {:>6} {:>10} {:>6} {:>6}",
             "all",
-            sum.made,
+            sum.compared,
             sum.different(),
             sum.flat_different,
             sum.round_different

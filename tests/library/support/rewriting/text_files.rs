@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use super::model::Model;
+use super::model::RandomModel;
 
 /// Precision of written coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,16 +31,16 @@ impl Digits {
 }
 
 /// An OBJ file with one object per part.
-pub fn obj(model: &Model, digits: Digits) -> Vec<u8> {
-    obj_with(model, digits, false)
+pub fn write_obj(model: &RandomModel, digits: Digits) -> Vec<u8> {
+    write_obj_text(model, digits, false)
 }
 
 /// An OBJ file with one group per face.
-pub fn obj_in_groups(model: &Model) -> Vec<u8> {
-    obj_with(model, Digits::All, true)
+pub fn write_obj_in_groups(model: &RandomModel) -> Vec<u8> {
+    write_obj_text(model, Digits::All, true)
 }
 
-fn obj_with(model: &Model, digits: Digits, has_group_per_face: bool) -> Vec<u8> {
+fn write_obj_text(model: &RandomModel, digits: Digits, has_group_per_face: bool) -> Vec<u8> {
     let mut text = String::new();
     let (mut first, mut groups) = (1, 0);
     let has_colours = model.has_colours();
@@ -71,7 +71,7 @@ fn obj_with(model: &Model, digits: Digits, has_group_per_face: bool) -> Vec<u8> 
     text.into_bytes()
 }
 
-pub fn ply(model: &Model) -> Vec<u8> {
+pub fn write_ply(model: &RandomModel) -> Vec<u8> {
     let points: Vec<DVec3> = model.bodies.iter().flat_map(|body| model.world_points(body)).collect();
     let faces: usize = model.bodies.iter().map(|body| body.faces.len()).sum();
     let mut text = String::from("ply\nformat ascii 1.0\n");

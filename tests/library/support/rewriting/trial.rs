@@ -10,31 +10,31 @@ use ligne::pipeline::render;
 use ligne::scene::Scene;
 use ligne::style::Style;
 
-use super::model::Model;
-use super::pens::{Difference, Pens};
-use super::relations::{Relation, Rewritten, exact};
+use super::model::RandomModel;
+use super::pens::{LinesByPen, PenDifference};
+use super::relations::{Relation, RewrittenFile, reference_file};
 use crate::support::scenes::random_dice::Dice;
 
 /// Maximum distance between lines of flat bodies, px.
-const FLAT_PX: f64 = 0.06;
+const MAX_FLAT_DISTANCE_PX: f64 = 0.06;
 /// Maximum distance between lines of rounded bodies, px.
-const ROUND_PX: f64 = 0.5;
+const MAX_ROUND_DISTANCE_PX: f64 = 0.5;
 /// Maximum differing length of equal drawings, px: the round caps of a line.
-const SLACK_PX: f64 = 1.0;
+const MAX_DIFFERENT_LENGTH_PX: f64 = 1.0;
 
 /// Result of a comparison.
 #[derive(Debug, Clone)]
 pub enum Outcome {
     /// The relation does not apply to the model.
-    NotMade,
+    NotApplicable,
     Same,
-    Different(Difference),
+    Different(PenDifference),
     /// A file was rejected, or drawing it failed.
     Failed(String),
 }
 
 impl Outcome {
-    pub fn is_fault(&self) -> bool {
+    pub fn is_failure(&self) -> bool {
         matches!(self, Self::Different(_) | Self::Failed(_))
     }
 
@@ -47,11 +47,11 @@ impl Outcome {
         }
     }
 
-    fn words(&self) -> String {
+    fn description(&self) -> String {
         match self {
             Self::Different(difference) => difference.to_string(),
             Self::Failed(words) => words.clone(),
-            Self::NotMade => "does not apply".into(),
+            Self::NotApplicable => "does not apply".into(),
             Self::Same => "the same".into(),
         }
     }
@@ -60,42 +60,42 @@ impl Outcome {
 #[derive(Debug, Clone)]
 /// A model, a relation, and the result of their comparison.
 pub struct Trial {
-    pub model: Model,
+    pub model: RandomModel,
     pub relation: Relation,
     pub outcome: Outcome,
 }
 
 /// Reads a file and draws it; a panic becomes an error.
-fn draw(file: &Rewritten) -> Result<Pens, String> {
+fn draw_file(file: &RewrittenFile) -> Result<LinesByPen, String> {
     let draw = || {
         let scene = Scene::from_bytes(&file.bytes, file.format).map_err(|error| error.to_string())?;
         let drawing = render(&scene, &file.camera, &Style::load("ink", &[]).unwrap());
-        Ok(Pens::of(&drawing.map_err(|error| error.to_string())?))
+        Ok(LinesByPen::of(&drawing.map_err(|error| error.to_string())?))
     };
     catch_unwind(AssertUnwindSafe(draw)).unwrap_or_else(|_| Err("drawing panics".into()))
 }
 
 /// The reference file and the rewritten file; `None` if the relation does not apply.
-fn files(model: &Model, relation: Relation) -> Option<[Rewritten; 2]> {
+fn file_pair(model: &RandomModel, relation: Relation) -> Option<[RewrittenFile; 2]> {
     let reference = relation.reference(model);
     let other = relation.rewrite(&reference, &mut Dice::new(model.seed))?;
-    Some([exact(&reference), other])
+    Some([reference_file(&reference), other])
 }
 
 /// Cached drawings of the reference file, with parts and in one part.
 #[derive(Default)]
-struct References([OnceCell<Result<Pens, String>>; 2]);
+struct ReferenceDrawings([OnceCell<Result<LinesByPen, String>>; 2]);
 
-impl References {
-    fn get(&self, relation: Relation, file: &Rewritten) -> Result<&Pens, String> {
-        let drawn = self.0[usize::from(relation.is_in_one_part())].get_or_init(|| draw(file));
+impl ReferenceDrawings {
+    fn get(&self, relation: Relation, file: &RewrittenFile) -> Result<&LinesByPen, String> {
+        let drawn = self.0[usize::from(relation.is_in_one_part())].get_or_init(|| draw_file(file));
         drawn.as_ref().map_err(Clone::clone)
     }
 }
 
-fn outcome(model: &Model, relation: Relation, references: &References) -> Outcome {
-    let Some([reference, other]) = files(model, relation) else { return Outcome::NotMade };
-    let drawn = references.get(relation, &reference).and_then(|one| Ok((one, draw(&other)?)));
+fn compare_drawings(model: &RandomModel, relation: Relation, references: &ReferenceDrawings) -> Outcome {
+    let Some([reference, other]) = file_pair(model, relation) else { return Outcome::NotApplicable };
+    let drawn = references.get(relation, &reference).and_then(|one| Ok((one, draw_file(&other)?)));
     let (one, two) = match drawn {
         Ok(pens) => pens,
         Err(words) => return Outcome::Failed(words),
@@ -104,31 +104,31 @@ fn outcome(model: &Model, relation: Relation, references: &References) -> Outcom
         let p = Point::new(p.x / other.scale, p.y / other.scale);
         if other.is_mirrored { Point::new(reference.camera.width - p.x, p.y) } else { p }
     };
-    let tolerance = if model.is_round() { ROUND_PX } else { FLAT_PX };
+    let tolerance = if model.is_round() { MAX_ROUND_DISTANCE_PX } else { MAX_FLAT_DISTANCE_PX };
     let difference = one.difference(&two.moved(place), tolerance / other.scale.min(1.0));
-    if difference.length() > SLACK_PX { Outcome::Different(difference) } else { Outcome::Same }
+    if difference.length() > MAX_DIFFERENT_LENGTH_PX { Outcome::Different(difference) } else { Outcome::Same }
 }
 
 impl Trial {
-    pub fn run(model: &Model, relation: Relation) -> Self {
-        let outcome = outcome(model, relation, &References::default());
+    pub fn run(model: &RandomModel, relation: Relation) -> Self {
+        let outcome = compare_drawings(model, relation, &ReferenceDrawings::default());
         Self { model: model.clone(), relation, outcome }
     }
 
     /// Runs all relations; the reference file is drawn once.
-    pub fn run_all(model: &Model, relations: &[Relation]) -> Vec<Self> {
-        let references = References::default();
+    pub fn run_all(model: &RandomModel, relations: &[Relation]) -> Vec<Self> {
+        let references = ReferenceDrawings::default();
         let run = |relation: &Relation| {
-            let outcome = outcome(model, *relation, &references);
+            let outcome = compare_drawings(model, *relation, &references);
             Self { model: model.clone(), relation: *relation, outcome }
         };
         relations.iter().map(run).collect()
     }
 
     /// One line with the scene, its seed, the relation and the difference.
-    pub fn words(&self) -> String {
+    pub fn description(&self) -> String {
         let (kind, seed) = (&self.model.kind, self.model.seed);
-        let (relation, words) = (self.relation.name(), self.outcome.words());
+        let (relation, words) = (self.relation.name(), self.outcome.description());
         format!("{kind}, seed {seed}, {relation}: {words}")
     }
 
@@ -140,10 +140,10 @@ impl Trial {
             let mut model = least.model.clone();
             model.bodies.remove(k);
             let kept = Self::run(&model, self.relation);
-            model.frame();
+            model.fit_camera();
             let framed = Self::run(&model, self.relation);
             // Prefer the refitted view if it still fails.
-            match [framed, kept].into_iter().find(|trial| trial.outcome.is_fault()) {
+            match [framed, kept].into_iter().find(|trial| trial.outcome.is_failure()) {
                 Some(fewer) => least = fewer,
                 None => k += 1,
             }
@@ -152,16 +152,16 @@ impl Trial {
     }
 
     /// Writes both files, both cameras and the difference into a separate folder.
-    pub fn keep_in(&self, folder: &Path) {
-        let Some(files) = files(&self.model, self.relation) else { return };
+    pub fn save_in(&self, folder: &Path) {
+        let Some(files) = file_pair(&self.model, self.relation) else { return };
         let word = |text: &str| text.replace(", ", "-").replace(' ', "-");
         let name = format!("{}-{}", word(&self.model.kind), self.model.seed);
         let folder = folder.join(word(self.relation.name())).join(name);
         fs::create_dir_all(&folder).unwrap();
         let mut note =
-            format!("{}\n{:?}, {} bodies\n", self.words(), self.model.sight, self.model.bodies.len());
+            format!("{}\n{:?}, {} bodies\n", self.description(), self.model.view, self.model.bodies.len());
         for (name, file) in ["a", "b"].into_iter().zip(&files) {
-            let ending = file.ending();
+            let ending = file.extension();
             fs::write(folder.join(format!("{name}.{ending}")), &file.bytes).unwrap();
             fs::write(folder.join(format!("{name}.json")), file.camera.to_json()).unwrap();
             note += &format!("ligne draw {name}.{ending} {name}.svg --camera {name}.json\n");

@@ -10,30 +10,30 @@ use super::solids::{Solid, cuboid, torus, tube};
 use crate::support::pipeline::{orthographic, perspective, scene};
 
 /// Kinds of scenes with difficult visibility.
-pub const HARD_SCENES: [&str; 6] =
+pub const HARD_SCENE_KINDS: [&str; 6] =
     ["rods in bores", "shells in shells", "slivers", "sheets", "one-ring cylinders", "figures behind plates"];
 
-/// A random scene of one of the kinds in [`HARD_SCENES`], about two units across.
+/// A random scene of one of the kinds in [`HARD_SCENE_KINDS`], about two units across.
 pub fn hard_scene(kind: &str, dice: &mut Dice) -> Scene {
-    scene(hard_parts(kind, dice))
+    scene(hard_solids(kind, dice))
 }
 
 /// The solids of [`hard_scene`].
-pub fn hard_parts(kind: &str, dice: &mut Dice) -> Vec<Solid> {
+pub fn hard_solids(kind: &str, dice: &mut Dice) -> Vec<Solid> {
     let turn = dice.turn();
     let parts = match kind {
         "rods in bores" => rods_in_bores(dice),
         "shells in shells" => shells_in_shells(dice),
         "slivers" => slivers(dice),
-        "sheets" => sheets(dice),
-        "one-ring cylinders" => (0..6).map(|_| placed(any_rod(dice), 0.7, dice)).collect(),
+        "sheets" => arched_sheets(dice),
+        "one-ring cylinders" => (0..6).map(|_| randomly_placed(random_rod(dice), 0.7, dice)).collect(),
         _ => figures_behind_plates(dice),
     };
     parts.into_iter().map(|part| part.moved(|p| turn * p)).collect()
 }
 
 /// A camera from a random direction, perspective or orthographic.
-pub fn any_camera(dice: &mut Dice) -> Camera {
+pub fn camera_from_any_side(dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     if dice.below(2) == 0 {
         perspective(direction * dice.between(7.0, 8.0), DVec3::ZERO, 35.0)
@@ -82,7 +82,7 @@ fn rod(radius: f64, half: f64, sides: usize, rings: usize) -> Solid {
     lathe(&profile, sides)
 }
 
-fn any_rod(dice: &mut Dice) -> Solid {
+fn random_rod(dice: &mut Dice) -> Solid {
     // Nine sides would turn by 40 degrees each, which makes creases.
     let sides = 10 + dice.below(38);
     let rings = [1, 1, 1, 3][dice.below(4)];
@@ -90,7 +90,7 @@ fn any_rod(dice: &mut Dice) -> Solid {
 }
 
 /// The solid with a random rotation and translation.
-fn placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
+fn randomly_placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
     let (turn, place) = (dice.turn(), dice.point(spread));
     solid.moved(|p| turn * p + place)
 }
@@ -145,34 +145,34 @@ fn slivers(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = vec![icosphere(2).moved(|p| p * 0.6)];
     for _ in 0..5 {
         let radius = dice.between(0.004, 0.01);
-        parts.push(placed(rod(radius, 1.2, 10 + dice.below(8), 1), 0.5, dice));
+        parts.push(randomly_placed(rod(radius, 1.2, 10 + dice.below(8), 1), 0.5, dice));
     }
     for _ in 0..3 {
         let half = DVec3::new(1.2, 0.0012, dice.between(0.05, 0.2));
-        parts.push(placed(cuboid(-half, half), 0.5, dice));
+        parts.push(randomly_placed(cuboid(-half, half), 0.5, dice));
     }
-    parts.push(placed(rod(0.4, 0.5, 180, 1), 0.6, dice));
+    parts.push(randomly_placed(rod(0.4, 0.5, 180, 1), 0.6, dice));
     parts
 }
 
 /// Open arched sheets, single or duplicated with the same or the opposite winding, and an open tube.
-fn sheets(dice: &mut Dice) -> Vec<Solid> {
-    let mut parts = vec![placed(icosphere(2).moved(|p| p * 0.4), 0.4, dice)];
+fn arched_sheets(dice: &mut Dice) -> Vec<Solid> {
+    let mut parts = vec![randomly_placed(icosphere(2).moved(|p| p * 0.4), 0.4, dice)];
     for k in 0..5 {
-        let mut sheet = arched(dice);
+        let mut sheet = arched_sheet(dice);
         match k % 3 {
             1 => sheet.triangles.extend(sheet.triangles.clone().into_iter().map(|[a, b, c]| [a, c, b])),
             2 => sheet.triangles.extend(sheet.triangles.clone()),
             _ => {}
         }
-        parts.push(placed(sheet, 0.5, dice));
+        parts.push(randomly_placed(sheet, 0.5, dice));
     }
     let sides = 16 + dice.below(16);
-    parts.push(placed(tube(sides, 1, dice.between(0.2, 0.4), 0.8), 0.4, dice));
+    parts.push(randomly_placed(tube(sides, 1, dice.between(0.2, 0.4), 0.8), 0.4, dice));
     parts
 }
 
-fn arched(dice: &mut Dice) -> Solid {
+fn arched_sheet(dice: &mut Dice) -> Solid {
     let (count, height) = (8_u32, dice.between(0.1, 0.4));
     let mut solid = Solid::default();
     for j in 0..=count {

@@ -1,4 +1,4 @@
-//! [`Board`]: a small glTF file with an animation that uses `KHR_animation_pointer`.
+//! [`PointerFile`]: a small glTF file with an animation that uses `KHR_animation_pointer`.
 
 use std::path::PathBuf;
 
@@ -7,14 +7,14 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 /// A temporary file with two squares of different materials, two cameras and two lights.
-pub struct Board(pub PathBuf);
+pub struct PointerFile(pub PathBuf);
 
 /// A pointer, its interpolation, and its values at 0, 1 and 3 s.
-pub type Moved<'a> = (&'a str, &'a str, &'a [f32]);
+pub type PointerChannel<'a> = (&'a str, &'a str, &'a [f32]);
 
-impl Board {
+impl PointerFile {
     /// Writes the file with one channel per entry of `moved`, after `change` has edited the document.
-    pub fn new(name: &str, moved: &[Moved], change: impl FnOnce(&mut Value)) -> Self {
+    pub fn new(name: &str, moved: &[PointerChannel], change: impl FnOnce(&mut Value)) -> Self {
         let mut bytes: Vec<u8> = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
         let mut add = |width: usize, numbers: &[f32]| {
@@ -71,7 +71,7 @@ impl Board {
     }
 }
 
-impl Drop for Board {
+impl Drop for PointerFile {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.0);
     }

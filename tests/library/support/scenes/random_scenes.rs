@@ -8,30 +8,30 @@ use super::solids::{Solid, cuboid, sphere, torus};
 use crate::support::pipeline::{orthographic, perspective, scene};
 
 /// Kinds of random scenes.
-pub const SCENES: [&str; 7] =
+pub const ALL_SCENE_KINDS: [&str; 7] =
     ["boxes", "tetrahedra", "spheres", "tori", "soup", "interpenetrating", "mixture"];
 
-/// A random scene of one of the kinds in [`SCENES`], about two units across.
+/// A random scene of one of the kinds in [`ALL_SCENE_KINDS`], about two units across.
 pub fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
     match kind {
-        "boxes" => many(dice, 8, 0.9, a_box),
-        "tetrahedra" => many(dice, 14, 0.9, a_tetrahedron),
-        "spheres" => many(dice, 4, 0.9, |dice| sphere(7, dice.between(0.2, 0.5))),
-        "tori" => many(dice, 3, 0.7, a_torus),
-        "soup" => scene([soup(dice, 90)]),
-        "interpenetrating" => many(dice, 7, 0.25, a_box),
+        "boxes" => scene_of_many(dice, 8, 0.9, random_box),
+        "tetrahedra" => scene_of_many(dice, 14, 0.9, random_tetrahedron),
+        "spheres" => scene_of_many(dice, 4, 0.9, |dice| sphere(7, dice.between(0.2, 0.5))),
+        "tori" => scene_of_many(dice, 3, 0.7, random_torus),
+        "soup" => scene([triangle_soup(dice, 90)]),
+        "interpenetrating" => scene_of_many(dice, 7, 0.25, random_box),
         _ => {
             let mut solids = vec![torus(24, 12, 0.8, 0.3), sphere(6, 0.5)];
-            solids.extend([a_box(dice), a_tetrahedron(dice), soup(dice, 12)]);
-            scene(solids.into_iter().map(|solid| placed(solid, 0.4, dice)).collect::<Vec<_>>())
+            solids.extend([random_box(dice), random_tetrahedron(dice), triangle_soup(dice, 12)]);
+            scene(solids.into_iter().map(|solid| randomly_placed(solid, 0.4, dice)).collect::<Vec<_>>())
         }
     }
 }
 
 /// Kinds of random cameras.
-pub const CAMERAS: [&str; 5] = ["perspective", "orthographic", "inside", "cutting", "near"];
+pub const ALL_CAMERA_KINDS: [&str; 5] = ["perspective", "orthographic", "inside", "cutting", "near"];
 
-/// A random camera of one of the kinds in [`CAMERAS`], for scenes about the origin.
+/// A random camera of one of the kinds in [`ALL_CAMERA_KINDS`], for scenes about the origin.
 pub fn random_camera(kind: &str, dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     let target = dice.point(0.1);
@@ -51,38 +51,38 @@ pub fn random_camera(kind: &str, dice: &mut Dice) -> Camera {
     }
 }
 
-fn many(dice: &mut Dice, count: usize, spread: f64, make: impl Fn(&mut Dice) -> Solid) -> Scene {
+fn scene_of_many(dice: &mut Dice, count: usize, spread: f64, make: impl Fn(&mut Dice) -> Solid) -> Scene {
     let mut solids = Vec::new();
     for _ in 0..count {
         let solid = make(dice);
-        solids.push(placed(solid, spread, dice));
+        solids.push(randomly_placed(solid, spread, dice));
     }
     scene(solids)
 }
 
 /// The solid with a random rotation and translation.
-pub fn placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
+pub fn randomly_placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
     let (turn, place) = (dice.turn(), dice.point(spread));
     solid.moved(|p| turn * p + place)
 }
 
-fn a_box(dice: &mut Dice) -> Solid {
+fn random_box(dice: &mut Dice) -> Solid {
     let mut side = || dice.between(0.1, 0.5);
     let half = DVec3::new(side(), side(), side());
     cuboid(-half, half)
 }
 
-fn a_tetrahedron(dice: &mut Dice) -> Solid {
+fn random_tetrahedron(dice: &mut Dice) -> Solid {
     let positions = (0..4).map(|_| dice.point(0.6)).collect();
     Solid { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] }
 }
 
-fn a_torus(dice: &mut Dice) -> Solid {
+fn random_torus(dice: &mut Dice) -> Solid {
     let radius = dice.between(0.4, 0.7);
     torus(20, 10, radius, dice.between(0.15, 0.6) * radius)
 }
 
-fn soup(dice: &mut Dice, count: u32) -> Solid {
+fn triangle_soup(dice: &mut Dice, count: u32) -> Solid {
     let mut solid = Solid::default();
     for i in 0..count {
         let middle = dice.point(0.9);

@@ -4,15 +4,15 @@ use super::random_dice::Dice;
 
 /// An SVG element: its name and its attributes.
 #[derive(Clone)]
-pub struct Mark {
+pub struct SvgElement {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
 }
 
 /// A drawing of 160 × 120 px.
 #[derive(Clone)]
-pub struct Scene {
-    marks: Vec<Mark>,
+pub struct SvgScene {
+    marks: Vec<SvgElement>,
     /// Numbers in the definitions: a gradient's end, a pattern's width, a blur radius, a clip path's side, a
     /// mask's radius.
     numbers: [f64; 5],
@@ -27,7 +27,7 @@ const COLOURS: [[&str; 4]; 5] = [
     ["#808080", "grey", "gray", "rgb(128,128,128)"],
 ];
 
-impl Mark {
+impl SvgElement {
     fn get(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(n, _)| *n == name).map(|(_, value)| value.as_str())
     }
@@ -47,12 +47,12 @@ impl Mark {
     }
 }
 
-fn round(value: f64) -> f64 {
+fn round_to_tenth(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-fn random_mark(dice: &mut Dice) -> Mark {
-    let mut at = |low: f64, high: f64| round(dice.between(low, high)).to_string();
+fn random_mark(dice: &mut Dice) -> SvgElement {
+    let mut at = |low: f64, high: f64| round_to_tenth(dice.between(low, high)).to_string();
     let (name, attributes) = match at(0.0, 0.3).as_str() {
         "0" => (
             "rect",
@@ -97,13 +97,13 @@ fn random_mark(dice: &mut Dice) -> Mark {
             )],
         ),
     };
-    let mut mark = Mark { name, attributes };
+    let mut mark = SvgElement { name, attributes };
     let colour = COLOURS[dice.below(5)][0];
     let paint = ["url(#g)", "url(#p)", colour, colour, colour][dice.below(5)];
     mark.set("fill", if name == "path" { "none" } else { paint }.to_owned());
     if name == "path" || dice.below(3) == 0 {
         mark.set("stroke", COLOURS[dice.below(5)][0].to_owned());
-        mark.set("stroke-width", round(dice.between(1.0, 7.0)).to_string());
+        mark.set("stroke-width", round_to_tenth(dice.between(1.0, 7.0)).to_string());
         match dice.below(4) {
             0 => mark.set("stroke-dasharray", "9 4".to_owned()),
             1 => mark.set("stroke-linecap", "round".to_owned()),
@@ -121,10 +121,10 @@ fn random_mark(dice: &mut Dice) -> Mark {
     mark
 }
 
-impl Scene {
+impl SvgScene {
     pub fn random(dice: &mut Dice) -> Self {
         let marks = (0..2 + dice.below(4)).map(|_| random_mark(dice)).collect();
-        let mut between = |low, high| round(dice.between(low, high));
+        let mut between = |low, high| round_to_tenth(dice.between(low, high));
         let numbers = [
             between(0.5, 1.0),
             between(7.0, 12.0),
@@ -148,11 +148,11 @@ impl Scene {
     }
 
     pub fn svg(&self) -> String {
-        page(&self.definitions(), &self.marks.iter().map(Mark::svg).collect::<Vec<_>>())
+        svg_page(&self.definitions(), &self.marks.iter().map(SvgElement::svg).collect::<Vec<_>>())
     }
 }
 
-fn page(definitions: &str, marks: &[String]) -> String {
+fn svg_page(definitions: &str, marks: &[String]) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"160\" height=\"120\">\n{definitions}{}\n</svg>\n",
         marks.join("\n")
@@ -160,10 +160,10 @@ fn page(definitions: &str, marks: &[String]) -> String {
 }
 
 /// Two SVG texts that show the same picture, and the name of the rewriting.
-pub fn same_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static str) {
+pub fn equal_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut definitions = scene.definitions();
-    let mut marks: Vec<String> = scene.marks.iter().map(Mark::svg).collect();
+    let mut marks: Vec<String> = scene.marks.iter().map(SvgElement::svg).collect();
     let at = dice.below(marks.len());
     let mark = &scene.marks[at];
     let way = match dice.below(11) {
@@ -260,18 +260,22 @@ pub fn same_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static st
             let cover =
                 format!("<rect x=\"-50\" y=\"-50\" width=\"{side}\" height=\"{side}\" fill=\"#eeeeee\"/>");
             let hidden = marks.remove(at);
-            let mut before = scene.marks.iter().map(Mark::svg).collect::<Vec<_>>();
+            let mut before = scene.marks.iter().map(SvgElement::svg).collect::<Vec<_>>();
             before.push(cover.clone());
             drop(hidden);
             marks.push(cover);
-            return (page(&definitions, &before), page(&definitions, &marks), "a mark behind another");
+            return (
+                svg_page(&definitions, &before),
+                svg_page(&definitions, &marks),
+                "a mark behind another",
+            );
         }
     };
-    (before, page(&definitions, &marks), way)
+    (before, svg_page(&definitions, &marks), way)
 }
 
 /// A drawing, the drawing with one property changed, and the name of the change.
-pub fn seen_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static str) {
+pub fn changed_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut scene = scene.clone();
     let at = dice.below(scene.marks.len());
@@ -310,7 +314,7 @@ pub fn seen_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static st
         }
         _ => {
             let number = &mut scene.numbers[dice.below(5)];
-            *number = round(*number * factor);
+            *number = round_to_tenth(*number * factor);
             "a number of a definition"
         }
     };
