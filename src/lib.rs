@@ -17,9 +17,9 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! The pipeline is one function, [`render()`]: a [`scene::SvgScene`] is flattened to one
-//! welded [`mesh::Mesh`]; a [`view::ViewRequest`] projects it; [`lines`] finds the feature lines; the
-//! [`viewmap::ViewMap`] decides what is visible; [`chains`] links the pieces to long chains;
+//! The pipeline is one function, [`render()`]: a [`scene::Scene`] is flattened to one
+//! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
+//! [`visibility::ViewMap`] decides what is visible; [`chains`] links the pieces to long chains;
 //! [`strokes`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
 //! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`light`] lights them, their
 //! tone borders join the lines, and [`regions`] gathers what lies between those that are seen; [`hatching`] shades
@@ -38,6 +38,8 @@
 //! - No async.
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::unwrap_used)]
+// Heads of modules list their files, of which many are private.
+#![allow(rustdoc::private_intra_doc_links)]
 
 pub mod animate;
 pub mod animation;

@@ -21,7 +21,7 @@ const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 /// camera that moves round the model.
 ///
 /// # Errors
-/// As [`Rigged::posed_model`].
+/// As [`Rigged::posed`].
 pub fn film_points(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<DVec3>, Error> {
     let directions = directions();
     let still = poses.iter().any(|(playing, _)| playing.is_empty());

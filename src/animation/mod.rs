@@ -49,7 +49,7 @@ use rig::{NodeAttachment, NodePoses};
 #[derive(Debug, Clone, Default)]
 pub struct Rigged {
     /// The scene in the stored pose. It also contains parts and lights that are hidden in that pose and that
-    /// a clip shows at some time; [`Rigged::posed_model`] drops these while they are hidden.
+    /// a clip shows at some time; [`Rigged::posed`] drops these while they are hidden.
     ///
     /// The rig refers to parts, geometries, cameras and lights by index. Remove parts from the result of
     /// `posed`, not from this scene.
@@ -129,10 +129,10 @@ impl Rigged {
         scene.lights.retain(|_| nodes.next().is_none_or(shown));
     }
 
-    /// The cameras of the scene while clips play; cheaper than [`Rigged::posed_model`].
+    /// The cameras of the scene while clips play; cheaper than [`Rigged::posed`].
     ///
     /// # Errors
-    /// As [`Rigged::posed_model`].
+    /// As [`Rigged::posed`].
     pub fn cameras(&self, playing: &[Playing]) -> Result<Vec<NamedCamera>, Error> {
         self.check(playing)?;
         if playing.is_empty() {

@@ -33,7 +33,7 @@ const MAX_WALLS_PER_AXIS: usize = 1024;
 /// Shift of the cells, so that no plane of symmetry lies between two of them.
 const CELL_SHIFT: f64 = 0.372_915;
 
-/// Cells along the diagonal of a part for [`Chain::location_cells`]: for contours, and for all other lines.
+/// Cells along the diagonal of a part for [`Chain::places`]: for contours, and for all other lines.
 const LOCATION_CELLS_PER_DIAGONAL: [f64; 2] = [32.0, 96.0];
 
 /// Assigns an identity and a list of cells to all chains with known anchors. `parts` holds one number per

@@ -40,7 +40,7 @@ use crate::drawing::{Length, Unit};
 /// Stack size for the renderer's recursion over nested elements.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Compares two pictures; see [`super::compare_cameras`].
+/// Compares two pictures; see [`super::compare`].
 pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
     let mut diff = Diff {
         findings: Vec::new(),

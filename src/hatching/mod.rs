@@ -5,11 +5,11 @@
 //! 1. Each bin of light needs a share of the paper ([`tone`]), which crossing layers divide
 //!    ([`layer_shares`]).
 //! 2. A layer of lines lays strokes along ranked guides, so darker tones keep the strokes of lighter ones
-//!    ([`guides`]). A layer of dots places half-tone or stipple dots ([`dots`]).
+//!    ([`guides`]). A layer of dots places half-tone or stipple dots ([`dots`](mod@dots)).
 //! 3. Both are clipped to the cells that they shade ([`clip`]) and become marks ([`lines`]).
 //!
 //! Files, in reading order: [`options`]; [`context`] names and colours; [`tone`]; [`layer_shares`];
-//! [`guides`]; [`clip`]; [`lines`]; [`dots`]; [`patterns`] over tones; [`paper`] sheet and grain.
+//! [`guides`]; [`clip`]; [`lines`]; [`dots`](mod@dots); [`patterns`] over tones; [`paper`](mod@paper) sheet and grain.
 
 pub mod clip;
 mod context;

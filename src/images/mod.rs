@@ -7,7 +7,7 @@
 //! 4. The shown part of the image is resampled to the size it has on the page.
 //!
 //! The clip path of the mark limits the result to the visible part of the surface.
-//! Files, in reading order: [`visible_facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
+//! Files, in reading order: [`facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
 //! [`tone_veils`] transparent layers that give an image its shading.
 
 mod clusters;

@@ -103,7 +103,7 @@ pub(crate) fn segment(
 /// surface is on their left, seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContourCurve {
-    /// Its segments in [`FeatureLines::chain_segments`].
+    /// Its segments in [`FeatureLines::segments`].
     pub segments: Range<u32>,
     /// Whether it is closed.
     pub closed: bool,

@@ -49,7 +49,7 @@ impl Surface {
         Self::with_patches(mesh, options).0
     }
 
-    /// The surface of a mesh, and its patches if any are round. [`Surface::posed_model`] needs them for moving
+    /// The surface of a mesh, and its patches if any are round. [`Surface::posed`] needs them for moving
     /// meshes.
     #[must_use]
     pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {

@@ -152,7 +152,7 @@ impl<'a> Cursor<'a> {
         self.number_with_exponent(start, negative, mantissa, whole + fraction, fraction)
     }
 
-    /// Rest of [`Cursor::assign_kinds`]: exponents, long mantissas and words.
+    /// Rest of [`Cursor::number`]: exponents, long mantissas and words.
     fn number_with_exponent(
         &mut self,
         start: usize,

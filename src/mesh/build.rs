@@ -32,7 +32,7 @@ impl Mesh {
     /// - Open edges that lie along each other are sewn (see `seams`).
     /// - Faces wound inward or against their neighbours are turned (see `orientation`).
     ///
-    /// [`Mesh::cleaning`] and [`Mesh::turn_camera`] count the changes. The result does not depend on the numbering
+    /// [`Mesh::cleaning`] and [`Mesh::turned`] count the changes. The result does not depend on the numbering
     /// of vertices, the order of faces, or the first corner of a face. Only parts and materials keep their
     /// order.
     #[must_use]

@@ -73,7 +73,7 @@ pub struct Mesh {
     /// Part of each face.
     pub face_part: Vec<PartId>,
     /// For each part, the first part of its body: parts whose surfaces continue in each other. Empty if every
-    /// part is a separate body. See [`Mesh::without_title`].
+    /// part is a separate body. See [`Mesh::body`].
     pub bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,

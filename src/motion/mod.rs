@@ -43,11 +43,11 @@ pub use options::{FadeBy, LineChange, MotionOptions, Speed, TrailPath};
 /// Points of a trail per segment. Long segments of bent trails are therefore drawn as curves.
 pub const POINTS_PER_SEGMENT: usize = 4;
 
-/// The scene while clips play, as [`Rigged::posed_model`] gives it. If the options enable motion lines, it includes
+/// The scene while clips play, as [`Rigged::posed`] gives it. If the options enable motion lines, it includes
 /// the bodies that may leave them. `seed` selects the vertices where lines start.
 ///
 /// # Errors
-/// As [`Rigged::posed_model`].
+/// As [`Rigged::posed`].
 pub fn posed(
     rigged: &Rigged,
     playing: &[Playing],

@@ -8,7 +8,7 @@
 //! 6. Regions are painted (`paint`), or give hatching its areas (`hatch_regions`, `lattice`,
 //!    `surface_curves`).
 //!
-//! Files, in reading order: [`options`]; [`arrangement`]; [`cells`]; [`labels`]; [`paint`];
+//! Files, in reading order: [`options`]; [`arrangement`]; [`cells`]; [`labels`]; [`paint`](mod@paint);
 //! [`hatch_regions`]; [`lattice`]; [`surface_curves`].
 
 mod arrangement;

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// A body that moves as one (a part, or the vertices of a skin's joint) and may leave motion lines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mover {
-    /// Index of its part in [`super::SvgScene::split_by_ink`].
+    /// Index of its part in [`super::Scene::parts`].
     pub part: usize,
     /// Material at the start of its first line.
     pub material: Option<u32>,

@@ -16,7 +16,7 @@ pub struct Geometry {
     /// Vertices of each triangle, counter-clockwise from outside; each below `positions.len()`. Polygons are
     /// already triangulated.
     pub triangles: Vec<[u32; 3]>,
-    /// Material of each triangle, an index into [`super::SvgScene::materials`]. If empty, `material` applies.
+    /// Material of each triangle, an index into [`super::Scene::materials`]. If empty, `material` applies.
     pub triangle_material: Vec<u32>,
     /// Material of the wires, and of all triangles if `triangle_material` is empty.
     pub material: Option<u32>,
@@ -112,7 +112,7 @@ pub struct Part {
     /// Name of the glTF node, OBJ object or group. Unnamed parts get the name of the mesh or `part N`. Not
     /// necessarily unique.
     pub name: String,
-    /// Index into [`super::SvgScene::geometries`].
+    /// Index into [`super::Scene::geometries`].
     pub geometry: usize,
     /// Transform from local to world space. A negative determinant reverses the winding.
     pub world_from_part: DAffine3,

@@ -13,7 +13,7 @@ const NO_INDEX: u32 = u32::MAX;
 impl Scene {
     /// All triangles and wires in world space.
     ///
-    /// Part ids index [`Scene::split_by_ink`]; material ids index [`Scene::materials`], and elements without a
+    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and elements without a
     /// material get the id after the last. Mirrored parts have their winding reversed. Parts whose transform
     /// is singular or not finite are left out.
     #[must_use]

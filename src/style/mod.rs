@@ -156,7 +156,7 @@ impl Style {
     /// same style. Paths in it are relative to the working folder.
     ///
     /// # Errors
-    /// The same as those of [`Style::load_style`].
+    /// The same as those of [`Style::load`].
     pub fn full_sheet(name_or_path: &str) -> Result<String, Error> {
         Ok(keys::full_sheet::full_sheet(name_or_path, &sheet_loader::all_keys(name_or_path)?))
     }

@@ -31,7 +31,7 @@ struct SheetSource {
     text: String,
 }
 
-/// Loads a style, see [`Style::load_style`].
+/// Loads a style, see [`Style::load`].
 pub(crate) fn load_style(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
     merged_style(find(name_or_path, None)?, sets)
 }

@@ -9,7 +9,7 @@
 //! 6. `cylinders` recovers cylinders from flat strips.
 //!
 //! Folders, in reading order: [`creases`], [`patches`], [`normals`], [`curvature`], [`refine`],
-//! [`cylinders`].
+//! [`cylinders`](mod@cylinders).
 
 pub mod creases;
 pub mod curvature;

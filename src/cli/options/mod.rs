@@ -3,12 +3,12 @@
 //! Doc comments of the arguments are the help text of the program.
 //!
 //! Files, in reading order:
-//! - [`draw_args`]: all options of `ligne draw`, and `HowArgs`, which other commands flatten.
+//! - [`draw_args`] holds all options of `ligne draw`, and `HowArgs`, which other commands flatten.
 //! - [`framing_args`] and [`section_args`]: view.
-//! - [`step_args`]: STEP files.
+//! - [`step_args`] holds STEP files.
 //! - [`dxf_args`], `print_args` and [`web_args`]: output.
-//! - [`batch_args`]: several models.
-//! - [`contact_sheet_args`]: sheets.
+//! - [`batch_args`] holds several models.
+//! - [`contact_sheet_args`] holds sheets.
 //!
 //! [`values`] holds value types, and [`style_keys`] the keys after `--set`.
 

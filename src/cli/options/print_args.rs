@@ -121,7 +121,7 @@ impl PrintArgs {
     /// Options of the PDF exporter, if an output is a PDF.
     ///
     /// # Errors
-    /// Returns an error as [`PrintArgs::contour_options`] does, and if PDF options are given without a PDF output.
+    /// Returns an error as [`PrintArgs::options`] does, and if PDF options are given without a PDF output.
     pub(crate) fn of_outputs(
         &self,
         ink: Option<&str>,

@@ -61,7 +61,7 @@ pub(crate) struct SelectorPart<'a> {
 pub(crate) struct CssRule {
     /// Specificity: numbers of ids, of classes and attributes, and of element names.
     pub weight: [u32; 3],
-    /// Index of the declarations in [`CssSheet::fenced_blocks`].
+    /// Index of the declarations in [`CssSheet::blocks`].
     pub block: usize,
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct EmbeddedPictures<'a> {
     pub list: Vec<&'a Picture>,
     /// Number of a picture, by its address.
     numbers: FxHashMap<usize, usize>,
-    /// Ink of each picture shown through a mask; see [`EmbeddedPictures::ink_length`].
+    /// Ink of each picture shown through a mask; see [`EmbeddedPictures::ink`].
     pub inks: Vec<Option<Colour>>,
 }
 

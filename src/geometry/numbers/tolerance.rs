@@ -1,7 +1,7 @@
 //! Every epsilon of the crate, each as a fraction of a named length or angle.
 //!
 //! `part` is the diagonal of the bounding box of the part in question, or of the larger part where two meet
-//! (see [`Extent::scale`](crate::mesh::Extent::scale)). A 3 mm gear and a cathedral are therefore treated
+//! (see `mesh::part_metrics`). A 3 mm gear and a cathedral are therefore treated
 //! alike, and other parts of the model have no influence. Lengths in px of things in space are measured at
 //! their depth.
 

@@ -248,7 +248,7 @@ impl Lighting {
         self.lit(shadowed).map(of).sum()
     }
 
-    /// Bounds of the diffuse light of the selected lights; see [`crate::interpolated_light::Shading::range`].
+    /// Bounds of the diffuse light of the selected lights; see [`crate::light::Shading::range`].
     pub(crate) fn diffuse_range(
         &self,
         of: LampFilter,
@@ -270,7 +270,7 @@ impl Lighting {
         (low * (1.0 - self.occlusion.clamp(0.0, 1.0)), high)
     }
 
-    /// Bounds of the highlight; see [`crate::interpolated_light::Shading::range`].
+    /// Bounds of the highlight; see [`crate::light::Shading::range`].
     pub(crate) fn specular_range(
         &self,
         point: &SurfacePoint,

@@ -103,7 +103,7 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
     )
 }
 
-/// Search of all curves of a mesh, to be reused for refined meshes in [`refined_curves`].
+/// Search of all curves of a mesh, to be reused for refined meshes in [`curves_of_finer`].
 #[must_use]
 pub fn search(mesh: &Mesh) -> IntersectionCache {
     let active = active(mesh);

@@ -2,7 +2,7 @@
 //!
 //! On a mesh that approximates a rounded surface, the contour of the polyhedron zigzags along edges. The zero
 //! set of the interpolated n·v crosses the faces as a smooth curve. This curve gives the shape; its
-//! visibility follows from the mesh contour ([`crate::lines::PathRole::Witness`]).
+//! visibility follows from the mesh contour ([`crate::lines::Role::MeshContour`]).
 //!
 //! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, sections 4.1 and
 //! 4.2. Deviation: points lie on arcs over the edges, and not on the edges themselves.

@@ -9,7 +9,7 @@
 //! 3. Minimise the quadratic bending energy (Bergou et al. 2006) by accelerated projected descent (FISTA,
 //!    Beck and Teboulle 2009).
 //!
-//! Files, in reading order: this file (steps 1 and 2), [`hinges`] (the energy), [`least_bending`] (the
+//! Files, in reading order: this file (steps 1 and 2), `hinges` (the energy), `least_bending` (the
 //! descent).
 
 mod hinges;

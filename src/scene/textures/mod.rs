@@ -102,7 +102,7 @@ impl Texture {
         Self { texels: TexelPlane::of(scene, material, &picture), picture, filter: Filter::Smooth }
     }
 
-    /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::texel_coverage`].
+    /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::shown`].
     pub fn unmasked_coverage(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
         texel_coverage::texel_coverage(scene, triangles, &self.texels)
     }

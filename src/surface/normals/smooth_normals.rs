@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 
-/// In [`SmoothNormals::box_corners`]: the face is flat.
+/// In [`SmoothNormals::corners`]: the face is flat.
 pub const NO_NORMAL: u32 = u32::MAX;
 
 /// Normals of the curved surfaces that the faces of a mesh approximate.

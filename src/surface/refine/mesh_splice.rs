@@ -192,7 +192,7 @@ struct SplicedEdges {
     edges: Edges,
     straight: EdgeSet,
     parting: EdgeSet,
-    /// See [`RefinedMesh::directed_edges`].
+    /// See [`RefinedMesh::edges`].
     ids: Vec<u32>,
 }
 

@@ -41,7 +41,7 @@ pub fn refined(
 ///
 /// `want` takes positions and unit normals of the ends of an edge, always in the same order. The edge is
 /// split if the result exceeds 1. Edges are examined only if
-/// - `is_asked` holds for their run of [`RUN`](super::edge_marks::RUN) edges,
+/// - `is_asked` holds for their run of [`EDGES_PER_RUN`](super::edge_marks::EDGES_PER_RUN) edges,
 /// - `is_long`, a fast test, holds for their ends,
 /// - `may` holds for the ends and squared length of a gentle edge.
 ///

@@ -46,7 +46,7 @@ pub struct PdfOptions {
     pub spots: Vec<Spot>,
     /// Largest sum of all inks at one place, in percent. For [`Inks::Cmyk`] only.
     pub ink_limit: Option<f64>,
-    /// ICC profile of the press, or of the screen for [`Inks::PixelGrid`], written as the output intent.
+    /// ICC profile of the press, or of the screen for [`Inks::Screen`], written as the output intent.
     /// [`Inks::Cmyk`] has its own profile.
     pub profile: Option<Arc<[u8]>>,
     /// Largest lightness, as a share of white, that is printed as solid black. It applies to neutral colours,

@@ -1,6 +1,6 @@
 //! [`SheetCanvas`]: collects lines and words of a sheet as marks, in mm.
 //!
-//! All marks are black. Words are single lines set by `crate::path_text`; texts for tables are wrapped and shrunk
+//! All marks are black. Words are single lines set by `crate::text`; texts for tables are wrapped and shrunk
 //! to fit.
 
 use kurbo::{BezPath, Circle, Point, Rect, Shape, Vec2};

@@ -21,7 +21,7 @@ pub struct PartsListItem {
     pub material: String,
     /// Remark; empty unless the list comes from a file.
     pub remark: String,
-    /// Parts of the item, as indices into [`Scene::split_by_ink`].
+    /// Parts of the item, as indices into [`Scene::parts`].
     pub parts: Vec<usize>,
 }
 
