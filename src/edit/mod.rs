@@ -6,3 +6,4 @@
 pub mod explode;
 pub mod section;
 pub mod simplify;
+pub(crate) mod tolerances;

@@ -14,3 +14,4 @@ pub mod lists;
 pub mod names;
 pub mod numbers;
 pub mod plane;
+pub mod tolerances;

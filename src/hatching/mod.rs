@@ -20,6 +20,7 @@ pub mod lines;
 pub mod options;
 pub mod paper;
 pub mod patterns;
+pub(crate) mod tolerances;
 pub mod tone;
 
 use std::sync::Arc;

@@ -10,7 +10,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::geometry::numbers::tolerance;
+use crate::light::tolerances;
 use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, RayStart};
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
@@ -114,7 +114,7 @@ fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
         }
     }
     let lift = |((sum, count), contact): ((f64, u32), f64)| {
-        (tolerance::SKY_PROBE_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
+        (tolerances::SKY_PROBE_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
     };
     let lifts = lengths.into_iter().zip(contacts).map(lift).collect();
     (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lifts)

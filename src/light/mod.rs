@@ -15,6 +15,7 @@ pub mod tones;
 
 #[cfg(test)]
 mod tests;
+pub(crate) mod tolerances;
 
 pub use ambient_occlusion::ambient_visibility;
 pub use contour_field::contour_refinement::cuts_near_contours;

@@ -24,6 +24,7 @@ pub mod paint_borders;
 pub mod prepared_surface;
 mod shared_points;
 pub mod textures;
+pub(crate) mod tolerances;
 pub mod zero_sets;
 
 pub use edges::edge_search::EdgeSearch;

@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::MAX_ROUNDED_STEP_OF_SIZE;
+use crate::mesh::tolerances::MAX_ROUNDED_STEP_OF_SIZE;
 use crate::scene::{Geometry, Scene};
 
 /// Maximum number of positions of a file that are measured, evenly spread.

@@ -26,6 +26,7 @@ mod overlaps;
 pub mod part_metrics;
 mod seams;
 pub mod soup;
+pub(crate) mod tolerances;
 pub mod vertex_sources;
 pub mod weld;
 

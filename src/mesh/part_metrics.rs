@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::{FaceId, Mesh, PartId, Soup};
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
-use crate::geometry::numbers::tolerance;
 use crate::mesh::normals::triangle_area::{has_own_area, scale_of};
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Grid step of the mesh origin, in sizes of the model rounded up to a power of two. A coarse grid keeps the
@@ -260,18 +260,18 @@ impl PartMetrics {
         self.scale = scale_of(self.low, self.high);
         let (low, high) = (self.low + origin, self.high + origin);
         let largest = low.abs().max(high.abs()).max_element();
-        let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
-        self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
+        let written = if single_precision { tolerances::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
+        self.weld = (tolerances::WELD_OF_PART * self.scale).max(written);
         // Placing a part in the world rounds its coordinates again.
-        let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
+        let of_single = if single_precision { crate::geometry::tolerances::F32_STEP * largest } else { 0.0 };
         self.step = step.max(of_single);
         // A visible lattice is the intended shape.
-        let step = if step <= tolerance::MAX_ROUNDED_STEP_OF_SIZE * self.diagonal() { step } else { 0.0 };
-        let rounding =
-            (tolerance::MAX_LATTICE_ROUNDING_STEPS * step).max(tolerance::MAX_F32_ROUNDING_STEPS * of_single);
+        let step = if step <= tolerances::MAX_ROUNDED_STEP_OF_SIZE * self.diagonal() { step } else { 0.0 };
+        let rounding = (tolerances::MAX_LATTICE_ROUNDING_STEPS * step)
+            .max(tolerances::MAX_F32_ROUNDING_STEPS * of_single);
         self.rounding = rounding.min(MAX_CONTACT_OF_PART * self.scale);
         let between = (2.0 * written).max(2.0 * self.rounding).min(MAX_CONTACT_OF_PART * self.scale);
-        self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
+        self.contact = (tolerances::CONTACT_OF_PART * self.scale).max(between);
         self.own = OwnExtent { scale: self.scale, low: self.low, high: self.high };
     }
 }

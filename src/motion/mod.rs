@@ -226,7 +226,7 @@ pub fn no_lines_reason(
 
 /// Least height of a triangle with area, as a share of its longest side. Bodies scaled to zero have flatter
 /// ones, by rounding.
-const MIN_HEIGHT_OF_SIDE: f64 = crate::geometry::numbers::tolerance::DEGENERATE_HEIGHT_OF_PART;
+const MIN_HEIGHT_OF_SIDE: f64 = crate::mesh::tolerances::DEGENERATE_HEIGHT_OF_PART;
 
 /// Whether a body has a size.
 ///

@@ -19,6 +19,7 @@ pub mod lattice;
 pub mod options;
 pub mod paint;
 pub mod surface_curves;
+pub(crate) mod tolerances;
 
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
@@ -33,7 +34,6 @@ pub use paint::tone_ramps::Ramp;
 
 use crate::chains::{self, ChainOptions};
 use crate::drawing::{Length, Unit};
-use crate::geometry::numbers::tolerance;
 use cells::border_arcs::{OUTSIDE_PATCH, RawArc};
 use cells::triangulation::Triangulation;
 use labels::surface_label::NO_LABEL;
@@ -84,7 +84,7 @@ pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions
         StepsAs::Bands => Vec::new(),
         StepsAs::Gradients => {
             let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.looks.len());
-            let tolerance = Length::px(tolerance::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
+            let tolerance = Length::px(tolerances::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
             paint::tone_ramps::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
         }
     };
@@ -187,7 +187,7 @@ fn curve(cut: &Triangulation, arc: &RawArc, drawn: &BorderDrawing) -> BezPath {
         &points,
         &arc.soft,
         arc.closed,
-        tolerance::REGION_SNAP_STEPS * drawn.step,
+        tolerances::REGION_SNAP_STEPS * drawn.step,
         &chain,
         drawn.unit,
     )

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::geometry::numbers::tolerance::F32_STEP;
+use crate::geometry::tolerances::F32_STEP;
 use crate::mesh::EdgeMark;
 use crate::mesh::normals::triangle_area::has_own_area;
 

@@ -1,7 +1,7 @@
 //! Facing, averted and edge-on faces, decided once for all faces of a plane.
 //!
 //! 1. A face is edge-on if the sine of the angle between its plane and the line of sight is below
-//!    [`EDGE_ON_SINE`](tolerance::EDGE_ON_SINE). No part of it can be seen.
+//!    [`EDGE_ON_SINE`](tolerances::EDGE_ON_SINE). No part of it can be seen.
 //! 2. Rounding turns a face by up to the rounding error divided by the face's height. Where the angle is
 //!    smaller than that, the face is *unsure*.
 //! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::normals::normal_carriers)) are decided together. They
@@ -16,10 +16,10 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::Frame;
-use crate::geometry::numbers::tolerance;
 use crate::mesh::normals::normal_carriers::CoplanarSearch;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::view::tolerances;
 
 /// Largest sine of the angle of an unsure face. Narrower faces, which rounding may turn by more, have a
 /// carrier in the mesh, or none.
@@ -105,6 +105,6 @@ fn is_unsure(frame: &Frame, &[a, b, c]: &[DVec3; 3], rounding: f64) -> bool {
         return false;
     }
     let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
-    let least = tolerance::EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
+    let least = tolerances::EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
     away * away <= least * least * far
 }

@@ -15,6 +15,7 @@ pub mod clipping;
 mod edge_on_faces;
 pub mod frame;
 pub mod raster;
+pub mod tolerances;
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -22,7 +23,6 @@ use glam::DVec3;
 pub use clipping::ClippedFace;
 pub use frame::Frame;
 
-use crate::geometry::numbers::tolerance;
 use crate::mesh::Mesh;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::Camera;
@@ -50,7 +50,7 @@ impl View {
     pub fn new(mesh: &Mesh, camera: &Camera) -> Self {
         let mut frame = Frame::new(camera, mesh.origin);
         if frame.near.is_none() && frame.perspective {
-            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::CLIP_PLANE_OF_TARGET);
+            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerances::CLIP_PLANE_OF_TARGET);
         }
         let points = || {
             mesh.positions

@@ -22,6 +22,7 @@ pub mod projection;
 pub mod queries;
 pub mod sweep;
 pub mod tiles;
+pub mod tolerances;
 pub mod view_tolerances;
 
 pub use assembly::map_builder::{build, build_through, build_with};

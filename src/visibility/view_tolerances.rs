@@ -1,8 +1,8 @@
 //! [`ViewTolerances`]: the tolerances of one view, in its units.
 
-use crate::geometry::numbers::tolerance;
 use crate::mesh::PartMetrics;
 use crate::view::Frame;
+use crate::visibility::tolerances;
 
 /// Tolerances of one view, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,13 +32,13 @@ impl ViewTolerances {
     pub fn new(frame: &Frame) -> Self {
         let px = frame.px();
         Self {
-            cover: tolerance::TRIANGLE_BORDER_PX * px,
-            height: tolerance::MIN_IMAGE_HEIGHT_PX * px,
-            contact: tolerance::CONTACT_PX * px,
-            neighbour: tolerance::NEIGHBOUR_PX * px,
-            piece: tolerance::MIN_VISIBILITY_SPAN_PX * px,
-            beside: tolerance::BACKGROUND_PROBE_PX * px,
-            double: tolerance::DUPLICATE_LINE_PX * px,
+            cover: crate::geometry::tolerances::TRIANGLE_BORDER_PX * px,
+            height: tolerances::MIN_IMAGE_HEIGHT_PX * px,
+            contact: tolerances::CONTACT_PX * px,
+            neighbour: tolerances::NEIGHBOUR_PX * px,
+            piece: tolerances::MIN_VISIBILITY_SPAN_PX * px,
+            beside: tolerances::BACKGROUND_PROBE_PX * px,
+            double: tolerances::DUPLICATE_LINE_PX * px,
             px,
         }
     }
@@ -71,8 +71,8 @@ impl FaceTolerances {
     pub fn of(extent: &PartMetrics) -> Self {
         Self {
             contact: extent.contact,
-            neighbour: tolerance::NEIGHBOUR_OF_PART * extent.scale,
-            in_plane: (2.0 * extent.rounding).max(tolerance::NEIGHBOUR_OF_PART * extent.scale),
+            neighbour: tolerances::NEIGHBOUR_OF_PART * extent.scale,
+            in_plane: (2.0 * extent.rounding).max(tolerances::NEIGHBOUR_OF_PART * extent.scale),
         }
     }
 }

@@ -6,9 +6,7 @@ use rustc_hash::FxHashMap;
 
 use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
-use crate::geometry::numbers::tolerance::{
-    FLATTENING_OF_TOLERANCE, MAX_JOIN_GAP_OF_TOLERANCE, MIN_FLATTENING_OF_CURVE,
-};
+use crate::diff::tolerances::{FLATTENING_OF_TOLERANCE, MAX_JOIN_GAP_OF_TOLERANCE, MIN_FLATTENING_OF_CURVE};
 
 /// A polyline in px, independent of how it was written: an open one starts at its lesser end, a closed one at
 /// its least point.

@@ -5,7 +5,7 @@ use kurbo::Point;
 use super::chain::Chain;
 use super::segment::nearest_on;
 use super::segment_grid::SegmentGrid;
-use crate::geometry::numbers::tolerance::MAX_DISTANCE_ERROR_SHARE;
+use crate::diff::tolerances::MAX_DISTANCE_ERROR_SHARE;
 
 /// Polylines with more points are searched with a grid.
 const MAX_UNINDEXED_POINTS: usize = 48;

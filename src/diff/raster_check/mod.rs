@@ -31,7 +31,7 @@ use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::Picture;
 pub(crate) use crate::diff::shapes::render_tree::RenderTree;
-use crate::geometry::numbers::tolerance::{MAX_PICTURE_MATCH_PX, MIN_PICTURE_DIFFERENCE_PX};
+use crate::diff::tolerances::{MAX_PICTURE_MATCH_PX, MIN_PICTURE_DIFFERENCE_PX};
 
 /// Most pixels rasterised in close inspection, for each of its two uses.
 const MAX_CLOSE_PIXELS: usize = 64_000_000;

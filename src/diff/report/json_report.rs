@@ -6,7 +6,7 @@ use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, S
 use crate::diff::findings::ink_totals::Totals;
 use crate::diff::findings::pixel_count::PixelDiff;
 use crate::diff::shapes::picture::ShapeKind;
-use crate::geometry::numbers::tolerance::MAX_DISTANCE_ERROR_SHARE;
+use crate::diff::tolerances::MAX_DISTANCE_ERROR_SHARE;
 
 /// The JSON document. Lengths in px, areas in square px.
 #[derive(Serialize)]

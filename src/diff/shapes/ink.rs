@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::placeholder::{Details, LINKED_PICTURE_PREFIX};
 use crate::colour::srgb::Colour;
+use crate::diff::tolerances::{MAX_DASH_DIFFERENCE_PX, MAX_WIDTH_DIFFERENCE_PX};
 use crate::drawing::{Cap, Join};
-use crate::geometry::numbers::tolerance::{MAX_DASH_DIFFERENCE_PX, MAX_WIDTH_DIFFERENCE_PX};
 
 /// Paint of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -8,9 +8,9 @@ use serde::{Deserialize, Deserializer};
 
 use super::label::Label;
 use super::picture::{Picture, ShapeKind};
+use crate::diff::tolerances::{MAX_DIFF_STEP_PX, SVG_PRECISION_OF_PAGE};
 use crate::drawing::{Length, Unit};
 use crate::error::Error;
-use crate::geometry::numbers::tolerance::{MAX_DIFF_STEP_PX, SVG_PRECISION_OF_PAGE};
 
 /// Tolerances for all marks, and for some marks by name.
 ///

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::geometry::numbers::tolerance;
+use crate::edit::tolerances;
 use crate::scene::Geometry;
 
 /// Distances within which points of a shape coincide, world units.
@@ -32,15 +32,15 @@ impl CutTolerances {
         }
         let (size, largest) = (low.distance(high), low.abs().max(high.abs()).max_element());
         let of_coordinate = if geometry.single_precision {
-            tolerance::WELD_OF_F32_COORDINATE
+            crate::mesh::tolerances::WELD_OF_F32_COORDINATE
         } else {
-            tolerance::F64_ROUNDING_OF_COORDINATE
+            tolerances::F64_ROUNDING_OF_COORDINATE
         };
-        let points = (size * tolerance::WELD_OF_PART).max(largest * of_coordinate);
+        let points = (size * crate::mesh::tolerances::WELD_OF_PART).max(largest * of_coordinate);
         Self {
             points,
-            plane: points.max(size * tolerance::CONTACT_OF_PART),
-            gap: points.max(size * tolerance::MAX_SEAM_GAP_OF_PART),
+            plane: points.max(size * crate::mesh::tolerances::CONTACT_OF_PART),
+            gap: points.max(size * crate::mesh::tolerances::MAX_SEAM_GAP_OF_PART),
         }
     }
 }

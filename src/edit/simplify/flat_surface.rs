@@ -9,9 +9,9 @@ use super::collapse_record::{NO_INDEX, Wedge};
 use super::point_weld::{Weld, join_near_points};
 use crate::geometry::numbers::noise::hash;
 use crate::geometry::numbers::portable_math::cbrt;
-use crate::geometry::numbers::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::mesh::EdgeMark;
 use crate::mesh::order::morton_curve::{CELLS_PER_HALF_AXIS, along_curve};
+use crate::mesh::tolerances::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Geometry, Material, Scene};
 

@@ -13,7 +13,7 @@ use super::xml::UniqueIds;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, ImagePaint, ImagePiece, Mark, Paint, PieceContent};
-use crate::geometry::numbers::tolerance::TRIANGLE_BORDER_PX;
+use crate::geometry::tolerances::TRIANGLE_BORDER_PX;
 
 /// Decimals of the linear part of a transform.
 const TURN_DECIMALS: u8 = 6;

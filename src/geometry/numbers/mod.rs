@@ -9,4 +9,3 @@ pub mod linear_solver;
 pub mod noise;
 pub mod portable_math;
 pub mod powers_of_two;
-pub mod tolerance;

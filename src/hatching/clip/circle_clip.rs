@@ -13,7 +13,7 @@ use kurbo::{BezPath, Point, Vec2};
 
 use super::disc::Disc;
 use crate::geometry::numbers::portable_math::atan2;
-use crate::geometry::numbers::tolerance;
+use crate::hatching::tolerances;
 
 /// Result of clipping a disc to a domain.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl Disc {
     /// centre is in the domain. `px` is the length of a px in user units.
     pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> ClippedDisc {
         for attempt in 0..MAX_ATTEMPTS {
-            let radius = self.radius * (1.0 - f64::from(attempt) * tolerance::DOT_SHRINK_OF_RADIUS);
+            let radius = self.radius * (1.0 - f64::from(attempt) * tolerances::DOT_SHRINK_OF_RADIUS);
             let disc = Self { radius, ..self };
             if let Some(cut) = DiscTracer::new(disc, border).and_then(|mut tracer| tracer.cut(inside, px)) {
                 return cut;
@@ -154,7 +154,7 @@ impl DiscTracer {
                 self.disc.draw(&mut path, px);
             }
         }
-        let crumb = tolerance::MIN_DOT_PIECE_PX * px;
+        let crumb = tolerances::MIN_DOT_PIECE_PX * px;
         let area = area2 / 2.0;
         Some(if area < crumb * crumb { ClippedDisc::Nothing } else { ClippedDisc::Part(path, area) })
     }
@@ -165,7 +165,7 @@ impl DiscTracer {
         loop {
             let (points, last) = self.chain(self.gates[gate].step)?;
             area2 += points.windows(2).map(|pair| pair[0].cross(pair[1])).sum::<f64>();
-            let thin = thinned(&points, tolerance::MAX_DOT_OUTLINE_ERROR_PX * px);
+            let thin = thinned(&points, tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
             for (k, point) in thin.iter().enumerate() {
                 match (gate == first, k) {
                     (true, 0) => path.move_to(self.disc.centre + *point),
@@ -222,9 +222,9 @@ impl DiscTracer {
         else {
             return;
         };
-        let mut thin = thinned(&points[..=middle], tolerance::MAX_DOT_OUTLINE_ERROR_PX * px);
+        let mut thin = thinned(&points[..=middle], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
         thin.pop();
-        thin.extend(thinned(&points[middle..], tolerance::MAX_DOT_OUTLINE_ERROR_PX * px));
+        thin.extend(thinned(&points[middle..], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px));
         thin.pop();
         for (k, point) in thin.iter().enumerate() {
             let point = self.disc.centre + *point;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use kurbo::{BezPath, Point, Vec2};
 
 use crate::geometry::numbers::portable_math::{cos, sin, tan};
-use crate::geometry::numbers::tolerance;
+use crate::hatching::tolerances;
 
 /// Dot in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ impl Disc {
     /// Adds an arc to a path whose current point is the start of the arc. It starts at angle `from` and ends
     /// at `end`, relative to the centre.
     pub fn arc(self, path: &mut BezPath, from: f64, sweep: f64, end: Vec2, px: f64) {
-        let near = |n: &f64| self.radius * off_circle(*n) < tolerance::MAX_DOT_OUTLINE_ERROR_PX * px;
+        let near = |n: &f64| self.radius * off_circle(*n) < tolerances::MAX_DOT_OUTLINE_ERROR_PX * px;
         let a_turn = [3.0, 4.0, 6.0].into_iter().find(near).unwrap_or(8.0);
         let count = (sweep / TAU * a_turn - 1e-9).ceil().max(1.0);
         let step = sweep / count;

@@ -12,10 +12,10 @@ use kurbo::{BezPath, Point};
 
 use super::lattice_scan::{Lattice, LatticeScan};
 use crate::geometry::numbers::portable_math::acos;
-use crate::geometry::numbers::tolerance;
 use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
 use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border, nearest};
+use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
@@ -68,7 +68,7 @@ pub fn dots(
     let pitch = screen.pitch.max((area / MAX_DOTS).sqrt());
     let grid = Lattice::new(screen.origin, screen.angle, pitch);
     let scan = LatticeScan::new(ground, &grid);
-    let least = tolerance::MAX_DOT_OUTLINE_ERROR_PX * screen.px / pitch;
+    let least = tolerances::MAX_DOT_OUTLINE_ERROR_PX * screen.px / pitch;
     let size = DotSizes { coverage, least };
 
     // The size at each lattice point in its own cell, row by row.

@@ -8,7 +8,7 @@ use kurbo::{Point, Vec2};
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::geometry::numbers::tolerance;
+use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
@@ -118,7 +118,7 @@ fn order(row: &mut [RowCrossing]) {
     let mut cell = PAPER;
     for k in 0..row.len() {
         if row[k].before != cell {
-            let near = |c: &RowCrossing| c.x - row[k].x < tolerance::CROSSING_MERGE_OF_STEP;
+            let near = |c: &RowCrossing| c.x - row[k].x < tolerances::CROSSING_MERGE_OF_STEP;
             let fits = row[k..].iter().take_while(|c| near(c)).position(|c| c.before == cell);
             if let Some(ahead) = fits {
                 row[k..=k + ahead].rotate_right(1);

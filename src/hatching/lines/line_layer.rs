@@ -9,11 +9,11 @@ use super::stroke_path::{self, HatchNib};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Join, Length, Mark, OutlinePaint, Paint, StrokePaint};
 use crate::geometry::numbers::noise::hash;
-use crate::geometry::numbers::tolerance::{REGION_GRID_STEPS, REGION_SNAP_STEPS};
 use crate::hatching::guides::stroke_layout::HatchStroke;
 use crate::hatching::layer_shares::fullest;
 use crate::hatching::options::{HatchLayer, HatchOptions};
 use crate::hatching::{HatchContext, LayerStrokes, Tooth, colour, covered_at, provenance, speckle, tone};
+use crate::regions::tolerances::{REGION_GRID_STEPS, REGION_SNAP_STEPS};
 use crate::regions::{HatchRegions, SurfaceLabel};
 
 /// The marks of a layer of lines: one for each facet, pressure step and colour.

@@ -5,9 +5,9 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
 use crate::light::NormalCones;
 use crate::light::contour_field::culling::edge_on_margin::EdgeOnMargin;
+use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::refine::mesh_splice::MeshCuts;
 use crate::surface::refine::subdivision;
@@ -21,7 +21,7 @@ const MAX_FALL_PER_TURN: f64 = 0.55;
 const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + 1e-9);
 
 /// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
-/// [`tolerance::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the
+/// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the
 /// result.
 #[must_use]
 pub fn cuts_near_contours(
@@ -37,7 +37,7 @@ pub fn cuts_near_contours(
         if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
     };
     // Squares instead of quotients, because this runs for every edge of the model.
-    let short = (tolerance::MIN_SPLIT_EDGE_PX * px / frame.scale).powi(2);
+    let short = (tolerances::MIN_SPLIT_EDGE_PX * px / frame.scale).powi(2);
     let is_long = |a: DVec3, b: DVec3| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         depth > 0.0 && a.distance_squared(b) > short * depth * depth
@@ -54,7 +54,7 @@ pub fn cuts_near_contours(
         if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > MAX_FALL_PER_TURN * turn {
             return 0.0;
         }
-        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::MAX_ARC_ERROR_PX
+        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerances::MAX_ARC_ERROR_PX
     };
     let is_asked =
         |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, MAX_FALL_PER_TURN, short));

@@ -17,7 +17,7 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
+use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::{EdgeArc, SmoothNormals};
 
@@ -86,7 +86,7 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
     let point = |(between, level): &LevelCrossing| {
         let [a, b] = between.map(|v| values[v as usize]);
         let t = (levels[usize::from(*level)] - a) / (b - a);
-        let t = t.clamp(tolerance::ZERO_SET_OF_EDGE, 1.0 - tolerance::ZERO_SET_OF_EDGE);
+        let t = t.clamp(tolerances::ZERO_SET_OF_EDGE, 1.0 - tolerances::ZERO_SET_OF_EDGE);
         EdgeArc::over(mesh, smooth, *between).at(t)
     };
     let mut cut = SurfaceCut {

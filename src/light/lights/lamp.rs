@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::colour::srgb::Colour;
 use crate::geometry::numbers::portable_math::{cos, pow};
-use crate::geometry::numbers::tolerance::{MIN_CONE_SOFTNESS_COSINE, MIN_LAMP_DISTANCE_OF_FRAME};
+use crate::light::tolerances::{MIN_CONE_SOFTNESS_COSINE, MIN_LAMP_DISTANCE_OF_FRAME};
 use crate::scene::{Light, LightKind};
 use crate::view::Frame;
 

@@ -6,8 +6,8 @@ use super::tone_ramps::{MAX_TONES, Strip, Table};
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
-use crate::geometry::numbers::tolerance;
 use crate::light::lights::light_options::fraction;
+use crate::light::tolerances;
 use crate::scene::material::Gloss;
 
 /// Tones of the surface of a material, and their colours.
@@ -57,8 +57,8 @@ impl ToneScale {
     #[must_use]
     pub fn for_shades(self, shades: usize) -> Self {
         match self {
-            Self::Steps(steps) if steps > tolerance::MAX_SEPARATE_LEVELS + 2 => {
-                Self::Steps(steps.min((shades + 1).max(tolerance::MAX_SEPARATE_LEVELS + 2)))
+            Self::Steps(steps) if steps > tolerances::MAX_SEPARATE_LEVELS + 2 => {
+                Self::Steps(steps.min((shades + 1).max(tolerances::MAX_SEPARATE_LEVELS + 2)))
             }
             other => other,
         }

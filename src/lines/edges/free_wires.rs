@@ -14,8 +14,8 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
-use crate::geometry::numbers::tolerance::MAX_SEAM_GAP_OF_PART;
 use crate::lines::feature_line::{FeatureSegment, Role};
+use crate::mesh::tolerances::MAX_SEAM_GAP_OF_PART;
 use crate::mesh::{Mesh, Wire};
 
 /// Cosine of the largest turn (45 degrees) between chords of one curve. A larger turn is a corner.

@@ -11,8 +11,9 @@
 //!    truly cross do so at a small angle in some places. A curve ends at a branch, and where it passes over a
 //!    crease onto another surface.
 
-use crate::geometry::numbers::tolerance::{MAX_FACET_DEG, MIN_CONTACT_OF_CURVE};
+use crate::lines::tolerances::MIN_CONTACT_OF_CURVE;
 use crate::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionSegment};
+use crate::mesh::tolerances::MAX_FACET_DEG;
 use crate::mesh::{Dihedral, FaceId, Mesh};
 
 /// The intersection curves of a mesh, without contacts.

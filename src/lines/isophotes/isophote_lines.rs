@@ -12,9 +12,9 @@ use glam::DVec3;
 use super::level_tracer::{FaceExtents, FaceSample, LevelSegment, LevelTracer};
 use super::tone_changes::TraceReason;
 use super::visible_faces::visible_faces_of;
-use crate::geometry::numbers::tolerance;
 use crate::light::{LightSlope, SurfacePoint};
 use crate::lines::feature_line::segment;
+use crate::lines::tolerances;
 use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -99,7 +99,9 @@ impl ShadingTables {
             is_local: channels.clone().map(|channel| lit.shading.is_local(channel)).collect(),
             slope: lit.shading.slope(),
             values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
-            in_sight: if lit.shading.most_levels() > tolerance::MAX_SEPARATE_LEVELS && !sees_through {
+            in_sight: if lit.shading.most_levels() > crate::light::tolerances::MAX_SEPARATE_LEVELS
+                && !sees_through
+            {
                 visible_faces_of(lit.mesh, lit.view)
             } else {
                 Vec::new()
@@ -201,11 +203,11 @@ impl<'a> IsophoteTracer<'a> {
     ) -> LevelTracer<'a> {
         // Hatching strokes end there one by one, so lower accuracy is enough.
         let (near, exact) = if self.lit.shading.bins() == Some(channel) {
-            (tolerance::MAX_BIN_BORDER_ERROR_PX, tolerance::MAX_BIN_BORDER_ERROR_TONE)
+            (tolerances::MAX_BIN_BORDER_ERROR_PX, tolerances::MAX_BIN_BORDER_ERROR_TONE)
         } else if self.lit.is_gradient(channel, levels) {
-            (tolerance::MAX_BIN_BORDER_ERROR_PX, tolerance::MAX_GRADIENT_BORDER_ERROR_TONE)
+            (tolerances::MAX_BIN_BORDER_ERROR_PX, tolerances::MAX_GRADIENT_BORDER_ERROR_TONE)
         } else {
-            (tolerance::MAX_ISOPHOTE_ERROR_PX, tolerance::MAX_ISOPHOTE_ERROR_TONE)
+            (tolerances::MAX_ISOPHOTE_ERROR_PX, tolerances::MAX_ISOPHOTE_ERROR_TONE)
         };
         LevelTracer {
             lit: self.lit,

@@ -8,14 +8,14 @@
 use glam::DVec2;
 
 use super::isophote_lines::page_px;
-use crate::geometry::numbers::tolerance;
 use crate::lines::Lit;
+use crate::lines::tolerances;
 use crate::mesh::PaintId;
 
 impl Lit<'_> {
     /// Whether the levels of a channel are too close for single steps to be seen.
     pub(crate) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
-        levels.len() > tolerance::MAX_SEPARATE_LEVELS && self.shading.bins() != Some(channel)
+        levels.len() > crate::light::tolerances::MAX_SEPARATE_LEVELS && self.shading.bins() != Some(channel)
     }
 
     /// Number of steps of a channel that a face shows as one: a power of two, 1 unless it is a gradient.
@@ -41,7 +41,7 @@ impl Lit<'_> {
         let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(value);
         let step = (last - first) / (levels.len() - 1) as f64;
         let narrow = |stride: usize| {
-            let steep = steepness([a, b, c], values) * tolerance::MIN_GRADIENT_STEP_PX * px;
+            let steep = steepness([a, b, c], values) * tolerances::MIN_GRADIENT_STEP_PX * px;
             stride < MAX_STRIDE && steep > step * stride as f64
         };
         let mut stride = 1;

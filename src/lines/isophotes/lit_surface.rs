@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
 use crate::light::{Shading, ShadingNormals, SurfacePoint};
 use crate::lines::Textures;
+use crate::lines::tolerances;
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::view::View;
 
@@ -74,7 +74,7 @@ impl Lit<'_> {
         let lift = -(DVec3::ZERO + onto(0) + onto(1) + onto(2)) / 2.0;
         let frame = &self.view.frame;
         let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
-        let way = lift.length() / (per_px * tolerance::MAX_SURFACE_LIFT_PX);
+        let way = lift.length() / (per_px * tolerances::MAX_SURFACE_LIFT_PX);
         // The full shift up to half of the limit, then less, down to none.
         p + lift * (2.0 - 2.0 * way).clamp(0.0, 1.0)
     }

@@ -13,9 +13,9 @@ use std::ops::Range;
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use crate::geometry::numbers::tolerance;
 use crate::light::SurfacePoint;
 use crate::lines::shared_points::PointIds;
+use crate::lines::tolerances;
 use crate::lines::{FeatureLines, FeatureSegment, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
 
@@ -211,7 +211,7 @@ impl ToneChangeFinder<'_> {
             let [from, to] = self.ends(segment);
             let (way, hosts) = (to - from, self.lines.segments[segment].hosts);
             let per_px = if frame.perspective { frame.depth(from).abs() } else { 1.0 } * px / frame.scale;
-            let near = tolerance::MAX_SURFACE_LIFT_PX * per_px;
+            let near = tolerances::MAX_SURFACE_LIFT_PX * per_px;
             let own = hosts.into_iter().flat_map(|face| {
                 let first = on_faces.partition_point(|own| own.0 < face);
                 on_faces[first..].iter().take_while(move |own| own.0 == face)
@@ -338,7 +338,7 @@ impl ToneChangeFinder<'_> {
         let TraceReason { channel, shadowed: assumed } = traced;
         let value = |shadowed: u32| shading.value(channel, paint, point, shadowed);
         let own = value(self.mask(channel, shadowed));
-        if (own - value(assumed)).abs() > tolerance::MAX_ISOPHOTE_ERROR_TONE {
+        if (own - value(assumed)).abs() > tolerances::MAX_ISOPHOTE_ERROR_TONE {
             return false;
         }
         let levels = shading.levels(paint, channel);

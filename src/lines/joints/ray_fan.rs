@@ -8,8 +8,8 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::MAX_NORMAL_ERROR_SINE;
 use crate::mesh::PartId;
+use crate::mesh::tolerances::MAX_NORMAL_ERROR_SINE;
 
 /// Face at a line, seen along the line.
 #[derive(Debug, Clone, Copy)]

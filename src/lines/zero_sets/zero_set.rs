@@ -9,7 +9,7 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
+use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
@@ -110,7 +110,7 @@ pub fn trace_crossings(
     let across = |[a, b]: [u32; 2]| {
         let (lo, hi) = (a.min(b), a.max(b));
         let found = crossing(lo, hi)?;
-        let inner = tolerance::ZERO_SET_OF_EDGE..=1.0 - tolerance::ZERO_SET_OF_EDGE;
+        let inner = tolerances::ZERO_SET_OF_EDGE..=1.0 - tolerances::ZERO_SET_OF_EDGE;
         let t = found.t.clamp(*inner.start(), *inner.end());
         // On the way around the face, the curve enters where the field rises.
         Some((EdgePoint { between: [lo, hi], t }, found.rising == (a < b)))

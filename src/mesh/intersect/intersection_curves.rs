@@ -58,7 +58,7 @@ pub struct IntersectionSegment {
 /// Not reported are
 /// - triangles of one body with a common vertex,
 /// - overlaps in one plane, and triangles that touch from one side,
-/// - contacts shorter than [`OVERLAP_OF_PART`](crate::geometry::numbers::tolerance::OVERLAP_OF_PART) of the diagonal of
+/// - contacts shorter than [`OVERLAP_OF_PART`](crate::mesh::tolerances::OVERLAP_OF_PART) of the diagonal of
 ///   the box around all triangles, which count as one part.
 ///
 /// A vertex in the plane of the other triangle does not matter if the other two corners are on opposite

@@ -10,10 +10,8 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-use crate::geometry::numbers::tolerance::{
-    OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART,
-};
 use crate::mesh::PartMetrics;
+use crate::mesh::tolerances::{OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
 
 /// Two corners may lie in a plane if their distances from it are below this share of the third one's.
 const PLANE_DISTANCE_RATIO: f64 = 1e-4;

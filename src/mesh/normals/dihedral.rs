@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::degenerate_faces::{OppositeFace, opposite_face};
 use super::normal_carriers;
 use crate::geometry::numbers::portable_math::acos;
-use crate::geometry::numbers::tolerance;
+use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh};
 
 /// Two faces with area that meet at an edge.
@@ -77,7 +77,7 @@ impl Dihedral {
     /// Error bound of a face normal due to rounding, degrees.
     #[must_use]
     pub fn doubt_of(mesh: &Mesh, face: u32) -> f64 {
-        let least = tolerance::DIHEDRAL_ROUNDING_DEG / 2.0;
+        let least = tolerances::DIHEDRAL_ROUNDING_DEG / 2.0;
         let rounding = mesh.extent(FaceId(face)).rounding;
         if rounding == 0.0 {
             return least;
@@ -142,7 +142,7 @@ fn dihedral_across_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<D
 /// Whether an edge is a diagonal of a polygon of the file whose turn (degrees) is too small for a fold.
 #[must_use]
 pub fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
-    mark == EdgeMark::Diagonal && f64::from(turn) <= tolerance::FOLDED_POLYGON_DEG
+    mark == EdgeMark::Diagonal && f64::from(turn) <= tolerances::FOLDED_POLYGON_DEG
 }
 
 /// Whether a face runs along one of its edges from the smaller vertex to the larger one.

@@ -4,7 +4,7 @@
 //! angle: the error of its normal is the rounding divided by its height. A wider neighbour in the same plane
 //! has a more accurate normal. Each narrow face therefore gets a *carrier*:
 //!
-//! 1. A face is unsure if rounding may turn its normal by more than [`MAX_NORMAL_ERROR_SINE`](tolerance::MAX_NORMAL_ERROR_SINE).
+//! 1. A face is unsure if rounding may turn its normal by more than [`MAX_NORMAL_ERROR_SINE`](tolerances::MAX_NORMAL_ERROR_SINE).
 //! 2. The search crosses the longest edge to a neighbour of the same part whose plane contains all corners of
 //!    the face, within the rounding. A face that is almost a line fits the planes on both sides. Its short
 //!    edges show which part of it each neighbour meets, so the long edge is the one that vanishes.
@@ -17,7 +17,7 @@ use glam::DVec3;
 
 use super::triangle_area::has_area;
 use crate::geometry::numbers::portable_math::cos;
-use crate::geometry::numbers::tolerance;
+use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, Edges, Mesh, MeshMetrics, PartId};
 
 /// Maximum number of faces in the search for a carrier.
@@ -48,13 +48,13 @@ impl<'a> CoplanarSearch<'a> {
     }
 
     /// Whether a face belongs to a curved surface: it has neighbours on all sides that turn by less than
-    /// [`MAX_FACET_DEG`](tolerance::MAX_FACET_DEG).
+    /// [`MAX_FACET_DEG`](tolerances::MAX_FACET_DEG).
     pub(crate) fn is_facet(&self, face: u32) -> bool {
         let normal = |face: u32| {
             let [a, b, c] = self.corners(face);
             (b - a).cross(c - a).normalize_or_zero()
         };
-        let (own, least) = (normal(face), cos(tolerance::MAX_FACET_DEG.to_radians()));
+        let (own, least) = (normal(face), cos(tolerances::MAX_FACET_DEG.to_radians()));
         self.neighbours(face).filter(|other| normal(*other).dot(own) > least).count() == 3
     }
 
@@ -149,10 +149,10 @@ pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
 }
 
 /// Whether rounding may turn the normal of a face with this height by more than
-/// [`MAX_NORMAL_ERROR_SINE`](tolerance::MAX_NORMAL_ERROR_SINE).
+/// [`MAX_NORMAL_ERROR_SINE`](tolerances::MAX_NORMAL_ERROR_SINE).
 #[inline]
 pub(crate) fn is_narrow(height: f64, rounding: f64) -> bool {
-    height * tolerance::MAX_NORMAL_ERROR_SINE < 2.0 * rounding
+    height * tolerances::MAX_NORMAL_ERROR_SINE < 2.0 * rounding
 }
 
 /// Copies the normal of each carrier to its face.

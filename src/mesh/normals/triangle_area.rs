@@ -4,7 +4,7 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Minimum scale of a part, as a share of its largest coordinate: double precision resolves about sixteen
@@ -43,14 +43,14 @@ pub(crate) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
     let own_squared =
         (3.0 * longest_squared).max(MIN_SCALE_OF_COORDINATE * MIN_SCALE_OF_COORDINATE * largest * largest);
-    let share = tolerance::DEGENERATE_HEIGHT_OF_PART * tolerance::DEGENERATE_HEIGHT_OF_PART;
+    let share = tolerances::DEGENERATE_HEIGHT_OF_PART * tolerances::DEGENERATE_HEIGHT_OF_PART;
     let limit = (1.0 + 1e-9) * share * longest_squared * own_squared.max(scale * scale);
     if limit > f64::MIN_POSITIVE && cross.length_squared() > limit {
         return Some(cross);
     }
     let longest = longest_squared.sqrt();
     let scale = scale.max(scale_of(a.min(b).min(c), a.max(b).max(c)));
-    (cross.length() > tolerance::DEGENERATE_HEIGHT_OF_PART * scale * longest).then_some(cross)
+    (cross.length() > tolerances::DEGENERATE_HEIGHT_OF_PART * scale * longest).then_some(cross)
 }
 
 /// Whether any face may have no area, for any assignment to parts. The box is that of all faces and wires.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use crate::geometry::numbers::portable_math::{acos, tan};
-use crate::geometry::numbers::tolerance::MAX_FACET_DEG;
+use crate::mesh::tolerances::MAX_FACET_DEG;
 use crate::mesh::{EdgeFaces, Mesh};
 
 /// Edge of a curved border.

@@ -16,8 +16,8 @@ use glam::DVec3;
 use super::face_split::{FaceCuts, SideCut};
 use super::point_tree::PointTree;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
-use crate::geometry::numbers::tolerance;
 use crate::mesh::soup::Soup;
+use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, Edges, MeshMetrics, PartId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
@@ -222,7 +222,7 @@ impl<'a> SeamSearch<'a> {
             .into_par_iter()
             .with_min_len(256)
             .map(|edge| {
-                self.cuts(edge, tolerance::MAX_SEAM_GAP_OF_PART * extents.of(self.open[edge].part).scale)
+                self.cuts(edge, tolerances::MAX_SEAM_GAP_OF_PART * extents.of(self.open[edge].part).scale)
             })
             .collect();
         let mut faces: Vec<FaceCuts> = Vec::new();
@@ -256,7 +256,7 @@ impl<'a> SeamSearch<'a> {
         let mut own = borders(corner).peekable();
         own.peek()?;
         let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
-        let (reach, place) = (tolerance::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
+        let (reach, place) = (tolerances::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
         self.places.near(place, DVec3::ZERO, reach, |other, at| {
             let apart = at.distance(place);

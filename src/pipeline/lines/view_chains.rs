@@ -2,9 +2,9 @@
 
 use crate::chains::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
-use crate::geometry::numbers::tolerance;
 use crate::lines::HiddenLines;
 use crate::mesh::part_metrics::{MeshMetrics, PartMetrics};
+use crate::pipeline::tolerances;
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};
 use crate::strokes::InkWidths;
@@ -50,7 +50,7 @@ fn corner_rounding(scene: &Scene, extents: &MeshMetrics, scale: f64) -> Vec<f64>
     let own = |(extent, part): (&PartMetrics, &Part)| {
         let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
         let step = scene.geometry_of(part).map_or(0.0, decimals).max(extent.step);
-        (tolerance::MAX_CIRCLE_CORNER_STEPS * step).max(tolerance::WELD_OF_PART * extent.scale)
+        (tolerances::MAX_CIRCLE_CORNER_STEPS * step).max(crate::mesh::tolerances::WELD_OF_PART * extent.scale)
     };
     extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
 }

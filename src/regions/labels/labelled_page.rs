@@ -8,12 +8,12 @@ use super::cell_labels;
 use super::point_labels::label_points;
 use super::surface_label::{NO_LABEL, ShadowDarkening, SurfaceLabel};
 use crate::drawing::{Length, Unit};
-use crate::geometry::numbers::tolerance;
 use crate::lines::{LineKind, Lit};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::regions::arrangement::border_simplification::{self, Segments};
 use crate::regions::arrangement::snap_rounding::{self, Border, GridPoint};
 use crate::regions::cells::triangulation::Triangulation;
+use crate::regions::tolerances;
 use crate::view::Frame;
 use crate::visibility::ViewMap;
 
@@ -45,7 +45,7 @@ impl PageBorders {
 
 /// User units per grid step.
 fn step(frame: &Frame) -> f64 {
-    frame.width.max(frame.height) / tolerance::REGION_GRID_STEPS
+    frame.width.max(frame.height) / tolerances::REGION_GRID_STEPS
 }
 
 /// Triangulates the page along the borders, and labels the triangles.
@@ -62,13 +62,13 @@ pub fn label_page(
     let step = step(&lit.view.frame);
     let px = Length::px(1.0).in_unit(unit);
     let of_tone = match lit.shading.most_levels() {
-        0 => tolerance::BIN_SIMPLIFY_PX,
-        1..=tolerance::MAX_SEPARATE_LEVELS => tolerance::BORDER_SIMPLIFY_PX,
-        _ => tolerance::GRADIENT_SIMPLIFY_PX,
+        0 => tolerances::BIN_SIMPLIFY_PX,
+        1..=crate::light::tolerances::MAX_SEPARATE_LEVELS => tolerances::BORDER_SIMPLIFY_PX,
+        _ => tolerances::GRADIENT_SIMPLIFY_PX,
     };
-    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::BORDER_SIMPLIFY_PX };
+    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerances::BORDER_SIMPLIFY_PX };
     let segments = border_simplification::simplify_borders(segments, |border| fine(border) * px / step);
-    let noded = snap_rounding::node(&segments, tolerance::MAX_BRIDGE_PX * px / step);
+    let noded = snap_rounding::node(&segments, tolerances::MAX_BRIDGE_PX * px / step);
     let cut = Triangulation::new(noded);
 
     let centres: Vec<DVec2> = (0..cut.triangles.len())
@@ -82,7 +82,7 @@ pub fn label_page(
     let (looks, table) = label_points(lit, &centres, shadowed, darkened);
     drop(centres);
     let (looks, leaks) =
-        cell_labels::label_cells(&cut, &looks, tolerance::MIN_LABEL_DIFFERENCE_PX * px / step);
+        cell_labels::label_cells(&cut, &looks, tolerances::MIN_LABEL_DIFFERENCE_PX * px / step);
     LabelledPage { cut, looks, table, step, leaks }
 }
 

@@ -8,8 +8,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::MAX_COORDINATE_STEP_OF_MODEL;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::scene::tolerances::MAX_COORDINATE_STEP_OF_MODEL;
 use crate::scene::{Geometry, Scene};
 
 /// Returns the scene, with a warning if its coordinates are too coarse.

@@ -9,7 +9,7 @@ use super::stroke_shape::StrokeShape;
 use crate::chains::Chain;
 use crate::drawing::region_clip::ClipRegion;
 use crate::drawing::{Length, Unit};
-use crate::geometry::numbers::tolerance::TRIANGLE_BORDER_PX;
+use crate::geometry::tolerances::TRIANGLE_BORDER_PX;
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::brushes::brush::BrushShape;
 use crate::strokes::pens::pen::Pen;

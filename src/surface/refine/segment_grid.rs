@@ -4,8 +4,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
 use crate::mesh::Mesh;
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Number of cells on each axis of the grid, equal to the bits of a word.
@@ -18,7 +18,7 @@ const MAX_ROWS: usize = 256;
 pub(crate) fn faces_near_segments(mesh: &Mesh, segments: &[[DVec3; 2]]) -> Vec<u32> {
     let (middle, radius) = mesh.extents.ball();
     // Exceeds all rounding errors.
-    let slack = tolerance::RAY_BOX_OF_MESH * (radius + middle.length());
+    let slack = tolerances::RAY_BOX_OF_MESH * (radius + middle.length());
     let faces = 0..mesh.triangles.len() as u32;
     let Some(grid) = SegmentBitGrid::around(segments, slack) else { return faces.collect() };
     let places: Vec<PointCell> =

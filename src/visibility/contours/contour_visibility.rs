@@ -9,7 +9,6 @@ use super::contour_chains::{ContourChain, contour_chains};
 use super::contour_matching::{ContourMatcher, CurveIndex, CurveSpan, MAX_MATCH_DISTANCE_PX, UnmatchedSpan};
 use super::contour_spurs::ContourSpurs;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
-use crate::geometry::numbers::tolerance;
 use crate::lines::{FeatureLines, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
@@ -18,6 +17,7 @@ use crate::visibility::occlusion::interval_sweep::HiddenInterval;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::sweep::segment_visibility::SegmentVisibility;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Largest gap between visible spans of a curve that is closed, px. Such gaps come from sampling the mesh
@@ -84,7 +84,7 @@ pub(crate) struct SmoothContours {
 
 impl SmoothContours {
     pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &ViewTolerances) -> Self {
-        let runs = contour_chains(lines, segments, tolerance::MIN_CUSP_PX * limits.px);
+        let runs = contour_chains(lines, segments, tolerances::MIN_CUSP_PX * limits.px);
         Self { sought: CurveIndex::new(segments, &runs), runs }
     }
 }

@@ -6,11 +6,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::geometry::numbers::tolerance;
 use crate::lines::{FeatureLines, LineKind, NO_FACE, Role};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::tolerances;
 
 /// Smallest ratio of length to width of a thin fold.
 const MIN_ASPECT: f64 = 3.0;
@@ -36,7 +36,7 @@ pub(crate) fn find_thin_folds(
     lines: &FeatureLines,
     segments: &[ImageSegment],
 ) -> Vec<u32> {
-    let shortest = MIN_ASPECT * tolerance::THIN_FOLD_PX * view.frame.px();
+    let shortest = MIN_ASPECT * tolerances::THIN_FOLD_PX * view.frame.px();
     let is_side = |s: &ImageSegment| {
         lines.segments[s.source as usize].kind == LineKind::Contour
             && s.role == Role::Line
@@ -115,14 +115,14 @@ fn thin_fold(
     });
     let lengths = along.map(DVec2::length);
     let across = along[0].perp_dot(along[1]).abs();
-    if along[0].dot(along[1]) <= 0.0 || across > tolerance::THIN_FOLD_PX * px * lengths[0].max(lengths[1]) {
+    if along[0].dot(along[1]) <= 0.0 || across > tolerances::THIN_FOLD_PX * px * lengths[0].max(lengths[1]) {
         return None;
     }
     let feet = [0, 1].map(|k| pair[k].ends[far[k]]);
     let [p, q] = feet.map(|foot| lines.position(mesh, foot));
     let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
     let is_slender =
-        base <= tolerance::THIN_FOLD_BASE_PX * px && MIN_ASPECT * base <= lengths[0].min(lengths[1]);
+        base <= tolerances::THIN_FOLD_BASE_PX * px && MIN_ASPECT * base <= lengths[0].min(lengths[1]);
     // A spike has two ridges as sides, and no back.
     let folds = || is_ridge(mesh, lines, pair[0]) != is_ridge(mesh, lines, pair[1]);
     (is_slender && folds()).then_some(ThinFold { sides, tip, feet, along: along[0] })

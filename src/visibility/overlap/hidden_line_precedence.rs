@@ -17,10 +17,10 @@ use kurbo::Vec2;
 use super::coincident_lines::{EdgeLine, cut_edge, precedence, vector};
 use super::smooth_chains::smooth_chains;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
-use crate::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
 use crate::mesh::MeshMetrics;
 use crate::visibility::graph::{ViewEdge, ViewMap};
 use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::tolerances::{BEHIND_INK_PX, BEHIND_INK_SINE};
 
 /// Smallest tile side, in multiples of the widest reach. An edge within reach of a line is then in the tiles
 /// of the line shifted by that reach.

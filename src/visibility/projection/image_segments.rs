@@ -4,10 +4,10 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::host_sides::HostedLine;
-use crate::geometry::numbers::tolerance;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
+use crate::visibility::tolerances;
 
 /// Feature segment in image space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +120,7 @@ fn project_one(
         LineKind::Contour | LineKind::Border => true,
         LineKind::Crease | LineKind::Material | LineKind::Intersection => {
             let hosted = HostedLine { line: [a, b], ends: segment.ends, hosts: segment.hosts };
-            hosted.may_bound(mesh, view, tolerance::BACKGROUND_PROBE_PX * view.frame.px())
+            hosted.may_bound(mesh, view, tolerances::BACKGROUND_PROBE_PX * view.frame.px())
         }
         _ => false,
     };

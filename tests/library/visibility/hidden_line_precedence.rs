@@ -4,10 +4,10 @@
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 use ligne::drawing::{Drawing, LayerKind};
-use ligne::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
 use ligne::mesh::MeshMetrics;
 use ligne::scene::{NamedView, UpAxis};
 use ligne::visibility::overlap::hidden_line_precedence::{self, Ink};
+use ligne::visibility::tolerances::{BEHIND_INK_PX, BEHIND_INK_SINE};
 use ligne::visibility::{ViewEdge, ViewMap};
 use ligne::{Camera, Scene, Style, render};
 

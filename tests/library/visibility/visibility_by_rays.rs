@@ -6,11 +6,11 @@ use crate::support::references::textbook_camera::TextbookCamera;
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::random_scenes::{ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene};
 use glam::DVec3;
-use ligne::geometry::numbers::tolerance;
 use ligne::lines::{HiddenLines, LineOptions};
 use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::{Camera, Scene};
 use ligne::view::Frame;
+use ligne::visibility::tolerances;
 
 /// The result of one ray to one point.
 enum RayResult {
@@ -22,7 +22,7 @@ enum RayResult {
 
 /// Returns the depth difference within which a point touches a face.
 fn contact(mesh: &Mesh, face: u32, frame: &Frame, depth: f64) -> f64 {
-    mesh.extent(FaceId(face)).contact.max(tolerance::CONTACT_PX * frame.px_at(depth))
+    mesh.extent(FaceId(face)).contact.max(tolerances::CONTACT_PX * frame.px_at(depth))
 }
 
 /// Shoots a ray from the camera to a point of a feature segment.
@@ -41,7 +41,8 @@ fn shoot_ray(
     let from = if eye.perspective { eye.position } else { point - eye.forward * depth };
     let way = point - from;
     let focus = camera.eye.distance(camera.target);
-    let near = camera.near.or(eye.perspective.then_some(focus * tolerance::CLIP_PLANE_OF_TARGET));
+    let near =
+        camera.near.or(eye.perspective.then_some(focus * ligne::view::tolerances::CLIP_PLANE_OF_TARGET));
     let near = near.unwrap_or(f64::NEG_INFINITY);
     let frame = Frame::new(camera, DVec3::ZERO);
     let mut count = 0;
@@ -71,8 +72,8 @@ fn shoot_ray(
         let hit = e2.dot(q) / determinant * depth;
         let lead = depth - hit;
         let touch = if shares[0] || shares[1] {
-            let of_part = tolerance::NEIGHBOUR_OF_PART * mesh.extent(FaceId::from(face)).scale;
-            of_part.max(tolerance::NEIGHBOUR_PX * frame.px_at(depth))
+            let of_part = tolerances::NEIGHBOUR_OF_PART * mesh.extent(FaceId::from(face)).scale;
+            of_part.max(tolerances::NEIGHBOUR_PX * frame.px_at(depth))
         } else {
             contact(mesh, face as u32, &frame, depth)
         };
@@ -229,9 +230,9 @@ fn visible_and_hidden_lengths_add_up_to_the_projected_length() {
                 // If two lines run within `DUPLICATE_LINE_PX` of each other, only one is drawn.
                 if whole - drawn > 1e-6 * whole.max(1.0) {
                     let image = eye.clip_segment(p, q, near).map(|s| s.map(|p| eye.project(p)));
-                    let lost = uncovered_length(image.as_slice(), &all, 1.01 * tolerance::DUPLICATE_LINE_PX);
+                    let lost = uncovered_length(image.as_slice(), &all, 1.01 * tolerances::DUPLICATE_LINE_PX);
                     assert!(
-                        lost < 4.0 * tolerance::DUPLICATE_LINE_PX,
+                        lost < 4.0 * tolerances::DUPLICATE_LINE_PX,
                         "{kind}, {camera_kind}: {drawn} of {whole}, {lost} lost, {segment:?}"
                     );
                 }

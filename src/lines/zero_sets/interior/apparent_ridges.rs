@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::ridges::maximum;
 use super::{CurvatureView, InsideOptions, positive};
-use crate::geometry::numbers::tolerance;
+use crate::lines::tolerances;
 use crate::lines::zero_sets::zero_set::{EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -58,7 +58,7 @@ fn apparent_curvature(seen: &CurvatureView, vertex: usize) -> ApparentCurvature 
         (0.0, 0.0, 0.0)
     };
     // Q = S + (sec θ − 1) S w wᵀ, in the principal directions.
-    let stretch = 1.0 / eye.z.abs().max(tolerance::MIN_FACING_COSINE) - 1.0;
+    let stretch = 1.0 / eye.z.abs().max(tolerances::MIN_FACING_COSINE) - 1.0;
     let q = [
         DVec2::new(p.k1 * (1.0 + stretch * uu), p.k2 * stretch * uv),
         DVec2::new(p.k1 * stretch * uv, p.k2 * (1.0 + stretch * vv)),

@@ -22,7 +22,7 @@ use glam::DVec3;
 pub use interior_options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
-use crate::geometry::numbers::tolerance;
+use crate::lines::tolerances;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
 use crate::mesh::Mesh;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -176,7 +176,7 @@ impl<'a> CurvatureView<'a> {
 
 /// Threshold that is safe to divide by.
 fn positive(threshold: f64) -> f64 {
-    threshold.max(tolerance::MIN_LINE_THRESHOLD)
+    threshold.max(tolerances::MIN_LINE_THRESHOLD)
 }
 
 /// Strength of a line with the given measure: 0 at 1, and 1 from [`FULL_STRENGTH_MEASURE`] on.

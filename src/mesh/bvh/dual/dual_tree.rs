@@ -11,7 +11,7 @@ use crate::parallel::prelude::*;
 use glam::{DVec3, DVec4};
 
 use super::dual_boxes::{DualBoxes, DualCandidates, DualItem};
-use crate::geometry::numbers::tolerance;
+use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Squared areas above this, or below its inverse, lose precision. Edges of such faces are always candidates.
@@ -97,7 +97,7 @@ impl DualTree {
         // Normal of the hyperplane of the camera. Offsets are in units of the radius.
         let plane = if eye.w == 0.0 { eye } else { (eye.truncate() / self.radius).extend(1.0) };
         let reach = plane.truncate().length() + plane.w;
-        let margin = tolerance::EDGE_ON_PLANE_OF_REACH * reach;
+        let margin = tolerances::EDGE_ON_PLANE_OF_REACH * reach;
         // Outside this range, products in the computation of a face may overflow.
         let mut found = if reach < 1e40 && reach > 1e-6 {
             self.boxes.find(plane, -margin, margin)
@@ -140,7 +140,7 @@ impl ToneTree {
                 // |m|² = Σ wᵢ|nᵢ|² − Σ wᵢwⱼ|nᵢ − nⱼ|² for m = Σ wᵢnᵢ, and the last sum of weights is at most
                 // a third. Normalisation moves m by 1 − |m|.
                 let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
-                let widen = 1.0 - shortest + tolerance::EDGE_ON_PLANE_OF_REACH;
+                let widen = 1.0 - shortest + tolerances::EDGE_ON_PLANE_OF_REACH;
                 let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
                 if shortest <= 0.1 || !are_units {
                     // Normals in opposite directions, or zero.
@@ -168,7 +168,7 @@ impl ToneTree {
     /// The triangles where L·n may take the value `level`, for the unit vector `towards_light`.
     #[must_use]
     pub fn candidates(&self, towards_light: DVec3, level: f64) -> DualCandidates {
-        let margin = tolerance::EDGE_ON_PLANE_OF_REACH * 2.0;
+        let margin = tolerances::EDGE_ON_PLANE_OF_REACH * 2.0;
         self.boxes.find(towards_light.extend(0.0), level - margin, level + margin)
     }
 }

@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use super::face_group::{FACES_PER_GROUP, FaceGroup};
 use super::ray_grid::{RayBox, RayGrid};
 use super::ray_tree::{RayTree, meets};
-use crate::geometry::numbers::tolerance;
+use crate::mesh::tolerances;
 use crate::mesh::{FaceId, Mesh};
 
 /// Maximum number of ray and group comparisons, per ray and face of the input. After that the tree takes
@@ -40,7 +40,7 @@ impl<'a> ParallelRays<'a> {
     /// Prepares all faces of a mesh that have an area.
     pub(crate) fn new(mesh: &'a Mesh) -> Self {
         let (middle, half) = mesh.extents.ball();
-        let slack = (tolerance::RAY_BOX_OF_MESH * (half + middle.length())) as f32;
+        let slack = (tolerances::RAY_BOX_OF_MESH * (half + middle.length())) as f32;
         let has_area = |face: &u32| !mesh.is_degenerate(FaceId(*face));
         let faces: Vec<u32> = (0..mesh.triangles.len() as u32).filter(has_area).collect();
         let boxes = faces.chunks(FACES_PER_GROUP).map(|group| {

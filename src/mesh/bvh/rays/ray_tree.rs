@@ -7,8 +7,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance;
 use crate::mesh::order::morton_curve::spread;
+use crate::mesh::tolerances;
 use crate::mesh::{FaceId, Mesh};
 
 /// Children of a node.
@@ -104,7 +104,7 @@ impl RayTree {
         let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| mesh.corners(FaceId(*face))).collect();
 
         // Exceeds the rounding of the rays.
-        let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
+        let slack = tolerances::RAY_BOX_OF_MESH * (half + middle.length());
         let mut levels: Vec<Vec<RayNode>> = vec![
             triangles
                 .chunks(NODE_CHILDREN)

@@ -18,7 +18,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::numbers::tolerance::{MAX_CIRCLE_FIT_OF_COORDINATE, MAX_ROUNDING_OF_COORDINATE};
+use crate::page::tolerances::{MAX_CIRCLE_FIT_OF_COORDINATE, MAX_ROUNDING_OF_COORDINATE};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};

@@ -16,7 +16,8 @@
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
-use crate::geometry::numbers::tolerance::{F32_STEP, MAX_F32_ROUNDING_STEPS, MAX_LATTICE_ROUNDING_STEPS};
+use crate::geometry::tolerances::F32_STEP;
+use crate::mesh::tolerances::{MAX_F32_ROUNDING_STEPS, MAX_LATTICE_ROUNDING_STEPS};
 use crate::scene::{Geometry, Part, Scene};
 
 /// Rounding error in double precision of a transformed corner and of a mean, as a share of the largest

@@ -1,0 +1,7 @@
+//! Tolerances of this area, each as a fraction of a named length or angle, or in px of the page.
+
+/// Maximum distance of a corner from its tessellated circle, in steps of the file's coordinates.
+///
+/// Half the diagonal of a cell for rounding, and the same again because the exporting program computed with
+/// rounded numbers.
+pub const MAX_CIRCLE_CORNER_STEPS: f64 = 1.5;
