@@ -2,9 +2,15 @@
 //!
 //! `docs/dev/style-guide.md` explains the rules. A failing test names the worst documents or help line.
 
+#[path = "../../library/support/plain_words.rs"]
+mod plain_words;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use self::plain_words::{
+    MAX_SENTENCE_WORDS, TextStatistics, hard_phrases, replace_between, sentences, words,
+};
 use crate::folder::TestFolder;
 
 /// Limits for all documents together.
@@ -12,111 +18,8 @@ const MAX_MEAN_WORDS: f64 = 15.0;
 const MAX_LONG_SHARE: f64 = 0.04;
 const MAX_PHRASES_PER_1000: f64 = 1.0;
 
-/// Longer sentences count as long.
-const MAX_SENTENCE_WORDS: usize = 30;
-
-/// Shorter sentences are labels and do not count.
-const MIN_SENTENCE_WORDS: usize = 3;
-
-/// Phrases that have a plain equivalent. Words are separated by single spaces.
-const HARD_PHRASES: [&str; 52] = [
-    "is told",
-    "are told",
-    "was told",
-    "be told",
-    "is asked",
-    "are asked",
-    "was asked",
-    "be asked",
-    "tells",
-    "asks",
-    "so many",
-    "so much",
-    "as many",
-    "as much",
-    "of which",
-    "by which",
-    "over which",
-    "at which",
-    "in which",
-    "from which",
-    "to which",
-    "with which",
-    "but for",
-    "beside",
-    "beyond",
-    "by itself",
-    "by themselves",
-    "of its own",
-    "of their own",
-    "as it is",
-    "as they are",
-    "as it stands",
-    "nobody",
-    "somebody",
-    "no one",
-    "a person",
-    "by chance",
-    "in vain",
-    "is meant",
-    "are meant",
-    "what is left",
-    "what lies",
-    "what was",
-    "what another",
-    "what they",
-    "what it",
-    "whoever",
-    "whatever",
-    "wherever",
-    "whichever",
-    "the hand",
-    "most of it",
-];
-
-/// Words that may follow `What` at the start of a sentence, because they form a question.
-const QUESTION_WORDS: [&str; 9] = ["is", "are", "does", "do", "happens", "if", "to", "can", "should"];
-
 /// Pages directly in `docs/` that are measured.
 const TOP_PAGES: [&str; 4] = ["index.md", "gallery.md", "troubleshooting.md", "glossary.md"];
-
-/// Counts of a text.
-#[derive(Debug, Default, Clone, Copy)]
-struct TextStatistics {
-    words: usize,
-    sentences: usize,
-    words_in_sentences: usize,
-    long: usize,
-    phrases: usize,
-}
-
-impl TextStatistics {
-    fn add(&mut self, other: Self) {
-        self.words += other.words;
-        self.sentences += other.sentences;
-        self.words_in_sentences += other.words_in_sentences;
-        self.long += other.long;
-        self.phrases += other.phrases;
-    }
-
-    fn mean(&self) -> f64 {
-        self.words_in_sentences as f64 / self.sentences.max(1) as f64
-    }
-
-    fn long_share(&self) -> f64 {
-        self.long as f64 / self.sentences.max(1) as f64
-    }
-
-    fn phrases_per_1000(&self) -> f64 {
-        1000.0 * self.phrases as f64 / self.words.max(1) as f64
-    }
-}
-
-/// Replaces every text between two marks with `with`.
-fn replace_between(text: &str, mark: &str, with: &str) -> String {
-    let parts = text.split(mark).enumerate();
-    parts.map(|(number, part)| if number % 2 == 0 { part } else { with }).collect()
-}
 
 /// The paragraphs, list items and table cells of a page, without code, pictures and link targets.
 fn paragraphs(markdown: &str) -> Vec<String> {
@@ -148,63 +51,11 @@ fn paragraphs(markdown: &str) -> Vec<String> {
     paragraphs
 }
 
-/// The words of a text, in lower case.
-fn words(text: &str) -> Vec<String> {
-    let is_part = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-');
-    let words = text.split(|c| !is_part(c)).filter(|word| word.starts_with(char::is_alphabetic));
-    words.map(str::to_lowercase).collect()
-}
-
-/// The sentences of a paragraph.
-fn sentences(paragraph: &str) -> Vec<&str> {
-    let mut sentences = Vec::new();
-    let mut from = 0;
-    for (at, _) in paragraph.match_indices(['.', '!', '?']) {
-        let rest = &paragraph[at + 1..];
-        let begins = rest
-            .trim_start()
-            .starts_with(|c: char| c.is_uppercase() || matches!(c, '`' | '"' | '(' | '*' | '['));
-        if rest.starts_with(char::is_whitespace) && begins {
-            sentences.push(&paragraph[from..=at]);
-            from = at + 1;
-        }
-    }
-    sentences.push(&paragraph[from..]);
-    sentences
-}
-
-/// The hard phrases in a sentence.
-fn hard_phrases(sentence: &str) -> Vec<String> {
-    let words = words(sentence);
-    let text = format!(" {} ", words.join(" "));
-    let mut found: Vec<String> = HARD_PHRASES
-        .iter()
-        .filter(|phrase| text.contains(&format!(" {phrase} ")))
-        .map(|phrase| (*phrase).to_owned())
-        .collect();
-    let is_capital = sentence.trim_start().starts_with("What ");
-    if let [_, second, ..] = words.as_slice()
-        && is_capital
-        && !QUESTION_WORDS.contains(&second.as_str())
-    {
-        found.push("What as the subject".to_owned());
-    }
-    found
-}
-
+/// Counts of a Markdown page.
 fn measure(markdown: &str) -> TextStatistics {
     let mut all = TextStatistics::default();
     for paragraph in paragraphs(markdown) {
-        for sentence in sentences(&paragraph) {
-            let count = words(sentence).len();
-            all.words += count;
-            all.phrases += hard_phrases(sentence).len();
-            if count >= MIN_SENTENCE_WORDS {
-                all.sentences += 1;
-                all.words_in_sentences += count;
-                all.long += usize::from(count > MAX_SENTENCE_WORDS);
-            }
-        }
+        all.add_paragraph(&paragraph);
     }
     all
 }

@@ -9,12 +9,13 @@
 //! 5. [`readers`] parses model and output files with code that is independent of the library.
 //! 6. [`properties`] tests that a drawing is invariant under changes such as rotation or renumbering.
 //! 7. [`rewriting`] tests that a model gives the same drawing in every file format and encoding.
-//! 8. [`imports`] reads the import graph from source code; [`long_run`] selects the size of a test run.
+//! 8. [`imports`] reads the import graph from source code; [`plain_words`] measures English; [`long_run`] selects the size of a test run.
 
 pub mod imports;
 pub mod long_run;
 pub mod measures;
 pub mod pipeline;
+pub mod plain_words;
 pub mod properties;
 pub mod readers;
 pub mod references;
