@@ -16,8 +16,8 @@ pub const MAX_CIRCLE_FIT_OF_COORDINATE: f64 = 1e-12;
 /// It is added to the rounding of the file when the shapes of two parts are compared.
 pub(crate) const CORNER_ROUNDING_OF_COORDINATE: f64 = 1e-12;
 
-/// Maximum distance of two points from a line along an axis, as a fraction of their distance. Above the
-/// `f64` rounding of unit vectors; the error of the length is the square of this.
+/// Maximum distance of two points from a line along an axis, as a fraction of their distance. Allows
+/// for the `f64` rounding of the coordinates. The relative error of the length is half the square of this.
 pub(crate) const MAX_OFF_AXIS_SHARE: f64 = 1e-9;
 
 /// Positions on cylinders that differ by at most this fraction of the radius are equal. The same fraction of
@@ -31,7 +31,7 @@ pub(crate) const MAX_OFFSET_OF_RADIUS: f64 = 5e-3;
 /// it: about two pixels of the face buffer that the rim is tested with.
 pub(crate) const MAX_RIM_DEPTH_OF_VIEW: f64 = 2e-3;
 
-// Numbers that are written.
+// Scales and written numbers.
 
 /// Maximum relative error of a product of few factors in double precision. A value this close below a tie
 /// counts as a tie.
@@ -64,7 +64,8 @@ pub(crate) const MIN_PARALLEL_COSINE: f64 = 1.0 - 1e-9;
 /// Covers the `f64` rounding of unit vectors.
 pub(crate) const MAX_EDGE_ON_COSINE: f64 = 1e-9;
 
-/// Minimum cosine between the axis of a cylinder and the viewing direction for the cylinder to be seen end-on.
+/// Minimum cosine between the axis of a cylinder and the viewing direction for the cylinder to be seen
+/// end-on.
 ///
 /// Allows 0.08 degrees, because axes are fitted to rounded corners.
 pub(crate) const MIN_END_ON_COSINE: f64 = 1.0 - 1e-6;

@@ -2,7 +2,8 @@
 //!
 //! A ring is a rectangle around the view with slots for balloons.
 //!
-//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`assign_leaders`], [`assign_radially`]).
+//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`assign_leaders`],
+//!    [`assign_radially`]).
 //! 2. If there are too few slots, or a leader crosses another one, a text or a balloon, the next rings are
 //!    tried.
 //! 3. The next rings are farther out, or there are two. Slots of two rings are staggered, so leaders of the

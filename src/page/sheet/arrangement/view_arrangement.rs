@@ -202,8 +202,8 @@ fn centre_free_views(views: &mut [PlacedView], free: &FreeRectangles, order: &[u
     }
 }
 
-/// All possible orders of placing views, the given one first. More than `MAX_PERMUTED_VIEWS` views are placed in the given
-/// order only.
+/// All possible orders of placing views, the given one first. More than `MAX_PERMUTED_VIEWS` views are
+/// placed in the given order only.
 fn placement_orders(views: &[usize]) -> Vec<Vec<usize>> {
     const MAX_PERMUTED_VIEWS: usize = 5;
     let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MAX_PERMUTED_VIEWS) else {

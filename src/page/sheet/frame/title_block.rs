@@ -22,7 +22,8 @@ pub const BLOCK_WIDTH_MM: f64 = 180.0;
 const ROW_HEIGHT_MM: f64 = 9.0;
 const STRIP_HEIGHT_MM: f64 = 10.0;
 
-/// Letter heights in one-row fields (`ROW_LETTER_HEIGHTS_MM`) and two-row fields (`FIELD_LETTER_HEIGHTS_MM`), preferred first, mm (ISO 3098).
+/// Letter heights in one-row fields (`ROW_LETTER_HEIGHTS_MM`) and two-row fields
+/// (`FIELD_LETTER_HEIGHTS_MM`), preferred first, mm (ISO 3098).
 const ROW_LETTER_HEIGHTS_MM: [f64; 4] = [2.5, 2.2, 2.0, MIN_LETTER_HEIGHT_MM];
 const FIELD_LETTER_HEIGHTS_MM: [f64; 6] = [3.5, 3.0, 2.5, 2.2, 2.0, MIN_LETTER_HEIGHT_MM];
 const MIN_LETTER_HEIGHT_MM: f64 = 1.8;
