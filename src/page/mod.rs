@@ -6,7 +6,8 @@
 //! 3. The result is a `ComposedPage`: a composition in mm and its warnings.
 //!
 //! Files, in reading order: [`page_file`]; [`page_source`] for errors and paths; [`page_size`] and
-//! [`mm_length`] for values; [`print_inks`]; [`model_reader`] for formats of the caller; [`composed_page`].
+//! [`mm_length`] for values; `tolerances`; [`print_inks`]; [`model_reader`] for formats of the caller;
+//! [`composed_page`].
 //! Folders: [`figure`] (models, camera, style), [`layout`] (panels of a page), [`balloon_placement`],
 //! [`comic`], [`sheet`].
 //!

@@ -1,7 +1,7 @@
 //! Deserialises options from TOML, with the position of each error.
 //!
-//! The text is parsed by `toml`. Its tables become a tree of [`TomlNode`]s with spans, and one small deserialiser
-//! walks the tree.
+//! The text is parsed by `toml`. Its tables become a tree of [`TomlNode`]s with spans, and one small
+//! deserialiser walks the tree.
 //!
 //! The deserialisers of `toml` give the same results. But with them the compiler instantiates the code of
 //! every options table four times: for tables, values with spans, dates, and values without spans.

@@ -9,6 +9,7 @@ use kurbo::{Point, Vec2};
 
 use super::request::{PlacementArea, PlacementRequest};
 use crate::page::layout::ConvexPolygon;
+use crate::page::tolerances;
 
 /// Distance from the tip of a tail to its target, as a multiple of the gap.
 const TIP_GAP_FACTOR: f64 = 0.6;
@@ -51,7 +52,7 @@ pub(crate) fn fit_tail(
 ) -> Option<BalloonTail> {
     let way = aim - middle;
     let length = way.hypot();
-    if length < 1e-9 {
+    if length < tolerances::MIN_AIM_DISTANCE_MM {
         return None;
     }
     let way = way / length;

@@ -11,6 +11,7 @@ use crate::drawing::{
 };
 use crate::geometry::numbers::noise::{hash, value_noise};
 use crate::page::layout::ConvexPolygon;
+use crate::page::tolerances::POSITION_ROUNDING_MM;
 
 /// Distance between two bends of a hand-drawn line, mm.
 const BEND_SPACING_MM: f64 = 18.0;
@@ -49,7 +50,8 @@ pub(crate) fn panel_border(
 fn border_path(outline: &ConvexPolygon, hand: f64, sheet: Rect) -> BezPath {
     let sides: Vec<(Point, Point)> = outline.sides().collect();
     let is_edge = |(a, b): &(Point, Point)| {
-        let along = |a: f64, b: f64, edge: f64| (a - edge).abs() < 1e-6 && (b - edge).abs() < 1e-6;
+        let is_at = |a: f64, edge: f64| (a - edge).abs() < POSITION_ROUNDING_MM;
+        let along = |a: f64, b: f64, edge: f64| is_at(a, edge) && is_at(b, edge);
         along(a.x, b.x, sheet.x0)
             || along(a.x, b.x, sheet.x1)
             || along(a.y, b.y, sheet.y0)

@@ -15,9 +15,7 @@ use crate::page::layout::{ConvexPolygon, LayoutGrid, cells};
 use crate::page::mm_length::Mm;
 use crate::page::page_size::PageSize;
 use crate::page::page_source::PageSource;
-
-/// Overlaps of panels up to this area are ignored, mm².
-const MAX_OVERLAP_MM2: f64 = 1e-3;
+use crate::page::tolerances::MAX_PANEL_OVERLAP_MM2;
 
 /// The boxes of a page, mm. The printed area starts at the origin.
 #[derive(Debug, Clone, Copy)]
@@ -130,7 +128,7 @@ pub(crate) fn panel_outlines<'a>(
             let message = format!("this panel has no size: {width} x {height} mm");
             return Err(source.fault(&at.span(), &message, "write [left, top, width, height]"));
         }
-        if rect.intersect(sheet.bleed).area() < rect.area() - MAX_OVERLAP_MM2 {
+        if rect.intersect(sheet.bleed).area() < rect.area() - MAX_PANEL_OVERLAP_MM2 {
             return Err(source.fault(
                 &at.span(),
                 "this panel extends past the page",
@@ -138,7 +136,7 @@ pub(crate) fn panel_outlines<'a>(
             ));
         }
         let outline = ConvexPolygon::from(rect);
-        let over = shapes.iter().find(|other| outline.common(&other.outline).area() > MAX_OVERLAP_MM2);
+        let over = shapes.iter().find(|other| outline.common(&other.outline).area() > MAX_PANEL_OVERLAP_MM2);
         if let Some(over) = over.filter(|_| !keys.get_ref().inset) {
             let message = format!("this panel overlaps `{}`", over.name);
             return Err(source.fault(

@@ -1,4 +1,5 @@
-//! [`CoverageGrid`]: the area of a frame that models and figures cover, on a coarse grid with a summed-area table.
+//! [`CoverageGrid`]: the area of a frame that models and figures cover, on a coarse grid with a summed-area
+//! table.
 //!
 //! It is used to rate places for balloons.
 

@@ -4,6 +4,8 @@
 
 use kurbo::{BezPath, Point, Rect, Vec2};
 
+use crate::page::tolerances::MAX_OUTWARD_CROSS_PRODUCT_MM2;
+
 /// A half plane: the points `p` with `(p - point) · normal >= 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfPlane {
@@ -89,7 +91,8 @@ impl ConvexPolygon {
     /// Whether a point is inside or on the boundary.
     #[must_use]
     pub fn holds(&self, p: Point) -> bool {
-        !self.0.is_empty() && self.sides().all(|(a, b)| (b - a).cross(p - a) >= -1e-9)
+        !self.0.is_empty()
+            && self.sides().all(|(a, b)| (b - a).cross(p - a) >= -MAX_OUTWARD_CROSS_PRODUCT_MM2)
     }
 
     /// The intersection of two polygons.

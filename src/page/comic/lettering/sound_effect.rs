@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::page::comic::comic_keys::SoundKeys;
 use crate::page::layout::ConvexPolygon;
+use crate::page::tolerances::MIN_LETTERING_ARC_RAD;
 use crate::text::{Setting, TextBlock};
 
 /// The outlines of the letters in position, and messages about missing glyphs.
@@ -33,7 +34,7 @@ pub(crate) fn sound_outlines(
     let radius = block.width * stretch / arc;
     let bent = |p: Point| {
         let p = Point::new(p.x * stretch, p.y);
-        if arc.abs() < 1e-3 {
+        if arc.abs() < MIN_LETTERING_ARC_RAD {
             return p;
         }
         let angle = p.x / radius;

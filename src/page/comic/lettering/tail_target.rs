@@ -4,6 +4,7 @@ use kurbo::{Point, Rect};
 
 use crate::page::figure::PartExtent;
 use crate::page::layout::ConvexPolygon;
+use crate::page::tolerances::MIN_TARGET_AREA_MM2;
 
 /// Words in the names of parts that speak, most specific first.
 const FACE_WORDS: [&str; 6] = ["mouth", "beak", "face", "head", "helmet", "skull"];
@@ -31,7 +32,7 @@ impl TailTarget {
         let seen: Vec<(&PartExtent, ConvexPolygon)> = places
             .iter()
             .map(|place| (place, within(place)))
-            .filter(|(_, hull)| hull.area() > 1e-3)
+            .filter(|(_, hull)| hull.area() > MIN_TARGET_AREA_MM2)
             .collect();
         let rank = |part: &str| {
             let part = part.to_ascii_lowercase();

@@ -2,7 +2,8 @@
 //!
 //! A ring is a rectangle around the view with slots for balloons.
 //!
-//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`assign_leaders`], [`assign_radially`]).
+//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`assign_leaders`],
+//!    [`assign_radially`]).
 //! 2. If there are too few slots, or a leader crosses another one, a text or a balloon, the next rings are
 //!    tried.
 //! 3. The next rings are farther out, or there are two. Slots of two rings are staggered, so leaders of the
@@ -19,6 +20,7 @@ use crate::page::sheet::part_balloons::leader_assignment::{
     BALLOON_RADIUS_MM, assign_leaders, assign_radially, balloon_slots, passes_through_balloon, segments_meet,
 };
 use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
+use crate::page::tolerances::MAX_CIRCLE_ERROR_MM;
 
 /// Letter height of numbers, mm.
 const NUMBER_HEIGHT_MM: f64 = 3.5;
@@ -120,7 +122,7 @@ pub(crate) fn draw_balloons(
             board.balloons.line(end, anchor, THIN_LINE_MM);
             board.taken.take(ConvexShape::line(end, anchor, THIN_LINE_MM), OccupantKind::Leader);
         }
-        board.balloons.fill(Circle::new(anchor, 0.5).to_path(1e-3));
+        board.balloons.fill(Circle::new(anchor, 0.5).to_path(MAX_CIRCLE_ERROR_MM));
         board.balloons.circle(centre, BALLOON_RADIUS_MM, THIN_LINE_MM);
         board.taken.take(ConvexShape::disc(centre, BALLOON_RADIUS_MM), OccupantKind::Solid);
         let word =

@@ -11,6 +11,7 @@ use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::canvas::paper_occupancy::{ConvexShape, OccupantKind};
 use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, polyline};
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances;
 use crate::surface::Cylinder;
 
 /// Overshoot of centre lines at both ends, mm.
@@ -45,7 +46,7 @@ fn draw_axes(sight: &SheetView, found: &[Cylinder], board: &mut AnnotationBoard)
         if radius < MIN_RADIUS_MM {
             continue;
         }
-        if towards > 1.0 - 1e-6 {
+        if towards > tolerances::MIN_END_ON_COSINE {
             let at = sight.page(cylinder.point);
             match crosses
                 .iter_mut()
@@ -54,7 +55,7 @@ fn draw_axes(sight: &SheetView, found: &[Cylinder], board: &mut AnnotationBoard)
                 Some((_, reach)) => *reach = reach.max(radius),
                 None => crosses.push((at, radius)),
             }
-        } else if towards < 1e-6 {
+        } else if towards < tolerances::MAX_SIDE_ON_COSINE {
             let [a, b] = cylinder.ends.map(|end| sight.page(cylinder.point + cylinder.axis * end));
             add_or_extend(&mut lines, [a, b]);
         }

@@ -7,6 +7,7 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
 use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, OccupantKind};
 use crate::page::sheet::canvas::sheet_canvas::THIN_LINE_MM;
+use crate::page::tolerances::MAX_CIRCLE_ERROR_MM;
 
 /// Letter height, mm.
 const LETTER_HEIGHT_MM: f64 = 5.0;
@@ -26,7 +27,7 @@ const MAX_TITLE_SHIFT_MM: u32 = 400;
 /// Draws the circle around a detail.
 pub(crate) fn draw_circle(centre: Point, radius: f64, board: &mut AnnotationBoard) {
     let circle = kurbo::Circle::new(centre, radius);
-    board.take_path(&kurbo::Shape::to_path(&circle, 1e-3), THIN_LINE_MM, OccupantKind::Line);
+    board.take_path(&kurbo::Shape::to_path(&circle, MAX_CIRCLE_ERROR_MM), THIN_LINE_MM, OccupantKind::Line);
     board.ink.circle(centre, radius, THIN_LINE_MM);
 }
 

@@ -14,6 +14,7 @@ use crate::page::sheet::canvas::annotation_board::{AnnotationBoard, SetWord};
 use crate::page::sheet::canvas::paper_occupancy::{Clearance, OccupantKind};
 use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, polyline};
 use crate::page::sheet::dimensions::dimension_set::DiameterLeader;
+use crate::page::tolerances;
 
 /// First distance of a value from the view, step size of the distance, mm, and number of steps.
 const FIRST_VALUE_OFFSET_MM: f64 = 5.0;
@@ -44,7 +45,7 @@ pub(crate) fn draw_diameter(
 ) -> Result<(), Error> {
     let word = board.word(&led.text, VALUE_HEIGHT_MM)?;
     if let Some((middle, radius)) = led.pitch {
-        let circle = Circle::new(middle, radius).to_path(1e-3);
+        let circle = Circle::new(middle, radius).to_path(tolerances::MAX_CIRCLE_ERROR_MM);
         board.take_path(&circle, THIN_LINE_MM, OccupantKind::Line);
         board.ink.path(circle, THIN_LINE_MM, &CHAIN_DASH_MM);
     }
@@ -98,8 +99,8 @@ fn leader_candidate(
     let out = Vec2::new(cos(turn), -sin(turn));
     // Distances to the border of the view.
     let reach = |p: f64, d: f64, low: f64, high: f64| match d {
-        d if d > 1e-9 => (high - p) / d,
-        d if d < -1e-9 => (low - p) / d,
+        d if d > tolerances::MAX_ZERO_COMPONENT => (high - p) / d,
+        d if d < -tolerances::MAX_ZERO_COMPONENT => (low - p) / d,
         _ => f64::INFINITY,
     };
     let (x, y) = (led.centre.x, led.centre.y);

@@ -20,6 +20,7 @@ use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, Occupa
 use crate::page::sheet::canvas::sheet_canvas::THIN_LINE_MM;
 use crate::page::sheet::dimensions::dimension_set::SlantedLength;
 use crate::page::sheet::view::view_side::SideLength;
+use crate::page::tolerances::MAX_ZERO_COMPONENT;
 
 /// Distance from the view to the first row, and from row to row, mm.
 const FIRST_ROW_OFFSET_MM: f64 = 9.0;
@@ -71,7 +72,7 @@ impl DimensionLine {
         let way = if length > 0.0 { (feet[1] - feet[0]) / length } else { along };
         // Values must be readable from below or from the right.
         let mut reading = along;
-        if reading.x < -1e-9 || reading.x.abs() <= 1e-9 && reading.y > 0.0 {
+        if reading.x < -MAX_ZERO_COMPONENT || reading.x.abs() <= MAX_ZERO_COMPONENT && reading.y > 0.0 {
             reading = -reading;
         }
         Self { points, feet, way, length, is_inside: length >= 2.0 * ARROW_LENGTH_MM + 1.0, reading }
@@ -251,7 +252,9 @@ pub(crate) fn extension_line_paper<'a>(
 /// The normal of a length that points below, or to the right if the length is vertical.
 fn outward(along: Vec2) -> Vec2 {
     let out = Vec2::new(-along.y, along.x);
-    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 { -out } else { out }
+    let is_above = out.y < -MAX_ZERO_COMPONENT;
+    let is_vertical = out.y.abs() <= MAX_ZERO_COMPONENT;
+    if is_above || is_vertical && out.x < 0.0 { -out } else { out }
 }
 
 /// Draws a length that is not in a row.

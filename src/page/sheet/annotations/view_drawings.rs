@@ -11,6 +11,7 @@ use crate::page::sheet::arrangement::titles_and_notes::detail_circle;
 use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::canvas::annotation_board::for_each_chord;
 use crate::page::sheet::view::sheet_view::LINE_MARGIN_MM;
+use crate::page::tolerances;
 use crate::pipeline::Prepared;
 
 /// Tolerance of curves that are clipped to a circle, mm.
@@ -46,7 +47,10 @@ impl<'a> ViewDrawings<'a> {
         let mut any = false;
         for view in 0..plan.views.len() {
             let unit = plan.views[view].sight.unit;
-            if self.views[view].as_ref().is_none_or(|drawn| (drawn.unit / unit - 1.0).abs() > 1e-12) {
+            let is_outdated = |drawn: &ViewDrawing| {
+                (drawn.unit / unit - 1.0).abs() > tolerances::MAX_DRAWN_SCALE_DIFFERENCE_SHARE
+            };
+            if self.views[view].as_ref().is_none_or(is_outdated) {
                 self.views[view] = self.drawn(view, plan)?;
                 any = true;
             }
@@ -61,7 +65,8 @@ impl<'a> ViewDrawings<'a> {
         };
         let (mut item, mut warnings) = sight.item(prepared)?;
         if let Some(circled) = plan.circled.iter().find(|circled| circled.shown == view) {
-            let circle = item.place.inverse() * detail_circle(sight).to_path(1e-4);
+            let circle = detail_circle(sight).to_path(tolerances::MAX_CLIP_CIRCLE_ERROR_MM);
+            let circle = item.place.inverse() * circle;
             item.drawing.cut(&circle, CLIP_TOLERANCE_MM);
             if item.drawing.layers.iter().all(|layer| layer.marks.is_empty()) {
                 // This warning is more useful than the one about an empty drawing.

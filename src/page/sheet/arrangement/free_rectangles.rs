@@ -6,12 +6,11 @@
 
 use kurbo::{Point, Rect};
 
-/// Rounding tolerance of positions, mm.
-const ROUNDING_MM: f64 = 1e-6;
+use crate::page::tolerances::POSITION_ROUNDING_MM;
 
 /// Whether a rectangle lies inside another one.
 fn holds(outer: Rect, rect: Rect) -> bool {
-    outer.inflate(ROUNDING_MM, ROUNDING_MM).contains_rect(rect)
+    outer.inflate(POSITION_ROUNDING_MM, POSITION_ROUNDING_MM).contains_rect(rect)
 }
 
 /// The free paper of a sheet as its maximal free rectangles.

@@ -11,6 +11,7 @@ use crate::page::sheet::canvas::sheet_canvas::SheetCanvas;
 use crate::page::sheet::keys::sheet_keys::SheetPage;
 use crate::page::sheet::view::scale_series;
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances;
 use crate::text::Font;
 
 /// The title of a view: its own title, and its scale if that differs from the sheet's.
@@ -18,7 +19,7 @@ pub(crate) fn view_title(plan: &ViewPlan, view: usize, scale: f64) -> Option<Str
     let placed = &plan.views[view];
     let own = placed.sight.unit / plan.unit_mm();
     let is_other = !matches!(placed.placement, ViewPlacement::Free | ViewPlacement::Pictorial)
-        && (own / scale - 1.0).abs() > 1e-9;
+        && (own / scale - 1.0).abs() > tolerances::MAX_SCALE_DIFFERENCE_SHARE;
     let scale = is_other.then(|| scale_series::format_scale(own));
     match (&placed.sight.title, scale) {
         (Some(title), Some(scale)) => Some(format!("{title} ({scale})")),
@@ -29,7 +30,8 @@ pub(crate) fn view_title(plan: &ViewPlan, view: usize, scale: f64) -> Option<Str
 
 /// The view with the line of a section: the first one that sees the plane edge-on.
 pub(crate) fn edge_on_view(plan: &ViewPlan, cut: &CutLine) -> Option<usize> {
-    let edge_on = |sight: &SheetView| cut.plane.normal().dot(sight.axes()[2]).abs() < 1e-9;
+    let edge_on =
+        |sight: &SheetView| cut.plane.normal().dot(sight.axes()[2]).abs() < tolerances::MAX_EDGE_ON_COSINE;
     plan.views.iter().position(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
 }
 

@@ -15,6 +15,7 @@ use crate::page::sheet::annotations::AnnotationBoard;
 use crate::page::sheet::view::projection_method::ProjectionMethod;
 use crate::page::sheet::view::scale_series::STANDARD_SCALES;
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances;
 use crate::scene::NamedView;
 
 /// Minimum margin around a view, mm.
@@ -26,8 +27,8 @@ const CENTRING_MARK_OFFSET_MM: f64 = 9.0;
 /// Distance from the annotations of a view to the edge of its rectangle, mm.
 pub(crate) const ANNOTATION_MARGIN_MM: f64 = 3.0;
 
-/// Views without a scale are at most `MAX_FREE_ENLARGEMENT` times as large as the others. They shrink by `FREE_SCALE_FACTOR` until
-/// they fit, at most `FREE_SCALE_STEPS` times.
+/// Views without a scale are at most `MAX_FREE_ENLARGEMENT` times as large as the others. They shrink by
+/// `FREE_SCALE_FACTOR` until they fit, at most `FREE_SCALE_STEPS` times.
 const MAX_FREE_ENLARGEMENT: f64 = 4.0;
 const FREE_SCALE_FACTOR: f64 = 0.94;
 const FREE_SCALE_STEPS: i32 = 72;
@@ -60,7 +61,8 @@ impl PlacedView {
     /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
     /// the margins found last.
     pub fn margins_at(&self, unit: f64) -> [f64; 4] {
-        let known = self.margins.iter().find(|(known, _)| (known / unit - 1.0).abs() < 1e-9);
+        let is_same = |known: &f64| (known / unit - 1.0).abs() < tolerances::MAX_SCALE_DIFFERENCE_SHARE;
+        let known = self.margins.iter().find(|(known, _)| is_same(known));
         if let Some((_, around)) = known {
             return *around;
         }
@@ -72,7 +74,8 @@ impl PlacedView {
     pub fn widen_margins(&mut self, needed: [f64; 4]) {
         let unit = self.sight.unit;
         let own = self.margins_at(unit);
-        self.margins.retain(|(known, _)| (known / unit - 1.0).abs() >= 1e-9);
+        let is_other = |known: &f64| (known / unit - 1.0).abs() >= tolerances::MAX_SCALE_DIFFERENCE_SHARE;
+        self.margins.retain(|(known, _)| is_other(known));
         self.margins.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
     }
 
@@ -87,7 +90,8 @@ impl PlacedView {
     pub fn has_room_for(&self, board: &AnnotationBoard) -> bool {
         let rect = self.sight.rect();
         let extents = board.extents().map_or(rect, |extents| extents.union(rect));
-        let own = self.place.inflate(1e-6 - ANNOTATION_MARGIN_MM, 1e-6 - ANNOTATION_MARGIN_MM);
+        let margin = tolerances::POSITION_ROUNDING_MM - ANNOTATION_MARGIN_MM;
+        let own = self.place.inflate(margin, margin);
         own.contains_rect(extents) && board.unplaced.is_empty()
     }
 }
@@ -167,7 +171,7 @@ pub(crate) fn arrange_views(
             }
             fits = true;
             let size: f64 = views.iter().map(|placed| ln(placed.sight.unit)).sum();
-            if best.is_none_or(|(known, ..)| size > known + 1e-9) {
+            if best.is_none_or(|(known, ..)| size > known + tolerances::MIN_LOG_SCALE_GAIN) {
                 best = Some((size, *scale, order));
             }
         }
@@ -198,8 +202,8 @@ fn centre_free_views(views: &mut [PlacedView], free: &FreeRectangles, order: &[u
     }
 }
 
-/// All possible orders of placing views, the given one first. More than `MAX_PERMUTED_VIEWS` views are placed in the given
-/// order only.
+/// All possible orders of placing views, the given one first. More than `MAX_PERMUTED_VIEWS` views are
+/// placed in the given order only.
 fn placement_orders(views: &[usize]) -> Vec<Vec<usize>> {
     const MAX_PERMUTED_VIEWS: usize = 5;
     let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MAX_PERMUTED_VIEWS) else {
@@ -294,7 +298,8 @@ fn try_scale(
     }
     for k in order {
         let placed = &mut views[*k];
-        let from = STANDARD_SCALES.iter().position(|own| *own <= scale * (1.0 + 1e-9)).unwrap_or_default();
+        let most = scale * (1.0 + tolerances::MAX_SCALE_DIFFERENCE_SHARE);
+        let from = STANDARD_SCALES.iter().position(|own| *own <= most).unwrap_or_default();
         let scales: Vec<f64> = match placed.placement {
             ViewPlacement::Projected(_) => continue,
             ViewPlacement::Enlarged(times) => vec![scale * times],

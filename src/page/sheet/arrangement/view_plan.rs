@@ -24,6 +24,7 @@ use crate::page::sheet::lengths::length_format::LengthFormat;
 use crate::page::sheet::lengths::true_length::Foreshortening;
 use crate::page::sheet::view::scale_series;
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances;
 use crate::pipeline::{with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, NamedView, Scene};
@@ -79,9 +80,6 @@ pub(crate) struct ViewPlan {
     /// The view with balloons, if any.
     pub balloons: Option<usize>,
 }
-
-/// Positions of a cylinder are equal within this share of its radius, because of single precision.
-const MAX_GAP_OF_RADIUS: f64 = 5e-3;
 
 /// The views that a section may be seen from, preferred first.
 const SIDE_VIEWS: [NamedView; 6] =
@@ -174,12 +172,14 @@ impl ViewPlan {
             let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
             let (normal, _) = told.normal();
             let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
-            let preferred =
-                SIDE_VIEWS.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
+            let is_normal = |forward: &DVec3| forward.dot(normal).abs() > tolerances::MIN_PARALLEL_COSINE;
+            let preferred = SIDE_VIEWS.iter().map(forward).find(is_normal);
             let plane = told
                 .of(whole, self.unit_mm(), preferred.unwrap_or(-normal))
                 .map_err(|error| source.about(&span, error))?;
-            let side = SIDE_VIEWS.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
+            let is_opposite =
+                |view: &NamedView| forward(view).dot(plane.normal()) < -tolerances::MIN_PARALLEL_COSINE;
+            let side = SIDE_VIEWS.into_iter().find(is_opposite);
             let camera =
                 side.map_or_else(|| camera_facing(&plane, whole), |view| Camera::named(view, whole.up));
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
@@ -283,7 +283,7 @@ impl ViewPlan {
             return positions.iter().any(is_behind).then_some(*cylinder);
         }
         let away = cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
-        let near = MAX_GAP_OF_RADIUS * cylinder.radius;
+        let near = tolerances::MAX_OFFSET_OF_RADIUS * cylinder.radius;
         if (away[0] - away[1]).abs() <= near {
             return (away[0] <= near).then_some(*cylinder);
         }
@@ -330,6 +330,7 @@ fn label_letter(number: usize) -> String {
 fn camera_facing(plane: &Plane, scene: &Scene) -> Camera {
     let up = Camera::named(NamedView::Front, scene.up).up;
     let normal = plane.normal();
-    let up = if normal.cross(up).length() < 1e-6 { Camera::named(NamedView::Top, scene.up).up } else { up };
+    let is_horizontal = normal.cross(up).length() < tolerances::MIN_UPWARD_SINE;
+    let up = if is_horizontal { Camera::named(NamedView::Top, scene.up).up } else { up };
     Camera { eye: normal, target: DVec3::ZERO, up, ..Camera::named(NamedView::Front, scene.up) }
 }

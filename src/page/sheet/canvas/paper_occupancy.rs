@@ -7,8 +7,8 @@
 //! The distance of two shapes is the smallest distance between their sides. A shape inside another one
 //! touches it.
 //!
-//! Each shape has a [`OccupantKind`]. Texts and balloons need free paper. Lines may cross lines, but no texts, arrows
-//! or balloons.
+//! Each shape has a [`OccupantKind`]. Texts and balloons need free paper. Lines may cross lines, but no
+//! texts, arrows or balloons.
 
 use kurbo::{Point, Rect, Vec2};
 use rustc_hash::FxHashMap;

@@ -10,6 +10,7 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 use crate::error::Error;
+use crate::page::tolerances::MAX_CIRCLE_ERROR_MM;
 use crate::text::{Align, Font, Setting, TextBlock};
 
 /// Widths of wide and narrow lines, mm (ISO 128-2, group 0.5).
@@ -79,12 +80,12 @@ impl SheetCanvas {
 
     /// Adds the outline of a rectangle.
     pub fn rect(&mut self, rect: Rect, width: f64) {
-        self.path(rect.to_path(CIRCLE_TOLERANCE_MM), width, &[]);
+        self.path(rect.to_path(MAX_CIRCLE_ERROR_MM), width, &[]);
     }
 
     /// Adds a circle.
     pub fn circle(&mut self, centre: Point, radius: f64, width: f64) {
-        self.path(Circle::new(centre, radius).to_path(CIRCLE_TOLERANCE_MM), width, &[]);
+        self.path(Circle::new(centre, radius).to_path(MAX_CIRCLE_ERROR_MM), width, &[]);
     }
 
     /// Adds a filled path.
@@ -220,9 +221,6 @@ impl SheetCanvas {
         Drawing::new(title, page, vec![layer])
     }
 }
-
-/// Tolerance of circles and rectangles as Bézier paths, mm.
-const CIRCLE_TOLERANCE_MM: f64 = 1e-3;
 
 /// The polyline through some points.
 pub(crate) fn polyline(points: &[Point]) -> BezPath {

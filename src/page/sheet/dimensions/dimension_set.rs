@@ -12,6 +12,7 @@ use crate::page::sheet::arrangement::view_arrangement::ViewPlacement;
 use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::lengths::length_precision::{LengthPrecision, MeasuredPoint};
 use crate::page::sheet::view::view_side::{SideLength, ViewSide};
+use crate::page::tolerances::MIN_PARALLEL_COSINE;
 
 /// Minimum distance of a dimensioned position from the side, on paper, mm; maximum number of positions per
 /// side.
@@ -68,7 +69,7 @@ impl DimensionSet {
             let sight = &plan.views[view].sight;
             let [right, up, _] = sight.axes();
             for (axis, side) in [(right, ViewSide::Below), (up, ViewSide::Left)] {
-                if told.iter().any(|known| known.dot(axis).abs() > 1.0 - 1e-9) {
+                if told.iter().any(|known| known.dot(axis).abs() > MIN_PARALLEL_COSINE) {
                     continue;
                 }
                 told.push(axis);

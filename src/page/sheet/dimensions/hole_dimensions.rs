@@ -12,6 +12,7 @@ use crate::page::sheet::arrangement::view_arrangement::ViewPlacement;
 use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::lengths::length_precision::LengthPrecision;
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances::{MAX_OFFSET_OF_RADIUS, MAX_RIM_DEPTH_OF_VIEW, MIN_END_ON_COSINE};
 use crate::surface::{Cylinder, cylinders};
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, PixelGrid};
@@ -33,9 +34,6 @@ pub(crate) struct HoleDimension {
 
 /// Minimum arc of a whole cylinder, radians.
 const MIN_WHOLE_ARC_RAD: f64 = 5.8;
-
-/// Positions are equal within this share of the radius.
-const MAX_OFFSET_OF_RADIUS: f64 = 5e-3;
 
 /// Pixels along the longer side of the view for the visibility test.
 const LONGER_SIDE_PX: f64 = 900.0;
@@ -60,7 +58,7 @@ pub(crate) fn find_hole_dimensions(plan: &ViewPlan) -> Vec<HoleDimension> {
         }
         let forward = placed.sight.axes()[2];
         let (along, others): (Vec<Cylinder>, Vec<Cylinder>) =
-            left.into_iter().partition(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
+            left.into_iter().partition(|cylinder| cylinder.axis.dot(forward).abs() > MIN_END_ON_COSINE);
         let (shown, hidden): (Vec<Cylinder>, Vec<Cylinder>) = split_visible(&mesh, &placed.sight, along);
         left = others.into_iter().chain(hidden).collect();
         let mut own: Vec<HoleDimension> = Vec::new();
@@ -147,7 +145,7 @@ fn split_visible(mesh: &Mesh, sight: &SheetView, cylinders: Vec<Cylinder>) -> (V
         let normal = (b - a).cross(c - a);
         let ahead = (a - p).dot(normal) / forward.dot(normal);
         let is_own = part.is_none_or(|part| mesh.face_part[face as usize] == part);
-        is_own && (ahead.is_nan() || ahead > -2e-3 * size)
+        is_own && (ahead.is_nan() || ahead > -MAX_RIM_DEPTH_OF_VIEW * size)
     };
     let is_seen = |cylinder: &Cylinder| {
         let towards = if cylinder.axis.dot(forward) < 0.0 { cylinder.ends[1] } else { cylinder.ends[0] };

@@ -21,6 +21,7 @@ use crate::page::sheet::lengths::length_precision::{LengthPrecision, MeasuredPoi
 use crate::page::sheet::lengths::true_length::{Foreshortening, REFUSED_IN_EXPLODED_VIEW, true_length};
 use crate::page::sheet::view::sheet_view::SheetView;
 use crate::page::sheet::view::view_side::ViewSide;
+use crate::page::tolerances;
 use crate::scene::Scene;
 use crate::surface::{Cylinder, cylinders};
 
@@ -147,7 +148,8 @@ fn nearest_cylinder_leader(
         let beyond = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
         aside * aside + beyond * beyond
     };
-    let seen = found.iter().filter(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
+    let is_end_on = |cylinder: &&Cylinder| cylinder.axis.dot(forward).abs() > tolerances::MIN_END_ON_COSINE;
+    let seen = found.iter().filter(is_end_on);
     let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
     let is_radius = measure == DimensionKind::Radius;
     let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
@@ -176,8 +178,8 @@ fn add_length(
         return;
     }
     let along = along / far;
-    let across = along.y.abs() < 1e-9;
-    if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
+    let across = along.y.abs() < tolerances::MAX_ZERO_COMPONENT;
+    if keys.offset.is_none() && (across || along.x.abs() < tolerances::MAX_ZERO_COMPONENT) {
         let side = keys.side.filter(|side| side.is_across() == across);
         let side = side.unwrap_or(if across { ViewSide::Below } else { ViewSide::Left });
         measures.add(view, ends, side, text);

@@ -13,6 +13,7 @@ use kurbo::{Point, Rect};
 use crate::error::Error;
 use crate::page::sheet::canvas::sheet_canvas::{SheetCanvas, THICK_LINE_MM, THIN_LINE_MM, WordAnchor};
 use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
+use crate::page::tolerances;
 use crate::text::Font;
 
 /// Height of a row with one line, and of each further line, mm.
@@ -107,7 +108,9 @@ impl PartsTable {
             if height <= PREFERRED_HEIGHT_SHARE * space.height() {
                 return Ok(Some(own));
             }
-            let is_better = best.as_ref().is_none_or(|best| own.place.area() < best.place.area() - 1e-9);
+            let is_smaller =
+                |best: &Self| own.place.area() < best.place.area() - tolerances::MIN_AREA_GAIN_MM2;
+            let is_better = best.as_ref().is_none_or(is_smaller);
             if height <= MAX_HEIGHT_SHARE * space.height() && place.y0 > space.y0 && is_better {
                 best = Some(own);
             }
@@ -198,7 +201,7 @@ fn split_into_columns(rows: Vec<TableRow>, count: usize) -> Vec<Vec<TableRow>> {
         let mut ends = Vec::new();
         let mut high = 0.0;
         for (k, row) in rows.iter().enumerate() {
-            if high + row.height > most + 1e-9 && high > 0.0 {
+            if high + row.height > most + tolerances::LENGTH_ROUNDING_MM && high > 0.0 {
                 ends.push(k);
                 high = 0.0;
             }

@@ -12,6 +12,7 @@ use crate::page::sheet::canvas::sheet_canvas::{
     CHAIN_DASH_MM, SheetCanvas, THICK_LINE_MM, THIN_LINE_MM, WordAnchor, polyline,
 };
 use crate::page::sheet::view::projection_method::ProjectionMethod;
+use crate::page::tolerances::LENGTH_ROUNDING_MM;
 use crate::text::Font;
 
 /// Width of the title block, mm.
@@ -21,7 +22,8 @@ pub const BLOCK_WIDTH_MM: f64 = 180.0;
 const ROW_HEIGHT_MM: f64 = 9.0;
 const STRIP_HEIGHT_MM: f64 = 10.0;
 
-/// Letter heights in one-row fields (`ROW_LETTER_HEIGHTS_MM`) and two-row fields (`FIELD_LETTER_HEIGHTS_MM`), preferred first, mm (ISO 3098).
+/// Letter heights in one-row fields (`ROW_LETTER_HEIGHTS_MM`) and two-row fields
+/// (`FIELD_LETTER_HEIGHTS_MM`), preferred first, mm (ISO 3098).
 const ROW_LETTER_HEIGHTS_MM: [f64; 4] = [2.5, 2.2, 2.0, MIN_LETTER_HEIGHT_MM];
 const FIELD_LETTER_HEIGHTS_MM: [f64; 6] = [3.5, 3.0, 2.5, 2.2, 2.0, MIN_LETTER_HEIGHT_MM];
 const MIN_LETTER_HEIGHT_MM: f64 = 1.8;
@@ -142,8 +144,9 @@ impl TitleBlock {
                 })
                 .map_err(about("subtitle", &keys.subtitle))?;
             let left = room - if below.1.is_empty() { 0.0 } else { text_height(&below) + BOTTOM_PADDING_MM };
-            let fits =
-                |high: f64, lines: usize| text_height(&(high, vec![String::new(); lines])) <= left + 1e-9;
+            let fits = |high: f64, lines: usize| {
+                text_height(&(high, vec![String::new(); lines])) <= left + LENGTH_ROUNDING_MM
+            };
             let own = ink.fitted(text, heights, width, fits).map_err(about(key, text))?;
             // The last row of the field grows if the smallest letters do not fit.
             let needed = text_height(&own) - left;

@@ -12,6 +12,7 @@ use super::length_precision::{LengthPrecision, power_of_ten};
 use crate::error::Error;
 use crate::page::page_source::PageSource;
 use crate::page::sheet::keys::sheet_keys::SheetPage;
+use crate::page::tolerances::TIE_ROUNDING_SHARE;
 
 /// The units that a page file may name.
 const LENGTH_UNITS: [LengthUnit; 5] = [
@@ -30,10 +31,6 @@ const MAX_DECIMALS: u8 = 9;
 
 /// Decimals that are enough for the smallest double.
 const DOUBLE_DECIMALS: usize = 330;
-
-/// Maximum relative error of a product of few factors in double precision. A value this close below a tie
-/// counts as a tie.
-const TIE_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 /// Doubles are integers from here on (2^53).
 const MAX_EXACT_INTEGER: f64 = 9_007_199_254_740_992.0;
@@ -114,7 +111,7 @@ impl LengthFormat {
 fn format_decimal(value: f64, decimals: usize) -> String {
     let rounded = |decimals: usize| {
         let power = power_of_ten(decimals);
-        let scaled = value * power * (1.0 + TIE_TOLERANCE);
+        let scaled = value * power * (1.0 + TIE_ROUNDING_SHARE);
         if scaled < MAX_EXACT_INTEGER { (scaled + 0.5).floor() / power } else { value }
     };
     let mut decimals = decimals;

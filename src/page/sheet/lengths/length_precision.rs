@@ -113,7 +113,7 @@ fn largest_coordinate(points: [DVec3; 2]) -> f64 {
     points.into_iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// The exponent of the smallest power of ten that is at least `number`, with a relative tolerance of 1e-9.
+/// The exponent of the smallest power of ten that is at least `number`, rounded to ten significant digits.
 fn power_above(number: f64) -> i32 {
     let text = format!("{number:.9e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or(("1", "0"));

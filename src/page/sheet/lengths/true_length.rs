@@ -10,6 +10,7 @@ use glam::DVec3;
 use super::length_precision::{LengthPrecision, MeasuredPoint};
 use crate::page::sheet::keys::sheet_keys::DimensionKind;
 use crate::page::sheet::view::sheet_view::SheetView;
+use crate::page::tolerances::MAX_OFF_AXIS_SHARE;
 
 /// How lengths in a view relate to those of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,9 +36,6 @@ const REFUSED_OFF_AXIS: Refusal = [
 
 const REFUSED_BEHIND_EACH_OTHER: Refusal =
     ["these two points lie behind each other in this view", "name another point, or another view with `of`"];
-
-/// Maximum distance of two points from a line along an axis, as a share of their distance.
-const MAX_OFF_AXIS_SHARE: f64 = 1e-9;
 
 /// The length that a dimension measures between two points in a view, in model units, with its precision.
 pub(crate) fn true_length(

@@ -10,6 +10,8 @@
 use kurbo::{Point, Rect, Vec2};
 use robust::{Coord, orient2d};
 
+use crate::page::tolerances::MIN_LEADER_GAIN_MM;
+
 /// Radius of a balloon, and the clearance of leaders around it, mm.
 pub const BALLOON_RADIUS_MM: f64 = 4.0;
 const LEADER_CLEARANCE_MM: f64 = 0.6;
@@ -17,8 +19,8 @@ const LEADER_CLEARANCE_MM: f64 = 0.6;
 /// Maximum number of slots on a border.
 const MAX_SLOTS: usize = 2000;
 
-/// The search stops after `MAX_STEPS_WITHOUT_GAIN` steps without a gain. A leader may not return to a slot for `TABU_STEPS`
-/// steps.
+/// The search stops after `MAX_STEPS_WITHOUT_GAIN` steps without a gain. A leader may not return to a slot
+/// for `TABU_STEPS` steps.
 const MAX_STEPS_WITHOUT_GAIN: usize = 60;
 const TABU_STEPS: usize = 8;
 
@@ -115,7 +117,7 @@ fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize
             for b in 0..a {
                 let gain = length(a, of[a]) + length(b, of[b]) - length(a, of[b]) - length(b, of[a]);
                 let crosses = || segments_meet([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]);
-                if gain > 1e-9 || gain > 0.0 && crosses() {
+                if gain > MIN_LEADER_GAIN_MM || gain > 0.0 && crosses() {
                     of.swap(a, b);
                     exchanged = true;
                 }

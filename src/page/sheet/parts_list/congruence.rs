@@ -18,11 +18,8 @@ use rustc_hash::FxHashMap;
 
 use crate::geometry::tolerances::F32_STEP;
 use crate::mesh::tolerances::{MAX_F32_ROUNDING_STEPS, MAX_LATTICE_ROUNDING_STEPS};
+use crate::page::tolerances::CORNER_ROUNDING_OF_COORDINATE;
 use crate::scene::{Geometry, Part, Scene};
-
-/// Rounding error in double precision of a transformed corner and of a mean, as a share of the largest
-/// coordinate.
-const DOUBLE_ROUNDING_SHARE: f64 = 1e-12;
 
 /// Minimum distance of the first corner from the mean, as a share of the largest distance.
 const MIN_FIRST_CORNER_SHARE: f64 = 0.5;
@@ -178,7 +175,7 @@ fn file_rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     let stretch =
         place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
     let world = largest * stretch + place.translation.abs().max_element();
-    single.max(lattice) * stretch + DOUBLE_ROUNDING_SHARE * world
+    single.max(lattice) * stretch + CORNER_ROUNDING_OF_COORDINATE * world
 }
 
 /// An orthonormal frame: x along the first vector, z normal to both.

@@ -1,0 +1,225 @@
+//! [`SheetLayout`]: positions and scale of all views of a sheet, with places for their annotations.
+//!
+//! 1. The views are arranged at the largest scale that fits, and their annotations are placed.
+//! 2. Annotations that reach outside a view widen its margin, and the views are arranged again.
+//! 3. Once everything fits, a view inside a ring of balloons is enlarged as far as the ring allows.
+
+use glam::DVec2;
+use kurbo::{Point, Rect};
+
+use super::annotations::{AnnotationBoard, Annotations, ViewDrawings};
+use super::arrangement::view_arrangement::{PlacedView, arrange_views};
+use super::arrangement::view_plan::{ViewPlan, read_scale};
+use super::dimensions::dimension_set::DimensionSet;
+use super::dimensions::hole_dimensions::{HoleDimension, find_hole_dimensions, whole_cylinders};
+use super::dimensions::requested_dimensions::add_requested;
+use super::keys::sheet_keys::SheetPage;
+use super::part_balloons::balloon_anchors::find_anchors;
+use super::parts_list::parts_list_items::PartsListItem;
+use crate::drawing::PlacedDrawing;
+use crate::error::Error;
+use crate::mesh::Mesh;
+use crate::page::page_source::PageSource;
+use crate::page::tolerances::LENGTH_ROUNDING_MM;
+use crate::pipeline::Prepared;
+use crate::surface::Cylinder;
+use crate::text::Font;
+
+/// Maximum number of layout rounds: annotations change the scale, and the scale changes the room of
+/// annotations.
+const MAX_LAYOUT_ROUNDS: usize = 60;
+
+/// Enlargements that are tried for a view inside a ring of balloons.
+const RING_ENLARGEMENTS: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
+
+/// A sheet whose views have their final positions.
+pub(crate) struct SettledLayout {
+    pub scale: f64,
+    /// The drawings of the views, and their warnings.
+    pub views: (Vec<PlacedDrawing>, Vec<String>),
+    pub boards: Vec<AnnotationBoard>,
+    /// Anchors of the balloons, one per item of the parts list; `None` if no part of the item is visible.
+    pub anchors: Vec<Option<DVec2>>,
+}
+
+/// Data that stays the same while the views are arranged repeatedly.
+pub(crate) struct SheetLayout<'a> {
+    sheet: &'a SheetPage,
+    overall: bool,
+    /// Automatic diameters, if wanted.
+    rounds: Option<Vec<HoleDimension>>,
+    /// Cylinders with centre lines.
+    cylinders: Vec<Cylinder>,
+}
+
+impl<'a> SheetLayout<'a> {
+    /// Reads which dimensions and centre lines a sheet has.
+    ///
+    /// # Errors
+    /// Returns an error if the set of dimensions is unknown.
+    pub fn new(sheet: &'a SheetPage, plan: &ViewPlan, source: &PageSource) -> Result<Self, Error> {
+        let dimensions = match &sheet.dimensions {
+            None => "overall",
+            Some(told) => match &**told.get_ref() {
+                known @ ("none" | "overall" | "auto") => known,
+                _ => return Err(source.unknown(told, "set of dimensions", &["none", "overall", "auto"])),
+            },
+        };
+        let auto = dimensions == "auto";
+        let is_single = plan.sets[0].scene.parts.len() == 1;
+        let cylinders = if sheet.centre_lines.unwrap_or(is_single || auto) {
+            whole_cylinders(&Mesh::build(plan.sets[0].scene.to_soup()))
+        } else {
+            Vec::new()
+        };
+        let overall = sheet.overall.unwrap_or(dimensions != "none");
+        Ok(Self { sheet, overall, rounds: auto.then(Vec::new), cylinders })
+    }
+
+    fn measures(&self, plan: &ViewPlan, source: &PageSource) -> Result<DimensionSet, Error> {
+        let mut measures = DimensionSet::default();
+        if self.overall {
+            measures.add_overall(plan);
+        }
+        if let Some(rounds) = &self.rounds {
+            measures.add_rounds(plan, rounds);
+        }
+        add_requested(self.sheet, plan, &mut measures, source)?;
+        Ok(measures)
+    }
+
+    /// Arranges the views until all annotations fit.
+    ///
+    /// # Errors
+    /// Returns an error if the views or their annotations do not fit, or a view cannot be drawn.
+    pub fn settle_layout(
+        &mut self,
+        plan: &mut ViewPlan,
+        place: (Rect, &[Rect]),
+        (font, items): (&Font, &[PartsListItem]),
+        source: &PageSource,
+    ) -> Result<SettledLayout, Error> {
+        let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+        let sets = plan.sets.clone();
+        let mut prepared = Vec::new();
+        for (number, set) in sets.iter().enumerate() {
+            prepared.push(plan.set_of.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
+        }
+        let mut drawn = ViewDrawings::new(prepared, plan.views.len());
+        let mut anchors: Option<Vec<Option<DVec2>>> = None;
+        for _ in 0..MAX_LAYOUT_ROUNDS {
+            let unit_mm = plan.unit_mm();
+            let arranged = arrange_views(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
+            let Some(scale) = arranged else { return Err(self.misfit_error(plan, source)) };
+            if anchors.is_none() {
+                drawn.update(plan)?;
+                if let Some(rounds) = &mut self.rounds {
+                    *rounds = find_hole_dimensions(plan);
+                }
+                let found = plan.balloons.map(|view| {
+                    let sight = &plan.views[view].sight;
+                    let found = find_anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
+                    let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
+                    found.into_iter().map(|p| p.map(|p| within(p) / sight.unit)).collect()
+                });
+                anchors = Some(found.unwrap_or_default());
+            }
+            let measures = self.measures(plan, source)?;
+            let layout = Annotations {
+                font,
+                measures: &measures,
+                cylinders: &self.cylinders,
+                items,
+                anchors: anchors.as_deref().unwrap_or_default(),
+                scale,
+            };
+            let boards = |plan: &ViewPlan, drawn: &ViewDrawings| {
+                (0..plan.views.len())
+                    .map(|view| layout.board(view, plan, drawn))
+                    .collect::<Result<Vec<_>, _>>()
+            };
+            let mut laid = boards(plan, &drawn)?;
+            let mut fits = make_room(&mut plan.views, &laid);
+            if fits && drawn.update(plan)? {
+                laid = boards(plan, &drawn)?;
+                fits = make_room(&mut plan.views, &laid);
+            }
+            if !fits {
+                continue;
+            }
+            if let Some(view) = plan.balloons {
+                let board = |plan: &ViewPlan, drawn: &ViewDrawings| layout.board(view, plan, drawn);
+                fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
+            }
+            if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
+                return Err(Error::new(format!("this sheet has no free place for {unplaced}"))
+                    .remedy("choose a larger size or another scale, or leave something out"));
+            }
+            let views = drawn.into_items(plan);
+            return Ok(SettledLayout { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
+        }
+        Err(self.misfit_error(plan, source))
+    }
+
+    /// The error that the views do not fit; it names the view with the widest margins.
+    fn misfit_error(&self, plan: &ViewPlan, source: &PageSource) -> Error {
+        let around =
+            |placed: &PlacedView| placed.margins.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>());
+        let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
+        let message = match widest.filter(|placed| around(placed) > 0.0) {
+            Some(placed) => format!(
+                "the views do not fit on this sheet; `{}` needs the most room for dimensions, letters and balloons",
+                placed.sight.name
+            ),
+            None => "the views do not fit on this sheet".to_owned(),
+        };
+        let remedy = "choose a larger size, fewer views or another scale";
+        match &self.sheet.scale {
+            Some(told) => source.fault(&told.span(), &message, remedy),
+            None => Error::new(message).remedy(remedy),
+        }
+    }
+}
+
+/// Enlarges a view with balloons as far as the ring of balloons allows. Views to scale keep their size.
+fn fill_ring(
+    plan: &mut ViewPlan,
+    view: usize,
+    drawn: &mut ViewDrawings,
+    (scale, laid): (f64, &mut AnnotationBoard),
+    board: impl Fn(&ViewPlan, &ViewDrawings) -> Result<AnnotationBoard, Error>,
+) -> Result<(), Error> {
+    let unit = plan.views[view].sight.unit;
+    let Some(most) = plan.views[view].placement.max_unit(scale * plan.unit_mm()) else { return Ok(()) };
+    for larger in RING_ENLARGEMENTS {
+        plan.views[view].rescale(unit, (unit * larger).min(most));
+        let mut own = board(plan, drawn)?;
+        if plan.views[view].has_room_for(&own) {
+            drawn.update(plan)?;
+            own = board(plan, drawn)?;
+            if plan.views[view].has_room_for(&own) {
+                *laid = own;
+                return Ok(());
+            }
+        }
+        let now = plan.views[view].sight.unit;
+        plan.views[view].rescale(now, unit);
+    }
+    drawn.update(plan)?;
+    Ok(())
+}
+
+/// Widens the margins of views to those that their annotations need. Returns whether they were wide enough.
+fn make_room(views: &mut [PlacedView], boards: &[AnnotationBoard]) -> bool {
+    let mut fits = true;
+    for (placed, board) in views.iter_mut().zip(boards) {
+        let needed = Annotations::room(board, placed.sight.rect());
+        let own = placed.margins_at(placed.sight.unit);
+        if needed.iter().zip(own).all(|(needed, own)| *needed <= own + LENGTH_ROUNDING_MM) {
+            continue;
+        }
+        fits = false;
+        placed.widen_margins(needed);
+    }
+    fits
+}
