@@ -1,4 +1,4 @@
-//! Tolerances of this area, each as a fraction of a named length or angle, or in px of the page.
+//! Tolerances of comparisons, each as a fraction of a named length or angle, or in px of the page.
 
 /// Line widths in two drawings within this difference (px) are equal; one may have been written with two
 /// decimals.

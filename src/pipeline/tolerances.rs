@@ -1,4 +1,4 @@
-//! Tolerances of this area, each as a fraction of a named length or angle, or in px of the page.
+//! Tolerances of the pipeline: corners of tessellated circles, and texture coordinates.
 
 /// Maximum distance of a corner from its tessellated circle, in steps of the file's coordinates.
 ///

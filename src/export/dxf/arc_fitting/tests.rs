@@ -1,3 +1,5 @@
+//! Tests of fitted lines and arcs.
+
 use kurbo::{PathEl, Shape};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of painting operators.
+
 use kurbo::BezPath;
 
 use super::*;
