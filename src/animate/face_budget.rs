@@ -5,6 +5,8 @@
 //!
 //! Deviation: the number of faces falls at once and rises slowly, in steps, so that a level lasts.
 
+use crate::animate::tolerances::MIN_FRAME_TIME_MS;
+
 /// Target share of the permitted frame time. The rest absorbs variation between frames.
 const TARGET_TIME_SHARE: f64 = 0.6;
 
@@ -67,7 +69,8 @@ impl Budget {
             self.patient += 1;
             if self.patient >= SPARE_FRAMES_TO_RISE {
                 self.patient = 0;
-                let wanted = faces * (TARGET_TIME_SHARE * self.ms / ms.max(1e-3)).min(MAX_CHANGE_RATIO);
+                let wanted =
+                    faces * (TARGET_TIME_SHARE * self.ms / ms.max(MIN_FRAME_TIME_MS)).min(MAX_CHANGE_RATIO);
                 self.level = self.level_of(wanted).min(self.level - 1);
             }
         } else {

@@ -8,7 +8,7 @@
 //! [`detail_level`] scenes with fewer faces; [`face_budget`] faces per frame in real time; [`stroke_fade`].
 //!
 //! ```
-//! use ligne::animate::{Animator, Moment, Timeline};
+//! use ligne::animate::{Animator, FrameSpec, Timeline};
 //! use ligne::drawing::{Page, Unit};
 //! use ligne::animation::{Playing, Rigged};
 //! use ligne::{Camera, Style};
@@ -22,7 +22,7 @@
 //! let mut animator = Animator::new(&crane, &style);
 //! for frame in timeline.drawn() {
 //!     let playing = vec![Playing::all(0, timeline.time(frame))];
-//!     let drawing = animator.step(&Moment { playing, camera, page })?;
+//!     let drawing = animator.step(&FrameSpec { playing, camera, page })?;
 //!     assert!(!drawing.layers.is_empty());
 //! }
 //! # Ok::<(), ligne::Error>(())
@@ -33,6 +33,7 @@ mod face_budget;
 mod film_extent;
 mod stroke_fade;
 mod timeline;
+pub(crate) mod tolerances;
 mod turntable;
 
 use std::sync::OnceLock;

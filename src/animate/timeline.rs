@@ -1,12 +1,10 @@
 //! [`Timeline`]: the frames of a film, their times, and which of them are drawn.
 
+use crate::animate::tolerances::MAX_SPAN_ROUNDING_FRAMES;
 use crate::error::Error;
 
 /// Greatest number of frames, half a day of film.
 const MAX_FRAMES: f64 = 1e6;
-
-/// Excess of a span over whole frames that counts as rounding, in frames.
-const SPAN_TOLERANCE_FRAMES: f64 = 1e-6;
 
 /// Frames of equal length. Some repeat the drawing of the frame before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +31,7 @@ impl Timeline {
             ))
             .remedy("make the end later than the start"));
         }
-        let frames = ((to - from) * fps - SPAN_TOLERANCE_FRAMES).ceil().max(1.0);
+        let frames = ((to - from) * fps - MAX_SPAN_ROUNDING_FRAMES).ceil().max(1.0);
         if frames > MAX_FRAMES {
             return Err(Error::new(format!("{frames} frames are too many"))
                 .remedy("draw a shorter time, or fewer frames per second"));

@@ -34,7 +34,7 @@ use crate::diff::shapes::ink::trimmed;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
-use crate::diff::shapes::tolerances::{Tolerances, default_px};
+use crate::diff::shapes::tolerance_table::{Tolerances, default_px};
 use crate::drawing::{Length, Unit};
 
 /// Stack size for the renderer's recursion over nested elements.

@@ -56,7 +56,7 @@ pub use shapes::ignore_options::Ignore;
 pub use shapes::ink::{Ink, Paint};
 pub use shapes::label::Label;
 pub use shapes::picture::{Picture, Shape, ShapeKind};
-pub use shapes::tolerances::Tolerances;
+pub use shapes::tolerance_table::Tolerances;
 
 /// Options of a comparison.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer};
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
+use crate::motion::tolerances;
 use crate::strokes::Ink;
 
 /// Greatest number of lines per body, and of segments per line.
@@ -165,7 +166,7 @@ fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
 /// Reads a number per second.
 fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let rate = f64::deserialize(deserializer)?;
-    if (1e-3..=1e4).contains(&rate) {
+    if tolerances::SEGMENT_RATES_PER_S.contains(&rate) {
         Ok(rate)
     } else {
         Err(D::Error::custom(format!(

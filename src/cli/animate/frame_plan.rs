@@ -14,6 +14,7 @@ use crate::cli::models::clip_blend::ClipBlend;
 use crate::cli::options::values::paper_size::Paper;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::cli::request::viewpoint::{ViewRequest, Viewpoint, on_sheet, viewpoint};
+use crate::cli::tolerances::TIME_ROUNDING_S;
 use crate::colour::srgb::Colour;
 use crate::drawing::Page;
 use crate::error::Error;
@@ -84,7 +85,7 @@ impl FramePlan {
         let mut warnings = Vec::new();
         let last = timeline.time(timeline.frames() - 1);
         let stands_still = own.as_ref().is_some_and(|own| !own.repeats());
-        if stands_still && (from < begins - 1e-9 || last > ends + 1e-9) {
+        if stands_still && (from < begins - TIME_ROUNDING_S || last > ends + TIME_ROUNDING_S) {
             warnings.push(format!(
                 "the animation lasts from {begins} s to {ends} s; outside that time nothing moves"
             ));

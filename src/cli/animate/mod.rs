@@ -44,6 +44,7 @@ use crate::cli::output::output_files::{Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::{DrawRequest, check_apart};
 use crate::cli::request::viewpoint::viewpoint;
+use crate::cli::tolerances;
 use crate::error::Error;
 use crate::pipeline::{Stopwatch, with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
@@ -286,7 +287,7 @@ fn summary(total: &AnimationTotals, seconds: f64) -> String {
         "{}, {held}{}, {seconds:.2} s, {:.1} drawings a second",
         number_text::counted(*frames, "frame"),
         number_text::bytes(counts.bytes_out),
-        *drawings as f64 / seconds.max(1e-9),
+        *drawings as f64 / seconds.max(tolerances::MIN_DURATION_S),
     );
     if let (Some(least), Some(most)) = (faces.iter().min(), faces.iter().max()) {
         let mut times = drawing_ms.clone();

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::cli::tolerances;
 use crate::drawing::{Length, Unit};
 
 /// Default linear tolerance, mm: a third of a 0.35 mm pen at 1:1.
@@ -64,7 +65,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     let with_unit =
         || Length::parse(text).filter(|length| length.unit == Unit::Mm).map(|length| length.value);
     bare.or_else(with_unit)
-        .filter(|mm: &f64| (1e-4..=1e3).contains(mm))
+        .filter(|mm: &f64| tolerances::STEP_TOLERANCES_MM.contains(mm))
         .ok_or_else(|| "write a length from 0.0001mm to 1000mm, such as 0.1mm".to_owned())
 }
 

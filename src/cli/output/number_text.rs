@@ -1,5 +1,7 @@
 //! Numbers formatted for messages.
 
+use crate::cli::tolerances::MIN_DECIMAL_NUMBER;
+
 /// Digits in groups of three: `69,451`.
 pub(crate) fn grouped(n: u64) -> String {
     let digits = n.to_string();
@@ -36,7 +38,7 @@ pub(crate) fn plain(value: f64, decimals: usize) -> String {
 
 /// A coordinate with about six significant digits.
 pub(crate) fn short(value: f64) -> String {
-    let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < 1e-4);
+    let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < MIN_DECIMAL_NUMBER);
     if large {
         return format!("{value:.5e}");
     }
@@ -47,7 +49,11 @@ pub(crate) fn short(value: f64) -> String {
 /// A small length with three significant digits: `0.0009`, `1.19e-7`.
 pub(crate) fn three_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if rounded != 0.0 && rounded.abs() < 1e-4 { format!("{rounded:e}") } else { rounded.to_string() }
+    if rounded != 0.0 && rounded.abs() < MIN_DECIMAL_NUMBER {
+        format!("{rounded:e}")
+    } else {
+        rounded.to_string()
+    }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use glam::DVec3;
 use crate::cli::options::values::model_unit::ModelUnit;
 use crate::cli::options::values::paper_size::{PageLength, Paper, PaperSize};
 use crate::cli::output::number_text::plain;
+use crate::cli::tolerances;
 use crate::drawing::Unit;
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::tan;
@@ -167,7 +168,7 @@ fn too_large(found: &Viewpoint, sheet: &SheetRequest, points: &[DVec3]) -> Optio
     else {
         return None;
     };
-    if sheet.centre.is_some() || needed <= height * (1.0 + 1e-9) {
+    if sheet.centre.is_some() || needed <= height * (1.0 + tolerances::FRAME_ROUNDING_OF_HEIGHT) {
         return None;
     }
     let fits = scale * height / needed;

@@ -17,6 +17,7 @@ use crate::diff::findings::finding::{Cause, Finding, FindingBox, Verdict};
 use crate::diff::matching::equal_shapes::ShapeMatching;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::diff::tolerances;
 
 /// Least number of marks without an equal. Smaller drawings are compared mark by mark in about half a second.
 const MIN_UNMATCHED_MARKS: usize = 1000;
@@ -116,7 +117,7 @@ fn affine(pairs: &[[Point; 2]]) -> Option<impl Fn(Point) -> Point + use<>> {
         (by_x, by_y) = (by_x + q * p.x, by_y + q * p.y);
     }
     let determinant = xx * yy - xy * xy;
-    if determinant.is_nan() || determinant <= 1e-9 * xx * yy {
+    if determinant.is_nan() || determinant <= tolerances::MIN_SPREAD_DETERMINANT_SHARE * xx * yy {
         return None;
     }
     let along_x = (by_x * yy - by_y * xy) / determinant;

@@ -11,6 +11,7 @@ use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, V
 use crate::diff::report::text_report::changed;
 use crate::diff::report::unit_format::UnitFormat;
 use crate::diff::shapes::picture::ShapeKind;
+use crate::diff::tolerances;
 use crate::drawing::LayerKind;
 
 /// Margin around a part in px. Changes inside it count as caused by the part, because lines have widths and
@@ -237,7 +238,8 @@ fn same_way(a: &MovedPart, b: &MovedPart) -> bool {
 pub(crate) fn motion(motion: &Motion, place: Rect, unit: UnitFormat) -> String {
     let (scale, turn) = (motion.scale(), motion.turn());
     let reach = place.width().max(place.height()) / 2.0;
-    let grown = (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > 4e-3;
+    let grown =
+        (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > tolerances::MIN_STATED_GROWTH_SHARE;
     let turned = turn.abs().to_radians() * reach > 0.05 && turn.abs() > 0.05;
     let way = unit.sides(motion.of(place.center()));
     let mut words = Vec::new();

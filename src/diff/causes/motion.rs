@@ -4,6 +4,7 @@ use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
 use crate::diff::curves::segment::Segment;
 use crate::diff::curves::segment_clusters::SegmentClusters;
+use crate::diff::tolerances;
 
 /// Most pairs of marks used to compute candidate motions.
 const MAX_MOTION_TRIALS: usize = 48;
@@ -69,7 +70,7 @@ impl MotionScore {
     fn judge(&self, affine: Affine) -> Option<Motion> {
         let Self { places, lines, reach } = self;
         let growth = affine.determinant().abs().sqrt();
-        if !(1e-3..1e3).contains(&growth) {
+        if !tolerances::MOTION_SCALES.contains(&growth) {
             return None;
         }
         let hits = |places: &[Point], to: Affine, lines: &LineIndex, reach: f64| {
@@ -100,7 +101,7 @@ pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bo
     });
     let mut best: Option<Motion> = None;
     for found in tried.chain(more.iter().copied()).filter_map(judge) {
-        if best.is_none_or(|best| found.share > best.share + 1e-9) {
+        if best.is_none_or(|best| found.share > best.share + tolerances::MIN_SCORE_GAIN_SHARE) {
             best = Some(found);
         }
     }
@@ -138,7 +139,7 @@ fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
         turn += Vec2::new(p.dot(q), p.cross(q));
         size += p.hypot2();
     }
-    if size <= 1e-6 {
+    if size <= tolerances::MIN_POINT_SPREAD_PX2 {
         return None;
     }
     let turn = turn / size;

@@ -10,6 +10,7 @@ use super::motion;
 use super::whole_motion;
 use crate::diff::findings::finding::{Finding, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::diff::tolerances;
 
 /// Least share of a part's unequal marks that the motion must carry.
 const MIN_CARRIED_SHARE: f64 = 0.5;
@@ -51,7 +52,8 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
     // A part whose marks mostly stayed did not move.
     for side in 0..2 {
         let all: Vec<&Shape> = pictures[side].shapes.iter().filter(is_own).collect();
-        let length = |shapes: &[&Shape]| shapes.iter().map(|shape| shape.path.perimeter(1e-2)).sum::<f64>();
+        let of = |shape: &&Shape| shape.path.perimeter(tolerances::MAX_COMPARED_LENGTH_ERROR_PX);
+        let length = |shapes: &[&Shape]| shapes.iter().map(of).sum::<f64>();
         let few = shapes[side].len() * 2 < all.len() || shapes[side].is_empty();
         // If the longer lines stayed, only a detail such as a hole or a boss moved.
         if few || length(&shapes[side]) * 2.0 < length(&all) {

@@ -10,6 +10,7 @@ use crate::diff::curves::chain::flatten;
 use crate::diff::findings::finding::{Finding, FindingBox, FindingBoxKey, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::diff::tolerances;
 
 /// Fewest marks for a motion of the whole drawing.
 const MIN_MARKS: usize = 3;
@@ -17,9 +18,6 @@ const MIN_MARKS: usize = 3;
 const MIN_CHANGED_SHARE: f64 = 0.6;
 /// Least share of these marks that the motion must carry.
 const MIN_CARRIED_SHARE: f64 = 0.7;
-/// A drawing rendered again in another size is smoothed again. Its lines may be off by this share of the
-/// page.
-const REDRAW_TOLERANCE_PAGE_SHARE: f64 = 5e-4;
 
 /// A motion of the whole drawing. Shapes with equals stay.
 pub(crate) struct WholeMotion {
@@ -58,7 +56,7 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
     let mut found = motion::find(&marks, &[Affine::scale(grown), boxed], reach, true);
     let mut told = reach;
     if found.is_none_or(|found| found.share < MIN_CARRIED_SHARE) {
-        told = reach.max(REDRAW_TOLERANCE_PAGE_SHARE * page);
+        told = reach.max(tolerances::MAX_REDRAW_OFFSET_OF_PAGE * page);
         found = motion::find(&marks, &[Affine::scale(grown), boxed], told, true);
     }
     let motion = found.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
@@ -142,7 +140,8 @@ fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after
 
 /// A finding for each carried shape that was not removed.
 pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
-    let shifts = (motion.scale() - 1.0).abs() < 1e-6 && motion.turn().abs() < 1e-4;
+    let shifts = (motion.scale() - 1.0).abs() < tolerances::MAX_SHIFT_GROWTH_SHARE
+        && motion.turn().abs() < tolerances::MAX_SHIFT_TURN_DEG;
     let gone: FxHashSet<(FindingBoxKey, &Label)> =
         gone.iter().filter(|f| f.verdict == Verdict::Removed).map(|f| (f.place.key(), &f.label)).collect();
     let mut found = Vec::new();
@@ -182,7 +181,7 @@ pub(crate) fn is_carried(finding: &Finding) -> bool {
 
 fn size(shape: &Shape) -> f64 {
     match shape.kind {
-        ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, 1e-3),
+        ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX),
         _ => crate::diff::curves::region_area::area(shape),
     }
 }

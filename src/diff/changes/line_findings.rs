@@ -1,5 +1,6 @@
 //! Findings about lines.
 
+use crate::diff::tolerances;
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
 
@@ -34,7 +35,9 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
         _ => event.size,
     };
     let pieces = match event.verdict {
-        Verdict::Moved | Verdict::Reshaped => [event.gone.perimeter(1e-3), event.added.perimeter(1e-3)],
+        Verdict::Moved | Verdict::Reshaped => {
+            [&event.gone, &event.added].map(|path| path.perimeter(tolerances::MAX_LENGTH_ERROR_PX))
+        }
         _ => [0.0; 2],
     };
     Finding {

@@ -8,6 +8,7 @@ use rustc_hash::FxHashMap;
 use crate::diff::findings::finding::{Cause, Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::diff::tolerances;
 
 /// Index of the labelled drawing if the other one has no labels. Layers do not count, because programs create
 /// their own.
@@ -64,7 +65,7 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
             note("class", shape.label.classes.join(" "));
         }
         let size = match shape.kind {
-            ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, 1e-3),
+            ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX),
             _ => crate::diff::curves::region_area::area(shape),
         };
         let label: Label = (*shape.label).clone();

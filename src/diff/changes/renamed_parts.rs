@@ -8,6 +8,7 @@ use kurbo::{Rect, Shape as _};
 use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::diff::tolerances;
 
 /// The old drawing with the new names, and a finding for each name.
 pub(crate) struct Renamed {
@@ -48,7 +49,10 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
     for shape in &mut shapes {
         let Some((old, new)) = of_part(shape) else { continue };
         let bounds = shape.path.bounding_box();
-        let length = if shape.kind == ShapeKind::Line { shape.path.perimeter(1e-3) } else { 0.0 };
+        let length = match shape.kind {
+            ShapeKind::Line => shape.path.perimeter(tolerances::MAX_LENGTH_ERROR_PX),
+            _ => 0.0,
+        };
         let entry = places.entry(old).or_insert((bounds, 0.0, 0));
         *entry = (entry.0.union(bounds), entry.1 + length, entry.2 + 1);
         shape.label = Arc::new(Label { part: Some(Arc::clone(new)), ..(*shape.label).clone() });

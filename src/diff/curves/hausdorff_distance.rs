@@ -5,7 +5,7 @@ use kurbo::Point;
 use super::chain::Chain;
 use super::segment::nearest_on;
 use super::segment_grid::SegmentGrid;
-use crate::diff::tolerances::MAX_DISTANCE_ERROR_SHARE;
+use crate::diff::tolerances::{DISTANCE_RESOLUTION_PX, MAX_DISTANCE_ERROR_SHARE};
 
 /// Polylines with more points are searched with a grid.
 const MAX_UNINDEXED_POINTS: usize = 48;
@@ -15,8 +15,6 @@ const SAMPLES_PER_POINT: usize = 8;
 const MIN_SAMPLES: usize = 20;
 /// Most sample points for percentiles.
 const MAX_SAMPLES: usize = 128;
-/// Resolution of distances in px.
-const DISTANCE_RESOLUTION_PX: f64 = 1e-4;
 
 /// Distance of two chains in px.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

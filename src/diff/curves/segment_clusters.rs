@@ -3,6 +3,7 @@
 use kurbo::{Point, Rect};
 
 use super::segment::{Segment, nearest_on};
+use crate::diff::tolerances;
 
 /// Most segments of a leaf.
 const MAX_LEAF_SEGMENTS: usize = 4;
@@ -109,7 +110,9 @@ impl SegmentClusters {
         let within = |from: Point, to: Point, reach: f64| p.distance(nearest_on(from, to, p)) <= reach;
         self.search(|met| match met {
             // A small margin for rounding.
-            ClusterVisit::Bundle { from, to, radius } => within(from, to, (reach + radius) * (1.0 + 1e-9)),
+            ClusterVisit::Bundle { from, to, radius } => {
+                within(from, to, (reach + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE))
+            }
             ClusterVisit::One(item) => {
                 segments.get(item as usize).is_some_and(|segment| within(segment.from, segment.to, reach))
             }

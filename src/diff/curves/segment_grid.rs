@@ -7,6 +7,7 @@ use kurbo::Point;
 use super::chain::Chain;
 use super::segment::Segment;
 use super::segment_clusters::SegmentClusters;
+use crate::diff::tolerances;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 
 /// Most cells along the longer side.
@@ -89,7 +90,7 @@ impl SegmentGrid {
             return;
         }
         let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
-        let level = high.y - low.y <= self.cell * 1e-9;
+        let level = high.y - low.y <= self.cell * tolerances::MAX_LEVEL_RISE_OF_CELL;
         for y in first as usize..=last as usize {
             // Part of the segment within reach of the row.
             let bottom = self.origin.y + y as f64 * self.cell - reach;
@@ -101,7 +102,7 @@ impl SegmentGrid {
                 (x(bottom), x(top))
             };
             // A small margin for rounding.
-            let slack = reach + self.cell * 1e-6;
+            let slack = reach + self.cell * tolerances::COLUMN_MARGIN_OF_CELL;
             let left = column(x0.min(x1) - slack).max(0.0);
             let right = column(x0.max(x1) + slack).min(self.columns as f64 - 1.0);
             if left <= right {

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::diff::curves::region_area::area;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
+use crate::diff::tolerances;
 
 /// Ink of some marks before and after; lengths in px, areas in square px.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -38,7 +39,9 @@ impl Totals {
         for (side, picture) in [before, after].into_iter().enumerate() {
             for shape in picture.shapes.iter() {
                 let (length, area) = match shape.kind {
-                    ShapeKind::Line => (kurbo::Shape::perimeter(&shape.path, 1e-3), 0.0),
+                    ShapeKind::Line => {
+                        (kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX), 0.0)
+                    }
                     ShapeKind::Region => (0.0, area(shape)),
                     ShapeKind::Clip => continue,
                 };

@@ -2,7 +2,7 @@
 //!
 //! 1. [`tag_limits`] counts tags, attributes, namespaces and entities before the file is parsed.
 //! 2. [`input_limits`] parses the XML and refuses references that multiply or nest too deeply.
-//! 3. [`style_sheet`] reads the CSS rules of `style` elements.
+//! 3. [`style_sheet`] reads the CSS rules of `style` elements, word by word with [`css_reader`].
 //! 4. [`cascade`] applies the rules to each element while the document is traversed.
 //! 5. [`inline_style`] writes the resulting declarations as one `style` attribute.
 //!
@@ -10,6 +10,7 @@
 //! decimals and range of the numbers of an attribute.
 
 pub(crate) mod cascade;
+mod css_reader;
 pub(crate) mod inline_style;
 pub(crate) mod input_limits;
 pub(crate) mod number_scan;

@@ -2,6 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
+use super::css_reader::CssReader;
+
 /// A CSS declaration such as `fill: red !important`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Declaration<'a> {
@@ -300,95 +302,6 @@ fn attribute(text: &str) -> Option<(&str, AttributeTest<'_>)> {
     };
     let name = left.trim_end_matches(['~', '|', '^', '$', '*']).trim();
     (!name.is_empty()).then_some((name, test))
-}
-
-/// Reader of CSS text.
-struct CssReader<'a> {
-    text: &'a str,
-    at: usize,
-}
-
-impl<'a> CssReader<'a> {
-    fn rest(&self) -> &'a str {
-        self.text.get(self.at..).unwrap_or_default()
-    }
-
-    fn peek(&self) -> Option<u8> {
-        self.text.as_bytes().get(self.at).copied()
-    }
-
-    /// Skips white space and comments.
-    fn blanks(&mut self) {
-        while let Some(next) = self.peek() {
-            if next.is_ascii_whitespace() {
-                self.at += 1;
-            } else if self.rest().starts_with("/*") {
-                self.comment();
-            } else {
-                return;
-            }
-        }
-    }
-
-    fn comment(&mut self) {
-        let length = self.rest().get(2..).and_then(|rest| rest.find("*/")).map(|at| at + 4);
-        self.at = length.map_or(self.text.len(), |length| self.at + length);
-    }
-
-    /// Text before the first of these bytes outside strings, comments and parentheses. The reader stops at
-    /// that byte.
-    fn until(&mut self, ends: &[u8]) -> &'a str {
-        let start = self.at.min(self.text.len());
-        let mut depth = 0usize;
-        while let Some(next) = self.peek() {
-            match next {
-                _ if depth == 0 && ends.contains(&next) => break,
-                b'"' | b'\'' => self.string(next),
-                b'/' if self.rest().starts_with("/*") => {
-                    self.comment();
-                    continue;
-                }
-                b'(' => depth += 1,
-                b')' => depth = depth.saturating_sub(1),
-                _ => {}
-            }
-            self.at += 1;
-        }
-        self.text.get(start..self.at).unwrap_or_default()
-    }
-
-    /// Moves to the closing quote of a string.
-    fn string(&mut self, quote: u8) {
-        self.at += 1;
-        while self.peek().is_some_and(|next| next != quote) {
-            self.at += 1 + usize::from(self.peek() == Some(b'\\'));
-        }
-    }
-
-    /// Text between braces, which may be nested. The reader stops at the closing brace.
-    fn block(&mut self) -> &'a str {
-        self.at += 1;
-        let start = self.at.min(self.text.len());
-        let mut depth = 0usize;
-        loop {
-            self.until(b"{}");
-            match self.peek() {
-                Some(b'{') => depth += 1,
-                Some(_) if depth > 0 => depth -= 1,
-                _ => break,
-            }
-            self.at += 1;
-        }
-        self.text.get(start..self.at.min(self.text.len())).unwrap_or_default()
-    }
-
-    fn word(&mut self) -> Option<&'a str> {
-        let is_of_word = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'-' | b'_') || *b >= 0x80;
-        let length = self.rest().bytes().take_while(is_of_word).count();
-        let word = self.rest().get(..length).filter(|word| !word.is_empty())?;
-        self.at += length;
-        Some(word)
-    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use crate::diff::tolerances;
 use crate::parallel::prelude::*;
 use kurbo::{Point, Rect};
 use rustc_hash::FxHashMap;
@@ -130,7 +131,7 @@ fn congruent(
     let mut pairs = Vec::new();
     for (length, old) in &left[0] {
         // If every point moves by up to the tolerance, the length changes little.
-        let off = 4.0 * tolerance(*old) + 1e-3 * length;
+        let off = 4.0 * tolerance(*old) + tolerances::MAX_CONGRUENT_OFFSET_OF_LENGTH * length;
         let from = left[1].partition_point(|(other, _)| *other < length - off);
         for (_, new) in
             left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off)
@@ -140,7 +141,9 @@ fn congruent(
                 continue;
             }
             let alignment = align(a, b);
-            if alignment.after_shift <= 2.0 * tolerance(*old) + 1e-3 * length {
+            if alignment.after_shift
+                <= 2.0 * tolerance(*old) + tolerances::MAX_CONGRUENT_OFFSET_OF_LENGTH * length
+            {
                 of[0].entry(*old).or_default().push(*new);
                 of[1].entry(*new).or_default().push(*old);
                 pairs.push(ChainPair { old: *old, new: *new, alignment, cost: alignment.largest });

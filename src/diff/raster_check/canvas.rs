@@ -5,6 +5,7 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Rect, Transform};
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::picture::Picture;
 use crate::export::raster::tree_painter::{PaintOverride, TreePainter};
+use crate::geometry::tolerances::F32_STEP;
 
 /// A drawing and the aspects to ignore.
 pub(crate) struct Canvas<'a> {
@@ -48,7 +49,7 @@ impl<'a> Canvas<'a> {
         let mut pixmap = Pixmap::new(size, size)?;
         let side = spot.size as f64 / spot.scale;
         // The bounding boxes used for culling are in single precision.
-        let slack = 2.0 / spot.scale + (spot.x.abs() + spot.y.abs() + side) * f64::from(f32::EPSILON) * 4.0;
+        let slack = 2.0 / spot.scale + (spot.x.abs() + spot.y.abs() + side) * F32_STEP * 4.0;
         let window = Rect::from_ltrb(
             (spot.x - slack) as f32,
             (spot.y - slack) as f32,

@@ -3,6 +3,7 @@
 use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 
 use super::window_extremes::square_extremes;
+use crate::diff::tolerances;
 
 /// Largest difference of a channel that counts as equal, because opacities and blends are rounded several
 /// times. No pair in `tests/library/diff_pictures.rs` that draws one picture in two ways differs by more.
@@ -133,7 +134,8 @@ pub(crate) struct FineComparison {
 impl FineComparison {
     /// Inspection of a pixel in a picture with `coarse` pixels per px.
     pub fn new(coarse: f64, tolerance: f64) -> Self {
-        let scale = (PIXELS_PER_TOLERANCE / tolerance.max(1e-9)).max(MIN_FINE_SCALE).max(coarse);
+        let scale = PIXELS_PER_TOLERANCE / tolerance.max(tolerances::MIN_DIVISOR_PX);
+        let scale = scale.max(MIN_FINE_SCALE).max(coarse);
         let scale = scale.min(MAX_CORE_PIXELS * coarse);
         let reach = (tolerance * scale).ceil().clamp(1.0, 4.0 * MAX_CORE_PIXELS) as usize;
         Self { scale, core: (scale / coarse).ceil() as usize, reach }

@@ -5,6 +5,7 @@ use usvg::tiny_skia_path::Rect;
 use usvg::{Group, Node, Paint};
 
 use crate::diff::shapes::picture::Picture;
+use crate::diff::tolerances;
 
 /// Least pixels per px, unless another limit requires less.
 const MIN_PIXELS_PER_PX: f64 = 1.0;
@@ -94,7 +95,7 @@ impl RasterCost {
         let mut sum = area + path.data().len() as f64;
         if let Some(dash) = path.stroke().and_then(|stroke| stroke.dasharray()) {
             let pattern: f64 = dash.iter().map(|length| f64::from(*length)).sum();
-            self.dashes += length(path.data()) / pattern.max(1e-9) * dash.len() as f64;
+            self.dashes += length(path.data()) / pattern.max(tolerances::MIN_DIVISOR_PX) * dash.len() as f64;
         }
         for paint in [path.fill().map(usvg::Fill::paint), path.stroke().map(usvg::Stroke::paint)] {
             if let Some(Paint::Pattern(pattern)) = paint {

@@ -6,9 +6,10 @@
 //! 3. usvg resolves transforms, units, references and styles.
 //! 4. [`svg_reader`] turns the tree into shapes, and finds each shape's label by its id.
 //!
-//! Also: [`paint_description`] gradients and patterns as text; [`unsupported_features`] contents of a file
-//! that are not compared.
+//! Also: [`inherited_context`] layer and part of an element; [`paint_description`] gradients and patterns as
+//! text; [`unsupported_features`] contents of a file that are not compared.
 
+mod inherited_context;
 mod paint_description;
 mod svg_reader;
 mod tagged_svg;

@@ -7,13 +7,14 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 use usvg::roxmltree::{Document, Node};
 
+use super::inherited_context::InheritedContext;
 use crate::diff::markup::cascade::Cascade;
 use crate::diff::markup::inline_style::said;
 use crate::diff::markup::number_scan;
 use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::diff::shapes::label::Label;
-use crate::diff::shapes::placeholder::{self, Details, Props};
-use crate::drawing::{LayerKind, Unit};
+use crate::diff::shapes::placeholder::{self, Details};
+use crate::drawing::Unit;
 use crate::error::Error;
 
 /// Elements that draw shapes.
@@ -44,19 +45,6 @@ const BOX_ATTRIBUTES: [&str; 6] = ["id", "x", "y", "width", "height", "transform
 /// Properties copied to that rectangle, because they change its visibility.
 const BOX_STYLE_PROPERTIES: [&str; 8] =
     ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
-/// Layers that this program writes.
-const KNOWN_LAYERS: [LayerKind; 9] = [
-    LayerKind::Paper,
-    LayerKind::Fills,
-    LayerKind::Shadows,
-    LayerKind::Hatching,
-    LayerKind::Motion,
-    LayerKind::HiddenLines,
-    LayerKind::Lines,
-    LayerKind::Tooth,
-    LayerKind::Callouts,
-];
-
 /// Data of a shape other than geometry and paint.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ShapeOrigin {
@@ -106,16 +94,6 @@ pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
     Ok(markup)
 }
 
-/// State inherited from ancestors.
-#[derive(Debug, Clone, Default)]
-struct InheritedContext {
-    layer: Arc<str>,
-    drawing: Option<Arc<str>>,
-    part: Option<Arc<str>>,
-    /// Inherited properties of texts and pictures.
-    props: Arc<Props>,
-}
-
 impl TaggedSvg {
     /// Writes an element with its declarations from the style sheets.
     fn element(&mut self, node: Node, around: &InheritedContext, cascade: &mut Cascade) -> Result<(), Error> {
@@ -142,7 +120,7 @@ impl TaggedSvg {
         cascade: &mut Cascade,
     ) -> Result<(), Error> {
         let name = node.tag_name().name();
-        let mut around = inside(node, around);
+        let mut around = around.enter(node);
         if self.has_stand_ins {
             around.props = placeholder::inherit(&around.props, node, declared);
         }
@@ -250,7 +228,7 @@ impl TaggedSvg {
         declared: &[Declaration],
         cascade: &mut Cascade,
     ) -> Result<(), Error> {
-        let around = inside(node, around);
+        let around = around.enter(node);
         let is_text = node.tag_name().name() == "text";
         let said = match is_text {
             true => Some(placeholder::text(node, &around.props, declared, cascade)?),
@@ -333,38 +311,6 @@ impl TaggedSvg {
     }
 }
 
-/// State for the children of an element, or for the element itself.
-fn inside(node: Node, around: &InheritedContext) -> InheritedContext {
-    let mut inner = around.clone();
-    const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
-    if node.attribute((INKSCAPE_NAMESPACE, "groupmode")) == Some("layer") {
-        let id = node.attribute("id").unwrap_or_default();
-        let label = node.attribute((INKSCAPE_NAMESPACE, "label")).unwrap_or(id);
-        let known = known_layer(id).or(known_layer(label));
-        // On a page of several drawings, a layer around known layers is one of the drawings.
-        if known.is_some() && !around.layer.is_empty() && known_layer(&around.layer).is_none() {
-            inner.drawing = Some(Arc::clone(&around.layer));
-        }
-        inner.layer = Arc::from(known.unwrap_or(label));
-    }
-    if let Some(part) = node.attribute("data-part") {
-        inner.part = Some(Arc::from(part));
-    }
-    inner
-}
-
-/// The layer of this program that an id denotes. The id may have a prefix and a pen number.
-fn known_layer(id: &str) -> Option<&'static str> {
-    let stem = id.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
-    // The paper's plain colour is a layer below its grain.
-    let stem = stem.trim_end_matches("-colour");
-    let ends = |kind: &&LayerKind| {
-        stem.strip_suffix(kind.id()).is_some_and(|before| before.is_empty() || before.ends_with(['-', '_']))
-    };
-    // `hidden-lines` also ends with `lines`, so the longest id wins.
-    KNOWN_LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
-}
-
 fn escape(out: &mut String, text: &str) {
     for c in text.chars() {
         match c {
@@ -374,20 +320,5 @@ fn escape(out: &mut String, text: &str) {
             '"' => out.push_str("&quot;"),
             _ => out.push(c),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::known_layer;
-
-    #[test]
-    fn layers_are_known_by_prefix_and_pen() {
-        assert_eq!(known_layer("lines"), Some("lines"));
-        assert_eq!(known_layer("hidden-lines"), Some("hidden-lines"));
-        assert_eq!(known_layer("page2-hidden-lines-3"), Some("hidden-lines"));
-        assert_eq!(known_layer("paper-colour"), Some("paper"));
-        assert_eq!(known_layer("outlines"), None);
-        assert_eq!(known_layer("sketch"), None);
     }
 }

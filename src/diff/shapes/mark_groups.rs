@@ -9,7 +9,7 @@ use super::ignore_options::Ignore;
 use super::ink::Ink;
 use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
-use super::tolerances::{Tolerances, default_px};
+use super::tolerance_table::{Tolerances, default_px};
 
 /// Difference of two marks except for geometry, in increasing order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,10 +8,8 @@ use std::f64::consts::TAU;
 
 use kurbo::{CubicBez, PathEl, Point, Vec2};
 
+use crate::export::tolerances::MAX_ARC_FORM_ERROR;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
-
-/// Tolerance for recognising arcs, relative to the radius: rounding of double precision.
-const ARC_FORM_TOLERANCE: f64 = 1e-7;
 
 /// Largest angle of an arc written as one cubic, in radians.
 const MAX_CUBIC_RAD: f64 = 1.6;
@@ -135,7 +133,7 @@ impl PathSteps {
     pub fn circle(&self) -> Option<(Point, f64)> {
         match self.steps.as_slice() {
             [PathStep { arc: Some((centre, turn)), .. }]
-                if self.closed && (turn.abs() - TAU).abs() < ARC_FORM_TOLERANCE =>
+                if self.closed && (turn.abs() - TAU).abs() < MAX_ARC_FORM_ERROR =>
             {
                 Some((*centre, (self.start - *centre).hypot()))
             }
@@ -160,7 +158,7 @@ fn is_one_circle(a: PathStep, b: PathStep) -> bool {
     match (a.arc, b.arc) {
         (Some((one, turn)), Some((other, more))) => {
             let radius = (a.end - one).hypot();
-            (one - other).hypot() <= ARC_FORM_TOLERANCE * radius && turn * more > 0.0
+            (one - other).hypot() <= MAX_ARC_FORM_ERROR * radius && turn * more > 0.0
         }
         _ => false,
     }
@@ -174,7 +172,7 @@ fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     if !(first > 0.0
         && turn != 0.0
         && turn.abs() <= MAX_CUBIC_RAD
-        && (first - last).abs() <= ARC_FORM_TOLERANCE * first)
+        && (first - last).abs() <= MAX_ARC_FORM_ERROR * first)
     {
         return None;
     }
@@ -184,5 +182,5 @@ fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     let (s, c) = (sin(turn), cos(turn));
     let from = curve.p0 - centre;
     let end = centre + Vec2::new(from.x * c - from.y * s, from.x * s + from.y * c);
-    ((end - curve.p3).hypot() <= ARC_FORM_TOLERANCE * radius.abs()).then_some((centre, turn))
+    ((end - curve.p3).hypot() <= MAX_ARC_FORM_ERROR * radius.abs()).then_some((centre, turn))
 }

@@ -6,6 +6,7 @@ use super::colour_index;
 use super::dxf_source::DxfSource;
 use crate::colour::srgb::Colour;
 use crate::drawing::{LayerKind, Mark, Paint};
+use crate::export::tolerances;
 
 /// The layer that every file has; it stays empty.
 pub(crate) const DEFAULT_LAYER: &str = "0";
@@ -111,7 +112,7 @@ const MAX_PATTERN_LENGTHS: usize = 12;
 /// One period of a dash pattern that was written out to fit from corner to corner.
 fn period(dash: &[f64]) -> &[f64] {
     let inner = dash.get(2..).unwrap_or_default();
-    let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * a.abs();
+    let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerances::MAX_DASH_DIFFERENCE_OF_LENGTH * a.abs();
     let repeats = |length: &usize| {
         let next = inner.get(*length..2 * length);
         next.is_some_and(|next| inner.iter().zip(next).all(alike))

@@ -5,12 +5,13 @@
 //! 2. Painting attributes shared by most marks move to the group (`paint_attributes`).
 //! 3. Paths are written in canonical form, in parallel chunks of fixed size (`svg_drawing`).
 //!
-//! Files, in reading order: `svg_options`; `svg_drawing` one drawing; `paint_attributes`;
-//! `mark_order`; `part_groups` marks grouped by part without changing the picture; `page_cells` a
-//! conservative test whether marks may touch; `svg_images` marks that show pictures; `hotspots` areas
-//! that answer the pointer; `svg_composition` pages of several drawings.
+//! Files, in reading order: `svg_options`; `svg_drawing` one drawing; `mark_elements` one mark;
+//! `paint_attributes`; `mark_order`; `part_groups` marks grouped by part without changing the picture;
+//! `page_cells` a conservative test whether marks may touch; `svg_images` marks that show pictures;
+//! `hotspots` areas that answer the pointer; `svg_composition` pages of several drawings.
 
 mod hotspots;
+mod mark_elements;
 pub(crate) mod mark_order;
 mod page_cells;
 mod paint_attributes;

@@ -10,6 +10,7 @@ use crate::hatching::{self, LayerStrokes};
 use crate::pipeline::fills::fill_pass::{FillInputs, FillPass};
 use crate::pipeline::fills::glass::BehindGlass;
 use crate::pipeline::fills::surface_fills::{self, SurfaceColours};
+use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::fills::view_hatching;
 use crate::pipeline::fills::view_hatching::Hatching;
 use crate::pipeline::lines::chain_samples::{self, ChainSampler};
@@ -88,7 +89,7 @@ impl Prepared<'_> {
         let VisibleView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
         let VisibleView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
         let mut layers: Vec<Layer> = hatching::paper(&page, &style.paper, style.seed).into_iter().collect();
-        let lit = fills.filter(|_| surface_fills::is_lit(style));
+        let lit = fills.filter(|_| surface_requirements::is_lit(style));
         let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
         let (whole, margin) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();

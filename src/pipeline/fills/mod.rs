@@ -5,8 +5,9 @@
 //! 2. Surfaces behind glass are seen and painted separately ([`glass`]).
 //! 3. Regions are painted; pictures, patterns and hatching are laid over them ([`fill_pass`]).
 //!
-//! Files, in reading order: [`surface_fills`]; [`glass`]; [`fill_pass`]; [`picture_pass`]; [`pattern_pass`];
-//! [`surface_patterns`] dots and tiles on the surface; [`view_hatching`] hatching of a view.
+//! Files, in reading order: [`surface_requirements`] what a style needs; [`surface_fills`]; [`glass`];
+//! [`fill_pass`]; [`picture_pass`]; [`pattern_pass`]; [`surface_patterns`] dots and tiles on the surface;
+//! [`view_hatching`] hatching of a view.
 
 pub(crate) mod fill_pass;
 pub(crate) mod glass;
@@ -14,4 +15,5 @@ mod pattern_pass;
 mod picture_pass;
 pub(crate) mod surface_fills;
 mod surface_patterns;
+pub(crate) mod surface_requirements;
 pub(crate) mod view_hatching;

@@ -9,13 +9,11 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::hatching::{Pattern, PatternKind, SurfacePattern};
 use crate::lines::Lit;
 use crate::mesh::{FaceId, Mesh};
+use crate::pipeline::tolerances;
 use crate::regions::HatchRegions;
 use crate::regions::surface_curves::decals::{Chart, Figure, MAX_FIGURES, count, decals};
 use crate::scene::{Scene, UpAxis};
 use crate::view::{Frame, View};
-
-/// Least area of texture coordinates relative to the usual scale of their part. Below it they are ignored.
-const MIN_TEXTURE_AREA_SHARE: f64 = 1e-4;
 
 /// Number of points on the outline of a dot.
 const DOT_POINTS: u32 = 40;
@@ -133,7 +131,7 @@ impl<'a> PatternPlane<'a> {
         if let (Some(uvs), Some((scale, upwards))) = (texture(self.mesh, face), self.textures.get(part)) {
             let flip = DVec2::new(1.0, if *upwards { 1.0 } else { -1.0 });
             let [p, q, r] = uvs.map(|uv| uv * flip * *scale);
-            if (q - p).perp_dot(r - p).abs() > MIN_TEXTURE_AREA_SHARE * normal.length() {
+            if (q - p).perp_dot(r - p).abs() > tolerances::MIN_TEXTURE_AREA_SHARE * normal.length() {
                 return Some(Chart { corners: [p, q, r].map(place), name: 0 });
             }
         }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::mesh::Mesh;
-use crate::pipeline::fills::{glass, surface_fills};
+use crate::pipeline::fills::{glass, surface_requirements};
 use crate::pipeline::lines::chain_colours;
 use crate::scene::paints::triangle_paints::Paints;
 use crate::scene::textures::cutouts;
@@ -12,9 +12,10 @@ use crate::style::Style;
 
 /// The paints of the drawn part of a scene, if the style needs any.
 pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
-    let needs_paints = surface_fills::uses_paints(style) || chain_colours::needs_material_colours(style);
+    let needs_paints =
+        surface_requirements::uses_paints(style) || chain_colours::needs_material_colours(style);
     let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
-    if surface_fills::draws_artist_lines(style) {
+    if surface_requirements::draws_artist_lines(style) {
         let pictures = &style.lines.artist_texture;
         paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
     }

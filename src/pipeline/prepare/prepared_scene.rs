@@ -8,7 +8,8 @@ use crate::lines::{LineOptions, Surface};
 use crate::mesh::components::solid_parts::solid_parts;
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::cache::view_cache::ViewCache;
-use crate::pipeline::fills::surface_fills::{self, ToneInputs};
+use crate::pipeline::fills::surface_fills::ToneInputs;
+use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::rest::chain_anchors::Anchors;
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::paints::triangle_paints::Paints;
@@ -78,10 +79,10 @@ impl<'a> Prepared<'a> {
         only: Option<&Camera>,
     ) -> (Self, Option<Patches>) {
         let PreparedMesh { scene, warnings, paints, mesh } = welded;
-        let sought = surface_fills::sought(style);
+        let sought = surface_requirements::sought(style);
         let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
-        let painted = paints.as_ref().filter(|_| surface_fills::uses_paints(style));
+        let painted = paints.as_ref().filter(|_| surface_requirements::uses_paints(style));
         let painted = painted.map(|paints| (paints, solid_parts(&surface.mesh)));
         if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
             patches = None;

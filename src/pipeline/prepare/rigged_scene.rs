@@ -13,7 +13,8 @@ use crate::pipeline::Prepared;
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::cache::view_cache::ViewCache;
 use crate::pipeline::fills::glass;
-use crate::pipeline::fills::surface_fills::{self, ToneInputs};
+use crate::pipeline::fills::surface_fills::ToneInputs;
+use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::rest::chain_anchors::Anchors;
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::textures::cutouts::CutScene;
@@ -137,9 +138,9 @@ impl<'a> PosedRenderer<'a> {
                 glass::cut_textures(&scene, &glass::without_absent_materials(&scene, style)).scene.to_soup();
             still.mesh.posed(sources, &cut)
         });
-        let sought = surface_fills::sought(style);
+        let sought = surface_requirements::sought(style);
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
-        let paintable = paints.as_deref().filter(|_| surface_fills::uses_paints(style));
+        let paintable = paints.as_deref().filter(|_| surface_requirements::uses_paints(style));
         let paintable = paintable.map(|paints| ToneInputs::new(&surface, paints, solid_parts(&surface.mesh)));
         let (search, shadows) = (ViewCache::default(), ShadowCache::default());
         let counts = self.still.counts;

@@ -3,7 +3,8 @@
 use crate::drawing::{Length, Unit};
 use crate::lines::{self, FeatureLines, SharedSearches, Surface, Textures};
 use crate::pipeline::fills::glass::{self, BehindGlass};
-use crate::pipeline::fills::surface_fills::{self, SurfaceColours, SurfaceFills};
+use crate::pipeline::fills::surface_fills::{SurfaceColours, SurfaceFills};
+use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::lines::part_joints;
 use crate::pipeline::prepare::prepared_scene::Prepared;
 use crate::pipeline::report::drawing_report::{Report, Stopwatch};
@@ -100,11 +101,11 @@ impl Prepared<'_> {
                 style,
                 &mut warnings,
             );
-            let moved = self.anchors.as_ref().filter(|_| surface_fills::has_model_fixed_marks(style));
+            let moved = self.anchors.as_ref().filter(|_| surface_requirements::has_model_fixed_marks(style));
             moved.into_iter().fold(fills, SurfaceFills::laid_at)
         });
         warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
-        let inked = surface_fills::draws_isophotes(style);
+        let inked = surface_requirements::draws_isophotes(style);
         let mut unchanged = joints;
         unchanged.extend(
             fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default(),

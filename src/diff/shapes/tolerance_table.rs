@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::label::Label;
 use super::picture::{Picture, ShapeKind};
-use crate::diff::tolerances::{MAX_DIFF_STEP_PX, SVG_PRECISION_OF_PAGE};
+use crate::diff::tolerances::{MAX_DIFF_STEP_PX, MIN_SET_TOLERANCE_PX, SVG_PRECISION_OF_PAGE};
 use crate::drawing::{Length, Unit};
 use crate::error::Error;
 
@@ -84,7 +84,7 @@ impl Tolerances {
         let named = names.find_map(|name| self.named.get(name));
         named
             .or(self.all.as_ref())
-            .map_or(fallback, |length| length.in_unit(Unit::Px).max(fallback.min(1e-3)))
+            .map_or(fallback, |length| length.in_unit(Unit::Px).max(fallback.min(MIN_SET_TOLERANCE_PX)))
     }
 
     /// Names that match no mark of the drawings.
