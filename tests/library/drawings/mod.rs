@@ -3,6 +3,7 @@
 mod camera_stability;
 mod default_drawings;
 mod default_properties;
+mod example_gltf_models;
 mod example_models;
 mod golden;
 mod invariances;

@@ -3,5 +3,7 @@
 mod detail_levels;
 mod exploded_views;
 mod section_areas;
+mod section_hatching;
 mod section_shells;
 mod sections;
+mod simplified_shapes;

@@ -1,18 +1,14 @@
-//! Sections by planes: cut areas against closed forms and rows of rays, closed results, open surfaces, and
-//! hatching in material.
+//! Sections by planes: cut areas against closed forms and rows of rays, closed results and open surfaces.
 
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
-use ligne::drawing::{LayerKind, Page, Unit};
 use ligne::edit::section::{Plane, Section, cut};
 use ligne::geometry::names::glob::Glob;
 use ligne::geometry::numbers::portable_math::{cos, sin};
-use ligne::kurbo::{PathEl, Point};
 use ligne::load::ModelFormat;
 use ligne::mesh::{EdgeFaces, FaceId, Mesh};
-use ligne::pipeline::{Prepared, with_cut_hatching};
-use ligne::scene::{Geometry, NamedView, Part, UpAxis};
+use ligne::scene::{Geometry, Part, UpAxis};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::properties::picture::Picture;
@@ -21,7 +17,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::round_solids::icosphere;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
-fn add_part(scene: &mut Scene, name: &str, solid: Solid) {
+pub(crate) fn add_part(scene: &mut Scene, name: &str, solid: Solid) {
     let geometry = scene.geometries.len();
     let Solid { positions, triangles } = solid;
     scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
@@ -34,17 +30,17 @@ fn scene_of(solid: Solid) -> Scene {
     scene
 }
 
-fn inside_out(mut solid: Solid) -> Solid {
+pub(crate) fn inside_out(mut solid: Solid) -> Solid {
     solid.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     solid
 }
 
-fn plane(point: DVec3, normal: DVec3) -> Plane {
+pub(crate) fn plane(point: DVec3, normal: DVec3) -> Plane {
     Plane::new(point, normal).expect("a direction")
 }
 
 /// Prism about the z axis over a regular polygon, from z = −1 to 1.
-fn prism(corners: u32, radius: f64) -> Solid {
+pub(crate) fn prism(corners: u32, radius: f64) -> Solid {
     let mut solid = Solid::default();
     for k in 0..corners {
         let angle = TAU * f64::from(k) / f64::from(corners);
@@ -62,7 +58,7 @@ fn prism(corners: u32, radius: f64) -> Solid {
     solid
 }
 
-fn area(section: &Section) -> f64 {
+pub(crate) fn area(section: &Section) -> f64 {
     section.faces.iter().map(|faces| faces.area).sum()
 }
 
@@ -326,61 +322,6 @@ fn halves_of_closed_models_sum_to_the_whole() {
             assert!((area(&halves[0]) - area(&halves[1])).abs() < 1e-9 * area(&halves[0]));
             assert!(halves[0].scene.warnings.is_empty(), "{name}: {}", halves[0].scene.warnings);
         }
-    }
-}
-
-#[test]
-fn hatch_lines_lie_in_material_at_the_angle_of_their_part() {
-    let mut scene = Scene { up: UpAxis::Z, ..Scene::default() };
-    let mut pipe = prism(48, 2.0);
-    pipe.add(inside_out(prism(48, 1.0)));
-    add_part(&mut scene, "pipe", pipe);
-    add_part(&mut scene, "core", prism(48, 0.8));
-    let whole = scene.clone();
-    let section = cut(scene, &plane(DVec3::ZERO, DVec3::Z), &[]);
-    let camera = Camera::named(NamedView::Top, UpAxis::Z).fit(&whole);
-    for preset in ["ink", "technical", "toon", "pencil"] {
-        let style = with_cut_hatching(&Style::preset(preset).expect("a style"), &section);
-        let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-        let prepared = Prepared::new(&section.scene, &style);
-        let (drawing, _) = prepared.draw(&camera, page, None).expect("a drawing");
-        let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
-        let patterns = || layer.marks.iter().filter(|mark| mark.provenance.classes == ["pattern"]);
-        let unit = camera.height
-            / match camera.projection {
-                ligne::scene::Projection::Orthographic { height } => height,
-                ligne::scene::Projection::Perspective { .. } => unreachable!("a parallel view"),
-            };
-        let (mut lines, mut inked) = (0, 0.0);
-        for mark in patterns() {
-            let name = mark.provenance.part.as_deref().expect("a part");
-            let (from, to, slope) = if name == "pipe" { (1.0, 2.0, -1.0) } else { (0.0, 0.8, 1.0) };
-            let mut start = Point::ZERO;
-            for element in mark.path.elements() {
-                match element {
-                    PathEl::MoveTo(p) => start = *p,
-                    PathEl::LineTo(p) => {
-                        let way = *p - start;
-                        assert!((way.y - slope * way.x).abs() < 1e-6 * way.hypot(), "{preset}: {way:?}");
-                        for share in [0.0, 0.5, 1.0] {
-                            let at = (start.lerp(*p, share).to_vec2()
-                                - ligne::kurbo::Vec2::new(page.width, page.height) / 2.0)
-                                .hypot()
-                                / unit;
-                            // The sides of the polygon lie slightly inside its circle.
-                            assert!(at >= from * 0.997 && at < to * 1.001, "{preset}: {name} at {at}");
-                        }
-                        lines += 1;
-                        inked += way.hypot();
-                        start = *p;
-                    }
-                    other => panic!("{other:?}"),
-                }
-            }
-        }
-        // Line length times line spacing (2 mm) is the hatched area.
-        let covered = inked * 2.0 * 96.0 / 25.4 / (unit * unit);
-        assert!(lines > 100 && (covered / area(&section) - 1.0).abs() < 0.02, "{preset}: {lines}, {covered}");
     }
 }
 

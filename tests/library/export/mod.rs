@@ -2,6 +2,7 @@
 
 mod dxf_strokes;
 mod part_groups;
+mod pdf_pages;
 mod png_ink;
 mod press_pdf;
 mod svg_and_png;

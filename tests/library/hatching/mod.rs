@@ -2,6 +2,7 @@
 
 mod halftone;
 mod hatching_and_fills;
+mod hatching_strokes;
 mod hatching_tone;
 mod paper;
 mod patterns;

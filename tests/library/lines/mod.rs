@@ -6,6 +6,7 @@ mod intersections;
 mod isophote_lines;
 mod joints;
 mod marked_edges;
+mod pairwise_intersections;
 mod polygon_diagonals;
 mod silhouettes;
 mod visible_intersections;

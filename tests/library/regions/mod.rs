@@ -8,4 +8,5 @@ mod page_partition;
 mod painted_surfaces;
 mod picture_fills;
 mod style_fills;
+mod textured_surfaces;
 mod textures;

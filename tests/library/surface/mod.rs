@@ -1,5 +1,6 @@
 //! The surface that a mesh stands for: creases, seams, fillets and rounded coordinates.
 
+mod crease_chains;
 mod creases;
 mod cylinders;
 mod narrow_fillets;
@@ -9,4 +10,5 @@ mod rounded_coordinates;
 mod seams;
 mod shallow_creases;
 mod sliver_creases;
+mod tiled_boxes;
 mod touching_bodies;

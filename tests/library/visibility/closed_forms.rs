@@ -17,50 +17,50 @@ use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::visibility::ViewVertexKind;
 
 /// Largest distance of a computed end point from the known one, px.
-const MAX_END_ERROR_PX: f64 = 1e-6;
+pub(crate) const MAX_END_ERROR_PX: f64 = 1e-6;
 
-fn at(x: f64, y: f64, z: f64) -> DVec3 {
+pub(crate) fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-fn cube() -> Solid {
+pub(crate) fn cube() -> Solid {
     cuboid(DVec3::splat(-1.0), DVec3::ONE)
 }
 
 /// Two views that show three sides of a cube.
-fn generic_views() -> [Camera; 2] {
+pub(crate) fn generic_views() -> [Camera; 2] {
     let eye = at(3.1, 2.3, 4.7);
     [perspective(eye, at(0.1, 0.0, -0.1), 40.0), orthographic(eye, DVec3::ZERO, 5.0)]
 }
 
-fn from_front(height: f64) -> Camera {
+pub(crate) fn from_front(height: f64) -> Camera {
     orthographic(at(0.0, 0.0, 10.0), DVec3::ZERO, height)
 }
 
 /// A polygon in space, triangulated as a fan.
-fn polygon(corners: &[DVec3]) -> Solid {
+pub(crate) fn polygon(corners: &[DVec3]) -> Solid {
     let triangles = (1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
     Solid { positions: corners.to_vec(), triangles }
 }
 
 /// An axis-aligned rectangle in the plane at height `z`.
-fn rectangle(x: [f64; 2], y: [f64; 2], z: f64) -> Solid {
+pub(crate) fn rectangle(x: [f64; 2], y: [f64; 2], z: f64) -> Solid {
     polygon(&[at(x[0], y[0], z), at(x[1], y[0], z), at(x[1], y[1], z), at(x[0], y[1], z)])
 }
 
 /// Merges polygons into one solid. The mesh later welds equal corners.
-fn joined(solids: impl IntoIterator<Item = Solid>) -> Solid {
+pub(crate) fn joined(solids: impl IntoIterator<Item = Solid>) -> Solid {
     let mut sum = Solid::default();
     solids.into_iter().for_each(|solid| sum.add(solid));
     sum
 }
 
-fn outline(corners: &[DVec3]) -> Vec<[DVec3; 2]> {
+pub(crate) fn outline(corners: &[DVec3]) -> Vec<[DVec3; 2]> {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]).collect()
 }
 
 /// Asserts that the visible lines cover exactly the given world segments, each once.
-fn assert_visible_lines(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
+pub(crate) fn assert_visible_lines(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
     let wanted = TextbookCamera::new(camera).project_segments(wanted);
     let visible = stages.visible_segments();
     check_equal_cover(&visible, &wanted, MAX_END_ERROR_PX, 1e-5)
@@ -69,7 +69,7 @@ fn assert_visible_lines(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]])
 }
 
 /// Counts visible view edges longer than a hundredth of a px. This skips lines seen end-on.
-fn count_visible(stages: &Stages) -> usize {
+pub(crate) fn count_visible(stages: &Stages) -> usize {
     stages.visible_segments().iter().filter(|[a, b]| distance(*a, *b) > 0.01).count()
 }
 
@@ -226,124 +226,6 @@ fn a_beam_through_a_cube_has_intersection_lines() {
         .unwrap();
 }
 
-#[test]
-fn a_square_exactly_behind_another_is_hidden() {
-    let camera = perspective(at(0.0, 0.0, 4.0), DVec3::ZERO, 60.0);
-    let square = |half: f64, z: f64| rectangle([-half, half], [-half, half], z);
-    let drawn =
-        run_stages(&scene([square(2.0, 0.0), square(1.0, 2.0)]), &camera, &exact_options_with_hidden());
-    let front = [at(-1.0, -1.0, 2.0), at(1.0, -1.0, 2.0), at(1.0, 1.0, 2.0), at(-1.0, 1.0, 2.0)];
-    assert_visible_lines(&drawn, &camera, &outline(&front));
-    assert!((total_length(&drawn.hidden_segments()) - total_length(&drawn.visible_segments())).abs() < 1e-6);
-}
-
-#[test]
-fn squares_that_overlap_in_one_plane_are_both_drawn_once() {
-    let camera = from_front(8.0);
-    let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [1.0, 3.0], 0.0)];
-    let drawn = run_stages(&scene(squares), &camera, &exact_options_with_hidden());
-    assert!((total_length(&drawn.visible_segments()) - 16.0 * 125.0).abs() < 1e-6);
-    assert!(drawn.hidden_segments().is_empty());
-
-    // Two sides coincide over one unit each.
-    let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [0.0, 2.0], 0.0)];
-    let drawn = run_stages(&scene(squares), &camera, &exact_options_with_hidden());
-    assert!(
-        (total_length(&drawn.visible_segments()) - 14.0 * 125.0).abs() < 0.1,
-        "{}",
-        total_length(&drawn.visible_segments())
-    );
-}
-
-#[test]
-fn nearly_coincident_faces_are_drawn_as_one() {
-    for camera in generic_views() {
-        let square = |z: f64| rectangle([-1.0, 1.0], [-1.0, 1.0], z);
-        let drawn = run_stages(&scene([square(0.0), square(1e-7)]), &camera, &exact_options_with_hidden());
-        let corners = [at(-1.0, -1.0, 0.0), at(1.0, -1.0, 0.0), at(1.0, 1.0, 0.0), at(-1.0, 1.0, 0.0)];
-        let wanted = TextbookCamera::new(&camera).project_segments(&outline(&corners));
-        check_equal_cover(&drawn.visible_segments(), &wanted, 1e-3, 1e-2).unwrap();
-        assert!(doubled_length(&drawn.visible_segments(), 1e-3) < 1e-2);
-    }
-}
-
-#[test]
-fn t_vertices_leave_no_visible_cracks() {
-    // The left half of the plate has no vertex at the middle of its right side.
-    let plate = joined([
-        rectangle([-2.0, 0.1], [-2.0, 2.0], 0.0),
-        rectangle([0.1, 2.0], [-2.0, 0.3], 0.0),
-        rectangle([0.1, 2.0], [0.3, 2.0], 0.0),
-    ]);
-    let behind = cuboid(at(-0.9, -0.9, -3.0), at(0.9, 0.9, -2.0));
-    for camera in [perspective(at(0.3, 0.2, 9.0), DVec3::ZERO, 40.0), from_front(5.0)] {
-        let drawn =
-            run_stages(&scene([plate.clone(), behind.clone()]), &camera, &exact_options_with_hidden());
-        let of_behind = drawn.map.edges.iter().filter(|e| e.part.index() == 1 && e.invisibility == 0);
-        let shining: f64 = of_behind.map(|e| total_length(&[drawn.edge_ends(e)])).sum();
-        assert_eq!(shining, 0.0);
-        assert!(doubled_length(&drawn.visible_segments(), 1e-3) < 1e-2, "{:?}", drawn.visible_segments());
-    }
-}
-
-#[test]
-fn duplicated_faces_change_no_lines() {
-    for camera in generic_views() {
-        let mut twice = cube();
-        let flipped = twice.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect::<Vec<_>>();
-        twice.triangles.extend(flipped);
-        let drawn = run_stages(&scene([twice]), &camera, &exact_options_with_hidden());
-        assert_eq!((count_visible(&drawn), drawn.hidden_segments().len()), (9, 3));
-    }
-}
-
-#[test]
-fn cubes_that_share_an_edge_or_a_vertex_show_all_their_lines() {
-    let eye = at(6.3, -5.9, 2.4);
-    let first = || cuboid(DVec3::ZERO, DVec3::ONE);
-    for camera in [orthographic(eye, at(1.0, 1.0, 0.5), 5.0), perspective(eye, at(1.0, 1.0, 0.5), 35.0)] {
-        let second = cuboid(at(1.0, 1.0, 0.0), at(2.0, 2.0, 1.0));
-        let drawn = run_stages(&scene([joined([first(), second])]), &camera, &exact_options_with_hidden());
-        assert_eq!(count_visible(&drawn), 17, "an edge");
-        let second = cuboid(at(1.0, 1.0, 1.0), at(2.0, 2.0, 2.0));
-        let drawn = run_stages(&scene([joined([first(), second])]), &camera, &exact_options_with_hidden());
-        assert_eq!(count_visible(&drawn), 18, "a vertex");
-    }
-}
-
-#[test]
-fn inner_walls_are_not_visible() {
-    // A box of two chambers. The outer sides are split where the wall meets them.
-    let halves = joined([
-        cuboid(at(-1.0, -0.5, -0.5), at(0.0, 0.5, 0.5)),
-        cuboid(at(0.0, -0.5, -0.5), at(1.0, 0.5, 0.5)),
-    ]);
-    for camera in generic_views() {
-        let drawn = run_stages(&scene([halves.clone()]), &camera, &exact_options_with_hidden());
-        let plain = run_stages(
-            &scene([cuboid(at(-1.0, -0.5, -0.5), at(1.0, 0.5, 0.5))]),
-            &camera,
-            &exact_options_with_hidden(),
-        );
-        check_equal_cover(&drawn.visible_segments(), &plain.visible_segments(), MAX_END_ERROR_PX, 1e-5)
-            .unwrap();
-    }
-}
-
-#[test]
-fn a_bow_tie_shows_its_six_sides() {
-    let camera = from_front(4.0);
-    let left = [at(0.0, 0.0, 0.0), at(-1.0, 0.5, 0.0), at(-1.0, -0.5, 0.0)];
-    let right = [at(0.0, 0.0, 0.0), at(1.0, -0.5, 0.0), at(1.0, 0.5, 0.0)];
-    let drawn = run_stages(
-        &scene([joined([polygon(&left), polygon(&right)])]),
-        &camera,
-        &exact_options_with_hidden(),
-    );
-    assert_eq!(count_visible(&drawn), 6);
-    assert_visible_lines(&drawn, &camera, &[outline(&left), outline(&right)].concat());
-}
-
 /// A strip with half a twist.
 fn moebius(around: usize) -> Solid {
     use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -451,24 +333,6 @@ fn a_border_between_materials_is_a_line() {
     )
     .unwrap();
     assert_eq!(count_visible(&drawn), 5);
-}
-
-#[test]
-fn coincident_parts_of_two_materials_have_no_inner_border() {
-    let sheet = |material: u32| Geometry {
-        triangle_material: vec![material; 2],
-        ..solid_geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
-    };
-    let both =
-        Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), sheet(1)]) };
-    let drawn = run_stages(&both, &from_front(4.0), &exact_options_with_hidden());
-    assert_eq!((count_visible(&drawn), drawn.visible_segments_of_kind(LineKind::Material).len()), (4, 0));
-
-    // If one of them ends inside the other, there is a border.
-    let half = Geometry { triangles: vec![[0, 1, 2]], triangle_material: vec![1], ..sheet(1) };
-    let both = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), half]) };
-    let drawn = run_stages(&both, &from_front(4.0), &exact_options_with_hidden());
-    assert_eq!((count_visible(&drawn), drawn.visible_segments_of_kind(LineKind::Material).len()), (5, 1));
 }
 
 #[test]
