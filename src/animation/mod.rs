@@ -16,7 +16,8 @@
 //! 4. `animated_values` gives cameras, lights and materials their values; [`material_factors`] converts those
 //!    of materials.
 //!
-//! [`posed_vertices`] gives the positions of single vertices without posing the whole scene.
+//! [`posed_vertices`] gives the positions of single vertices without posing the whole scene. `tolerances`
+//! holds the smallest quaternion.
 
 mod animated_values;
 pub mod clip;
@@ -24,6 +25,7 @@ pub mod deformable_mesh;
 pub mod material_factors;
 pub mod posed_vertices;
 pub mod rig;
+pub(crate) mod tolerances;
 pub mod track;
 
 pub use clip::{

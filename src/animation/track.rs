@@ -4,6 +4,7 @@
 
 use glam::DQuat;
 
+use crate::animation::tolerances;
 use crate::geometry::numbers::portable_math::{atan2, sin};
 
 /// Interpolation between two keys.
@@ -130,7 +131,8 @@ impl Track {
 pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
     let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
     // Files round the components. Other viewers normalise quaternions of any length as well.
-    (length.is_finite() && length > 1e-6).then(|| DQuat::from_array(xyzw.map(|v| v / length)))
+    (length.is_finite() && length > tolerances::MIN_QUATERNION_LENGTH)
+        .then(|| DQuat::from_array(xyzw.map(|v| v / length)))
 }
 
 /// Spherical linear interpolation along the shorter arc.

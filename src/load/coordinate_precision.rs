@@ -11,6 +11,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
+use crate::load::tolerances::{MAX_SINGLE_ERROR, MIN_VALUE_OF_LARGEST};
 use crate::mesh::tolerances::MAX_ROUNDED_STEP_OF_SIZE;
 use crate::scene::{Geometry, Scene};
 
@@ -23,12 +24,6 @@ const MIN_SINGLE_DIGITS: i32 = 8;
 
 /// Minimum digits that indicate double precision.
 const MIN_DOUBLE_DIGITS: i32 = 15;
-
-/// Maximum relative error of an `f32` written with nine digits: half a unit of the ninth digit.
-const MAX_SINGLE_ERROR: f64 = 5.000_001e-9;
-
-/// Numbers below this fraction of the largest are noise around zero and are not measured.
-const MIN_VALUE_OF_LARGEST: f64 = 1e-6;
 
 /// Stores the measured precision in each geometry of a scene.
 pub(crate) fn measure(scene: &mut Scene) {

@@ -17,7 +17,7 @@
 //!
 //! Readers: [`obj`], [`ply`], [`stl`], [`gltf`]. Shared: [`text_cursor`] numbers and words of a text;
 //! [`parallel_file_read`] large files on several threads; [`polygons`] polygons into triangles;
-//! [`triangle_colours`]; [`coordinate_precision`].
+//! [`triangle_colours`]; [`coordinate_precision`]; [`tolerances`].
 
 mod coordinate_precision;
 pub mod gltf;
@@ -27,6 +27,7 @@ pub mod ply;
 mod polygons;
 pub mod stl;
 mod text_cursor;
+pub(crate) mod tolerances;
 mod triangle_colours;
 
 use std::fs;

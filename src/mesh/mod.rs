@@ -9,9 +9,9 @@
 //!    colours.
 //!
 //! Files, in reading order: [`ids`], [`soup`], [`build`] (the steps above), [`part_metrics`] (sizes and
-//! tolerances of parts), [`vertex_sources`] (moves a mesh with a pose). Other folders: [`lattice`] undoes
-//! the quantization of compressed files, [`bvh`] answers box, ray and nearest-point queries, [`intersect`]
-//! finds where triangles cross.
+//! tolerances of parts), [`vertex_sources`] (moves a mesh with a pose), `tolerances`. Other folders:
+//! [`lattice`] undoes the quantization of compressed files, [`bvh`] answers box, ray and nearest-point
+//! queries, [`intersect`] finds where triangles cross.
 
 pub mod build;
 pub mod bvh;

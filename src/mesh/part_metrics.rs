@@ -18,10 +18,6 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 /// origin when parts are added or removed.
 const ORIGIN_STEP_OF_SIZE: f64 = 256.0;
 
-/// Maximum contact distance due to the precision of a file, as a share of the part. A file with coarser
-/// coordinates does not determine which surfaces touch.
-const MAX_CONTACT_OF_PART: f64 = 1e-3;
-
 /// Size, position and tolerances of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartMetrics {
@@ -269,8 +265,9 @@ impl PartMetrics {
         let step = if step <= tolerances::MAX_ROUNDED_STEP_OF_SIZE * self.diagonal() { step } else { 0.0 };
         let rounding = (tolerances::MAX_LATTICE_ROUNDING_STEPS * step)
             .max(tolerances::MAX_F32_ROUNDING_STEPS * of_single);
-        self.rounding = rounding.min(MAX_CONTACT_OF_PART * self.scale);
-        let between = (2.0 * written).max(2.0 * self.rounding).min(MAX_CONTACT_OF_PART * self.scale);
+        self.rounding = rounding.min(tolerances::MAX_CONTACT_OF_PART * self.scale);
+        let between =
+            (2.0 * written).max(2.0 * self.rounding).min(tolerances::MAX_CONTACT_OF_PART * self.scale);
         self.contact = (tolerances::CONTACT_OF_PART * self.scale).max(between);
         self.own = OwnExtent { scale: self.scale, low: self.low, high: self.high };
     }

@@ -13,10 +13,7 @@ use super::{Mesh, MeshMetrics, Soup};
 use crate::mesh::normals::face_normals::normals_and_narrow;
 use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
 use crate::mesh::overlaps::overlay_order::overlays;
-
-/// Maximum distance, as a share of the model, between vertices of a pose that are welded at rest. It covers
-/// the rounding of joints.
-const MAX_SPREAD_OF_MODEL: f64 = 1e-6;
+use crate::mesh::tolerances;
 
 /// Mapping between the vertices of a soup and of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -81,7 +78,7 @@ impl Mesh {
         };
         let extents = MeshMetrics::new(&moved, self.origin, true);
         let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
-        let together = MAX_SPREAD_OF_MODEL * extents.counted_diagonal();
+        let together = tolerances::MAX_SPREAD_OF_MODEL * extents.counted_diagonal();
         let parted = |(vertex, p): (&u32, &DVec3)| {
             let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
             (local(*p, self.origin) - joined).length().partial_cmp(&together).is_none_or(Ordering::is_gt)

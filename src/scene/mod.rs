@@ -20,7 +20,7 @@
 //! Files, in reading order: [`parts`] geometries and parts; [`material`]; [`light`]; [`cameras`]; [`extent`]
 //! which points count and how precise they are; [`part_selection`] parts by name; [`glass`] see-through
 //! materials; [`textures`]; [`paints`]; [`triangle_soup`]; [`motion_trails`]; [`model_folder`] files next to
-//! the model; [`warnings`].
+//! the model; [`warnings`]; [`tolerances`].
 
 pub mod cameras;
 pub mod extent;

@@ -5,6 +5,7 @@ use glam::{DAffine3, DVec3};
 use crate::geometry::tolerances::F32_STEP;
 use crate::mesh::EdgeMark;
 use crate::mesh::normals::triangle_area::has_own_area;
+use crate::scene::tolerances;
 
 /// Triangles and wires in local space.
 ///
@@ -69,7 +70,8 @@ impl Geometry {
     #[must_use]
     pub(crate) fn decimal_step(&self) -> f64 {
         let numbers = || self.positions.iter().flat_map(|p| p.to_array());
-        let is_whole = |number: f64| (number - number.round()).abs() <= 4.0 * f64::EPSILON * number.abs();
+        let is_whole =
+            |number: f64| (number - number.round()).abs() <= tolerances::WHOLE_NUMBER_ROUNDING * number.abs();
         let powers = [1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0, 1_000_000.0];
         let found = powers.into_iter().find(|power| numbers().all(|number| is_whole(number * power)));
         found.map_or(0.0, |power| 1.0 / power)

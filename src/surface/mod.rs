@@ -9,7 +9,7 @@
 //! 6. `cylinders` recovers cylinders from flat strips.
 //!
 //! Folders, in reading order: [`creases`], [`patches`], [`normals`], [`curvature`], [`refine`],
-//! [`cylinders`](mod@cylinders).
+//! [`cylinders`](mod@cylinders). File: `tolerances`.
 
 pub mod creases;
 pub mod curvature;
@@ -17,6 +17,7 @@ pub mod cylinders;
 pub mod normals;
 pub mod patches;
 pub mod refine;
+pub(crate) mod tolerances;
 
 pub use creases::hard_edges::HardEdges;
 pub use curvature::principal_curvatures::PrincipalCurvatures;

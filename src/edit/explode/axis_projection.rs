@@ -17,15 +17,13 @@ use kurbo::Point;
 use super::bodies::Body;
 use super::box_tree::{EMPTY_RECT, Rect, RectTree, overlap, union};
 use super::polygon_overlap::{area, common, cut};
+use crate::edit::tolerances::{ANGLE_ROUNDING_RAD, MAX_UPRIGHT_AREA_RATIO};
 use crate::geometry::numbers::portable_math::atan2;
 use crate::geometry::plane::convex_hull::convex_hull;
 
 /// Maximum overlap, as a share of the smaller projected area, that counts as grazing. Facets of a shaft and
 /// its bore graze each other.
 const MAX_GRAZE_AREA_RATIO: f64 = 0.02;
-
-/// Maximum projected area, as a share of the full area, of a face that counts as parallel to the axis.
-const MAX_UPRIGHT_AREA_RATIO: f64 = 1e-9;
 
 /// Body projected along an axis.
 #[derive(Debug, Clone, Default)]
@@ -252,9 +250,6 @@ impl AxisProjection {
         until >= end - ANGLE_ROUNDING_RAD
     }
 }
-
-/// Rounding tolerance of angles, radians.
-const ANGLE_ROUNDING_RAD: f64 = 1e-9;
 
 impl ProjectedTriangle {
     /// Whether a point lies in the triangle.

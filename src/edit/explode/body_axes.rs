@@ -8,10 +8,7 @@
 use glam::DVec3;
 
 use super::bodies::Body;
-
-/// Maximum sine of the angle between directions that count as equal. Single-precision rounding turns the
-/// faces of the test models by less.
-const MAX_PARALLEL_SINE: f64 = 1e-3;
+use crate::edit::tolerances::MAX_PARALLEL_SINE;
 
 /// Maximum number of face directions that are kept. The largest faces come first.
 const MAX_PLANE_DIRECTIONS: usize = 64;

@@ -30,6 +30,7 @@ use glam::{DAffine3, DVec3};
 pub use part_rules::{PartExplosion, direction};
 pub use trail_lines::{TRAIL, with_trails};
 
+use crate::edit::tolerances;
 use crate::scene::Scene;
 use assembly::{Assembly, Moves};
 use axis_blocking::AxisBlocking;
@@ -54,9 +55,6 @@ impl Default for Explosion {
 
 /// Gap between parts, as a share of the model's diagonal.
 const PART_GAP_RATIO: f64 = 0.04;
-
-/// Distance within which surfaces touch, as a share of the model's diagonal.
-const TOUCH_DISTANCE_RATIO: f64 = 1e-5;
 
 /// Displacements of the parts of a scene, world units. Zero for parts that stay.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -89,7 +87,7 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> PartOffsets {
         axes: unit_bodies.iter().map(body_axes::body_axes).collect(),
         bodies: &unit_bodies,
         gap: PART_GAP_RATIO * diagonal * explosion.factor.max(0.0),
-        touch: TOUCH_DISTANCE_RATIO * diagonal,
+        touch: tolerances::TOUCH_DISTANCE_OF_DIAGONAL * diagonal,
     };
     let mut moves = Moves { whole: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
     let own_way = |unit: &part_rules::PartUnit| unit.told.direction.is_some();

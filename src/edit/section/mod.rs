@@ -2,8 +2,9 @@
 //!
 //! 1. [`plane_spec`] reads the [`plane`] from an option such as `y=12.5`.
 //! 2. `void_winding` orients each surface so that winding numbers separate material from voids.
-//! 3. `plane_clip` clips each part at the plane and lists the open edges along it. `cut_tolerances` gives the
-//!    distances within which points coincide. `outline_gaps` closes small gaps between open edges.
+//! 3. `plane_sides` finds the parts that the plane cuts. `plane_clip` clips each of them at the plane and
+//!    lists the open edges along it. `cut_tolerances` gives the distances within which points coincide.
+//!    `outline_gaps` closes small gaps between open edges.
 //! 4. `section_caps` triangulates the plane between the outlines (`cut_outlines`) and assigns each triangle
 //!    to a solid by winding number. `coplanar_faces` keeps faces of the model that lie in the plane.
 //! 5. `seam_division` splits the clipped triangles where the caps have vertices.
@@ -30,6 +31,7 @@ mod neighbour_kinds;
 mod outline_gaps;
 pub mod plane;
 mod plane_clip;
+mod plane_sides;
 pub mod plane_spec;
 mod seam_division;
 mod section_caps;
@@ -109,10 +111,10 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let Some(shape) = scene.geometry_of(part) else { continue };
         let place = part.world_from_part;
         let reach = CutTolerances::of(shape, &place);
-        let (behind, before) = plane_clip::sides_reached(shape, &place, plane, reach.plane);
+        let (behind, before) = plane_sides::sides_reached(shape, &place, plane, reach.plane);
         *keep = behind || !before;
         // A solid with a face in the plane may lie inside a solid that is cut.
-        if behind && !stays && (before || plane_clip::has_flat(shape, &place, plane, reach.plane)) {
+        if behind && !stays && (before || plane_sides::has_flat(shape, &place, plane, reach.plane)) {
             let shape =
                 void_winding::orient_surfaces(shape, &plane_clip::first_at_position(&shape.positions));
             let cut = clip_part(&shape, &place, (plane, reach));

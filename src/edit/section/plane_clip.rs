@@ -2,13 +2,14 @@
 //!
 //! Each vertex is classified once for all its faces: in front, behind, or on the plane. Vertices on the plane
 //! are moved onto it exactly. Triangles with a vertex behind are kept or clipped, so no triangle is cut along
-//! its own side. Triangles in the plane are listed separately, for [`caps`](super::section_caps::caps). Vertices at
-//! the same position count as one, and an edge is cut once for all its faces.
+//! its own side. Triangles in the plane are listed separately, for [`caps`](super::section_caps::caps).
+//! Vertices at the same position count as one, and an edge is cut once for all its faces.
 
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::plane::Plane;
+use super::plane_sides::side;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
@@ -32,42 +33,6 @@ pub(crate) struct CoplanarFace {
     pub triangle: usize,
     /// Corners as nodes, counter-clockwise as seen from outside in world space.
     pub nodes: [u32; 3],
-}
-
-/// Whether a shape has used vertices behind and in front of a plane.
-pub(crate) fn sides_reached(
-    geometry: &Geometry,
-    place: &DAffine3,
-    plane: &Plane,
-    reach: f64,
-) -> (bool, bool) {
-    let (mut behind, mut before) = (false, false);
-    for corner in geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened()) {
-        let Some(p) = geometry.positions.get(*corner as usize) else { continue };
-        match side(plane, place.transform_point3(*p), reach) {
-            1.. => before = true,
-            0 => {}
-            _ => behind = true,
-        }
-        if behind && before {
-            break;
-        }
-    }
-    (behind, before)
-}
-
-/// Whether a shape has triangles in the plane.
-pub(crate) fn has_flat(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> bool {
-    let is_on = |v: &u32| {
-        let p = geometry.positions.get(*v as usize);
-        p.is_some_and(|p| side(plane, place.transform_point3(*p), reach) == 0)
-    };
-    geometry.triangles.iter().any(|triangle| triangle.iter().all(is_on))
-}
-
-/// Side of a point: 1 in front, -1 behind, 0 within `reach` of the plane.
-fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
-    if plane.distance(p).abs() <= reach { 0 } else { plane.side(p) }
 }
 
 /// Corner of a clipped triangle: an original corner, or the cut on the side after a corner.

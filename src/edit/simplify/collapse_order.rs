@@ -7,10 +7,7 @@ use super::cost_heap::CostHeap;
 use super::edge_collapse::{Collapser, opposite_points};
 use super::flat_surface::FlatSurface;
 use super::point_constraints::PointConstraint;
-
-/// Weight of the fourth power of the collapse distance, added to the cost. Keeps faces in flat regions well
-/// shaped.
-const LENGTH_COST_WEIGHT: f64 = 1e-10;
+use crate::edit::tolerances::LENGTH_COST_WEIGHT;
 
 /// Extra cost of a collapse at a point where borders and seams meet, as a share of the surrounding face area
 /// times the squared distance. There one texture, colour or material spreads over another.

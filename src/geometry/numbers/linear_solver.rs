@@ -1,5 +1,7 @@
 //! Solver for small symmetric systems of linear equations.
 
+use crate::geometry::tolerances;
+
 /// Solves `matrix · x = right` for a symmetric, positive definite matrix. Reads the upper triangle only;
 /// returns `None` if the matrix is not positive definite.
 ///
@@ -15,7 +17,7 @@ pub fn solve<const N: usize>(matrix: [[f64; N]; N], right: [f64; N]) -> Option<[
         for k in 0..i {
             pivot -= l[i][k] * l[i][k] * d[k];
         }
-        if pivot.partial_cmp(&(f64::EPSILON * trace)) != Some(std::cmp::Ordering::Greater) {
+        if pivot.partial_cmp(&(tolerances::MIN_PIVOT_OF_TRACE * trace)) != Some(std::cmp::Ordering::Greater) {
             return None;
         }
         d[i] = pivot;

@@ -5,6 +5,8 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::load::tolerances::MAX_COLLINEAR_SINE;
+
 /// Maximum corners of a concave polygon for ear clipping; larger ones are fanned.
 const MAX_CONCAVE_CORNERS: usize = 4096;
 
@@ -14,10 +16,6 @@ const MAX_CORNER_TESTS: usize = 100_000_000;
 /// Maximum corners of a convex polygon for the search for a good apex; larger ones are fanned from the first
 /// corner.
 const MAX_APEX_CORNERS: usize = 512;
-
-/// Maximum sine of the angle between collinear points: a hundred times the error of single precision on a
-/// straight side.
-const MAX_COLLINEAR_SINE: f64 = 1e-5;
 
 /// Quality of a triangulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

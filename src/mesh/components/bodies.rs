@@ -12,11 +12,9 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::atan2;
+use crate::mesh::tolerances::MAX_COPLANAR_ANGLE_RAD;
 use crate::mesh::{DisjointSets, EdgeFaces, Edges, Mesh, PartId, Soup};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-
-/// Maximum angle at an edge between coplanar faces, radians. It covers the rounding of moved models.
-const MAX_COPLANAR_ANGLE_RAD: f64 = 1e-6;
 
 /// For each part, the first part of its body; empty if every part is a separate body.
 pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {

@@ -6,10 +6,11 @@
 //!    border.
 //! 4. Parts whose surfaces continue in each other form one body, which shares tolerances and classification.
 //!
-//! Files, in reading order: [`disjoint_sets`] (step 1), [`orientation`] (steps 2 and 3), [`bodies`] (step
-//! 4), [`solid_parts`] (parts whose inside is never visible).
+//! Files, in reading order: [`disjoint_sets`] (step 1), [`orientation`] (steps 2 and 3), `parity_union_find`
+//! (step 2), [`bodies`] (step 4), [`solid_parts`] (parts whose inside is never visible).
 
 pub(crate) mod bodies;
 pub(crate) mod disjoint_sets;
 pub(crate) mod orientation;
+mod parity_union_find;
 pub mod solid_parts;

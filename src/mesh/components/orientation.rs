@@ -1,4 +1,5 @@
-//! [`OrientedSurfaces`]: connected surfaces of a mesh, and the faces to turn so that each surface shows its outside.
+//! [`OrientedSurfaces`]: connected surfaces of a mesh, and the faces to turn so that each surface shows its
+//! outside.
 //!
 //! 1. Faces are connected where exactly two faces meet at an edge, counted over all parts or within one part.
 //! 2. Windings within a surface are made consistent by union-find with parity. One-sided surfaces (Möbius
@@ -16,6 +17,8 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use super::parity_union_find::ParityUnionFind;
+use crate::mesh::tolerances;
 use crate::mesh::{DisjointSets, EdgeFaces, Edges, NumberedSets, PartId, Soup};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
@@ -185,8 +188,10 @@ impl SurfaceSums {
     /// Whether a surface must be turned as a whole.
     fn turns(&self) -> bool {
         // The error of a sum of n numbers is at most n units in the last place of the sum of their sizes.
-        // Source: Higham, "Accuracy and stability of numerical algorithms", 2002, section 4.2.
-        let rounding = f64::from(self.faces.saturating_add(8)) * f64::EPSILON * self.area * self.reach;
+        let rounding = f64::from(self.faces.saturating_add(8))
+            * tolerances::SUM_ROUNDING_PER_TERM
+            * self.area
+            * self.reach;
         // For another apex, the volume of the cone changes by the dot product of the offset and the sum of
         // normals.
         let volume = self.volume - self.centroid().dot(self.normal) / 3.0;
@@ -352,43 +357,6 @@ impl ConnectedTriangles<'_> {
         let chunks: Vec<Vec<(u32, SurfaceSums)>> =
             surfaces.of_face.par_chunks(EDGES_PER_TASK).enumerate().map(of_chunk).collect();
         chunks.into_iter().flatten().for_each(|(surface, sums)| call(surface as usize, sums));
-    }
-}
-
-/// Union-find over faces with parity: whether a face must be turned to match the root of its set.
-struct ParityUnionFind {
-    /// Parent of each face, and whether their windings disagree.
-    above: Vec<(u32, bool)>,
-}
-
-impl ParityUnionFind {
-    fn new(count: usize) -> Self {
-        Self { above: (0..count as u32).map(|face| (face, false)).collect() }
-    }
-
-    /// Root of a face, and whether their windings disagree.
-    fn root(&mut self, face: u32) -> (u32, bool) {
-        let (mut at, mut disagree) = (face, false);
-        while self.above[at as usize].0 != at {
-            let (next, odd) = self.above[at as usize];
-            let (after, more) = self.above[next as usize];
-            // Path halving.
-            self.above[at as usize] = (after, odd ^ more);
-            disagree ^= odd ^ more;
-            at = after;
-        }
-        (at, disagree)
-    }
-
-    /// Joins two faces. Returns false if the new relation contradicts the known one.
-    fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
-        let ((a, odd_a), (b, odd_b)) = (self.root(a), self.root(b));
-        let odd = odd_a ^ odd_b ^ disagree;
-        if a != b {
-            self.above[a.max(b) as usize] = (a.min(b), odd);
-            return true;
-        }
-        !odd
     }
 }
 

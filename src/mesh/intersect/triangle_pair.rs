@@ -11,10 +11,7 @@ use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
 use crate::mesh::PartMetrics;
-use crate::mesh::tolerances::{OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
-
-/// Two corners may lie in a plane if their distances from it are below this share of the third one's.
-const PLANE_DISTANCE_RATIO: f64 = 1e-4;
+use crate::mesh::tolerances::{self, OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
 
 /// Tolerances for the intersection of two triangles, world units.
 #[derive(Debug, Clone, Copy)]
@@ -78,9 +75,10 @@ impl Triangle {
         let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = e1.cross(e2);
         // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the distance to q. If the
-        // sine of the corner is above 1/100, this is less than 3e-13 of that distance, well inside the plane
+        // sine of the corner is above 1/100, this is below 1200 ε of that distance, well inside the plane
         // tolerance.
-        let trusted = normal.length_squared() > 1e-4 * e1.length_squared() * e2.length_squared();
+        let least = tolerances::MIN_TRUSTED_SINE_SQUARED * e1.length_squared() * e2.length_squared();
+        let trusted = normal.length_squared() > least;
         Self { vertices, corners, normal, trusted }
     }
 
@@ -93,7 +91,7 @@ impl Triangle {
         let is_on_one = a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0;
         let [x, y, z] = [a.abs(), b.abs(), c.abs()];
         let middle = x.min(y).max(x.max(y).min(z));
-        self.trusted & is_on_one & (middle > PLANE_DISTANCE_RATIO * x.max(y).max(z))
+        self.trusted & is_on_one & (middle > tolerances::MAX_PLANE_DISTANCE_OF_FARTHEST * x.max(y).max(z))
     }
 
     /// Signed distances of points from the plane; zero within the tolerance. `None` if the points are
@@ -115,12 +113,12 @@ impl Triangle {
             // Exceeds the error of every determinant of these points, so that smaller values count as zero
             // either way.
             let far = size + reach(way);
-            let error = 48.0 * f64::EPSILON * (far * far * far);
+            let error = tolerances::DETERMINANT_ROUNDING * (far * far * far);
             // Where surfaces coincide, most corners are in the other plane, and exact predicates would be
             // slow. Most other corners are on one side.
             *is_zero = about.abs() + error < far_tolerance(far, normal_length, tolerance) && {
                 let least = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
-                about.abs() + error < (1.0 - 1e-6) * least
+                about.abs() + error < tolerances::PLANE_ROUNDING_FACTOR * least
             };
             below |= !*is_zero && about <= error;
             above |= !*is_zero && about >= -error;

@@ -9,13 +9,12 @@ use glam::Vec3;
 
 use super::hinges::Hinge;
 use crate::geometry::lists::csr_lists::csr_lists_from_pairs;
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Maximum number of descent steps. They remove at least 5/6 of the removable bending; further steps affect
 /// few sharp edges.
 pub(crate) const MAX_DESCENT_STEPS: usize = 16;
-/// Minimum displacement in a step, in half steps of the lattice. Descent stops below it.
-const MIN_MOVE_HALF_STEPS: f32 = 4e-3;
 
 /// Displacement of each position after at most `steps` steps of descent, in half steps of the lattice: -1 to
 /// 1 along each axis, zero for positions that are not `free`.
@@ -55,7 +54,7 @@ pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Ve
             },
         );
         found = next;
-        if most <= MIN_MOVE_HALF_STEPS {
+        if most <= tolerances::MIN_MOVE_HALF_STEPS {
             break;
         }
     }

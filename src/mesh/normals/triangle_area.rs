@@ -44,7 +44,7 @@ pub(crate) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     let own_squared =
         (3.0 * longest_squared).max(MIN_SCALE_OF_COORDINATE * MIN_SCALE_OF_COORDINATE * largest * largest);
     let share = tolerances::DEGENERATE_HEIGHT_OF_PART * tolerances::DEGENERATE_HEIGHT_OF_PART;
-    let limit = (1.0 + 1e-9) * share * longest_squared * own_squared.max(scale * scale);
+    let limit = tolerances::AREA_ROUNDING_FACTOR * share * longest_squared * own_squared.max(scale * scale);
     if limit > f64::MIN_POSITIVE && cross.length_squared() > limit {
         return Some(cross);
     }

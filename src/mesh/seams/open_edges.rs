@@ -43,10 +43,6 @@ const SAGITTA_FACTOR: f64 = 2.0;
 /// this.
 const SAGITTA_PER_TWIST: f64 = 4.0;
 
-/// Maximum difference of texture coordinates and colours across a seam. Larger differences are intentional
-/// borders.
-const MAX_PAINT_DIFFERENCE: f32 = 1e-3;
-
 /// Side of a face that no other face of the part shares.
 struct OpenEdge {
     /// Its vertices, in the order of the face.
@@ -153,7 +149,8 @@ impl OpenEdge {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
                 ([Some(a), Some(b)], Some(c)) => {
-                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= MAX_PAINT_DIFFERENCE)
+                    let apart = |k: usize| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs();
+                    (0..N).all(|k| apart(k) <= tolerances::MAX_SEAM_PAINT_DIFFERENCE)
                 }
                 ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
             }

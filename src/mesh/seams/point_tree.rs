@@ -9,13 +9,11 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Number of points or boxes in one box.
 const CHILDREN_PER_BOX: usize = 4;
-
-/// Tolerance on the parameter of a segment, for rounding.
-const PARAMETER_ROUNDING: f64 = 1e-9;
 
 /// Point with its index.
 type IndexedPoint = (DVec3, u32);
@@ -131,7 +129,7 @@ impl QuerySegment {
             let (a, b) = (low[axis] * self.per_way[axis], high[axis] * self.per_way[axis]);
             (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
         }
-        from <= to + PARAMETER_ROUNDING
+        from <= to + tolerances::PARAMETER_ROUNDING
     }
 }
 

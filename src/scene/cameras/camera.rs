@@ -3,15 +3,13 @@
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::scene::tolerances;
 
 /// Default vertical field of view of a perspective camera, in degrees.
 pub const DEFAULT_FOV_Y_DEG: f64 = 35.0;
 
 /// Default width and height of a camera's frame, in px.
 pub const DEFAULT_FRAME_PX: f64 = 1000.0;
-
-/// Sine of the angle between `up` and the optical axis below which they count as parallel.
-const PARALLEL_SINE: f64 = 1e-9;
 
 /// Perspective or parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +99,7 @@ impl Camera {
             ));
         }
         let up = self.up.try_normalize().unwrap_or(DVec3::ZERO);
-        if axis.normalize().cross(up).length() < PARALLEL_SINE {
+        if axis.normalize().cross(up).length() < tolerances::MIN_UP_SINE {
             return Err(wrong(
                 "up",
                 "up is zero or parallel to the line from eye to target",

@@ -12,6 +12,7 @@ use glam::DVec3;
 use crate::geometry::numbers::portable_math::tan;
 pub use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::tolerances;
 use crate::scene::{Camera, Projection, Scene};
 
 /// Margin on each side of a fitted model, as a fraction of the frame's shorter side.
@@ -20,9 +21,6 @@ pub const FRAME_MARGIN: f64 = 0.05;
 /// Minimum distance of a perspective eye in front of the model, as a fraction of the model's diagonal.
 /// Matters only for models that are thin in the view direction, such as a rod seen end-on.
 const MIN_EYE_DISTANCE_OF_DIAGONAL: f64 = 0.02;
-
-/// Minimum height of a parallel view, as a fraction of the model's diagonal, for the same reason.
-const MIN_VIEW_HEIGHT_OF_DIAGONAL: f64 = 1e-6;
 
 /// Points per parallel task.
 const POINTS_PER_TASK: usize = 1 << 14;
@@ -198,7 +196,7 @@ fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -
     let [r, l, t, b, near] =
         [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_Z].map(|axis| points.reach(axis));
     let span = ((r + l) * height / frame.0).max((t + b) * height / frame.1);
-    let span = if span < MIN_VIEW_HEIGHT_OF_DIAGONAL * diagonal {
+    let span = if span < tolerances::MIN_VIEW_HEIGHT_OF_DIAGONAL * diagonal {
         diagonal * height / frame.0.min(frame.1)
     } else {
         span

@@ -7,6 +7,7 @@ use crate::colour::oklab::linear_table;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::{Colour, linear};
 use crate::mesh::{MaterialId, PaintId};
+use crate::scene::tolerances::MIN_TEXEL_SHARE;
 
 /// The texture of a material, for embedding in a drawing.
 #[derive(Debug, Clone)]
@@ -124,9 +125,6 @@ impl EmbeddedTexture {
 
 /// Maximum channel difference between equal colours that were stored differently.
 const MAX_STORAGE_CHANNEL_ERROR: u8 = 3;
-
-/// Overlaps below this share of a texel are rounding errors.
-const MIN_TEXEL_SHARE: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests {

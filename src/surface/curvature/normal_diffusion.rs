@@ -14,17 +14,15 @@ use super::vertex_fans::VertexFans;
 use crate::mesh::PartId;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
-
-/// Minimum weight of a term of the series.
-const MIN_CHEBYSHEV_WEIGHT: f64 = 2e-3;
+use crate::surface::tolerances;
 
 /// Maximum standard deviation of the smoothing, in typical edge lengths. It limits the run time; finer meshes
 /// are scanned more exactly.
 const MAX_SMOOTHING_EDGES: f64 = 4.0;
 
 /// Unit normals smoothed with a Gaussian. `length` returns its standard deviation for each part, world units,
-/// limited to [`MAX_SMOOTHING_EDGES`]. Normals stay unchanged where edges are as long as that. `part_of` has one part
-/// per smooth vertex.
+/// limited to [`MAX_SMOOTHING_EDGES`]. Normals stay unchanged where edges are as long as that. `part_of` has
+/// one part per smooth vertex.
 pub(crate) fn diffuse(
     smooth: &SmoothNormals,
     fans: &VertexFans,
@@ -162,17 +160,17 @@ fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
 fn weights(z: f64) -> Vec<f64> {
     let count = (16.0 + 12.0 * z.sqrt() + z).ceil() as usize;
     let mut bessel = vec![0.0; count + 2];
-    bessel[count] = 1e-250;
+    bessel[count] = tolerances::BESSEL_START;
     for k in (1..=count).rev() {
-        bessel[k - 1] = bessel[k + 1] + 2.0 * k as f64 / z.max(1e-12) * bessel[k];
+        bessel[k - 1] = bessel[k + 1] + 2.0 * k as f64 / z.max(tolerances::MIN_BESSEL_ARGUMENT) * bessel[k];
         if bessel[k - 1] > 1e200 {
-            bessel.iter_mut().for_each(|b| *b *= 1e-200);
+            bessel.iter_mut().for_each(|b| *b *= tolerances::BESSEL_RESCALE);
         }
     }
     bessel.iter_mut().skip(1).for_each(|b| *b *= 2.0);
     let sum: f64 = bessel.iter().sum();
     bessel.iter_mut().for_each(|b| *b /= sum);
-    while bessel.len() > 1 && bessel.last().is_some_and(|last| *last < MIN_CHEBYSHEV_WEIGHT) {
+    while bessel.len() > 1 && bessel.last().is_some_and(|last| *last < tolerances::MIN_CHEBYSHEV_WEIGHT) {
         bessel.pop();
     }
     let sum: f64 = bessel.iter().sum();

@@ -15,6 +15,7 @@ use crate::geometry::numbers::linear_solver::solve;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
+use crate::surface::tolerances;
 
 /// The principal curvatures at a point of a surface, and their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -100,7 +101,7 @@ fn tensor(
 #[inline]
 pub(crate) fn turned(axes: [DVec3; 2], from: DVec3, to: DVec3) -> [DVec3; 2] {
     let cosine = from.dot(to);
-    if cosine <= -1.0 + f64::EPSILON {
+    if cosine <= tolerances::MAX_OPPOSITE_COSINE {
         return axes.map(|axis| -axis);
     }
     let across = to - from * cosine;

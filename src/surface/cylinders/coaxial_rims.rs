@@ -11,6 +11,7 @@ use super::cylinder::Cylinder;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{DisjointSets, Mesh, PartId};
+use crate::surface::tolerances::{MAX_FACET_RADIUS_SPREAD, MAX_RIM_RADIUS_SPREAD};
 
 /// Minimum arc, radians, of a cylinder whose axis is used.
 const MIN_AXIS_ARC_RAD: f64 = 5.8;
@@ -21,10 +22,6 @@ const MAX_FACET_ARC_RAD: f64 = 0.45;
 /// Minimum number of facets of a rim, and maximum number of triangles of a facet.
 const MIN_RIM_FACETS: usize = 6;
 const MAX_FACET_TRIANGLES: usize = 24;
-
-/// Maximum difference of distances from the axis, as a share: within a facet, and between facets.
-const MAX_FACET_RADIUS_SPREAD: f64 = 2e-4;
-const MAX_RIM_RADIUS_SPREAD: f64 = 1e-3;
 
 /// Chord of a circle around an axis.
 struct RimChord {

@@ -15,16 +15,15 @@ pub use super::cylinder::Cylinder;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh, PartId};
+use crate::surface::tolerances::{
+    MAX_CIRCLE_OFFSET_OF_RADIUS, MAX_END_DIFFERENCE_OF_STRIP, MAX_PARALLEL_SINE, MAX_SIDE_OFFSET_OF_WIDTH,
+    MIN_BISECTOR_SINE,
+};
 
 /// Minimum cosine between faces of one facet (0.06 degrees), and between adjacent strips of one cylinder (50
 /// degrees).
 const MIN_FACET_COSINE: f64 = 0.999_999_4;
 const MIN_STRIP_COSINE: f64 = 0.642_787_6;
-
-/// Maximum sine between parallel lines, and maximum difference of centres and radii as a share of the radius.
-/// Both cover single-precision coordinates.
-const MAX_PARALLEL_SINE: f64 = 1e-3;
-const MAX_CIRCLE_OFFSET_OF_RADIUS: f64 = 5e-3;
 
 /// Maximum number of side lines of a strip. A facet with more is a face of a machined part.
 const MAX_STRIP_LINES: usize = 64;
@@ -154,12 +153,14 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(FlatStrip, Vec
         let low = along.iter().map(place).fold(f64::INFINITY, f64::min);
         let high = along.iter().map(place).fold(f64::NEG_INFINITY, f64::max);
         let width = high - low;
-        let is_outer = |edge: &usize| (place(edge) - low).min(high - place(edge)) < 1e-3 * width;
+        let is_outer =
+            |edge: &usize| (place(edge) - low).min(high - place(edge)) < MAX_SIDE_OFFSET_OF_WIDTH * width;
         if width <= 0.0 || !along.iter().all(is_outer) {
             continue;
         }
         let reach = |side: f64| {
-            let own = along.iter().filter(|edge| (place(edge) - side).abs() < 1e-3 * width);
+            let is_on_side = |edge: &&usize| (place(edge) - side).abs() < MAX_SIDE_OFFSET_OF_WIDTH * width;
+            let own = along.iter().filter(is_on_side);
             own.flat_map(|edge| ends(*edge)).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
                 let at = p.dot(axis);
                 [l.min(at), h.max(at)]
@@ -167,7 +168,7 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(FlatStrip, Vec
         };
         let ([a, b], [c, d]) = (reach(low), reach(high));
         let (least, most) = (a.min(c), b.max(d));
-        let nearly = 1e-3 * (most - least).max(width);
+        let nearly = MAX_END_DIFFERENCE_OF_STRIP * (most - least).max(width);
         let differs = (a - c).abs() > nearly && (b - d).abs() > nearly;
         let tapers = differs && (a < c) == (b > d);
         let some = ends(along[0])[0];
@@ -192,7 +193,7 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[FlatStrip]) ->
             let flat = |v: DVec3| v - axis * v.dot(axis);
             let between = flat(other.middle - one.middle);
             let cross = one.normal.cross(other.normal).dot(axis);
-            if cross.abs() < 1e-9 {
+            if cross.abs() < MIN_BISECTOR_SINE {
                 continue;
             }
             let far = between.cross(other.normal).dot(axis) / cross;

@@ -6,19 +6,21 @@
 //! the normals of the file.
 
 use std::collections::BTreeMap;
-use std::ops::AddAssign;
 
 use crate::parallel::prelude::*;
-use glam::Vec3;
 
+use super::component_stats::{
+    ComponentStats, EdgeStats, FaceStats, SliverBends, leaning_at, of_edge, of_face,
+};
 use super::group_sums::sums;
-use super::normal_validation::{leaning, leans};
-use super::planar_regions::{PlanarRegions, area};
-use super::sliver_bends::{SliverFace, bent_short_sides, longest_side};
+use super::normal_validation::leans;
+use super::planar_regions::PlanarRegions;
+use super::sliver_bends::{SliverFace, bent_short_sides};
 use super::surface_class::{ComponentClass, ComponentClasses, MeshSource, SurfaceClass};
 use crate::mesh::components::disjoint_sets::{DisjointSets, NumberedSets};
-use crate::mesh::{DihedralCosines, EdgeFaces, Mesh, VertexEdges};
+use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::tolerances;
 
 /// Minimum share of planar area for a machined component, without and with normals in the file. Measured on
 /// 160 models: scans have 0 to 6 %, most machined parts 10 % and more. Figures that are shaded round have
@@ -34,17 +36,12 @@ const MIN_FLAT_EDGES_UNSHADED: f64 = 0.15;
 /// The same share with normals. Armour and tools that are shaded round over sharp edges are distinguished
 /// from figures by their planar regions.
 const MIN_FLAT_EDGES_SHADED: f64 = 0.08;
-/// Cosine below which an edge is sharp: 60 degrees.
-const MAX_SHARP_COSINE: f32 = 0.5;
 /// Maximum share of sharp edges for which smooth shading describes the shape. Above it, the normals are
 /// intended for use with a bump map.
 const MAX_SHARP_EDGES_SHADED: f64 = 0.1;
 /// Minimum number of edges for a dense component, which is classified without shading. Coarse figures turn
 /// sharply at many edges.
 const MIN_DENSE_EDGES: u32 = 2000;
-/// Cosine above which an edge is nearly flat: one degree, ten times the limit of a flat edge. If turns are
-/// noise, a tenth of the nearly flat edges are flat.
-const MIN_NEARLY_FLAT_COSINE: f32 = 0.999_847_7;
 /// A component with many sharp edges and no normals is machined if flat edges are more than this many times
 /// as common as noise would make them. Decimated scans with as many sharp edges match the noise.
 const MIN_FLAT_OF_NOISE: f64 = 2.0;
@@ -57,8 +54,6 @@ const MIN_FLAT_OF_NEARLY_FLAT: f64 = 0.5;
 /// Minimum share of sharp edges for flat edges to count as intended. Scans with planar regions, such as a cut
 /// base, have at most 1 %.
 const MIN_SHARP_EDGES_WITH_FLATS: f64 = 0.05;
-/// Factor for comparing areas: the rounding of sums depends on the order of faces.
-const AREA_ROUNDING_FACTOR: f64 = 1.0 - 1e-9;
 /// Maximum share of sharp edges of a component that stays round next to machined ones, such as the spout of a
 /// pot.
 const MAX_SHARP_EDGES_ROUND: f64 = 0.01;
@@ -77,108 +72,18 @@ const MIN_SLIVER_BEND_LENGTH: f64 = 0.03;
 const MIN_SLIVER_BEND_SIDES: f64 = 0.01;
 /// Minimum number of edges for statistics. A smaller group is a block or a plate.
 pub(crate) const MIN_SAMPLE_EDGES: u32 = 60;
-/// Cosine above which a corner normal equals the face normal.
-const MIN_OWN_NORMAL_COSINE: f32 = 0.9999;
 /// Minimum share of curved faces, by the normals of the file. Below it the component is intended to be
 /// faceted.
 const MIN_CURVED_FACES: f64 = 0.05;
 
-/// Cosine (80 degrees) below which a corner normal contradicts its face, and the share of such faces above
-/// which the normals of the whole component are rejected.
-const MAX_ASTRAY_COSINE: f32 = 0.17;
+/// Minimum share of faces with a corner normal that contradicts them, for which the normals of the whole
+/// component are rejected.
 const MIN_ASTRAY_FACES: f64 = 0.1;
 
 /// Maximum share of faces whose normals all deviate by more than the surface turns. Above it the normals are
 /// rejected. Measured on 98 models: at most 0.18 with correct normals, 0.21 and more after the shape was
 /// turned or bent without them.
 const MAX_LEANING_FACES: f64 = 0.2;
-
-/// Statistics of one component.
-#[derive(Debug, Clone, Copy, Default)]
-struct ComponentStats {
-    faces: FaceStats,
-    edges: EdgeStats,
-    bends: SliverBends,
-    /// Faces whose normals in the file all deviate by more than the surface turns. Counted only if many
-    /// deviate at all.
-    leans: u32,
-}
-
-/// Statistics of the faces of a component.
-#[derive(Debug, Clone, Copy, Default)]
-struct FaceStats {
-    all: u32,
-    curved: u32,
-    with_normals: u32,
-    astray: u32,
-    /// Faces whose normals in the file all deviate.
-    leaning: u32,
-    area: f64,
-    in_flats: f64,
-    level: f64,
-    /// Sum of the longest sides of all faces, and of sliver faces.
-    longest: f64,
-    slender: f64,
-}
-
-/// Statistics of the edges between two faces with area.
-#[derive(Debug, Clone, Copy, Default)]
-struct EdgeStats {
-    all: u32,
-    flat: u32,
-    nearly_flat: u32,
-    sharp: u32,
-}
-
-/// Short sides where slivers bend, and the longest sides of these slivers, counted once per side.
-#[derive(Debug, Clone, Copy, Default)]
-struct SliverBends {
-    all: u32,
-    longest: f64,
-}
-
-impl AddAssign<&ComponentStats> for ComponentStats {
-    fn add_assign(&mut self, other: &Self) {
-        self.faces += &other.faces;
-        self.edges += &other.edges;
-        self.bends += &other.bends;
-        self.leans += other.leans;
-    }
-}
-
-impl AddAssign<&FaceStats> for FaceStats {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.curved += other.curved;
-        self.with_normals += other.with_normals;
-        self.astray += other.astray;
-        self.leaning += other.leaning;
-        self.area += other.area;
-        self.in_flats += other.in_flats;
-        self.level += other.level;
-        self.longest += other.longest;
-        self.slender += other.slender;
-    }
-}
-
-impl AddAssign<&EdgeStats> for EdgeStats {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.flat += other.flat;
-        self.nearly_flat += other.nearly_flat;
-        self.sharp += other.sharp;
-    }
-}
-
-impl AddAssign<&SliverBends> for SliverBends {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.longest += other.longest;
-    }
-}
 
 impl ComponentStats {
     /// Classifies the component. With `all`, no component is faceted.
@@ -361,56 +266,9 @@ fn follow_largest<K: Ord>(
     }
     for (kin, (count, verdict)) in kin.zip(counts.iter().zip(verdicts)) {
         let [other, machined] = largest.get(&kin).copied().unwrap_or_default();
-        let follows = machined > 0.0 && machined >= other * AREA_ROUNDING_FACTOR;
+        let follows = machined > 0.0 && machined >= other * tolerances::AREA_ROUNDING_FACTOR;
         if verdict.origin == MeshSource::Scanned && follows && !count.stays_round() {
             (verdict.make, verdict.origin) = (SurfaceClass::Machined, MeshSource::Constructed);
         }
     }
-}
-
-/// Statistics of an edge between two faces with area, with one of its faces.
-#[inline]
-fn of_edge(
-    mesh: &Mesh,
-    turns: &DihedralCosines,
-    planes: &PlanarRegions,
-    edge: usize,
-) -> Option<(u32, EdgeStats)> {
-    let cosine = turns.of_two(edge);
-    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
-    // The cosine is zero next to a face without area.
-    if cosine == 0.0 && faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {
-        return None;
-    }
-    let flat = u32::from(planes.flat.contains(edge));
-    let nearly_flat = u32::from(cosine > MIN_NEARLY_FLAT_COSINE);
-    let sharp = u32::from(cosine < MAX_SHARP_COSINE);
-    Some((faces[0], EdgeStats { all: 1, flat, nearly_flat, sharp }))
-}
-
-#[inline]
-fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> FaceStats {
-    let area = area(mesh, face);
-    let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
-    let level = if planes.is_level(face) { area } else { 0.0 };
-    let longest = longest_side(mesh, face);
-    let slender = if SliverFace::is(area, longest) { longest } else { 0.0 };
-    let mut count = FaceStats { all: 1, area, in_flats, level, longest, slender, ..FaceStats::default() };
-    if let Some(ids) = mesh.corner_normals.get(face as usize) {
-        let own = Vec3::from_array(mesh.face_normals[face as usize]);
-        let normals = ids.map(|id| mesh.normals.get(id as usize));
-        let leaves = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < MIN_OWN_NORMAL_COSINE;
-        count.with_normals = u32::from(normals.iter().all(Option::is_some));
-        count.curved = u32::from(normals.iter().flatten().any(|n| leaves(n)));
-        let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < MAX_ASTRAY_COSINE;
-        count.astray = u32::from(normals.iter().flatten().any(|n| strays(n)));
-        count.leaning = u32::from(leaning(own, normals).is_some());
-    }
-    count
-}
-
-/// Deviation of the file normals from a face as a cosine, if all of them deviate.
-fn leaning_at(mesh: &Mesh, face: u32) -> Option<f32> {
-    let ids = mesh.corner_normals.get(face as usize)?;
-    leaning(Vec3::from_array(mesh.face_normals[face as usize]), ids.map(|id| mesh.normals.get(id as usize)))
 }

@@ -19,9 +19,9 @@ use super::planar_regions::{PlanarRegions, area};
 use super::surface_class::SurfaceClass;
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::components::disjoint_sets::DisjointSets;
-use crate::parallel::task_size::MIN_TASK_ITEMS;
-
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexRange, vertex_ranges};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::tolerances;
 
 /// Number of vertices per task, and number of tasks between two checks whether the sum is already sufficient.
 const VERTICES_PER_BLOCK: usize = 1 << 15;
@@ -29,8 +29,6 @@ const BLOCKS_PER_ROUND: usize = 16;
 
 /// Minimum total curvature of a patch that bends both ways, radians: 1/12 of a sphere's.
 const MIN_TOTAL_CURVATURE_RAD: f64 = 1.0;
-/// Maximum angle defect, radians, that rounding causes at a vertex of a cylinder.
-const ANGLE_ROUNDING_RAD: f64 = 2e-4;
 /// Maximum share of flat edges in a curved patch. Flat quads have a third.
 const MAX_FLAT_EDGES: f64 = 0.45;
 /// Maximum share of edges that turn by more than the second value (cosine of 15 degrees). A coarser patch of
@@ -215,7 +213,7 @@ fn curvatures(
     }
     let mut runs: Vec<(u32, f64)> = Vec::new();
     for (patch, angles) in at.into_iter().filter_map(|(patch, angles)| Some((patch?, angles))) {
-        let own = ((std::f64::consts::TAU - angles).abs() - ANGLE_ROUNDING_RAD).max(0.0);
+        let own = ((std::f64::consts::TAU - angles).abs() - tolerances::ANGLE_ROUNDING_RAD).max(0.0);
         match runs.last_mut() {
             Some((last, sum)) if *last == patch => *sum += own,
             _ => runs.push((patch, own)),

@@ -7,6 +7,7 @@
 use super::planar_regions::area;
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{DihedralCosines, FaceId, Mesh, VertexEdges};
+use crate::surface::tolerances;
 
 /// Cosine (40 degrees) below which an edge is a corner, not a bend.
 const MIN_BEND_COSINE: f32 = 0.766;
@@ -15,8 +16,6 @@ const MAX_BEND_RAD: f64 = 0.698;
 /// A face bends if the turn at its short side, as an arc over its length, rises above half its width. The
 /// rise is an eighth of the length times the angle.
 const BEND_OF_ASPECT: f64 = 4.0;
-/// Factor that covers rounding.
-const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 
 /// Size of a face that is long enough to bend at less than a corner angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +39,7 @@ impl SliverFace {
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         // Squared comparison: excludes most faces without square roots.
         if (b - a).cross(c - a).length_squared() * BEND_OF_ASPECT * BEND_OF_ASPECT
-            > ROUNDING_FACTOR * (MAX_BEND_RAD * longest).powi(2)
+            > tolerances::SLIVER_ROUNDING_FACTOR * (MAX_BEND_RAD * longest).powi(2)
         {
             return None;
         }

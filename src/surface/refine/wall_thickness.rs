@@ -10,12 +10,11 @@ use glam::{DVec3, Vec3};
 use super::segment_grid::faces_near_segments;
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
+use crate::surface::tolerances;
 use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Maximum rise of an arc, and maximum change of the thickness, as a share of the wall thickness.
 const MAX_RISE_OF_THICKNESS: f64 = 0.5;
-/// Offset of the ray start below the edge, in arc heights, so that the ray misses the adjacent faces.
-const RAY_OFFSET_OF_RISE: f64 = 1e-3;
 
 /// Ray from below the middle of an edge to the opposite wall.
 struct WallRay {
@@ -33,7 +32,7 @@ impl WallRay {
         let (height, normal) = (arc.height(), arc.middle_normal());
         let rise = height.dot(normal);
         let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-        let start = (a + b) / 2.0 - normal * (RAY_OFFSET_OF_RISE * rise.abs());
+        let start = (a + b) / 2.0 - normal * (tolerances::RAY_OFFSET_OF_RISE * rise.abs());
         Self { edge, start, normal, reach: rise.abs() / MAX_RISE_OF_THICKNESS, rise }
     }
 }

@@ -99,7 +99,7 @@ impl DualTree {
         let reach = plane.truncate().length() + plane.w;
         let margin = tolerances::EDGE_ON_PLANE_OF_REACH * reach;
         // Outside this range, products in the computation of a face may overflow.
-        let mut found = if reach < 1e40 && reach > 1e-6 {
+        let mut found = if reach < 1e40 && reach > tolerances::MIN_DUAL_PLANE_SIZE {
             self.boxes.find(plane, -margin, margin)
         } else {
             self.boxes.find(DVec4::ZERO, 0.0, 0.0)
@@ -141,7 +141,9 @@ impl ToneTree {
                 // a third. Normalisation moves m by 1 − |m|.
                 let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
                 let widen = 1.0 - shortest + tolerances::EDGE_ON_PLANE_OF_REACH;
-                let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
+                let is_unit =
+                    |n: &DVec3| (n.length_squared() - 1.0).abs() <= tolerances::MAX_UNIT_LENGTH_ERROR;
+                let are_units = normals.iter().all(is_unit);
                 if shortest <= 0.1 || !are_units {
                     // Normals in opposite directions, or zero.
                     (low, high) = (DVec3::NEG_ONE, DVec3::ONE);

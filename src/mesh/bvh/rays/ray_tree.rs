@@ -170,7 +170,7 @@ impl RayTree {
 
     /// Calls `go_on` for each triangle whose box a ray meets, until it returns false.
     fn each_near(&self, point: DVec3, direction: DVec3, reach: f64, mut go_on: impl FnMut(u32) -> bool) {
-        let inverse = |x: f64| if x.abs() < 1e-30 { 1e30 } else { (1.0 / x) as f32 };
+        let inverse = |x: f64| if x.abs() < tolerances::MIN_RAY_COORDINATE { 1e30 } else { (1.0 / x) as f32 };
         let ray = RaySlabs {
             start: point.as_vec3().to_array(),
             inverse: direction.to_array().map(inverse),

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::mesh::tolerances::MAX_OVERLAP_NORMAL_ERROR_RAD;
 use crate::mesh::{FaceId, MaterialId, Mesh, PaintId};
 
 /// Width of a cell in squared normal coordinates.
@@ -14,9 +15,7 @@ const NORMAL_CELL_WIDTH: f64 = 1.0 / 16.0;
 /// Number of distance cells over the diagonal of the model.
 const DISTANCE_CELLS_PER_DIAGONAL: f64 = 512.0;
 
-/// Maximum error of a normal by rounding (radians), and maximum number of distance cells of a plane. Other
-/// surfaces are skipped.
-const MAX_NORMAL_ERROR_RAD: f64 = 1e-2;
+/// Maximum number of distance cells of a plane. Surfaces with more are skipped.
 const MAX_DISTANCE_CELLS: f64 = 8.0;
 
 /// Range of a plane key in cell widths: squares of two normal coordinates, and distance from the middle.
@@ -24,7 +23,8 @@ const MAX_DISTANCE_CELLS: f64 = 8.0;
 pub(crate) struct PlaneKey {
     low: DVec3,
     high: DVec3,
-    /// False for slivers, whose plane is uncertain by more than [`MAX_NORMAL_ERROR_RAD`] or [`MAX_DISTANCE_CELLS`].
+    /// False for slivers, whose plane is uncertain by more than [`MAX_OVERLAP_NORMAL_ERROR_RAD`] or
+    /// [`MAX_DISTANCE_CELLS`].
     is_known: bool,
 }
 
@@ -45,7 +45,8 @@ impl PlaneKey {
         let middle = DVec3::new(squares.x, squares.y, normal.dot(way).abs() / step);
         let reach = DVec3::new(2.0 * turn / NORMAL_CELL_WIDTH, 2.0 * turn / NORMAL_CELL_WIDTH, reach / step);
         let (low, high) = (middle - reach, middle + reach);
-        let is_known = turn <= MAX_NORMAL_ERROR_RAD && high.z.floor() - low.z.floor() < MAX_DISTANCE_CELLS;
+        let is_known =
+            turn <= MAX_OVERLAP_NORMAL_ERROR_RAD && high.z.floor() - low.z.floor() < MAX_DISTANCE_CELLS;
         Self { low, high, is_known }
     }
 

@@ -1,11 +1,10 @@
-//! [`trace_mask_borders`]: traces the borders between opaque and transparent texels of a mask, in the texel plane.
+//! [`trace_mask_borders`]: traces the borders between opaque and transparent texels of a mask, in the texel
+//! plane.
 
 use super::opacity_mask::OpacityMask;
 use crate::geometry::plane::marching_squares::marching_squares;
 use crate::scene::textures::texel_plane::TracedBorders;
-
-/// Maximum deviation of a segment from the curved border, as a fraction of its length.
-const MAX_CURVE_ERROR_TEXELS: f64 = 1e-3;
+use crate::scene::tolerances::MAX_CURVE_ERROR_OF_SEGMENT;
 
 /// Maximum number of opaque to transparent transitions between texels.
 const MAX_CROSSINGS: usize = 1 << 22;
@@ -14,7 +13,7 @@ const MAX_CROSSINGS: usize = 1 << 22;
 /// too many.
 pub(crate) fn trace_mask_borders(mask: &OpacityMask) -> Option<TracedBorders> {
     let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
-    let lines = marching_squares(&|i, j| mask.texel(i, j), reach, MAX_CURVE_ERROR_TEXELS, MAX_CROSSINGS)?;
+    let lines = marching_squares(&|i, j| mask.texel(i, j), reach, MAX_CURVE_ERROR_OF_SEGMENT, MAX_CROSSINGS)?;
     Some(TracedBorders { lines, parted: Vec::new(), reach, periods })
 }
 

@@ -7,6 +7,7 @@ use super::soft_assignment::SoftAssignment;
 use super::texel_assignments::{MAX_BLUR_TEXELS, TexelAssignments};
 use crate::geometry::numbers::portable_math;
 use crate::scene::textures::texel_plane::TexelPlane;
+use crate::scene::tolerances;
 
 /// Maximum number of colours with a share in a texel.
 const MAX_SHARES: usize = 4;
@@ -46,9 +47,9 @@ impl ColourLabels {
         let texels = guesses.texels;
         let width = texels.size[0];
         let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(f64::from(MAX_BLUR_TEXELS)) as i64 };
-        let bell: Vec<f32> = (0..=reach)
-            .map(|k| portable_math::exp(-((k * k) as f64) / (2.0 * blur * blur).max(1e-9)) as f32)
-            .collect();
+        let doubled_variance = (2.0 * blur * blur).max(tolerances::MIN_DOUBLED_BLUR_VARIANCE);
+        let bell: Vec<f32> =
+            (0..=reach).map(|k| portable_math::exp(-((k * k) as f64) / doubled_variance) as f32).collect();
         let of = |sums: &mut Vec<f32>, texel: &usize| {
             let (i, j) = ((texel % width) as i64, (texel / width) as i64);
             sums.fill(0.0);

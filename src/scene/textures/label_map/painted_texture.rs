@@ -18,6 +18,7 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::Filter;
 use crate::scene::textures::result_cache::ResultCache;
 use crate::scene::textures::texel_plane::TexelPlane;
+use crate::scene::tolerances;
 
 /// The texture of a material, prepared for painting in a few colours.
 #[derive(Debug, Clone)]
@@ -77,7 +78,8 @@ impl PaintedTexture {
 
     /// Map of the colours, with or without the mean colour.
     fn map_in(&self, texels_per_px: f64, with_mean: bool) -> Arc<ColourMap> {
-        let scale = if texels_per_px.is_finite() { texels_per_px.max(1e-3) } else { 1.0 };
+        let scale =
+            if texels_per_px.is_finite() { texels_per_px.max(tolerances::MIN_TEXELS_PER_PX) } else { 1.0 };
         // Halve until a texel is between 0.7 and 1.4 px.
         let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
         let blocks = self.filter == Filter::Blocks && scale <= 1.0;

@@ -4,9 +4,7 @@ use glam::DVec2;
 use robust::{Coord, orient2d};
 
 use super::texel_borders::BorderSegment;
-
-/// Crossings within this fraction of a side from its end count as the end.
-const END_OF_SIDE: f64 = 1e-9;
+use crate::scene::tolerances::END_OF_SIDE;
 
 /// Twice the signed area of a triangle, positive if it turns from x to y. The sign is exact.
 pub(crate) fn doubled_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
