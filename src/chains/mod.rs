@@ -8,7 +8,8 @@
 //! 4. `chain_identity` gives chains names that stay the same from frame to frame.
 //!
 //! Files, in reading order: [`options`] the `[chain]` table; [`sample`] depth, light and anchor at a point;
-//! [`sampled_line`] the polyline that all steps share; [`link`]; [`tidy`]; [`fit`]; [`chain_identity`].
+//! [`sampled_line`] the polyline that all steps share; [`link`]; [`tidy`]; [`fit`]; [`chain_identity`];
+//! [`tolerances`] all thresholds for rounding.
 
 pub(crate) mod chain_identity;
 pub(crate) mod fit;
@@ -19,6 +20,7 @@ mod sampled_line;
 #[cfg(test)]
 mod tests;
 pub mod tidy;
+pub(crate) mod tolerances;
 
 pub use options::ChainOptions;
 pub use sample::{Anchor, LineBackdrop, Sample};

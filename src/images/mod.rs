@@ -8,11 +8,13 @@
 //!
 //! The clip path of the mark limits the result to the visible part of the surface.
 //! Files, in reading order: [`facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
-//! [`tone_veils`] transparent layers that give an image its shading.
+//! [`tone_veils`] transparent layers that give an image its shading; [`tolerances`] all thresholds for
+//! rounding.
 
 mod clusters;
 pub(crate) mod facets;
 mod image_part;
+pub(crate) mod tolerances;
 pub(crate) mod tone_veils;
 
 use std::sync::Arc;

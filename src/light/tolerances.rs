@@ -1,4 +1,4 @@
-//! Tolerances of this area, each as a fraction of a named length or angle, or in px of the page.
+//! Tolerances of this area, each as a fraction of a named quantity, or in px of the page.
 
 /// Minimum distance of a zero-set crossing from the ends of a mesh edge, as a fraction of the edge. Prevents
 /// pieces of zero length.
@@ -26,3 +26,23 @@ pub const MIN_CONE_SOFTNESS_COSINE: f64 = 1e-3;
 
 /// Height of the sky-visibility sample above a vertex, as a fraction of the surrounding edges.
 pub const SKY_PROBE_OF_EDGE: f64 = 1e-2;
+
+/// Margin for the rounding of lengths and bounds in double precision, as a fraction of them. Much larger than
+/// the error: a rounding is at most 1.2e-16.
+pub(crate) const F64_MARGIN_SHARE: f64 = 1e-9;
+
+/// Margin for the rounding of a value to single precision, as a fraction of it. Much larger than the error: a
+/// rounding is at most 6e-8.
+pub(crate) const F32_MARGIN_SHARE: f64 = 1e-6;
+
+/// Margin for the rounding of a facing value (the cosine between normal and line of sight). Much larger than
+/// the error.
+pub(crate) const FACING_MARGIN: f64 = 1e-6;
+
+/// Minimum depth of a ball around a run of edges, as a fraction of its distance from the eye. Smaller depths
+/// have lost too many digits in the subtraction.
+pub(crate) const MIN_DEPTH_OF_DISTANCE: f64 = 1e-3;
+
+/// Minimum depth at which the edge length of a part is measured, as a fraction of the part. Keeps the length
+/// in px positive and finite for parts at or behind the eye.
+pub(crate) const MIN_SMOOTHING_DEPTH_OF_PART: f64 = 1e-3;

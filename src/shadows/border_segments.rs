@@ -8,6 +8,7 @@ use super::shadow_receivers::ShadowBorders;
 use super::upper_envelope::EdgePart;
 use crate::geometry::numbers::powers_of_two::power_of_two_below;
 use crate::mesh::{FaceId, Mesh};
+use crate::shadows::tolerances;
 use crate::view::Frame;
 
 /// Segments on faces, joined where they share a point.
@@ -18,9 +19,6 @@ pub(crate) struct JoinedBorders {
     /// Face and ends of each segment.
     pub segments: Vec<(u32, [u32; 2])>,
 }
-
-/// Cosine between a plane's normal and the line of sight below which points are interpolated.
-const MAX_GRAZING_COSINE: f64 = 1e-7;
 
 /// Joins the borders from all views of one light.
 ///
@@ -147,7 +145,7 @@ fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f
     let normal = (b - a).cross(c - a);
     let ray = if frame.perspective { (interpolated - frame.eye).normalize_or_zero() } else { frame.forward };
     let fall = normal.dot(ray);
-    if fall.abs() <= MAX_GRAZING_COSINE * normal.length() {
+    if fall.abs() <= tolerances::MAX_GRAZING_COSINE * normal.length() {
         return interpolated;
     }
     interpolated + ray * (normal.dot(a - interpolated) / fall)

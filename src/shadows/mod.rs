@@ -10,7 +10,8 @@
 //! Source: P. Atherton, K. Weiler and D. Greenberg, "Polygon shadow generation", SIGGRAPH 1978.
 //! Files, in reading order: [`light_views`] step 1; [`cast_edges`] step 2; [`shadow_receivers`],
 //! [`upper_envelope`] step 3; [`border_segments`] step 4; [`shadow_lines`] the result; [`point_shadows`] the
-//! test for points; [`face_orientation`] the outer side of each face.
+//! test for points; [`face_orientation`] the outer side of each face; [`tolerances`] all thresholds for
+//! rounding.
 
 mod border_segments;
 mod cast_edges;
@@ -19,6 +20,7 @@ mod light_views;
 mod point_shadows;
 pub mod shadow_lines;
 mod shadow_receivers;
+pub(crate) mod tolerances;
 mod upper_envelope;
 
 use crate::parallel::prelude::*;

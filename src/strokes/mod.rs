@@ -7,7 +7,8 @@
 //!    an outline of varying width ([`outlines`]) or a brushed shape ([`brushes`]).
 //!
 //! Files, in reading order: [`pens`]; [`axes`]; [`gaps`]; [`widths`]; [`outlines`]; [`brushes`]; [`inking`];
-//! [`travel_order`] short pen-up ways for plotters; [`fraction`] numbers from 0 to 1 in style sheets.
+//! [`travel_order`] short pen-up ways for plotters; [`fraction`] numbers from 0 to 1 in style sheets;
+//! [`tolerances`] all thresholds for rounding.
 
 mod axes;
 pub mod brushes;
@@ -16,6 +17,7 @@ pub mod gaps;
 mod inking;
 mod outlines;
 pub mod pens;
+pub(crate) mod tolerances;
 pub mod travel_order;
 pub mod widths;
 

@@ -6,6 +6,7 @@
 use kurbo::{BezPath, PathEl, Point};
 
 use crate::drawing::{Layer, Mark, Paint};
+use crate::strokes::tolerances;
 
 /// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
 /// layers are unchanged.
@@ -149,7 +150,10 @@ impl PathEndGrid {
             low = Point::new(low.x.min(end.at.x), low.y.min(end.at.y));
             high = Point::new(high.x.max(end.at.x), high.y.max(end.at.y));
         }
-        let (width, height) = ((high.x - low.x).max(1e-9), (high.y - low.y).max(1e-9));
+        let (width, height) = (
+            (high.x - low.x).max(tolerances::MIN_GRID_EXTENT_UNITS),
+            (high.y - low.y).max(tolerances::MIN_GRID_EXTENT_UNITS),
+        );
         // The longer side limits the number of cells for a thin drawing.
         let longer = width.max(height);
         let wished = (ends.len() as f64 / 2.0).max(1.0);

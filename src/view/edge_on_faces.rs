@@ -21,10 +21,6 @@ use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::tolerances;
 
-/// Largest sine of the angle of an unsure face. Narrower faces, which rounding may turn by more, have a
-/// carrier in the mesh, or none.
-const MAX_UNSURE_SINE: f64 = 1e-2;
-
 /// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow
 /// from their own angle.
 pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
@@ -101,7 +97,7 @@ fn is_unsure(frame: &Frame, &[a, b, c]: &[DVec3; 3], rounding: f64) -> bool {
     let to_eye = if frame.perspective { frame.eye - a } else { -frame.forward };
     let (area, away) = (normal.length_squared(), normal.dot(to_eye));
     let far = to_eye.length_squared();
-    if away * away > MAX_UNSURE_SINE * MAX_UNSURE_SINE * area * far {
+    if away * away > tolerances::MAX_UNSURE_SINE * tolerances::MAX_UNSURE_SINE * area * far {
         return false;
     }
     let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();

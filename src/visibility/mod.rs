@@ -9,7 +9,9 @@
 //! 6. `contours` transfers the visibility of the mesh contour to the smooth contour.
 //! 7. `assembly` builds the graph; `overlap` removes lines that coincide in the image.
 //!
-//! Types: [`graph`]; tolerances: [`view_tolerances`]. `queries` reports visibility at points and across gaps.
+//! Types: [`graph`]; tolerances: [`tolerances`], [`view_tolerances`]. `queries` reports visibility at points and
+//! across gaps.
+//!
 //! Source: Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.
 
 pub mod assembly;

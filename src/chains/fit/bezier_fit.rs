@@ -4,6 +4,7 @@
 //! algorithm for automatically fitting digitized curves, Graphics Gems 1990. Deviation: instead of halving
 //! where a fit fails, each cubic reaches as far as it can. This takes about half as many cubics.
 
+use crate::chains::tolerances;
 use crate::geometry::plane::planar_distance::length;
 use kurbo::{BezPath, CubicBez, ParamCurve, Point, Vec2};
 
@@ -169,7 +170,7 @@ fn solve(
     }
     let determinant = c00 * c11 - c01 * c01;
     let third = along / 3.0;
-    let (mut a, mut b) = if determinant > 1e-12 * c00 * c11 {
+    let (mut a, mut b) = if determinant > tolerances::MIN_DETERMINANT_SHARE * c00 * c11 {
         ((x0 * c11 - x1 * c01) / determinant, (c00 * x1 - c01 * x0) / determinant)
     } else {
         (third, third)

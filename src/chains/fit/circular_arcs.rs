@@ -18,6 +18,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use kurbo::{BezPath, Point, Vec2};
 
+use crate::chains::tolerances;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 use crate::geometry::plane::planar_distance::{fit_circle_centre, length};
 
@@ -69,7 +70,7 @@ impl CircularArc {
 
     /// Appends the arc to a path that ends at its first corner; `end` is its last corner.
     pub fn add(&self, start: Point, end: Point, path: &mut BezPath) {
-        let count = (self.turn.abs() / FRAC_PI_4 - 1e-9).ceil().max(1.0);
+        let count = (self.turn.abs() / FRAC_PI_4 - tolerances::ARC_COUNT_ROUNDING).ceil().max(1.0);
         let step = self.turn / count;
         // Handle length for a circle of radius 1.
         let handle = 4.0 / 3.0 * tan(step / 4.0);
@@ -159,7 +160,7 @@ fn fit_whole_circle(points: &[Point], near: CircleTolerance) -> Option<CircularA
     let mut round: Vec<Point> = points.to_vec();
     round.push(*points.first()?);
     let (centre, radius, turn) = circle(&round, near.rounding)?;
-    let is_round = (turn.abs() - TAU).abs() < 1e-6;
+    let is_round = (turn.abs() - TAU).abs() < tolerances::TURN_ROUNDING_RAD;
     is_round.then(|| CircularArc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
 }
 
@@ -225,7 +226,7 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
     if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
         return None;
     }
-    let most = MAX_STEP_RAD + 1e-6 + (2.0 * rounding / radius).min(MAX_ROUNDING_RAD);
+    let most = MAX_STEP_RAD + tolerances::TURN_ROUNDING_RAD + (2.0 * rounding / radius).min(MAX_ROUNDING_RAD);
     let mut turn = 0.0;
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - centre, pair[1] - centre);

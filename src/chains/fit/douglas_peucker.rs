@@ -8,9 +8,7 @@
 use kurbo::{Point, Vec2};
 
 use crate::chains::sampled_line::SampledLine;
-
-/// Largest distance of a collinear point from the line between its neighbours, user units.
-const MAX_COLLINEAR_DISTANCE: f64 = 1e-9;
+use crate::chains::tolerances;
 
 /// Minimum number of points for which both halves run in parallel, and the largest ratio of the whole to its
 /// smaller half.
@@ -29,7 +27,10 @@ pub(crate) fn straighten(line: SampledLine) -> SampledLine {
         let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
         let whole = line.points[c] - line.points[a];
         to.dot(on) > 0.0
-            && to.cross(whole).powi(2) <= MAX_COLLINEAR_DISTANCE * MAX_COLLINEAR_DISTANCE * whole.hypot2()
+            && to.cross(whole).powi(2)
+                <= tolerances::MAX_COLLINEAR_DISTANCE_UNITS
+                    * tolerances::MAX_COLLINEAR_DISTANCE_UNITS
+                    * whole.hypot2()
     };
     let mut kept: Vec<usize> = Vec::with_capacity(line.len());
     for c in 0..line.len() {

@@ -8,6 +8,7 @@
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, Point};
 
 use crate::chains::sampled_line::SampledLine;
+use crate::chains::tolerances;
 use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
 
@@ -18,9 +19,6 @@ const MAX_SHIFT_SHARE: f64 = 0.1;
 
 /// Error of arc lengths, px.
 const MAX_LENGTH_ERROR_PX: f64 = 0.01;
-
-/// Minimum parameter range of a piece of a curve.
-const MIN_PIECE_SHARE: f64 = 1e-9;
 
 /// Runs of a raw line that lie in one part each.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,7 +188,7 @@ fn stretches(
         (None, None) => run(from, end).collect(),
         (None, Some(first)) => run(from, end).chain(run((0, 0.0), first)).collect(),
     };
-    stretches.into_iter().filter(|(_, from, to)| to - from > MIN_PIECE_SHARE).collect()
+    stretches.into_iter().filter(|(_, from, to)| to - from > tolerances::MIN_PIECE_OF_SEGMENT).collect()
 }
 
 fn between(

@@ -4,18 +4,14 @@
 //! 2. A line is a double if longer, parallel lines run next to at least 80 % of its length.
 //! 3. Uncovered stretches of a double are still drawn if they are long or silhouette.
 
-use std::ops::RangeInclusive;
-
 use crate::parallel::prelude::*;
-use kurbo::{Point, Vec2};
 use rustc_hash::FxHashMap;
 
+use super::piece_grid::{LinePiece, PieceGrid, collect};
 use super::raw_line::{RawLine, VertexDegrees};
 use super::removed_lines::{RemovalLog, RemovalReason};
 use super::short_lines::may_be_noise;
-use crate::chains::sampled_line::SampledLine;
-use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
-use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::geometry::plane::planar_distance::length;
 use crate::lines::LineKind;
 use crate::surface::MeshSource;
 use crate::visibility::ViewVertexId;
@@ -23,14 +19,8 @@ use crate::visibility::ViewVertexId;
 /// Largest distance between double lines, in tidy lengths.
 const MAX_DISTANCE_TIDY_LENGTHS: f64 = 0.3;
 
-/// Cosine of the largest angle (35 degrees) between parallel lines.
-const MIN_PARALLEL_COSINE: f64 = 0.82;
-
 /// Minimum share of a line that must run next to others for the line to be a double.
 const MIN_COVERED_SHARE: f64 = 0.8;
-
-/// Window for the direction of a jagged line, in double distances.
-const DIRECTION_WINDOW_DISTANCES: f64 = 4.0;
 
 /// Maximum length of a short overlap, in double distances, and how much larger its distance to other lines
 /// may be. For the side of a rim the length of the whole rim counts.
@@ -46,27 +36,6 @@ const MIN_UNCOVERED_DISTANCES: f64 = 10.0;
 
 /// Minimum number of lines per task.
 const MIN_LINES_PER_TASK: usize = 8;
-
-/// Largest lengthwise offset between parallel lines, as a share of the distance.
-const MAX_OVERHANG_RATIO: f64 = 0.3;
-
-/// Straight piece of a visible line, with its smoothed direction.
-#[derive(Debug, Clone, Copy)]
-struct LinePiece {
-    line: u32,
-    a: Point,
-    b: Point,
-    direction: Vec2,
-}
-
-/// Pieces of lines by square cells of the page.
-struct PieceGrid {
-    cell: f64,
-    corner: Point,
-    columns: usize,
-    rows: usize,
-    pieces: CsrLists<u32>,
-}
 
 /// Drops smooth contours, and creases of scans and roundings, that double a longer visible line. Their
 /// uncovered stretches are kept.
@@ -245,125 +214,14 @@ fn is_rounding(raw: &RawLine) -> bool {
     raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != MeshSource::Scanned
 }
 
-/// Pieces of a line, each with its direction over a few distances.
-fn collect(index: u32, line: &SampledLine, distance: f64) -> Vec<LinePiece> {
-    let n = line.len();
-    let sides = if line.closed { n } else { n - 1 };
-    let mut pieces = Vec::with_capacity(sides);
-    let reach = DIRECTION_WINDOW_DISTANCES * distance / 2.0;
-    for k in 0..sides {
-        let (a, b) = (line.points[k], line.points[(k + 1) % n]);
-        let mut low = k;
-        while low > 0 && length(line.points[low] - a) < reach {
-            low -= 1;
-        }
-        let mut high = k + 1;
-        while high < sides && length(line.points[high % n] - b) < reach {
-            high += 1;
-        }
-        let direction = crate::chains::fit::bezier_fit::unit(line.points[high % n] - line.points[low]);
-        pieces.push(LinePiece { line: index, a, b, direction });
-    }
-    pieces
-}
-
-/// Pieces per task.
-const PIECES_PER_TASK: usize = 1 << 10;
-
-/// Maximum number of grid cells per piece.
-const MAX_CELLS_PER_PIECE: usize = 8;
-
-impl PieceGrid {
-    fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
-        let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
-        let mut low = ends().next()?;
-        let mut high = low;
-        for p in ends() {
-            low = Point::new(low.x.min(p.x), low.y.min(p.y));
-            high = Point::new(high.x.max(p.x), high.y.max(p.y));
-        }
-        // At most a million cells on giant pages, and few cells for few pieces.
-        let (width, height) = (high.x - low.x, high.y - low.y);
-        let of_piece = (width * height / (MAX_CELLS_PER_PIECE * pieces.len()) as f64).sqrt();
-        let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
-        if !cell.is_finite() || cell <= 0.0 {
-            return None;
-        }
-        let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
-        let mut buckets = Self { cell, corner: low, columns, rows, pieces: CsrLists::default() };
-        let cells_of = |(chunk, some): (usize, &[LinePiece])| {
-            let mut found = Vec::with_capacity(2 * some.len());
-            for (i, piece) in (chunk * PIECES_PER_TASK..).zip(some) {
-                buckets.each_cell(piece.a, piece.b, |cell| found.push((cell, i as u32)));
-            }
-            found
-        };
-        let found: Vec<Vec<(usize, u32)>> =
-            pieces.par_chunks(PIECES_PER_TASK).enumerate().with_max_len(1).map(cells_of).collect();
-        buckets.pieces = csr_lists_from_pairs(columns * rows, found.iter().flatten().copied());
-        Some(buckets)
-    }
-
-    /// Column and row ranges of the bounding box of two points, widened by `margin`.
-    fn range(&self, p: Point, q: Point, margin: f64) -> (RangeInclusive<usize>, RangeInclusive<usize>) {
-        let column = |x: f64| (((x - self.corner.x) / self.cell).max(0.0) as usize).min(self.columns - 1);
-        let row = |y: f64| (((y - self.corner.y) / self.cell).max(0.0) as usize).min(self.rows - 1);
-        (
-            column(p.x.min(q.x) - margin)..=column(p.x.max(q.x) + margin),
-            row(p.y.min(q.y) - margin)..=row(p.y.max(q.y) + margin),
-        )
-    }
-
-    /// Visits the cells that a segment touches. Long segments are taken in parts with small boxes, so a cell
-    /// may be visited twice.
-    fn each_cell(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
-        let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
-        for part in 0..parts {
-            let p = a.lerp(b, part as f64 / parts as f64);
-            let q = a.lerp(b, (part + 1) as f64 / parts as f64);
-            let (columns, rows) = self.range(p, q, 0.0);
-            for row in rows {
-                columns.clone().for_each(|column| visit(row * self.columns + column));
-            }
-        }
-    }
-
-    /// Whether a parallel piece of an admitted line lies within `distance` of `point`.
-    fn beside(
-        &self,
-        pieces: &[LinePiece],
-        point: Point,
-        direction: Vec2,
-        distance: f64,
-        admit: impl Fn(u32) -> bool,
-    ) -> bool {
-        let (columns, rows) = self.range(point, point, distance);
-        rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
-            self.pieces.of(row * self.columns + column).iter().map(|i| &pieces[*i as usize]).any(|other| {
-                other.direction.dot(direction).abs() >= MIN_PARALLEL_COSINE
-                    && other.is_abreast(point, MAX_OVERHANG_RATIO * distance)
-                    && admit(other.line)
-                    && segment_distance_squared(point, other.a, other.b) <= distance * distance
-            })
-        })
-    }
-}
-
-impl LinePiece {
-    /// Whether the projection of a point falls on the piece, within `slack`.
-    fn is_abreast(&self, point: Point, slack: f64) -> bool {
-        let side = self.b - self.a;
-        let along = (point - self.a).dot(side);
-        let slack = slack * length(side);
-        (-slack..=side.hypot2() + slack).contains(&along)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use kurbo::Point;
+
     use super::*;
     use crate::chains::link::edge_class::EdgeClass;
     use crate::chains::sample::Sample;
+    use crate::chains::sampled_line::SampledLine;
     use crate::mesh::{MaterialId, PartId};
     use crate::visibility::ViewMap;
 

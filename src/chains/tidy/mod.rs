@@ -8,11 +8,14 @@
 //! 2014, section 6.
 //!
 //! Files, in reading order: [`tidy_passes`] the order of the steps; [`raw_line`] a line with what tidying
-//! needs; [`hidden_gaps`]; [`stitching`]; [`double_lines`]; [`short_lines`]; [`silhouette_runs`];
-//! [`removed_lines`] a report of dropped lines and the reasons.
+//! needs; [`hidden_gaps`]; [`stitching`]; [`oriented_line`] cuts near an end of a line; [`double_lines`];
+//! [`piece_grid`] lookup of parallel lines; [`short_lines`]; [`silhouette_runs`]; [`removed_lines`] a report
+//! of dropped lines and the reasons.
 
 mod double_lines;
 mod hidden_gaps;
+mod oriented_line;
+mod piece_grid;
 pub(crate) mod raw_line;
 pub mod removed_lines;
 mod short_lines;

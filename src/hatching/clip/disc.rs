@@ -28,7 +28,7 @@ impl Disc {
     pub fn arc(self, path: &mut BezPath, from: f64, sweep: f64, end: Vec2, px: f64) {
         let near = |n: &f64| self.radius * off_circle(*n) < tolerances::MAX_DOT_OUTLINE_ERROR_PX * px;
         let a_turn = [3.0, 4.0, 6.0].into_iter().find(near).unwrap_or(8.0);
-        let count = (sweep / TAU * a_turn - 1e-9).ceil().max(1.0);
+        let count = (sweep / TAU * a_turn - tolerances::ARC_COUNT_ROUNDING).ceil().max(1.0);
         let step = sweep / count;
         let handle = 4.0 / 3.0 * tan(step / 4.0) * self.radius;
         let at = |angle: f64| Vec2::new(cos(angle), sin(angle));

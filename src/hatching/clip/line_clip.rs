@@ -4,6 +4,7 @@
 
 use kurbo::{Point, Vec2};
 
+use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
 /// Position on a polyline: the number of a segment plus the fraction of that segment already passed.
@@ -42,7 +43,9 @@ pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32)
     // unreliable. There the cell is looked up at a point of the span.
     let is_corner = |k: usize| {
         let near = |other: Option<&(LinePosition, u32, bool)>| {
-            other.is_some_and(|(place, ..)| (place - places[k].0).abs() < POSITION_TOLERANCE)
+            other.is_some_and(|(place, ..)| {
+                (place - places[k].0).abs() < tolerances::MIN_POSITION_DIFFERENCE_SIDES
+            })
         };
         near(places.get(k + 1)) || near(k.checked_sub(1).and_then(|before| places.get(before)))
     };
@@ -53,7 +56,7 @@ pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32)
         let next = places.get(k);
         let to = next.map_or(last, |(place, ..)| *place);
         let ahead = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
-        if to - from > POSITION_TOLERANCE {
+        if to - from > tolerances::MIN_POSITION_DIFFERENCE_SIDES {
             let cell = match (behind, ahead) {
                 (Some(a), Some(b)) if a == b => a,
                 (Some(a), None) | (None, Some(a)) => a,
@@ -61,7 +64,11 @@ pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32)
             };
             if wanted(cell) {
                 match out.last_mut() {
-                    Some(before) if from - before.to < POSITION_TOLERANCE && !parts && from > 0.0 => {
+                    Some(before)
+                        if from - before.to < tolerances::MIN_POSITION_DIFFERENCE_SIDES
+                            && !parts
+                            && from > 0.0 =>
+                    {
                         before.to = to
                     }
                     _ => out.push(LineSpan { from, to, cell, cut: [from > 0.0, true] }),
@@ -80,9 +87,6 @@ pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32)
     }
     out
 }
-
-/// Positions that differ by less than this are the same.
-const POSITION_TOLERANCE: f64 = 1e-9;
 
 /// The point at a position of a polyline. The position is clamped to the line.
 #[must_use]

@@ -166,7 +166,7 @@ fn radius(coverage: f64) -> f64 {
 const RADIUS_BISECTIONS: u32 = 20;
 
 /// Radius that covers everything, slightly more than half the diagonal of a unit square.
-const FULL_COVER_RADIUS_STEPS: f64 = FRAC_1_SQRT_2 + 1e-4;
+const FULL_COVER_RADIUS_STEPS: f64 = FRAC_1_SQRT_2 + tolerances::FULL_COVER_MARGIN_STEPS;
 
 /// Lattice point whose dot may reach across a border piece of a domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -23,6 +23,7 @@ use crate::hatching::CellDots;
 use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
 use crate::hatching::clip::domain::{directed_border, nearest};
+use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
 /// Options of stippling. Lengths are in user units.
@@ -340,7 +341,7 @@ impl InkedBorder<'_> {
                 break;
             }
             let outward = (p - moved.centre) / off * if is_within { 1.0 } else { -1.0 };
-            moved.centre = p - outward * moved.radius * (1.0 + BORDER_GAP_OF_RADIUS);
+            moved.centre = p - outward * moved.radius * (1.0 + tolerances::BORDER_GAP_OF_RADIUS);
             border = near(moved);
         }
         let inside = self.is_within(self.ground.cell_at(moved.centre));
@@ -357,9 +358,6 @@ impl InkedBorder<'_> {
 
 /// Greatest number of moves before a dot is clipped.
 const MAX_MOVES: u32 = 4;
-
-/// Distance of a moved dot from the border, as a share of its radius.
-const BORDER_GAP_OF_RADIUS: f64 = 1e-3;
 
 /// Least remaining share of a dot's area. Smaller remainders are not drawn.
 const MIN_DOT_AREA_SHARE: f64 = 0.4;

@@ -12,6 +12,7 @@
 use crate::parallel::prelude::*;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::hatching::tolerances;
 
 /// Ink value of a fully black square.
 pub(crate) const FULL_INK: u16 = 16_384;
@@ -246,7 +247,7 @@ impl SiteGrid {
     fn near(&self, centre: [f64; 2], near: &mut Vec<([f64; 2], u32)>) {
         let reach = (BLOCK_SQUARES as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
         // The site closest to such a point is at most this far from the centre, by the triangle inequality.
-        let limit = self.nearest(centre) + 2.0 * reach + 1e-3;
+        let limit = self.nearest(centre) + 2.0 * reach + tolerances::SITE_SEARCH_MARGIN_SQUARES;
         let [left, top] = self.column_and_row(centre.map(|c| c - limit));
         let [right, bottom] = self.column_and_row(centre.map(|c| c + limit));
         near.clear();

@@ -9,6 +9,7 @@
 
 use kurbo::{Point, Vec2};
 
+use crate::hatching::tolerances;
 use crate::regions::LightLattice;
 use crate::regions::lattice::direction_field::{DirectionField, LineDirection};
 
@@ -61,7 +62,7 @@ impl<'a> GuideDirections<'a> {
                 let [x, y] = self.axes[k].map(f64::from);
                 let length = (x * x + y * y).sqrt();
                 if length > 0.0 {
-                    let weight = (weight + MIN_SAMPLE_WEIGHT) / length;
+                    let weight = (weight + tolerances::MIN_SAMPLE_WEIGHT) / length;
                     sum = [sum[0] + x * weight, sum[1] + y * weight];
                 }
             }
@@ -77,6 +78,3 @@ impl<'a> GuideDirections<'a> {
         Some(Vec2::new(x, if sum[1] < 0.0 { -y } else { y }))
     }
 }
-
-/// Least weight of a lattice point, so that weights of zero still count a little.
-const MIN_SAMPLE_WEIGHT: f64 = 1e-9;

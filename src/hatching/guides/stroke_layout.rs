@@ -6,6 +6,7 @@ use super::guide::{Guide, GuideScope};
 use crate::geometry::numbers::noise::{hash, unit_interval, value_noise};
 use crate::geometry::numbers::portable_math::tan;
 use crate::hatching::clip::line_clip::{clip_to_cells, norm, sub_polyline};
+use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
 /// Stroke of a hatching.
@@ -207,7 +208,8 @@ impl StrokeLayout {
             }
         }
         let is_long = points.len() >= 2
-            && crate::hatching::clip::line_clip::length(&points) >= self.least.max(MIN_STROKE_LENGTH);
+            && crate::hatching::clip::line_clip::length(&points)
+                >= self.least.max(tolerances::MIN_STROKE_LENGTH_UNITS);
         let pressure = 1.0 - self.pressure * chance(7);
         is_long.then_some(HatchStroke { points, pressure, ..stroke })
     }
@@ -217,9 +219,6 @@ impl StrokeLayout {
 const fn blank(guide: &Guide, cell: u32) -> HatchStroke {
     HatchStroke { points: Vec::new(), cell, pressure: 1.0, id: guide.id, rank: guide.rank }
 }
-
-/// Shorter strokes are dropped, page units.
-const MIN_STROKE_LENGTH: f64 = 1e-6;
 
 /// Separate the random seeds of a guide's first stroke and of stroke ends.
 const START_SEED: u64 = 0x5354_4152;

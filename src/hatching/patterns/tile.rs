@@ -5,6 +5,7 @@ use kurbo::{BezPath, Point, Shape};
 use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
 use crate::hatching::clip::polygon_clip::{WindingRule, unite_shapes};
+use crate::hatching::tolerances;
 
 /// Tile of a pattern. Its width is 1; y points down.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -59,7 +60,10 @@ impl Tile {
     /// # Errors
     /// Describes the fault of the shapes.
     pub fn of_shapes(shapes: &[(BezPath, WindingRule)], [width, height]: [f64; 2]) -> Result<Self, String> {
-        if !(width > 0.0 && height > 0.0 && (1e-3..=1e3).contains(&(height / width))) {
+        if !(width > 0.0
+            && height > 0.0
+            && (tolerances::MIN_TILE_ASPECT..=tolerances::MAX_TILE_ASPECT).contains(&(height / width)))
+        {
             return Err("has no size to repeat".to_owned());
         }
         let rings = |(path, filling): &(BezPath, WindingRule)| {
@@ -189,7 +193,7 @@ fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
 fn within(ring: &[Point], path: &BezPath) -> Option<Point> {
     let sides = (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]);
     let beside = sides.flat_map(|[a, b]| {
-        let across = (b - a) * 1e-3;
+        let across = (b - a) * tolerances::INSIDE_PROBE_OF_SIDE;
         let across = kurbo::Vec2::new(-across.y, across.x);
         [a.midpoint(b) + across, a.midpoint(b) - across]
     });

@@ -3,6 +3,7 @@
 use glam::{DMat2, DVec2};
 
 use crate::images::facets::facet::FacetCorner;
+use crate::images::tolerances;
 
 /// Affine map from the page to the plane of a picture's texels, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +74,7 @@ impl AffineSums {
             self.squares[2] - n * page.y * page.y,
         );
         let whole = xx * yy - xy * xy;
-        if whole.is_nan() || whole <= (xx + yy).powi(2) * 1e-12 {
+        if whole.is_nan() || whole <= (xx + yy).powi(2) * tolerances::MIN_SPREAD_DETERMINANT_SHARE {
             return None;
         }
         let [x, y] = [self.products[0] - place * (n * page.x), self.products[1] - place * (n * page.y)];

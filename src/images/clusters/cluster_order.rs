@@ -2,7 +2,8 @@
 
 use super::facet_cluster::FacetCluster;
 use crate::images::facets::facet::Facet;
-use crate::images::facets::visible_faces::{MIN_NEARNESS_GAP, pixel_of, sample_points};
+use crate::images::facets::visible_faces::{pixel_of, sample_points};
+use crate::images::tolerances;
 use crate::view::raster::{PixelGrid, painter_order};
 
 /// Order of painting clusters.
@@ -33,7 +34,10 @@ pub(crate) fn back_to_front(screen: &PixelGrid, facets: &[Facet], clusters: &[Fa
     let mut over: Vec<[u32; 2]> = Vec::new();
     each(&mut |cluster, pixel, near| {
         let (nearest, other) = front[pixel];
-        if other != cluster && nearest - near > MIN_NEARNESS_GAP && over.last() != Some(&[cluster, other]) {
+        if other != cluster
+            && nearest - near > tolerances::MIN_NEARNESS_GAP
+            && over.last() != Some(&[cluster, other])
+        {
             over.push([cluster, other]);
         }
     });
@@ -42,7 +46,7 @@ pub(crate) fn back_to_front(screen: &PixelGrid, facets: &[Facet], clusters: &[Fa
         let cut = cluster.facets.iter().filter(|facet| facets[**facet as usize].is_cut());
         for point in cut.flat_map(|facet| sample_points(corners(*facet))) {
             let (nearest, other) = pixel_of(screen, point).map_or(NO_CLUSTER, |pixel| front[pixel]);
-            if other as usize != number && nearest - point[2] > MIN_NEARNESS_GAP {
+            if other as usize != number && nearest - point[2] > tolerances::MIN_NEARNESS_GAP {
                 over.push([number as u32, other]);
             }
         }

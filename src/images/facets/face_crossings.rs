@@ -7,12 +7,10 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::facet::Facet;
+use crate::images::tolerances;
 use crate::lines::{FeatureLines, LineKind};
 use crate::mesh::Mesh;
 use crate::view::{Frame, View};
-
-/// Distance within which a corner lies on a line, px.
-const MAX_LINE_DISTANCE_PX: f64 = 1e-4;
 
 /// Shortest cut through a facet, px.
 const MIN_CUT_PX: f64 = 0.05;
@@ -103,7 +101,7 @@ impl CrossingLine {
     /// Position of a point along the line (x) and across it (y).
     fn at(&self, p: DVec2) -> DVec2 {
         let beside = self.way.perp_dot(p - self.from);
-        let beside = if beside.abs() <= MAX_LINE_DISTANCE_PX * self.px { 0.0 } else { beside };
+        let beside = if beside.abs() <= tolerances::MAX_LINE_DISTANCE_PX * self.px { 0.0 } else { beside };
         DVec2::new(self.way.dot(p - self.from), beside)
     }
 

@@ -2,15 +2,12 @@
 
 use glam::DVec3;
 
+use crate::images::tolerances;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::raster::{FaceBuffer, PixelGrid, PixelPoint};
 
 /// Twice the area of a face below which it may fall between pixel centres, square pixels of the buffer.
 const MIN_SAMPLED_DOUBLE_AREA: f32 = 6.0;
-
-/// Smallest difference in nearness that counts, on a scale of 0 to 1 over the depth of the view. Neighbours
-/// share the pixels along their sides.
-pub(crate) const MIN_NEARNESS_GAP: f32 = 1e-5;
 
 /// Faces of a view that are in front.
 #[derive(Debug)]
@@ -103,5 +100,6 @@ fn is_in_front(corners: &[PixelPoint; 3], [x, y, near]: PixelPoint) -> bool {
     let [of_a, of_b, of_c] = [cross(b, c), cross(c, a), cross(a, b)];
     let whole = of_a + of_b + of_c;
     let covers = [of_a, of_b, of_c].iter().all(|part| part * whole >= 0.0);
-    covers && (of_a * a[2] + of_b * b[2] + of_c * c[2]) / whole > f64::from(near + MIN_NEARNESS_GAP)
+    covers
+        && (of_a * a[2] + of_b * b[2] + of_c * c[2]) / whole > f64::from(near + tolerances::MIN_NEARNESS_GAP)
 }

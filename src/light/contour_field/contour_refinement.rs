@@ -18,7 +18,7 @@ use crate::view::Frame;
 /// the field must fall from both ends, so each end accounts for half the turn. Arcs longer than their chords
 /// add a little.
 const MAX_FALL_PER_TURN: f64 = 0.55;
-const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + 1e-9);
+const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F64_MARGIN_SHARE);
 
 /// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
 /// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use crate::light::{LightSlope, SurfacePoint, TURN_PER_CHORD};
 use crate::lines::Lit;
+use crate::lines::tolerances;
 use crate::mesh::PaintId;
 
 /// Segment of a level, and the face it lies on. The brighter side is on its left.
@@ -241,7 +242,7 @@ impl LevelTracer<'_> {
         for _ in 0..MAX_ROOT_STEPS {
             t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
             let f = self.node(at(t)).value - level;
-            if f.abs() <= self.exact || t_high - t_low <= f64::EPSILON {
+            if f.abs() <= self.exact || t_high - t_low <= tolerances::MIN_ROOT_INTERVAL {
                 break;
             }
             if f < 0.0 {

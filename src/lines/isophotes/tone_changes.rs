@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 
 use crate::light::SurfacePoint;
 use crate::lines::shared_points::PointIds;
-use crate::lines::tolerances;
+use crate::lines::tolerances::{self, MIN_CUT_DISTANCE_OF_SEGMENT, SHADOW_PROBE_SHIFT_SHARE};
 use crate::lines::{FeatureLines, FeatureSegment, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
 
@@ -76,7 +76,7 @@ pub fn unchanged(
     let mut cuts = finder.cuts_on_faces();
     cuts.extend(finder.cuts_on_edges());
     cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.at.total_cmp(&b.at)));
-    cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < MIN_CUT_FRACTION);
+    cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < MIN_CUT_DISTANCE_OF_SEGMENT);
 
     let pieces = finder.pieces(&cuts);
     let asked: Vec<[Option<(u32, DVec3)>; 2]> =
@@ -91,13 +91,6 @@ pub fn unchanged(
         pieces.par_iter().zip(&masks).map(|(piece, masks)| finder.changes(piece, *masks)).collect();
     rewrite(lit, &pieces, &changes, lines)
 }
-
-/// Minimum distance of cuts, as a fraction of the segment.
-const MIN_CUT_FRACTION: f64 = 1e-9;
-
-/// Shift of the shadow test point from an edge towards the middle of the face, as a fraction of the distance.
-/// An adjacent surface may shade the edge itself.
-const INWARD_SHIFT_FRACTION: f64 = 1e-4;
 
 /// Position where a segment is cut.
 #[derive(Clone, Copy)]
@@ -198,7 +191,7 @@ impl ToneChangeFinder<'_> {
                 cuts.push(SegmentCut { segment: *other, at: its, point });
             }
         }
-        cuts.retain(|cut| cut.at > MIN_CUT_FRACTION && cut.at < 1.0 - MIN_CUT_FRACTION);
+        cuts.retain(|cut| cut.at > MIN_CUT_DISTANCE_OF_SEGMENT && cut.at < 1.0 - MIN_CUT_DISTANCE_OF_SEGMENT);
         cuts
     }
 
@@ -220,7 +213,10 @@ impl ToneChangeFinder<'_> {
             for p in own.flat_map(|(_, border)| self.ends(*border)) {
                 let at = (p - from).dot(way) / way.length_squared();
                 let point = from + way * at;
-                if at > MIN_CUT_FRACTION && at < 1.0 - MIN_CUT_FRACTION && point.distance(p) <= near {
+                if at > MIN_CUT_DISTANCE_OF_SEGMENT
+                    && at < 1.0 - MIN_CUT_DISTANCE_OF_SEGMENT
+                    && point.distance(p) <= near
+                {
                     cuts.push(SegmentCut { segment, at, point });
                 }
             }
@@ -260,7 +256,8 @@ impl ToneChangeFinder<'_> {
         hosts.map(|face| {
             let corners = (face != NO_FACE).then(|| mesh.corners(FaceId(face)))?;
             let middle = corners.into_iter().sum::<DVec3>() / 3.0;
-            let inward = if on_edge { (middle - piece.middle) * INWARD_SHIFT_FRACTION } else { DVec3::ZERO };
+            let inward =
+                if on_edge { (middle - piece.middle) * SHADOW_PROBE_SHIFT_SHARE } else { DVec3::ZERO };
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
             let p = piece.middle + inward;
             Some((face, p - normal * (p - corners[0]).dot(normal)))

@@ -6,6 +6,7 @@
 use crate::parallel::prelude::*;
 
 use crate::lines::Lit;
+use crate::lines::tolerances;
 use crate::mesh::Mesh;
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, PixelGrid};
@@ -27,7 +28,7 @@ pub(crate) fn visible_faces_of(mesh: &Mesh, view: &View) -> Vec<bool> {
         let high = |axis: usize| corners[0][axis].max(corners[1][axis]).max(corners[2][axis]);
         let columns = pixels(low(0), high(0), buffer.columns);
         let rows = pixels(low(1), high(1), buffer.rows);
-        let nearest = high(2) + NEARNESS_ERROR;
+        let nearest = high(2) + tolerances::MAX_NEARNESS_ERROR;
         let in_front = |pixel: usize| buffer.nearness(pixel).is_none_or(|nearness| nearness <= nearest);
         columns.len() * rows.len() > MAX_TESTED_PIXELS
             || rows
@@ -61,9 +62,6 @@ pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
     }
     shows
 }
-
-/// Largest error of nearness (0 to 1) in single precision.
-const NEARNESS_ERROR: f32 = 1e-5;
 
 /// Faces whose bounding box has more pixels than this are not tested, and count as visible.
 const MAX_TESTED_PIXELS: usize = 1 << 14;

@@ -5,6 +5,7 @@
 //! on that side alone, so that neighbouring triangles agree.
 
 use crate::colour::oklab::Oklab;
+use crate::lines::tolerances;
 
 /// Border: its ends in barycentric weights of the triangle, and the indices of the colours on its sides.
 pub(crate) type ColourBorder = ([[f64; 3]; 2], [u8; 2]);
@@ -90,7 +91,13 @@ fn meeting(far: &[[f64; 3]], mut of: [usize; 3]) -> Option<[f64; 3]> {
     let cross = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
     let all: f64 = cross.iter().sum();
     let weights = cross.map(|c| c / all);
-    weights.iter().all(|w| w.is_finite() && (-1e-6..1.0 + 1e-6).contains(w)).then_some(weights)
+    weights
+        .iter()
+        .all(|w| {
+            w.is_finite()
+                && (-tolerances::MEETING_WEIGHT_MARGIN..1.0 + tolerances::MEETING_WEIGHT_MARGIN).contains(w)
+        })
+        .then_some(weights)
 }
 
 #[cfg(test)]

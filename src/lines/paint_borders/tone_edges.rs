@@ -7,6 +7,7 @@ use super::face_borders;
 use crate::light::ShadingNormals;
 use crate::lines::feature_line::segment;
 use crate::lines::textures::textured_face::TexturedFace;
+use crate::lines::tolerances;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit};
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 use crate::scene::Paints;
@@ -198,14 +199,11 @@ fn stretches<'a>(
     }
     let to = corners[0][1];
     places.sort_by(|a, b| a[to].total_cmp(&b[to]));
-    places.dedup_by(|b, a| b[to] - a[to] < MIN_CUT_FRACTION);
+    places.dedup_by(|b, a| b[to] - a[to] < tolerances::MIN_CUT_DISTANCE_OF_SEGMENT);
     let ends = [None].into_iter().chain(places.into_iter().map(Some)).chain([None]);
     let ends: Vec<Option<[f64; 3]>> = ends.collect();
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
-
-/// Minimum distance of cuts, as a fraction of the edge.
-const MIN_CUT_FRACTION: f64 = 1e-9;
 
 /// Part, material and paint of a face.
 fn owner(mesh: &Mesh, face: u32) -> (PartId, MaterialId, PaintId) {

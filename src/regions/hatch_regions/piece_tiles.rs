@@ -4,6 +4,7 @@ use kurbo::{Point, Vec2};
 
 use super::border_piece::{BorderPiece, PAPER};
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::regions::tolerances;
 
 /// Grid of square tiles with the border pieces that pass each of them.
 #[derive(Debug, Clone, Default)]
@@ -58,7 +59,8 @@ impl BorderPieceTiles {
             let x_at =
                 |y: f64| if way.y > 0.0 { a.x + way.x * ((y - a.y) / way.y).clamp(0.0, 1.0) } else { a.x };
             let (x0, x1) = if way.y > 0.0 { (x_at(row as f64), x_at(row as f64 + 1.0)) } else { (a.x, b.x) };
-            let (x0, x1) = (x0.min(x1) - TILE_MARGIN, x0.max(x1) + TILE_MARGIN);
+            let (x0, x1) =
+                (x0.min(x1) - tolerances::COLUMN_MARGIN_TILES, x0.max(x1) + tolerances::COLUMN_MARGIN_TILES);
             if x1 < 0.0 || x0 >= columns as f64 {
                 continue;
             }
@@ -110,7 +112,8 @@ impl BorderPieceTiles {
                 }
                 let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
                 // A piece that crosses this height farther left is found in a later tile.
-                let here = (x - self.low.x) * self.tiles_per_unit >= column as f64 - TILE_MARGIN;
+                let here =
+                    (x - self.low.x) * self.tiles_per_unit >= column as f64 - tolerances::COLUMN_MARGIN_TILES;
                 if here && x <= p.x && nearest.is_none_or(|(most, _)| x > most) {
                     // The point lies to the left of a piece that runs down the page.
                     nearest = Some((x, piece.sides[usize::from(b.y > a.y)]));
@@ -123,6 +126,3 @@ impl BorderPieceTiles {
         PAPER
     }
 }
-
-/// Margin against rounding, in tiles.
-const TILE_MARGIN: f64 = 1e-6;

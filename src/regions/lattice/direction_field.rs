@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use super::flat_faces::flat_points;
 use super::page_lattice::{LatticeProbe, LightLattice};
 use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::regions::tolerances;
 
 /// Source of the stroke directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,14 +158,11 @@ impl LatticeProbe<'_> {
         } else {
             frame.right
         };
-        let step = frame.px_at(frame.depth(at)) * PROJECTION_STEP_PX;
+        let step = frame.px_at(frame.depth(at)) * tolerances::PROJECTION_STEP_PX;
         let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
         to - from
     }
 }
-
-/// Step length for projecting directions to the page, px.
-const PROJECTION_STEP_PX: f64 = 1e-2;
 
 /// Rounds of smoothing normals; they act over about five lattice points.
 const NORMAL_SMOOTHING_ROUNDS: usize = 40;
@@ -180,7 +178,7 @@ fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(D
     let m12 = f64::midpoint(turns[0].dot(ways[1]), turns[1].dot(ways[0]));
     let [m11, m22] = [turns[0].dot(ways[0]), turns[1].dot(ways[1])];
     let area2 = g11 * g22 - g12 * g12;
-    if area2 <= f64::EPSILON * g11 * g22 {
+    if area2 <= tolerances::MIN_STEP_SINE_SQUARED * g11 * g22 {
         return None;
     }
     let mean = (m11 * g22 - 2.0 * m12 * g12 + m22 * g11) / (2.0 * area2);

@@ -8,9 +8,7 @@
 use glam::DVec3;
 
 use super::page_lattice::LightLattice;
-
-/// Largest difference between the normals of neighbours on a flat face.
-const MAX_NEIGHBOUR_NORMAL_DISTANCE: f64 = 1e-3;
+use crate::regions::tolerances;
 
 /// Largest difference between normals on a flat face and the normal of its first point. It excludes gently
 /// curved faces.
@@ -34,7 +32,7 @@ pub(crate) fn flat_points(samples: &LightLattice, normals: &[DVec3]) -> Vec<bool
             [(k % samples.columns + 1 < samples.columns).then_some(k + 1), Some(k + samples.columns)];
         for next in beside.into_iter().flatten().filter(|next| *next < patches.len()) {
             let goes_on = samples.facets[next] == samples.facets[k]
-                && near(normals, k, next, MAX_NEIGHBOUR_NORMAL_DISTANCE);
+                && near(normals, k, next, tolerances::MAX_NEIGHBOUR_NORMAL_DISTANCE);
             if goes_on && patches[next] != patches[k] {
                 is_flat[patches[k] as usize] = false;
                 is_flat[patches[next] as usize] = false;
@@ -73,7 +71,7 @@ fn patches(samples: &LightLattice, normals: &[DVec3]) -> (Vec<u32>, u32) {
             for next in beside.into_iter().flatten() {
                 if patches[next] == 0
                     && samples.facets[next] == samples.facets[first]
-                    && near(normals, k, next, MAX_NEIGHBOUR_NORMAL_DISTANCE)
+                    && near(normals, k, next, tolerances::MAX_NEIGHBOUR_NORMAL_DISTANCE)
                     && near(normals, first, next, MAX_FACE_NORMAL_DISTANCE)
                 {
                     patches[next] = count;

@@ -11,6 +11,7 @@ use crate::light::SurfacePoint;
 use crate::lines::Lit;
 use crate::mesh::FaceId;
 use crate::regions::HatchRegions;
+use crate::regions::tolerances;
 use crate::visibility::front_faces;
 
 /// Samples of the page at the points of a lattice, row by row.
@@ -172,15 +173,12 @@ impl LightLattice {
     pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
         let own = self.around(p).into_iter().filter(|(k, _)| self.facets[*k] == facet);
         let (sum, weight) = own.fold((0.0, 0.0), |(sum, weight), (k, w)| {
-            let w = w + MIN_SAMPLE_WEIGHT;
+            let w = w + tolerances::MIN_SAMPLE_WEIGHT;
             (sum + f64::from(self.lights[k]) * w, weight + w)
         });
         (weight > 0.0).then(|| sum / weight)
     }
 }
-
-/// Minimum weight of a sample, so that the sum of weights is never zero.
-const MIN_SAMPLE_WEIGHT: f64 = 1e-6;
 
 impl Lit<'_> {
     /// Surface point of a face at a position on it.

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::lines::Lit;
 use crate::mesh::FaceId;
+use crate::regions::tolerances;
 
 /// How the plane lies on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,9 +18,6 @@ pub struct Chart {
 /// Maximum number of faces of a walk.
 const MAX_WALK_FACES: usize = 64;
 
-/// Largest distance outside a face, in barycentric weight, of a point that counts as on it.
-const MAX_OUTSIDE_WEIGHT: f64 = 1e-9;
-
 /// Finds positions in space for points of the plane.
 pub(crate) struct Walker<'a> {
     pub lit: &'a Lit<'a>,
@@ -30,7 +28,7 @@ impl Walker<'_> {
     /// Position of a point of the plane, if it lies on the face.
     pub fn find(&self, face: u32, p: DVec2) -> Option<DVec3> {
         let parts = weights(&(self.chart)(face)?, p)?;
-        parts.iter().all(|part| *part >= -MAX_OUTSIDE_WEIGHT).then(|| self.on(face, parts))
+        parts.iter().all(|part| *part >= -tolerances::MAX_OUTSIDE_WEIGHT).then(|| self.on(face, parts))
     }
 
     pub fn on(&self, face: u32, parts: [f64; 3]) -> DVec3 {
@@ -47,7 +45,7 @@ impl Walker<'_> {
         let mut parts = weights(&own, p)?;
         for _ in 0..MAX_WALK_FACES {
             let (side, least) = (0..3).map(|k| (k, parts[k])).min_by(|a, b| a.1.total_cmp(&b.1))?;
-            if least >= -MAX_OUTSIDE_WEIGHT {
+            if least >= -tolerances::MAX_OUTSIDE_WEIGHT {
                 return Some((self.on(face, parts), face, true));
             }
             let Some((next, chart)) = self.next(face, &own, side).filter(|(next, _)| may(*next)) else {
@@ -73,14 +71,13 @@ impl Walker<'_> {
         let chart = (self.chart)(*other)?;
         let goes_on = ends.iter().all(|k| {
             let there = mesh.triangles[*other as usize].iter().position(|v| *v == t[*k]);
-            there.is_some_and(|there| (chart.corners[there] - own.corners[*k]).length() < MAX_CORNER_DISTANCE)
+            there.is_some_and(|there| {
+                (chart.corners[there] - own.corners[*k]).length() < tolerances::MAX_CHART_CORNER_DISTANCE
+            })
         });
         (chart.name == own.name && goes_on).then_some((*other, chart))
     }
 }
-
-/// Largest distance in the plane of corners that count as one.
-const MAX_CORNER_DISTANCE: f64 = 1e-5;
 
 /// Barycentric weights of a point of the plane.
 fn weights(chart: &Chart, p: DVec2) -> Option<[f64; 3]> {

@@ -19,6 +19,7 @@ use crate::geometry::numbers::portable_math::cos;
 use crate::geometry::plane::planar_distance::length;
 use crate::strokes::axes::stroke_axis::{StrokeAxis, add_stretch};
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
+use crate::strokes::tolerances;
 use crate::strokes::widths::width_profile::mean;
 
 /// Shape along a line. Its x runs along the line from 0 to 1. Its y runs across, from -0.5 at the left edge
@@ -356,7 +357,7 @@ impl BrushMap<'_> {
             let count = (size / (EDGE_STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
             for k in 1..=count {
                 let p = place(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
-                if run.last().is_none_or(|q| length(p - *q) > 1e-9 * px) {
+                if run.last().is_none_or(|q| length(p - *q) > tolerances::MIN_OUTLINE_STEP_PX * px) {
                     run.push(p);
                 }
             }

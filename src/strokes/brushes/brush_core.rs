@@ -6,6 +6,7 @@ use kurbo::{BezPath, PathEl, PathSeg, Point};
 
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
+use crate::strokes::tolerances;
 
 /// Number of columns along a brush shape that are examined.
 pub(crate) const BRUSH_COLUMNS: usize = 256;
@@ -13,14 +14,11 @@ pub(crate) const BRUSH_COLUMNS: usize = 256;
 /// Distances from the middle to the left and right into the ink, in pen widths.
 pub(crate) type InkOffset = [f64; 2];
 
-/// Flattening tolerance as a share of the shape's length or width.
-const FLATNESS_OF_SIZE: f64 = 1e-3;
-
 /// Distances from the axis to the left and right into the shape, in evenly spaced columns. `None` for a
 /// column without ink.
 pub(crate) fn columns(shape: &BezPath) -> Vec<Option<InkOffset>> {
     let mut flat = BezPath::new();
-    kurbo::flatten(shape, FLATNESS_OF_SIZE, |element| flat.push(element));
+    kurbo::flatten(shape, tolerances::BRUSH_FLATNESS_OF_SIZE, |element| flat.push(element));
     if !matches!(flat.elements().last(), Some(PathEl::ClosePath) | None) {
         flat.close_path();
     }

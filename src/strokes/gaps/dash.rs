@@ -4,6 +4,7 @@ use glam::DVec3;
 use kurbo::{BezPath, ParamCurveArclen, PathSeg, Point, Vec2};
 
 use crate::chains::Anchor;
+use crate::strokes::tolerances;
 
 /// Path length in periods below which a path is drawn solid, because a single gap would look like a fault.
 const MIN_PERIODS: f64 = 0.6;
@@ -12,8 +13,6 @@ const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
 /// Greatest number of dashes and gaps written out for one path. Longer paths use one repeated pattern, which
 /// limits file size. The outline of an A0 sheet in the dashes of `technical` has about 2,600.
 const MAX_ENTRIES: usize = 8192;
-/// Tolerance of curve lengths as a share of the period.
-const LENGTH_TOLERANCE_OF_PERIOD: f64 = 1e-3;
 
 /// The dash array and offset of a path, from the wanted lengths of dashes and gaps in turn. Empty if the path
 /// is to be solid. All lengths are in user units.
@@ -75,7 +74,7 @@ pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f
         return (pattern, 0.0);
     }
     let length: f64 =
-        path.segments().map(|segment| segment.arclen(period * LENGTH_TOLERANCE_OF_PERIOD)).sum();
+        path.segments().map(|segment| segment.arclen(period * tolerances::MAX_LENGTH_ERROR_OF_PERIOD)).sum();
     let before = from.dot(to - from) / (chord * chord) * length;
     let offset = (before + own.first().copied().unwrap_or_default() / 2.0).rem_euclid(period);
     (own, offset)
@@ -86,7 +85,7 @@ fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
     let mut runs: Vec<f64> = Vec::new();
     let mut last: Option<Vec2> = None;
     for segment in path.segments() {
-        let length = segment.arclen(period * LENGTH_TOLERANCE_OF_PERIOD);
+        let length = segment.arclen(period * tolerances::MAX_LENGTH_ERROR_OF_PERIOD);
         if length <= 0.0 {
             continue;
         }

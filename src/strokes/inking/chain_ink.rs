@@ -22,6 +22,7 @@ use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::outlines::tremor::Tremor;
 use crate::strokes::pens::ink_context::InkContext;
 use crate::strokes::pens::pen::Pen;
+use crate::strokes::tolerances;
 use crate::strokes::widths::width_profile::{WidthSettings, mean, meet, taper};
 
 /// Distance to either side that a line must cover on the border of painted surfaces, px. On smooth surfaces
@@ -34,9 +35,6 @@ const MIN_OVERSHOOT_SHARE: f64 = 0.35;
 
 /// Greatest extension of an end as a share of its line.
 const MAX_OVERSHOOT_OF_LENGTH: f64 = 0.2;
-
-/// Greatest difference of widths that count as equal, as a share of the pen's width.
-const WIDTH_TOLERANCE_OF_PEN: f64 = 1e-6;
 
 /// Side of the squares that identify chains, px. Chains of one kind and part that start in the same square
 /// share a random seed, if nothing in the model distinguishes them.
@@ -207,8 +205,8 @@ impl ChainInk<'_> {
             });
         }
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
-        let varies = high - low > WIDTH_TOLERANCE_OF_PEN * setting.width
-            || (high - setting.width).abs() > WIDTH_TOLERANCE_OF_PEN * setting.width;
+        let varies = high - low > tolerances::MAX_WIDTH_DIFFERENCE_OF_PEN * setting.width
+            || (high - setting.width).abs() > tolerances::MAX_WIDTH_DIFFERENCE_OF_PEN * setting.width;
         // A stroked path has equal caps at both ends.
         let is_cut = *caps != [self.pen.cap; 2];
         if !(self.solid && (varies || is_cut)) {

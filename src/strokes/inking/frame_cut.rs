@@ -13,6 +13,7 @@ use crate::geometry::tolerances::TRIANGLE_BORDER_PX;
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::brushes::brush::BrushShape;
 use crate::strokes::pens::pen::Pen;
+use crate::strokes::tolerances;
 
 /// Least slant (sine) for which a line is drawn far enough past the border to be cut from edge to edge. Ink
 /// of flatter lines may lack a corner.
@@ -21,10 +22,8 @@ const MIN_SLANT_SINE: f64 = 0.1;
 /// Least share of a brush that lies inside the frame.
 const MIN_INSIDE_SHARE: f64 = 0.1;
 
-/// Number of columns for measuring brush tips, and the flattening tolerance as a share of the brush's length
-/// or width.
+/// Number of columns for measuring brush tips.
 const TIP_COLUMNS: usize = 64;
-const TIP_FLATNESS_OF_SIZE: f64 = 1e-3;
 
 /// Share of the greatest width that counts as full width.
 const FULL_WIDTH_SHARE: f64 = 0.95;
@@ -78,7 +77,7 @@ fn tips(shape: &BrushShape) -> [f64; 2] {
     let path = shape.path([columns, columns / shape.ratio().max(1.0)]);
     let mut edges = [[f64::INFINITY, f64::NEG_INFINITY]; TIP_COLUMNS];
     let mut last = Point::ZERO;
-    kurbo::flatten(path.iter(), TIP_FLATNESS_OF_SIZE, |element| {
+    kurbo::flatten(path.iter(), tolerances::BRUSH_FLATNESS_OF_SIZE, |element| {
         let (PathEl::MoveTo(to) | PathEl::LineTo(to)) = element else { return };
         let from = if matches!(element, PathEl::MoveTo(_)) { to } else { last };
         last = to;

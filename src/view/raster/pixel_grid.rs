@@ -10,12 +10,10 @@ use glam::DVec3;
 
 use crate::mesh::Mesh;
 use crate::view::View;
+use crate::view::tolerances;
 
 /// Pixels along the longer side of the frame.
 const DEFAULT_SIDE_PIXELS: f64 = 1024.0;
-/// Distance outside a triangle where a pixel centre still counts as covered, pixels. It exceeds rounding, so
-/// no pixel falls between two triangles.
-const COVER_MARGIN_PIXELS: f32 = 1e-4;
 /// Largest bounding box, in pixels, that is tested pixel by pixel.
 const MAX_SMALL_BOX_PIXELS: i32 = 16;
 
@@ -160,8 +158,8 @@ impl<'a> PixelGrid<'a> {
     #[inline]
     fn pixel_box(&self, [a, b, c]: &[PixelPoint; 3]) -> Option<[i32; 4]> {
         let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
-        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - COVER_MARGIN_PIXELS);
-        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + COVER_MARGIN_PIXELS);
+        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - tolerances::COVER_MARGIN_PIXELS);
+        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + tolerances::COVER_MARGIN_PIXELS);
         let (left, right) = (place(low(0), self.columns), place(high(0), self.columns));
         let (top, bottom) = (place(low(1), self.rows), place(high(1), self.rows));
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
@@ -271,7 +269,7 @@ impl PixelQuad {
     #[inline]
     fn side(&self, p: PixelPoint, q: PixelPoint) -> ([f32; 4], [bool; 4]) {
         let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-        let least = -COVER_MARGIN_PIXELS * (dx.abs() + dy.abs());
+        let least = -tolerances::COVER_MARGIN_PIXELS * (dx.abs() + dy.abs());
         let mut areas = [0.0; 4];
         let mut inside = [false; 4];
         for i in 0..4 {
@@ -304,7 +302,7 @@ impl PixelSide {
         let sign = f64::from(area.signum());
         let [x, y, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
         let (dx, dy) = ((qx - x) * sign, (qy - y) * sign);
-        Self { x, y, dx, dy, slack: f64::from(COVER_MARGIN_PIXELS) * (dx.abs() + dy.abs()) }
+        Self { x, y, dx, dy, slack: f64::from(tolerances::COVER_MARGIN_PIXELS) * (dx.abs() + dy.abs()) }
     }
 }
 

@@ -8,10 +8,8 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
-
-/// Bound for the error of single precision, as a share of the terms of a function.
-const RELATIVE_ROUNDING: f64 = 1e-6;
 
 /// Area of the image where [`EdgeFunctions`] are evaluated.
 #[derive(Debug, Clone, Copy, Default)]
@@ -58,8 +56,9 @@ impl EdgeFunctions {
             let side = (next - corner) * sign;
             let at_middle = side.perp_dot(window.middle - corner);
             let size = side.x.abs() + side.y.abs();
-            let raised =
-                at_middle + limits.cover * size + RELATIVE_ROUNDING * (at_middle.abs() + window.reach * size);
+            let raised = at_middle
+                + limits.cover * size
+                + tolerances::EDGE_FUNCTION_ROUNDING_SHARE * (at_middle.abs() + window.reach * size);
             (made.x[k], made.y[k], made.at_middle[k]) = (-side.y as f32, side.x as f32, raised as f32);
         }
         made

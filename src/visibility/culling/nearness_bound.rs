@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::view::Frame;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Value of a square that nothing fills.
@@ -40,11 +41,7 @@ pub(crate) struct NearnessBound {
     least: f32,
 }
 
-/// Bound for the rounding of a sum, its terms, a product and its factor: six times 2⁻²⁴ for values up to 1.
-const RELATIVE_ROUNDING: f64 = 5e-7;
-/// Magnitude below which numbers have fewer digits.
-const MIN_MAGNITUDE: f64 = 1e-37;
-/// Magnitude above which numbers overflow.
+/// Magnitude near which numbers of single precision overflow.
 const MAX_MAGNITUDE: f64 = 1e37;
 
 impl NearnessBound {
@@ -75,7 +72,7 @@ impl NearnessBound {
     #[inline]
     fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
         if most < MAX_MAGNITUDE {
-            let less = RELATIVE_ROUNDING * most + MIN_MAGNITUDE;
+            let less = tolerances::NEARNESS_ROUNDING_SHARE * most + tolerances::MIN_NEARNESS_MAGNITUDE;
             Self { slope, base: base - DVec3::Z * less, least: (least - less) as f32 }
         } else {
             Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), least: UNCOVERED }

@@ -22,12 +22,9 @@ use crate::view::View;
 use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
 use crate::visibility::tiles::tile_grid::{TileBox, TileGrid};
 use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
-/// Margin within which a face may meet a square, as a share of the square's side.
-const FACE_MARGIN_CELLS: f64 = 1e-4;
-/// Margin within which a border edge passes a square, as a share of its side. More than twice [`FACE_MARGIN_CELLS`].
-const BORDER_MARGIN_CELLS: f64 = 1e-2;
 /// Largest mean face area of a group, in squares. Larger faces fill most of the squares on their own.
 const MAX_MEAN_FACE_AREA_CELLS: f64 = 16.0;
 /// Largest number of squares in the bounding box of a group, per face. Each group may also use its share of
@@ -213,12 +210,15 @@ impl<'a> FillBuffer<'a> {
         let low = points[0].min(points[1]).min(points[2]);
         let high = points[0].max(points[1]).max(points[2]);
         let tiles = squares
-            .tile_box(low - cell * FACE_MARGIN_CELLS, high + cell * FACE_MARGIN_CELLS)
+            .tile_box(
+                low - cell * tolerances::FUSED_FACE_MARGIN_OF_SQUARE,
+                high + cell * tolerances::FUSED_FACE_MARGIN_OF_SQUARE,
+            )
             .within(self.own);
         if tiles.is_empty() {
             return;
         }
-        let half = cell * (0.5 + 2.0 * FACE_MARGIN_CELLS);
+        let half = cell * (0.5 + 2.0 * tolerances::FUSED_FACE_MARGIN_OF_SQUARE);
         let slope = NearnessBound::new(points, half, step, limits);
         let sides = (tiles.area() > 1).then(|| TriangleHalfPlanes::new(points));
         for row in tiles.top..=tiles.bottom {
@@ -237,7 +237,7 @@ impl<'a> FillBuffer<'a> {
 
     /// Marks the squares that a border edge passes.
     fn end(&mut self, [a, b]: [DVec2; 2]) {
-        let (squares, reach) = (self.squares, self.squares.cell * BORDER_MARGIN_CELLS);
+        let (squares, reach) = (self.squares, self.squares.cell * tolerances::FUSED_BORDER_MARGIN_OF_SQUARE);
         let (low, high) = (a.min(b) - reach, a.max(b) + reach);
         let tiles = squares.tile_box(low.extend(0.0), high.extend(0.0)).within(self.own);
         if tiles.is_empty() {

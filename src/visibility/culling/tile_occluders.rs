@@ -3,6 +3,7 @@
 use super::edge_functions::{EdgeFunctions, Window};
 use crate::visibility::occlusion::tiled_triangles::{Occluder, OccluderBounds, TiledTriangles};
 use crate::visibility::tiles::tile_grid::TileGrid;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Marks a triangle that is not loaded.
@@ -40,7 +41,10 @@ impl TileOccluders {
         let half = grid.cell / 2.0;
         let corner = grid.corner(tile as u32 % grid.columns, tile as u32 / grid.columns);
         // Lines are also tested slightly next to themselves.
-        self.window = Window { middle: corner + half, reach: half * (1.0 + 1e-5) + 2.0 * limits.beside };
+        self.window = Window {
+            middle: corner + half,
+            reach: half * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * limits.beside,
+        };
         self.reaches.clear();
         self.reaches.extend(reaches);
         self.places.clear();

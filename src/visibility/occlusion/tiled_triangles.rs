@@ -13,6 +13,7 @@ use crate::view::View;
 use crate::visibility::tiles::tile_grid::{TileBox, TileGrid, TileReach};
 use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Bounds of a triangle in the image, enough to reject most comparisons.
@@ -95,7 +96,7 @@ impl TiledTriangles<'_> {
 
     /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
     pub(crate) fn slack(&self) -> f64 {
-        (self.grid.cell * 1e-6).max(2.0 * self.limits.beside)
+        (self.grid.cell * tolerances::BOX_MARGIN_OF_TILE).max(2.0 * self.limits.beside)
     }
 
     #[inline]
@@ -250,7 +251,7 @@ impl TiledTriangles<'_> {
         let (points, _) = corners(self.mesh, self.view, id);
         let nearest = points[0].z.max(points[1].z).max(points[2].z);
         let sides = TriangleHalfPlanes::new(&points);
-        let reach = self.grid.cell / 2.0 * (1.0 + 1e-5) + 2.0 * self.limits.beside;
+        let reach = self.grid.cell / 2.0 * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * self.limits.beside;
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
                 let tile = self.grid.tile(column, u32::from(row));
@@ -270,8 +271,7 @@ impl TiledTriangles<'_> {
 fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
-    // Slightly more than rounding, so lines on the border are still compared.
-    let pad = 1e-4;
+    let pad = tolerances::BOX_MARGIN_UNITS;
     [
         ((low.x - pad) as f32).next_down(),
         ((high.x + pad) as f32).next_up(),

@@ -14,7 +14,8 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use kurbo::Vec2;
 
-use super::coincident_lines::{EdgeLine, cut_edge, precedence, vector};
+use super::coincident_lines::{cut_edge, precedence};
+use super::edge_line::{EdgeLine, vector};
 use super::smooth_chains::smooth_chains;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::mesh::MeshMetrics;

@@ -1,6 +1,6 @@
 //! [`smooth_chains`]: hidden edges of a view map, chained up to corners and branches.
 
-use super::coincident_lines::EdgeLine;
+use super::edge_line::EdgeLine;
 use crate::mesh::DisjointSets;
 use crate::visibility::graph::{ViewEdge, ViewMap};
 

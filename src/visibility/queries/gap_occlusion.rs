@@ -19,6 +19,7 @@ use crate::visibility::occlusion::triangle_occlusion::hidden_interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::grid_over;
 use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Tiles along the longer side of the grid for the lookup of triangles. Tiles are small because gaps are
@@ -26,8 +27,6 @@ use crate::visibility::view_tolerances::ViewTolerances;
 const TILES_ACROSS: u32 = 256;
 /// Tiles per task.
 const TILES_PER_TASK: usize = 8;
-/// Largest distance between the bounding boxes of a triangle and a gap that are still compared, user units.
-const BOX_MARGIN_UNITS: f64 = 1e-4;
 /// Marks an end of a gap, which is not a feature end.
 const NO_END: u32 = u32::MAX;
 
@@ -195,7 +194,10 @@ impl GapTile<'_> {
         let Self { ahead, limits, over, .. } = self;
         let is_own = |over: &BoxedOccluder| own.contains(&ahead.pieces[over.whole.face as usize]);
         let ends = [part.0, part.1].map(|t| way.at(t).truncate());
-        let (low, high) = (ends[0].min(ends[1]) - BOX_MARGIN_UNITS, ends[0].max(ends[1]) + BOX_MARGIN_UNITS);
+        let (low, high) = (
+            ends[0].min(ends[1]) - tolerances::BOX_MARGIN_UNITS,
+            ends[0].max(ends[1]) + tolerances::BOX_MARGIN_UNITS,
+        );
         let meets = |over: &&BoxedOccluder| over.low.cmple(high).all() && over.high.cmpge(low).all();
         over.iter().filter(meets).filter(|over| !is_own(over)).any(|other| {
             let hidden = hidden_interval(way, part, &other.whole, &ahead.view.frame, limits)

@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
+use crate::visibility::tolerances;
 
 /// Nearest face at a point of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,10 +27,6 @@ const FACES_PER_TASK: usize = 1 << 12;
 
 /// Mean number of points per cell of the grid.
 const POINTS_PER_CELL: usize = 2;
-
-/// Margin of the bounding-box test, as a share of the coordinates. About a thousand times the rounding error
-/// of the side test.
-const SIDE_ROUNDING_SHARE: f64 = 1e-12;
 
 /// Largest number of cells across the image.
 const MAX_CELLS_ACROSS: usize = 512;
@@ -155,7 +152,7 @@ impl PointGrid {
         };
         // Most points of these cells are outside the bounding box, which is cheaper to test than the sides.
         // The margin exceeds the rounding error of the side test.
-        let margin = low.abs().max(high.abs()) * SIDE_ROUNDING_SHARE;
+        let margin = low.abs().max(high.abs()) * tolerances::FACE_BOX_OF_COORDINATE;
         let (low, high) = (low - margin, high + margin);
         for row in rows {
             let first = row * self.across;

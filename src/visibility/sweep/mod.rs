@@ -7,8 +7,9 @@
 //! 4. Each segment is cut where its invisibility changes, and where background begins or ends next to it.
 //!
 //! Files, in reading order: [`segment_visibility`] the whole computation; [`tile_segments`] step 1;
-//! [`tile_comparison`] step 2; [`segment_pieces`] step 4.
+//! [`tile_comparison`], [`segment_comparison`] step 2; [`segment_pieces`] step 4.
 
+mod segment_comparison;
 pub(crate) mod segment_pieces;
 pub mod segment_visibility;
 mod tile_comparison;

@@ -19,7 +19,8 @@ use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::tile_comparison::{TileContext, TileResult, TileScratch};
+use super::segment_comparison::TileContext;
+use super::tile_comparison::{TileResult, TileScratch};
 use super::tile_segments::TileSegments;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::lines::Role;
@@ -37,10 +38,8 @@ use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::{grid_over, tiles_across};
 use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
-
-/// Largest visible share of a segment that still counts as hidden from end to end.
-const MAX_VISIBLE_SHARE: f64 = 1e-9;
 
 /// Hidden from end to end.
 pub(crate) const FULLY_HIDDEN: [HiddenInterval; 1] = [whole(0.0, 1.0)];
@@ -187,7 +186,8 @@ fn gather(
     for item in wholes() {
         length[item.segment as usize] += item.end - item.start;
     }
-    let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - MAX_VISIBLE_SHARE).collect();
+    let buried: Vec<bool> =
+        length.iter().map(|l| *l >= 1.0 - tolerances::MAX_VISIBLE_OF_BURIED_SEGMENT).collect();
     let open = |segment: u32| !buried[segment as usize];
     let hidden = || {
         let of_item = |item: &TileSegment| (item.segment, whole(item.start, item.end));

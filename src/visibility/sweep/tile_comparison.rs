@@ -2,20 +2,18 @@
 
 use glam::DVec3;
 
+use super::segment_comparison::{TileContext, TriangleChoice};
 use crate::geometry::lists::csr_lists::csr_lists;
-use crate::visibility::culling::long_pairs::LongPairs;
-use crate::visibility::culling::longest_interval::{NO_INTERVAL, longer};
 use crate::visibility::culling::nearness_bound::{UNCOVERED, step};
 use crate::visibility::culling::occlusion_buffer;
-use crate::visibility::culling::tile_occluders::{LoadedTriangle, TileOccluders};
+use crate::visibility::culling::tile_occluders::TileOccluders;
 use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
 use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
-use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
 use crate::visibility::occlusion::tiled_triangles::OccluderBounds;
-use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
-use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::tiles::tile_grid::TileGrid;
 use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
+use crate::visibility::tolerances;
 
 /// Lists up to this length are neither sorted nor subdivided.
 const MAX_UNSORTED_TRIANGLES: usize = 32;
@@ -48,14 +46,6 @@ impl TileResult {
     }
 }
 
-/// Input shared by all tiles.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TileContext<'a> {
-    pub(crate) compared: OcclusionInput<'a>,
-    /// Results known for long lines; their parts are only compared with the other triangles.
-    pub(crate) long: Option<&'a LongPairs>,
-}
-
 /// Buffers that a worker reuses from tile to tile.
 #[derive(Debug, Default)]
 pub(crate) struct TileScratch {
@@ -74,14 +64,6 @@ struct SegmentScratch {
     /// Layers known to hide it before the comparison.
     known: Vec<HiddenInterval>,
     layers: Vec<HiddenInterval>,
-}
-
-/// Triangles of a tile to compare.
-#[derive(Clone, Copy)]
-struct TriangleChoice<'a> {
-    chosen: &'a [u32],
-    /// Whether they are sorted, nearest first.
-    ordered: bool,
 }
 
 impl TileContext<'_> {
@@ -157,10 +139,10 @@ impl TileContext<'_> {
             }
             layers.clear();
             let shortest = limits.piece / segment.length().max(limits.piece);
-            sweep(&mut hidden, &known, shortest * 1e-3, counting, &mut layers);
+            sweep(&mut hidden, &known, shortest * tolerances::TILE_SPAN_OF_SHORTEST, counting, &mut layers);
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             if segment.bounds && !layers.iter().any(is_whole) {
-                self.gather_backed(segment, item, &mut memory.triangles, entries, result);
+                self.gather_backed(segment, item, &mut memory.triangles, entries, &mut result.backed);
             }
         }
         memory.found = SegmentScratch { hidden, known, layers };
@@ -247,7 +229,7 @@ impl TileContext<'_> {
     ) -> Vec<(u32, u32)> {
         let OcclusionInput { triangles, limits, .. } = self.compared;
         let slack = 2.0 * limits.beside;
-        let reach = grid.cell / 2.0 * (1.0 + 1e-5) + slack;
+        let reach = grid.cell / 2.0 * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + slack;
         let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
         for entry in entries.chosen {
             let OccluderBounds { bounds, nearest, .. } = all.reaches[*entry as usize];
@@ -266,137 +248,6 @@ impl TileContext<'_> {
             }
         }
         pairs
-    }
-
-    /// Collects the intervals of a segment part that triangles hide.
-    ///
-    /// Returns true if one triangle, or several that join, hide all of it and counts are not needed.
-    #[inline(never)]
-    fn gather_hidden(
-        &self,
-        segment: &ImageSegment,
-        item: &TileSegment,
-        all: &mut TileOccluders,
-        entries: TriangleChoice,
-        hidden: &mut Vec<Interval>,
-        tests: &mut u64,
-    ) -> bool {
-        let OcclusionInput { triangles, limits, counting, .. } = self.compared;
-        let (p, q) = (segment.at(item.start), segment.at(item.end));
-        let (low, high) = (p.min(q), p.max(q));
-        let bounds = [
-            (low.x as f32).next_down(),
-            (high.x as f32).next_up(),
-            (low.y as f32).next_down(),
-            (high.y as f32).next_up(),
-        ];
-        let farthest = (low.z as f32).next_down();
-        let ends = all.window.both([p, q].map(DVec3::truncate));
-        let mut run = NO_INTERVAL;
-        for entry in entries.chosen {
-            let reach = &all.reaches[*entry as usize];
-            if reach.nearest < farthest {
-                if entries.ordered {
-                    break;
-                }
-                continue;
-            }
-            let b = &reach.bounds;
-            if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
-                continue;
-            }
-            if triangles.mesh.touches(segment.hosts, triangles.face(reach.id)) {
-                continue;
-            }
-            *tests += 1;
-            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
-                continue;
-            }
-            let range = (item.start, item.end);
-            let found = hidden_interval(segment, range, whole, &triangles.view.frame, limits);
-            let Some(found) = found else {
-                continue;
-            };
-            hidden.push(found);
-            if !counting {
-                run = longer(run, (found.start, found.end));
-                if run.0 <= item.start && run.1 >= item.end {
-                    return true;
-                }
-            }
-        }
-        false
-    }
-
-    /// Collects the parts of a segment without background next to them: a surface lies next to each of its
-    /// open sides.
-    #[inline(never)]
-    fn gather_backed(
-        &self,
-        segment: &ImageSegment,
-        item: &TileSegment,
-        all: &mut TileOccluders,
-        entries: TriangleChoice,
-        result: &mut TileResult,
-    ) {
-        let sides = OuterSides::of(segment, self.compared.triangles);
-        let mut open = sides.open();
-        match (open.next(), open.next()) {
-            (None, _) => result.backed.push((item.segment, backdrop(item.start, item.end))),
-            (Some(side), None) => self.gather_backdrop(side, item, all, entries, &mut result.backed),
-            (Some(first), Some(second)) => {
-                let [first, second] = [first, second].map(|side| {
-                    let mut found = Vec::new();
-                    self.gather_backdrop(side, item, all, entries, &mut found);
-                    found.into_iter().map(|(_, interval)| interval).collect()
-                });
-                result
-                    .backed
-                    .extend(common(first, second).map(|(start, end)| (item.segment, backdrop(start, end))));
-            }
-        }
-    }
-
-    /// Collects the ranges where a surface lies next to a segment on one side.
-    fn gather_backdrop(
-        &self,
-        (number, side): (usize, &OuterSide),
-        item: &TileSegment,
-        all: &mut TileOccluders,
-        entries: TriangleChoice,
-        backed: &mut Vec<(u32, Interval)>,
-    ) {
-        let OcclusionInput { triangles, segments, limits, .. } = self.compared;
-        let segment = &segments[item.segment as usize];
-        let beside = side.beside(segment.at(item.start), segment.at(item.end));
-        let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
-        let ends = all.window.both(beside);
-        let mut run = NO_INTERVAL;
-        for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
-            backed.push((item.segment, interval));
-            run = longer(run, (interval.start, interval.end));
-        }
-        for entry in entries.chosen {
-            // The range is already complete.
-            if run.0 <= item.start && run.1 >= item.end {
-                return;
-            }
-            let b = all.reaches[*entry as usize].bounds.map(f64::from);
-            if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
-                continue;
-            }
-            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
-                continue;
-            }
-            let Some((start, end)) = side.range(whole, limits) else { continue };
-            let (start, end) = (start.max(item.start), end.min(item.end));
-            if start < end {
-                backed.push((item.segment, backdrop(start, end)));
-                run = longer(run, (start, end));
-            }
-        }
     }
 }
 

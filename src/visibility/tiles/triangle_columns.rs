@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::tile_grid::{TileBox, TileGrid};
+use crate::visibility::tolerances;
 
 /// The three sides of a projected triangle as inward half planes.
 #[derive(Debug, Clone, Copy)]
@@ -70,7 +71,8 @@ impl TriangleHalfPlanes {
             }
         }
         // Rounding must not add a tile that is not filled, nor lose one that is met.
-        let margin = if reach < 0.0 { 1e-6 } else { -1e-6 };
+        let margin =
+            if reach < 0.0 { tolerances::COLUMN_ROUNDING_TILES } else { -tolerances::COLUMN_ROUNDING_TILES };
         let per_cell = 1.0 / grid.cell;
         let (left, right) = (f64::from(tiles.left), f64::from(tiles.right));
         let from = ((low - corner.x) * per_cell - 0.5 + margin).max(left);

@@ -7,17 +7,16 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::straight_edges::MIN_GENTLE_COSINE;
 use crate::view::Frame;
 
-/// Margins for rounding, much larger than the error: absolute for facing values, a factor for lengths, and a
-/// factor for single precision.
-const FACING_MARGIN: f64 = 1e-6;
-const LENGTH_MARGIN: f64 = 1.0 - 1e-9;
-const SINGLE_MARGIN: f64 = 1.0 - 1e-6;
+/// Factors that lower a value by more than its rounding error, in double and in single precision.
+const LENGTH_MARGIN: f64 = 1.0 - tolerances::F64_MARGIN_SHARE;
+const SINGLE_MARGIN: f64 = 1.0 - tolerances::F32_MARGIN_SHARE;
 
 /// Margins of the vertices of a mesh from being seen edge-on in a view.
 #[derive(Debug)]
@@ -40,7 +39,7 @@ impl EdgeOnMargin {
         let vertices = mesh.positions.par_iter().zip(&smooth.normals).with_min_len(MIN_TASK_ITEMS);
         let of_vertex = |(at, normal): (&DVec3, &DVec3)| {
             let facing = normal.dot(frame.to_eye(*at));
-            let room = (facing.abs() - FACING_MARGIN) / reach - most;
+            let room = (facing.abs() - tolerances::FACING_MARGIN) / reach - most;
             (room.max(0.0) * SINGLE_MARGIN).copysign(facing) as f32
         };
         let room = vertices.map(of_vertex).collect();

@@ -11,17 +11,14 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 use crate::surface::refine::edge_marks::EDGES_PER_RUN;
 use crate::view::Frame;
 
-/// Margins for rounding, much larger than the error: a factor of lengths, and an absolute margin of facing
-/// values.
-const LENGTH_MARGIN: f64 = 1.0 + 1e-9;
-const FACING_MARGIN: f64 = 1e-6;
-/// Depth, as a share of the distance, below which too many digits are lost to use it.
-const MIN_DEPTH_SHARE: f64 = 1e-3;
+/// Factor that raises lengths by more than their rounding error.
+const LENGTH_MARGIN: f64 = 1.0 + tolerances::F64_MARGIN_SHARE;
 
 /// Bounds of the rounded edges of a mesh, independent of the view.
 #[derive(Debug)]
@@ -131,7 +128,7 @@ impl NormalCone {
             // divided by that to the nearer one.
             turn += self.length / near;
             least_depth = frame.depth(self.middle) - self.radius;
-            if least_depth < far * MIN_DEPTH_SHARE {
+            if least_depth < far * tolerances::MIN_DEPTH_OF_DISTANCE {
                 least_depth = 0.0;
             }
         }
@@ -143,7 +140,8 @@ impl NormalCone {
         let lean_cosine = self.cosine * cosine - self.sine * sine;
         let lean_sine = self.sine * cosine + self.cosine * sine;
         let across = (1.0 - facing * facing).max(0.0).sqrt();
-        lean_cosine > 0.0 && facing.abs() * lean_cosine - across * lean_sine > reach * turn + FACING_MARGIN
+        lean_cosine > 0.0
+            && facing.abs() * lean_cosine - across * lean_sine > reach * turn + tolerances::FACING_MARGIN
     }
 }
 
