@@ -17,22 +17,44 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! The pipeline is one function, [`render()`]: a [`scene::Scene`] is flattened to one
-//! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
-//! [`visibility::ViewMap`] decides what is visible; [`chains`] links the pieces to long chains;
-//! [`strokes`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
-//! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`light`] lights them, their
-//! tone borders join the lines, and [`regions`] gathers what lies between those that are seen; [`hatching`] shades
-//! it with strokes. Many views
-//! of one scene share a [`pipeline::Prepared`]. Each stage can be called by itself; the programs in
-//! `examples/` show how.
+//! [`render()`] runs the whole pipeline, and each stage can be called alone (see `examples/`):
+//!
+//! 1. [`load`] reads a [`scene::Scene`]; [`mesh`] welds it to one [`mesh::Mesh`]; [`surface`] finds creases
+//!    and the smooth surface that the mesh approximates.
+//! 2. [`view`] projects the mesh. [`lines`] finds feature lines, and [`light`] and [`shadows`] find tones.
+//! 3. [`visibility`] decides which pieces of all lines are visible: the [`visibility::ViewMap`].
+//! 4. [`chains`] joins visible pieces end to end, and [`strokes`] gives them ink. [`regions`] and
+//!    [`hatching`] fill the areas between visible lines.
+//! 5. The result is a [`drawing::Drawing`], a 2-D document. [`export`] writes it as SVG, PDF, DXF or PNG.
+//!
+//! [`pipeline`] connects the stages and shares work between views. [`style`] sets their options. [`edit`]
+//! and [`animation`] change a scene before it is drawn; [`animate`] draws frames, [`page`] composes pages,
+//! and [`diff`] compares drawings.
+//!
+//! ```
+//! use ligne::lines::{self, LineKind, LineOptions, Surface};
+//! use ligne::mesh::Mesh;
+//! use ligne::view::View;
+//! use ligne::{Camera, Scene, visibility};
+//!
+//! let scene = Scene::open("examples/models/gear.obj")?;
+//! let camera = Camera::three_quarter_of(scene.up).fit(&scene);
+//! let options = LineOptions::default();
+//! let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
+//! let view = View::new(&surface.mesh, &camera);
+//! let lines = lines::extract(&surface, &view, &options);
+//! let map = visibility::build(&surface.mesh, &view, &lines, &options);
+//! let visible = map.edges.iter().filter(|edge| edge.invisibility == 0);
+//! assert!(visible.clone().count() > 100 && visible.clone().any(|edge| edge.kind == LineKind::Crease));
+//! # Ok::<(), ligne::Error>(())
+//! ```
 //!
 //! # Decisions not taken
 //!
-//! - No trait for stages: a stage is a function `(&inputs, &options) -> output`; there is one of each.
+//! - No trait for stages: a stage is a function `(&inputs, &options) -> output`, and each exists once.
 //! - No plug-ins: styles are data (see [`style`]).
-//! - No generic scalar: geometry is `f64` throughout, `f32` only where it may propose, never decide.
-//! - No scene graph: instances are flattened to one mesh that remembers part and material.
+//! - No generic scalar: geometry is `f64`. `f32` may propose, but never decides.
+//! - No scene graph: instances are flattened to one mesh that stores part and material of each face.
 //! - No half-edge pointers: ids into arrays.
 //! - No dynamic dispatch: closed sets are enums.
 //! - No async.
@@ -90,9 +112,9 @@ pub use pipeline::render;
 pub use scene::{Camera, Scene};
 pub use style::Style;
 
-/// Vectors and matrices of models, as they stand in this library's types.
+/// Vectors and matrices of models, used in the types of this library.
 pub use glam;
-/// Curves of drawings, as they stand in this library's types.
+/// Curves of drawings, used in the types of this library.
 pub use kurbo;
 
 /// The README's code, compiled and run with the doc tests.

@@ -6,8 +6,8 @@ use std::ops::RangeInclusive;
 /// machining, to a metre.
 pub(crate) const STEP_TOLERANCES_MM: RangeInclusive<f64> = 1e-4..=1e3;
 
-/// A film that extends beyond the time of its animation by at most this is within it, seconds: rounding of
-/// times that are multiples of a frame.
+/// Maximum time by which a film may exceed its animation and still be within it, seconds: rounding of times
+/// that are multiples of a frame.
 pub(crate) const TIME_ROUNDING_S: f64 = 1e-9;
 
 /// Minimum duration that a number of drawings is divided by, seconds. Keeps the rate finite.

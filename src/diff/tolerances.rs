@@ -91,11 +91,11 @@ pub const MOTION_SCALES: std::ops::Range<f64> = 1e-3..1e3;
 /// greater share, so this only decides between equal scores.
 pub const MIN_SCORE_GAIN_SHARE: f64 = 1e-9;
 
-/// Minimum sum of squared distances from the mean (px²) of points to which a rotation and a scale are fitted.
+/// Minimum sum of squared distances from the mean (px²) for the fit of a rotation and a scale to points.
 /// Points within a thousandth of a pixel are one point, which has no direction.
 pub const MIN_POINT_SPREAD_PX2: f64 = 1e-6;
 
-/// Minimum determinant of the covariance of points to which an affine map is fitted, as a fraction of the
+/// Minimum determinant of the covariance of points for the fit of an affine map, as a fraction of the
 /// product of their variances. Points with a smaller one are collinear except for rounding.
 pub const MIN_SPREAD_DETERMINANT_SHARE: f64 = 1e-9;
 

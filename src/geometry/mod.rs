@@ -1,4 +1,4 @@
-//! Numbers and plane geometry without meaning of their own: the base that every other room may import.
+//! Numbers, lists and plane geometry that every other area may import.
 //!
 //! Nothing here depends on another room except the parallel loops, so results are the same on every machine
 //! and thread count.

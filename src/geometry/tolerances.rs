@@ -14,5 +14,5 @@ pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
 pub const TRIANGLE_BORDER_PX: f64 = 1e-7;
 
 /// Minimum pivot of a positive definite matrix, as a fraction of its trace: the rounding of `f64`. Smaller
-/// pivots cannot be told from zero.
+/// pivots count as zero.
 pub const MIN_PIVOT_OF_TRACE: f64 = f64::EPSILON;

@@ -20,7 +20,7 @@ pub(crate) const FULL_COVER_MARGIN_STEPS: f64 = 1e-4;
 /// spite of rounding.
 pub(crate) const BORDER_GAP_OF_RADIUS: f64 = 1e-3;
 
-/// Margin of the radius in which sites are searched, in squares of the ink grid. Exceeds rounding of the
+/// Margin of the search radius for sites, in squares of the ink grid. Exceeds rounding of the
 /// distances; a larger radius only costs time.
 pub(crate) const SITE_SEARCH_MARGIN_SQUARES: f64 = 1e-3;
 

@@ -43,6 +43,6 @@ pub(crate) const FACING_MARGIN: f64 = 1e-6;
 /// have lost too many digits in the subtraction.
 pub(crate) const MIN_DEPTH_OF_DISTANCE: f64 = 1e-3;
 
-/// Minimum depth at which the edge length of a part is measured, as a fraction of the part. Keeps the length
+/// Minimum depth for measuring the edge length of a part, as a fraction of the part. Keeps the length
 /// in px positive and finite for parts at or behind the eye.
 pub(crate) const MIN_SMOOTHING_DEPTH_OF_PART: f64 = 1e-3;

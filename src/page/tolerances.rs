@@ -43,7 +43,7 @@ pub(crate) const TIE_ROUNDING_SHARE: f64 = 8.0 * f64::EPSILON;
 /// or more.
 pub(crate) const MAX_SCALE_DIFFERENCE_SHARE: f64 = 1e-9;
 
-/// Maximum relative difference between the scales at which a view was drawn and is shown, for it to be kept.
+/// Maximum relative difference between the drawn and the shown scale of a view that is reused.
 ///
 /// Only `f64` rounding: the line widths of a drawing belong to its exact scale.
 pub(crate) const MAX_DRAWN_SCALE_DIFFERENCE_SHARE: f64 = 1e-12;
@@ -108,8 +108,8 @@ pub(crate) const MIN_AREA_GAIN_MM2: f64 = 1e-9;
 /// finite.
 pub(crate) const MIN_AIM_DISTANCE_MM: f64 = 1e-9;
 
-/// Twice the area of the triangle of a side of a polygon and a point outside it, up to which the point counts
-/// as on the boundary, mm². Covers the `f64` rounding of points on the boundary.
+/// Twice the area of the triangle of a side of a polygon and a point outside it, mm², below which the point
+/// counts as on the boundary. Covers the `f64` rounding of points on the boundary.
 pub(crate) const MAX_OUTWARD_CROSS_PRODUCT_MM2: f64 = 1e-9;
 
 /// Minimum area of a part within its panel for a balloon to point to it, mm². A smaller one is not visible

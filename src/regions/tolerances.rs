@@ -41,8 +41,8 @@ pub(crate) const MIN_SAMPLE_WEIGHT: f64 = 1e-6;
 /// straight, and long enough to keep its digits in the difference.
 pub(crate) const PROJECTION_STEP_PX: f64 = 1e-2;
 
-/// Squared sine of the angle between two steps on a surface up to which they have one direction: the rounding
-/// of double precision. No curvature follows from such steps.
+/// Maximum squared sine of the angle between two steps on a surface that have one direction: the rounding of
+/// double precision. No curvature follows from such steps.
 pub(crate) const MIN_STEP_SINE_SQUARED: f64 = f64::EPSILON;
 
 /// Largest distance outside a face, in barycentric weight, of a point that counts as on it. Allows for

@@ -15,7 +15,7 @@
 //!    and cameras.
 //! 2. A camera is chosen and framed.
 //! 3. Cut-outs remove triangles that are transparent; paints give each triangle its colour.
-//! 4. All instances become one triangle soup in world space, from which the mesh is built.
+//! 4. All instances become one triangle soup in world space. The mesh is built from it.
 //!
 //! Files, in reading order: [`parts`] geometries and parts; [`material`]; [`light`]; [`cameras`]; [`extent`]
 //! which points count and how precise they are; [`part_selection`] parts by name; [`glass`] see-through

@@ -71,7 +71,7 @@ impl Geometry {
     pub(crate) fn decimal_step(&self) -> f64 {
         let numbers = || self.positions.iter().flat_map(|p| p.to_array());
         let is_whole =
-            |number: f64| (number - number.round()).abs() <= tolerances::WHOLE_NUMBER_ROUNDING * number.abs();
+            |number: f64| (number - number.round()).abs() <= tolerances::INTEGER_ROUNDING * number.abs();
         let powers = [1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0, 1_000_000.0];
         let found = powers.into_iter().find(|power| numbers().all(|number| is_whole(number * power)));
         found.map_or(0.0, |power| 1.0 / power)

@@ -6,7 +6,7 @@ pub const MAX_COORDINATE_STEP_OF_MODEL: f64 = 1e-4;
 
 /// Maximum difference of a multiple of a decimal step from a whole number, as a fraction of it. Covers the
 /// rounding of the coordinate, of the step and of their product or quotient in `f64`.
-pub const WHOLE_NUMBER_ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub const INTEGER_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Sine of the angle between `up` and the optical axis below which they count as parallel. The picture's
 /// right direction would be rounding noise.

@@ -46,7 +46,7 @@ pub(crate) const BESSEL_RESCALE: f64 = 1e-200;
 /// Minimum argument of the modified Bessel functions. Keeps the division finite without diffusion.
 pub(crate) const MIN_BESSEL_ARGUMENT: f64 = 1e-12;
 
-/// Cosine up to which two unit normals are opposite: one unit of rounding above −1. There is no shortest
+/// Maximum cosine of the angle between opposite unit normals: one unit of rounding above −1. There is no shortest
 /// rotation between them.
 pub(crate) const MAX_OPPOSITE_COSINE: f64 = -1.0 + f64::EPSILON;
 

@@ -7,7 +7,7 @@ use kurbo::Point;
 use super::arc_fitting::{FittedCurve, FittedPiece, circle_of, curves};
 use super::dxf_source::{DxfSource, DxfVersion};
 use super::group_codes::GroupCodes;
-use super::layers::{DxfLayer, DxfLayers, LayerPen, pen_of};
+use super::layer_table::{DxfLayer, DxfLayers, LayerPen, pen_of};
 use super::objects::MODEL_SPACE;
 use super::tables::APPLICATION;
 use crate::drawing::{Mark, Paint};
@@ -187,7 +187,7 @@ impl EntityWriter<'_> {
         tags.text(8, &common.layer.name);
         let (pen, usual) = (&common.pen, &common.layer.pen);
         if pen.dash.is_empty() && !usual.dash.is_empty() {
-            tags.text(6, super::layers::CONTINUOUS);
+            tags.text(6, super::layer_table::CONTINUOUS);
         }
         if pen.colour != usual.colour {
             tags.whole(62, usize::from(pen.colour));

@@ -7,7 +7,7 @@
 //! 1. `dxf_source` selects the marks and the unit of length.
 //! 2. `arc_recovery` finds the arcs that cubics stand for; `arc_fitting` fits lines and arcs to all other
 //!    curves.
-//! 3. `layers` gives each kind of line a layer with its most common pen; `colour_index` finds the nearest
+//! 3. `layer_table` gives each kind of line a layer with its most common pen; `colour_index` finds the nearest
 //!    numbered colour.
 //! 4. `entities` writes the strokes and fills; `tables` and `objects` write the rest of the file.
 //!
@@ -19,7 +19,7 @@ mod colour_index;
 mod dxf_source;
 mod entities;
 mod group_codes;
-mod layers;
+mod layer_table;
 mod objects;
 mod tables;
 
@@ -29,7 +29,7 @@ use crate::drawing::Drawing;
 use dxf_source::{DxfSource, is_exported, is_exported_layer};
 use entities::Entities;
 use group_codes::GroupCodes;
-use layers::DxfLayers;
+use layer_table::DxfLayers;
 
 impl Drawing {
     /// Writes the drawing as a DXF file. Lines of varying width are written by their axis, and gradients by

@@ -3,7 +3,7 @@
 use super::colour_index;
 use super::dxf_source::{DxfSource, DxfVersion};
 use super::group_codes::GroupCodes;
-use super::layers::{CONTINUOUS, DEFAULT_LAYER, DxfLayers};
+use super::layer_table::{CONTINUOUS, DEFAULT_LAYER, DxfLayers};
 use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
 
 /// Application name of the extended data that holds part names.

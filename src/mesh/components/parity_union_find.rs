@@ -7,7 +7,7 @@ pub(crate) struct ParityUnionFind {
 }
 
 impl ParityUnionFind {
-    /// Each face in a set of its own.
+    /// One set per face.
     pub fn new(count: usize) -> Self {
         Self { above: (0..count as u32).map(|face| (face, false)).collect() }
     }

@@ -1,7 +1,7 @@
 //! A figure: models placed in a scene, seen by a camera and drawn in a style, and where its parts are on
 //! the page.
 //!
-//! The kinds of page hold [`models::Models`], a `CameraSpec` and a style under keys of their own, and use
+//! The kinds of page hold [`models::Models`], a `CameraSpec` and a style under separate keys, and use
 //! them in this order:
 //!
 //! 1. [`figure_style`] loads the style and applies the changes of the page file.

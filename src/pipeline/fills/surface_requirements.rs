@@ -1,4 +1,4 @@
-//! What a style needs from the surface for its fills and lines: light, paints, tones and feature lines.
+//! Requirements of a style on the surface: light, paints, tones and feature lines.
 
 use crate::hatching::{Direction, HatchLayer, PatternFixed};
 use crate::light::ToneOptions;

@@ -9,7 +9,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::scene::tolerances::{MAX_COORDINATE_STEP_OF_MODEL, WHOLE_NUMBER_ROUNDING};
+use crate::scene::tolerances::{INTEGER_ROUNDING, MAX_COORDINATE_STEP_OF_MODEL};
 use crate::scene::{Geometry, Scene};
 
 /// Returns the scene, with a warning if its coordinates are too coarse.
@@ -109,7 +109,7 @@ fn coordinate_steps(geometry: &Geometry) -> DVec3 {
 /// Whether a number is a multiple of a step, except for rounding of double precision.
 fn is_multiple(value: f64, step: f64) -> bool {
     let times = value / step;
-    (times - times.round()).abs() <= WHOLE_NUMBER_ROUNDING * times.abs()
+    (times - times.round()).abs() <= INTEGER_ROUNDING * times.abs()
 }
 
 /// Distance between a number and the next one in single precision.

@@ -1,4 +1,4 @@
-//! The base-colour texture of a material, reduced to a few flat colours or embedded as it is.
+//! The base-colour texture of a material, reduced to a few flat colours or embedded unchanged.
 //!
 //! 1. The picture is decoded and placed in the texel plane ([`texel_plane`]).
 //! 2. [`texel_coverage`] weighs each texel by the surface area on which it is visible.

@@ -129,7 +129,9 @@ fn the_readme_and_the_changelog_are_short() {
 fn tests_named_in_documents_exist() {
     let code = sources("src") + &sources("tests");
     let mut names = 0;
-    for document in ["docs/dev/architecture.md", "docs/explanation/exactness.md"] {
+    let pages = ["laws", "architecture", "algorithms", "decisions", "contributing"];
+    let pages = pages.map(|page| format!("docs/dev/{page}.md"));
+    for document in pages.iter().map(String::as_str).chain(["docs/explanation/exactness.md"]) {
         let text = read(document);
         // Between backticks, only test names have three underscores or more.
         let spans = text.split('`').skip(1).step_by(2);
@@ -137,8 +139,10 @@ fn tests_named_in_documents_exist() {
             assert!(code.contains(&format!("fn {name}(")), "{document}: there is no test {name}");
             names += 1;
         }
-        for file in spans.filter(|span| span.starts_with("tests/") && span.ends_with(".rs")) {
-            assert!(root().join(file).exists(), "{document}: {file}");
+        let is_file =
+            |span: &&str| ["src/", "tests/", "docs/", ".ci/"].iter().any(|root| span.starts_with(root));
+        for file in spans.filter(is_file) {
+            assert!(root().join(file).exists(), "{document}: there is no {file}");
         }
     }
     assert!(names > 30, "{names} names found");

@@ -1,7 +1,7 @@
 //! Cut-outs: removes the transparent parts of a material's picture from its triangles, so that contours,
 //! visibility, regions, shadows and hatching see real holes.
 //!
-//! 1. [`opacity_mask`] reads the opacity of each texel and the level from which it counts as opaque.
+//! 1. [`opacity_mask`] reads the opacity of each texel and the lowest opacity that counts as opaque.
 //! 2. [`mask_borders`] traces the border between opaque and clear with bilinear interpolation, in the texel
 //!    plane.
 //! 3. [`border_detail`] chooses how far the border may be simplified.
