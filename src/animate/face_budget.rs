@@ -5,7 +5,7 @@
 //!
 //! Deviation: the number of faces falls at once and rises slowly, in steps, so that a level lasts.
 
-use crate::animate::tolerances::MIN_FRAME_TIME_MS;
+use super::tolerances::MIN_FRAME_TIME_MS;
 
 /// Target share of the permitted frame time. The rest absorbs variation between frames.
 const TARGET_TIME_SHARE: f64 = 0.6;

@@ -33,7 +33,7 @@ mod face_budget;
 mod film_extent;
 mod stroke_fade;
 mod timeline;
-pub(crate) mod tolerances;
+mod tolerances;
 mod turntable;
 
 use std::sync::OnceLock;

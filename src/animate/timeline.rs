@@ -1,6 +1,6 @@
 //! [`Timeline`]: the frames of a film, their times, and which of them are drawn.
 
-use crate::animate::tolerances::MAX_SPAN_ROUNDING_FRAMES;
+use super::tolerances::MAX_SPAN_ROUNDING_FRAMES;
 use crate::error::Error;
 
 /// Greatest number of frames, half a day of film.

@@ -25,7 +25,7 @@ pub mod deformable_mesh;
 pub mod material_factors;
 pub mod posed_vertices;
 pub mod rig;
-pub(crate) mod tolerances;
+mod tolerances;
 pub mod track;
 
 pub use clip::{

@@ -4,7 +4,7 @@
 
 use glam::DQuat;
 
-use crate::animation::tolerances;
+use super::tolerances;
 use crate::geometry::numbers::portable_math::{atan2, sin};
 
 /// Interpolation between two keys.

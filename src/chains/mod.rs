@@ -20,7 +20,7 @@ mod sampled_line;
 #[cfg(test)]
 mod tests;
 pub mod tidy;
-pub(crate) mod tolerances;
+mod tolerances;
 
 pub use options::ChainOptions;
 pub use sample::{Anchor, LineBackdrop, Sample};

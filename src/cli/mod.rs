@@ -28,7 +28,7 @@ mod shorthand;
 mod step;
 mod styles;
 mod test;
-pub(crate) mod tolerances;
+mod tolerances;
 
 use std::io::Write;
 use std::process::ExitCode;

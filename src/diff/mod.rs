@@ -45,7 +45,7 @@ mod raster_check;
 mod read;
 mod report;
 mod shapes;
-pub(crate) mod tolerances;
+mod tolerances;
 
 pub use canonical::canonical_document::canonical_svg;
 pub use findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};

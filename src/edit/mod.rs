@@ -7,4 +7,4 @@
 pub mod explode;
 pub mod section;
 pub mod simplify;
-pub(crate) mod tolerances;
+mod tolerances;

@@ -24,7 +24,7 @@ pub(crate) mod paths;
 pub mod pdf;
 pub mod raster;
 pub mod svg;
-pub(crate) mod tolerances;
+mod tolerances;
 
 #[cfg(feature = "pdf")]
 pub use self::pdf::composition_pages::to_pdf;

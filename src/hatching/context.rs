@@ -7,8 +7,8 @@ use kurbo::Rect;
 use super::tone::ToneCoverage;
 use crate::colour::srgb::Colour;
 use crate::drawing::Unit;
-use crate::hatching::guides::direction_field::GuideDirections;
 use crate::hatching::guides::guide::Guide;
+use crate::hatching::guides::guide_directions::GuideDirections;
 use crate::regions::LightLattice;
 
 /// Scene and page data that hatching needs besides the ground.

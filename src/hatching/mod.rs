@@ -20,7 +20,7 @@ pub mod lines;
 pub mod options;
 pub mod paper;
 pub mod patterns;
-pub(crate) mod tolerances;
+mod tolerances;
 pub mod tone;
 
 use std::sync::Arc;
@@ -32,8 +32,8 @@ pub use clip::polygon_clip::WindingRule;
 pub use context::HatchContext;
 pub use dots::halftone::{CellDots, DotScreen, ToneBorders, dots};
 pub use dots::stipple::{Stipple, stipple};
-pub use guides::direction_field::GuideDirections;
 pub use guides::guide::{Guide, GuideScope};
+pub use guides::guide_directions::GuideDirections;
 pub use guides::stroke_layout::{HatchStroke, StrokeLayout};
 pub use layer_shares::max_coverage;
 pub use options::{Direction, HatchKind, HatchLayer, HatchOptions};

@@ -14,7 +14,7 @@
 mod clusters;
 pub(crate) mod facets;
 mod image_part;
-pub(crate) mod tolerances;
+mod tolerances;
 pub(crate) mod tone_veils;
 
 use std::sync::Arc;

@@ -9,8 +9,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use super::tolerances;
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::light::tolerances;
 use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, RayStart};
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};

@@ -24,14 +24,14 @@ pub mod paint_borders;
 pub mod prepared_surface;
 mod shared_points;
 pub mod textures;
-pub(crate) mod tolerances;
+mod tolerances;
 pub mod zero_sets;
 
 pub use edges::edge_search::EdgeSearch;
 pub use feature_line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use image::{ImageOptions, Source};
+pub(crate) use isophotes::covered_faces::{shows_inside, visible_faces_of};
 pub use isophotes::lit_surface::Lit;
-pub(crate) use isophotes::visible_faces::{shows_inside, visible_faces_of};
 pub use line_kind::LineKind;
 pub use line_options::{Contours, HiddenLines, LineOptions, Normals};
 pub use prepared_surface::{Finer, Surface};

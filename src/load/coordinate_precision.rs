@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::load::tolerances::{MAX_SINGLE_ERROR, MIN_VALUE_OF_LARGEST};
+use super::tolerances::{MAX_SINGLE_ERROR, MIN_VALUE_OF_LARGEST};
 use crate::mesh::tolerances::MAX_ROUNDED_STEP_OF_SIZE;
 use crate::scene::{Geometry, Scene};
 

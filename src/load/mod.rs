@@ -27,7 +27,7 @@ pub mod ply;
 mod polygons;
 pub mod stl;
 mod text_cursor;
-pub(crate) mod tolerances;
+mod tolerances;
 mod triangle_colours;
 
 use std::fs;

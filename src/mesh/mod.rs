@@ -10,7 +10,7 @@
 //!
 //! Files, in reading order: [`ids`], [`soup`], [`build`] (the steps above), [`part_metrics`] (sizes and
 //! tolerances of parts), [`vertex_sources`] (moves a mesh with a pose), `tolerances`. Other folders:
-//! [`lattice`] undoes the quantization of compressed files, [`bvh`] answers box, ray and nearest-point
+//! [`quantization`] undoes the quantization of compressed files, [`bvh`] answers box, ray and nearest-point
 //! queries, [`intersect`] finds where triangles cross.
 
 pub mod build;
@@ -19,11 +19,11 @@ pub mod components;
 pub mod edges;
 pub mod ids;
 pub mod intersect;
-pub mod lattice;
 pub mod normals;
 pub(crate) mod order;
 mod overlaps;
 pub mod part_metrics;
+pub mod quantization;
 mod seams;
 pub mod soup;
 pub(crate) mod tolerances;

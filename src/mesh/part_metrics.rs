@@ -8,10 +8,10 @@ use std::cmp::Ordering;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use super::tolerances;
 use super::{FaceId, Mesh, PartId, Soup};
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::mesh::normals::triangle_area::{has_own_area, scale_of};
-use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Grid step of the mesh origin, in sizes of the model rounded up to a power of two. A coarse grid keeps the

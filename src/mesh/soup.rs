@@ -22,7 +22,7 @@ pub enum EdgeMark {
     /// Always a crease, owned by this triangle. Used where a face ends at a section cut.
     Cut = 5,
     /// Diagonal that the reader added inside a polygon of the file. No crease, unless the polygon is folded
-    /// there by more than [`tolerances::FOLDED_POLYGON_DEG`](crate::mesh::tolerances::FOLDED_POLYGON_DEG).
+    /// there by more than [`tolerances::FOLDED_POLYGON_DEG`](super::tolerances::FOLDED_POLYGON_DEG).
     Diagonal = 6,
 }
 

@@ -9,11 +9,11 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use super::tolerances;
 use super::{Mesh, MeshMetrics, Soup};
 use crate::mesh::normals::face_normals::normals_and_narrow;
 use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
 use crate::mesh::overlaps::overlay_order::overlays;
-use crate::mesh::tolerances;
 
 /// Mapping between the vertices of a soup and of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]

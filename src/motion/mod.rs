@@ -27,7 +27,7 @@
 mod line_starts;
 mod moving_bodies;
 pub mod options;
-pub(crate) mod tolerances;
+mod tolerances;
 
 use crate::parallel::prelude::*;
 use glam::DVec3;

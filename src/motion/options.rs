@@ -6,10 +6,10 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use super::tolerances;
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
-use crate::motion::tolerances;
 use crate::strokes::Ink;
 
 /// Greatest number of lines per body, and of segments per line.

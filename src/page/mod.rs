@@ -32,7 +32,7 @@ pub mod page_size;
 pub mod page_source;
 pub mod print_inks;
 pub mod sheet;
-pub(crate) mod tolerances;
+mod tolerances;
 
 pub use composed_page::ComposedPage;
 pub use model_reader::ModelReader;

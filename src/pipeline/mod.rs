@@ -37,7 +37,7 @@ mod rest;
 mod section;
 mod stages;
 mod thread_pool;
-pub(crate) mod tolerances;
+mod tolerances;
 mod view;
 
 pub use compose::hotspots::hotspots;

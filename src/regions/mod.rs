@@ -5,19 +5,19 @@
 //! 3. The face in front at the centre of each triangle gives the triangle a label (`labels`).
 //! 4. Connected triangles of one label form a region. Small ones are merged into a neighbour.
 //! 5. The border of two regions is one fitted curve that both use, so there is neither gap nor overlap.
-//! 6. Regions are painted (`paint`), or give hatching its areas (`hatch_regions`, `lattice`,
+//! 6. Regions are painted (`paint`), or give hatching its areas (`hatch_regions`, `sampling`,
 //!    `surface_curves`).
 //!
 //! Files, in reading order: [`options`]; [`arrangement`]; [`cells`]; [`labels`]; [`paint`](mod@paint);
-//! [`hatch_regions`]; [`lattice`]; [`surface_curves`].
+//! [`hatch_regions`]; [`sampling`]; [`surface_curves`].
 
 mod arrangement;
 mod cells;
 pub mod hatch_regions;
 pub mod labels;
-pub mod lattice;
 pub mod options;
 pub mod paint;
+pub mod sampling;
 pub mod surface_curves;
 pub(crate) mod tolerances;
 
@@ -27,10 +27,10 @@ use kurbo::{BezPath, Point};
 pub use hatch_regions::hatch_map::HatchRegions;
 pub use labels::labelled_page::{LabelledPage, PageBorders, label_page};
 pub use labels::surface_label::{ShadowDarkening, SurfaceLabel};
-pub use lattice::page_lattice::LightLattice;
 pub use options::{RegionOptions, Seams, StepsAs};
+pub use paint::gradient_regions::Ramp;
 pub use paint::region_paint::paint;
-pub use paint::tone_ramps::Ramp;
+pub use sampling::page_lattice::LightLattice;
 
 use crate::chains::{self, ChainOptions};
 use crate::drawing::{Length, Unit};
@@ -85,7 +85,7 @@ pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions
         StepsAs::Gradients => {
             let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.looks.len());
             let tolerance = Length::px(tolerances::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
-            paint::tone_ramps::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
+            paint::gradient_regions::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
         }
     };
     regions(&seen.cut, &patches, &table, ramps, &drawn)
@@ -110,14 +110,14 @@ fn patches(
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     unit: Unit,
-) -> (cells::patches::Patches, Vec<SurfaceLabel>) {
+) -> (cells::label_components::Patches, Vec<SurfaceLabel>) {
     let (looks, table) = seen.relabelled(coarser);
     let crumb = options.crumb.in_unit(unit).max(0.0) / seen.step;
-    (cells::patches::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
+    (cells::label_components::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
 }
 
 /// Patch that each triangle is painted with.
-fn owners(patches: &cells::patches::Patches) -> Vec<u32> {
+fn owners(patches: &cells::label_components::Patches) -> Vec<u32> {
     // All paper counts as one patch, together with the outside of the page.
     let is_paper = |patch: u32| patches.looks[patch as usize] == NO_LABEL;
     patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
@@ -135,7 +135,7 @@ struct BorderDrawing<'a> {
 /// Regions and borders of painted patches. `ramps` has one entry per patch, or none.
 fn regions(
     cut: &Triangulation,
-    patches: &cells::patches::Patches,
+    patches: &cells::label_components::Patches,
     table: &[SurfaceLabel],
     mut ramps: Vec<Option<Ramp>>,
     drawn: &BorderDrawing,

@@ -33,7 +33,7 @@ pub mod paints;
 pub mod part_selection;
 pub mod parts;
 pub(crate) mod textures;
-pub(crate) mod tolerances;
+mod tolerances;
 pub mod triangle_soup;
 pub mod warnings;
 

@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::tolerances;
 use crate::geometry::tolerances::F32_STEP;
 use crate::mesh::EdgeMark;
 use crate::mesh::normals::triangle_area::has_own_area;
-use crate::scene::tolerances;
 
 /// Triangles and wires in local space.
 ///

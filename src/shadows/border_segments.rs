@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::shadow_receivers::ShadowBorders;
+use super::tolerances;
 use super::upper_envelope::EdgePart;
 use crate::geometry::numbers::powers_of_two::power_of_two_below;
 use crate::mesh::{FaceId, Mesh};
-use crate::shadows::tolerances;
 use crate::view::Frame;
 
 /// Segments on faces, joined where they share a point.

@@ -20,7 +20,7 @@ mod light_views;
 mod point_shadows;
 pub mod shadow_lines;
 mod shadow_receivers;
-pub(crate) mod tolerances;
+mod tolerances;
 mod upper_envelope;
 
 use crate::parallel::prelude::*;

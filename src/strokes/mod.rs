@@ -17,7 +17,7 @@ pub mod gaps;
 mod inking;
 mod outlines;
 pub mod pens;
-pub(crate) mod tolerances;
+mod tolerances;
 pub mod travel_order;
 pub mod widths;
 

@@ -5,8 +5,8 @@
 
 use kurbo::{BezPath, PathEl, Point};
 
+use super::tolerances;
 use crate::drawing::{Layer, Mark, Paint};
-use crate::strokes::tolerances;
 
 /// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
 /// layers are unchanged.

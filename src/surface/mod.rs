@@ -17,7 +17,7 @@ pub mod cylinders;
 pub mod normals;
 pub mod patches;
 pub mod refine;
-pub(crate) mod tolerances;
+mod tolerances;
 
 pub use creases::hard_edges::HardEdges;
 pub use curvature::principal_curvatures::PrincipalCurvatures;

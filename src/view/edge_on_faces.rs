@@ -16,10 +16,10 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::Frame;
+use super::tolerances;
 use crate::mesh::normals::normal_carriers::CoplanarSearch;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::view::tolerances;
 
 /// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow
 /// from their own angle.

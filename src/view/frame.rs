@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::tolerances;
 use crate::geometry::numbers::portable_math::tan;
 use crate::scene::{Camera, Projection};
-use crate::view::tolerances;
 
 /// Camera relative to the origin of a mesh, ready to project.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,8 @@
 //! [`ViewTolerances`]: the tolerances of one view, in its units.
 
+use super::tolerances;
 use crate::mesh::PartMetrics;
 use crate::view::Frame;
-use crate::visibility::tolerances;
 
 /// Tolerances of one view, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,7 +10,7 @@ use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 #[cfg(feature = "pdf")]
 use super::print_args::PrintArgs;
-use super::section_args::SectionArgs;
+use super::section_and_explode_args::SectionArgs;
 use super::style_keys;
 use super::values::paper_size;
 use super::web_args::WebArgs;

@@ -4,7 +4,7 @@
 //!
 //! Files, in reading order:
 //! - [`draw_args`] holds all options of `ligne draw`, and `HowArgs`, which other commands flatten.
-//! - [`framing_args`] and [`section_args`]: view.
+//! - [`framing_args`] and [`section_and_explode_args`]: view.
 //! - [`step_args`] holds STEP files.
 //! - [`dxf_args`], `print_args` and [`web_args`]: output.
 //! - [`batch_args`] holds several models.
@@ -19,7 +19,7 @@ pub(crate) mod dxf_args;
 pub(crate) mod framing_args;
 #[cfg(feature = "pdf")]
 pub(crate) mod print_args;
-pub(crate) mod section_args;
+pub(crate) mod section_and_explode_args;
 pub(crate) mod step_args;
 pub(crate) mod style_keys;
 pub(crate) mod values;

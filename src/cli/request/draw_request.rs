@@ -6,7 +6,7 @@ use super::viewpoint::{Lens, SheetRequest, ViewRequest};
 use crate::cli::options::draw_args::{DrawArgs, GroupBy, HowArgs};
 use crate::cli::options::dxf_args::DxfArgs;
 use crate::cli::options::framing_args::FramedParts;
-use crate::cli::options::section_args::SectionArgs;
+use crate::cli::options::section_and_explode_args::SectionArgs;
 use crate::cli::options::web_args::WebArgs;
 use crate::cli::output::output_files::{Format, Output, is_stdout};
 use crate::cli::step::StepArgs;

@@ -6,10 +6,10 @@ use std::ops::Range;
 use usvg::roxmltree::{Document, Node, NodeType};
 
 use crate::diff::markup::cascade::Cascade;
+use crate::diff::markup::css_sheet::{self, Declaration};
 use crate::diff::markup::inline_style::escaped;
 use crate::diff::markup::input_limits;
 use crate::diff::markup::sheet_inlining::{after_name, edited};
-use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::error::Error;
 
 /// Properties that also exist as attributes with the same values.
@@ -142,7 +142,7 @@ impl StyleEdits<'_> {
     fn element(&mut self, node: Node, declared: &[Declaration]) -> bool {
         let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
         let style = own.map(|own| own.value()).unwrap_or_default();
-        let Some(own_list) = style_sheet::declarations(style) else { return false };
+        let Some(own_list) = css_sheet::declarations(style) else { return false };
         if declared.is_empty() && own_list.is_empty() {
             return true;
         }

@@ -8,7 +8,7 @@
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Document, Node};
 
-use super::style_sheet::{
+use super::css_sheet::{
     AttributeTest, Combinator, CompoundSelector, CssSheet, Declaration, SelectorIndex, SelectorPart,
 };
 use super::tag_limits::too_much;

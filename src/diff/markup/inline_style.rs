@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use rustc_hash::FxHashSet;
 
-use super::style_sheet::{self, Declaration};
+use super::css_sheet::{self, Declaration};
 use super::tag_limits::too_much;
 use crate::error::Error;
 
@@ -28,7 +28,7 @@ pub(crate) fn is_long(style: &str) -> bool {
 /// If the style exceeds the limits.
 pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error> {
     let many = declared.len() + own.matches(';').count() > MAX_UNMERGED_DECLARATIONS;
-    let listed = if many || is_long(own) { style_sheet::declarations(own) } else { None };
+    let listed = if many || is_long(own) { css_sheet::declarations(own) } else { None };
     let rest = if listed.is_some() { "" } else { own };
     let mut all: Vec<Declaration> = declared.iter().copied().chain(listed.into_iter().flatten()).collect();
     if many {

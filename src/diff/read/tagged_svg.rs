@@ -9,9 +9,9 @@ use usvg::roxmltree::{Document, Node};
 
 use super::inherited_context::InheritedContext;
 use crate::diff::markup::cascade::Cascade;
+use crate::diff::markup::css_sheet::{self, Declaration};
 use crate::diff::markup::inline_style::said;
 use crate::diff::markup::number_scan;
-use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::placeholder::{self, Details};
 use crate::drawing::Unit;
@@ -268,7 +268,7 @@ impl TaggedSvg {
             }
         }
         // The visibility may be set in a style.
-        let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
+        let own = css_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
         let style = declared
             .iter()
             .chain(&own)

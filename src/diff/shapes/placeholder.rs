@@ -11,7 +11,7 @@ use usvg::roxmltree::Node;
 
 use crate::colour::srgb::Colour;
 use crate::diff::markup::cascade::Cascade;
-use crate::diff::markup::style_sheet::{self, Declaration};
+use crate::diff::markup::css_sheet::{self, Declaration};
 use crate::error::Error;
 
 /// Start of the description of a linked picture; the target follows in backticks.
@@ -99,7 +99,7 @@ const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 /// Properties of an element in order of increasing precedence: attributes, style sheets, own style, important
 /// declarations.
 fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) -> Vec<(&'static str, String)> {
-    let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
+    let own = css_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
     let attributes = node.attributes().filter(|a| a.namespace().is_none()).map(|a| (a.name(), a.value()));
     let listed = |important: bool| {
         let all = declared.iter().chain(&own).filter(move |d| d.important == important);

@@ -7,9 +7,9 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::assembly::{Assembly, frame};
+use super::axis_offsets::{AxisExtent, AxisRelation, PairContacts, offsets, root, unite};
 use super::axis_projection::{AxisProjection, PairContact};
 use super::body_axes;
-use super::stacking_order::{AxisExtent, AxisRelation, PairContacts, offsets, root, unite};
 
 /// Blocking relations of some bodies along an axis.
 #[derive(Clone)]

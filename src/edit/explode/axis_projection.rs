@@ -15,8 +15,8 @@ use glam::{DVec2, DVec3};
 use kurbo::Point;
 
 use super::bodies::Body;
-use super::box_tree::{EMPTY_RECT, Rect, RectTree, overlap, union};
 use super::polygon_overlap::{area, common, cut};
+use super::rect_tree::{EMPTY_RECT, Rect, RectTree, overlap, union};
 use crate::edit::tolerances::{ANGLE_ROUNDING_RAD, MAX_UPRIGHT_AREA_RATIO};
 use crate::geometry::numbers::portable_math::atan2;
 use crate::geometry::plane::convex_hull::convex_hull;

@@ -3,10 +3,10 @@
 //! 1. `bodies` takes the surface of each part from the mesh. `part_rules` joins parts of one group into a
 //!    unit.
 //! 2. `body_axes` finds the candidate axes. `axis_blocking` tests along an axis which bodies block each
-//!    other, with the projections of `axis_projection` (pairs from `box_tree`, areas from `polygon_overlap`).
+//!    other, with the projections of `axis_projection` (pairs from `rect_tree`, areas from `polygon_overlap`).
 //! 3. Bodies that block each other in both directions move as one. Sub-assemblies at an angle to the axis do,
 //!    too.
-//! 4. `stacking_order` sorts the others along the axis and computes offsets with gaps between them.
+//! 4. `axis_offsets` sorts the others along the axis and computes offsets with gaps between them.
 //! 5. Groups that move as one are separated the same way along the next best axis (`assembly`).
 //! 6. Rules for single parts come last: direction, distance, order, group. `trail_lines` draws the paths.
 //!
@@ -16,13 +16,13 @@
 
 mod assembly;
 mod axis_blocking;
+mod axis_offsets;
 mod axis_projection;
 mod bodies;
 mod body_axes;
-mod box_tree;
 mod part_rules;
 mod polygon_overlap;
-mod stacking_order;
+mod rect_tree;
 mod trail_lines;
 
 use glam::{DAffine3, DVec3};
@@ -30,7 +30,7 @@ use glam::{DAffine3, DVec3};
 pub use part_rules::{PartExplosion, direction};
 pub use trail_lines::{TRAIL, with_trails};
 
-use crate::edit::tolerances;
+use super::tolerances;
 use crate::scene::Scene;
 use assembly::{Assembly, Moves};
 use axis_blocking::AxisBlocking;

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::assembly::{Assembly, Moves, frame};
+use super::axis_offsets::{AxisExtent, PairContacts, offsets};
 use super::axis_projection::{AxisProjection, PairContact};
 use super::bodies::{Body, joined};
-use super::stacking_order::{AxisExtent, PairContacts, offsets};
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 

@@ -15,8 +15,8 @@ use std::collections::VecDeque;
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
 
-use super::direction_field::GuideDirections;
 use super::guide::{Guide, GuideScope};
+use super::guide_directions::GuideDirections;
 use super::stroke_layout::arcs;
 use crate::geometry::numbers::noise::hash;
 use crate::hatching::clip::line_clip::norm;

@@ -9,9 +9,9 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use super::covered_faces::visible_faces_of;
 use super::level_tracer::{FaceExtents, FaceSample, LevelSegment, LevelTracer};
 use super::tone_changes::TraceReason;
-use super::visible_faces::visible_faces_of;
 use crate::light::{LightSlope, SurfacePoint};
 use crate::lines::feature_line::segment;
 use crate::lines::tolerances;

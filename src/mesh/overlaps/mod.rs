@@ -7,9 +7,9 @@
 //! 5. Of overlapping surfaces the smaller one is on top, in every view.
 //!
 //! Files, in reading order: [`overlay_order`] (steps 2, 3 and 5), [`colour_grid`] (step 1), [`common_area`]
-//! (polygon clipping; Sutherland and Hodgman 1974), [`border_arcs`] (step 4).
+//! (polygon clipping; Sutherland and Hodgman 1974), [`border_curves`] (step 4).
 
-mod border_arcs;
+mod border_curves;
 mod colour_grid;
 mod common_area;
 pub(crate) mod overlay_order;

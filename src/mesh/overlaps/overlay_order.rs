@@ -16,7 +16,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use self::plane_key::{OverlapCandidate, PlaneKey, widest_axis};
-use super::border_arcs::{BorderArc, arcs};
+use super::border_curves::{BorderArc, arcs};
 use super::colour_grid::faces_near_other_colours;
 use super::common_area::common_area;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};

@@ -8,14 +8,14 @@ use crate::drawing::{Drawing, Layer, Page, Unit};
 use crate::error::Error;
 use crate::hatching::{self, LayerStrokes};
 use crate::pipeline::fills::fill_pass::{FillInputs, FillPass};
-use crate::pipeline::fills::glass::BehindGlass;
+use crate::pipeline::fills::glass_pass::BehindGlass;
 use crate::pipeline::fills::surface_fills::{self, SurfaceColours};
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::fills::view_hatching;
 use crate::pipeline::fills::view_hatching::Hatching;
 use crate::pipeline::lines::chain_samples::{self, ChainSampler};
-use crate::pipeline::lines::motion_trails::{self, Trails};
-use crate::pipeline::lines::{chain_colours, image_lines, view_chains};
+use crate::pipeline::lines::motion_line_pass::{self, Trails};
+use crate::pipeline::lines::{chain_colours, image_line_pass, view_chains};
 use crate::pipeline::prepare::prepared_scene::Prepared;
 use crate::pipeline::report::drawing_report::{self, Report, Stopwatch};
 use crate::pipeline::report::{empty_drawing, mesh_defects};
@@ -56,7 +56,7 @@ impl Prepared<'_> {
             let refined = self.surface.refined_for(camera, None);
             let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
             let view = View::new(&surface.mesh, camera);
-            let maps = image_lines::maps(surface, &view, self.style, unit);
+            let maps = image_line_pass::maps(surface, &view, self.style, unit);
             MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
         })
     }
@@ -108,7 +108,7 @@ impl Prepared<'_> {
             if fills.is_some() {
                 surface_fills::keep_inked(&mut map, style, &unchanged);
             }
-            let lines = image_lines::joined(&mut map, lines, surface, view, style, page.unit);
+            let lines = image_line_pass::joined(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
             let ahead = GapOcclusion::new(whole, view, &lines, &map.visible_contours, margin);
@@ -170,7 +170,7 @@ impl Prepared<'_> {
                 layers.extend(trails.iter().flat_map(|trails| trails.ink(&context)));
                 let moves = scene.movers.as_ref().is_some_and(|movers| !movers.is_empty());
                 if style.motion.enabled && moves && layers.len() == before {
-                    warnings.push(motion_trails::NONE_SEEN.to_owned());
+                    warnings.push(motion_line_pass::NONE_SEEN.to_owned());
                 }
                 layers.extend(strokes::ink(&chains, &context, &style.stroke));
                 layers.extend(hatching::tooth(&page, &style.paper, style.seed));
@@ -206,7 +206,7 @@ impl Prepared<'_> {
         report.warnings.extend(warnings);
         report.warnings.extend(view_hatching::too_dark(style, page.unit));
         if style.motion.enabled && scene.movers.is_none() {
-            report.warnings.push(motion_trails::NO_MOMENT.to_owned());
+            report.warnings.push(motion_line_pass::NO_MOMENT.to_owned());
         }
         if stage.is_none() && empty_drawing::shows_nothing(&layers) {
             let seen = (&surface.mesh, view);

@@ -1,6 +1,6 @@
 //! [`FillPass`]: everything below the lines of a drawing: paint and hatching.
 
-use super::glass::BehindGlass;
+use super::glass_pass::BehindGlass;
 use super::surface_fills::SurfaceFills;
 use super::view_hatching::Hatching;
 use super::{pattern_pass, picture_pass};

@@ -18,7 +18,7 @@ use crate::hatching::{
     self, Direction, Guide, GuideDirections, HatchContext, HatchLayer, LayerStrokes, ToneCoverage,
 };
 use crate::mesh::{FaceId, Mesh, PaintId, PartId};
-use crate::regions::lattice::direction_field::DirectionSource;
+use crate::regions::sampling::direction_field::DirectionSource;
 use crate::regions::surface_curves::level_curves::{are_visible, level_curves};
 use crate::regions::{self, HatchRegions, LabelledPage, LightLattice, RegionOptions, SurfaceLabel};
 use crate::scene::{Camera, Scene, UpAxis};

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::mesh::Mesh;
-use crate::pipeline::fills::{glass, surface_requirements};
+use crate::pipeline::fills::{glass_pass, surface_requirements};
 use crate::pipeline::lines::chain_colours;
 use crate::scene::paints::triangle_paints::Paints;
 use crate::scene::textures::cutouts;
@@ -52,9 +52,9 @@ impl<'a> PreparedMesh<'a> {
 
 /// The part of a scene that style and texture cut-outs leave, its paints, and warnings about failed cuts.
 fn visible_scene<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
-    let left = glass::without_absent_materials(scene, style);
+    let left = glass_pass::without_absent_materials(scene, style);
     let mut paints = paints_of(&left, style);
-    let cutouts::CutScene { scene, origins, warnings } = glass::cut_textures(scene, &left);
+    let cutouts::CutScene { scene, origins, warnings } = glass_pass::cut_textures(scene, &left);
     paints.iter_mut().for_each(|paints| paints.carry(&origins));
     (scene, paints, warnings)
 }

@@ -12,7 +12,7 @@ use crate::mesh::components::solid_parts::solid_parts;
 use crate::pipeline::Prepared;
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::cache::view_cache::ViewCache;
-use crate::pipeline::fills::glass;
+use crate::pipeline::fills::glass_pass;
 use crate::pipeline::fills::surface_fills::ToneInputs;
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::rest::chain_anchors::Anchors;
@@ -114,8 +114,8 @@ impl<'a> PosedRenderer<'a> {
         if names(self.scene) != names(posed) {
             return None;
         }
-        let left = glass::without_absent_materials(posed, style);
-        let CutScene { scene, origins, warnings } = glass::cut_textures(posed, &left);
+        let left = glass_pass::without_absent_materials(posed, style);
+        let CutScene { scene, origins, warnings } = glass_pass::cut_textures(posed, &left);
         let soup = scene.to_soup();
         let mut paints = self.still.paints.clone();
         if posed.materials != self.scene.materials {
@@ -134,8 +134,9 @@ impl<'a> PosedRenderer<'a> {
         let (still, sources) = (&self.still.surface, self.sources.as_ref()?);
         let mesh = still.mesh.posed(sources, &soup)?;
         let before = before.map_while(|scene| {
-            let cut =
-                glass::cut_textures(&scene, &glass::without_absent_materials(&scene, style)).scene.to_soup();
+            let cut = glass_pass::cut_textures(&scene, &glass_pass::without_absent_materials(&scene, style))
+                .scene
+                .to_soup();
             still.mesh.posed(sources, &cut)
         });
         let sought = surface_requirements::sought(style);

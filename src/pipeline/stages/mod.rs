@@ -2,12 +2,12 @@
 //!
 //! Marks have the class of their kind or reason, and a title that describes them.
 //!
-//! Files, in reading order: [`stage`] the stages by name; [`stage_marks`] colours and marks; [`facing_field`]
+//! Files, in reading order: [`stage`] the stages by name; [`stage_marks`] colours and marks; [`facing_bands`]
 //! bands of n·v; [`zero_sets`] contours before hiding; [`edge_strengths`] view edges by strength;
 //! [`removed_lines`] what tidying removed.
 
 mod edge_strengths;
-mod facing_field;
+mod facing_bands;
 mod removed_lines;
 pub mod stage;
 mod stage_marks;
@@ -42,7 +42,7 @@ pub(crate) struct StageInputs<'a> {
 /// Draws the result of one stage.
 pub(crate) fn draw(stage: Stage, made: &StageInputs) -> Vec<Layer> {
     match stage {
-        Stage::Field => facing_field::draw(made),
+        Stage::Field => facing_bands::draw(made),
         Stage::Zeros => zero_sets::draw(made),
         Stage::Lines => of_lines(made),
         Stage::ViewMap => of_view_map(made),

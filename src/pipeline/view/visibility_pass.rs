@@ -2,7 +2,7 @@
 
 use crate::drawing::{Length, Unit};
 use crate::lines::{self, FeatureLines, SharedSearches, Surface, Textures};
-use crate::pipeline::fills::glass::{self, BehindGlass};
+use crate::pipeline::fills::glass_pass::{self, BehindGlass};
 use crate::pipeline::fills::surface_fills::{SurfaceColours, SurfaceFills};
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::lines::part_joints;
@@ -63,7 +63,7 @@ impl Prepared<'_> {
         let paintable = own.as_ref().or(self.paintable.as_ref());
         report.stages_ms.topology = watch.lap_ms();
 
-        let panes = glass::GlassPanes::of(surface, scene, style);
+        let panes = glass_pass::GlassPanes::of(surface, scene, style);
         // Through glass more is visible.
         let is_clear = panes.is_none();
         let in_sight =
@@ -86,7 +86,7 @@ impl Prepared<'_> {
         let textures = paints.as_deref().map(of);
         let colours = paints.as_deref().zip(textures.as_ref());
         // Transparent faces cast no shadow.
-        let casting = panes.as_ref().map_or(&surface.mesh, glass::GlassPanes::clear);
+        let casting = panes.as_ref().map_or(&surface.mesh, glass_pass::GlassPanes::clear);
         // Shadows on faces that this view has split are not shared.
         let late = refined.is_none().then_some(&self.shadows);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {

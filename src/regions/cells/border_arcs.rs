@@ -46,7 +46,7 @@ struct HalfEdge {
     soft: bool,
 }
 
-/// Traces the borders between `patches` (one per triangle, numbers below `count`).
+/// Traces the borders between `label_components` (one per triangle, numbers below `count`).
 pub(crate) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borders {
     let mut halves: Vec<HalfEdge> = Vec::new();
     for (triangle, corners) in cut.triangles.iter().enumerate() {

@@ -7,9 +7,9 @@
 //!
 //! Source of the insertion order: Amenta, Choi and Rote, Incremental constructions con BRIO, SoCG 2003.
 //!
-//! Files, in reading order: [`triangulation`]; [`insertion_order`]; [`patches`]; [`border_arcs`].
+//! Files, in reading order: [`triangulation`]; [`insertion_order`]; [`label_components`]; [`border_arcs`].
 
 pub(crate) mod border_arcs;
 mod insertion_order;
-pub(crate) mod patches;
+pub(crate) mod label_components;
 pub(crate) mod triangulation;

@@ -12,7 +12,7 @@ pub use super::border_piece::{BorderPiece, PAPER};
 
 use super::piece_tiles::BorderPieceTiles;
 use crate::drawing::{Length, Unit};
-use crate::regions::cells::patches;
+use crate::regions::cells::label_components;
 use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
 use crate::regions::labels::labelled_page::LabelledPage;
 use crate::regions::labels::surface_label::{NO_LABEL, SurfaceLabel};
@@ -109,7 +109,7 @@ impl HatchRegions {
             })
             .collect();
         let crumb = crumb.in_unit(unit).max(0.0) / seen.step;
-        let patches = patches::gather(cut, &keyed, NO_LABEL, 2.0 * crumb * crumb);
+        let patches = label_components::gather(cut, &keyed, NO_LABEL, 2.0 * crumb * crumb);
 
         let mut ground = Self { cells: vec![paper()], facets: 1, ..Self::default() };
         let mut cell_of: Vec<Option<u32>> = vec![None; patches.looks.len()];

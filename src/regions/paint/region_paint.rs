@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::parallel::prelude::*;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 
-use super::tone_ramps::gradient;
+use super::gradient_regions::gradient;
 use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
 use crate::light::Shading;
 use crate::regions::{Region, RegionOptions, Regions, Seams, SurfaceLabel};

@@ -1,7 +1,7 @@
 //! Tests of placed, mirrored and incomplete geometries in a soup.
 
-use super::super::Material;
 use super::*;
+use crate::scene::Material;
 
 fn triangle() -> Geometry {
     Geometry {

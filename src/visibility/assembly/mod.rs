@@ -6,9 +6,9 @@
 //! 3. Coincident lines are removed.
 //! 4. Lines found in the image of the view, and motion lines, are added in the same form.
 //!
-//! Files, in reading order: [`map_builder`] steps 1 to 3; [`image_lines`] lines found in the image;
+//! Files, in reading order: [`map_builder`] steps 1 to 3; [`image_edges`] lines found in the image;
 //! [`motion_lines`] the view map of motion lines.
 
-pub mod image_lines;
+pub mod image_edges;
 pub mod map_builder;
 pub mod motion_lines;

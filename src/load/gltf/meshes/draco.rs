@@ -7,7 +7,7 @@ use super::vertex_streams::VertexStreams;
 use crate::error::Error;
 use crate::load::gltf::json::{Draco, Primitive};
 use crate::load::gltf::storage::buffers::Buffers;
-use crate::mesh::lattice;
+use crate::mesh::quantization;
 
 /// Maximum number of triangles, and of vertices, in a compressed stream, independent of its header.
 const MAX_DECODED_ELEMENTS: u64 = 1 << 26;
@@ -75,7 +75,7 @@ pub fn decode(
         positions.map(|p: &[f32; 3]| DVec3::from_array(p.map(f64::from))).collect();
     let normals = values("NORMAL", 3)?.as_chunks().0.to_vec();
     let triangles: Vec<[u32; 3]> = mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
-    lattice::dequantize(&mut positions, &triangles, &normals);
+    quantization::dequantize(&mut positions, &triangles, &normals);
     Ok(VertexStreams {
         positions,
         normals,

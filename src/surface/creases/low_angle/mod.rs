@@ -7,10 +7,10 @@
 //!    centre line is drawn.
 //!
 //! Files, in reading order: [`surface_trace`] (step 1), [`continuation`] and [`shallow_creases`] (step 2),
-//! [`narrow_fillets`] and [`centre_lines`] (step 3).
+//! [`narrow_fillets`] and [`fillet_centre_lines`] (step 3).
 
-mod centre_lines;
 mod continuation;
+mod fillet_centre_lines;
 pub(crate) mod narrow_fillets;
 pub(crate) mod shallow_creases;
 pub(crate) mod surface_trace;

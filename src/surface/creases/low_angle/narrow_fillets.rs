@@ -6,7 +6,7 @@
 
 use crate::parallel::prelude::*;
 
-use super::centre_lines::{CentreEdge, centre_lines};
+use super::fillet_centre_lines::{CentreEdge, centre_lines};
 use super::surface_trace::{BentEdge, SurfaceTracer};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::Mesh;

@@ -1,4 +1,4 @@
-//! [`centre_lines`]: centre edges of fillets, kept where they form whole lines.
+//! [`fillet_centre_lines`]: centre edges of fillets, kept where they form whole lines.
 //!
 //! On decimated meshes single edges may look like the middle of a fillet. A centre line must run along the
 //! whole fillet, except for a corner at its ends.

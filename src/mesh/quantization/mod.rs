@@ -43,7 +43,7 @@ impl QuantizationLattice {
     ///
     /// ```
     /// use glam::DVec3;
-    /// use ligne::mesh::lattice::Lattice;
+    /// use ligne::mesh::quantization::Lattice;
     ///
     /// let on = |i: u32| DVec3::new(f64::from(i * 7 % 1024), f64::from(i * 5 % 256), 3.0) / 1023.0;
     /// let vertices: Vec<DVec3> = (0..1024).map(on).collect();

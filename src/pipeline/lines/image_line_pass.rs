@@ -41,7 +41,7 @@ pub(crate) fn joined<'a>(
     let edges = image::edges(&maps, &options.image);
     let found = image::trace(&surface.mesh, &maps, &edges, &options.image);
     let mut lines = lines.clone();
-    visibility::assembly::image_lines::join(
+    visibility::assembly::image_edges::join(
         map,
         &mut lines,
         &found,

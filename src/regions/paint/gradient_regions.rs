@@ -15,7 +15,7 @@ use kurbo::{Point, Vec2};
 use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
 use crate::regions::cells::border_arcs::{Borders, OUTSIDE_PATCH, RawArc};
-use crate::regions::cells::patches::Patches;
+use crate::regions::cells::label_components::Patches;
 use crate::regions::cells::triangulation::Triangulation;
 use crate::regions::labels::surface_label::SurfaceLabel;
 

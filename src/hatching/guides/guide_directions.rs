@@ -11,7 +11,7 @@ use kurbo::{Point, Vec2};
 
 use crate::hatching::tolerances;
 use crate::regions::LightLattice;
-use crate::regions::lattice::direction_field::{DirectionField, LineDirection};
+use crate::regions::sampling::direction_field::{DirectionField, LineDirection};
 
 /// Direction field of strokes over a page.
 #[derive(Debug, Clone)]
