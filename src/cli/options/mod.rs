@@ -3,14 +3,14 @@
 //! Doc comments of the arguments are the help text of the program.
 //!
 //! Files, in reading order:
-//! - [`draw_args`] holds all options of `ligne draw`, and `HowArgs`, which other commands flatten.
-//! - [`framing_args`] and [`section_args`]: view.
-//! - [`step_args`] holds STEP files.
-//! - [`dxf_args`], `print_args` and [`web_args`]: output.
-//! - [`batch_args`] holds several models.
-//! - [`contact_sheet_args`] holds sheets.
-//!
-//! [`values`] holds value types, and [`style_keys`] the keys after `--set`.
+//! - [`draw_args`]: all options of `ligne draw`, and `HowArgs`, the options shared with other commands.
+//! - [`framing_args`] and [`section_args`]: camera, sections and exploded views.
+//! - [`step_args`]: reading STEP files.
+//! - [`dxf_args`], `print_args` and [`web_args`]: DXF, PDF and web output.
+//! - [`batch_args`]: several models or views in one call, and watching.
+//! - [`contact_sheet_args`]: contact sheets of views or moments.
+//! - [`values`]: value types and their parsers.
+//! - [`style_keys`]: lists of the style keys for `--set`.
 
 pub(crate) mod batch_args;
 pub(crate) mod contact_sheet_args;

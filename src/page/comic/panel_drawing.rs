@@ -127,7 +127,7 @@ pub(crate) fn draw(
                 return Err(camera_spec::unknown_part(glob, &scene, source));
             }
         }
-        // Parts that break out are drawn beyond the panel, so the frame must be larger.
+        // Parts that break out are drawn outside the panel, so the frame must be larger.
         let beyond = if keys.breaking.is_empty() {
             0.0
         } else {
