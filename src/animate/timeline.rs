@@ -1,25 +1,29 @@
-//! [`Timeline`]: the frames of a film, their times, and which of them are drawn.
+//! [`Timeline`]: the frames of an animation, their times in seconds, and which of them are drawn. The others
+//! repeat the drawing before them, as in traditional animation "on twos".
 
 use super::tolerances::MAX_SPAN_ROUNDING_FRAMES;
 use crate::error::Error;
 
-/// Greatest number of frames, half a day of film.
+/// Maximum number of frames, half a day at 24 frames per second.
 const MAX_FRAMES: f64 = 1e6;
 
 /// Frames of equal length. Some repeat the drawing of the frame before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timeline {
+    /// Time of the first frame, seconds.
     from: f64,
     fps: f64,
+    /// Number of frames.
     frames: usize,
+    /// Number of frames that each drawing is shown.
     hold: usize,
 }
 
 impl Timeline {
     /// Frames between two times in seconds, `fps` per second.
     ///
-    /// The first frame lies at the start and none at the end, so that a cyclic clip loops. If the times are
-    /// equal, there is one frame.
+    /// There is a frame at the start but none at the end, so that a cyclic clip loops without a repeated
+    /// frame. If the times are equal, there is one frame.
     ///
     /// # Errors
     /// If a time is not finite, the end is before the start, there are too many frames, or the rate is not in
@@ -39,7 +43,7 @@ impl Timeline {
         Self::of_frames(frames as usize, from, fps)
     }
 
-    /// A number of frames from a time on.
+    /// A given number of frames, the first at `from` seconds.
     ///
     /// # Errors
     /// If there are no frames or too many, the time is not finite, or the rate is not in (0, 1000].

@@ -1,5 +1,5 @@
-//! Tolerances of animations.
+//! Tolerances for reading animation tracks.
 
-/// Minimum length of a quaternion that is normalised to a rotation. Files round the components of unit
-/// quaternions; a shorter one is zero, and its direction is rounding noise.
+/// Minimum length of a quaternion that is normalised to a rotation. A shorter one stands for zero: its
+/// direction is only the rounding of the file's components.
 pub(crate) const MIN_QUATERNION_LENGTH: f64 = 1e-6;

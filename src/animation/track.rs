@@ -1,4 +1,4 @@
-//! [`Track`]: values over time, interpolated between keys.
+//! [`Track`]: an animated property as keyframes: its values at key times, interpolated between them.
 //!
 //! Source: Khronos Group, glTF 2.0 specification, appendix C (interpolation modes).
 
@@ -19,18 +19,20 @@ pub enum Interpolation {
     CubicSpline,
 }
 
-/// Values over time.
+/// Keyframes of one animated property: one or several numbers per key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
+    /// Times of the keys, seconds.
     times: Vec<f64>,
+    /// Values of all keys in order; in cubic tracks with a tangent before and after each value.
     values: Vec<f64>,
-    /// Numbers per key.
+    /// Numbers per value, such as 3 for a translation.
     width: usize,
     interpolation: Interpolation,
 }
 
 impl Track {
-    /// Makes a track of keys at `times`, in seconds and not decreasing. The number of values per key follows
+    /// Creates a track with keys at `times`, in seconds and not decreasing. The numbers per value follow
     /// from the lengths. A cubic track has incoming tangent, value and outgoing tangent for each key.
     ///
     /// # Errors
@@ -57,7 +59,7 @@ impl Track {
         Ok(Self { times, values, width, interpolation })
     }
 
-    /// Number of values per key.
+    /// Numbers per value.
     #[must_use]
     pub const fn width(&self) -> usize {
         self.width
@@ -90,7 +92,8 @@ impl Track {
         }
     }
 
-    /// Last key at or before a time, and the share of the way to the next key with the duration between them.
+    /// Last key at or before a time. If the time lies between two keys, also the share of the way to the next
+    /// key, and the duration between them in seconds.
     fn between(&self, time: f64) -> (usize, Option<(f64, f64)>) {
         let after = self.times.partition_point(|key| *key <= time);
         let Some(k) = after.checked_sub(1) else { return (0, None) };

@@ -1,11 +1,14 @@
-//! Numbers, lists and plane geometry that every other area may import.
+//! Numerical and geometric helpers that know nothing about models or drawings. Every other module may import
+//! them.
 //!
-//! Nothing here depends on another room except the parallel loops, so results are the same on every machine
-//! and thread count.
+//! The only import from another module is `parallel`. Results are the same on every machine and with every
+//! number of threads.
 //!
-//! Folders, in reading order: [`numbers`] portable functions, powers of two, linear systems and noise;
-//! [`plane`] distances, convex hulls and zero lines of grids; [`lists`] lists of lists (CSR) and sets of
-//! bits; [`names`] name patterns and stable ids of named things. File: [`tolerances`].
+//! - [`numbers`]: portable functions, powers of two, linear systems and noise.
+//! - [`plane`]: distances, convex hulls and zero lines of grids.
+//! - [`lists`]: lists of lists (CSR) and bit sets.
+//! - [`names`]: name patterns and stable ids.
+//! - [`tolerances`]: thresholds that several modules share.
 
 #[cfg(test)]
 #[path = "../../tests/library/support/scenes/random_dice.rs"]

@@ -1,12 +1,15 @@
-//! Tolerances of numbers and plane geometry, and those that several rooms share.
+//! Tolerances of numbers and plane geometry, and those that several modules share. Every other top-level
+//! module has its own `tolerances.rs`.
 //!
-//! Every other room has its own `tolerances.rs`. Each tolerance is a fraction of a named length or angle, or
-//! a length in px of the page. `part` is the diagonal of the bounding box of the part in question, or of the
-//! larger part where two meet (see `mesh::part_metrics`). A 3 mm gear and a cathedral are therefore treated
-//! alike, and other parts of the model have no influence. Lengths in px of things in space are measured at
-//! their depth.
+//! Conventions of all these files:
+//!
+//! - A tolerance is a fraction of a named length or angle, or a length in px of the page.
+//! - `PART` in a name stands for the diagonal of the part's bounding box, or of the larger part where two
+//!   meet (see `mesh::part_metrics`). Results therefore do not depend on the model's scale or on its other
+//!   parts.
+//! - Lengths in space that are given in px are measured at their depth.
 
-/// Maximum distance between neighbouring `f32` numbers, as a fraction of the number.
+/// Maximum distance between neighbouring `f32` numbers, as a fraction of the number: 2^-23.
 pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
 
 /// A point within this distance of a projected triangle's border (px) is inside, so a line exactly behind an

@@ -1,6 +1,9 @@
-//! Regions: the parts of the page that look alike, with borders that neighbours share.
+//! Regions: areas of the page with one part, material and tone, with borders that neighbours share.
 //!
-//! 1. The visible lines that may separate two looks are snap-rounded to a grid (`arrangement`).
+//! Input: the visible lines of a view and the lit surface. Output: closed curves to fill, or the areas to
+//! hatch.
+//!
+//! 1. The visible lines that may separate two regions are snap-rounded to a grid (`arrangement`).
 //! 2. A constrained Delaunay triangulation of the page is cut along them (`cells`).
 //! 3. The face in front at the centre of each triangle gives the triangle a label (`labels`).
 //! 4. Connected triangles of one label form a region. Small ones are merged into a neighbour.
@@ -41,12 +44,12 @@ use labels::surface_label::NO_LABEL;
 /// Border between two regions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionBorder {
-    /// Curve in user units. Both regions are painted up to it.
+    /// Fitted curve in user units, the common border of both regions.
     pub path: BezPath,
-    /// Regions on both sides, the one on the right of the path on the page (y down) first. None outside the
-    /// page and for paper.
+    /// Indices of the regions on both sides, the one on the right of the path on the page (y down) first.
+    /// `None` for paper and outside the page.
     pub sides: [Option<u32>; 2],
-    /// Whether it is closed.
+    /// Whether the curve is closed.
     pub closed: bool,
 }
 
@@ -57,10 +60,10 @@ pub struct Region {
     pub look: SurfaceLabel,
     /// Area, user units squared.
     pub area: f64,
-    /// Loops around it and around its holes: indices into [`Regions::borders`], and whether each is passed
-    /// from its start.
+    /// Loops around it and around its holes: indices into [`Regions::borders`], and whether each border is
+    /// followed from start to end.
     pub loops: Vec<Vec<(u32, bool)>>,
-    /// Tones across it, if it joins several steps of light.
+    /// Gradient across it, if it joins several steps of light.
     pub ramp: Option<Ramp>,
 }
 
@@ -71,11 +74,12 @@ pub struct Regions {
     pub regions: Vec<Region>,
     /// All borders.
     pub borders: Vec<RegionBorder>,
-    /// Number of cells with different labels, because a line around them has a gap.
+    /// Number of cells whose triangles have different labels, because a line around the cell has a gap.
     pub leaks: u64,
 }
 
-/// Collects regions of equal label. Neighbours that differ in hatching bin only are one region.
+/// Collects the regions of a labelled page: connected areas of equal label. Neighbours that differ in
+/// hatching bin only are one region. `unit` is the user unit of the page.
 #[must_use]
 pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
     let (mut patches, table) = patches(seen, |look| SurfaceLabel { bin: 0, ..*look }, options, unit);
@@ -91,7 +95,7 @@ pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions
     regions(&seen.cut, &patches, &table, ramps, &drawn)
 }
 
-/// Collects regions after relabelling by `coarser`, which may make labels equal.
+/// Collects regions after mapping each label by `coarser`, which may make labels equal.
 pub(crate) fn gather_relabelled(
     seen: &LabelledPage,
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
@@ -104,7 +108,8 @@ pub(crate) fn gather_relabelled(
     regions(&seen.cut, &patches, &table, Vec::new(), &drawn)
 }
 
-/// Patches of equal label, with small ones merged, and the table of labels.
+/// Groups triangles into patches of equal label, and merges patches smaller than a crumb into a neighbour.
+/// Also returns the table of labels.
 fn patches(
     seen: &LabelledPage,
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
@@ -116,14 +121,14 @@ fn patches(
     (cells::label_components::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
 }
 
-/// Patch that each triangle is painted with.
+/// Index of the patch that each triangle is painted with.
 fn owners(patches: &cells::label_components::Patches) -> Vec<u32> {
-    // All paper counts as one patch, together with the outside of the page.
+    // Paper and the outside of the page are one patch, so that no border is drawn between them.
     let is_paper = |patch: u32| patches.looks[patch as usize] == NO_LABEL;
     patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
 }
 
-/// How borders are drawn.
+/// Scale and options for tracing borders.
 struct BorderDrawing<'a> {
     step: f64,
     leaks: u64,
@@ -132,7 +137,7 @@ struct BorderDrawing<'a> {
     unit: Unit,
 }
 
-/// Regions and borders of painted patches. `ramps` has one entry per patch, or none.
+/// Traces patches into regions and fitted borders. `ramps` has one entry per patch, or is empty.
 fn regions(
     cut: &Triangulation,
     patches: &cells::label_components::Patches,
@@ -166,7 +171,7 @@ fn regions(
     Regions { regions, borders, leaks: drawn.leaks }
 }
 
-/// Fitted curve of an arc.
+/// Fits a curve to a traced border, in user units.
 fn curve(cut: &Triangulation, arc: &RawArc, drawn: &BorderDrawing) -> BezPath {
     let at = |v: &u32| {
         let [x, y] = cut.points[*v as usize];

@@ -57,8 +57,8 @@ impl Warnings {
     }
 }
 
-/// Defects of one kind in a file. The first is described with its location, the others are only counted, so
-/// that many cost no more than one.
+/// Defects of one kind in a file. The first is described with its location; the others are only counted, so
+/// a file with many defects gives one short warning.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WarningExamples {
     first: Option<String>,

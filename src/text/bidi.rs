@@ -1,8 +1,11 @@
-//! Text direction: the embedding levels of characters, and their visual order.
+//! Order of mixed left-to-right and right-to-left text, such as Latin with Hebrew or Arabic.
 //!
-//! Source: Unicode Standard Annex 9, without explicit directional marks. Strong letters have the direction of
-//! their script, and numbers run to the right. Neutral characters follow their neighbours on both sides if
-//! these agree.
+//! Input: a line of text in reading order. Output: an embedding level per character, and the visual order of
+//! runs of equal level.
+//!
+//! Source: Unicode Standard Annex 9 (bidirectional algorithm), simplified: no explicit marks or isolates.
+//! Strong letters have the direction of their script, and numbers run to the right. Neutral characters follow
+//! their neighbours on both sides if these agree, and otherwise the base direction.
 
 /// Directional class of a character.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -13,6 +16,7 @@ enum BidiClass {
     Neutral,
 }
 
+/// Class of a character, from its code block: Hebrew, Arabic and related scripts run to the left.
 fn bidi_class(c: char) -> BidiClass {
     match c as u32 {
         0x660..=0x669 | 0x6f0..=0x6f9 => BidiClass::Number,
@@ -25,13 +29,15 @@ fn bidi_class(c: char) -> BidiClass {
     }
 }
 
-/// Whether the base direction is right to left, as that of the first strong letter.
+/// Whether the base direction of a text is right to left: the direction of its first strong letter (rule P2).
 pub(crate) fn runs_left(text: &str) -> bool {
     text.chars().map(bidi_class).find(|kind| matches!(kind, BidiClass::Left | BidiClass::Right))
         == Some(BidiClass::Right)
 }
 
-/// The embedding level of each character; even levels run to the right, odd ones to the left.
+/// The embedding level of each character. Even levels run to the right, odd ones to the left.
+///
+/// `base` is the level of the paragraph: 0 if it runs to the right, 1 if to the left.
 pub(crate) fn embedding_levels(text: &str, base: u8) -> Vec<u8> {
     let kinds: Vec<BidiClass> = text.chars().map(bidi_class).collect();
     if base == 0 && !kinds.contains(&BidiClass::Right) {
@@ -77,7 +83,7 @@ pub(crate) fn embedding_levels(text: &str, base: u8) -> Vec<u8> {
     levels
 }
 
-/// The indices of runs in visual order from the left, for their levels (rule L2).
+/// The indices of characters or runs in visual order from the left, from their levels (rule L2).
 pub(crate) fn visual_order(levels: &[u8]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..levels.len()).collect();
     let level = |number: &usize| levels.get(*number).copied().unwrap_or(0);

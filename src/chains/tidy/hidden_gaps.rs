@@ -1,7 +1,11 @@
-//! Bridges tiny hidden gaps in visible contours.
+//! Bridges tiny hidden gaps in visible smooth contours by marking them as visible.
 //!
-//! For a fraction of a px, mesh contours dip behind folds of the surface next to them. A pen would draw one
-//! line.
+//! On a mesh, a contour dips behind a fold of its own surface for a fraction of a px. On the smooth surface
+//! it would be one line.
+//!
+//! 1. Hidden runs shorter than a limit, between visible runs of one contour, are candidates.
+//! 2. Candidates that another surface hides are rejected ([`GapOcclusion`]).
+//! 3. The edges of the others are classified as visible.
 
 use crate::chains::link::directed_edge::DirectedEdge;
 use crate::chains::link::edge_class::EdgeClass;
@@ -9,19 +13,23 @@ use crate::chains::link::routes::Routes;
 use crate::lines::LineKind;
 use crate::visibility::{GapOcclusion, GapSegment, ViewMap};
 
-/// Run of route steps that are all hidden or all visible.
+/// Maximal run of route steps that are all hidden or all visible.
 #[derive(Debug, Clone, Copy)]
 struct VisibilityRun {
+    /// Index of the first step, and of the one after the last.
     first: usize,
     end: usize,
+    /// Length in the image.
     length: f64,
+    /// Whether the steps are hidden.
     value: bool,
 }
 
 /// Makes short hidden stretches of smooth contours visible.
 ///
 /// A stretch must be shorter than `gap`, lie between visible stretches, and be hidden by its own surface
-/// only. `routes` must join edges regardless of visibility.
+/// only. `routes` must join edges regardless of visibility. Without `ahead`, other surfaces are not tested.
+/// `classes` has one entry per view edge; `None` marks a dropped edge.
 pub(crate) fn bridge_gaps(
     map: &ViewMap,
     routes: &Routes,
@@ -45,6 +53,7 @@ pub(crate) fn bridge_gaps(
 /// Hidden stretch that may be bridged.
 struct HiddenGap {
     steps: Vec<DirectedEdge>,
+    /// The straight connection between its ends, for the occlusion test.
     way: GapSegment,
 }
 
@@ -73,7 +82,7 @@ fn gaps(
         if !run.value || !inner || run.length >= gap {
             continue;
         }
-        // Two short pieces are not joined by a longer gap between them.
+        // A gap longer than both visible runs next to it does not join them.
         if beside(i + count - 1).max(beside(i + 1)) < run.length {
             continue;
         }

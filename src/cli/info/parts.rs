@@ -1,4 +1,5 @@
-//! [`PartInfo`]: contents and precision of a part.
+//! [`PartInfo`]: one part of a model in the output of `ligne info`, as JSON or as a line of text: its
+//! contents, bounds and coordinate precision.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -10,7 +11,7 @@ use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
 use crate::scene::extent::drawn_points::DegenerateCounts;
 
-/// Contents and precision of a part.
+/// Contents, bounds and precision of a part, serialised as JSON.
 #[derive(Debug, Serialize)]
 pub(crate) struct PartInfo {
     pub name: String,
@@ -20,6 +21,7 @@ pub(crate) struct PartInfo {
     pub texture_coordinates: bool,
     /// Whether the part has vertex colours.
     pub vertex_colours: bool,
+    /// Triangles whose winding was reversed when the model was read.
     pub turned: TurnedInfo,
     /// World-space bounding box; none if nothing of the part is drawn.
     pub bounds: Option<PartBounds>,
@@ -34,7 +36,8 @@ pub(crate) struct PartBounds {
     max: [f64; 3],
 }
 
-/// Number of turned triangles, and of connected surfaces with turned triangles.
+/// Triangles that were wound inward or against their neighbours, and were reversed: their number, and the
+/// number of connected surfaces they belong to.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub(crate) struct TurnedInfo {
     pub triangles: u64,
@@ -42,7 +45,9 @@ pub(crate) struct TurnedInfo {
 }
 
 impl PartInfo {
-    /// Describes a part without its degenerate elements; none if the part does not exist.
+    /// Describes part `number` of a scene; `None` if there is no such part.
+    ///
+    /// `left_out` counts the degenerate elements of the part, which are not drawn. `turned` covers all parts.
     pub fn of(
         scene: &Scene,
         number: usize,
@@ -68,7 +73,7 @@ impl PartInfo {
         })
     }
 
-    /// Entry of the part in the text. A full entry includes bounds and precision.
+    /// Line of the part in the text output. A full line includes bounds and precision.
     pub fn line(&self, is_full: bool) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
         let painted = match (self.texture_coordinates, self.vertex_colours) {
@@ -87,7 +92,7 @@ impl PartInfo {
 }
 
 impl PartBounds {
-    /// Size and corners as text: `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`
+    /// Size and corners as text: `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`.
     fn words(&self) -> String {
         let size: Vec<String> = self.min.iter().zip(self.max).map(|(low, high)| short(high - low)).collect();
         let corner = |corner: [f64; 3]| corner.map(short).join(", ");
@@ -104,7 +109,7 @@ impl TurnedInfo {
         })
     }
 
-    /// The counts as text; none if nothing is turned.
+    /// The counts as text; `None` if no triangle was reversed.
     pub fn words(&self) -> Option<String> {
         let Self { triangles, surfaces } = *self;
         let is_any = triangles > 0;

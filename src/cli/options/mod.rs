@@ -3,14 +3,16 @@
 //! Doc comments of the arguments are the help text of the program.
 //!
 //! Files, in reading order:
-//! - [`draw_args`] holds all options of `ligne draw`, and `HowArgs`, which other commands flatten.
-//! - [`framing_args`] and [`section_and_explode_args`]: view.
-//! - [`step_args`] holds STEP files.
-//! - [`dxf_args`], `print_args` and [`web_args`]: output.
-//! - [`batch_args`] holds several models.
-//! - [`contact_sheet_args`] holds sheets.
-//!
-//! [`values`] holds value types, and [`style_keys`] the keys after `--set`.
+//! - [`draw_args`] holds the options of `ligne draw`, and `HowArgs`, which other commands share. Both are made
+//!   of the files below.
+//! - [`framing_args`] holds camera and frame.
+//! - [`section_and_explode_args`] holds `--section`, `--uncut`, `--explode` and `--explode-part`.
+//! - [`step_args`] holds the converter of STEP files.
+//! - [`dxf_args`], `print_args` and [`web_args`] hold DXF, PDF and web output.
+//! - [`batch_args`] holds several models or views in one call, and watching.
+//! - [`contact_sheet_args`] holds contact sheets of views or moments.
+//! - [`values`] holds value types and their parsers.
+//! - [`style_keys`] lists the style keys for `--set`.
 
 pub(crate) mod batch_args;
 pub(crate) mod contact_sheet_args;

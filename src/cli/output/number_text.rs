@@ -1,4 +1,4 @@
-//! Numbers formatted for messages.
+//! Formats numbers for the text output of the program: counts, file sizes, lengths and coordinates.
 
 use crate::cli::tolerances::MIN_DECIMAL_NUMBER;
 

@@ -1,4 +1,7 @@
-//! Total ink by layer, class and part.
+//! Totals of a comparison: number of marks, line length and filled area before and after, by layer, class and
+//! part.
+//!
+//! They are part of the reports of `ligne diff` and show at a glance where ink was added or removed.
 
 use std::collections::BTreeMap;
 
@@ -8,32 +11,32 @@ use crate::diff::curves::region_area::area;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::diff::tolerances;
 
-/// Ink of some marks before and after; lengths in px, areas in square px.
+/// Ink of a set of marks, before and after. Lengths are in px, areas in square px.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Measure {
     /// Number of marks.
     pub marks: [usize; 2],
     /// Length of lines.
     pub length: [f64; 2],
-    /// Area of regions. Overlaps are counted twice.
+    /// Area of filled regions. Overlapping areas count once per region.
     pub area: [f64; 2],
 }
 
-/// Ink by name; marks without a name have an empty name.
+/// Ink by layer, class and part. The key of marks without a name is empty.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Totals {
     /// All marks.
     pub all: Measure,
     /// By layer.
     pub layers: BTreeMap<String, Measure>,
-    /// By class; of several classes, the first other than `silhouette`.
+    /// By class. A mark with several classes counts under the first one other than `silhouette`.
     pub classes: BTreeMap<String, Measure>,
     /// By part.
     pub parts: BTreeMap<String, Measure>,
 }
 
 impl Totals {
-    /// Totals of two pictures.
+    /// Sums up the marks of two drawings. Clip paths are not counted.
     pub(crate) fn of(before: &Picture, after: &Picture) -> Self {
         let mut totals = Self::default();
         for (side, picture) in [before, after].into_iter().enumerate() {

@@ -1,4 +1,16 @@
-//! Pairs of chains that may be the same mark before and after.
+//! Pairs polylines (chains) of the old and the new drawing that are the same mark, moved or reshaped.
+//!
+//! Input: the chains of both drawings in px, with the stretches that the other drawing already covers.
+//! Output: one-to-one pairs of chains that are not completely covered.
+//!
+//! 1. Candidates: for each chain, the nearest chains of the other drawing around a few sample points, and the
+//!    chains that cover a part of it. The ones with the nearest ends are kept.
+//! 2. Each candidate pair is aligned. Its cost is the largest distance of corresponding points, increased if
+//!    label or ink differ, and reduced by the share that coincides.
+//! 3. Pairs are taken greedily, lowest cost first.
+//! 4. Each closed chain that is left is paired with the only congruent one in the other drawing, at any
+//!    distance.
+//! 5. The n-th copies of a chain are paired like the first ones.
 
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -19,21 +31,21 @@ use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
 /// Largest distance between an old and a new mark, as a share of the page's longer side.
 const MAX_SHIFT_PAGE_SHARE: f64 = 0.03;
-/// Distance always allowed for short marks, as a share of the page's longer side.
+/// Distance that is always allowed, even for tiny marks, as a share of the page's longer side.
 const MIN_SHIFT_PAGE_SHARE: f64 = 0.006;
 /// Largest distance as a share of the mark's own size.
 const MAX_SHIFT_MARK_SHARE: f64 = 0.5;
-/// Two chains that coincide over this share are one mark, at any distance of the rest.
+/// Two chains that coincide over this share of their length are the same mark, however far apart the rest is.
 const MIN_COMMON_SHARE: f64 = 0.2;
-/// Most sample points per chain when looking for candidates.
+/// Maximum number of sample points per chain when searching for candidates.
 const SAMPLES_PER_CHAIN: usize = 5;
 /// Neighbours searched per sample point.
 const NEIGHBOURS_PER_SAMPLE: usize = 4;
-/// Most candidates aligned per chain.
+/// Maximum number of candidates aligned per chain.
 const MAX_CANDIDATES: usize = 6;
-/// Most closed chains of similar length compared with each chain.
+/// Maximum number of closed chains of similar length compared with each chain.
 const MAX_CONGRUENT: usize = 64;
-/// Most segments visited per sample point. Where thousands coincide, any of them will do.
+/// Maximum number of segments visited per sample point. Where thousands coincide, any of them will do.
 const MAX_SEGMENTS_PER_SAMPLE: usize = 512;
 
 /// The chains of one drawing and their covers by the other drawing.
@@ -45,7 +57,7 @@ pub(crate) struct CoveredChains {
     pub covers: Vec<ChainCover>,
 }
 
-/// Two chains that are the same mark.
+/// Two chains that are the same mark: indices in the old and the new drawing.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChainPair {
     pub old: usize,
@@ -54,7 +66,7 @@ pub(crate) struct ChainPair {
     cost: f64,
 }
 
-/// Pairs chains with uncovered runs one to one, lowest cost first.
+/// Pairs chains with uncovered runs one to one, lowest cost first. `page` is the page's longer side in px.
 pub(crate) fn pairs(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) -> Vec<ChainPair> {
     let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
@@ -158,8 +170,8 @@ fn congruent(
     pairs
 }
 
-/// Order of pairs with equal cost, independent of the order of the drawings: by the lesser start, then by the
-/// greater one.
+/// Order of pairs with equal cost: by the lesser start point of both chains, then by the greater one. It is
+/// the same if the drawings are swapped.
 fn tie(sides: &[CoveredChains; 2], a: &ChainPair, b: &ChainPair) -> Ordering {
     let key = |pair: &ChainPair| {
         let start = |side: usize, index: usize| {
@@ -172,7 +184,8 @@ fn tie(sides: &[CoveredChains; 2], a: &ChainPair, b: &ChainPair) -> Ordering {
     key(a).cmp(&key(b)).then((a.old, a.new).cmp(&(b.old, b.new)))
 }
 
-/// Uncovered chains of the other drawing that are near a chain.
+/// Indices of the chains of the other drawing that are near a chain or cover a part of it, among the
+/// uncovered ones in `bare`. `reach` is the largest distance in px.
 fn candidates(
     side: &CoveredChains,
     index: usize,
@@ -218,7 +231,8 @@ fn candidates(
     found
 }
 
-/// Squared distance of the ends of two chains, at least 0: a cheap estimate for ranking candidates.
+/// Sum of the squared distances between the ends of two chains: a cheap estimate for ranking candidates. The
+/// second end of a closed chain is its middle point.
 fn ends_apart(a: &Chain, b: &Chain) -> f64 {
     let ends = |chain: &Chain| {
         let start = chain.points.first().copied().unwrap_or(Point::ZERO);
@@ -230,7 +244,7 @@ fn ends_apart(a: &Chain, b: &Chain) -> f64 {
     forth.min(a0.distance_squared(b1) + a1.distance_squared(b0))
 }
 
-/// The pair with its cost; `None` if the two cannot be the same mark.
+/// Aligns two chains and computes the cost of the pair; `None` if they cannot be the same mark.
 fn judge(
     sides: &[CoveredChains; 2],
     old: usize,

@@ -1,6 +1,12 @@
-//! Intervals of each chain that lie within tolerance of the other drawing.
+//! Finds which stretches of each polyline (chain) of one drawing coincide with lines of the other drawing.
 //!
-//! Each pair of near segments gives one exact interval (`capsule_interval`). No sampling is needed.
+//! Input: the chains of both drawings, in px. Output: a [`ChainCover`] per chain, a partition of its arc
+//! length into covered and uncovered runs. Uncovered runs become findings of `ligne diff`.
+//!
+//! 1. Each pair of near segments gives one exact interval within the tolerance (`capsule_interval`). No
+//!    sampling is needed.
+//! 2. Where intervals overlap, the one with the best likeness counts: same label and ink before others.
+//! 3. Short runs where another line merely crosses the chain are absorbed by the runs around them.
 
 use crate::diff::tolerances;
 use crate::parallel::prelude::*;
@@ -12,12 +18,11 @@ use crate::diff::curves::segment_clusters::ClusterVisit;
 use crate::diff::curves::segment_grid::SegmentGrid;
 use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
-/// Runs shorter than this many tolerances between two runs of equal likeness come from lines that merely
-/// cross the chain.
+/// Largest length of a run between two runs of equal likeness that counts as a mere crossing, in tolerances.
 const MAX_CROSSING_TOLERANCES: f64 = 6.0;
-/// Number of segments searched for an identical mark in a dense place. After that, any mark counts.
+/// Number of segments tested for an identical mark in a dense place. After that, any mark counts.
 const MAX_SEGMENT_QUERIES: usize = 4096;
-/// Most runs stored for all copies of a line.
+/// Most runs stored for all copies of a line. Covers of lines with more are reduced to one run.
 const MAX_COPIED_PIECES: usize = 4_000_000;
 
 /// A run of a chain, by arc length in px.
@@ -27,7 +32,7 @@ pub(crate) struct CoverRun {
     pub to: f64,
     /// Best likeness of the marks there in the other drawing; `None` where there is none.
     pub likeness: Option<Likeness>,
-    /// Number of the chain there in the other drawing.
+    /// Index of that chain in the other drawing; 0 if uncovered.
     pub partner: u32,
 }
 
@@ -42,8 +47,8 @@ impl CoverRun {
 pub(crate) struct ChainCover {
     /// Runs from start to end, without gaps.
     pub runs: Vec<CoverRun>,
-    /// The covering chains, the one with the greatest covered length first. Each has its best likeness and
-    /// the length it covers.
+    /// The covering chains, the one with the greatest covered length first: index, best likeness, and covered
+    /// length in px.
     pub partners: Vec<(u32, Likeness, f64)>,
     /// Length of the chain in px.
     pub length: f64,
@@ -107,9 +112,11 @@ impl ChainCover {
     }
 }
 
-/// Covers each chain of `here` by the chains of `there`, whose segments are in `grid`. Each chain list comes
-/// with the index of the first copy of each chain. The grid contains first copies only, and a copy is covered
-/// by the copy of the same rank.
+/// Covers each chain of `here` by the chains of `there`, whose segments are in `grid`.
+///
+/// Each list of chains comes with the index of the first identical copy of each chain. Copies follow their
+/// first copy directly. The grid contains first copies only; the n-th copy of a chain is covered by the n-th
+/// copy of its partner.
 pub(crate) fn cover(
     here: (&[Chain], &[usize]),
     there: (&[Chain], &[usize]),
@@ -154,7 +161,7 @@ pub(crate) fn cover(
 #[derive(Default)]
 struct CoverScratch {
     near: Vec<u32>,
-    /// Likeness to each group seen so far.
+    /// Likeness of the current chain to each group seen so far.
     likeness: Vec<(usize, Option<Likeness>)>,
     intervals: Vec<CoverInterval>,
 }
@@ -199,16 +206,17 @@ impl CoverScratch {
     }
 }
 
-/// Covered shares of a segment in a place too dense to test all other segments.
+/// Parameter ranges, 0 to 1, of a segment that are covered, in a place too dense to test all other segments.
 #[derive(Default)]
 struct DenseCover {
     seen: usize,
-    /// Disjoint shares in increasing order.
+    /// Disjoint ranges in increasing order.
     shares: Vec<(f64, f64)>,
 }
 
 impl DenseCover {
-    /// Adds a covered share: of identical marks only, and after `MAX_SEGMENT_QUERIES` tests of any mark.
+    /// Adds a covered range. Only identical marks count until `MAX_SEGMENT_QUERIES` tests; after that, any
+    /// mark does.
     fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
         self.seen += 1;
         let Some((likeness, (mut from, mut to))) = found else { return };
@@ -223,7 +231,7 @@ impl DenseCover {
         self.shares.insert(first, (from, to));
     }
 
-    /// Whether a share is covered completely.
+    /// Whether a range is covered completely.
     fn covers(&self, (from, to): (f64, f64)) -> bool {
         let at = self.shares.partition_point(|share| share.1 < to);
         self.shares.get(at).is_some_and(|share| share.0 <= from)
@@ -275,7 +283,7 @@ fn cover_chain(
         }
         for item in near.iter().filter(|_| !crowd) {
             let found = scratch.add_segment(&here, chain, others, grid, groups, *item);
-            // Among identical marks the first one counts.
+            // An identical mark that covers the whole segment cannot be improved on.
             if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
                 break;
             }
@@ -286,7 +294,7 @@ fn cover_chain(
     }
     merge(&mut cover.runs);
     let most = MAX_CROSSING_TOLERANCES * tolerance;
-    // Absorb crossings in uncovered runs first, because the rest may separate other runs.
+    // Crossings of uncovered stretches go first, because they may separate runs of equal likeness.
     absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
     absorb(&mut cover.runs, most, |run, around| {
         run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
@@ -295,7 +303,7 @@ fn cover_chain(
     cover
 }
 
-/// Partitions `start`–`end` into runs, each with the best interval that covers it.
+/// Partitions the arc lengths `start`–`end` into runs, each with the best interval that covers it.
 fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], out: &mut Vec<CoverRun>) {
     if start == end {
         // A point is covered or not.
@@ -353,7 +361,8 @@ fn merge(runs: &mut Vec<CoverRun>) {
     });
 }
 
-/// Absorbs short runs between two runs of equal likeness.
+/// Absorbs runs of at most `most` px between two runs of equal likeness. `gives` receives the short run and
+/// the run before it, and returns whether it may be absorbed.
 fn absorb(runs: &mut Vec<CoverRun>, most: f64, gives: impl Fn(&CoverRun, &CoverRun) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {

@@ -1,9 +1,14 @@
-//! Sliding minima and maxima over square windows, in time independent of the window size.
+//! Minimum or maximum over a square window around each pixel, in time independent of the window size
+//! (grey-scale erosion and dilation).
+//!
+//! The pixel comparison calls a pixel different only if its value lies outside the range of values near it in
+//! the other drawing. This file computes that range for one channel.
 
-/// Extreme of the items within `reach` of each item of a list, by `pick`.
+/// For each item of a list, the extreme of the items within `reach` of it. `pick` returns the extreme of two
+/// values.
 ///
-/// Source: van Herk 1992; Gil and Werman 1993. Two running extremes are kept within blocks as long as the
-/// window.
+/// Source: van Herk 1992; Gil and Werman 1993. The list is divided into blocks as long as the window. A
+/// window meets at most two blocks, so a running extreme from each end of the blocks is enough.
 fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
     let window = 2 * reach + 1;
     let count = values.len();
@@ -34,7 +39,11 @@ fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
         .collect()
 }
 
-/// Extreme of the square window around each pixel.
+/// For each pixel, the extreme of the pixels within `reach` rows and columns of it. `pick` is `u8::min` or
+/// `u8::max`.
+///
+/// `values` holds the image row by row, `columns` values per row. The result has the same layout. Rows are
+/// filtered first, then columns.
 pub(crate) fn square_extremes(
     values: &[u8],
     columns: usize,

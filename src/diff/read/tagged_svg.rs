@@ -1,5 +1,12 @@
-//! The XML of a file, written again for usvg. Every shape gets an id, and its label is stored under this id.
-//! Texts, pictures and everything that usvg would drop or load from disk become rectangles.
+//! Rewrites an SVG file for usvg, so that each shape can be traced back to its label after parsing.
+//!
+//! usvg keeps ids but drops classes and `data-` attributes. It also needs fonts and image decoders for texts
+//! and pictures. Therefore:
+//!
+//! - Every shape gets an id. Its layer, classes, part and other origin data are stored under that id.
+//! - Style-sheet declarations move to the elements they apply to, within limits on their number.
+//! - Texts and pictures become rectangles whose gradient encodes their content.
+//! - Numbers out of range are refused, and the precision of the coordinates is recorded.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -19,7 +26,7 @@ use crate::error::Error;
 
 /// Elements that draw shapes.
 const SHAPE_ELEMENTS: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
-/// Attributes with coordinates.
+/// Attributes that hold coordinates, which must be in range.
 const POSITION_ATTRIBUTES: [&str; 16] = [
     "d",
     "points",
@@ -45,13 +52,14 @@ const BOX_ATTRIBUTES: [&str; 6] = ["id", "x", "y", "width", "height", "transform
 /// Properties copied to that rectangle, because they change its visibility.
 const BOX_STYLE_PROPERTIES: [&str; 8] =
     ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
+
 /// Data of a shape other than geometry and paint.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ShapeOrigin {
     pub label: Arc<Label>,
     pub tone: Option<u16>,
     pub invisibility: u16,
-    /// Axis of a line drawn as an outline, as path data, and its mean width.
+    /// Centre line of a variable-width stroke, as path data, and its mean width.
     pub axis: Option<(String, f64)>,
     /// Description of a text or a picture.
     pub words: Option<Arc<str>>,
@@ -64,22 +72,27 @@ pub(crate) struct ShapeOrigin {
 /// A file prepared for usvg.
 #[derive(Debug, Default)]
 pub(crate) struct TaggedSvg {
+    /// The rewritten file.
     pub svg: String,
+    /// Data of each shape by its id.
     pub origins: FxHashMap<String, ShapeOrigin>,
     /// Largest number of decimals of a coordinate.
     pub decimals: u8,
     /// Whether any path has arcs.
     pub arcs: bool,
     pub unit: Unit,
-    /// Whether style sheets have rules that are not applied.
+    /// Whether style sheets have rules that are not supported and were not applied.
     pub has_more: bool,
-    /// Gradients that encode the descriptions of texts and pictures.
+    /// Definitions of the gradients that encode the content of texts and pictures.
     gradients: String,
     /// Whether the file has texts or pictures.
     has_stand_ins: bool,
 }
 
-/// Writes a document for usvg.
+/// Rewrites a document for usvg.
+///
+/// # Errors
+/// If a number or a style exceeds the limits.
 pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
     let mut markup = TaggedSvg::default();
     let root = document.root_element();
@@ -95,7 +108,7 @@ pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
 }
 
 impl TaggedSvg {
-    /// Writes an element with its declarations from the style sheets.
+    /// Writes an element, its declarations from the style sheets, and its children.
     fn element(&mut self, node: Node, around: &InheritedContext, cascade: &mut Cascade) -> Result<(), Error> {
         let declared = cascade.enter(node)?;
         let name = node.tag_name().name();
@@ -111,7 +124,7 @@ impl TaggedSvg {
         Ok(())
     }
 
-    /// Writes an SVG element and its children.
+    /// Writes an SVG element that is neither a text nor a picture, and its children.
     fn plain(
         &mut self,
         node: Node,
@@ -211,7 +224,7 @@ impl TaggedSvg {
         let id = match node.attribute("id") {
             Some(id) => id.to_owned(),
             None => {
-                // No hand-written id starts with this character.
+                // A middle dot: no hand-written id is expected to start with it.
                 let id = format!("\u{b7}{}", self.origins.len());
                 let _ = write!(self.svg, " id=\"{id}\"");
                 id

@@ -1,4 +1,8 @@
-//! Straight lines and arcs fitted to a path, each as long as the tolerance allows.
+//! Fits straight lines and circular arcs to a path, each as long as the tolerance allows. Many cutting and
+//! milling programs cannot read splines from DXF files, so curves are exported in this form.
+//!
+//! Input: a Bézier path, a transform and a tolerance in transformed units. Output: per subpath, a circle or a
+//! run of lines and arcs.
 //!
 //! 1. Cubics that stand for arcs become these arcs ([`PathSteps`]).
 //! 2. Other curves are flattened finely. From each point, the longest line or arc is taken whose distance to
@@ -14,7 +18,7 @@ use crate::export::tolerances;
 use crate::geometry::numbers::portable_math::{atan2, tan};
 use crate::geometry::plane::planar_distance::fit_circle_centre;
 
-/// A stroke without lifting the pen.
+/// Fitted form of one subpath.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FittedCurve {
     Circle { centre: Point, radius: f64 },
@@ -35,19 +39,20 @@ const FLATTENING_SHARE: f64 = 0.1;
 /// uncertain.
 const MAX_ARC_RAD: f64 = 6.0;
 
-/// Largest angle between corners of a polygon that stands for a circle, in radians.
+/// Largest angle between the corners of a polygon that approximates a circle, in radians.
 const MAX_FACET_RAD: f64 = 0.27;
-/// Largest distance of its chords from the circle, in tolerances.
+/// Largest distance between such a polygon's chords and the circle, in tolerances.
 const MAX_FACET_RISE_TOLERANCES: f64 = 2.5;
 
-/// Largest distance of a closed curve from a full circle, in tolerances. Curves are fitted to chains in two
-/// halves.
+/// Largest distance of a closed curve from a full circle, in tolerances. It exceeds 1, because closed chains
+/// are fitted in two halves, which may each deviate.
 const MAX_CIRCLE_OFFSET_TOLERANCES: f64 = 1.5;
 
 /// Fewest points of a flattened circle.
 const MIN_CIRCLE_POINTS: usize = 8;
 
-/// Lines and arcs of a path, transformed by `place`, within `tolerance` in units after the transform.
+/// Fits lines and arcs to each subpath of a path transformed by `place`. `tolerance` is the largest distance,
+/// in units after the transform. Subpaths with points that are not finite are left out.
 pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<FittedCurve> {
     let within = tolerance * (1.0 - FLATTENING_SHARE);
     let moved = place * path;
@@ -60,7 +65,7 @@ pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Fitte
         .collect()
 }
 
-/// The curve of a subpath with recovered arcs.
+/// Fits a subpath in which arcs were recovered. The parts between the arcs are fitted separately.
 fn with_arcs(own: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
     if !own.points().iter().all(|point| point.is_finite()) {
         return None;
@@ -85,7 +90,8 @@ fn with_arcs(own: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
     Some(FittedCurve::Run { start: own.start, pieces: found, closed: own.closed })
 }
 
-/// The curve through points without repeated neighbours; a closed curve returns to the first point.
+/// Fits a flattened subpath without repeated neighbours. `None` if it has fewer than two points, or points
+/// that are not finite.
 fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<FittedCurve> {
     if points.iter().any(|point| !point.is_finite()) {
         return None;
@@ -106,7 +112,7 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<FittedC
         return Some(FittedCurve::Circle { centre, radius });
     }
     points.push(start);
-    // A closed line may start anywhere, even inside an arc. Start again at the end of the first piece.
+    // A closed line may start inside an arc. Start again at the end of the first piece.
     let first = pieces(&points, tolerance).first().map_or(start, |piece| piece.end);
     if let Some(turn) = points.iter().position(|point| *point == first).filter(|at| *at + 1 < points.len()) {
         points.pop();
@@ -117,7 +123,7 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<FittedC
     Some(FittedCurve::Run { start, pieces: pieces(&points, tolerance), closed })
 }
 
-/// Lines and arcs through all points in order.
+/// Greedy fit of lines and arcs through all points in order. Lines have bulge 0.
 fn pieces(points: &[Point], tolerance: f64) -> Vec<FittedPiece> {
     let mut pieces = Vec::new();
     let mut at = 0;
@@ -131,8 +137,8 @@ fn pieces(points: &[Point], tolerance: f64) -> Vec<FittedPiece> {
     pieces
 }
 
-/// Farthest index that one piece from a point can reach, at least the next one: doubling steps, then
-/// bisection.
+/// Index of the farthest point that one piece from the point `from` can reach, and the bulge of that piece.
+/// Searched by doubling steps from `least`, then bisection. `fits` returns the bulge if a piece fits.
 fn furthest(
     points: &[Point],
     from: usize,
@@ -176,8 +182,8 @@ fn is_straight(run: &[Point], tolerance: f64) -> bool {
         && places.clone().zip(places.skip(1)).all(|(a, b)| b > a)
 }
 
-/// Bulge of an arc from the first to the last point that passes all others. The arc goes through one of three
-/// inner points.
+/// Bulge of an arc from the first to the last point that passes all others within the tolerance. Arcs through
+/// the middle point and the two quarter points are tried.
 fn arc(run: &[Point], tolerance: f64) -> Option<f64> {
     let (first, last) = (*run.first()?, *run.last()?);
     [2, 1, 3].into_iter().find_map(|quarter| {
@@ -188,7 +194,7 @@ fn arc(run: &[Point], tolerance: f64) -> Option<f64> {
     })
 }
 
-/// Circle through all points of a closed curve that goes round it once.
+/// Centre and radius of the circle that a closed curve follows exactly once; `None` if it is not a circle.
 fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     let count = points.len();
     if count < MIN_CIRCLE_POINTS {
@@ -204,7 +210,8 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     ((turn.abs() - std::f64::consts::TAU).abs() < tolerances::MAX_TURN_ROUNDING_RAD).then_some((centre, mean))
 }
 
-/// Total angle of points around a centre, always in one direction, with all chords near the circle.
+/// Total angle of points around a centre, radians. `None` if they change direction, or a chord is farther
+/// than the tolerance from the circle.
 fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let mut turn = 0.0;
     for pair in run.windows(2) {
@@ -217,8 +224,8 @@ fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Opti
     Some(turn)
 }
 
-/// The same for a polygon that stands for a circle: its chords may be further inside, if they turn by similar
-/// angles.
+/// The same for a polygon that approximates a circle. Its chords may lie farther inside, if they turn by
+/// similar angles.
 fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
     for pair in run.windows(2) {
@@ -235,11 +242,11 @@ fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> 
 
 /// A chord compared with a circle.
 struct Chord {
-    /// Angle in radians.
+    /// Angle it subtends at the centre, radians, positive from x to y.
     step: f64,
-    /// Distance of its ends from the circle.
+    /// Larger distance of its ends from the circle.
     off: f64,
-    /// Distance of its middle from that of the arc.
+    /// Sagitta: distance between the middle of the chord and that of the arc.
     rise: f64,
 }
 
@@ -261,7 +268,7 @@ fn centre_of(a: Point, b: Point, c: Point) -> Option<Point> {
     (twice != 0.0 && to.is_finite()).then(|| a + to)
 }
 
-/// Centre and radius of an arc.
+/// Centre and radius of the arc from `start` that `piece` describes. The bulge must not be 0.
 pub(crate) fn circle_of(start: Point, piece: FittedPiece) -> (Point, f64) {
     let chord = piece.end - start;
     // The height of the arc over its chord is half the chord times the bulge.

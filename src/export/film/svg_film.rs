@@ -1,4 +1,4 @@
-//! Animated SVG.
+//! [`SvgFilm`]: writes the frames of an animation as one animated SVG file.
 //!
 //! Every frame is a group inside `defs`. One `use` shows the frames in turn through a discrete `animate` of
 //! its `xlink:href`. This plays in browsers, also inside `img`, and programs without animation show the first
@@ -55,7 +55,7 @@ impl SvgFilm {
         }
     }
 
-    /// Adds a frame that is shown for `ticks` ticks.
+    /// Adds a frame that is shown for `ticks` ticks. A frame equal to an earlier one is stored once.
     pub fn push(&mut self, drawing: &Drawing, ticks: u32) {
         let precision = self.options.precision.unwrap_or(match drawing.page.unit {
             Unit::Px => DEFAULT_DECIMALS[0],
@@ -117,7 +117,7 @@ impl SvgFilm {
         out
     }
 
-    /// Writes the animation of the frames.
+    /// Writes the `animate` element that switches frames; nothing for a still film.
     fn animate(&self, out: &mut String) {
         let all: u64 = self.shown.iter().map(|(_, ticks)| u64::from(*ticks)).sum();
         if self.shown.len() < 2 {
@@ -163,9 +163,10 @@ fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Shared content and how it is referenced.
+/// Paths that several frames share, and how each path is written.
 struct SharedPaths<'a> {
     prefix: &'a str,
+    /// Lists of shapes that always occur together.
     runs: Vec<Vec<usize>>,
     /// One entry per shape.
     roles: Vec<PathRole>,
@@ -185,6 +186,7 @@ enum PathRole {
 }
 
 impl<'a> SharedPaths<'a> {
+    /// Decides how each shape is written. `prefix` is the prefix of all ids.
     fn of(frames: &[Vec<FrameToken>], tokens: &FrameTokens, prefix: &'a str) -> Self {
         let shapes = &tokens.shapes;
         let role = |shape: &TokenPath| {
@@ -222,6 +224,7 @@ impl<'a> SharedPaths<'a> {
         }
     }
 
+    /// Writes a frame with references to shared content.
     fn write(&self, out: &mut String, frame: &[FrameToken], tokens: &FrameTokens) {
         for token in frame {
             let (number, place) = match token {

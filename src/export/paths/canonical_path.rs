@@ -1,8 +1,11 @@
-//! Canonical form of a path: rounded, without zero-length pieces, and with a start and direction independent
-//! of how the path was written.
+//! Writes a path as SVG path data in canonical form, so that equal shapes give equal text. Drawings can then
+//! be compared line by line.
 //!
-//! Coordinates are rounded on the page, and everything else is decided on the rounded ones. So text that is
-//! read back is already in canonical form.
+//! 1. Coordinates are rounded to the written precision. All later steps use the rounded values, so text that
+//!    is read back is already in canonical form.
+//! 2. Pieces of zero length are dropped.
+//! 3. Closed subpaths start at their least point, and solid lines run in the direction that sorts first.
+//!    Which of these changes is allowed depends on how the path is painted ([`PathForm`]).
 
 use std::cmp::Ordering;
 
@@ -15,11 +18,13 @@ use crate::export::encoding::decimals::Decimals;
 /// The changes to a path that do not affect how it is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PathForm {
-    /// None, except dropping zero-length pieces. Dashes and pen plotters depend on start and direction.
+    /// None, except dropping zero-length pieces: for dashes and pen plotters, which depend on start and
+    /// direction.
     Kept,
-    /// Start and direction: a solid line.
+    /// Start of closed subpaths, and direction: for solid lines.
     Stroked,
-    /// Start of closed subpaths. Direction matters, because it distinguishes holes from islands.
+    /// Start of closed subpaths: for fills. Their direction is kept, because it distinguishes holes from
+    /// islands.
     Filled,
 }
 
@@ -28,12 +33,17 @@ pub(crate) enum PathForm {
 pub(crate) struct CanonicalWriter {
     decimals: Decimals,
     form: PathForm,
-    /// Start, current point and pieces of the current subpath.
+    /// Start of the current subpath; `None` between subpaths.
     begun: Option<PathPoint>,
+    /// Current point.
     pen: PathPoint,
+    /// Pieces of the current subpath.
     pieces: Vec<PathPiece>,
+    /// Buffer for the reversed subpath.
     turned: Vec<PathPiece>,
+    /// Start point of the path as written.
     first: Option<PathPoint>,
+    /// Whether points of the path were dropped.
     lost: bool,
 }
 
@@ -51,12 +61,13 @@ impl CanonicalWriter {
         }
     }
 
-    /// A point on the grid of the written precision.
+    /// Rounds a point to the written precision.
     pub fn step(&self, point: Point) -> PathPoint {
         PathPoint { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
     }
 
-    /// Writes the `d` of a path, and returns its start point.
+    /// Writes the path data (`d`) of a path, and returns the start point as written; `None` for an empty
+    /// path.
     pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: PathForm) -> Option<PathPoint> {
         let mut writer = PathWriter::new(out, self.decimals);
         self.form = form;
@@ -81,7 +92,7 @@ impl CanonicalWriter {
         self.first
     }
 
-    /// Whether points of the last path were dropped, where markers may have been.
+    /// Whether points of the last path were dropped. A file may have had markers there.
     #[cfg(feature = "diff")]
     pub fn has_lost_points(&self) -> bool {
         self.lost
@@ -148,8 +159,10 @@ fn rotate(pieces: &mut [PathPiece]) {
     pieces.rotate_left(turns);
 }
 
-/// Rotation that makes a cycle the least, in linear time. Two candidates are compared. Where they differ, all
-/// candidates of the greater one up to that place are discarded.
+/// Number of items by which to rotate a cycle left to make it lexicographically least, in linear time.
+///
+/// Two candidate starts are compared. Where they differ, the greater one and all starts up to that place are
+/// discarded.
 fn least_rotation<T: Ord>(cycle: &[T]) -> usize {
     let count = cycle.len();
     let (mut a, mut b, mut same) = (0, 1, 0);

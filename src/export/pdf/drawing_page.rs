@@ -28,7 +28,7 @@ pub(crate) const MAX_SIDE_POINTS: f64 = 14_400.0;
 /// Marks per stream. A fixed number, so that the bytes do not depend on the number of threads.
 pub(crate) const MARKS_PER_STREAM: usize = 2048;
 
-/// Fast level, whose files are at most a tenth larger than those of the slowest level.
+/// Compression level of zlib, 0 to 10. This fast level makes files at most a tenth larger than the slowest.
 pub(crate) const DEFLATE_LEVEL: u8 = 4;
 
 /// Fixed object numbers.
@@ -164,7 +164,7 @@ impl Drawing {
         paper.into_iter().chain(layers).collect()
     }
 
-    /// Content of the page as consecutive deflated pieces.
+    /// The page's content as consecutive compressed streams, written in parallel.
     fn streams(&self, groups: &[PageLayer], pictures: &Crops, scale: f64) -> Vec<Vec<u8>> {
         let decimals = Decimals::new(SvgOptions::default().decimals(self.page.unit));
         let fine = Decimals::new(6);
@@ -231,7 +231,7 @@ impl Drawing {
         marks.filter_map(of).collect()
     }
 
-    /// All opacities used.
+    /// All opacities in use, 0 to 255. Each needs a graphics state.
     fn opacities(&self) -> BTreeSet<u8> {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
         let of_marks = marks.map(|mark| match &mark.paint {

@@ -1,4 +1,7 @@
-//! Coverage of pixels by a filled path, from exact areas.
+//! Fills paths on a pixel image with exact anti-aliasing: each pixel's coverage is the area of the path
+//! inside it.
+//!
+//! Input: a path, a transform to pixels and a colour. Output: painted pixels of a pixmap.
 //!
 //! 1. Each edge of the path adds its signed height, and the signed area to its right, to the cells (pixels)
 //!    that it crosses.
@@ -8,27 +11,26 @@
 //!
 //! Where parts of one path overlap inside a pixel, their areas add up, to one at most.
 //!
-//! Source: the rasterisers of LibArt (Levien) and FreeType (Turner), after "anti-aliased, scanline-based
-//! polygon filling".
+//! Source: the rasterisers of LibArt (Levien) and FreeType (Turner), which accumulate signed areas in cells.
 
 use tiny_skia::{Path, PathSegment, PixmapMut, Point, PremultipliedColorU8, Transform};
 
-/// Largest distance between a curve and its chords in px.
+/// Largest distance between a curve and its chords, pixels.
 const FLATNESS_PX: f64 = 0.01;
 
-/// Most chords per curve.
+/// Maximum number of chords per curve.
 const MAX_CHORDS: f64 = 1000.0;
 
 /// Fill rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Winding {
-    /// All winding numbers except zero are inside.
+    /// Points with a winding number other than zero are inside.
     NonZero,
-    /// Odd winding numbers are inside.
+    /// Points with an odd winding number are inside.
     EvenOdd,
 }
 
-/// Coverage added to one pixel by the edges of a path.
+/// Contribution of consecutive edges to one pixel.
 #[derive(Debug, Clone, Copy)]
 struct CoverageCell {
     row: u32,
@@ -39,7 +41,7 @@ struct CoverageCell {
     area: f64,
 }
 
-/// Cells of one path on a canvas.
+/// Accumulator of the coverage of one path on a canvas.
 pub(crate) struct Coverage {
     width: f64,
     height: f64,
@@ -115,7 +117,8 @@ impl Coverage {
         self.edge(last, d);
     }
 
-    /// Adds an edge clipped to the canvas. Parts left of the canvas are moved onto its left side.
+    /// Adds an edge clipped to the canvas. Parts left of the canvas are moved onto its left side, because
+    /// they change the winding number to their right. Parts right of the canvas have no effect.
     fn edge(&mut self, from: [f64; 2], to: [f64; 2]) {
         if ![from, to].iter().flatten().all(|value| value.is_finite()) {
             return;
@@ -163,7 +166,7 @@ impl Coverage {
         }
     }
 
-    /// Adds an edge inside one row with a signed height.
+    /// Adds an edge inside one row, from `x0` to `x1`, with a signed height.
     fn in_row(&mut self, row: f64, [x0, x1]: [f64; 2], height: f64) {
         let (left, right) = if x0 <= x1 { (x0, x1) } else { (x1, x0) };
         let last = self.width - 1.0;
@@ -212,14 +215,14 @@ impl Coverage {
                 sum += cells.iter().map(|cell| cell.height).sum::<f64>();
                 next = column + 1;
             }
-            // The area extends to the right side of the canvas, which clips it.
+            // Edges right of the canvas were dropped, so the area extends to its right side.
             ink.run(line.get_mut(next..), winding.inside(sum));
         }
     }
 }
 
 impl Winding {
-    /// Covered part of a pixel, from the sum of its signed areas.
+    /// Covered share of a pixel, 0 to 1, from the sum of its signed areas.
     fn inside(self, sum: f64) -> f64 {
         match self {
             Self::NonZero => sum.abs().min(1.0),
@@ -231,9 +234,10 @@ impl Winding {
     }
 }
 
-/// A paint colour.
+/// The colour that a path is filled with.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CoverageInk {
+    /// Channels, 0 to 255, not premultiplied.
     rgb: [f64; 3],
     /// Opacity, 0 to 1.
     opacity: f64,
@@ -252,7 +256,7 @@ impl CoverageInk {
         Self { is_crisp: true, ..self }
     }
 
-    /// Paints pixels of equal coverage.
+    /// Paints a run of pixels of equal coverage over their present colours (source-over).
     fn run(self, pixels: Option<&mut [PremultipliedColorU8]>, coverage: f64) {
         let Some(pixels) = pixels.filter(|pixels| !pixels.is_empty()) else { return };
         let coverage = match self.is_crisp {
@@ -261,7 +265,7 @@ impl CoverageInk {
             false => coverage,
         };
         let alpha = coverage * self.opacity;
-        // Less than half a step of alpha has no effect.
+        // Less than half a step of 8-bit alpha has no effect.
         if alpha * 510.0 < 1.0 {
             return;
         }

@@ -1,4 +1,8 @@
-//! A page of several drawings as PNG, from its SVG text and the pixels of its pictures.
+//! Writes a page of several placed drawings, such as a comic page, as a PNG file.
+//!
+//! Runs of drawings without pictures (raster images) are rasterised together from their SVG text. A drawing
+//! with pictures is painted on its own, with the pictures taken from their pixels, and then clipped to its
+//! frame.
 
 use kurbo::Affine;
 use tiny_skia::{FillRule, Mask, Pixmap, PixmapPaint, Transform};
@@ -13,7 +17,7 @@ impl Composition {
     /// Writes the page as a PNG file, transparent where it has no background.
     ///
     /// # Errors
-    /// As [`crate::drawing::Drawing::to_png`].
+    /// Those of [`crate::drawing::Drawing::to_png`].
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
         let (mut pixmap, dpi) = canvas(&self.page, options)?;
         let to = self.page.fill(&pixmap);
@@ -44,7 +48,7 @@ impl Composition {
     }
 }
 
-/// Paints one drawing inside its frame.
+/// Paints one drawing over the canvas, clipped to its frame. `to` transforms the page to pixels.
 fn paint(item: &PlacedDrawing, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
     let (width, height) = (pixmap.width(), pixmap.height());
     let (Some(mut own), Some(mut frame)) = (Pixmap::new(width, height), Mask::new(width, height)) else {

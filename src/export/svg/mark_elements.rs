@@ -1,4 +1,8 @@
-//! The SVG elements of a mark: its path, and its gradient if it has one.
+//! Writes one mark of a drawing as SVG: a `path` element, and a `linearGradient` if its paint needs one.
+//!
+//! Paint attributes that the enclosing group already has are left out. The mark's origin is written as
+//! `data-` attributes: model part, material, tone, number of hiding surfaces, stable id, and the axis of
+//! variable-width strokes.
 
 use super::mark_order;
 use super::paint_attributes::{Attributes, WIDTH_DECIMALS, hex};
@@ -13,7 +17,7 @@ const DASH_DECIMALS: u8 = 3;
 /// Decimals of gradient stop positions.
 const STOP_DECIMALS: u8 = 4;
 
-/// Writes one gradient.
+/// Writes a gradient as a `linearGradient` element in user units. `decimals` is the precision of coordinates.
 pub(crate) fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: Decimals) {
     let number = |value: f64| decimals.text(value);
     let Gradient { start, end, stops } = gradient;
@@ -33,17 +37,24 @@ pub(crate) fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, d
     out.extend_from_slice(b"</linearGradient>\n");
 }
 
-/// Characters of a mark's id. 30 bits make equal ids of two lines of a drawing unlikely.
+/// Characters of a mark's id, 5 bits each. With 30 bits, two lines of a drawing are unlikely to have equal
+/// ids.
 const ID_LETTERS: u32 = 6;
 
-/// An id in letters and digits.
+/// The lowest 30 bits of an identity in base 32: digits and lower-case letters.
 fn short_id(identity: u64) -> String {
     const DIGITS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstuvwxy";
     let digit = |place: u32| char::from(DIGITS[(identity >> (5 * place) & 31) as usize]);
     (0..ID_LETTERS).map(digit).collect()
 }
 
-/// Writes one path.
+/// Writes a mark as a `path` element.
+///
+/// - `outer` holds the attributes of the enclosing group, and `attributes` those of the mark. Only values
+///   that differ are written.
+/// - `gradient` is the id of the mark's gradient, if any. `ink` is the colour written as `currentColor`.
+/// - `data` is the path data (`d`). `axis` is the path data of a stroke's centre line, used for
+///   variable-width strokes only.
 pub(crate) fn write_mark(
     out: &mut Vec<u8>,
     mark: &Mark,

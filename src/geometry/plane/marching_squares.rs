@@ -1,4 +1,4 @@
-//! [`marching_squares`]: zero lines of a bilinear function on a square grid (marching squares).
+//! [`marching_squares`]: traces the zero lines of a bilinearly interpolated grid as polylines.
 //!
 //! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions. Cells with four crossings
 //! are resolved as in Nielson and Hamann, "The asymptotic decider", 1991.
@@ -9,7 +9,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// Edge between neighbouring grid points: column and row of the first, and whether the second is below it.
 type GridEdge = (u32, u32, bool);
 
-/// Traces the zero lines of `value` in a grid of `columns` by `rows` cells, linked end to end.
+/// Traces the zero lines of `value` in a grid of `columns` by `rows` cells. Returns polylines in grid units;
+/// the last point of a closed one repeats the first.
 ///
 /// Positive values are on the left of a line (x to the right, y upwards). Where a line is curved it gets
 /// extra points, until the deviation from the exact hyperbola is at most `straight` times the length of a
@@ -62,7 +63,7 @@ pub fn marching_squares(
         let part = a / (a - b);
         DVec2::new(f64::from(i), f64::from(j)) + if down { DVec2::Y } else { DVec2::X } * part
     };
-    // Open lines begin at an edge that no other edge leads to.
+    // Open lines start at an edge that no other edge leads to. The rest are closed.
     let led_to: FxHashSet<GridEdge> = next.values().copied().collect();
     let (open, closed): (Vec<GridEdge>, Vec<GridEdge>) =
         starts.into_iter().partition(|side| !led_to.contains(side));
@@ -95,7 +96,7 @@ fn flatten_hyperbola(
     let (i, j) = (low.x as i64, low.y as i64);
     let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| value(i + x, j + y));
     let twist = a - b - c + d;
-    // On the line, the product of the distances from the two asymptotes is `product`.
+    // On a zero line, the product of the coordinates relative to the asymptotes is constant.
     let axes = low - DVec2::new(c - a, b - a) / twist;
     let product = ((b - a) * (c - a) / twist - a) / twist;
     if axes.is_finite() && product.is_finite() && (from.x - axes.x) * (to.x - axes.x) > 0.0 {

@@ -1,38 +1,44 @@
-//! [`AffineFit`]: the affine map from the page to a picture that fits a set of points best.
+//! [`AffineFit`]: least-squares affine map between the page and a texture image, fitted to facet corners.
+//!
+//! Vector formats can only place images by affine maps. A group of facets that one map fits well can
+//! therefore be drawn as one image.
+//!
+//! Page points are in user units, and *places* are points of the image in texels. The sums are additive, so
+//! facets can be added to a cluster one by one.
 
 use glam::{DMat2, DVec2};
 
 use crate::images::facets::facet::FacetCorner;
 use crate::images::tolerances;
 
-/// Affine map from the page to the plane of a picture's texels, and back.
+/// Affine map from the page to the texels of an image, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AffineFit {
-    /// Centre of the points on the page, and the place in the picture shown there.
+    /// Mean of the points on the page, and of their places in the image.
     centre: [DVec2; 2],
     place_from_page: DMat2,
     page_from_place: DMat2,
 }
 
 impl AffineFit {
-    /// Place in the picture shown at a point of the page.
+    /// Place in the image that is shown at a point of the page.
     pub fn place(&self, page: DVec2) -> DVec2 {
         self.centre[1] + self.place_from_page * (page - self.centre[0])
     }
 
-    /// Matrix from places to the page, and the page position of the place at the origin.
+    /// Map from places to the page: its matrix, and the page position of the image's origin.
     pub fn to_page(self) -> (DMat2, DVec2) {
         (self.page_from_place, self.centre[0] - self.page_from_place * self.centre[1])
     }
 
-    /// Error of the map at a corner: on the page, and in texels.
+    /// Error of the map at a corner: distance on the page, and in texels.
     pub fn miss(&self, corner: &FacetCorner) -> (f64, f64) {
         let off = corner.place - self.place(corner.image.truncate());
         ((self.page_from_place * off).length(), off.length())
     }
 }
 
-/// Sums over points, for the least-squares solution of the map.
+/// Sums over corners for the normal equations of the map, relative to an origin.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct AffineSums {
     origin: [DVec2; 2],
@@ -41,20 +47,21 @@ pub(crate) struct AffineSums {
     place: DVec2,
     /// Sums of x², xy and y² on the page.
     squares: [f64; 3],
-    /// Sums of x and of y times the place.
+    /// Sums of x·place and y·place.
     products: [DVec2; 2],
 }
 
-/// Smallest extent of the points in the picture, texels. Narrower extents are widened, because they show one
-/// colour in that direction.
+/// Smallest extent of the points in the image, texels. A narrower extent is widened, so that the map can be
+/// inverted. The image shows one colour in that direction anyway.
 const MIN_SPAN_TEXELS: f64 = 0.25;
 
 impl AffineSums {
-    /// Sums relative to a point, which keeps precision.
+    /// Empty sums with a corner as origin. Small offsets keep the precision of the sums.
     pub fn about(corner: &FacetCorner) -> Self {
         Self { origin: [corner.image.truncate(), corner.place], ..Self::default() }
     }
 
+    /// Adds a corner.
     pub fn add(&mut self, corner: &FacetCorner) {
         let (p, t) = (corner.image.truncate() - self.origin[0], corner.place - self.origin[1]);
         self.count += 1.0;
@@ -64,7 +71,7 @@ impl AffineSums {
         self.products.iter_mut().zip([t * p.x, t * p.y]).for_each(|(sum, own)| *sum += own);
     }
 
-    /// The map, if the points span an area on the page.
+    /// Solves for the map; `None` if the corners are collinear on the page.
     pub fn solved(&self) -> Option<AffineFit> {
         let (page, place) = (self.page / self.count, self.place / self.count);
         let n = self.count;
@@ -87,7 +94,7 @@ impl AffineSums {
     }
 }
 
-/// Matrix with its smaller singular value raised to at least `least`.
+/// Raises the smaller singular value of a matrix to at least `least`.
 fn widened(matrix: DMat2, least: f64) -> DMat2 {
     // The matrix is the sum of a scaled rotation and a scaled reflection. Their sizes are half the sum and
     // half the difference of the two singular values.

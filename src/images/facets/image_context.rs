@@ -1,4 +1,5 @@
-//! [`ImageContext`]: the input shared by all pictures of a view.
+//! [`ImageContext`]: the mesh, camera and visibility data that all material images (textures) of a view share
+//! when they are projected to the page.
 
 use kurbo::Vec2;
 
@@ -8,18 +9,21 @@ use crate::mesh::Mesh;
 use crate::view::View;
 use crate::view::raster::PixelGrid;
 
-/// Input shared by all pictures of a view.
+/// Shared input for projecting the material images of a view to the page.
 #[derive(Clone, Copy)]
 pub(crate) struct ImageContext<'a> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
+    /// The projected mesh over a grid of pixels.
     pub screen: &'a PixelGrid<'a>,
+    /// Faces that may be visible; images are projected for these only.
     pub in_front: &'a VisibleFaces,
+    /// Lines where faces intersect. Faces are cut there, so that a painting order exists.
     pub crossings: &'a FaceCrossings,
-    /// Offset of the frame on the page.
+    /// Offset of the camera's frame on the page, user units.
     pub offset: Vec2,
-    /// A px in user units.
+    /// Length of a px in user units.
     pub px: f64,
-    /// Largest number of texels kept along a px.
+    /// Largest number of image pixels per px of the page.
     pub samples: f64,
 }

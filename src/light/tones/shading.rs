@@ -33,8 +33,8 @@ pub struct Shading {
 }
 
 impl Shading {
-    /// Shading of a scene whose mesh is seen by a camera. Without paints, each material is one. Repairs are
-    /// added to the warnings.
+    /// Creates the shading of a scene for a camera. If `paints` is empty, each material is a paint. Problems
+    /// with lights and options are reported in `warnings`.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -121,8 +121,8 @@ impl Shading {
         self.channels.iter().position(|channel| *channel == ToneChannel::Shade)
     }
 
-    /// Largest number of levels of a surface in any channel except the bins of hatching; 0 where no surface
-    /// has several tones.
+    /// Largest number of levels of a paint in any channel except the bins of hatching; 0 if no paint has
+    /// several tones.
     #[must_use]
     pub fn most_levels(&self) -> usize {
         let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
@@ -130,7 +130,7 @@ impl Shading {
         self.tones.iter().filter_map(of).max().unwrap_or_default()
     }
 
-    /// Light from one direction on light grey, with levels on max(L·n, 0).
+    /// Shading of a light grey surface by one directional light, with the given levels of max(L·n, 0).
     #[must_use]
     pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
         let lighting = Lighting::from_direction(towards_light);
@@ -156,8 +156,8 @@ impl Shading {
         self.channels.len()
     }
 
-    /// Whether a channel varies over a flat face: with the distance from a light, the direction to the eye,
-    /// or the visible share of the sky. Other channels depend on the normal alone.
+    /// Whether a channel varies over a flat face: with the distance from a light, the direction to the
+    /// camera, or the visible share of the sky. Other channels depend on the normal alone.
     #[must_use]
     pub fn is_local(&self, channel: usize) -> bool {
         matches!(self.channels.get(channel), Some(ToneChannel::Highlight)) || self.lighting.is_local()
@@ -193,7 +193,7 @@ impl Shading {
         }
     }
 
-    /// Bounds for the change with the normal of a channel that is not local.
+    /// Bounds for how fast a channel that is not local changes with the normal.
     #[must_use]
     pub fn slope(&self) -> LightSlope {
         self.lighting.slope()

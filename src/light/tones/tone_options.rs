@@ -1,4 +1,13 @@
-//! [`ToneOptions`]: tones of a surface and their colours, part of the `[fills]` table.
+//! [`ToneOptions`]: how many tones a shaded surface has, where they change, and their colours.
+//! They are style keys of the `[fills]` table.
+//!
+//! A tone is one flat step of light, as in cel shading. Levels refer to diffuse light: 0 in shadow, 1 where
+//! the surface faces a light of brightness 1. Options can differ per material ([`MaterialChange`]).
+//!
+//! Sources:
+//! - Lake et al., Stylized rendering techniques for scalable real-time 3D animation, 2000 (eq. 1).
+//! - Gooch et al. 1998 (cool and warm colours).
+//! - Ishaya, Real-time cartoon rendering, 2003 (table of two lights).
 
 use serde::{Deserialize, Deserializer};
 
@@ -13,20 +22,21 @@ use crate::scene::material::Gloss;
 /// Tones of the surface of a material, and their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneOptions {
-    /// Where tones change. Default: one threshold at 0.5.
+    /// Light levels at which tones change. Default: one threshold at 0.5.
     pub scale: ToneScale,
     /// Source of the colours of tones. Default: the material.
     pub colours: Colours,
-    /// Share of light in each tone, darkest first: 0 = as in shadow, 1 = lit. Spread over the tones; empty =
-    /// even steps. Default: empty.
+    /// Share of light in each tone, darkest first: 0 = as in shadow, 1 = lit. A shorter list is interpolated
+    /// over the tones; an empty one gives even steps. Default: empty.
     pub tones: Vec<f64>,
     /// Factor on the material's colour in shadow, a_l of Lake et al. 2000, eq. 1. Default: (0.7, 0.66, 0.78),
     /// slightly cooler than the material.
     pub shadow: ColourFactor,
     /// Factor on the material's colour where it is lit; d_l of eq. 1 is this minus `shadow`. Default: 1.
     pub lit: ColourFactor,
-    /// Brightness factor of the colours of a palette, ramp or table, which then multiply the material's; 0 =
-    /// used unchanged. Default: 0, and 1.5 for a table (Ishaya 2003).
+    /// Brightness factor for the colours of a palette, ramp or table. Above 0, they are multiplied by the
+    /// material's colour and this factor; with 0, they are used unchanged. Default: 0, and 1.5 for a table
+    /// (Ishaya 2003).
     pub modulate: Option<f64>,
     /// Highlights.
     pub highlight: Highlight,
@@ -36,7 +46,7 @@ pub struct ToneOptions {
     pub materials: Vec<MaterialChange>,
 }
 
-/// Where tones change.
+/// Light levels at which tones change.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ToneScale {
     /// At rising thresholds of the diffuse light.
@@ -52,8 +62,8 @@ pub enum ToneScale {
 }
 
 impl ToneScale {
-    /// Scale for colours that run through this many shades. A scale of more than a few steps needs no more of
-    /// them than there are distinct 8-bit colours.
+    /// Limits the steps of a gradient to the number of distinct 8-bit colours in it, `shades`, plus one.
+    /// Scales with few steps are unchanged.
     #[must_use]
     pub fn for_shades(self, shades: usize) -> Self {
         match self {
@@ -65,12 +75,12 @@ impl ToneScale {
     }
 }
 
-/// Source of the colours of tones; a ramp and a table have their own.
+/// Source of the colours of tones. Not used with a ramp or a table, which have colours of their own.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colours {
     /// The material, by eq. 1 of Lake et al. 2000.
     Material,
-    /// A list, darkest first, spread over the tones.
+    /// A list, darkest first, interpolated over the tones.
     Palette(Vec<Colour>),
     /// The material between a cool and a warm colour.
     Gooch(Gooch),
@@ -97,12 +107,12 @@ pub struct Gooch {
     pub warm_share: f64,
 }
 
-/// Highlights, where a surface mirrors a light towards the eye.
+/// Specular highlights, where a surface mirrors a light towards the camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Highlight {
     /// Whether highlights are drawn. Default: false.
     pub enabled: bool,
-    /// Rising thresholds of (n·h)^exponent. Default: 0.5.
+    /// Rising thresholds of (n·h)^exponent, with h the half vector (Blinn 1977). Default: 0.5.
     pub thresholds: Vec<f64>,
     /// Exponent; higher values give smaller highlights. Default: 40.
     pub exponent: f64,
@@ -110,13 +120,14 @@ pub struct Highlight {
     pub colour: Colour,
     /// Share of that colour in the brightest highlight, 0 to 1; weaker ones have less. Default: 0.7.
     pub strength: f64,
-    /// Light over the highlight's strength from 0 to 1, added to the brightest tone of the material. It
+    /// Colours over the highlight's strength from 0 to 1, added to the brightest tone of the material. It
     /// replaces thresholds, colour and strength. Default: none.
     pub ramp: Option<Strip>,
     /// Whether exponent and strength come from the material where its file has them. Default: false.
     pub material: bool,
-    /// Distance of the eye and of parallel lights from the camera's target for highlights, in sides of the
-    /// frame. Flat faces then show a spot instead of all or nothing. 0 = they stay in place. Default: 0.
+    /// Distance of the camera and of parallel lights from the camera's target, in sides of the frame, when
+    /// highlights are computed. Flat faces then show a spot instead of all or nothing. 0 = true positions.
+    /// Default: 0.
     pub near: f64,
 }
 
@@ -133,14 +144,14 @@ pub struct HighlightChange {
     pub colour: Option<Colour>,
     /// Share of that colour in the brightest highlight.
     pub strength: Option<f64>,
-    /// Light over the highlight's strength.
+    /// Colours over the highlight's strength.
     pub ramp: Option<Strip>,
     /// Whether exponent and strength come from the material.
     pub material: Option<bool>,
 }
 
 impl Highlight {
-    /// Applies a change. Exponent and strength of the change replace those of the material.
+    /// Applies a change. If it sets exponent or strength, the values of the material's file are ignored.
     pub fn change(&mut self, change: HighlightChange) {
         let HighlightChange { enabled, thresholds, exponent, colour, strength, ramp, material } = change;
         self.enabled = enabled.unwrap_or(self.enabled);
@@ -167,6 +178,7 @@ impl Highlight {
     }
 }
 
+/// Allowed exponents of highlights.
 const MIN_EXPONENT: f64 = 1.0;
 const MAX_EXPONENT: f64 = 10_000.0;
 
@@ -177,7 +189,7 @@ pub struct MaterialChange {
     pub name: Glob,
     /// Colour that replaces the material's.
     pub colour: Option<Colour>,
-    /// Where tones change.
+    /// Light levels at which tones change.
     pub scale: Option<ToneScale>,
     /// Source of the colours of tones.
     pub colours: Option<Colours>,

@@ -1,9 +1,12 @@
-//! One panel: the drawing of its scene, its border, and the parts that break out of the border.
+//! Drawing of one comic panel: its scene, its border, and the parts that break out of the border.
 //!
-//! 1. The scene is assembled, and the bounding box of the panel becomes the frame of its camera.
-//! 2. The scene is drawn in one picture and clipped to the outline of the panel.
-//! 3. Parts that break out are taken from the same picture, which is drawn in a larger frame for this. They
-//!    are painted over the border, outside the panel only.
+//! Input: the panel's outline in page mm, and its keys in the page file. Output: drawings placed on the page.
+//!
+//! 1. The scene is assembled, and the bounding box of the panel becomes the frame of its camera. If parts
+//!    break out, the frame is enlarged by a margin.
+//! 2. The scene is drawn once and clipped to the outline of the panel.
+//! 3. The marks of the parts that break out are copied from that drawing. They are painted over the border,
+//!    outside the panel only.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _, Vec2};
 use toml::Spanned;
@@ -30,7 +33,7 @@ const BREAK_OVERLAP_MM: f64 = 0.1;
 
 /// A panel that has been drawn.
 pub(crate) struct DrawnPanel {
-    /// The drawing of the scene, and the border.
+    /// The drawing of the scene, clipped to the panel, and the border.
     pub items: Vec<PlacedDrawing>,
     /// Parts that break out of the border; they may cover other panels.
     pub over: Option<PlacedDrawing>,
@@ -44,13 +47,15 @@ pub(crate) struct DrawnPanel {
 pub(crate) struct PanelScene {
     scene: Scene,
     camera: Camera,
-    /// Offset from the camera's frame to the page, mm.
+    /// Page position of the upper left corner of the camera's frame, mm.
     place: Vec2,
 }
 
 impl PanelScene {
-    /// The area of the panel that models cover. The figures are the models of `parts`, or all models if none
-    /// has a name.
+    /// Grid of the panel area that models cover, so that text can be placed elsewhere.
+    ///
+    /// `parts` holds part names. Names of the form `model/part` select the models that count as figures,
+    /// which weigh more than other models. Without such a name, all models are figures.
     pub fn coverage(&self, parts: &[&str]) -> CoverageGrid {
         let models: Vec<&str> =
             parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
@@ -61,7 +66,7 @@ impl PanelScene {
         CoverageGrid::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
     }
 
-    /// The bounds on the page of the parts that match a pattern.
+    /// Bounds and hulls on the page, mm, of the parts whose names match a pattern.
     ///
     /// # Errors
     /// Returns an error if no part matches.
@@ -78,7 +83,7 @@ impl PanelScene {
     }
 }
 
-/// Draws a panel.
+/// Draws a panel with its border.
 ///
 /// # Errors
 /// Returns an error if a model, style or camera is missing or invalid.
@@ -122,7 +127,7 @@ pub(crate) fn draw(
                 return Err(camera_spec::unknown_part(glob, &scene, source));
             }
         }
-        // Broken-out parts need a larger frame, with the same picture in its centre.
+        // Parts that break out are drawn outside the panel, so the frame must be larger.
         let beyond = if keys.breaking.is_empty() {
             0.0
         } else {
@@ -197,7 +202,8 @@ fn widen_frame(camera: &Camera, by: f64) -> Camera {
     camera.with_projection(projection).with_frame(camera.width + 2.0 * by, camera.height + 2.0 * by)
 }
 
-/// The marks of the parts that break out of the border, over fills in the background colour.
+/// The marks of the parts that break out of the border, over fills in the background colour that hide the
+/// border.
 fn break_out_drawing(
     drawing: &Drawing,
     scene: &Scene,
@@ -232,7 +238,7 @@ fn break_out_drawing(
     Ok(Drawing::new(format!("{} over its border", drawing.title), page, layers))
 }
 
-/// A rectangle with a hole.
+/// A rectangle with a hole, as a clip path: everything outside the panel.
 fn frame_with_hole(frame: Rect, hole: &BezPath) -> BezPath {
     let mut path = frame.to_path(0.1);
     path.extend(hole.reverse_subpaths());

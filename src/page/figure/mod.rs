@@ -1,8 +1,8 @@
-//! A figure: models placed in a scene, seen by a camera and drawn in a style, and where its parts are on
-//! the page.
+//! Figures of page files: models placed in a scene, seen by a camera and drawn in a style. Also finds where
+//! the parts of a figure are on the page.
 //!
-//! The kinds of page hold [`models::Models`], a `CameraSpec` and a style under separate keys, and use
-//! them in this order:
+//! Comic panels, sheets and other page types share this module. Each reads [`models::Models`], a `CameraSpec`
+//! and a style from its own keys, and uses them in this order:
 //!
 //! 1. [`figure_style`] loads the style and applies the changes of the page file.
 //! 2. [`models`] reads the models, poses them and joins them to one scene.
@@ -11,7 +11,7 @@
 //! 5. [`part_bounds`] finds the boxes and hulls of parts in the frame; [`coverage_grid`] the area that
 //!    models cover.
 //!
-//! Helpers: [`part_colours`], colours in place of materials; `scene_assembly`, moving and joining scenes.
+//! Helpers: [`part_colours`] replaces materials by colours; `scene_assembly` moves and joins scenes.
 
 pub mod camera_spec;
 pub mod coverage_grid;
@@ -33,7 +33,8 @@ use crate::pipeline::render_reported;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Draws a scene on a page with the camera's frame in its centre. Also returns warnings.
+/// Draws a scene on a page with the camera's frame in its centre. Also returns the warnings of the scene and
+/// of the drawing.
 ///
 /// # Errors
 /// Returns an error if the camera is invalid.

@@ -1,4 +1,5 @@
-//! How a page is divided into panels: pure geometry.
+//! Divides a comic page into panels. Input: a layout text and the page frame. Output: panel rectangles or
+//! polygons, in the units of the frame.
 //!
 //! A layout is written as shares: `/` separates rows, `|` separates columns, and brackets divide the row or
 //! column before them. `30 [30 | 20 | *] / *` is a row of 30 % of the height with three panels, over one

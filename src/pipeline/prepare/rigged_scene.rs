@@ -1,8 +1,11 @@
-//! [`PosedRenderer`]: a scene prepared at rest, which makes preparing its poses fast.
+//! [`PosedRenderer`]: prepares an animated scene once at rest, so that each of its poses is prepared faster.
 //!
-//! Results that survive a change of pose are found once at rest: welded vertices and edges, creases, rounded
-//! areas, and paints with their pictures, unless materials change. Positions, normals, lines and visibility
-//! are found for every pose.
+//! Input: a scene in its stored pose, and the same scene in other poses. Output: a [`Prepared`] scene per
+//! pose, ready to draw.
+//!
+//! - Computed once at rest: welded vertices and edges, creases, rounded areas, and paints with their
+//!   textures. Paints are computed again if a pose changes materials.
+//! - Computed for each pose: positions, normals, creases at new folds, lines and visibility.
 
 use std::sync::Arc;
 
@@ -22,21 +25,22 @@ use crate::scene::{Part, Scene};
 use crate::style::Style;
 use crate::surface::Patches;
 
-/// Scene prepared at rest, for animations whose strokes persist while it moves.
+/// Scene prepared at rest, which prepares its poses for drawing. Strokes keep their identity from pose to
+/// pose.
 ///
 /// ```
 /// use ligne::drawing::{Page, Unit};
 /// use ligne::animation::{Playing, Rigged};
-/// use ligne::pipeline::Resting;
+/// use ligne::pipeline::PosedRenderer;
 /// use ligne::{Camera, Style};
 ///
 /// let crane = Rigged::open("examples/models/crane.glb")?;
 /// let style = Style::default();
-/// let resting = Resting::new(&crane.scene, &style);
+/// let renderer = PosedRenderer::new(&crane.scene, &style);
 /// let posed = crane.posed(&[Playing::all(0, 1.5)])?;
 /// let camera = Camera::three_quarter().fit(&posed);
 /// let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-/// let (drawing, _) = resting.posed(&posed).draw(&camera, page, None)?;
+/// let (drawing, _) = renderer.posed(&posed).draw(&camera, page, None)?;
 /// assert!(drawing.layers.iter().flat_map(|layer| &layer.marks).all(|mark| mark.provenance.identity != 0));
 /// # Ok::<(), ligne::Error>(())
 /// ```
@@ -44,9 +48,11 @@ use crate::surface::Patches;
 pub struct PosedRenderer<'a> {
     scene: &'a Scene,
     style: &'a Style,
+    /// The scene in its stored pose.
     still: Prepared<'a>,
     patches: Option<Patches>,
-    /// `None` if the mesh cannot be tracked. Then every pose is prepared from the start.
+    /// Which vertices of the scene were welded to each mesh vertex. `None` if they cannot be tracked; then
+    /// every pose is prepared from the start.
     sources: Option<VertexSources>,
 }
 
@@ -72,8 +78,8 @@ impl<'a> PosedRenderer<'a> {
 
     /// Prepares a pose of the scene: the same parts and triangles in other positions.
     ///
-    /// If the pose hides parts, the rest is prepared at rest for this pose alone. If it adds parts, or
-    /// separates vertices that are welded at rest, it is prepared from the start.
+    /// If the pose hides parts, the visible parts are prepared at rest for this pose alone. If it adds parts,
+    /// or separates vertices that are welded at rest, it is prepared from the start.
     #[must_use]
     pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
     where
@@ -82,8 +88,10 @@ impl<'a> PosedRenderer<'a> {
         self.posed_after(posed, std::iter::empty)
     }
 
-    /// Prepares a pose with creases that are consistent with recent poses. `before` yields the poses of
-    /// earlier moments, latest first. Only as many are evaluated as edges near the crease angle need.
+    /// Prepares a pose so that edges near the crease angle do not flicker: they follow their state in earlier
+    /// poses.
+    ///
+    /// `before` yields the earlier poses, latest first. It is advanced only until all such edges are decided.
     #[must_use]
     pub fn posed_after<'b, I: Iterator<Item = Scene>>(
         &self,
@@ -103,7 +111,7 @@ impl<'a> PosedRenderer<'a> {
         prepared.anchored(posed, self.scene)
     }
 
-    /// Prepares a pose by moving the vertices of the resting mesh; `None` if that is not possible.
+    /// Prepares a pose by moving the vertices of the rest mesh; `None` if that is not possible.
     fn following<'b>(
         &self,
         posed: &'b Scene,
@@ -161,13 +169,13 @@ impl<'a> PosedRenderer<'a> {
     }
 }
 
-/// The resting scene without the parts that a pose hides. `None` if the pose hides none or belongs to another
+/// The scene at rest without the parts that a pose hides. `None` if the pose hides none or belongs to another
 /// scene.
 fn rest_without_hidden_parts(scene: &Scene, posed: &Scene) -> Option<Scene> {
     let mut wanted = posed.parts.iter().peekable();
     let mut parts = scene.parts.clone();
     parts.retain(|part| {
-        // Of parts with equal name and geometry, any one may remain.
+        // Parts with equal name and geometry are interchangeable.
         let is_next = |next: &&Part| next.name == part.name && next.geometry == part.geometry;
         wanted.next_if(is_next).is_some()
     });
@@ -177,10 +185,10 @@ fn rest_without_hidden_parts(scene: &Scene, posed: &Scene) -> Option<Scene> {
 }
 
 impl Prepared<'_> {
-    /// Adds anchors, so that strokes persist while the model moves. Strokes are named after their position on
-    /// the resting model, and their random effects vary over its surface.
+    /// Adds anchors: positions on the model at rest. Stroke ids and random effects are derived from them, so
+    /// they stay the same while the model moves.
     ///
-    /// `posed` is the scene of this preparation, and `rest` the same at rest.
+    /// `posed` is the scene of this preparation, and `rest` the same scene at rest.
     fn anchored(self, posed: &Scene, rest: &Scene) -> Self {
         Self { anchors: Some(Anchors::new(posed, rest)), ..self }
     }

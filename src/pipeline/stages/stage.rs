@@ -1,12 +1,14 @@
-//! [`Stage`]: pipeline stages whose results can be drawn in place of the finished drawing.
+//! [`Stage`]: names of the pipeline stages whose intermediate results can be drawn instead of the finished
+//! drawing, to debug the pipeline.
 
-/// Stage whose result can be drawn, for inspecting the pipeline.
+/// A pipeline stage whose result can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Stage {
-    /// n·v on the front faces, in bands of colour separated by its zero set.
+    /// n·v (normal and view direction) on the front faces, in bands of colour separated by its zero set.
     Field,
-    /// Zero sets as traced, hidden or not, and the edges where visibility may change.
+    /// Zero sets of n·v, the smooth contours, as traced, hidden or not; and the edges where visibility may
+    /// change.
     Zeros,
     /// All feature lines as found, hidden or not.
     Lines,
@@ -16,7 +18,7 @@ pub enum Stage {
     Strengths,
     /// The chains, before they get pens.
     Chains,
-    /// The chains in grey, and the lines removed on the way.
+    /// The chains in grey, and the lines removed by tidying.
     Removed,
 }
 

@@ -2,7 +2,8 @@
 //!
 //! 1. Level curves of a function on the faces are traced, joined end to end and projected (`level_curves`).
 //! 2. A plane is laid on the faces by texture coordinates or part axes (`surface_chart`).
-//! 3. Figures repeated on that plane are projected point by point, from their middle outward (`decals`).
+//! 3. Figures repeated on that plane, such as dots, are projected point by point from their centre outward
+//!    (`decals`).
 //!
 //! Files, in reading order: [`level_curves`]; [`surface_chart`]; [`decals`].
 

@@ -1,22 +1,26 @@
-//! Position of lines on the resting model, so that dashes and gaps stay in place while the visible part
-//! changes.
+//! Fixed origins for dashes and hand-drawn gaps, so that they do not slide along a line in an animation.
+//!
+//! Gaps counted from the visible start of a line would move whenever that start moves. Here they are counted
+//! from a point of the model at rest, computed from the anchors of the line.
 
 use glam::DVec3;
 
 use super::hand_gaps::GapOrigin;
 use crate::chains::{Anchor, Chain};
 
-/// The anchors at both ends of a chain, if they are known.
+/// The anchors (positions on the model at rest) of both ends of a chain, if they are known.
 pub(crate) fn end_anchors(chain: &Chain) -> Option<[Anchor; 2]> {
     let ends = [chain.samples.first()?.anchor, chain.samples.last()?.anchor];
     ends.iter().all(Anchor::is_known).then_some(ends)
 }
 
-/// Oblique direction, unlikely to be an axis of a model.
+/// Direction in model space that is unlikely to be an axis of a model, so that ties are rare. Not normalised.
 const OBLIQUE_AXIS: [f64; 3] = [0.37, 0.79, 0.49];
 
-/// Position on a closed chain that does not depend on where the chain starts, as a share of its length. It is
-/// the point farthest along a fixed direction on the resting model; 0 if anchors are unknown.
+/// Position on a closed chain that does not depend on where the chain starts, as a share of its length, 0 to
+/// 1.
+///
+/// It is the point farthest along [`OBLIQUE_AXIS`] on the model at rest; 0 if anchors are unknown.
 pub(crate) fn fixed_share(chain: &Chain) -> f64 {
     let along = |anchor: Anchor| (0..3).map(|k| OBLIQUE_AXIS[k] * f64::from(anchor.place[k])).sum::<f64>();
     let known = chain.samples.iter().map(|sample| sample.anchor).enumerate().filter(|(_, a)| a.is_known());
@@ -28,14 +32,15 @@ pub(crate) fn fixed_share(chain: &Chain) -> f64 {
     if total > 0.0 { lengths.iter().take(farthest).sum::<f64>() / total } else { 0.0 }
 }
 
-/// The origin of gaps for a chain of the given length, if its anchors are known.
+/// The origin of gaps for a chain of the given length in user units; `None` if its anchors are unknown.
 pub(crate) fn gap_origin(chain: &Chain, length: f64) -> Option<GapOrigin> {
     let [from, to] = end_anchors(chain)?.map(|anchor| DVec3::from_array(anchor.place.map(f64::from)));
     if chain.closed {
         return Some(GapOrigin { arc: fixed_share(chain) * length, backwards: false });
     }
     let way = to - from;
-    // The projection of the model's centre onto the line, which is the same from both ends.
+    // The part's centre projected onto the line through both ends. It stays the same if the ends move along
+    // the line.
     let arc = -from.dot(way) / way.length_squared() * length;
     arc.is_finite().then(|| GapOrigin { arc, backwards: way.dot(DVec3::from_array(OBLIQUE_AXIS)) < 0.0 })
 }

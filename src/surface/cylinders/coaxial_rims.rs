@@ -1,7 +1,12 @@
-//! [`rims`]: cylinders made of separate narrow facets around known axes, such as the tips and roots of gears.
+//! [`rims`]: finds further cylinders around the axes of known ones, made of narrow facets that do not touch,
+//! such as the tips and roots of gear teeth.
 //!
-//! A facet is a chord of a circle around an axis if its corners are equally far from the axis and its normal
-//! passes through the axis.
+//! 1. The axes of complete cylinders are collected, one per body and line.
+//! 2. Each facet of the body is tested against the axis. It is a chord of a circle around it if its corners
+//!    are equally far from the axis, and its normal passes through the axis.
+//! 3. Chords of nearly equal radius that face the same way, outward or inward, form a cylinder.
+//!
+//! Lengths are in world units. Technical sheets use cylinders for diameters and centre lines.
 
 use std::f64::consts::TAU;
 
@@ -13,28 +18,34 @@ use crate::mesh::components::bodies::body_of;
 use crate::mesh::{DisjointSets, Mesh, PartId};
 use crate::surface::tolerances::{MAX_FACET_RADIUS_SPREAD, MAX_RIM_RADIUS_SPREAD};
 
-/// Minimum arc, radians, of a cylinder whose axis is used.
+/// Minimum arc of a cylinder whose axis is used, radians: nearly a full turn.
 const MIN_AXIS_ARC_RAD: f64 = 5.8;
 
 /// Maximum arc of a facet of a rim, radians. It excludes the sides of nuts.
 const MAX_FACET_ARC_RAD: f64 = 0.45;
 
-/// Minimum number of facets of a rim, and maximum number of triangles of a facet.
+/// Minimum number of facets of a rim.
 const MIN_RIM_FACETS: usize = 6;
+/// Maximum number of triangles of a facet.
 const MAX_FACET_TRIANGLES: usize = 24;
 
-/// Chord of a circle around an axis.
+/// A facet seen along an axis: a chord of a circle around it.
 struct RimChord {
     radius: f64,
     /// Difference between the largest and smallest distance of its corners from the axis.
     spread: f64,
+    /// Whether its normal points to the axis, as inside a hole.
     hollow: bool,
+    /// Angle it subtends at the axis, radians.
     arc: f64,
+    /// Start and end along the axis.
     ends: [f64; 2],
 }
 
-/// The rims around the axes of complete cylinders of the same body, where no cylinder of the same radius is
-/// known.
+/// Finds the rims around the axes of complete `known` cylinders of the same body, except those that are
+/// already known.
+///
+/// `normals` has one entry per face, zero for degenerate ones. `facets` joins the faces of each flat facet.
 pub(crate) fn rims(
     mesh: &Mesh,
     normals: &[DVec3],
@@ -85,6 +96,7 @@ pub(crate) fn rims(
     found
 }
 
+/// Whether two cylinders have the same axis line within tolerance.
 fn is_coaxial(a: &Cylinder, b: &Cylinder) -> bool {
     let apart = a.point - b.point;
     a.axis.cross(b.axis).length() < MAX_RIM_RADIUS_SPREAD
@@ -92,7 +104,7 @@ fn is_coaxial(a: &Cylinder, b: &Cylinder) -> bool {
             < 5.0 * MAX_RIM_RADIUS_SPREAD * a.radius.min(b.radius)
 }
 
-/// A facet as a chord around an axis, if it is one.
+/// The chord that a facet forms around an axis; `None` if it is not one.
 fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<RimChord> {
     if normal == DVec3::ZERO || normal.dot(about.axis).abs() > MAX_RIM_RADIUS_SPREAD {
         return None;

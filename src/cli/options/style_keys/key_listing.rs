@@ -1,4 +1,4 @@
-//! Lists of style keys as aligned text and as JSON.
+//! Formats a list of style keys as an aligned text table or as JSON.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::style::{KeyType, StyleKey};
 
-/// Maximum width of the column of defaults. Longer defaults are not aligned.
+/// Maximum width of the column of defaults, characters. Help after a longer default is not aligned.
 const MAX_DEFAULT_COLUMNS: usize = 22;
 
 /// A line for each key: path, type, default, and help with the allowed values.
@@ -28,7 +28,7 @@ fn row(key: &StyleKey) -> [String; 4] {
     [key.path.clone(), key.kind.name().to_owned(), default(key), key.full_help()]
 }
 
-/// Default of a key in the displayed form.
+/// Default of a key as displayed: a value, `as KEY` if it is inherited, or `-` if there is none.
 pub(crate) fn default(key: &StyleKey) -> String {
     match (key.default, &key.inherits) {
         (Some(default), _) => default.to_owned(),

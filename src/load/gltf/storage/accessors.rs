@@ -1,4 +1,10 @@
-//! Reads accessors. Every count, offset and stride is checked before memory is allocated.
+//! Reads glTF accessors: typed arrays in binary buffers, such as positions and indices, including sparse
+//! ones.
+//!
+//! Every count, offset and stride is checked before memory is allocated, so that a damaged file cannot
+//! exhaust memory.
+//!
+//! Source: Khronos Group, glTF 2.0 specification, section 3.6.2 (accessors).
 
 use super::buffers::Buffers;
 use crate::error::Error;
@@ -17,6 +23,7 @@ enum ComponentType {
 }
 
 impl ComponentType {
+    /// Type of a glTF `componentType` code.
     fn new(code: u32) -> Result<Self, Error> {
         Ok(match code {
             5120 => Self::I8,
@@ -29,6 +36,7 @@ impl ComponentType {
         })
     }
 
+    /// Size in bytes.
     fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -37,7 +45,7 @@ impl ComponentType {
         }
     }
 
-    /// Maximum value of an index type, which restarts a strip.
+    /// Maximum value of an index type, which restarts a strip. An error for types that cannot hold indices.
     fn restart(self) -> Result<u32, Error> {
         match self {
             Self::U8 => Ok(u32::from(u8::MAX)),
@@ -48,9 +56,10 @@ impl ComponentType {
     }
 }
 
-/// Bytes of `count` elements, `stride` apart; `None` stands for zeros.
+/// Elements of an accessor in their buffer view, `stride` bytes apart.
 #[derive(Debug, Clone, Copy)]
 struct Elements<'a> {
+    /// `None` if all elements are zero.
     bytes: Option<&'a [u8]>,
     stride: usize,
     count: usize,
@@ -93,7 +102,8 @@ impl Buffers<'_> {
         self.root.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_some())
     }
 
-    /// Elements of `N` components, converted by `make`.
+    /// Reads elements of `N` components as `f64` and converts them by `make`. Normalised integers become -1
+    /// to 1.
     pub fn read<const N: usize, R: Clone>(
         &self,
         index: usize,
@@ -114,7 +124,7 @@ impl Buffers<'_> {
         Ok(values)
     }
 
-    /// Step of the values of an accessor with integer components; 0 for floating point.
+    /// Quantisation step of the values of an accessor with integer components; 0 for floating point.
     pub fn step(&self, index: usize) -> f64 {
         let Ok(accessor) = self.accessor(index) else { return 0.0 };
         let largest = match ComponentType::new(accessor.component_type) {
@@ -185,6 +195,7 @@ impl Buffers<'_> {
         Ok(elements)
     }
 
+    /// Replaces the elements that a sparse accessor lists. `like` gives the type of the new values.
     fn patch<const N: usize, R: Clone>(
         &self,
         values: &mut [R],
@@ -220,7 +231,8 @@ impl Buffers<'_> {
 }
 
 impl<'a> Elements<'a> {
-    /// Slice of a view that these elements occupy; an error if it does not fit.
+    /// The bytes of a view that these elements occupy, from `offset` to the end of the last element of `size`
+    /// bytes; an error if they do not fit.
     fn within(&self, bytes: &'a [u8], offset: usize, size: usize) -> Result<&'a [u8], String> {
         if self.count == 0 {
             return Ok(&[]);
@@ -277,6 +289,7 @@ impl<'a> Elements<'a> {
         }
     }
 
+    /// Reads scalars of an unsigned integer type.
     fn whole_numbers(&self) -> Result<Indices, Error> {
         let restart = self.component.restart()?;
         let Some(bytes) = self.bytes else {
@@ -326,6 +339,7 @@ fn gather<const N: usize, const S: usize, R>(
     }
 }
 
+/// Number of components of a glTF accessor `type`.
 fn lanes(shape: &str) -> Result<usize, Error> {
     Ok(match shape {
         "SCALAR" => 1,

@@ -1,9 +1,15 @@
 //! Dimensions of diameters and radii: a leader with an arrow to the circle, and the value on a shelf outside
 //! the view.
 //!
-//! Leaders start radially in all directions. The cheapest one that touches nothing solid and whose value has
-//! free paper is taken. The cost is the length; values on the left or below cost more, because lengths stand
-//! there.
+//! 1. Candidate leaders leave the circle radially, in [`LEADER_DIRECTIONS`] directions and at several
+//!    distances from the view.
+//! 2. They are sorted by cost: the length from the centre, plus a penalty for values on the left or below,
+//!    where linear dimensions stand.
+//! 3. The first candidate with free paper for its value and its lines is drawn. The radial line may cross
+//!    other leaders, and then also arrow heads, only if no candidate is free of them.
+//! 4. If no candidate fits, the dimension is reported as not placed.
+//!
+//! All lengths are mm on the page, y down.
 
 use kurbo::{Circle, Point, Rect, Shape as _, Vec2};
 
@@ -16,28 +22,40 @@ use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, poly
 use crate::page::sheet::dimensions::dimension_set::DiameterLeader;
 use crate::page::tolerances;
 
-/// First distance of a value from the view, step size of the distance, mm, and number of steps.
+/// Smallest distance of a value from the view.
 const FIRST_VALUE_OFFSET_MM: f64 = 5.0;
+/// Difference between successive distances.
 const OUTWARD_STEP_MM: f64 = 5.0;
+/// Number of distances tried.
 const MAX_OUTWARD_STEPS: u32 = 16;
 
 /// Number of leader directions.
 const LEADER_DIRECTIONS: u32 = 72;
 
-/// Extra cost of a value on the left and below, in mm of leader.
+/// Extra cost of a value on the left of the circle, in mm of leader.
 const LEFT_COST_MM: f64 = 25.0;
+/// Extra cost of a value below the view, in mm of leader.
 const BELOW_COST_MM: f64 = 15.0;
 
+/// A possible leader: a radial line from `tip` to `knee`, then a horizontal shelf under the value.
 struct LeaderCandidate {
+    /// Arrow tip on the circle.
     tip: Point,
     knee: Point,
+    /// Outer end of the shelf.
     shelf: Point,
     /// Centre of the value.
     middle: Point,
     cost: f64,
 }
 
-/// Draws a diameter or a radius.
+/// Draws the dimension of a diameter or radius, and the pitch circle of a hole pattern.
+///
+/// `rect` is the view's rectangle on the page. If no candidate fits, the dimension is added to
+/// `board.unplaced`.
+///
+/// # Errors
+/// Returns an error if the value cannot be set in the font.
 pub(crate) fn draw_diameter(
     rect: Rect,
     led: &DiameterLeader,
@@ -88,6 +106,7 @@ pub(crate) fn draw_diameter(
     Ok(())
 }
 
+/// The candidate in direction number `k`, with its knee `more` mm farther out than the first distance.
 fn leader_candidate(
     led: &DiameterLeader,
     rect: Rect,

@@ -1,4 +1,7 @@
-//! Titles of views, and the notes of a sheet.
+//! Texts of a technical sheet that are not dimensions: the titles of its views and its general notes.
+//!
+//! Also finds the view that shows a section's cutting line, the circle around a detail view, and texts with
+//! unreadable characters.
 
 use kurbo::{Circle, Point, Rect, Shape as _};
 
@@ -14,7 +17,10 @@ use crate::page::sheet::view::sheet_view::SheetView;
 use crate::page::tolerances;
 use crate::text::Font;
 
-/// The title of a view: its own title, and its scale if that differs from the sheet's.
+/// Text above a view, such as `A-A (2:1)`: its title, and its scale if that differs from the sheet's. `None`
+/// if it has neither.
+///
+/// `scale` is the scale of the sheet. The scale of free and pictorial views is never written.
 pub(crate) fn view_title(plan: &ViewPlan, view: usize, scale: f64) -> Option<String> {
     let placed = &plan.views[view];
     let own = placed.sight.unit / plan.unit_mm();
@@ -28,26 +34,32 @@ pub(crate) fn view_title(plan: &ViewPlan, view: usize, scale: f64) -> Option<Str
     }
 }
 
-/// The view with the line of a section: the first one that sees the plane edge-on.
+/// Index of the view that shows the cutting line of a section: the first view without a title that sees the
+/// cutting plane edge-on.
 pub(crate) fn edge_on_view(plan: &ViewPlan, cut: &CutLine) -> Option<usize> {
     let edge_on =
         |sight: &SheetView| cut.plane.normal().dot(sight.axes()[2]).abs() < tolerances::MAX_EDGE_ON_COSINE;
     plan.views.iter().position(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
 }
 
-/// The circle around a detail view.
+/// The circle around a detail view, page mm.
 pub(crate) fn detail_circle(shown: &SheetView) -> Circle {
     Circle::new(shown.rect().center(), shown.rect().width() / 2.0)
 }
 
-/// Letter height of notes, maximum width, and margins to the frame, mm.
+/// Letter height of notes.
 const NOTE_HEIGHT_MM: f64 = 3.5;
+/// Width at which notes are wrapped.
 const MAX_NOTE_WIDTH_MM: f64 = 90.0;
+/// Distance of notes from the left side of the frame.
 const NOTE_LEFT_MARGIN_MM: f64 = 16.0;
+/// Distance of notes from the frame and from tables.
 const NOTE_MARGIN_MM: f64 = 6.0;
 
-/// Sets the notes of a sheet in the lower left corner, or above the tables there. Returns their marks and the
-/// paper they occupy.
+/// Sets the notes of a sheet in the lower left corner, or above the tables there. Returns their marks, and
+/// the rectangle they occupy; `None` if the sheet has no notes.
+///
+/// `space` is the free rectangle inside the frame, and `tables` are the rectangles of tables, page mm.
 ///
 /// # Errors
 /// Returns an error if no font has a glyph, or the notes are too high for the sheet.
@@ -85,7 +97,7 @@ pub(crate) fn write_notes(
     Ok((ink, Some(place)))
 }
 
-/// A warning if a text contains a character that could not be read.
+/// A warning with the first text that contains the replacement character U+FFFD; `None` if no text does.
 pub(crate) fn unreadable_text_warning(composition: &Composition) -> Option<String> {
     let marks = composition.items.iter().flat_map(|item| &item.drawing.layers).flat_map(|layer| &layer.marks);
     let texts = marks.filter_map(|mark| Some(&mark.provenance.text.as_ref()?.words));

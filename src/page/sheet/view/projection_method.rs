@@ -1,8 +1,11 @@
-//! [`ProjectionMethod`]: the projection method, first- or third-angle.
+//! [`ProjectionMethod`]: first- or third-angle projection, which decides where the views of a technical sheet
+//! stand around the front view.
+//!
+//! Source: ISO 5456-2:1996.
 
 use serde::Deserialize;
 
-/// The projection method: on which side of the front view the other views stand.
+/// Side of the front view on which each other view stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ProjectionMethod {

@@ -1,7 +1,8 @@
-//! [`SheetView`]: a view on a sheet, with its direction, extent, scale and position.
+//! [`SheetView`]: one orthographic view on a technical sheet, with its direction, extent, scale and position.
 //!
-//! A view is orthographic. Its extent is the bounding box of the model's points along the axes of the camera.
-//! Scale and position are set by the arrangement.
+//! 1. The extent is the bounding box of the model's points along the right and up axes of the camera.
+//! 2. The sheet's arrangement sets the scale and the position.
+//! 3. The view then maps model points to the page, provides the camera, and draws itself.
 
 use glam::{DVec2, DVec3};
 use kurbo::{Affine, Point, Rect};
@@ -14,7 +15,7 @@ use crate::scene::{Camera, Projection};
 /// Margin around a view for the width of its lines, mm.
 pub(crate) const LINE_MARGIN_MM: f64 = 1.5;
 
-/// A view on a sheet.
+/// An orthographic view on a sheet.
 #[derive(Debug, Clone)]
 pub(crate) struct SheetView {
     /// Name of the view.
@@ -23,18 +24,21 @@ pub(crate) struct SheetView {
     pub title: Option<String>,
     /// Camera; only its axes are used.
     camera: Camera,
-    /// Centre of the model, and the extent of the view relative to it, in model units to the right and up.
+    /// Centre of the model, the origin of the extent, world space.
     middle: DVec3,
+    /// Lower left corner of the extent, model units to the right and up.
     pub low: DVec2,
+    /// Upper right corner of the extent, model units to the right and up.
     pub high: DVec2,
-    /// Length on paper of a model unit, mm.
+    /// Scale: length on paper of a model unit, mm.
     pub unit: f64,
     /// Upper left corner of the extent on the page, mm.
     pub corner: Point,
 }
 
 impl SheetView {
-    /// A view of some points along the direction of a camera.
+    /// Creates the view of a point set along a camera's direction, at the page origin with a scale of 1 mm
+    /// per model unit.
     pub fn new(name: &str, camera: Camera, middle: DVec3, points: &[DVec3]) -> Self {
         let [right, up, _] = camera.axes();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -48,7 +52,8 @@ impl SheetView {
         Self { name: name.to_owned(), title: None, camera, middle, low, high, unit: 1.0, corner: Point::ZERO }
     }
 
-    /// The same view, limited to a square around a point.
+    /// The same view, limited to a square around a point: the extent of a detail. `radius` is half the side,
+    /// model units.
     pub fn around(&self, name: &str, at: DVec3, radius: f64) -> Self {
         let [right, up, _] = self.camera.axes();
         let p = DVec2::new((at - self.middle).dot(right), (at - self.middle).dot(up));
@@ -56,7 +61,7 @@ impl SheetView {
         Self { name: name.to_owned(), title: None, low, high, ..self.clone() }
     }
 
-    /// Unit vectors to the right, up and forward, world.
+    /// Unit vectors to the right, up and forward, world space.
     pub fn axes(&self) -> [DVec3; 3] {
         self.camera.axes()
     }
@@ -98,7 +103,7 @@ impl SheetView {
         }
     }
 
-    /// Maps the camera's frame to the page.
+    /// Transform from the frame of [`Self::view_camera`] to the page, both in mm.
     pub fn place(&self) -> Affine {
         Affine::translate((self.corner.x - LINE_MARGIN_MM, self.corner.y - LINE_MARGIN_MM))
     }
