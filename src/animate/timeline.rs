@@ -1,24 +1,31 @@
-//! [`Timeline`]: the frames of a film, their times, and which of them are drawn.
+//! [`Timeline`]: the frames of a film, their times in seconds, and the frames that are drawn.
+//!
+//! Frames are numbered from 0 and have equal length. With a hold of `n`, every `n`-th frame is drawn and
+//! shown for `n` frames (animation "on twos", "on threes").
 
 use crate::animate::tolerances::MAX_SPAN_ROUNDING_FRAMES;
 use crate::error::Error;
 
-/// Greatest number of frames, half a day of film.
+/// Maximum number of frames: 11.5 hours at 24 frames per second.
 const MAX_FRAMES: f64 = 1e6;
 
 /// Frames of equal length. Some repeat the drawing of the frame before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timeline {
+    /// Time of the first frame, seconds.
     from: f64,
+    /// Frames per second.
     fps: f64,
+    /// Number of frames.
     frames: usize,
+    /// Number of frames that each drawing is shown.
     hold: usize,
 }
 
 impl Timeline {
     /// Frames between two times in seconds, `fps` per second.
     ///
-    /// The first frame lies at the start and none at the end, so that a cyclic clip loops. If the times are
+    /// The first frame is at the start. No frame is at the end, so that a cyclic clip loops. If the times are
     /// equal, there is one frame.
     ///
     /// # Errors
@@ -39,7 +46,7 @@ impl Timeline {
         Self::of_frames(frames as usize, from, fps)
     }
 
-    /// A number of frames from a time on.
+    /// A given number of frames, starting at a time in seconds.
     ///
     /// # Errors
     /// If there are no frames or too many, the time is not finite, or the rate is not in (0, 1000].
@@ -55,7 +62,7 @@ impl Timeline {
         Ok(Self { from, fps, frames, hold: 1 })
     }
 
-    /// The same, with every drawing held for several frames ("on twos", "on threes").
+    /// The same timeline with each drawing shown for several frames.
     #[must_use]
     pub fn holding(self, frames: usize) -> Self {
         Self { hold: frames.max(1), ..self }
@@ -73,7 +80,7 @@ impl Timeline {
         self.fps
     }
 
-    /// Number of frames that a drawing is held.
+    /// Number of frames that each drawing is shown.
     #[must_use]
     pub fn hold(&self) -> usize {
         self.hold
@@ -84,13 +91,13 @@ impl Timeline {
         (0..self.frames).step_by(self.hold)
     }
 
-    /// The drawn frame whose drawing a frame shows.
+    /// The drawn frame whose drawing is shown in `frame`.
     #[must_use]
     pub fn held(&self, frame: usize) -> usize {
         frame - frame % self.hold
     }
 
-    /// Number of frames that show the drawing of a drawn frame.
+    /// Number of frames that show the drawing of frame `drawn`; fewer than the hold at the end of the film.
     #[must_use]
     pub fn shown(&self, drawn: usize) -> usize {
         self.hold.min(self.frames.saturating_sub(drawn))
