@@ -21,7 +21,8 @@
 //!
 //! 1. [`load`] reads a [`scene::Scene`]; [`mesh`] welds it to one [`mesh::Mesh`]; [`surface`] finds creases
 //!    and the smooth surface that the mesh approximates.
-//! 2. [`view`] projects the mesh. [`lines`] finds feature lines, and [`light`] and [`shadows`] find tones.
+//! 2. [`view`] projects the mesh. [`light`] lights the surface, [`shadows`] finds the borders of cast
+//!    shadows, and [`lines`] finds feature lines, tone borders (isophotes) among them.
 //! 3. [`visibility`] decides which pieces of all lines are visible: the [`visibility::ViewMap`].
 //! 4. [`chains`] joins visible pieces end to end, and [`strokes`] gives them ink. [`regions`] and
 //!    [`hatching`] fill the areas between visible lines.
@@ -29,7 +30,9 @@
 //!
 //! [`pipeline`] connects the stages and shares work between views. [`style`] sets their options. [`edit`]
 //! and [`animation`] change a scene before it is drawn; [`animate`] draws frames, [`page`] composes pages,
-//! and [`diff`] compares drawings.
+//! and [`diff`] compares drawings. [`text`] sets letters, [`images`] places pictures of materials, and
+//! [`motion`] draws motion lines. `cli` is the program. `error`, `parallel`, `geometry` and `colour` are the
+//! base of all areas.
 //!
 //! ```
 //! use ligne::lines::{self, LineKind, LineOptions, Surface};
@@ -49,7 +52,7 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! # Decisions not taken
+//! # Deliberately absent
 //!
 //! - No trait for stages: a stage is a function `(&inputs, &options) -> output`, and each exists once.
 //! - No plug-ins: styles are data (see [`style`]).

@@ -1,10 +1,12 @@
-//! [`Timeline`]: the frames of an animation, their times in seconds, and which of them are drawn. The others
-//! repeat the drawing before them, as in traditional animation "on twos".
+//! [`Timeline`]: the frames of a film, their times in seconds, and the frames that are drawn.
+//!
+//! Frames are numbered from 0 and have equal length. With a hold of `n`, every `n`-th frame is drawn and
+//! shown for `n` frames (animation "on twos", "on threes").
 
 use super::tolerances::MAX_SPAN_ROUNDING_FRAMES;
 use crate::error::Error;
 
-/// Maximum number of frames, half a day at 24 frames per second.
+/// Maximum number of frames: 11.5 hours at 24 frames per second.
 const MAX_FRAMES: f64 = 1e6;
 
 /// Frames of equal length. Some repeat the drawing of the frame before.
@@ -12,6 +14,7 @@ const MAX_FRAMES: f64 = 1e6;
 pub struct Timeline {
     /// Time of the first frame, seconds.
     from: f64,
+    /// Frames per second.
     fps: f64,
     /// Number of frames.
     frames: usize,
@@ -22,8 +25,8 @@ pub struct Timeline {
 impl Timeline {
     /// Frames between two times in seconds, `fps` per second.
     ///
-    /// There is a frame at the start but none at the end, so that a cyclic clip loops without a repeated
-    /// frame. If the times are equal, there is one frame.
+    /// The first frame is at the start. No frame is at the end, so that a cyclic clip loops. If the times are
+    /// equal, there is one frame.
     ///
     /// # Errors
     /// If a time is not finite, the end is before the start, there are too many frames, or the rate is not in
@@ -43,7 +46,7 @@ impl Timeline {
         Self::of_frames(frames as usize, from, fps)
     }
 
-    /// A given number of frames, the first at `from` seconds.
+    /// A given number of frames, starting at a time in seconds.
     ///
     /// # Errors
     /// If there are no frames or too many, the time is not finite, or the rate is not in (0, 1000].
@@ -59,7 +62,7 @@ impl Timeline {
         Ok(Self { from, fps, frames, hold: 1 })
     }
 
-    /// The same, with every drawing held for several frames ("on twos", "on threes").
+    /// The same timeline with each drawing shown for several frames.
     #[must_use]
     pub fn holding(self, frames: usize) -> Self {
         Self { hold: frames.max(1), ..self }
@@ -77,7 +80,7 @@ impl Timeline {
         self.fps
     }
 
-    /// Number of frames that a drawing is held.
+    /// Number of frames that each drawing is shown.
     #[must_use]
     pub fn hold(&self) -> usize {
         self.hold
@@ -88,13 +91,13 @@ impl Timeline {
         (0..self.frames).step_by(self.hold)
     }
 
-    /// The drawn frame whose drawing a frame shows.
+    /// The drawn frame whose drawing is shown in `frame`.
     #[must_use]
     pub fn held(&self, frame: usize) -> usize {
         frame - frame % self.hold
     }
 
-    /// Number of frames that show the drawing of a drawn frame.
+    /// Number of frames that show the drawing of frame `drawn`; fewer than the hold at the end of the film.
     #[must_use]
     pub fn shown(&self, drawn: usize) -> usize {
         self.hold.min(self.frames.saturating_sub(drawn))

@@ -3,7 +3,7 @@
 //! A call runs in these steps:
 //! 1. `shorthand` turns `ligne MODEL` into `ligne draw MODEL`.
 //! 2. `config` adds options from environment variables and `ligne.toml`.
-//! 3. clap parses the words into the argument structs of `options`.
+//! 3. clap parses the words into the argument structs of `options` (one file for each group of options).
 //! 4. `request` checks them and makes a `DrawRequest`.
 //! 5. The command draws, compares or lists. Files are staged in `output` and renamed at the end, all or none.
 //!

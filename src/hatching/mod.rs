@@ -2,11 +2,12 @@
 //!
 //! Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D
 //! animation, 2000, section 3.3, with strokes in place of textures.
+//!
 //! 1. Each bin of light needs a share of the paper ([`tone`]), which crossing layers divide
 //!    ([`layer_shares`]).
 //! 2. A layer of lines lays strokes along ranked guides, so darker tones keep the strokes of lighter ones
 //!    ([`guides`]). A layer of dots places half-tone or stipple dots ([`dots`](mod@dots)).
-//! 3. Both are clipped to the cells that they shade ([`clip`]) and become marks ([`lines`]).
+//! 3. Both are cut at the borders of the cells that they shade ([`clip`]), and become marks ([`lines`]).
 //!
 //! Files, in reading order: [`options`]; [`context`] names and colours; [`tone`]; [`layer_shares`];
 //! [`guides`]; [`clip`]; [`lines`]; [`dots`](mod@dots); [`patterns`] over tones; [`paper`](mod@paper) sheet and grain.

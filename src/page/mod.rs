@@ -8,8 +8,10 @@
 //! Files, in reading order: [`page_file`]; [`page_source`] for errors and paths; [`page_size`] and
 //! [`mm_length`] for values; `tolerances`; [`print_inks`]; [`model_reader`] for formats of the caller;
 //! [`composed_page`].
-//! Folders: [`figure`] (models, camera, style), [`layout`] (panels of a page), [`balloon_placement`],
-//! [`comic`], [`sheet`].
+//!
+//! Folders: [`figure`] (models, camera, style), [`layout`] (panels of a page), [`balloon_placement`] (places
+//! of speech balloons, for `comic::lettering`), [`comic`], [`sheet`] (its numbered balloons are in
+//! `sheet::part_balloons`).
 //!
 //! ```
 //! use ligne::page::PageFile;

@@ -1,7 +1,11 @@
-//! [`MeasuredText`]: a text with its break opportunities, and the widths of lines between them.
+//! [`MeasuredText`]: a text with its break opportunities and the width of a line between any two of them.
 //!
-//! Whole pieces are measured once and summed, so the width of a line without hyphens needs no shaping. Lines
-//! with hyphens shape their first and last piece.
+//! The breaks between words divide the text into pieces. Each piece is shaped once, and prefix sums of the
+//! widths give the width of any line that begins and ends between words. A line that begins or ends at a
+//! hyphen also shapes its first or last part.
+//!
+//! The line-breaking searches of `line_breaking` run here, with these widths as input. Lengths are in ems,
+//! unless stated otherwise.
 
 use std::sync::Arc;
 
@@ -14,26 +18,29 @@ use crate::error::{Error, ErrorKind};
 /// Maximum number of lines times break opportunities for balanced breaking.
 const MAX_LINE_BREAK_PAIRS: usize = 4_000_000;
 
-/// A text with its breaks and measures. Lengths in ems.
+/// A text with its break opportunities and measured pieces. Lengths in ems.
 pub(crate) struct MeasuredText<'a> {
     text: &'a str,
     pub setting: &'a Setting,
     pub breaks: Vec<LineBreak>,
     pub pieces: ShapedPieces<'a>,
-    /// For each break, the number of whole pieces before it; for each number of pieces, their width with
-    /// blanks.
+    /// For each break, the number of whole pieces before it.
     stretches: Vec<usize>,
+    /// Prefix sums: entry `n` is the width of the first `n` pieces with the blanks after them.
     widths: Vec<f64>,
-    /// The breaks between whole pieces.
+    /// Indices of the breaks without a hyphen. They lie between whole pieces.
     whole: Vec<usize>,
-    /// Largest height above and depth below the baseline.
+    /// Maximum extent of the ink above and below the baseline; above, at least the height of capitals.
     pub reach: [f64; 2],
     /// The first error while measuring.
     fault: Option<Error>,
 }
 
 impl<'a> MeasuredText<'a> {
-    /// Shapes a trimmed text.
+    /// Finds the breaks of a text and shapes its pieces. The text must be trimmed.
+    ///
+    /// # Errors
+    /// If the letter size or line spacing is invalid, the language is unknown, or a glyph is missing.
     pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
         let em = setting.em();
         if !(em.is_finite() && em > 0.0 && setting.leading.is_finite() && setting.leading >= 0.0) {
@@ -71,7 +78,8 @@ impl<'a> MeasuredText<'a> {
         units / self.setting.em()
     }
 
-    /// The pieces of a line between two breaks: start byte, end byte, and whether a hyphen follows.
+    /// The parts of a line between two breaks: start byte, end byte, and whether a hyphen follows. Parts
+    /// are whole pieces, except at breaks with a hyphen.
     pub fn parts(&self, from: usize, to: usize) -> Vec<(usize, usize, bool)> {
         let (begin, end) = (self.breaks[from], self.breaks[to]);
         let mut parts = Vec::new();
@@ -87,8 +95,8 @@ impl<'a> MeasuredText<'a> {
         parts
     }
 
-    /// The width of a line between two breaks, including overhanging ink; `None` if a glyph is missing or the
-    /// line must end earlier.
+    /// The width of a line between two breaks, including overhanging ink. `None` if a mandatory break lies
+    /// between them, or if a glyph is missing; [`Self::take_fault`] then returns the error.
     pub fn line_width(&mut self, from: usize, to: usize) -> Option<f64> {
         if (from + 1..to).rev().any(|between| self.breaks[between].must) {
             return None;
@@ -122,7 +130,8 @@ impl<'a> MeasuredText<'a> {
         Ok(left.overhang[0] + sum - last.blank_width + right.overhang[1])
     }
 
-    /// Greedy line ends, or the break where nothing fits.
+    /// Breaks the text greedily into lines of at most `width` user units. Returns the breaks that end
+    /// lines, or the break at which nothing fits. `parted` allows hyphens.
     pub fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
         let limit = self.in_ems(width);
         let breaks = self.breaks.clone();
@@ -131,7 +140,7 @@ impl<'a> MeasuredText<'a> {
         greedy(last, &mut fits, &|at| parted || !breaks[at].hyphen, &|at| breaks[at].must)
     }
 
-    /// The error that a word is too wide.
+    /// The error for a word that is too wide. It starts at the break `begin`; `width` is in user units.
     pub fn too_wide(&mut self, begin: usize, width: f64) -> Error {
         if let Some(fault) = self.fault.take() {
             return fault;
@@ -152,7 +161,9 @@ impl<'a> MeasuredText<'a> {
         Err(Error::new("the text is too long to balance its lines").remedy("give it a width"))
     }
 
-    /// The most even ends of `lines` lines, and the largest cost of a line.
+    /// Breaks the text into exactly `lines` lines with the smallest maximum cost. Returns this cost and the
+    /// breaks that end lines. `parted` allows hyphens; `cost` takes the line number and the line's two
+    /// breaks.
     pub fn best_ends(
         &mut self,
         lines: usize,
@@ -164,7 +175,9 @@ impl<'a> MeasuredText<'a> {
         choose_balanced(lines, last, &mut |line, from, to| cost(self, line, from, to), &|at| may_end[at])
     }
 
-    /// The smallest ellipse around the lines of a text: half its width, and the ends of lines.
+    /// Breaks the text so that it fits in the smallest ellipse of an aspect ratio (height by width).
+    /// Returns half the width of the ellipse and the breaks that end lines. Numbers of lines are tried from 1
+    /// up, until no larger number can give a smaller ellipse.
     pub fn smallest_ellipse(&mut self, aspect: f64, parted: bool) -> Result<(f64, Vec<usize>), Error> {
         let [above, below] = self.reach;
         let leading = self.setting.leading;
@@ -172,7 +185,8 @@ impl<'a> MeasuredText<'a> {
         for lines in 1..self.breaks.len() {
             let height = above + below + (lines - 1) as f64 * leading;
             let reached = best.as_ref().map_or(f64::INFINITY, |(square, _)| *square);
-            // Height of the line's farthest corner from the centre, scaled to a circle.
+            // Vertical distance of the line's farther edge from the centre, scaled so that the ellipse is a
+            // circle.
             let corner = |line: usize| {
                 let top = line as f64 * leading - height / 2.0;
                 top.abs().max((top + above + below).abs()) / aspect

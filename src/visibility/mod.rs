@@ -2,15 +2,16 @@
 //!
 //! 1. `projection` projects the feature segments and clips them to the near plane and the page.
 //! 2. `tiles` lays a grid over the image; segments and triangles meet tile by tile.
-//! 3. `occlusion` computes the parameter interval of a segment that one triangle hides; a sweep merges the
-//!    intervals.
+//! 3. `occlusion` computes the parameter interval of a segment that one triangle hides
+//!    (`triangle_occlusion`).
 //! 4. `culling` skips most of these comparisons. It changes the time, not the result.
-//! 5. `sweep` runs all tiles and cuts the segments into visible and hidden pieces.
+//! 5. `sweep` runs all tiles, counts the intervals along each segment, and cuts it into visible and hidden
+//!    pieces.
 //! 6. `contours` transfers the visibility of the mesh contour to the smooth contour.
 //! 7. `assembly` builds the graph; `overlap` removes lines that coincide in the image.
 //!
-//! Types: [`graph`]; tolerances: [`tolerances`], [`view_tolerances`]. `queries` reports visibility at points and
-//! across gaps.
+//! Types: [`graph`]; tolerances: [`tolerances`], [`view_tolerances`]. `queries` reports visibility at points
+//! and across gaps.
 //!
 //! Source: Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.
 

@@ -1,4 +1,6 @@
-//! [`DirectedEdge`]: a view edge with a direction, and a total order of such steps that depends on geometry only.
+//! [`DirectedEdge`]: an edge of the view map with the direction in which a route passes it.
+//!
+//! [`order`] sorts such edges by geometry, so that routes do not depend on the order of the view map.
 
 use crate::geometry::plane::planar_distance::length;
 use crate::visibility::{ViewMap, ViewVertexId};
@@ -16,24 +18,26 @@ impl DirectedEdge {
         Self { reversed: !self.reversed, ..self }
     }
 
+    /// View vertex where the route enters the edge.
     pub fn from(self, map: &ViewMap) -> ViewVertexId {
         let edge = &map.edges[self.edge as usize];
         if self.reversed { edge.end } else { edge.start }
     }
 
+    /// View vertex where the route leaves the edge.
     pub fn to(self, map: &ViewMap) -> ViewVertexId {
         self.turned().from(map)
     }
 
-    /// Length in the image.
+    /// Distance between its ends in the image, user units.
     pub fn length(self, map: &ViewMap) -> f64 {
         let at = |v: ViewVertexId| map.vertices[v.index()].position;
         length(at(self.to(map)) - at(self.from(map)))
     }
 }
 
-/// Orders steps by start, end and segment. Segments come last because their numbers depend on what else is
-/// drawn.
+/// Orders edges by start position, end position and segment number. Segment numbers depend on the other
+/// lines of the drawing, so they only break ties.
 pub(crate) fn order(map: &ViewMap, a: DirectedEdge, b: DirectedEdge) -> std::cmp::Ordering {
     let segment = |s: DirectedEdge| map.edges[s.edge as usize].segment;
     let at = |v: ViewVertexId| map.vertices[v.index()].position;

@@ -1,7 +1,8 @@
-//! Tidying: decides which lines are drawn, and joins those that one pen stroke would draw.
+//! Tidying: drops duplicate and noisy lines of the view map, and joins lines that one pen stroke would draw.
 //!
 //! 1. Short hidden stretches of a smooth contour are made visible.
-//! 2. Three rounds of: stitch contours across small gaps, drop double lines, drop short and noisy lines.
+//! 2. Three rounds follow. Each stitches contours across small gaps, drops double lines, and drops short
+//!    and noisy lines.
 //! 3. Each line is cut where it changes between silhouette and inner contour.
 //!
 //! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology, ACM TOG

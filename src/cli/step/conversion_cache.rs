@@ -1,10 +1,11 @@
-//! [`ConversionCache`]: converted models in the cache folder of the user.
+//! [`ConversionCache`]: STEP models that were converted to GLB, stored in the cache folder of the user.
 //!
 //! - The key is a hash of everything that the result depends on. It is the file name of the entry.
-//! - An entry starts with magic bytes, the up axis, and a hash of the rest. Entries that do not match are
-//!   ignored.
-//! - Entries are written under temporary names and renamed, so readers never see half a file.
-//! - A hit updates the time of the entry. If all entries together exceed the limit, the oldest are removed.
+//! - An entry consists of magic bytes, the up axis, a hash of the GLB, and the GLB. Entries with another
+//!   hash are ignored.
+//! - Entries are written under temporary names and renamed, so that readers never see an incomplete file.
+//! - A hit updates the modification time of the entry. If all entries together exceed 1 GiB, the oldest are
+//!   removed.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -24,6 +25,7 @@ const MAX_UNFINISHED_AGE: Duration = Duration::from_secs(24 * 3600);
 /// First bytes of an entry. The digit is the version of the format.
 const ENTRY_MAGIC: &[u8; 4] = b"LST1";
 
+/// File name extension of entries.
 const ENTRY_ENDING: &str = "step-glb";
 
 /// Hash of everything that a result depends on.
@@ -61,10 +63,11 @@ impl Fnv {
     }
 }
 
-/// Cache folder.
+/// Cache folder for converted models.
 #[derive(Debug)]
 pub(crate) struct ConversionCache {
     folder: PathBuf,
+    /// Maximum total size of all entries, bytes.
     max_bytes: u64,
 }
 
@@ -85,7 +88,7 @@ impl ConversionCache {
         })
     }
 
-    /// Path for a file that is being written.
+    /// New temporary path for a file that is being written.
     pub(crate) fn unfinished(&self, ending: &str) -> PathBuf {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -106,7 +109,7 @@ impl ConversionCache {
         if ConversionKey::of(&[glb]).0.to_le_bytes() != bytes.get(5..21)? {
             return None;
         }
-        // The time only decides which entries are removed first. Failures are ignored.
+        // The modification time only decides which entries are removed first, so failures are ignored.
         let _ =
             File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
         bytes.drain(..21);

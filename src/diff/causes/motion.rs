@@ -1,4 +1,12 @@
-//! One similarity (shift, rotation and scale) that carries marks of one drawing to the other.
+//! [`Motion`]: one similarity (shift, rotation and scale) that carries the marks of one drawing onto those
+//! of another.
+//!
+//! 1. Pairs of paths that may correspond each give a candidate motion, by least squares on their points.
+//! 2. A candidate is scored by the share of sample points that it carries onto the other drawing, in both
+//!    directions.
+//! 3. The best candidate is refined by a fit to all pairs that it maps onto each other.
+//!
+//! Coordinates and distances are in px.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
@@ -6,17 +14,18 @@ use crate::diff::curves::segment::Segment;
 use crate::diff::curves::segment_clusters::SegmentClusters;
 use crate::diff::tolerances;
 
-/// Most pairs of marks used to compute candidate motions.
+/// Number of pairs of paths, evenly spaced in the list, that give candidate motions. Rounding may nearly
+/// double it.
 const MAX_MOTION_TRIALS: usize = 48;
-/// Number of sample points for scoring a motion.
+/// Number of sample points on each drawing for scoring a motion.
 const MOTION_SAMPLES: usize = 600;
 
 /// A similarity and its score.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
     pub affine: Affine,
-    /// Share of the sample points of both drawings that it carries onto something. The smaller share of both
-    /// directions counts.
+    /// Share of the sample points that it carries onto a line of the other drawing, 0 to 1: the smaller of
+    /// the shares in both directions.
     pub share: f64,
 }
 
@@ -37,23 +46,27 @@ impl Motion {
         self.affine * p - p
     }
 
-    /// Displacements of the four corners of a box.
+    /// Displacements of the four corners of a rectangle.
     pub(crate) fn ways(&self, place: Rect) -> [Vec2; 4] {
         let (x, y) = ([place.x0, place.x1], [place.y0, place.y1]);
         [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j): (usize, usize)| self.of(Point::new(x[i], y[j])))
     }
 }
 
-/// Input for fitting: pairs of paths that may correspond, and all marks of both drawings as polylines.
+/// Input for fitting a motion to two drawings.
 pub(crate) struct MotionInput<'a> {
+    /// Pairs of paths, one of each drawing, that may correspond.
     pub likes: Vec<[&'a BezPath; 2]>,
+    /// All marks of each drawing as polylines.
     pub lines: [Vec<Vec<Point>>; 2],
 }
 
-/// Score of a motion, measured on both drawings.
+/// Scores motions on two drawings.
 struct MotionScore {
+    /// Sample points of each drawing.
     places: [Vec<Point>; 2],
     lines: [LineIndex; 2],
+    /// Maximum distance of a sample point from the line that it is carried onto, px.
     reach: f64,
 }
 
@@ -83,14 +96,15 @@ impl MotionScore {
     }
 }
 
-/// Share of both drawings that coincides with the other one without any motion.
+/// Score of the identity: the share of both drawings that coincides with the other one without any motion.
 pub(crate) fn stays(marks: &MotionInput, reach: f64) -> f64 {
     MotionScore::new(marks, reach)
         .and_then(|judge| judge.judge(Affine::IDENTITY))
         .map_or(0.0, |motion| motion.share)
 }
 
-/// The motion with the highest score within `reach`: a similarity if `similar`, otherwise a shift.
+/// The motion with the highest score: a similarity if `similar`, otherwise a shift. `more` adds candidates;
+/// `reach` is the distance (px) within which a sample point hits a line.
 pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
     let judge = MotionScore::new(marks, reach)?;
     let judge = |affine: Affine| judge.judge(affine);
@@ -122,7 +136,7 @@ pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bo
     Some(refined.unwrap_or(best))
 }
 
-/// Least-squares similarity or shift from points to points.
+/// Least-squares similarity or shift that carries points `a` to points `b`.
 fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
     if a.is_empty() || a.len() != b.len() {
         return None;
@@ -161,7 +175,7 @@ pub(crate) fn points(path: &BezPath) -> Vec<Point> {
     points
 }
 
-/// Evenly spaced points on all lines together.
+/// About [`MOTION_SAMPLES`] points, evenly spaced along all lines together.
 fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
     let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
     let length: f64 = segments().map(|(p, q)| p.distance(q)).sum();

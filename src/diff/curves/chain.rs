@@ -1,4 +1,9 @@
-//! Shapes as polylines, joined where they were split.
+//! [`Chain`]: lines and outlines of a drawing as polylines, in a form that two drawings can be compared in.
+//!
+//! 1. The paths of shapes are flattened to polylines.
+//! 2. Open polylines of one group are joined where exactly two ends meet, because one drawing may split a
+//!    line that the other draws in one piece.
+//! 3. Start, direction and order are normalised, so that they do not depend on the order of the file.
 
 use crate::parallel::prelude::*;
 use kurbo::{PathEl, Point};
@@ -8,15 +13,16 @@ use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::diff::tolerances::{FLATTENING_OF_TOLERANCE, MAX_JOIN_GAP_OF_TOLERANCE, MIN_FLATTENING_OF_CURVE};
 
-/// A polyline in px, independent of how it was written: an open one starts at its lesser end, a closed one at
-/// its least point.
+/// A polyline in px with a canonical start and direction. Points are ordered by x, then y. An open chain
+/// starts at its lesser end; a closed one starts at its least point and continues to the lesser neighbour.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
+    /// Index of the group of marks that it belongs to. Only chains of one group are joined or compared.
     pub group: usize,
     /// At least two points; in a closed chain the last point repeats the first.
     pub points: Vec<Point>,
     pub closed: bool,
-    /// Numbers of the shapes that form the chain.
+    /// Indices of the shapes that form the chain, ascending.
     pub shapes: Vec<usize>,
 }
 
@@ -30,7 +36,7 @@ impl Chain {
         self.points.windows(2).map(|pair| (pair[0], pair[1]))
     }
 
-    /// Normalises start and direction.
+    /// Gives the chain its canonical start and direction.
     fn in_order(mut self) -> Self {
         let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
         if self.closed {
@@ -59,7 +65,8 @@ fn order(a: Point, b: Point) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// Chains of some shapes of a picture, in an order independent of the order of the shapes.
+/// The chains of some shapes of a picture, sorted by position. `of_shape` gives the group of each shape of
+/// the picture.
 pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &MarkGroups) -> Vec<Chain> {
     let flat: Vec<Vec<Chain>> = shapes
         .par_iter()
@@ -93,7 +100,7 @@ pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
     done
 }
 
-/// Sorts chains by position, so that copies of a chain are neighbours.
+/// Sorts chains by their points, so that identical chains of one group are adjacent.
 pub(crate) fn sort(chains: &mut [Chain]) {
     let key = |chain: &Chain| chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>();
     chains.sort_by(|a, b| {
@@ -106,8 +113,8 @@ pub(crate) fn sort(chains: &mut [Chain]) {
     });
 }
 
-/// For each chain, the first one of the same group with identical points. Chains must be sorted, so that
-/// copies follow it.
+/// For each chain, the index of the first chain of the same group with identical points, which may be the
+/// chain itself. Chains must be sorted.
 pub(crate) fn first_copies(chains: &[Chain]) -> Vec<usize> {
     let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
     for (index, chain) in chains.iter().enumerate() {
@@ -121,7 +128,7 @@ pub(crate) fn first_copies(chains: &[Chain]) -> Vec<usize> {
     firsts
 }
 
-/// Rings of an outline, in an order independent of how it was written.
+/// The rings of an outline as closed chains of group 0, sorted by their start points.
 pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
     let flat = outline
         .map(|outline| flatten(outline, tolerance * FLATTENING_OF_TOLERANCE, true))
@@ -132,8 +139,8 @@ pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Cha
     rings
 }
 
-/// Subpaths of a path as polylines, each with a flag for closed ones. With `closes`, open subpaths are
-/// closed.
+/// Subpaths of a path as polylines, each with a flag that is true if it is closed. With `closes`, open
+/// subpaths are closed. `tolerance` is the maximum deviation, px.
 pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
     let mut found: Vec<(Vec<Point>, bool)> = Vec::new();
     let size = path.control_box().size();
@@ -195,7 +202,7 @@ impl ChainEnd {
     }
 }
 
-/// Joins chains of one group where exactly two ends meet within `reach`.
+/// Joins open chains of one group where exactly two ends meet within `reach` px.
 fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
     let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
     let place = |end: ChainEnd| {

@@ -6,7 +6,7 @@
 //!    ([`capsule_interval`]), so the result is exact.
 //! 3. [`chain_pairs`] pairs chains with uncovered intervals, nearest first, and then congruent closed chains
 //!    at any distance.
-//! 4. [`chain_events`] classifies each chain as moved, reshaped, restyled, relabelled, removed or added.
+//! 4. [`chain_events`] classifies each chain (one mark, not a part) as moved, reshaped, restyled, relabelled, removed or added.
 
 mod capsule_interval;
 pub(crate) mod chain_events;

@@ -1,11 +1,15 @@
-//! [`assign_kinds`]: numbers of cut parts that differ between neighbours (greedy graph colouring).
+//! [`assign_kinds`]: numbers the cut parts of a section so that neighbours differ (greedy graph colouring).
+//!
+//! The number selects the hatching of the cut faces. Parts are neighbours if the bounding boxes of their
+//! cut faces nearly touch in the plane of the section.
 
 use super::CutFaces;
 
-/// Maximum gap between the boxes of neighbouring parts, as a share of the larger diagonal.
+/// Maximum gap between the bounding boxes of neighbouring parts, as a share of the larger box's diagonal.
 const MAX_NEIGHBOUR_GAP_RATIO: f64 = 0.02;
 
-/// Assigns numbers by decreasing area: the lowest number that no numbered neighbour has.
+/// Sets [`CutFaces::kind`] of all parts. In order of decreasing area, each part gets the lowest number that
+/// none of its neighbours has yet.
 pub(crate) fn assign_kinds(faces: &mut [CutFaces]) {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
@@ -21,7 +25,7 @@ pub(crate) fn assign_kinds(faces: &mut [CutFaces]) {
     }
 }
 
-/// Whether the faces of two parts touch or nearly touch, by their boxes.
+/// Whether the bounding boxes of two parts' cut faces overlap or nearly touch.
 pub(crate) fn are_neighbours(a: &CutFaces, b: &CutFaces) -> bool {
     let size = |faces: &CutFaces| faces.bounds[0].distance(faces.bounds[1]);
     let near = MAX_NEIGHBOUR_GAP_RATIO * size(a).max(size(b));

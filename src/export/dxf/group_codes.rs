@@ -1,14 +1,16 @@
-//! Pairs of group code and value, the only content of a DXF file.
+//! [`GroupCodes`]: writer for the pairs of group code and value that a DXF file consists of.
+//!
+//! A pair is two lines of ASCII text: a whole number that states the meaning of the value, then the value.
 
-/// Decimals of lengths. A thousandth of a millimetre is finer than any machine, but models may be in metres.
+/// Decimals of lengths. Millimetres need three, the precision of machines; drawings in metres need six.
 const LENGTH_DECIMALS: usize = 6;
 
-/// Group codes as text.
+/// Text of a DXF file, or of a part of it.
 #[derive(Default)]
 pub(crate) struct GroupCodes(Vec<u8>);
 
 impl GroupCodes {
-    /// Writes a name or a word, which must be one line of ASCII.
+    /// Writes a pair with a text value, which must be one line of ASCII.
     pub(crate) fn text(&mut self, code: u16, value: &str) {
         self.0.extend_from_slice(format!("{code}\r\n{value}\r\n").as_bytes());
     }
@@ -17,6 +19,7 @@ impl GroupCodes {
         self.text(code, &value.to_string());
     }
 
+    /// Writes a pair with the handle (id) of an object, in hexadecimal.
     pub(crate) fn handle(&mut self, code: u16, handle: u32) {
         self.text(code, &format!("{handle:X}"));
     }
@@ -31,7 +34,7 @@ impl GroupCodes {
         self.number(code + 10, y);
     }
 
-    /// Writes a point of space on the page plane.
+    /// Writes a point of the page as a point in space, with z = 0. `code` is the group code of x.
     pub(crate) fn point_in_space(&mut self, code: u16, point: [f64; 2]) {
         self.point(code, point);
         self.number(code + 20, 0.0);
@@ -55,7 +58,7 @@ impl GroupCodes {
     }
 }
 
-/// A number with a decimal point, because some readers take numbers without one as integers.
+/// Formats a number with a decimal point, because some readers take numbers without one as integers.
 fn number(value: f64) -> String {
     let text = format!("{value:.LENGTH_DECIMALS$}");
     let short = text.trim_end_matches('0');

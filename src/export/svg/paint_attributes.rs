@@ -1,4 +1,7 @@
-//! Painting attributes of SVG, moved to the groups that share them.
+//! [`Attributes`]: the painting attributes of SVG marks, such as `fill` and `stroke-width`.
+//!
+//! Attributes that most marks of a group share are written once at the group, so files are smaller. A mark
+//! writes only those that differ from its group.
 
 use rustc_hash::FxHashMap;
 
@@ -9,28 +12,28 @@ use crate::export::encoding::decimals::Decimals;
 /// Value of one attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum AttributeValue {
-    /// Has no influence on the mark.
+    /// Any value: the attribute has no influence on the mark.
     Any,
     /// `none`.
     None,
     /// A colour; its opacity is a separate attribute.
     Colour(Colour),
-    /// 0 to 255.
+    /// 0 (transparent) to 255; written as a decimal from 0 to 1.
     Opacity(u8),
-    /// Width in steps of [`WIDTH_DECIMALS`].
+    /// Width as a whole number of units of the last of [`WIDTH_DECIMALS`] decimals.
     Width(i64),
     Cap(Cap),
     Join(Join),
 }
 
-/// Decimals of widths. Finer than coordinates, because 0.25 mm is 0.945 px.
+/// Decimals of stroke widths. They are finer than coordinates, because 0.25 mm is 0.945 px.
 pub(crate) const WIDTH_DECIMALS: u8 = 3;
 
 /// Attribute names in written order.
 const ATTRIBUTE_NAMES: [&str; 7] =
     ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linecap", "stroke-linejoin"];
 
-/// Initial values of SVG.
+/// Initial values of the attributes by the SVG specification.
 const INITIAL_ATTRIBUTES: Attributes = Attributes([
     AttributeValue::Colour(Colour::BLACK),
     AttributeValue::Opacity(255),
@@ -73,15 +76,16 @@ impl Attributes {
                 Any,
                 Any,
             ]),
-            // Only its pieces of one colour use these attributes: opaque fills.
+            // An image consists of pieces. Those of a single colour are opaque fills and use these
+            // attributes.
             Paint::Image(_) => {
                 Self([Any, AttributeValue::Opacity(255), AttributeValue::None, Any, Any, Any, Any])
             }
         }
     }
 
-    /// Best attributes for a group: for each attribute, the value of most marks, or the first of equally
-    /// frequent ones. `runs` holds the attributes and the number of marks of each run.
+    /// Attributes for a group: for each attribute, the most frequent value; of equally frequent values, the
+    /// first. `runs` holds attributes and the number of consecutive marks with them.
     pub fn common(runs: &[(Self, usize)]) -> Self {
         let mut common = INITIAL_ATTRIBUTES;
         for (index, best) in common.0.iter_mut().enumerate() {
@@ -154,7 +158,7 @@ impl Attributes {
         }
     }
 
-    /// Whether no attribute differs from an outer group.
+    /// Whether a mark inside `outer` needs no attributes of its own.
     pub fn fits(&self, outer: &Self) -> bool {
         self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == AttributeValue::Any)
     }
@@ -176,7 +180,7 @@ pub(crate) fn have_equal_paint(a: &Mark, b: &Mark) -> bool {
     }
 }
 
-/// Fill colour of a path.
+/// Fill colour of a path; `None` for strokes, gradients and images.
 fn filled(paint: &Paint) -> Option<Colour> {
     match paint {
         Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_) => None,

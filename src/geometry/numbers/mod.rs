@@ -2,8 +2,7 @@
 //!
 //! Files, in reading order: [`portable_math`] transcendental functions with the same last bit on every
 //! machine; [`powers_of_two`] the powers of two around a number; [`linear_solver`] small symmetric systems of
-//! equations; [`noise`] hashes and value noise in place of a random generator; [`tolerance`] every epsilon of
-//! the crate.
+//! equations; [`noise`] hashes and value noise in place of a random generator.
 
 pub mod linear_solver;
 pub mod noise;

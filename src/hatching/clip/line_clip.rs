@@ -1,4 +1,4 @@
-//! Clips polylines to the cells of the ground, exactly where they cross its borders.
+//! Clips polylines to the cells of `HatchRegions`, exactly where they cross its borders.
 //!
 //! A line is compared with the border pieces in the tiles that it passes. No polygon is built.
 

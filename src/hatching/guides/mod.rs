@@ -5,8 +5,8 @@
 //!    ([`section_guides`]).
 //! 2. Each guide has a rank from 0 to 1. It is inked where the tone wants more than that share of all guides
 //!    (Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH 2001).
-//! 3. Strokes are laid along guides with gaps, bows and tremor, and clipped to the cells that want them
-//!    ([`stroke_layout`]).
+//! 3. Strokes are laid along guides with gaps, bows and tremor, and cut at cell borders
+//!    ([`stroke_layout`], with `clip::line_clip`).
 //!
 //! Files, in reading order: [`guide`]; [`guide_directions`]; [`streamlines`]; [`section_guides`];
 //! [`stroke_layout`].

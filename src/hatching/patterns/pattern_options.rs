@@ -1,4 +1,5 @@
-//! [`Pattern`]: a pattern over one tone of one material: a table `[[fills.pattern]]` of a style sheet.
+//! [`Pattern`]: the table `[[fills.pattern]]` of a style sheet. It lays dots, lines, crosses or tiles over
+//! the tones of painted surfaces.
 
 use std::path::PathBuf;
 
@@ -31,23 +32,23 @@ pub enum PatternKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PatternFixed {
-    /// The page: the same size everywhere, as if surfaces were windows onto the pattern.
+    /// The page: the pattern has the same size and direction everywhere.
     #[default]
     Page,
-    /// The surface: it turns and shrinks with it.
+    /// The surface: the pattern turns and shrinks with it.
     Surface,
 }
 
-/// Pattern over one tone of one material.
+/// Pattern over selected tones of selected materials.
 ///
 /// Source: Claes et al., Fast 3D cartoon rendering with improved quality by exploiting graphics hardware,
 /// 2001, section 3.4 and figure 5d, where a texture replaces the colour of a tone.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pattern {
-    /// Names of the materials that get it. Default: all.
+    /// Glob for the names of the materials that it covers. Default: all.
     pub material: Glob,
-    /// The tones that get it: 0 is the darkest, −1 the lightest; empty means all. Default: all.
+    /// The tones that it covers: 0 is the darkest, −1 the lightest; empty means all. Default: all.
     pub tones: Vec<i32>,
     /// Content. Default: dots.
     pub kind: PatternKind,
@@ -111,7 +112,7 @@ impl Default for Pattern {
 }
 
 impl Pattern {
-    /// Whether it covers a tone, 0 the darkest, of a material that has `count` tones.
+    /// Whether it covers a tone of a material with `count` tones. Tone 0 is the darkest.
     #[must_use]
     pub fn is_for(&self, material: &str, tone: u16, count: u16) -> bool {
         let (tone, count) = (i32::from(tone), i32::from(count));

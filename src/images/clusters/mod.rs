@@ -1,6 +1,9 @@
-//! Facets gathered into clusters that are painted from back to front.
+//! Clusters of textured facets that are painted as one image each, from back to front.
 //!
-//! 1. A cluster grows from a large facet over its neighbours, as long as one least-squares affine map, or one
+//! A facet is a piece of a visible triangle on which one affine map of the texture is accurate. Clusters
+//! keep the number of image elements in the drawing small.
+//!
+//! 1. A cluster grows from a large facet over its neighbours while one least-squares affine map, or one
 //!    colour, fits all of them.
 //! 2. A pixel buffer gives the pairs of clusters that cover each other; a topological sort gives the painting
 //!    order.

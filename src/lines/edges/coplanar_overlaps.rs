@@ -1,13 +1,15 @@
-//! Coplanar overlaps: kinds of edges in planes where surfaces overlap, from the surfaces on top on both
-//! sides.
+//! Edges in planes where surfaces overlap, such as the rim of a label on a wall: splits them and decides
+//! the kind of line of each piece.
 //!
-//! The rim of a label on a wall has one face, but is no border in the image. It separates two materials, as
-//! if the label filled a hole in the wall. So does the rim of a body that is let into a wall. A rim below
-//! another surface of its plane is no line.
+//! Mesh connectivity gives the wrong kind there. The rim of the label has only one face, but in the image
+//! it is a boundary between two materials and no border. The same holds for the rim of a body that is let
+//! into the wall. A rim below another surface of its plane is not drawn.
 //!
-//! 1. The faces next to the edge in its plane are found, at a small distance on both sides.
-//! 2. The edge is cut where the face on top changes on either side.
-//! 3. Each piece gets its kind from the two faces on top.
+//! 1. Two test lines run parallel to the edge in its plane, at a small distance on either side. The faces
+//!    that cover them are found.
+//! 2. The edge is cut where the topmost face on either side changes. `Mesh::overlays` gives the stacking
+//!    order.
+//! 3. Each piece gets its kind from the topmost faces on its two sides.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -17,17 +19,19 @@ use crate::mesh::bvh::box_tree::BoxTree;
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::view::View;
 
-/// Distance of the test lines next to an edge, in contact distances.
+/// Distance of the test lines from their edge, in multiples of the part's contact tolerance.
 const PROBE_OFFSET_CONTACTS: f64 = 4.0;
 
-/// Minimum length of a piece, in test distances. Shorter pieces are artefacts of the test.
+/// Minimum length of a piece, in multiples of the distance between edge and test line. Shorter pieces are
+/// artefacts of the test.
 const MIN_PIECE_OFFSETS: f64 = 8.0;
 
 /// Pieces of edges in overlapping planes, with their new kinds.
 #[derive(Default)]
 pub(crate) struct OverlapLines {
-    /// Pieces. Ends above the number of mesh vertices are indices into `points`.
+    /// Ends from the number of mesh vertices on are indices into `points`, offset by that number.
     pieces: Vec<FeatureSegment>,
+    /// Points where edges are cut.
     points: Vec<DVec3>,
 }
 
@@ -36,8 +40,8 @@ pub(crate) fn has_overlaps(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
 }
 
-/// Removes the edges in planes where surfaces overlap, and returns their pieces with new kinds. Only segments
-/// of the kinds in `options` remain.
+/// Removes the edges in planes where surfaces overlap, and returns their pieces with new kinds. Segments
+/// and pieces of kinds that are not in `options` are dropped.
 pub(crate) fn classify_overlaps(
     mesh: &Mesh,
     view: &View,
@@ -75,10 +79,10 @@ pub(crate) fn classify_overlaps(
 }
 
 /// Faces of an edge in whose planes surfaces overlap, if nothing at the edge lies on the camera's side of
-/// that plane.
+/// the plane.
 ///
-/// These are borders, material boundaries in the plane, and edges where a body continues behind it. Such a
-/// body may have faces in two planes.
+/// Such edges are borders, material boundaries in the plane, and edges at which a body continues behind the
+/// plane. The latter may have faces in two such planes.
 fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Option<u32>; 2] {
     let [first, second] = segment.hosts;
     match segment.kind {
@@ -127,6 +131,7 @@ fn merge_planes(one: &[OverlapPiece], two: &[OverlapPiece]) -> Vec<OverlapPiece>
 }
 
 impl OverlapLines {
+    /// Adds the pieces of a segment. Consecutive pieces share their cut point.
     fn add<'a>(
         &mut self,
         mesh: &Mesh,
@@ -163,7 +168,7 @@ impl OverlapLines {
         }
     }
 
-    /// Appends the pieces to all lines.
+    /// Appends the pieces and their points to the feature lines.
     pub(crate) fn append_to(self, mesh: &Mesh, lines: &mut FeatureLines) {
         let vertices = mesh.positions.len() as u32;
         let shift = lines.points.len() as u32;
@@ -174,12 +179,13 @@ impl OverlapLines {
     }
 }
 
-/// Piece of an edge that is a line.
+/// Piece of an edge that is drawn as a line.
 struct OverlapPiece {
+    /// Start and end as fractions of the edge.
     start: f64,
     end: f64,
     kind: LineKind,
-    /// Face on top on the outer side of the edge.
+    /// Topmost face on the outer side of the edge.
     beyond: u32,
 }
 
@@ -192,7 +198,7 @@ impl OverlapPiece {
 /// Edge in a plane, with the test lines next to it.
 struct EdgeProbe<'a> {
     mesh: &'a Mesh,
-    /// Face on its inner side.
+    /// Face on its inner side, in whose plane surfaces overlap.
     host: u32,
     kind: LineKind,
     /// Whether it is a line within the plane, and not the edge of a body.
@@ -202,6 +208,7 @@ struct EdgeProbe<'a> {
     along: DVec3,
     inward: DVec3,
     length: f64,
+    /// Distance of the test lines from the edge, world units.
     beside: f64,
 }
 
@@ -270,7 +277,7 @@ impl<'a> EdgeProbe<'a> {
             .max_by_key(|face| (self.mesh.overlay(*face).rank, std::cmp::Reverse(*face)))
     }
 
-    /// Kind of line between the topmost faces on both sides, and the outer face.
+    /// Kind of line between the topmost faces on both sides, and the outer face. `None` if no line is drawn.
     fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
         let mesh = self.mesh;
         let own = within.unwrap_or(self.host);

@@ -1,7 +1,7 @@
 //! Mesh edges that are feature lines: contours, borders, creases and material boundaries.
 //!
 //! 1. An edge with one face is a border. An edge with two faces is a contour, crease or material boundary
-//!    (`edge_lines`).
+//!    (`edge_lines`). Which edges are creases was decided before, in `surface::patches::patch_layout`.
 //! 2. Edges with three faces or more are judged body by body (`edge_fans`).
 //! 3. Contour edges that only a few rippled faces cause are marked (`ripple_edges`).
 //! 4. Borders in a plane where surfaces overlap get their kind from the surface on top (`coplanar_overlaps`).

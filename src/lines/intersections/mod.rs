@@ -2,7 +2,7 @@
 //!
 //! 1. Pairs of intersecting triangles are found in full for small meshes, or proposed by a buffer of visible
 //!    faces.
-//! 2. The segments of each pair are joined into curves (`trees`).
+//! 2. The segments of each pair are joined into curves (`mesh::intersect`).
 //! 3. Curves along which curved surfaces merely touch are removed: their facets cross at a smaller angle than
 //!    they turn.
 //!

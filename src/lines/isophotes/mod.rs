@@ -1,6 +1,8 @@
-//! Isophotes: curves on a lit surface along which its tone changes.
+//! Isophotes, the tone borders inside faces: curves on a lit surface along which its tone changes. For tone
+//! borders along mesh edges see `paint_borders::tone_edges`.
 //!
-//! 1. For each face, channel of light and set of shadowed lights, the levels of tone are looked up.
+//! 1. For each face, channel of light and set of shadowed lights, the levels of tone are looked up (`isophote_lines`,
+//!    which runs all steps).
 //! 2. The face is subdivided until the light is almost linear on each piece; there levels are straight
 //!    (`level_tracer`).
 //! 3. Narrow steps of a gradient are drawn as one (`level_strides`), and gradients on covered faces are

@@ -1,6 +1,7 @@
-//! Paint borders: lines between painted colours, on faces and along edges.
+//! Paint borders: lines between the colours of textures, vertices and materials, on faces and along edges.
 //!
-//! 1. Borders of a reduced picture are mapped to the faces that show it (`face_borders`).
+//! 1. Borders in a texture that was reduced to a few colours are mapped to the faces that show it
+//!    (`face_borders`).
 //! 2. Vertex colours are interpolated; borders lie where the nearest palette colour changes
 //!    (`vertex_colour_borders`).
 //! 3. Edges of the mesh are borders where paint, part or tone differ across them (`tone_edges`).

@@ -5,8 +5,9 @@
 //!
 //! 1. A file is text if it begins with `solid`, has no zero byte near its start, and its size differs from
 //!    the size that its binary triangle count implies.
-//! 2. Each `solid` of a text file becomes a part; a binary file is one part. Equal corners share a vertex.
-//! 3. [`attribute_colours`] reads the colours that two conventions store in the attribute bytes of binary
+//! 2. A binary file starts with 80 bytes of header and the number of triangles, which this file reads.
+//! 3. Each `solid` of a text file becomes a part; a binary file is one part. Equal corners share a vertex.
+//! 4. [`attribute_colours`] reads the colours that two conventions store in the attribute bytes of binary
 //!    files.
 
 mod attribute_colours;

@@ -1,8 +1,10 @@
-//! [`IntersectionCache`]: intersecting triangles of a mesh, reused when some of its faces are cut.
+//! [`IntersectionCache`]: the intersecting triangle pairs of a mesh, reused after some of its faces are cut.
 //!
-//! A view cuts faces near its contours and keeps the others. Pairs of kept faces are known. Only the pieces
-//! of cut faces are searched, in the tree of the original mesh, with the box of a cut face replaced by the
-//! box of its pieces.
+//! Each view cuts the faces near its contours and keeps the others.
+//!
+//! 1. Pairs of two kept faces are taken from the cache.
+//! 2. The tree of the original mesh is refitted: the box of a cut face becomes the box of its pieces.
+//! 3. The pieces of each cut face are searched in this tree.
 
 use crate::parallel::prelude::*;
 
@@ -18,10 +20,10 @@ use crate::mesh::bvh::quantized_box::FineBox;
 /// Number of cut faces per task.
 const FACES_PER_TASK: usize = 64;
 
-/// Completed search over a mesh.
+/// Intersecting pairs of a mesh, and the box tree that found them.
 #[derive(Debug, Clone)]
 pub struct IntersectionCache {
-    /// `None` without triangles.
+    /// Box tree of the mesh; `None` without triangles.
     tree: Option<BoxTree>,
     /// Rank of each face in the tree.
     ranks: Vec<u32>,
@@ -38,7 +40,7 @@ pub struct FaceHosts<'a> {
 }
 
 impl IntersectionCache {
-    /// Searches a mesh of several parts. `tolerance` returns that of the part of a face.
+    /// Finds all intersecting pairs of a mesh. `tolerance` returns the tolerance of a face's part.
     #[must_use]
     pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
         let Some((low, high)) = bounds(input.positions, input.triangles) else {
@@ -49,14 +51,14 @@ impl IntersectionCache {
         Self { tree: Some(tree), ranks, pairs }
     }
 
-    /// The curves of the mesh.
+    /// The intersection curves of the mesh.
     #[must_use]
     pub fn curves(&self) -> IntersectionCurves {
         join(&self.pairs)
     }
 
-    /// The curves of a finer mesh, made from this one by cutting faces. Equals a full search. `tolerance`
-    /// takes faces of the finer mesh.
+    /// The intersection curves of a finer mesh, made from this one by cutting faces. The result equals that
+    /// of a full search. `tolerance` takes faces of the finer mesh.
     #[must_use]
     pub fn refined_curves(
         &self,
@@ -75,7 +77,8 @@ impl IntersectionCache {
         };
         let mut pairs: Vec<IntersectingPair> = self.pairs.iter().filter_map(left).collect();
 
-        // Pieces of faces without area may have an area.
+        // A piece of a face that is not in the tree (one without area) may have an area. Then a full search
+        // is needed.
         let is_active = |face: usize| finer.active.get(face).is_none_or(|active| *active);
         let is_known =
             |face: usize| self.ranks.get(hosts.faces[face] as usize).is_some_and(|r| *r != u32::MAX);
@@ -154,8 +157,8 @@ impl<'a> RefinedFaces<'a> {
         Self { finer, tree: tree.with_boxes(&changed), kept, faces, pieces, boxes, ranks }
     }
 
-    /// Calls `visit` for the pieces of a face with the faces that may pass through them. Of two cut faces,
-    /// one finds the other.
+    /// Calls `visit` for each piece of a cut face with the faces that may pass through it. A pair of cut
+    /// faces is found once, from the face with the lower rank.
     fn search_face(
         &self,
         rank: u32,

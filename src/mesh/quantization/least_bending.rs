@@ -1,8 +1,9 @@
-//! [`least_bending`]: minimises the bending energy, with each vertex confined to a box.
+//! [`least_bending`]: minimises the bending energy of a mesh with quantized vertices, each confined to the
+//! box of positions that its quantization allows.
 //!
-//! Source: Beck and Teboulle, "A fast iterative shrinkage-thresholding algorithm for linear inverse problems"
-//! (FISTA), SIAM J. Imaging Sciences 2(1), 2009, equations 4.1 to 4.3. Here each vertex has a separate step
-//! size: it moves against the gradient and is projected back into its box.
+//! Source: Beck and Teboulle, "A fast iterative shrinkage-thresholding algorithm for linear inverse
+//! problems" (FISTA), SIAM J. Imaging Sciences 2(1), 2009, equations 4.1 to 4.3. Each vertex moves against
+//! the gradient and is projected back into its box. Deviation: each vertex has its own step size.
 
 use crate::parallel::prelude::*;
 use glam::Vec3;
@@ -19,7 +20,7 @@ pub(crate) const MAX_DESCENT_STEPS: usize = 16;
 /// Displacement of each position after at most `steps` steps of descent, in half steps of the lattice: -1 to
 /// 1 along each axis, zero for positions that are not `free`.
 pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Vec<Vec3> {
-    // For each position its hinges, with its coefficients there.
+    // For each position, its hinges and its coefficient in each.
     let parts = hinges.iter().zip(0u32..).flat_map(|(hinge, k)| {
         hinge.corners.into_iter().zip(hinge.shares()).map(move |(v, share)| (v as usize, (k, share)))
     });

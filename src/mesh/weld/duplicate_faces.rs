@@ -1,4 +1,11 @@
-//! Removal of duplicate faces, and the counts of repaired defects.
+//! Removal of duplicate faces: faces of one part with the same three vertices. Also [`Cleaning`], the
+//! counts of repaired defects.
+//!
+//! 1. Each face is looked up at the edge between its two smallest vertices, so only faces that share this
+//!    edge are compared.
+//! 2. Of duplicates with the same winding, the first is kept.
+//! 3. Duplicates with opposite windings are back to back; `doubled_sheets` chooses one side for the whole
+//!    sheet.
 
 use crate::parallel::prelude::*;
 
@@ -33,7 +40,6 @@ pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     }
     let Soup { triangles, triangle_part, triangle_material, triangle_paint, .. } = soup;
     let Soup { corner_normals, corner_uvs, corner_colours, edge_marks, .. } = soup;
-    // The lists are filtered in parallel.
     rayon_core::scope(|all| {
         all.spawn(|_| filter(triangles, keep));
         all.spawn(|_| filter(triangle_part, keep));
@@ -70,17 +76,18 @@ pub(crate) fn unique_faces(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
 /// Number of edges per task.
 const EDGES_PER_TASK: usize = 1 << 12;
 
-/// Duplicate faces of one part.
+/// Duplicate faces found at a range of edges.
 #[derive(Default)]
 struct DuplicateFaces {
-    /// Faces that are dropped, and both faces of each pair.
+    /// Faces to drop, including both faces of each pair. One face of each pair is restored later.
     dropped: Vec<u32>,
     /// For each set of duplicates with both windings, the first face and the first with the other winding.
     pairs: Vec<[u32; 2]>,
 }
 
 impl DuplicateFaces {
-    /// Duplicates at some edges. Each face counts at the edge between its two smallest corners.
+    /// Finds the duplicates at some edges. Each face is considered only at the edge between its two smallest
+    /// corners.
     fn at(soup: &Soup, edges: &Edges, some: &[u32]) -> Self {
         let mut doubles = Self::default();
         let mut own: Vec<(u32, u32, u32)> = Vec::new();
@@ -103,7 +110,7 @@ impl DuplicateFaces {
         doubles
     }
 
-    /// Adds a set of duplicates, in face order.
+    /// Adds a set of duplicate faces. `same` lists them in face order.
     fn add(&mut self, soup: &Soup, same: &[(u32, u32, u32)]) {
         let faces = || same.iter().map(|(_, _, face)| *face);
         let Some(first) = faces().next() else { return };

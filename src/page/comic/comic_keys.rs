@@ -1,4 +1,8 @@
-//! [`ComicPage`]: the keys of a comic page, of its panels and of their letters.
+//! [`ComicPage`]: the keys of a comic page in a page file (TOML), of its panels, and of their balloons and
+//! sound effects.
+//!
+//! Keys that may be missing take the default stated with each. Spans locate a key in the file for error
+//! messages.
 
 use std::path::PathBuf;
 
@@ -273,14 +277,14 @@ impl Default for LetteringKeys {
 }
 
 impl ComicPage {
-    /// The keys for the inks of the page.
+    /// The keys that set the inks of the page.
     #[must_use]
     pub fn print(&self) -> PrintKeys {
         let Self { ink, icc, ink_limit, spot, .. } = self.clone();
         PrintKeys { ink, icc, ink_limit, spot }
     }
 
-    /// The files that the page is made from.
+    /// The files that the page is made from: models, styles, cameras and the ICC profile.
     #[must_use]
     pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = style_file(&self.style, source).into_iter().collect();

@@ -55,7 +55,7 @@ const FRAME_INSET_MM: f64 = 4.0;
 const MARK_CLEARANCE_MM: f64 = 2.0;
 
 impl SheetPage {
-    /// The files that the sheet is made from.
+    /// The files that the sheet is made from: models, style and parts list.
     #[must_use]
     pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
         let style = self.style.as_ref().and_then(|style| figure::figure_style::style_file(style, source));
@@ -66,12 +66,13 @@ impl SheetPage {
         self.model.files(source).chain(style).chain(list).collect()
     }
 
-    /// Whether it has a parts list.
+    /// Whether the sheet has a parts list.
     pub(crate) fn has_parts_list(&self) -> bool {
         self.parts_list.as_ref().is_some_and(|list| *list.get_ref() != ListKeys::Named(false))
     }
 
-    /// The size of the sheet in its orientation.
+    /// The size of the sheet, mm. Default: A3. Sizes above A4 are turned to landscape format; smaller ones
+    /// keep their orientation.
     #[must_use]
     pub fn lying(&self) -> PageSize {
         let size = self.size.unwrap_or(PageSize { width: 420.0, height: 297.0 });
@@ -87,7 +88,7 @@ fn size_name(size: PageSize) -> &'static str {
     PageSize::names().find(is_it).unwrap_or("")
 }
 
-/// Draws a sheet.
+/// Draws a technical sheet as a composition in mm, with warnings.
 ///
 /// # Errors
 /// Returns an error if the model or style cannot be read, a key names something that does not exist, or the

@@ -1,4 +1,5 @@
-//! [`MapFiles`]: the maps for finding image lines, as PNG files.
+//! [`MapFiles`]: the pixel maps in which image-space lines are detected, encoded as PNG files for
+//! inspection and for other programs.
 
 use crate::parallel::prelude::*;
 
@@ -23,7 +24,7 @@ pub struct MapFiles {
 }
 
 impl MapFiles {
-    /// Names of the files.
+    /// File names, in the order of the fields.
     pub const NAMES: [&'static str; 4] = ["normal.png", "depth.png", "edges.png", "parts.png"];
 
     /// The files with their names.
@@ -33,6 +34,7 @@ impl MapFiles {
         [(normal, &self.normal), (depth, &self.depth), (edges, &self.edges), (parts, &self.parts)]
     }
 
+    /// Encodes the maps of a view. `options` sets the edge test and the widening of `edges`.
     pub(crate) fn new(mesh: &Mesh, maps: &NormalDepthMaps, options: &ImageOptions) -> Result<Self, Error> {
         let shown = |pixel: usize| maps.faces[pixel] != NO_FRONT;
         let normal = |pixel: usize| {
@@ -55,12 +57,14 @@ impl MapFiles {
     }
 }
 
-/// Colour of a part: a bit-mixing hash of its number, neither near white nor near black.
+/// Colour of a part: a multiplicative hash of its number, with channels from 40 to 229. So no part is near
+/// black or white.
 fn colour(part: u32) -> [u8; 3] {
     let mixed = part.wrapping_add(1).wrapping_mul(0x9E37_79B1);
     [24, 16, 8].map(|shift| 40 + ((mixed >> shift) & 0xFF) as u8 / 4 * 3)
 }
 
+/// Encodes a PNG file with the size of the maps. `pixel` returns the `N` bytes of a pixel.
 fn encode<const N: usize>(
     maps: &NormalDepthMaps,
     colours: png::ColorType,

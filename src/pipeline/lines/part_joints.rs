@@ -1,4 +1,7 @@
-//! Joints between parts of one material, for styles that omit them.
+//! Removal of joints from the lines of a view, for styles that omit them (`lines.joints`).
+//!
+//! A joint is a line where parts of one material meet and their surfaces continue in one plane. This file
+//! decides which materials are equal; `crate::lines::joints` finds the joints.
 
 use rustc_hash::FxHashMap;
 
@@ -9,8 +12,8 @@ use crate::scene::Scene;
 use crate::scene::paints::triangle_paints::{Paint, Paints};
 use crate::style::Style;
 
-/// Removes joints from the lines of a view. Drawings with regions keep them as region borders; then their
-/// numbers are returned, ascending.
+/// Removes the joints from the lines of a view, unless the style draws them. With `has_regions` they stay
+/// as borders of regions, and their indices are returned, ascending.
 pub(crate) fn take_out(
     scene: &Scene,
     paints: Option<&Paints>,
@@ -25,7 +28,8 @@ pub(crate) fn take_out(
     joints::remove_joints(mesh, lines, &kinds(scene, paints), has_regions)
 }
 
-/// For each paint, the first one of equal material and colour. A file may list a material twice.
+/// For each paint, the first one that looks the same: its material and colour are equal. Without paints,
+/// the same for each material. A file may list a material twice.
 fn kinds(scene: &Scene, paints: Option<&Paints>) -> Vec<u32> {
     let mut named: FxHashMap<(&str, [u8; 4]), Vec<u32>> = FxHashMap::default();
     let mut materials: Vec<u32> = Vec::with_capacity(scene.materials.len());

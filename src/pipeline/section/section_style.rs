@@ -1,5 +1,10 @@
-//! [`with_cut_hatching`], [`with_cut_hatching_for`], [`with_trail_lines`]: styles that also hatch the cut faces of a scene and draw the
-//! trails of moved parts.
+//! Additions to a style for models that were cut or exploded.
+//!
+//! - [`with_cut_hatching`] hatches the cut faces of a section. Neighbouring parts differ in angle or spacing.
+//! - [`with_cut_hatching_for`] also avoids hatching parallel to the long sides of a part, for given cameras.
+//! - [`with_trail_lines`] draws the trails of parts that were moved apart.
+//!
+//! A pattern is chosen by a kind, a small number that neighbouring parts do not share.
 
 use super::cut_directions::{MAX_PARALLEL_DEG, long_sides};
 use crate::drawing::{Length, Unit};
@@ -30,7 +35,7 @@ pub fn with_trail_lines(style: &Style) -> Style {
 /// Width of trail lines, mm.
 const TRAIL_MM: f64 = 0.25;
 
-/// Spacing of hatching lines on cut faces, and their width, mm.
+/// Default spacing of hatching lines on cut faces, and their width, mm.
 const SPACING_MM: f64 = 2.0;
 const WIDTH_MM: f64 = 0.18;
 
@@ -53,11 +58,12 @@ const EXTRA_ANGLES_DEG: [f64; 6] = [60.0, 150.0, 15.0, 105.0, 75.0, 165.0];
 /// Spacing factors of hatching at the additional angles.
 const SPACING_FACTORS: [f64; 3] = [1.0, 1.7, 0.6];
 
-/// Number of kinds of hatching: [`HATCH_KINDS`], then [`EXTRA_ANGLES_DEG`] and all whole degrees, each with every factor of
-/// [`SPACING_FACTORS`].
+/// Number of kinds of hatching: [`HATCH_KINDS`], then [`EXTRA_ANGLES_DEG`] and 180 whole degrees, each with
+/// every factor of [`SPACING_FACTORS`].
 const KIND_COUNT: usize = HATCH_KINDS.len() + (EXTRA_ANGLES_DEG.len() + 180) * SPACING_FACTORS.len();
 
-/// Angle (degrees) and spacing factor of a kind. The last kinds are whole degrees, starting near 45 and 135.
+/// Angle (degrees) and spacing factor of a kind. The last kinds use whole degrees, starting next to 45 and
+/// 135.
 fn lines_of(kind: usize) -> (f64, f64) {
     let kind = kind % KIND_COUNT;
     let Some(more) = kind.checked_sub(HATCH_KINDS.len()) else { return HATCH_KINDS[kind] };
@@ -74,7 +80,7 @@ fn lines_of(kind: usize) -> (f64, f64) {
 ///
 /// If the hatching of a part would run within 10 degrees of its long sides in the picture of any camera,
 /// another angle is used where one exists. Neighbouring parts still differ. The kinds of the faces and the
-/// names of their materials are updated.
+/// names of their materials are updated. Parts are handled by decreasing area.
 ///
 /// Source: ISO 128-50:2001, 4.
 #[must_use]
@@ -128,6 +134,7 @@ pub fn with_cut_hatching(style: &Style, section: &Section) -> Style {
     with_kinds(style, &section.faces)
 }
 
+/// Adds a pattern for each kind of the cut faces, and the pen of their outlines.
 fn with_kinds(style: &Style, faces: &[CutFaces]) -> Style {
     let mut style = style.clone();
     let mut kinds: Vec<usize> = faces.iter().map(|faces| faces.kind).collect();

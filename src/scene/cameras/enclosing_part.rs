@@ -1,4 +1,7 @@
-//! Finds the part that encloses a point, such as a camera that was placed inside the model by mistake.
+//! Finds the part that encloses a point, by its winding number. Used to warn about a camera inside the model.
+//!
+//! The winding number of a closed surface is 1 for points inside and 0 for points outside. It is the sum of
+//! the solid angles of all triangles, divided by 4 π.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;

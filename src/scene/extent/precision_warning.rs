@@ -1,9 +1,11 @@
 //! Warns about coordinates whose precision is too coarse for the size of the model, such as a house at its
 //! map position in single precision.
 //!
-//! For a single-precision part, the step is the distance between neighbouring `f32` numbers at its largest
-//! coordinates. For text it is measured: either all numbers are in single precision, or they have few
-//! decimals. Whole numbers in text count as exact.
+//! The step is the distance between neighbouring values that a coordinate can have:
+//!
+//! - In single precision, the distance between neighbouring `f32` numbers at the largest coordinate.
+//! - In text files, it is measured. If all numbers fit in single precision, the rule above applies. Otherwise
+//!   the step is the last decimal that occurs, if there are at most six. Whole numbers count as exact.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -20,7 +22,7 @@ pub(crate) fn with_precision_warning(mut scene: Scene) -> Scene {
 
 /// Adds a warning if the coordinate steps of a part would be visible in a drawing of the model.
 pub(crate) fn warn_of_coarse_steps(scene: &mut Scene) {
-    // Near the origin every format is precise enough, and few models are far from it.
+    // Early exit: near the origin every format is precise enough, and few models are far from it.
     let far: Vec<bool> = scene.geometries.iter().map(is_far).collect();
     if !far.contains(&true) {
         return;
@@ -61,7 +63,7 @@ pub(crate) fn warn_of_coarse_steps(scene: &mut Scene) {
     ));
 }
 
-/// Whether steps of single precision at the largest coordinates would be visible on the geometry alone.
+/// Whether single precision at the largest coordinates is too coarse for the size of the geometry.
 fn is_far(geometry: &Geometry) -> bool {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = geometry
@@ -89,7 +91,7 @@ fn coordinate_steps(geometry: &Geometry) -> DVec3 {
             return 0.0;
         }
         let is_text = !geometry.single_precision;
-        // With only two values, as for a box, few digits do not mean rounding.
+        // With two values only, as for a box, few digits are no sign of rounding.
         if is_text && values.clone().all(|value| value == low || value == high) {
             return 0.0;
         }
@@ -118,7 +120,7 @@ fn single_step(value: f64) -> f64 {
     f64::from(value.next_up()) - f64::from(value)
 }
 
-/// Rounds to three significant digits.
+/// Rounds a number to three significant digits, for messages.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

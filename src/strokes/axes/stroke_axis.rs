@@ -1,4 +1,8 @@
-//! [`StrokeAxis`]: the centre line of a stroke as points about a px apart, with corners and scene samples.
+//! [`StrokeAxis`]: the centre line of a stroke, sampled from the path of a chain.
+//!
+//! Points are about a px apart. Each has an arc length and a scene sample; sharp corners are marked.
+//! Brushes, noise and width profiles move or widen the points. The result becomes an outline, or a Bézier
+//! path again. Lengths are in user units, unless stated otherwise.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -10,16 +14,16 @@ use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
 /// Distance between points along the axis, px.
 const POINT_STEP_PX: f64 = 1.0;
 
-/// Least distance between points as a share of a step. Closer points are merged.
+/// Minimum distance between points, as a share of [`POINT_STEP_PX`]. Closer points are merged.
 const MIN_POINT_GAP_OF_STEP: f64 = 0.6;
 
-/// Length to either side of a corner for measuring its turn, px.
+/// Length of the chords on either side of a point that measure its turn, px.
 const CORNER_REACH_PX: f64 = 2.0;
 
-/// Greatest distance of a fitted path from its points, px.
+/// Maximum distance of a fitted path from its points, px.
 const FIT_TOLERANCE_PX: f64 = 0.06;
 
-/// Share of the tolerance within which a stretch counts as straight and becomes one line.
+/// Maximum deviation of a stretch that becomes one straight line, as a share of the fit tolerance.
 const STRAIGHTNESS_OF_TOLERANCE: f64 = 0.3;
 
 /// Centre line of a stroke, in user units.
@@ -79,7 +83,7 @@ impl StrokeAxis {
         self.points.len()
     }
 
-    /// Length along the chain.
+    /// Arc length from the first to the last point.
     pub fn length(&self) -> f64 {
         self.arcs.last().unwrap_or(&0.0) - self.arcs.first().unwrap_or(&0.0)
     }
@@ -89,7 +93,7 @@ impl StrokeAxis {
         self.corners.iter().map(|c| self.arcs[*c]).collect()
     }
 
-    /// Whether the chords over `reach` to both sides of a point form a corner.
+    /// Whether the chords of length `reach` on both sides of a point turn by more than the corner angle.
     fn turns(&self, i: usize, reach: f64) -> bool {
         let n = self.len();
         let at = |k: isize| -> Option<Point> {

@@ -1,6 +1,12 @@
-//! The core of a brushed line: ink between the axis and a brush that deviates from it.
+//! The core of a brushed line: a filled strip from the axis of the line to the ink of the brush.
 //!
-//! Paint ends at the axis. If the brush shape lies next to the axis, paper would show between the two.
+//! Painted regions end at the axis. If the ink of a brush shape lies to one side of the axis, a gap of
+//! paper would show between region and ink. The core fills it.
+//!
+//! 1. The brush shape is divided into columns along the line. For each, the distance to the ink nearest to
+//!    the axis is found.
+//! 2. The axis is widened by these distances and becomes an outline.
+//! 3. The outline is added to the path of the brushed line, with the same orientation.
 
 use kurbo::{BezPath, PathEl, PathSeg, Point};
 
@@ -8,13 +14,14 @@ use crate::strokes::axes::stroke_axis::StrokeAxis;
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::tolerances;
 
-/// Number of columns along a brush shape that are examined.
+/// Number of columns along a brush shape.
 pub(crate) const BRUSH_COLUMNS: usize = 256;
 
-/// Distances from the middle to the left and right into the ink, in pen widths.
+/// Distances from the axis to the left and to the right, as far as the middle of the nearest ink, in pen
+/// widths. Both are 0 where the axis lies in ink.
 pub(crate) type InkOffset = [f64; 2];
 
-/// Distances from the axis to the left and right into the shape, in evenly spaced columns. `None` for a
+/// The ink nearest to the axis in each of [`BRUSH_COLUMNS`] evenly spaced columns of a shape. `None` for a
 /// column without ink.
 pub(crate) fn columns(shape: &BezPath) -> Vec<Option<InkOffset>> {
     let mut flat = BezPath::new();
@@ -41,8 +48,8 @@ pub(crate) fn columns(shape: &BezPath) -> Vec<Option<InkOffset>> {
     (0..BRUSH_COLUMNS).map(column).collect()
 }
 
-/// Distances from 0 to the left and right into the closest ink. `meets` holds the edges in order, each with
-/// its winding.
+/// The ink nearest to the axis in one column. `meets` holds the y of the shape's crossings with the column
+/// in ascending order, each with its winding (1 or -1).
 pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<InkOffset> {
     let mut winding = 0;
     let mut begun = 0.0;
@@ -71,8 +78,9 @@ pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<InkOffset> {
 
 /// Adds the core to the outline of a line.
 ///
-/// `half` returns the extent to the left and right at a point of the axis, given the value of its column.
-/// `place` returns the position of a point along the brush. Each copy has length 1.
+/// `half` takes the index of an axis point and the value of its column, and returns the extent of the core
+/// to the left and right, user units. `place` returns the position of an axis point along the brush, where
+/// each copy has length 1.
 pub(crate) fn add(
     path: &mut BezPath,
     columns: &[Option<InkOffset>],

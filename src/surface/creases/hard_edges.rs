@@ -5,6 +5,9 @@
 //! 3. A chain is a crease if it stands out from the noise of the surface around it.
 //! 4. Edge marks of the file override the result.
 //!
+//! `find` follows all steps, for round components. `above` takes every edge over the threshold.
+//! `above_with_extensions` also continues such creases and drops slivers, for machined components.
+//!
 //! Source: Canny, "A computational approach to edge detection", IEEE PAMI 8(6), 1986, section on thresholding
 //! with hysteresis.
 

@@ -1,4 +1,4 @@
-//! Edges where the surface is creased.
+//! Rules that find creased edges. `patches::patch_layout` decides which rule applies to which component.
 //!
 //! 1. Edges that turn by more than a low threshold are joined to chains, straight on through junctions.
 //! 2. A chain with an edge above the high threshold is a crease if it stands out from the noise around it.

@@ -4,7 +4,8 @@
 //! 2. A curvature tensor is fitted to each face and averaged over the faces around each vertex (Rusinkiewicz
 //!    2004).
 //! 3. The derivative of the tensor is estimated in the same way.
-//! 4. The feature size of a part makes curvature thresholds dimensionless (rtsc).
+//! 4. The feature size of a part, a length, makes curvature thresholds dimensionless (as in Rusinkiewicz's
+//!    program rtsc).
 //!
 //! Files, in reading order: [`surface_curvature`] (all steps), [`vertex_fans`] (faces and Voronoi areas
 //! around a vertex), [`normal_diffusion`] (step 1), [`principal_curvatures`] (step 2),

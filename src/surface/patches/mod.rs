@@ -5,6 +5,8 @@
 //!    and file normals. File normals that do not fit the surface are rejected.
 //! 3. On machined components, patches with enough total curvature (Meyer et al. 2002) count as round.
 //! 4. Borders of planar regions and of narrow strips separate patches.
+//! 5. The creases of each component are chosen by its class (`patch_layout`), with the rules of
+//!    `surface::creases`.
 //!
 //! Files, in reading order: [`patch_layout`] (all steps), [`planar_regions`] (step 1), [`component_classes`]
 //! (step 2), [`component_stats`] (its input), [`surface_class`] (its result), [`normal_validation`],

@@ -1,22 +1,23 @@
-//! Detection of file normals that do not fit the surface, because it was turned or replaced after they were
-//! made.
+//! Detection of file normals that do not fit the surface, because the surface was turned or replaced after
+//! the normals were computed.
 //!
-//! A correct corner normal is a mean over the faces around the corner. It deviates from none of them by more
-//! than they deviate from each other. If all three normals of a face deviate by far more, they are unusable:
-//! they would place contours on a surface that does not exist.
+//! A correct corner normal is a mean over the faces around the corner. It deviates from none of them by
+//! more than they deviate from each other. If all three normals of a face deviate by far more, they are
+//! unusable: contours would lie on a surface that does not exist.
 
 use glam::Vec3;
 
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 
-/// Cosine of the deviation (10 degrees) that rounding, or a finer original model, can cause.
+/// Cosine of the deviation (10 degrees) that rounding, or a finer original model, can cause. A normal leans
+/// if its cosine is smaller.
 const MAX_LEANING_COSINE: f32 = 0.985;
-/// The same angle, radians.
+/// The angle of [`MAX_LEANING_COSINE`], radians.
 const MIN_LEANING_RAD: f64 = 0.175;
 
-/// Cosine of the smallest angle between a face and its corner normals, if all of them deviate. `None` if one
-/// does not, or if a corner has no normal.
+/// Cosine of the smallest angle between a face normal (`own`) and its corner normals, if all of them
+/// deviate. `None` if one does not, if a corner has no normal, or if the face has no area.
 #[inline]
 pub(crate) fn leaning(own: Vec3, normals: [Option<&[f32; 3]>; 3]) -> Option<f32> {
     let mut most = 0.0f32;

@@ -1,7 +1,12 @@
 //! [`ContourVisibility`]: the drawn parts of the contours of rounded surfaces.
 //!
-//! A smooth contour is drawn where the mesh contour matched to it is visible. Visible parts of the mesh
-//! contour without a smooth contour are drawn themselves.
+//! The mesh contour consists of mesh edges, and its visibility is exact. The smooth contour is the curve on
+//! the faces that replaces it in the drawing.
+//!
+//! 1. [`ContourMatcher`] matches visible parts of the mesh contour to positions on smooth contours.
+//! 2. A smooth contour is drawn where a matched part is visible. Small gaps are closed.
+//! 3. Visible parts of the mesh contour without a match are drawn themselves, except ripples and spurs of
+//!    the mesh.
 
 use crate::parallel::prelude::*;
 
@@ -20,8 +25,8 @@ use crate::visibility::sweep::segment_visibility::SegmentVisibility;
 use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
-/// Largest gap between visible spans of a curve that is closed, px. Such gaps come from sampling the mesh
-/// contour, which is visible without gaps.
+/// Maximum gap between visible spans of a curve that is closed, px. Such gaps come from sampling a mesh
+/// contour that is visible throughout.
 const MAX_JOIN_GAP_PX: f64 = 1.0;
 
 /// Drawn parameter ranges of smooth contours and mesh contours, by image segment.
@@ -29,12 +34,12 @@ const MAX_JOIN_GAP_PX: f64 = 1.0;
 pub(crate) struct ContourVisibility {
     /// Undrawn parts of each image segment of a rounded surface, ascending.
     pub hidden: CsrLists<HiddenInterval>,
-    /// Where a surface lies next to it on the outer side, ascending.
+    /// Parts of each image segment with a surface, not background, behind its outer side, ascending.
     pub backed: CsrLists<Interval>,
     /// Whether each segment is a mesh contour with a drawn part.
     bare: Vec<bool>,
     pub counts: ContourCounts,
-    /// Visible parts of the mesh contour.
+    /// Visible parts of all mesh contours, with or without a match.
     pub seen: Vec<VisibleContour>,
 }
 
@@ -45,7 +50,7 @@ impl ContourVisibility {
     }
 }
 
-/// Drawn parts of smooth contours and mesh contours, in the order of discovery.
+/// The fields of [`ContourVisibility`], in the order of discovery.
 #[derive(Debug, Default)]
 struct ContourPieces {
     hidden: Vec<(u32, HiddenInterval)>,
@@ -89,7 +94,8 @@ impl SmoothContours {
     }
 }
 
-/// Computes the drawn parts of smooth contours and mesh contours from the visibility of the mesh contours.
+/// Computes the drawn parts of smooth contours and mesh contours from `seen`, the visibility of the mesh
+/// contours. With `counting`, hidden parts get the number of surfaces in front of them.
 pub(crate) fn decide_contours(
     mesh: &Mesh,
     view: &View,
@@ -142,7 +148,7 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a CurveSpan>, gap: f64) -> Vec<Curv
     joined
 }
 
-/// Visible spans of each run, ascending.
+/// Visible spans of each run (chain of a smooth contour), ascending.
 struct VisibleChains<'a> {
     runs: &'a [ContourChain],
     pieces: &'a [Vec<CurveSpan>],
@@ -155,7 +161,7 @@ impl VisibleChains<'_> {
         pieces.get(next).is_some_and(|t| t.from <= place)
     }
 
-    /// Whether a run is visible throughout between two places, in one direction round the run or the other.
+    /// Whether a run is visible throughout between two places. On a closed run, either way round is enough.
     fn between(&self, run: u32, from: f64, to: f64) -> bool {
         let holds =
             |from: f64, to: f64| self.pieces[run as usize].iter().any(|t| t.from <= from && t.to >= to);
@@ -165,10 +171,10 @@ impl VisibleChains<'_> {
 }
 
 impl ContourPieces {
-    /// Adds the visible parts of the mesh contour without a smooth contour.
+    /// Adds the visible parts of the mesh contour without a matching smooth contour.
     ///
-    /// Parts with visible ink near them are left out, and so are ripples of the mesh with other surface
-    /// behind them.
+    /// Two kinds of parts are left out: those near a visible part of a smooth contour, and ripples of the
+    /// mesh in front of another surface.
     fn add_bare(
         &mut self,
         court: &ContourMatcher,
@@ -240,6 +246,8 @@ impl ContourPieces {
         }
     }
 
+    /// Adds a hidden range of a run, with the kinds of its ends. `told` gives the number of surfaces in
+    /// front.
     fn hide(
         &mut self,
         run: &ContourChain,

@@ -1,4 +1,7 @@
-//! [`BatchJob`]: drawings of one model with their output paths. No two drawings share a path.
+//! [`BatchJob`]: the drawings of one model in a call of `ligne draw`, with their output paths.
+//!
+//! A call may name several models, views and file types. [`jobs`] turns its options into one job per model,
+//! and refuses calls in which two drawings would have the same path.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
@@ -24,7 +27,7 @@ impl BatchJob {
     }
 }
 
-/// Models named in a call.
+/// Models named in a call. With an output folder, all paths are models.
 pub(crate) fn models(args: &DrawArgs) -> Vec<PathBuf> {
     let into_folder = args.many.out_dir.is_some();
     let others = args.out.iter().chain(&args.more).filter(|_| into_folder);
@@ -84,7 +87,7 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<BatchJob>, Error> {
     Ok(jobs)
 }
 
-/// Named views without duplicates. A single none stands for angles, a camera, or the default view.
+/// Named views without duplicates. `[None]` if no view is named: then the other options set the camera.
 fn views(args: &DrawArgs) -> Vec<Option<NamedView>> {
     let mut views: Vec<Option<NamedView>> = Vec::new();
     for view in &args.how.view {
@@ -123,7 +126,7 @@ fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf
     Ok(endings.into_iter().map(path).collect())
 }
 
-/// Adds the name of the view to the path if there are several views.
+/// Adds the name of the view to the file name if there are several views.
 fn seen_from(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
     let Some(view) = view.filter(|_| args.how.view.len() > 1) else { return path.to_path_buf() };
     let mut name = path.file_stem().unwrap_or_default().to_owned();
@@ -135,7 +138,7 @@ fn seen_from(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Key that is equal for paths of the same file. Case is ignored on Windows and macOS.
+/// Key for finding equal output paths. Case is ignored on Windows and macOS, as in their file systems.
 fn key(path: &Path) -> PathBuf {
     if cfg!(any(windows, target_os = "macos")) {
         return PathBuf::from(path.to_string_lossy().to_lowercase());
@@ -143,6 +146,7 @@ fn key(path: &Path) -> PathBuf {
     path.to_path_buf()
 }
 
+/// The error for two models whose drawings would have the same path.
 fn clash(output: &Output, one: &Path, other: &Path, args: &DrawArgs) -> Error {
     let apart = one.parent() != other.parent() && !args.many.folders;
     let remedy = if apart {

@@ -1,4 +1,7 @@
-//! [`WorkerPool`]: worker threads that draw models in parallel, and their messages.
+//! [`WorkerPool`]: draws the models of a batch in parallel, prints messages, and counts the results.
+//!
+//! Each model is drawn in a task that runs in the thread pool. Its files are staged and then written all
+//! together or not at all. An error ends the drawing of that model only.
 
 use std::cell::Cell;
 use std::fs;
@@ -24,13 +27,13 @@ pub(crate) struct DrawTask<'a> {
     pub(crate) requests: Vec<&'a DrawRequest>,
 }
 
-/// Workers that draw models.
+/// Draws the models of a batch in a thread pool.
 pub(crate) struct WorkerPool<'a> {
     pub(crate) pool: &'a ThreadPool,
     /// Output folder or model, for messages.
     pub(crate) into: &'a Path,
     pub(crate) quiet: bool,
-    /// Whether each file is reported.
+    /// Whether each written file and each note is printed.
     pub(crate) in_detail: bool,
 }
 
@@ -39,6 +42,7 @@ pub(crate) struct WorkerPool<'a> {
 pub(crate) struct BatchTally {
     /// Models that were drawn.
     pub(crate) drawn: u64,
+    /// Files that were written, and their total size in bytes.
     pub(crate) files: u64,
     pub(crate) bytes: u64,
     /// Models with errors in the input.
@@ -50,6 +54,7 @@ pub(crate) struct BatchTally {
 /// Files that were written for a model.
 #[derive(Default)]
 struct WrittenFiles {
+    /// A line of text per file, for messages.
     lines: Vec<String>,
     /// Hints and choices made for the user, without duplicates.
     notes: Vec<String>,
@@ -76,8 +81,8 @@ impl WorkerPool<'_> {
             }
         };
         progress.step(progress_text(&BatchTally::default(), tasks.len(), Duration::ZERO));
-        // Models are started from separate threads. A pool thread that waits inside a drawing would begin
-        // another drawing in the same stack.
+        // Separate threads start the models. A pool thread that waits inside a drawing would otherwise
+        // begin another drawing on the same stack.
         let at_once = self.pool.current_num_threads().min(tasks.len());
         std::thread::scope(|scope| {
             for _ in 0..at_once {
@@ -87,6 +92,7 @@ impl WorkerPool<'_> {
         tally.into_inner().unwrap_or_default()
     }
 
+    /// Adds the result of a task to the counts, and prints its messages.
     fn take(
         &self,
         task: &DrawTask,
@@ -120,7 +126,8 @@ impl WorkerPool<'_> {
 }
 
 impl BatchTally {
-    /// Exit status. Temporary errors take precedence, because a second call can complete that work.
+    /// Exit status of the program. Temporary errors take precedence, because a second call may complete the
+    /// work.
     pub(crate) const fn status(&self) -> u8 {
         match (self.failed, self.refused) {
             (0, 0) => 0,
@@ -130,6 +137,7 @@ impl BatchTally {
     }
 }
 
+/// Error that ended the drawing of a model.
 struct ModelFailure {
     error: Error,
     /// Whether the same call may succeed later.

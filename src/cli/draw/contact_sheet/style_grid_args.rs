@@ -1,4 +1,8 @@
-//! [`StyleSheetArgs`]: the options of `ligne styles --sheet`.
+//! [`StyleSheetArgs`]: the options of `ligne styles --sheet`, which draws a model in several styles on one
+//! sheet.
+//!
+//! They are the options of `ligne draw`, changed before they are added to the command: each requires
+//! `--sheet`, `--style` is repeatable, and options without effect are hidden.
 
 use std::path::PathBuf;
 
@@ -7,12 +11,13 @@ use clap::{ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
 use crate::cli::options::draw_args::HowArgs;
 
-/// Options of `ligne styles --sheet`: those of `ligne draw`, with a repeatable `--style`.
+/// Parsed options of `ligne styles --sheet`.
 #[derive(Debug)]
 pub(crate) struct StyleSheetArgs {
     pub(crate) sheet: Option<PathBuf>,
     /// Names, globs and files of styles as typed; empty for all built-in styles.
     pub(crate) styles: Vec<String>,
+    /// The other options of `ligne draw`.
     pub(crate) how: HowArgs,
 }
 
@@ -23,7 +28,7 @@ struct SheetArg {
     sheet: Option<PathBuf>,
 }
 
-/// Options without effect on a sheet.
+/// Options of `ligne draw` that have no effect on a sheet; they are hidden from the help.
 const UNUSED_OPTIONS: [&str; 5] = ["page", "landscape", "margin", "scale", "group"];
 
 impl Args for StyleSheetArgs {

@@ -1,10 +1,12 @@
-//! [`Shard`]: share of the work of one computer, from an option or from the job array of the process.
+//! [`Shard`]: the share of a batch that one process draws, so that several computers can divide the work.
+//!
+//! The option `--shard K/N` sets it. In a job array, the environment variables of Slurm or Kubernetes do.
 
 use std::fmt;
 
 use crate::error::Error;
 
-/// Every `of`-th item, from item `first` on.
+/// Every `of`-th item of a list, starting with item `first` (counted from 0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
     first: usize,
@@ -21,7 +23,7 @@ pub(crate) enum ShardSpec {
 }
 
 impl Shard {
-    /// Whether the item with a number, counted from 0, belongs to the shard.
+    /// Whether item `number`, counted from 0, belongs to the shard.
     pub(crate) const fn has(self, number: usize) -> bool {
         number % self.of == self.first
     }
@@ -63,7 +65,7 @@ impl ShardSpec {
     }
 }
 
-/// Shard of this process in its job array; none outside a job array.
+/// Shard of this process in its job array; `None` outside a job array.
 ///
 /// # Errors
 /// If the environment does not define the number of tasks.
@@ -71,11 +73,12 @@ pub(crate) fn of_array() -> Result<Option<Shard>, Error> {
     counted(&variable)
 }
 
+/// Value of an environment variable; `None` if it is not set or empty.
 fn variable(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// Number in an environment variable; none if it is not set.
+/// Number in an environment variable; `None` if it is not set.
 fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<usize>, Error> {
     let Some(value) = variable(name) else { return Ok(None) };
     let number = value.trim().parse();
@@ -83,7 +86,8 @@ fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Optio
     number.map(Some).map_err(wrong)
 }
 
-/// Shard of a task among `of` tasks. Tasks of Slurm count from 1, tasks of Kubernetes from 0.
+/// Shard of this task among `of` tasks; `None` outside a job array. Slurm must number its tasks from 1;
+/// Kubernetes numbers them from 0.
 fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let slurm = number("SLURM_ARRAY_TASK_ID", variable)?.map(|id| ("SLURM_ARRAY_TASK_ID", id, 1));
     let kubernetes = || number("JOB_COMPLETION_INDEX", variable);
@@ -101,7 +105,7 @@ fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Opti
     Ok(Some(Shard { first, of }))
 }
 
-/// Shard of a task of an array that defines its number of tasks.
+/// Shard of this task, with the number of tasks taken from the environment; `None` outside a job array.
 fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let number = |name| number(name, variable);
     let unsaid = |name: &str, missing: &str| {

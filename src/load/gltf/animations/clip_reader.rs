@@ -1,4 +1,7 @@
-//! Reads the animations of a file as [`Clip`]s.
+//! Reads the animations of a glTF file as [`Clip`]s.
+//!
+//! A channel animates one property of a node, light, material or camera. Its sampler gives key times in
+//! seconds, values and an interpolation. Invalid channels are skipped with a warning.
 
 use super::animation_pointers::pointed;
 use crate::animation::rig::Node;
@@ -10,8 +13,8 @@ use crate::load::gltf::json::{Animation, AnimationSampler, Channel as JsonChanne
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::scene::Warnings;
 
-/// Clips of a file, by number. Invalid channels, and channels that change nothing visible, are left out with
-/// a warning.
+/// The clips of a file, in file order. Invalid channels, and channels that change nothing visible, are left
+/// out with a warning.
 pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
     let mut clips = Vec::new();
     for (number, animation) in buffers.root.animations.iter().enumerate() {
@@ -34,7 +37,7 @@ pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<
     clips
 }
 
-/// Name of an animation.
+/// Name of an animation; a number if the file gives none.
 fn name(number: usize, animation: &Animation) -> String {
     animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
 }
@@ -60,12 +63,14 @@ fn read(
     Ok(Some(ClipChannel { target, track }))
 }
 
-/// Number of values per key.
+/// Shape of a value: how many numbers it has, and how the file stores them.
 #[derive(Clone, Copy)]
 enum Width {
-    /// A list of this many scalars: morph weights.
+    /// This many scalars, each stored separately: morph weights, or one for a single number.
     Scalars(usize),
+    /// A vector of three numbers.
     Three,
+    /// A vector of four numbers.
     Four,
 }
 
@@ -79,6 +84,7 @@ impl Width {
     }
 }
 
+/// Shape of the values that a target takes.
 fn width(nodes: &[Node], target: AnimationTarget) -> Result<Width, Error> {
     Ok(match target {
         AnimationTarget::Node(node, property) => {
@@ -122,6 +128,7 @@ fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<AnimationT
     Ok(target.node.map(|node| AnimationTarget::Node(node, property)))
 }
 
+/// Reads the keys of a sampler.
 fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<Track, Error> {
     let interpolation = match sampler.interpolation.as_deref() {
         None | Some("LINEAR") => Interpolation::Linear,

@@ -1,12 +1,14 @@
 //! The letters of a panel: balloons that are placed automatically, captions and sound effects.
 //!
 //! 1. Sound effects are drawn where the page file puts them, and become obstacles.
-//! 2. Each balloon gets its target, the part that its tail points at, and is set in several aspect ratios.
+//! 2. For each balloon, the part that its tail points at is found, and its text is set in several aspect
+//!    ratios.
 //! 3. `page::balloon_placement` finds a place for all balloons together. If there is none, the letters are
 //!    made smaller in steps.
 //! 4. Balloons and their letters are painted in reading order.
 //!
-//! Files, in reading order: `balloon`, a text in an outline with a tail; `tail_target`; `sound_effect`.
+//! Files, in reading order: `balloon`, a text in an outline with a tail; `tail_target`, the point that a
+//! tail points at; `sound_effect`, letters along an arc.
 
 mod balloon;
 mod sound_effect;
@@ -103,6 +105,7 @@ impl<'a> Lettering<'a> {
         Ok(Some(PlacedDrawing { name, drawing, place: Affine::IDENTITY, clip: None }))
     }
 
+    /// The marks of a sound effect, and the hull of its letters. `bounds` is the bounding box of the panel.
     fn sound(
         &self,
         keys: &SoundKeys,
@@ -273,6 +276,7 @@ impl<'a> Lettering<'a> {
         BALLOON_ASPECTS.into_iter().map(set).collect()
     }
 
+    /// The marks of the placed balloons and their letters. `places` is parallel to `balloons`.
     fn painted(
         &self,
         balloons: &[Vec<Balloon>],
@@ -324,7 +328,7 @@ fn font(name: &Spanned<String>, source: &PageSource) -> Result<Font, Error> {
     Font::named(name.get_ref()).map_err(|error| source.about(&name.span(), error))
 }
 
-/// Checks that a position is not far outside its panel.
+/// Checks that a position is at most half a panel size outside its panel.
 fn within_panel(at: &Spanned<[f64; 2]>, source: &PageSource) -> Result<(), Error> {
     if at.get_ref().iter().all(|share| (-0.5..=1.5).contains(share)) {
         return Ok(());
@@ -342,6 +346,7 @@ fn positive_length(length: &Spanned<Mm>, source: &PageSource) -> Result<f64, Err
     Err(source.fault(&length.span(), "sizes of letters and lines must be above 0", "write such as \"3.4mm\""))
 }
 
+/// Adds the warnings that are not in the list yet.
 fn add_new_warnings(fallbacks: Vec<String>, warnings: &mut Vec<String>) {
     for fallback in fallbacks {
         if !warnings.contains(&fallback) {

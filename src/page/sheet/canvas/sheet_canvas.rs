@@ -1,7 +1,7 @@
-//! [`SheetCanvas`]: collects lines and words of a sheet as marks, in mm.
+//! [`SheetCanvas`]: drawing surface of a technical sheet. It collects lines, shapes and texts as marks.
 //!
-//! All marks are black. Words are single lines set by `crate::text`; texts for tables are wrapped and shrunk
-//! to fit.
+//! Coordinates are in mm on the page, y down. All marks are black. Words are single lines set by
+//! `crate::text`; texts for tables are wrapped, and shrunk if necessary.
 
 use kurbo::{BezPath, Circle, Point, Rect, Shape, Vec2};
 
@@ -36,6 +36,7 @@ pub(crate) enum WordAnchor {
 #[derive(Debug, Clone)]
 pub(crate) struct SheetCanvas {
     font: Font,
+    /// Class of all lines and shapes in the SVG file.
     class: &'static str,
     pub marks: Vec<Mark>,
 }
@@ -93,7 +94,7 @@ impl SheetCanvas {
         self.marks.push(Mark { path, paint: Paint::Fill(Colour::BLACK), provenance: self.provenance() });
     }
 
-    /// Adds a filled arrow head with its tip at a point.
+    /// Adds a filled arrow head with its tip at a point. It points in the direction `towards`.
     pub fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
         let back = -towards * (length / towards.hypot2().sqrt());
         // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
@@ -103,8 +104,8 @@ impl SheetCanvas {
         self.fill(path);
     }
 
-    /// Adds a word with its baseline at a point and returns its width. `high` is the height of capitals. The
-    /// word shrinks if it would be wider than `most`; 0 sets no limit.
+    /// Adds a word with its baseline at a point and returns its width. `high` is the height of capitals. A
+    /// word that would be wider than `most` is made smaller; 0 sets no limit.
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
@@ -172,8 +173,8 @@ impl SheetCanvas {
         Ok(lines)
     }
 
-    /// The first of the given letter heights that lets a text fit, with its lines; the last height if none
-    /// fits. `heights` falls.
+    /// The first of `heights` at which a text fits, with its lines; the last one if none fits. `heights` must
+    /// descend. `fits` takes a height and the number of lines.
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or the text is too long for any table.
@@ -206,6 +207,7 @@ impl SheetCanvas {
         Ok(self.set(words, high)?.map_or(0.0, |(block, _)| block.width))
     }
 
+    /// Sets a word as one line with capitals of height `high`; `None` if it is blank.
     fn set(&self, words: &str, high: f64) -> Result<Option<(TextBlock, Setting)>, Error> {
         if words.trim().is_empty() {
             return Ok(None);

@@ -5,7 +5,8 @@
 //! 2. `hole_dimensions` finds the whole cylinders that a view sees along their axes.
 //! 3. `requested_dimensions` adds the dimensions that the page file names, between points and parts.
 //!
-//! Where they stand on the paper is decided in `annotations`.
+//! Texts are made here: a number from `lengths` with ⌀, R or a count, or the text of the page file.
+//! `annotations` finds the place of each dimension on the paper.
 
 pub(crate) mod dimension_set;
 pub(crate) mod hole_dimensions;

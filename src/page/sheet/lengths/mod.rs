@@ -1,4 +1,4 @@
-//! Lengths as dimensions show them: the measured value, its precision and its text.
+//! Lengths as numbers: the measured value, its precision and its digits. `dimensions` adds ⌀, R and counts.
 //!
 //! 1. `true_length` finds the length of the model that a dimension measures in a view, or the reason to
 //!    refuse it.

@@ -1,4 +1,12 @@
-//! Cuts one triangle along the borders of a mask, by a constrained Delaunay triangulation in the texel plane.
+//! Cuts one triangle along the borders of an opacity mask and keeps the opaque pieces.
+//!
+//! 1. The corners, the crossings of borders with the sides, and the borders themselves form a constrained
+//!    Delaunay triangulation in the texel plane.
+//! 2. Its faces are grouped into components that no constraint separates.
+//! 3. A component remains if it lies on the opaque side of its borders.
+//!
+//! Crossings come from the caller, computed once per side, so that neighbouring triangles still meet after
+//! the cut.
 
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
@@ -18,7 +26,7 @@ pub(crate) enum PieceVertex {
     Inside([f64; 3]),
 }
 
-/// A triangle in the texel plane.
+/// A triangle in the texel plane, with the border crossings on its sides.
 pub(crate) struct TexelTriangle<'a> {
     pub corners: [DVec2; 3],
     /// Side after each corner.
@@ -40,7 +48,7 @@ type CutTriangulation = ConstrainedDelaunayTriangulation<Point2<f64>>;
 #[derive(Default)]
 struct TriangulationBuilder {
     faces: CutTriangulation,
-    /// Position of each vertex on the triangle.
+    /// Position of each vertex on the original triangle.
     places: Vec<PieceVertex>,
 }
 
@@ -147,7 +155,7 @@ impl TexelTriangle<'_> {
         Some(())
     }
 
-    /// Barycentric coordinates of a point.
+    /// Barycentric coordinates of a point of the texel plane.
     fn shares(&self, p: DVec2) -> [f64; 3] {
         let [a, b, c] = self.corners;
         let shares = [doubled_area(b, c, p), doubled_area(c, a, p), doubled_area(a, b, p)];

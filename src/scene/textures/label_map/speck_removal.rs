@@ -1,22 +1,24 @@
-//! [`merge_specks`]: merges small regions of one colour with their neighbours.
+//! [`merge_specks`]: merges specks, small connected regions of one colour label, with a neighbouring region.
+//!
+//! Regions continue across the seams of repeated textures. Sizes are in texels.
 
 use crate::parallel::prelude::*;
 
 use super::colour_labels::ColourLabels;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
-/// Repaints connected regions of fewer than `least` texels like the neighbour with the longest common border,
-/// small ones first. Returns the number of texels in specks before.
+/// Gives each connected region of fewer than `least` texels the label of the neighbour with the longest
+/// common border, smallest regions first. Returns the number of texels that the first pass changes.
 pub(crate) fn merge_specks(labels: &mut ColourLabels, least: f64) -> usize {
     let first = merge_once(labels, least);
-    // Merging may reveal specks within specks.
+    // A speck may have taken the label of another speck, so a merged region may still be too small.
     if first > 0 && merge_once(labels, least) > 0 {
         merge_once(labels, least);
     }
     first
 }
 
-/// One pass; returns the number of texels repainted.
+/// One pass over all specks. Returns the number of texels whose label changes.
 fn merge_once(labels: &mut ColourLabels, least: f64) -> usize {
     let texels = labels.texels;
     let mut small = small_components(labels, least);

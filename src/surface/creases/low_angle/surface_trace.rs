@@ -1,4 +1,8 @@
-//! [`SurfaceTracer`]: traces that cross a surface from face to face, perpendicular to a start edge.
+//! [`SurfaceTracer`]: traces that cross a surface from face to face, in the plane perpendicular to a start
+//! edge.
+//!
+//! A trace reports the edges it crosses and how far each is from the start. From these the callers decide
+//! whether the start edge is one of many facet edges of a curve, or a crease.
 
 use std::iter::Take;
 
@@ -9,19 +13,19 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::surface::HardEdges;
 
-/// Maximum number of crossed faces. A level surface that goes on for longer counts as ended.
+/// Maximum number of faces that a trace crosses. After these, the surface is treated as ended.
 const MAX_CROSSED_FACES: usize = 64;
 
-/// Edge between two faces, with the turn of the surface there.
+/// Edge between two faces, with the angle between their normals.
 #[derive(Clone, Copy)]
 pub(crate) struct BentEdge {
     pub edge: usize,
     pub convex: bool,
-    /// Turn, radians.
+    /// Angle between the normals of the two faces, radians.
     pub turn: f64,
 }
 
-/// Mesh data for traces.
+/// A mesh with the data that traces need.
 pub(crate) struct SurfaceTracer<'a> {
     pub mesh: &'a Mesh,
     pub turns: &'a DihedralCosines,
