@@ -26,7 +26,7 @@ const TRIM_NEVER: c_int = -1;
 /// Configures the allocator: one heap that never shrinks, with large pages where the system supports them.
 ///
 /// Call this first, while there is one thread.
-pub fn keep() {
+pub fn configure_allocator() {
     // SAFETY: `mallopt` sets parameters of the allocator and may be called at any time. It refuses unknown
     // parameters, and its return value only reports that.
     unsafe {

@@ -9,6 +9,6 @@ mod heap;
 
 fn main() -> std::process::ExitCode {
     #[cfg(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64"))]
-    heap::keep();
+    heap::configure_allocator();
     ligne::cli::main()
 }

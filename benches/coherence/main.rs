@@ -117,7 +117,7 @@ fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
         clip.map(|clip| Playing::all(clip, timeline.time(frame))).into_iter().collect()
     };
     let moved = |frame: usize| table.map_or(DAffine3::IDENTITY, |table| table.turn(steps - frame % steps));
-    let poses: Vec<_> = timeline.drawn().map(|frame| (playing(frame), moved(frame))).collect();
+    let poses: Vec<_> = timeline.drawn_frames().map(|frame| (playing(frame), moved(frame))).collect();
     let points = film_points(rigged, &poses).expect("poses");
     let camera = Camera::three_quarter_of(rigged.scene.up).fit_points(&points, 0.05);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
@@ -131,7 +131,7 @@ fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
     };
     let mut changes = Vec::new();
     let mut last = None;
-    for frame in timeline.drawn() {
+    for frame in timeline.drawn_frames() {
         let inked = of(frame);
         if let Some(before) = &last {
             changes.push(Change::between(before, &inked));

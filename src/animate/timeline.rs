@@ -87,19 +87,19 @@ impl Timeline {
     }
 
     /// The frames that are drawn, in order. The others repeat the drawing before them.
-    pub fn drawn(&self) -> impl Iterator<Item = usize> + use<> {
+    pub fn drawn_frames(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.frames).step_by(self.hold)
     }
 
     /// The drawn frame whose drawing is shown in `frame`.
     #[must_use]
-    pub fn held(&self, frame: usize) -> usize {
+    pub fn drawn_frame(&self, frame: usize) -> usize {
         frame - frame % self.hold
     }
 
-    /// Number of frames that show the drawing of frame `drawn`; fewer than the hold at the end of the film.
+    /// Number of frames that show the drawing of frame `drawn_frames`; fewer than the hold at the end of the film.
     #[must_use]
-    pub fn shown(&self, drawn: usize) -> usize {
+    pub fn repeat_count(&self, drawn: usize) -> usize {
         self.hold.min(self.frames.saturating_sub(drawn))
     }
 
@@ -121,12 +121,12 @@ mod tests {
             assert_eq!(timeline.frames(), frames, "{to} s");
         }
         let timeline = Timeline::between(-1.0, 0.0, 10.0)?.holding(3);
-        assert_eq!(timeline.drawn().collect::<Vec<_>>(), [0, 3, 6, 9]);
+        assert_eq!(timeline.drawn_frames().collect::<Vec<_>>(), [0, 3, 6, 9]);
         assert_eq!(
-            (0..10).map(|frame| timeline.held(frame)).collect::<Vec<_>>(),
+            (0..10).map(|frame| timeline.drawn_frame(frame)).collect::<Vec<_>>(),
             [0, 0, 0, 3, 3, 3, 6, 6, 6, 9]
         );
-        assert_eq!((timeline.shown(6), timeline.shown(9)), (3, 1));
+        assert_eq!((timeline.repeat_count(6), timeline.repeat_count(9)), (3, 1));
         assert!((timeline.time(9) + 0.1).abs() < 1e-12);
         Ok(())
     }

@@ -33,14 +33,14 @@ const MAX_WALLS_PER_AXIS: usize = 1024;
 /// Shift of the cells, so that no plane of symmetry lies between two of them.
 const CELL_SHIFT: f64 = 0.372_915;
 
-/// Cells along the diagonal of a part for [`Chain::places`]: for contours, and for all other lines.
+/// Cells along the diagonal of a part for [`Chain::rest_cells`]: for contours, and for all other lines.
 const LOCATION_CELLS_PER_DIAGONAL: [f64; 2] = [32.0, 96.0];
 
 /// Assigns an identity and a list of cells to all chains with known anchors. `parts` holds one number per
 /// part.
 pub(crate) fn assign_identities(chains: &mut [Chain], parts: &[u64]) {
     for chain in chains.iter_mut().filter(|chain| is_anchored(chain)) {
-        chain.places = location_cells(chain, parts);
+        chain.rest_cells = location_cells(chain, parts);
     }
     let mut open: Vec<usize> =
         (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
@@ -129,7 +129,7 @@ fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
     (0..sides).filter_map(move |side| {
         let ends = [side, (side + 1) % count].map(|at| chain.samples.get(at).map(|sample| sample.anchor));
         let [Some(from), Some(to)] = ends else { return None };
-        let place = |anchor: Anchor| anchor.place.map(f64::from);
+        let place = |anchor: Anchor| anchor.rest_position.map(f64::from);
         (from.is_known() && to.is_known()).then(|| [place(from), place(to)])
     })
 }
@@ -167,8 +167,10 @@ mod tests {
     fn chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
         let at = |k: usize| k as f64 / (points - 1) as f64;
         let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
-        let sample =
-            |k| Sample { anchor: Anchor { place: place(at(k)), scale: 500.0 }, ..Sample::new(1.0, 1.0) };
+        let sample = |k| Sample {
+            anchor: Anchor { rest_position: place(at(k)), scale: 500.0 },
+            ..Sample::new(1.0, 1.0)
+        };
         Chain {
             points: (0..points).map(|k| Point::new(400.0 * at(k), 0.0)).collect(),
             samples: (0..points).map(sample).collect(),
@@ -184,7 +186,7 @@ mod tests {
             covered: [false; 2],
             segment: 0,
             identity: 0,
-            places: Arc::default(),
+            rest_cells: Arc::default(),
             path: BezPath::new(),
         }
     }

@@ -77,7 +77,7 @@ pub struct Chain {
     /// Number that stays the same from frame to frame; 0 if not computed.
     pub identity: u64,
     /// Cells of the rest pose that it passes, as ascending numbers; empty if not computed.
-    pub places: Arc<[u64]>,
+    pub rest_cells: Arc<[u64]>,
     /// Path to draw: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
@@ -150,7 +150,7 @@ pub fn link_with_removed(
     unit: Unit,
     hidden: HiddenLines,
 ) -> (Vec<Chain>, Vec<RemovedLine>) {
-    let mut bin = RemovalLog::kept();
+    let mut bin = RemovalLog::recording();
     let chains = link_with(map, (options, Rounding::default()), unit, hidden, ahead, &mut bin);
     (chains, bin.into_removed())
 }
@@ -257,7 +257,7 @@ fn chains(raw: RawLine, mut t: FinishTolerances) -> Vec<Chain> {
         covered: raw.covered,
         segment: raw.segment,
         identity: 0,
-        places: Arc::default(),
+        rest_cells: Arc::default(),
         path: BezPath::new(),
     };
     let Some(runs) = runs else {

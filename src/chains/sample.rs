@@ -18,7 +18,7 @@ pub struct Sample {
     /// not computed.
     pub side: f64,
     /// Colours next to the line.
-    pub under: LineBackdrop,
+    pub backdrop: LineBackdrop,
     /// Position on the model.
     pub anchor: Anchor,
 }
@@ -27,7 +27,7 @@ pub struct Sample {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Anchor {
     /// Position in the part's rest pose, in diagonals of its bounding box, relative to its centre.
-    pub place: [f32; 3],
+    pub rest_position: [f32; 3],
     /// Length of one such diagonal on the page at this point, user units; 0 if unknown.
     pub scale: f32,
 }
@@ -46,8 +46,8 @@ impl Anchor {
             return if self.is_known() { self } else { to };
         }
         let mix = |a: f32, b: f32| (f64::from(a) + (f64::from(b) - f64::from(a)) * t) as f32;
-        let place = [0, 1, 2].map(|axis| mix(self.place[axis], to.place[axis]));
-        Self { place, scale: mix(self.scale, to.scale) }
+        let place = [0, 1, 2].map(|axis| mix(self.rest_position[axis], to.rest_position[axis]));
+        Self { rest_position: place, scale: mix(self.scale, to.scale) }
     }
 }
 
@@ -70,8 +70,8 @@ impl Sample {
             light: 1.0,
             gap: 1.0,
             side: 0.0,
-            under: LineBackdrop { colour: None, black: 0.0 },
-            anchor: Anchor { place: [0.0; 3], scale: 0.0 },
+            backdrop: LineBackdrop { colour: None, black: 0.0 },
+            anchor: Anchor { rest_position: [0.0; 3], scale: 0.0 },
         }
     }
 
@@ -86,7 +86,7 @@ impl Sample {
             gap: mix(self.gap, to.gap),
             side: mix(self.side, to.side),
             // Surface colours are not interpolated.
-            under: if t < 0.5 { self.under } else { to.under },
+            backdrop: if t < 0.5 { self.backdrop } else { to.backdrop },
             anchor: self.anchor.lerp(to.anchor, t),
         }
     }

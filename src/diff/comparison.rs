@@ -63,8 +63,9 @@ pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
         diff.same_at = Some(Stage::Bytes);
         return diff;
     }
-    let (left_before, left_after) = (left(before, options.ignore), left(after, options.ignore));
-    judge(&mut diff, [&left_before, &left_after], options);
+    let (left_before, left_after) =
+        (without_ignored(before, options.ignore), without_ignored(after, options.ignore));
+    find_changes(&mut diff, [&left_before, &left_after], options);
     if options.pixels {
         diff.pixels = pixel_count::compare(before, after);
         if diff.pixels.as_ref().is_some_and(|pixels| !pixels.is_same()) {
@@ -75,7 +76,7 @@ pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
 }
 
 /// A picture without ignored shapes.
-fn left(picture: &Picture, ignore: Ignore) -> Picture {
+fn without_ignored(picture: &Picture, ignore: Ignore) -> Picture {
     match picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
         true => {
             let shapes = picture.shapes.iter().filter(|shape| !ignore.leaves_out(shape)).cloned();
@@ -86,13 +87,13 @@ fn left(picture: &Picture, ignore: Ignore) -> Picture {
 }
 
 /// Finds the changes of two pictures and their causes.
-fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
+fn find_changes(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let [before, after] = pictures;
     // If one drawing lost all labels, labels cannot identify marks.
     let lost = missing_labels::labelled_side(pictures).filter(|_| !options.ignore.labels);
     let mut ignore = options.ignore;
     ignore.labels |= lost.is_some();
-    if options.brief && lost.is_none() && settled_in_brief(diff, pictures, options) {
+    if options.brief && lost.is_none() && report_camera_change(diff, pictures, options) {
         return;
     }
     let page = page(before, after);
@@ -116,7 +117,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
             compared.findings = raster_check::without_picture(found, pictures, ignore);
             compared.is_one_picture = compared.findings.len() < before;
             if compared.is_one_picture {
-                compared.movers.clear();
+                compared.moved_parts.clear();
             }
             Vec::new()
         }
@@ -124,8 +125,12 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         RasterVerdict::Unknown => Vec::new(),
     };
     // All marks moved alike: report one motion of the whole drawing.
-    let together =
-        whole_motion::common_shift(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
+    let together = whole_motion::common_shift(
+        &mut compared.findings,
+        before,
+        &compared.unequal_shapes[0],
+        diff.tolerance_px,
+    );
     if let Some(motion) = together {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
         return assemble_result(
@@ -138,7 +143,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         );
     }
     let whole = (compared.findings.len() > 2)
-        .then(|| whole_motion::whole(pictures, &compared.rest, default_px(before, after)))
+        .then(|| whole_motion::whole(pictures, &compared.unequal_shapes, default_px(before, after)))
         .flatten();
     let mut causes = Vec::new();
     if let Some(whole) = whole
@@ -146,14 +151,14 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
             whole_motion_findings(diff, &whole, pictures, &compared, &options.tolerances, ignore)
     {
         compared.findings = found;
-        compared.movers.clear();
+        compared.moved_parts.clear();
         causes.push(cause);
     }
     assemble_result(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
 /// Reports a change of camera in one finding; returns `false` for all other changes.
-fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
+fn report_camera_change(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
     let groups = MarkGroups::new(pictures, &options.tolerances, options.ignore);
     let parted = equal_shapes::part(pictures[0], pictures[1], &groups);
     let Some((finding, cause)) = camera_change::find(pictures, &parted, diff.tolerance_px) else {
@@ -192,7 +197,7 @@ fn assemble_result(
     mut causes: Vec<Cause>,
     lost: Option<usize>,
 ) {
-    let structure = compared.rest.iter().all(Vec::is_empty) && lost.is_none();
+    let structure = compared.unequal_shapes.iter().all(Vec::is_empty) && lost.is_none();
     diff.findings.extend(more.into_iter().flatten());
     diff.findings.append(&mut compared.findings);
     if let Some(side) = lost {
@@ -211,7 +216,7 @@ fn assemble_result(
         cause.findings = places.map(|(index, _)| index).collect();
     }
     diff.causes = causes;
-    let more = cause_sentences::causes(diff, &compared.movers);
+    let more = cause_sentences::causes(diff, &compared.moved_parts);
     diff.causes.extend(more);
     if diff.findings.is_empty() {
         diff.same_at = Some(match (compared.is_one_picture, structure) {
@@ -257,7 +262,7 @@ fn whole_motion_findings(
     if left.len() * 4 > compared.findings.len() {
         return None;
     }
-    let carried = whole_motion::findings(pictures[0], &compared.rest[0], &whole.motion, &left);
+    let carried = whole_motion::findings(pictures[0], &compared.unequal_shapes[0], &whole.motion, &left);
     if carried.is_empty() {
         return None;
     }
@@ -271,7 +276,7 @@ fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize,
     let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
     let mut words = cause_sentences::motion(motion, place, unit);
     // A drawing scaled from the page's corner does not move.
-    if motion.of(Point::ORIGIN).hypot() <= reach
+    if motion.displacement(Point::ORIGIN).hypot() <= reach
         && let Some((grown, _)) = words.split_once(", its middle")
     {
         words.truncate(grown.len());
@@ -289,9 +294,9 @@ fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize,
 struct MarkComparison {
     findings: Vec<Finding>,
     /// Shapes of each picture without an equal.
-    rest: [Vec<usize>; 2],
+    unequal_shapes: [Vec<usize>; 2],
     /// Parts that moved as a whole.
-    movers: Vec<MovedPart>,
+    moved_parts: Vec<MovedPart>,
     /// Whether findings were dropped because the drawings look the same.
     is_one_picture: bool,
 }
@@ -300,14 +305,15 @@ struct MarkComparison {
 fn compare_marks(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> MarkComparison {
     let [before, after] = pictures;
     let groups = MarkGroups::new(pictures, tolerances, ignore);
-    let equal_shapes::ShapeMatching { equal: mut stayed, rest } = equal_shapes::part(before, after, &groups);
+    let equal_shapes::ShapeMatching { equal: mut stayed, unequal_shapes: rest } =
+        equal_shapes::part(before, after, &groups);
     let mut findings = Vec::new();
     let mut movers = Vec::new();
     if !rest.iter().all(Vec::is_empty) {
         (findings, movers) = compare_unequal(pictures, &rest, &groups, ignore, &mut stayed);
     }
     findings.extend(stacking_order::findings(before, after, stayed));
-    MarkComparison { findings, rest, movers, is_one_picture: false }
+    MarkComparison { findings, unequal_shapes: rest, moved_parts: movers, is_one_picture: false }
 }
 
 /// Changes of the shapes without an equal. Shapes that did not move are added to `stayed`.
@@ -319,8 +325,8 @@ fn compare_unequal(
     stayed: &mut Vec<(usize, usize)>,
 ) -> (Vec<Finding>, Vec<MovedPart>) {
     let chains = [
-        chain::of(before, &rest[0], &groups.of_shape[0], groups),
-        chain::of(after, &rest[1], &groups.of_shape[1], groups),
+        chain::chains_of_shapes(before, &rest[0], &groups.of_shape[0], groups),
+        chain::chains_of_shapes(after, &rest[1], &groups.of_shape[1], groups),
     ];
     let firsts = [chain::first_copies(&chains[0]), chain::first_copies(&chains[1])];
     let grid = |side: usize| {
@@ -356,7 +362,7 @@ fn compare_unequal(
     if !ignore.widths {
         findings.extend(outline_findings::findings(&teller, groups));
     }
-    let movers = moved_parts::movers([before, after], rest, &findings);
+    let movers = moved_parts::find_moved_parts([before, after], rest, &findings);
     (findings, movers)
 }
 

@@ -72,7 +72,7 @@ const DENSITY_BISECTIONS: usize = 30;
 const MAX_SCREEN_COVERAGE: f64 = 0.98;
 
 /// Coverage and density of a layer in each cell.
-pub(crate) fn shares(
+pub(crate) fn coverage_and_density(
     ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,
@@ -90,7 +90,7 @@ pub(crate) fn shares(
             }
             let tone = context.tones.get(cell.look.paint.index()).or(context.tones.last());
             let coverage = tone.map_or(0.0, |tone| tone.of_bin(cell.look.bin));
-            tone::shares(coverage, &fullest).get(number).copied().unwrap_or_default()
+            tone::coverage_per_layer(coverage, &fullest).get(number).copied().unwrap_or_default()
         })
         .collect();
     // Few distinct shares occur, so densities are cached.

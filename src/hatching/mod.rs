@@ -52,7 +52,7 @@ use crate::geometry::numbers::noise::hash;
 use crate::regions::{HatchRegions, SurfaceLabel};
 use crate::strokes::Ink;
 use guides::streamlines::{Spacing, streamlines};
-use layer_shares::{LayerShares, shares};
+use layer_shares::{LayerShares, coverage_and_density};
 
 /// Strokes of one layer of hatching on the page.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -70,7 +70,7 @@ pub fn strokes(ground: &HatchRegions, context: &HatchContext, options: &HatchOpt
             if layer.kind != HatchKind::Lines {
                 return LayerStrokes::default();
             }
-            let shares = shares(ground, context, options, number);
+            let shares = coverage_and_density(ground, context, options, number);
             let hand = hand(layer, context, number);
             let guides = guides(ground, layer, number, context, &shares, hand.seed);
             let laid: Vec<Vec<HatchStroke>> = guides
@@ -139,13 +139,13 @@ fn spots(
     let long = |length: Length| length.in_unit(context.unit);
     let fullest: Vec<f64> =
         options.layers.iter().map(|layer| layer_shares::fullest(layer, context.unit)).collect();
-    let inked = shares(ground, context, options, number);
+    let inked = coverage_and_density(ground, context, options, number);
     let coverage = |cell: u32, p: Point| {
         if inked.covered[cell as usize] <= 0.0 {
             return 0.0;
         }
         let covered = covered_at(ground, context, layer, cell, p);
-        tone::shares(covered, &fullest).get(number).copied().unwrap_or_default()
+        tone::coverage_per_layer(covered, &fullest).get(number).copied().unwrap_or_default()
     };
     let px = long(Length::px(1.0));
     let seed = hash(context.seed, &[number as u64]);

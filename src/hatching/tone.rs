@@ -62,7 +62,7 @@ impl ToneCoverage {
 /// Layers are filled in order; `fullest` holds the greatest coverage of each. Where layers cross, ink
 /// overlaps: a layer covers its share of the paper that the layers before it left blank.
 #[must_use]
-pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
+pub fn coverage_per_layer(coverage: f64, fullest: &[f64]) -> Vec<f64> {
     let mut left = coverage.clamp(0.0, 1.0);
     let mut blank = 1.0;
     fullest
@@ -91,12 +91,12 @@ mod tests {
 
     #[test]
     fn layers_fill_one_after_the_other() {
-        assert_eq!(shares(0.2, &[0.25, 0.25]), [0.2, 0.0]);
-        let both = shares(0.4, &[0.25, 0.25]);
+        assert_eq!(coverage_per_layer(0.2, &[0.25, 0.25]), [0.2, 0.0]);
+        let both = coverage_per_layer(0.4, &[0.25, 0.25]);
         assert_eq!(both[0], 0.25);
         let covered = 1.0 - both.iter().map(|share| 1.0 - share).product::<f64>();
         assert!((covered - 0.4).abs() < 1e-12);
-        assert_eq!(shares(0.9, &[0.25, 0.25]), [0.25, 0.25]);
+        assert_eq!(coverage_per_layer(0.9, &[0.25, 0.25]), [0.25, 0.25]);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub(crate) fn pictures(
     let ImageContext { view, px, offset, .. } = *stage;
     let facets = facets::face_subdivision::visible_facets(stage, imaged);
     let periods = imaged.texels().periods().map(|period| period.map(|count| count as f64));
-    let scale = (stage.samples * stretch(&facets, px)?).min(1.0);
+    let scale = (stage.max_pixels_per_px * stretch(&facets, px)?).min(1.0);
     let spans = periods.map(|period| {
         let period = period?;
         Some(period * (MAX_SPAN_PIXELS / (period * scale)).floor().max(1.0))

@@ -11,7 +11,7 @@
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::light::Shading;
-use crate::scene::Paint;
+use crate::scene::MaterialPaint;
 use crate::scene::textures::EmbeddedTexture;
 
 /// Veils over a picture.
@@ -40,7 +40,7 @@ const MAX_COLOUR_ERROR: f64 = 0.012;
 
 impl ToneVeils {
     /// Veils for a picture; `None` if the tones have fixed colours that do not depend on the picture.
-    pub fn of(shading: &Shading, paints: &[Paint], imaged: &EmbeddedTexture) -> Option<Self> {
+    pub fn of(shading: &Shading, paints: &[MaterialPaint], imaged: &EmbeddedTexture) -> Option<Self> {
         let channels = |paint: crate::mesh::PaintId| Some(paints.get(paint.index())?.colour.channels());
         let probes = [channels(imaged.probes[0])?, channels(imaged.probes[1])?];
         let mean = channels(imaged.paint)?;

@@ -30,7 +30,7 @@ impl ShadingNormals {
             shaded.mend(mesh);
             return shaded;
         }
-        let all = SmoothNormals::parted(mesh, |_| true, |edge| hard.is_hard(edge));
+        let all = SmoothNormals::without_straight_edges(mesh, |_| true, |edge| hard.is_hard(edge));
         let mut shaded = Self { normals: all.normals, corners: all.corners };
         shaded.weigh_by_area(mesh, smooth);
         if !mesh.corner_normals.is_empty() {

@@ -34,7 +34,7 @@ pub(crate) use isophotes::covered_faces::{shows_inside, visible_faces_of};
 pub use isophotes::lit_surface::Lit;
 pub use line_kind::LineKind;
 pub use line_options::{Contours, HiddenLines, LineOptions, Normals};
-pub use prepared_surface::{Finer, Surface};
+pub use prepared_surface::{RefinedSurface, Surface};
 pub use textures::view_textures::Textures;
 pub use zero_sets::interior::InsideOptions;
 
@@ -127,7 +127,7 @@ pub fn extract_with(
     {
         intersections::intersection_lines::add(curves, mesh, view, &mut lines);
     }
-    if zero_sets::interior::wanted(options) {
+    if zero_sets::interior::has_interior_lines(options) {
         // Interior lines always need normals, contours along mesh edges do not.
         let own = smooth
             .is_empty()

@@ -27,9 +27,9 @@ pub struct Surface {
     /// Creased edges.
     pub hard: HardEdges,
     /// Sharp edges that are neither creases nor inside a rounded surface.
-    pub wrinkles: EdgeSet,
+    pub sliver_creases: EdgeSet,
     /// Middle edges of narrow roundings: drawn as creases, but smooth for normals.
-    pub roundings: EdgeSet,
+    pub fillet_centres: EdgeSet,
     /// Normals of rounded parts, which have smooth contours; none with [`Contours::Mesh`].
     pub smooth: SmoothNormals,
     /// Origin of the surface, one per face.
@@ -39,7 +39,7 @@ pub struct Surface {
     /// Whether faces were subdivided.
     pub refined: bool,
     /// A camera for which no face needs subdivision, if known.
-    pub fine_for: Option<Camera>,
+    pub fine_enough_camera: Option<Camera>,
 }
 
 impl Surface {
@@ -62,19 +62,19 @@ impl Surface {
         }
         let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
         if options.normals == Normals::Auto {
-            mesh.remove_normals(|face| !patches.believed[face as usize]);
+            mesh.remove_normals(|face| !patches.trusts_file_normals[face as usize]);
         }
         let smooth = normals(&mesh, &patches, &[]);
         let surface = Self {
             mesh,
             hard: patches.hard.clone(),
-            wrinkles: patches.wrinkles.clone(),
-            roundings: patches.roundings.clone(),
+            sliver_creases: patches.sliver_creases.clone(),
+            fillet_centres: patches.fillet_centres.clone(),
             smooth,
             origins: patches.origins.clone(),
             pieces: patches.pieces.clone(),
             refined: false,
-            fine_for: None,
+            fine_enough_camera: None,
         };
         (surface, Some(patches))
     }
@@ -109,14 +109,14 @@ impl Surface {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
             hard: hard.clone().with(&mesh, &folds),
-            wrinkles: self.wrinkles.clone(),
-            roundings: self.roundings.clone(),
+            sliver_creases: self.sliver_creases.clone(),
+            fillet_centres: self.fillet_centres.clone(),
             mesh,
             smooth,
             origins: self.origins.clone(),
             pieces: self.pieces.clone(),
             refined: false,
-            fine_for: None,
+            fine_enough_camera: None,
         }
     }
 
@@ -124,38 +124,38 @@ impl Surface {
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
         let Some(cuts) = self.cuts_for(camera, None) else {
-            self.fine_for = Some(*camera);
+            self.fine_enough_camera = Some(*camera);
             return self;
         };
-        let sides = self.sides_of_roundings();
+        let sides = self.fillet_centre_sides();
         let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
-        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
+        self.refined_with(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
     }
 
     /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
     /// needs it, or if it is subdivided already. The [`NormalCones`] of this surface only save time.
     #[must_use]
-    pub fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<Finer> {
+    pub fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<RefinedSurface> {
         let cuts = self.cuts_for(camera, cones)?;
         let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
-        Some(self.of_finer(finer, &self.sides_of_roundings()))
+        Some(self.refined_with(finer, &self.fillet_centre_sides()))
     }
 
     fn cuts_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<MeshCuts> {
-        if self.refined || self.fine_for.as_ref() == Some(camera) {
+        if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return None;
         }
         light::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
     }
 
-    /// The surface of a subdivided mesh. `sides` are those of [`Self::sides_of_roundings`].
-    fn of_finer(&self, finer: RefinedMesh, sides: &[[u32; 2]]) -> Finer {
-        let RefinedMesh { mesh, smooth, hosts, kept, edges } = finer;
+    /// The surface of a subdivided mesh. `sides` are those of [`Self::fillet_centre_sides`].
+    fn refined_with(&self, finer: RefinedMesh, sides: &[[u32; 2]]) -> RefinedSurface {
+        let RefinedMesh { mesh, smooth, hosts, kept_count: kept, edges } = finer;
         let surface = Self {
             hard: self.hard.remapped(&edges, mesh.edges.len()),
-            wrinkles: self.wrinkles.remapped(&edges, mesh.edges.len()),
-            roundings: self
-                .roundings
+            sliver_creases: self.sliver_creases.remapped(&edges, mesh.edges.len()),
+            fillet_centres: self
+                .fillet_centres
                 .remapped(&edges, mesh.edges.len())
                 .with(&pieces_between(&mesh, (&hosts, kept), sides), mesh.edges.len()),
             mesh,
@@ -163,18 +163,18 @@ impl Surface {
             origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
             pieces: hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect(),
             refined: true,
-            fine_for: None,
+            fine_enough_camera: None,
         };
-        Finer { surface, hosts, kept }
+        RefinedSurface { surface, hosts, kept_count: kept }
     }
 
     /// Face pairs at the middle edges of narrow roundings, sorted.
-    fn sides_of_roundings(&self) -> Vec<[u32; 2]> {
+    fn fillet_centre_sides(&self) -> Vec<[u32; 2]> {
         let sides = |edge| match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, .. } => Some(ascending(faces)),
             _ => None,
         };
-        let mut found: Vec<[u32; 2]> = self.roundings.iter().filter_map(sides).collect();
+        let mut found: Vec<[u32; 2]> = self.fillet_centres.iter().filter_map(sides).collect();
         found.sort_unstable();
         found
     }
@@ -202,13 +202,13 @@ fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]
 
 /// A surface that was subdivided for a camera.
 #[derive(Debug, Clone)]
-pub struct Finer {
+pub struct RefinedSurface {
     /// The subdivided surface.
     pub surface: Surface,
     /// Original face of each of its faces.
     pub hosts: Vec<u32>,
     /// Number of unchanged faces. They come first, with ascending original faces.
-    pub kept: usize,
+    pub kept_count: usize,
 }
 
 /// Normals of the rounded patches. Folds (edges, ascending) separate patches too.
@@ -220,7 +220,7 @@ pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> Smooth
 /// Whether an edge separates two rounded surfaces, by its angle and surroundings or by the file's normals.
 /// Figures are shaded smoothly over edges that would be creases elsewhere.
 fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
-    if patches.rims.contains(edge) || patches.wrinkles.contains(edge) {
+    if patches.rims.contains(edge) || patches.sliver_creases.contains(edge) {
         return true;
     }
     let hard = patches.hard.is_hard(edge);
@@ -281,8 +281,8 @@ mod tests {
                 .all(|v| (mesh.positions[*v as usize] + mesh.origin).z.abs() < 1e-6)
         };
         let edges = surface.mesh.edges.len();
-        surface.roundings = EdgeSet::collect(edges, |edge| is_level(&surface.mesh, edge));
-        assert_eq!(surface.roundings.iter().count(), 16);
+        surface.fillet_centres = EdgeSet::collect(edges, |edge| is_level(&surface.mesh, edge));
+        assert_eq!(surface.fillet_centres.iter().count(), 16);
         let camera = Camera {
             eye: DVec3::new(3.0, 1.0, 2.0),
             up: DVec3::Z,
@@ -299,7 +299,7 @@ mod tests {
             let [a, b] = mesh.edges.vertices[edge].map(place);
             a.angle_between(b)
         };
-        let found: Vec<usize> = finer.roundings.iter().collect();
+        let found: Vec<usize> = finer.fillet_centres.iter().collect();
         assert!(found.len() > 16, "none of them was cut");
         assert!(found.iter().all(|edge| is_level(mesh, *edge)));
         let around: f64 = found.iter().map(|edge| angle(*edge)).sum();

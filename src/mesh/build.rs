@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::order::canonical_order;
 use super::seams::open_edges;
 use super::weld::nearby_vertices;
-use super::{Cleaning, EdgeFaces, Edges, Mesh, MeshMetrics, Soup, part_metrics};
+use super::{EdgeFaces, Edges, Mesh, MeshMetrics, RepairCounts, Soup, part_metrics};
 use crate::mesh::components::bodies::bodies;
 use crate::mesh::components::orientation::{ConnectedTriangles, OrientedSurfaces, TurnedFaces, turn_faces};
 use crate::mesh::normals::face_normals::normals_and_narrow;
@@ -37,7 +37,7 @@ impl Mesh {
     /// order.
     #[must_use]
     pub fn build(mut soup: Soup) -> Self {
-        let mut cleaning = Cleaning::default();
+        let mut cleaning = RepairCounts::default();
         let Some((low, high)) = bounds(&soup, |_| true) else {
             cleaning.short_wires = soup.wires.len() as u64;
             return Self { cleaning, ..Self::default() };
@@ -108,12 +108,12 @@ impl Mesh {
         }
         if !is_final {
             if is_as_found {
-                surfaces.turned = turned_of_open;
+                surfaces.is_turned = turned_of_open;
             } else {
                 surfaces = self::surfaces(&soup, &edges);
             }
             if turn(&mut soup, &surfaces, &mut turned) {
-                edges.turn(&surfaces.turned);
+                edges.turn(&surfaces.is_turned);
             }
         }
 
@@ -124,7 +124,7 @@ impl Mesh {
             joined_parts = found;
         }
         let measure = |face: usize| {
-            let part = extents.of(soup.triangle_part[face]);
+            let part = extents.part(soup.triangle_part[face]);
             (part.scale, part.rounding)
         };
         let (mut face_normals, narrow) = normals_and_narrow(&soup.positions, &soup.triangles, measure);
@@ -173,9 +173,9 @@ fn surfaces(soup: &Soup, edges: &Edges) -> OrientedSurfaces {
 
 /// Turns and counts the faces that must be turned. Returns false if there are none.
 fn turn(soup: &mut Soup, surfaces: &OrientedSurfaces, counts: &mut Vec<TurnedFaces>) -> bool {
-    let any = !surfaces.turned.is_empty();
+    let any = !surfaces.is_turned.is_empty();
     if any {
-        turn_faces(soup, &surfaces.turned);
+        turn_faces(soup, &surfaces.is_turned);
         surfaces.count(&soup.triangle_part, counts);
     }
     any
@@ -209,7 +209,7 @@ fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
 }
 
-fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut Cleaning) {
+fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut RepairCounts) {
     cleaning.welded += joined.iter().enumerate().filter(|(id, to)| *id as u32 != **to).count() as u64;
     soup.triangles.par_iter_mut().for_each(|t| *t = t.map(|v| joined[v as usize]));
     for wire in &mut soup.wires {
@@ -217,7 +217,7 @@ fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut Cleaning) {
     }
 }
 
-fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
+fn drop_collapsed(soup: &mut Soup, cleaning: &mut RepairCounts) {
     let sound = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
     if !soup.triangles.par_iter().all(sound) {
         let keep: Vec<bool> = soup.triangles.iter().map(sound).collect();
@@ -233,7 +233,7 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
 fn border_vertices(soup: &Soup, edges: &Edges, extents: &MeshMetrics) -> (Vec<u32>, Vec<f64>) {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |e: usize| match edges.faces(e) {
-        EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
+        EdgeFaces::One(face) => Some((edges.vertices[e], extents.part(part(face)).weld)),
         _ => None,
     };
     let ends = (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter_map(open);

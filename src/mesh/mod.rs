@@ -45,7 +45,7 @@ pub use overlaps::overlay_order::Overlay;
 pub use part_metrics::{MeshMetrics, PartMetrics};
 pub use soup::{EdgeMark, Soup, Wire};
 pub use vertex_sources::VertexSources;
-pub use weld::duplicate_faces::Cleaning;
+pub use weld::duplicate_faces::RepairCounts;
 
 /// A welded triangle mesh, built by [`Mesh::build`].
 ///
@@ -99,7 +99,7 @@ pub struct Mesh {
     /// Lines without faces. Their vertices are vertices of the mesh.
     pub wires: Vec<Wire>,
     /// Counts of repaired and remaining defects.
-    pub cleaning: Cleaning,
+    pub cleaning: RepairCounts,
     /// Faces that the file winds inward or against their neighbours: one entry for each part that has any, in
     /// part order.
     pub turned: Vec<TurnedFaces>,

@@ -37,7 +37,7 @@ pub struct PartMetrics {
     /// Maximum displacement of a vertex by rounding, world units; 0 where coordinates are exact.
     pub rounding: f64,
     /// Extent of the part without the rest of its body.
-    own: OwnExtent,
+    own_extent: OwnExtent,
 }
 
 /// Scale and box of a single part.
@@ -57,7 +57,7 @@ impl PartMetrics {
         weld: 0.0,
         step: 0.0,
         rounding: 0.0,
-        own: OwnExtent { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
+        own_extent: OwnExtent { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
     };
 
     /// Diagonal of the box, world units.
@@ -70,8 +70,9 @@ impl PartMetrics {
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
         let place = |own: &OwnExtent| [own.low.to_array(), own.high.to_array()];
-        let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
-        self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
+        let by_place =
+            || place(&self.own_extent).partial_cmp(&place(&other.own_extent)).unwrap_or(Ordering::Equal);
+        self.own_extent.scale.total_cmp(&other.own_extent.scale).then_with(by_place)
     }
 
     /// Middle of the box, local space.
@@ -84,7 +85,7 @@ impl PartMetrics {
 /// Extents of all parts of a mesh.
 #[derive(Debug, Clone, Default)]
 pub struct MeshMetrics {
-    of_part: Vec<PartMetrics>,
+    part_metrics: Vec<PartMetrics>,
     /// Centre of the box around everything, local space. Only for searches whose result does not depend on
     /// it.
     pub middle: DVec3,
@@ -104,15 +105,15 @@ impl MeshMetrics {
         let mut extents = Self::of_all(soup, |_| true);
         if has_flat_faces {
             let counted = Self::of_all(soup, has_own_area);
-            if counted.of_part.iter().any(|part| part.low.x <= part.high.x) {
+            if counted.part_metrics.iter().any(|part| part.low.x <= part.high.x) {
                 extents.counted = counted.counted;
             }
-            for (own, counted) in extents.of_part.iter_mut().zip(counted.of_part) {
+            for (own, counted) in extents.part_metrics.iter_mut().zip(counted.part_metrics) {
                 // A part with only such faces keeps their box.
                 *own = if counted.low.x <= counted.high.x { counted } else { *own };
             }
         }
-        for (part, extent) in extents.of_part.iter_mut().enumerate() {
+        for (part, extent) in extents.part_metrics.iter_mut().enumerate() {
             let step = soup.steps.get(part).copied().unwrap_or_default();
             extent.measure(origin, soup.single_precision, step);
         }
@@ -160,26 +161,26 @@ impl MeshMetrics {
             }
         }
         let (middle, diagonal) = (all.middle(), all.diagonal());
-        Self { of_part, middle, diagonal, counted: (middle, diagonal) }
+        Self { part_metrics: of_part, middle, diagonal, counted: (middle, diagonal) }
     }
 
     /// Extent of a part; empty for a part without faces and wires.
     #[must_use]
-    pub fn of(&self, part: PartId) -> &PartMetrics {
-        self.of_part.get(part.index()).unwrap_or(&PartMetrics::NOTHING)
+    pub fn part(&self, part: PartId) -> &PartMetrics {
+        self.part_metrics.get(part.index()).unwrap_or(&PartMetrics::NOTHING)
     }
 
     /// Extents of all parts.
     #[must_use]
     pub fn all(&self) -> &[PartMetrics] {
-        &self.of_part
+        &self.part_metrics
     }
 
     /// Rank of each part in the order of [`PartMetrics::precedence`]. Equal parts keep the order of the file.
     #[must_use]
     pub fn ranks(&self) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..self.of_part.len() as u32).collect();
-        order.sort_by(|a, b| self.of_part[*a as usize].precedence(&self.of_part[*b as usize]));
+        let mut order: Vec<u32> = (0..self.part_metrics.len() as u32).collect();
+        order.sort_by(|a, b| self.part_metrics[*a as usize].precedence(&self.part_metrics[*b as usize]));
         let mut ranks = vec![0; order.len()];
         for (rank, part) in (0..).zip(order) {
             ranks[part as usize] = rank;
@@ -190,7 +191,7 @@ impl MeshMetrics {
     /// Whether the coordinates of any part are rounded.
     #[must_use]
     pub fn is_rounded(&self) -> bool {
-        self.of_part.iter().any(|part| part.rounding > 0.0)
+        self.part_metrics.iter().any(|part| part.rounding > 0.0)
     }
 
     /// Bounding sphere of all vertices: centre in local space, and radius. Both are rounded, so that they
@@ -221,15 +222,15 @@ impl MeshMetrics {
         if bodies.is_empty() {
             return self;
         }
-        let mut of_body = vec![PartMetrics::NOTHING; self.of_part.len()];
-        for (extent, body) in self.of_part.iter().zip(bodies) {
+        let mut of_body = vec![PartMetrics::NOTHING; self.part_metrics.len()];
+        for (extent, body) in self.part_metrics.iter().zip(bodies) {
             let own = &mut of_body[body.index()];
             (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
             own.step = own.step.max(extent.step);
         }
         of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision, extent.step));
-        for (extent, body) in self.of_part.iter_mut().zip(bodies) {
-            *extent = PartMetrics { own: extent.own, ..of_body[body.index()] };
+        for (extent, body) in self.part_metrics.iter_mut().zip(bodies) {
+            *extent = PartMetrics { own_extent: extent.own_extent, ..of_body[body.index()] };
         }
         self
     }
@@ -269,7 +270,7 @@ impl PartMetrics {
         let between =
             (2.0 * written).max(2.0 * self.rounding).min(tolerances::MAX_CONTACT_OF_PART * self.scale);
         self.contact = (tolerances::CONTACT_OF_PART * self.scale).max(between);
-        self.own = OwnExtent { scale: self.scale, low: self.low, high: self.high };
+        self.own_extent = OwnExtent { scale: self.scale, low: self.low, high: self.high };
     }
 }
 
@@ -291,7 +292,7 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn extent(&self, face: FaceId) -> &PartMetrics {
-        self.extents.of(self.face_part[face.index()])
+        self.extents.part(self.face_part[face.index()])
     }
 }
 
@@ -320,11 +321,11 @@ mod tests {
             ..Soup::default()
         };
         let (near, far) = (Mesh::build(soup(2.0)), Mesh::build(soup(7.0)));
-        assert_eq!(near.extents.of(PartId(0)), far.extents.of(PartId(0)));
-        assert_eq!(near.extents.of(PartId(0)).scale, 2.0_f64.sqrt());
-        assert_eq!(near.extents.of(PartId(2)).scale, 18.0_f64.sqrt());
+        assert_eq!(near.extents.part(PartId(0)), far.extents.part(PartId(0)));
+        assert_eq!(near.extents.part(PartId(0)).scale, 2.0_f64.sqrt());
+        assert_eq!(near.extents.part(PartId(2)).scale, 18.0_f64.sqrt());
         for part in [1, 9] {
-            assert_eq!(near.extents.of(PartId(part)).scale, 0.0);
+            assert_eq!(near.extents.part(PartId(part)).scale, 0.0);
         }
         let (middle, radius) = far.extents.ball();
         assert!(far.positions.iter().all(|p| p.distance(middle) <= radius));
@@ -346,12 +347,12 @@ mod tests {
             };
             let plain = Mesh::build(soup(&[[0, 1, 2]], &[PartId(0)]));
             let flat = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0); 2]));
-            assert_eq!(plain.extents.of(PartId(0)), flat.extents.of(PartId(0)), "{shift}");
+            assert_eq!(plain.extents.part(PartId(0)), flat.extents.part(PartId(0)), "{shift}");
             assert_eq!((plain.origin, flat.cleaning.degenerate > 0), (flat.origin, true));
             // A part with only such faces.
             let apart = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0), PartId(1)]));
-            assert_eq!(plain.extents.of(PartId(0)), apart.extents.of(PartId(0)));
-            assert_eq!(apart.extents.of(PartId(1)).diagonal(), 2.0);
+            assert_eq!(plain.extents.part(PartId(0)), apart.extents.part(PartId(0)));
+            assert_eq!(apart.extents.part(PartId(1)).diagonal(), 2.0);
             assert_eq!(plain.extents.counted_ball(), flat.extents.counted_ball());
             let (middle, radius) = flat.extents.ball();
             assert!(flat.positions.iter().all(|p| p.distance(middle) <= radius));

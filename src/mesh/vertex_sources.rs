@@ -87,7 +87,7 @@ impl Mesh {
             return None;
         }
         let measure = |face: usize| {
-            let part = extents.of(moved.triangle_part[face]);
+            let part = extents.part(moved.triangle_part[face]);
             (part.scale, part.rounding)
         };
         let (mut face_normals, narrow) = normals_and_narrow(&moved.positions, &moved.triangles, measure);

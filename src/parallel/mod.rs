@@ -102,23 +102,23 @@ fn part_count(len: usize, min: usize, max: usize) -> usize {
 }
 
 /// Part of a source until a thread takes it, and the number of items before it.
-struct Part<S> {
+struct SourcePart<S> {
     first: usize,
     source: Mutex<Option<S>>,
 }
 
 /// Splits a source into `count` parts whose lengths differ by at most one.
-fn cut<S: Split>(source: S, count: usize) -> Vec<Part<S>> {
+fn cut<S: Split>(source: S, count: usize) -> Vec<SourcePart<S>> {
     let len = source.length();
     let mut parts = Vec::with_capacity(count);
     let (mut first, mut rest) = (0, source);
     for k in 1..count {
         let end = len * k / count;
         let (part, after) = rest.cut_at(end - first);
-        parts.push(Part { first, source: Mutex::new(Some(part)) });
+        parts.push(SourcePart { first, source: Mutex::new(Some(part)) });
         (first, rest) = (end, after);
     }
-    parts.push(Part { first, source: Mutex::new(Some(rest)) });
+    parts.push(SourcePart { first, source: Mutex::new(Some(rest)) });
     parts
 }
 

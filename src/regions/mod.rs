@@ -57,7 +57,7 @@ pub struct RegionBorder {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
     /// Its label.
-    pub look: SurfaceLabel,
+    pub label: SurfaceLabel,
     /// Area, user units squared.
     pub area: f64,
     /// Loops around it and around its holes: indices into [`Regions::borders`], and whether each border is
@@ -87,7 +87,7 @@ pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions
     let ramps = match options.steps_as {
         StepsAs::Bands => Vec::new(),
         StepsAs::Gradients => {
-            let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.looks.len());
+            let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.labels.len());
             let tolerance = Length::px(tolerances::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
             paint::gradient_regions::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
         }
@@ -115,17 +115,21 @@ fn patches(
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     unit: Unit,
-) -> (cells::label_components::Patches, Vec<SurfaceLabel>) {
+) -> (cells::label_components::LabelComponents, Vec<SurfaceLabel>) {
     let (looks, table) = seen.relabelled(coarser);
     let crumb = options.crumb.in_unit(unit).max(0.0) / seen.step;
     (cells::label_components::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
 }
 
 /// Index of the patch that each triangle is painted with.
-fn owners(patches: &cells::label_components::Patches) -> Vec<u32> {
+fn owners(patches: &cells::label_components::LabelComponents) -> Vec<u32> {
     // Paper and the outside of the page are one patch, so that no border is drawn between them.
-    let is_paper = |patch: u32| patches.looks[patch as usize] == NO_LABEL;
-    patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
+    let is_paper = |patch: u32| patches.labels[patch as usize] == NO_LABEL;
+    patches
+        .component_of_triangle
+        .iter()
+        .map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch })
+        .collect()
 }
 
 /// Scale and options for tracing borders.
@@ -140,21 +144,21 @@ struct BorderDrawing<'a> {
 /// Traces patches into regions and fitted borders. `ramps` has one entry per patch, or is empty.
 fn regions(
     cut: &Triangulation,
-    patches: &cells::label_components::Patches,
+    patches: &cells::label_components::LabelComponents,
     table: &[SurfaceLabel],
     mut ramps: Vec<Option<Ramp>>,
     drawn: &BorderDrawing,
 ) -> Regions {
-    let traced = cells::border_arcs::trace(cut, &owners(patches), patches.looks.len());
-    let mut number: Vec<Option<u32>> = vec![None; patches.looks.len()];
+    let traced = cells::border_arcs::trace(cut, &owners(patches), patches.labels.len());
+    let mut number: Vec<Option<u32>> = vec![None; patches.labels.len()];
     let mut regions = Vec::new();
     for (patch, loops) in traced.loops.into_iter().enumerate() {
-        let look = patches.looks[patch].checked_sub(1).and_then(|k| table.get(k as usize));
+        let look = patches.labels[patch].checked_sub(1).and_then(|k| table.get(k as usize));
         if let (false, Some(look)) = (loops.is_empty(), look) {
             number[patch] = Some(regions.len() as u32);
             let area = patches.area2[patch] / 2.0 * drawn.step * drawn.step;
             let ramp = ramps.get_mut(patch).and_then(Option::take);
-            regions.push(Region { look: *look, area, loops, ramp });
+            regions.push(Region { label: *look, area, loops, ramp });
         }
     }
     let of = |patch: u32| number.get(patch as usize).copied().flatten();

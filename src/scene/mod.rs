@@ -11,7 +11,7 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! 1. A reader of the room `load` fills the scene: geometries, parts that instance them, materials, lights
+//! 1. A reader in `load` fills the scene: geometries, parts that instance them, materials, lights
 //!    and cameras.
 //! 2. A camera is chosen and framed.
 //! 3. Cut-outs remove triangles that are transparent; paints give each triangle its colour.
@@ -48,7 +48,7 @@ pub use light::{Light, LightKind};
 pub use material::{Alpha, Filter, Material, Wrap};
 pub use motion_trails::{Mover, Trail};
 pub use paints::artist_textures::{ArtistTexture, ArtistTextures};
-pub use paints::triangle_paints::{Paint, Paints};
+pub use paints::triangle_paints::{MaterialPaint, Paints};
 pub use parts::{Geometry, Part};
 pub use textures::texture_options::{TextureFill, TextureOptions};
 pub use warnings::Warnings;

@@ -62,7 +62,7 @@ pub(crate) fn face_orientations(mesh: &Mesh) -> Vec<FaceOrientation> {
     let mut pieces = vec![SurfaceComponent::default(); mesh.triangles.len()];
     for face in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(FaceId(face));
-        let piece = &mut pieces[connected.of(face) as usize];
+        let piece = &mut pieces[connected.representative(face) as usize];
         // The first face of a component gives its reference point.
         if piece.area == 0.0 {
             piece.place = a;
@@ -74,12 +74,14 @@ pub(crate) fn face_orientations(mesh: &Mesh) -> Vec<FaceOrientation> {
     }
     for edge in 0..mesh.edges.len() {
         if let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) {
-            let piece = &mut pieces[connected.of(faces[0]) as usize];
+            let piece = &mut pieces[connected.representative(faces[0]) as usize];
             piece.edges += 1;
             piece.mixed += usize::from(same_way);
         }
     }
-    (0..mesh.triangles.len() as u32).map(|face| pieces[connected.of(face) as usize].outside()).collect()
+    (0..mesh.triangles.len() as u32)
+        .map(|face| pieces[connected.representative(face) as usize].outside())
+        .collect()
 }
 
 #[cfg(test)]

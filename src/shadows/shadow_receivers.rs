@@ -131,7 +131,7 @@ impl ReceiverTest<'_> {
     ) {
         let edge = self.edge;
         let (p, q) = (edge.at(item.start), edge.at(item.end));
-        let (low, high) = (p.min(q) - self.limits.beside, p.max(q) + self.limits.beside);
+        let (low, high) = (p.min(q) - self.limits.side_offset, p.max(q) + self.limits.side_offset);
         for (reach, face) in faces {
             let b = reach.bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
@@ -188,7 +188,7 @@ impl ReceiverTest<'_> {
             return;
         }
         // A surface that the edge lies on receives no shadow from it, and hides everything behind.
-        let shift = edge.outward * self.limits.beside;
+        let shift = edge.outward * self.limits.side_offset;
         let Some((start, end)) = covered(p + shift, q + shift, corners, self.limits) else { return };
         let (start, end) = (at(start), at(end));
         match (is_behind(start), is_behind(end)) {

@@ -104,7 +104,7 @@ fn marks(
     pen: impl Fn(&Chain) -> Pen + Sync,
     context: &InkContext,
 ) -> [Vec<Mark>; 2] {
-    let is_tinted = |chain: &Chain| chain.samples.iter().any(|s| s.under != LineBackdrop::default());
+    let is_tinted = |chain: &Chain| chain.samples.iter().any(|s| s.backdrop != LineBackdrop::default());
     if chains.par_iter().any(|chain| is_tinted(chain) || pen(chain).has_hand()) {
         let pens: Vec<Pen> = chains.par_iter().map(|chain| pen(chain)).collect();
         let mut hidden = varying_marks(chains, &pens, context);
@@ -268,7 +268,9 @@ fn stroked(
         let period: Vec<f64> = pen.dash.iter().map(|length| length.in_unit(context.unit)).collect();
         match gaps::gap_origin::end_anchors(chain).filter(|_| !closed) {
             Some(ends) => gaps::dash::fixed(&path, ends, &period),
-            None if closed => gaps::dash::fit_round(&path, gaps::gap_origin::fixed_share(chain), &period),
+            None if closed => {
+                gaps::dash::fit_round(&path, gaps::gap_origin::closed_origin_share(chain), &period)
+            }
             None => gaps::dash::fit(&path, closed, &period),
         }
     };
@@ -294,7 +296,7 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
         material: context.materials.get(chain.material.index()).and_then(|(text, _)| name(text)),
         invisibility: chain.invisibility,
         identity: chain.identity,
-        places: Arc::clone(&chain.places),
+        places: Arc::clone(&chain.rest_cells),
         note: None,
         text: None,
     }

@@ -27,7 +27,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
         covered: [false; 2],
         segment: 0,
         identity: 0,
-        places: Arc::default(),
+        rest_cells: Arc::default(),
         path,
     }
 }

@@ -25,11 +25,11 @@ pub(crate) struct MeasuredText<'a> {
     pub breaks: Vec<LineBreak>,
     pub pieces: ShapedPieces<'a>,
     /// For each break, the number of whole pieces before it.
-    stretches: Vec<usize>,
+    pieces_before: Vec<usize>,
     /// Prefix sums: entry `n` is the width of the first `n` pieces with the blanks after them.
     widths: Vec<f64>,
     /// Indices of the breaks without a hyphen. They lie between whole pieces.
-    whole: Vec<usize>,
+    piece_breaks: Vec<usize>,
     /// Maximum extent of the ink above and below the baseline; above, at least the height of capitals.
     pub reach: [f64; 2],
     /// The first error while measuring.
@@ -65,7 +65,17 @@ impl<'a> MeasuredText<'a> {
             count += usize::from(!place.hyphen);
             stretches.push(count - 1);
         }
-        Ok(Self { text, setting, breaks, pieces, stretches, widths, whole, reach, fault: None })
+        Ok(Self {
+            text,
+            setting,
+            breaks,
+            pieces,
+            pieces_before: stretches,
+            widths,
+            piece_breaks: whole,
+            reach,
+            fault: None,
+        })
     }
 
     /// Returns the error that occurred while measuring, if any.
@@ -84,10 +94,10 @@ impl<'a> MeasuredText<'a> {
         let (begin, end) = (self.breaks[from], self.breaks[to]);
         let mut parts = Vec::new();
         let mut at = begin.at;
-        let first = self.stretches[from] + 1;
-        let last = if end.hyphen { self.stretches[to] } else { self.stretches[to] - 1 };
+        let first = self.pieces_before[from] + 1;
+        let last = if end.hyphen { self.pieces_before[to] } else { self.pieces_before[to] - 1 };
         for stretch in first..=last {
-            let border = self.breaks[self.whole[stretch]].at;
+            let border = self.breaks[self.piece_breaks[stretch]].at;
             parts.push((at, border, false));
             at = border;
         }
@@ -101,15 +111,15 @@ impl<'a> MeasuredText<'a> {
         if (from + 1..to).rev().any(|between| self.breaks[between].must) {
             return None;
         }
-        self.measured(from, to).map_err(|error| self.fault = Some(error)).ok()
+        self.measure_line(from, to).map_err(|error| self.fault = Some(error)).ok()
     }
 
     /// The width of a line between two breaks, including overhanging ink.
-    pub fn measured(&mut self, from: usize, to: usize) -> Result<f64, Error> {
+    pub fn measure_line(&mut self, from: usize, to: usize) -> Result<f64, Error> {
         let parts_whole = !self.breaks[from].hyphen && !self.breaks[to].hyphen;
-        let at = |source: &Self, number: usize| source.breaks[source.whole[number]].at;
+        let at = |source: &Self, number: usize| source.breaks[source.piece_breaks[number]].at;
         let (first, last, sum) = if parts_whole {
-            let (begin, end) = (self.stretches[from], self.stretches[to]);
+            let (begin, end) = (self.pieces_before[from], self.pieces_before[to]);
             let first = self.pieces.piece(at(self, begin), at(self, begin + 1), false)?;
             let last = self.pieces.piece(at(self, end - 1), at(self, end), false)?;
             (first, last, self.widths[end] - self.widths[begin])
@@ -141,7 +151,7 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// The error for a word that is too wide. It starts at the break `begin`; `width` is in user units.
-    pub fn too_wide(&mut self, begin: usize, width: f64) -> Error {
+    pub fn word_too_wide_error(&mut self, begin: usize, width: f64) -> Error {
         if let Some(fault) = self.fault.take() {
             return fault;
         }

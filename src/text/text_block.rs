@@ -88,7 +88,7 @@ impl TextBlock {
     pub fn in_width(text: &str, setting: &Setting, width: f64) -> Result<Self, Error> {
         let text = trim_lines(text)?;
         let mut source = MeasuredText::new(&text, setting)?;
-        let ends = source.greedy(width, true).map_err(|begin| source.too_wide(begin, width))?;
+        let ends = source.greedy(width, true).map_err(|begin| source.word_too_wide_error(begin, width))?;
         set_lines(&mut source, &ends, Some(width))
     }
 
@@ -104,7 +104,9 @@ impl TextBlock {
         let mut source = MeasuredText::new(&text, setting)?;
         let (parted, full) = match source.greedy(width, false) {
             Ok(ends) => (false, ends),
-            Err(_) => (true, source.greedy(width, true).map_err(|begin| source.too_wide(begin, width))?),
+            Err(_) => {
+                (true, source.greedy(width, true).map_err(|begin| source.word_too_wide_error(begin, width))?)
+            }
         };
         source.check_search_size(full.len())?;
         let limit = source.in_ems(width);
@@ -275,7 +277,7 @@ fn set_line(source: &mut MeasuredText, from: usize, to: usize, baseline: f64) ->
         placed.push((x, run));
         x += width;
     }
-    let width = source.measured(from, to)? * em;
+    let width = source.measure_line(from, to)? * em;
     let [ascent, descent] = source.reach.map(|reach| reach * em);
     Ok(TextLine { words, x: 0.0, width, baseline, ascent, descent, start: overhang * em, runs: placed })
 }

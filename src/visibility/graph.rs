@@ -97,7 +97,7 @@ pub struct ViewMap {
     pub visible_contours: Vec<VisibleContour>,
     /// Feature segments that are sides of folds thinner than a pen stroke, ascending. They show nothing
     /// useful.
-    pub needles: Vec<u32>,
+    pub thin_folds: Vec<u32>,
     /// First part of each part's body, as in [`Mesh::bodies`](crate::mesh::Mesh::bodies).
     pub bodies: Vec<PartId>,
 }
@@ -118,7 +118,7 @@ pub struct ContourCounts {
     /// Smooth contours on the page.
     pub curves: u64,
     /// Visible edges of the mesh contour, or parts of them, that are drawn because no smooth contour is near.
-    pub bare: u64,
+    pub unmatched: u64,
     /// Visible parts of the mesh contour left out as folds of a few faces that the smooth surface does not
     /// have.
     pub folds: u64,

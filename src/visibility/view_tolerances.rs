@@ -19,7 +19,7 @@ pub struct ViewTolerances {
     /// Length below which pieces are rounding, user units.
     pub piece: f64,
     /// Distance from a contour where background is tested, user units.
-    pub beside: f64,
+    pub side_offset: f64,
     /// Distance within which two lines coincide, user units.
     pub double: f64,
     /// One px: a thousandth of the longer side of the frame, user units.
@@ -37,7 +37,7 @@ impl ViewTolerances {
             contact: tolerances::CONTACT_PX * px,
             neighbour: tolerances::NEIGHBOUR_PX * px,
             piece: tolerances::MIN_VISIBILITY_SPAN_PX * px,
-            beside: tolerances::BACKGROUND_PROBE_PX * px,
+            side_offset: tolerances::BACKGROUND_PROBE_PX * px,
             double: tolerances::DUPLICATE_LINE_PX * px,
             px,
         }

@@ -37,7 +37,7 @@ pub(crate) fn straighten(line: SampledLine) -> SampledLine {
         if let &[.., a, b] = &kept[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
-            && Chord::new(&line, a, c).off(b).1 <= MAX_STRENGTH_ERROR
+            && SimplifiedChord::new(&line, a, c).off(b).1 <= MAX_STRENGTH_ERROR
         {
             kept.pop();
         }
@@ -117,7 +117,7 @@ fn split(line: &SampledLine, tolerance2: f64, [mut a, mut b]: [usize; 2], mut be
 
 /// First of the points between two others with the largest error, if that exceeds the tolerance.
 fn farthest_point(line: &SampledLine, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
-    let chord = Chord::new(line, a, b);
+    let chord = SimplifiedChord::new(line, a, b);
     let mut worst = (tolerance2, None);
     for i in a + 1..b {
         let (distance2, strength) = chord.off(i);
@@ -131,7 +131,7 @@ fn farthest_point(line: &SampledLine, a: usize, b: usize, tolerance2: f64) -> Op
 }
 
 /// Segment between two points of a line.
-struct Chord<'a> {
+struct SimplifiedChord<'a> {
     line: &'a SampledLine,
     from: Point,
     way: Vec2,
@@ -141,7 +141,7 @@ struct Chord<'a> {
     change: f64,
 }
 
-impl<'a> Chord<'a> {
+impl<'a> SimplifiedChord<'a> {
     fn new(line: &'a SampledLine, a: usize, b: usize) -> Self {
         let (from, strength) = (line.points[a], line.samples[a].strength);
         let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);

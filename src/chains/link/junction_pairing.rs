@@ -55,7 +55,11 @@ struct VertexPairs {
 
 impl VertexPairs {
     /// Ends that meet at a range of vertices.
-    fn at(vertices: std::ops::Range<usize>, ends: &VertexEnds, classes: &[Option<EdgeClass>]) -> Self {
+    fn from_vertices(
+        vertices: std::ops::Range<usize>,
+        ends: &VertexEnds,
+        classes: &[Option<EdgeClass>],
+    ) -> Self {
         let mut met = Self::default();
         let mut rest: Vec<u32> = Vec::new();
         for vertex in vertices {
@@ -118,7 +122,11 @@ pub(crate) fn pair_ends(map: &ViewMap, classes: &[Option<EdgeClass>], window: f6
     let mut partner = vec![NO_PARTNER; 2 * map.edges.len()];
     let count = map.vertices.len();
     let chunk = |k: usize| {
-        VertexPairs::at(k * VERTICES_PER_TASK..count.min((k + 1) * VERTICES_PER_TASK), &ends, classes)
+        VertexPairs::from_vertices(
+            k * VERTICES_PER_TASK..count.min((k + 1) * VERTICES_PER_TASK),
+            &ends,
+            classes,
+        )
     };
     let met: Vec<VertexPairs> =
         (0..count.div_ceil(VERTICES_PER_TASK)).into_par_iter().with_max_len(1).map(chunk).collect();

@@ -105,7 +105,7 @@ pub(crate) fn drop_doubles(
                     };
                     goes_before && !may_go[other]
                 };
-                if !buckets.beside(&pieces, point, piece.direction, distance, stands) {
+                if !buckets.has_parallel_near(&pieces, point, piece.direction, distance, stands) {
                     bare += side / parts;
                 }
                 if bare > allowed {
@@ -132,7 +132,7 @@ pub(crate) fn drop_doubles(
             continue;
         };
         let parts = parts_alone(&raw, &alone, distance);
-        bin.put(&raw, || RemovalReason::Double);
+        bin.record(&raw, || RemovalReason::Double);
         if parts.is_empty() {
             degrees.remove_line(&raw);
         }

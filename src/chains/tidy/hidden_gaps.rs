@@ -22,7 +22,7 @@ struct VisibilityRun {
     /// Length in the image.
     length: f64,
     /// Whether the steps are hidden.
-    value: bool,
+    is_hidden: bool,
 }
 
 /// Makes short hidden stretches of smooth contours visible.
@@ -39,7 +39,7 @@ pub(crate) fn bridge_gaps(
 ) {
     let gaps: Vec<HiddenGap> =
         routes.iter().flat_map_iter(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
-    let ways: Vec<GapSegment> = gaps.iter().map(|gap| gap.way).collect();
+    let ways: Vec<GapSegment> = gaps.iter().map(|gap| gap.segment).collect();
     let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.occluded_gaps(&ways));
     for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
         for step in &gap.steps {
@@ -54,7 +54,7 @@ pub(crate) fn bridge_gaps(
 struct HiddenGap {
     steps: Vec<DirectedEdge>,
     /// The straight connection between its ends, for the occlusion test.
-    way: GapSegment,
+    segment: GapSegment,
 }
 
 /// Hidden stretches shorter than `gap` between visible stretches of one smooth contour.
@@ -79,7 +79,7 @@ fn gaps(
     for (i, run) in runs.iter().enumerate() {
         let inner = closed && count > 1 || (i > 0 && i + 1 < count);
         let beside = |j: usize| runs[j % count].length;
-        if !run.value || !inner || run.length >= gap {
+        if !run.is_hidden || !inner || run.length >= gap {
             continue;
         }
         // A gap longer than both visible runs next to it does not join them.
@@ -103,7 +103,7 @@ impl HiddenGap {
             depths: ends.map(|vertex| vertex.depth),
             segments: [first, last].map(|step| map.edges[step.edge as usize].segment),
         };
-        Some(Self { steps, way })
+        Some(Self { steps, segment: way })
     }
 }
 
@@ -123,11 +123,11 @@ fn runs(
         let step = &steps[k % n];
         let (now, length) = (value(step), step.length(map));
         match runs.last_mut() {
-            Some(run) if run.value == now => {
+            Some(run) if run.is_hidden == now => {
                 run.end = k + 1;
                 run.length += length;
             }
-            _ => runs.push(VisibilityRun { first: k, end: k + 1, length, value: now }),
+            _ => runs.push(VisibilityRun { first: k, end: k + 1, length, is_hidden: now }),
         }
     }
     runs

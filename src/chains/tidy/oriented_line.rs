@@ -28,16 +28,16 @@ pub(crate) struct StitchEnd {
 /// A line seen from one of its ends.
 pub(crate) struct OrientedLine<'a> {
     line: &'a SampledLine,
-    backwards: bool,
+    is_reversed: bool,
 }
 
 impl<'a> OrientedLine<'a> {
     pub(crate) fn new(line: &'a SampledLine, end: usize) -> Self {
-        Self { line, backwards: end % 2 == 1 }
+        Self { line, is_reversed: end % 2 == 1 }
     }
 
     fn index(&self, k: usize) -> usize {
-        if self.backwards { self.line.len() - 1 - k } else { k }
+        if self.is_reversed { self.line.len() - 1 - k } else { k }
     }
 
     pub(crate) fn point(&self, k: usize) -> Point {

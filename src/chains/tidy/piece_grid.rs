@@ -120,7 +120,7 @@ impl PieceGrid {
     }
 
     /// Whether a parallel piece of an admitted line lies within `distance` of `point`.
-    pub(crate) fn beside(
+    pub(crate) fn has_parallel_near(
         &self,
         pieces: &[LinePiece],
         point: Point,

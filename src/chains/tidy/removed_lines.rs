@@ -73,18 +73,18 @@ pub struct RemovedLine {
     pub reason: RemovalReason,
 }
 
-/// Log of dropped lines. Records nothing unless created by [`RemovalLog::kept`].
+/// Log of dropped lines. Records nothing unless created by [`RemovalLog::recording`].
 #[derive(Debug, Default)]
 pub(crate) struct RemovalLog(Option<Vec<RemovedLine>>);
 
 impl RemovalLog {
     /// A log that records lines.
-    pub fn kept() -> Self {
+    pub fn recording() -> Self {
         Self(Some(Vec::new()))
     }
 
     /// Records a whole line.
-    pub fn put(&mut self, raw: &RawLine, reason: impl FnOnce() -> RemovalReason) {
+    pub fn record(&mut self, raw: &RawLine, reason: impl FnOnce() -> RemovalReason) {
         if let Some(kept) = &mut self.0 {
             let (points, closed) = (raw.line.points.clone(), raw.line.closed);
             kept.push(RemovedLine { points, closed, kind: raw.class.kind, reason: reason() });

@@ -53,7 +53,7 @@ pub(crate) fn drop_short_lines(
     raws.retain(|raw| {
         let goes = crumb.next().unwrap_or(false);
         if goes {
-            bin.put(raw, || RemovalReason::of_short_line(raw, degrees));
+            bin.record(raw, || RemovalReason::of_short_line(raw, degrees));
             degrees.remove_line(raw);
         }
         !goes
@@ -76,7 +76,7 @@ impl ContourEnds {
     }
 
     /// Whether contours continue a line at both its ends, as at the rim of a hole.
-    fn holds(&self, raw: &RawLine) -> bool {
+    fn meet_both_ends(&self, raw: &RawLine) -> bool {
         !raw.is_ring() && raw.ends.iter().all(|end| self.0.contains(end))
     }
 }
@@ -97,7 +97,7 @@ fn is_too_short(raw: &RawLine, degrees: &VertexDegrees, rims: &ContourEnds, tidy
     let length = raw.length();
     let scanned = raw.class.origin == MeshSource::Scanned;
     if is_scanned_crease(raw) {
-        return may_be_noise(raw, tidy) && !(rims.holds(raw) && length >= tidy);
+        return may_be_noise(raw, tidy) && !(rims.meet_both_ends(raw) && length >= tidy);
     }
     if raw.class.kind.is_inside() {
         return raw.line.strength() < MIN_INTERIOR_TIDY_LENGTHS * tidy || raw.line.peak() < MIN_INTERIOR_PEAK;

@@ -116,7 +116,7 @@ fn cut(mut raws: Vec<RawLine>, tidy: f64, bin: &mut RemovalLog) -> Vec<RawLine> 
             None => all.push(raw),
             Some(parts) => {
                 if parts.is_empty() {
-                    bin.put(&raw, || RemovalReason::Point);
+                    bin.record(&raw, || RemovalReason::Point);
                 }
                 all.extend(parts);
             }
@@ -127,12 +127,12 @@ fn cut(mut raws: Vec<RawLine>, tidy: f64, bin: &mut RemovalLog) -> Vec<RawLine> 
 
 /// Drops the sides of folds that are thinner than a pen, except silhouette.
 fn drop_thin_folds(map: &ViewMap, classes: &mut [Option<EdgeClass>], bin: &mut RemovalLog) {
-    if map.needles.is_empty() {
+    if map.thin_folds.is_empty() {
         return;
     }
     for (edge, class) in map.edges.iter().zip(classes) {
         // A gap in the silhouette would be worse.
-        if !edge.silhouette && map.needles.binary_search(&edge.segment).is_ok() {
+        if !edge.silhouette && map.thin_folds.binary_search(&edge.segment).is_ok() {
             *class = None;
             if edge.invisibility == 0 {
                 let ends = [edge.start, edge.end].map(|v| map.vertices[v.index()].position);

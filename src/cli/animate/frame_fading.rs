@@ -16,16 +16,16 @@ pub(crate) type TimedDrawing = (Drawing, Report, f64);
 
 /// Window of drawings around the frames that are being finished.
 pub(crate) struct FadeWindow<'a> {
-    course: &'a FrameSchedule,
+    schedule: &'a FrameSchedule,
     /// Number of drawings before and after each frame that its fading uses.
     frames: u32,
     by: FadeBy,
-    kept: BTreeMap<usize, (TimedDrawing, StrokeTrace)>,
+    drawings: BTreeMap<usize, (TimedDrawing, StrokeTrace)>,
 }
 
 impl<'a> FadeWindow<'a> {
     pub(crate) fn new(course: &'a FrameSchedule, frames: u32, by: FadeBy) -> Self {
-        Self { course, frames, by, kept: BTreeMap::new() }
+        Self { schedule: course, frames, by, drawings: BTreeMap::new() }
     }
 
     /// Draws the missing frames of the windows around `frames`, and drops drawings outside them.
@@ -37,22 +37,22 @@ impl<'a> FadeWindow<'a> {
         let beside = |frame: usize| self.pairs(frame).flatten().flatten().chain([frame]);
         let wanted: BTreeSet<usize> = frames.iter().copied().flat_map(beside).collect();
         let missing: Vec<usize> =
-            wanted.iter().copied().filter(|frame| !self.kept.contains_key(frame)).collect();
-        self.kept.retain(|frame, _| wanted.contains(frame));
+            wanted.iter().copied().filter(|frame| !self.drawings.contains_key(frame)).collect();
+        self.drawings.retain(|frame, _| wanted.contains(frame));
         let draw = |frame: &usize| draw(*frame).map(|drawn| (*frame, drawn));
         let drawn: Vec<_> = missing.par_iter().with_max_len(1).map(draw).collect();
         for drawn in drawn {
             let (frame, drawn) = drawn?;
             let trace = StrokeTrace::of(&drawn.0);
-            self.kept.insert(frame, (drawn, trace));
+            self.drawings.insert(frame, (drawn, trace));
         }
         Ok(())
     }
 
     /// Drawing of a prepared frame with fading strokes; none if the frame is not in the window.
     pub(crate) fn faded_drawing(&self, frame: usize) -> Option<TimedDrawing> {
-        let ((drawing, report, ms), _) = self.kept.get(&frame)?;
-        let trace = |frame: Option<usize>| self.kept.get(&frame?).map(|(_, trace)| trace);
+        let ((drawing, report, ms), _) = self.drawings.get(&frame)?;
+        let trace = |frame: Option<usize>| self.drawings.get(&frame?).map(|(_, trace)| trace);
         let around: Vec<_> = self.pairs(frame).map(|pair| pair.map(trace)).collect();
         let mut drawing = drawing.clone();
         fade(&mut drawing, &around, self.by);
@@ -61,7 +61,7 @@ impl<'a> FadeWindow<'a> {
 
     /// Neighbours before and after a frame, nearest pair first.
     fn pairs(&self, frame: usize) -> impl Iterator<Item = [Option<usize>; 2]> + use<'a> {
-        let course = self.course;
+        let course = self.schedule;
         (1..=self.frames as isize).map(move |far| [-far, far].map(|by| course.beside(frame, by)))
     }
 }

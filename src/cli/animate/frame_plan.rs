@@ -11,7 +11,7 @@ use crate::animate::{FrameSpec, Timeline, Turntable, film_points};
 use crate::animation::{Playing, Rigged};
 use crate::cli::draw::contact_sheet::PICTURE_COUNT;
 use crate::cli::models::clip_blend::ClipBlend;
-use crate::cli::options::values::paper_size::Paper;
+use crate::cli::options::values::paper_size::PictureSheet;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::cli::request::viewpoint::{ViewRequest, Viewpoint, on_sheet, viewpoint};
 use crate::cli::tolerances::TIME_ROUNDING_S;
@@ -23,9 +23,9 @@ use crate::scene::Camera;
 /// Pose, camera and page of each frame.
 #[derive(Debug)]
 pub(crate) struct FramePlan {
-    pub(crate) course: FrameSchedule,
+    pub(crate) schedule: FrameSchedule,
     eye: CameraMotion,
-    paper: Paper,
+    paper: PictureSheet,
     pub(crate) warnings: Vec<String>,
     /// Notes on choices made for the user.
     pub(crate) notes: Vec<String>,
@@ -107,7 +107,7 @@ impl FramePlan {
             (None, ViewRequest::Recorded(name)) if named(name) => CameraMotion::OfModel(name.clone()),
             (None, _) => CameraMotion::Still(camera),
         };
-        Ok(Self { course, eye, paper, warnings, notes })
+        Ok(Self { schedule: course, eye, paper, warnings, notes })
     }
 
     /// Pose, camera and page of a frame.
@@ -120,7 +120,7 @@ impl FramePlan {
         frame: usize,
         background: Option<Colour>,
     ) -> Result<FrameSpec, Error> {
-        let playing = self.course.playing(frame);
+        let playing = self.schedule.playing(frame);
         let camera = match &self.eye {
             CameraMotion::Still(camera) => *camera,
             CameraMotion::Path(cameras) => cameras
@@ -133,7 +133,7 @@ impl FramePlan {
                 own.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
             }
         };
-        let camera = self.course.turntable.map_or(camera, |table| table.camera(&camera, frame));
+        let camera = self.schedule.turntable.map_or(camera, |table| table.camera(&camera, frame));
         let (width, height) = self.paper.frame();
         let page = Page { background, ..self.paper.page() };
         Ok(FrameSpec { playing, camera: camera.with_frame(width, height), page })
@@ -141,10 +141,10 @@ impl FramePlan {
 }
 
 impl FrameSchedule {
-    /// Drawing `by` drawings after (negative: before) the one at frame `drawn`; none outside the animation. A
+    /// Drawing `by` drawings after (negative: before) the one at frame `drawn_frames`; none outside the animation. A
     /// turntable without other animation wraps around.
     pub(crate) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
-        let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn().count());
+        let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn_frames().count());
         let number = (drawn / hold).checked_add_signed(by).filter(|number| *number < drawings);
         let round = || {
             let number = (drawn / hold) as isize + by;
@@ -166,7 +166,8 @@ impl FrameSchedule {
             Some(table) => table.turn(table.steps - frame % table.steps),
             None => DAffine3::IDENTITY,
         };
-        let poses: Vec<_> = self.timeline.drawn().map(|frame| (self.playing(frame), moved(frame))).collect();
+        let poses: Vec<_> =
+            self.timeline.drawn_frames().map(|frame| (self.playing(frame), moved(frame))).collect();
         film_points(rigged, &poses)
     }
 }

@@ -62,14 +62,15 @@ impl FrameRenderer<'_> {
             std::fs::create_dir_all(folder)
                 .map_err(|error| Error::io("cannot create the folder", error).in_file(folder))?;
         }
-        let timeline = self.plan.course.timeline;
+        let timeline = self.plan.schedule.timeline;
         let shard = self.args.shard.map(ShardSpec::shard).transpose()?;
         let mine = |drawn: &usize| shard.is_none_or(|shard| shard.has(drawn / timeline.hold()));
         let missing = |drawn: &usize| {
-            !self.args.resume || (0..timeline.shown(*drawn)).any(|held| !numbered.path(drawn + held).exists())
+            !self.args.resume
+                || (0..timeline.repeat_count(*drawn)).any(|held| !numbered.path(drawn + held).exists())
         };
-        let frames: Vec<usize> = timeline.drawn().filter(mine).collect();
-        total.frames = frames.iter().map(|drawn| timeline.shown(*drawn) as u64).sum();
+        let frames: Vec<usize> = timeline.drawn_frames().filter(mine).collect();
+        total.frames = frames.iter().map(|drawn| timeline.repeat_count(*drawn) as u64).sum();
         let frames: Vec<usize> = frames.into_iter().filter(missing).collect();
         let one = |drawn: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
             let mut watch = Stopwatch::start();
@@ -81,7 +82,7 @@ impl FrameRenderer<'_> {
                 Format::Dxf => drawing.to_dxf(&DxfOptions::default()),
                 Format::Svgz => gzip::packed(&library_calls::svg(&drawing, &self.request.svg)),
             };
-            for held in 0..timeline.shown(drawn) {
+            for held in 0..timeline.repeat_count(drawn) {
                 let mut staging = Staging::default();
                 staging.add(&numbered.path(drawn + held), &bytes)?;
                 staging.commit()?;
@@ -100,8 +101,8 @@ impl FrameRenderer<'_> {
         format: FilmFormat,
         total: &mut AnimationTotals,
     ) -> Result<(), Error> {
-        let timeline = self.plan.course.timeline;
-        let frames: Vec<usize> = timeline.drawn().collect();
+        let timeline = self.plan.schedule.timeline;
+        let frames: Vec<usize> = timeline.drawn_frames().collect();
         total.frames = timeline.frames() as u64;
         let in_file = |error: Error| match error.file {
             None => error.in_file(path),
@@ -122,7 +123,7 @@ impl FrameRenderer<'_> {
         };
         let put = |drawn: usize, frame: &FilmFrame| {
             let mut watch = Stopwatch::start();
-            film.push(frame, timeline.shown(drawn) as u32).map_err(in_file)?;
+            film.push(frame, timeline.repeat_count(drawn) as u32).map_err(in_file)?;
             Ok(watch.lap_ms())
         };
         self.draw_in_order(&frames, one, put, total)?;
@@ -182,7 +183,7 @@ impl FrameRenderer<'_> {
         };
         let level = |faces: u64| DetailLevel::of(detail, &self.rigged.scene, faces);
         let faces_of = |drawn: usize| match &self.faces {
-            FaceLimit::Listed(list) => list.get(drawn / self.plan.course.timeline.hold()).copied(),
+            FaceLimit::Listed(list) => list.get(drawn / self.plan.schedule.timeline.hold()).copied(),
             FaceLimit::AtMost(most) => Some(*most),
             FaceLimit::All | FaceLimit::Budget(_) => None,
         };
@@ -226,7 +227,7 @@ impl FrameRenderer<'_> {
     ) -> Result<(), Error> {
         let at_once = rayon_core::current_num_threads().max(1);
         let motion = &self.style.motion;
-        let mut around = FadeWindow::new(&self.plan.course, motion.fade, motion.fade_by);
+        let mut around = FadeWindow::new(&self.plan.schedule, motion.fade, motion.fade_by);
         let draw = |drawn: usize| self.draw(animator, drawn);
         for (number, window) in frames.chunks(at_once).enumerate() {
             self.step(number * at_once, frames.len());

@@ -103,7 +103,7 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
             .at("--time")
             .remedy("give --from and --to, or draw one moment with ligne draw"));
     }
-    if request.section.is_asked() {
+    if request.section.is_requested() {
         let goes_round = args.turntable.is_some() || args.path.is_some();
         if !goes_round || !request.animation.is_empty() {
             return Err(Error::new("a moving model can be neither cut nor exploded")
@@ -183,7 +183,7 @@ fn draw(
     notes.extend(usage_warnings::bare_lengths(request));
     let mut whole = (request.frame == FramedParts::All).then(|| rigged.clone());
     library_calls::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
-    if request.section.is_asked() {
+    if request.section.is_requested() {
         open_up(request, &mut rigged, &mut whole, &mut style)?;
     }
     let plan = FramePlan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
@@ -192,7 +192,7 @@ fn draw(
             progress.print_line(&format!("note: {}: {note}", request.model.display()));
         }
     }
-    let timeline = plan.course.timeline;
+    let timeline = plan.schedule.timeline;
     let mut total = AnimationTotals { fps: timeline.fps(), ..AnimationTotals::default() };
     total.stages_ms.load = watch.lap_ms();
     for warning in rigged.scene.warnings.lines().into_iter().chain(plan.warnings.iter().cloned()).chain(notes)
@@ -200,7 +200,7 @@ fn draw(
         total.warned.insert(warning, 0);
     }
     refuse_warnings(request, total.warned.keys())?;
-    let drawings = timeline.drawn().count();
+    let drawings = timeline.drawn_frames().count();
     let faces = match (&args.levels, args.budget, request.faces) {
         (_, Some(ms), _) => FaceLimit::Budget(ms),
         (Some(path), None, _) => FaceLimit::Listed(face_limit::read_levels(path, drawings)?),
@@ -254,7 +254,7 @@ fn open_up(
             *style = with_cut_hatching_for(style, &mut scene, &mut section.faces, &[eye.camera]);
         }
     }
-    if request.section.take_apart(&mut scene)? {
+    if request.section.explode(&mut scene)? {
         *whole = None;
         *style = with_trail_lines(style);
     }

@@ -11,10 +11,10 @@ use crate::error::Error;
 impl FrameRenderer<'_> {
     /// Draws all frames on one sheet, with their times as captions.
     pub(crate) fn sheet(&self, output: &Output, total: &mut AnimationTotals) -> Result<(), Error> {
-        let timeline = self.plan.course.timeline;
+        let timeline = self.plan.schedule.timeline;
         let animator = Animator::new(self.rigged, self.style);
         let mut pictures = Vec::new();
-        for frame in timeline.drawn() {
+        for frame in timeline.drawn_frames() {
             let (drawing, report, ms) = self.draw(&animator, frame)?;
             total.add(&report, ms);
             let time = number_text::plain(timeline.time(frame), 3);

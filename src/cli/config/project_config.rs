@@ -90,7 +90,7 @@ impl ProjectConfig {
 pub(crate) fn tolerance(file: &TomlFile, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
     let check = |text: String, value: &Spanned<DeValue<'_>>| match Tolerances::parse(&text) {
         Ok(_) => Ok(text),
-        Err(error) => Err(file.adopt(&error, &value.span())),
+        Err(error) => Err(file.with_position(&error, &value.span())),
     };
     let length = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
         DeValue::String(text) => Ok(text.clone().into_owned()),

@@ -85,7 +85,7 @@ impl TomlFile {
     }
 
     /// Moves an error to a position of this file.
-    pub(crate) fn adopt(&self, error: &Error, span: &Range<usize>) -> Error {
+    pub(crate) fn with_position(&self, error: &Error, span: &Range<usize>) -> Error {
         let message = match &error.file {
             Some(file) => format!("{}: {}", file.display(), error.message),
             None => error.message.clone(),
@@ -335,14 +335,16 @@ fn resolve_paths(
     let beside = file.folder.join(&value);
     let beside_text = || beside.to_string_lossy().into_owned();
     Ok(Some(match name {
-        "set" => style::placed_change(&value, &file.folder).map_err(|error| file.adopt(&error, span))?,
+        "set" => {
+            style::placed_change(&value, &file.folder).map_err(|error| file.with_position(&error, span))?
+        }
         "style" => {
             let is_path = value.ends_with(".toml") || value.contains(['/', '\\']) || beside.is_file();
             let style = if Style::sheet_text(&value).is_none() && is_path { beside_text() } else { value };
             // An error inside a style sheet keeps the position in that sheet.
             Style::load(&style, &[]).map_err(|error| match error.place {
                 Some(_) => error,
-                None => file.adopt(&error, span),
+                None => file.with_position(&error, span),
             })?;
             style
         }

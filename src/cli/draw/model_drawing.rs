@@ -34,7 +34,7 @@ const PRINT_DPI: f64 = 300.0;
 pub(crate) struct EncodedDrawing {
     drawing: Drawing,
     /// The camera and sheet of the drawing.
-    seen: ViewRequest,
+    view_request: ViewRequest,
     pub(crate) report: Report,
     /// Hints and choices made for the user. They are not warnings, so `--strict` accepts them.
     pub(crate) notes: Vec<String>,
@@ -153,7 +153,7 @@ pub(crate) fn draw_model(
         }
         framed = (request.frame == FramedParts::All).then_some(whole);
     }
-    if request.section.take_apart(&mut scene)? {
+    if request.section.explode(&mut scene)? {
         framed = None;
         style = with_trail_lines(&style);
     }
@@ -162,7 +162,8 @@ pub(crate) fn draw_model(
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
     let told = scene.warnings.lines().into_iter().chain(warnings).collect();
     let hidden = usage_warnings::remaining_parts(request, &scene);
-    let mut of_scene = SceneReport { triangles: triangles(&scene), told, hidden, notes, whole: None };
+    let mut of_scene =
+        SceneReport { triangles: triangles(&scene), warnings: told, hidden, notes, scene: None };
     let mut kept = None;
     let enclosed: Vec<_> =
         eyes.iter().map(|eye| usage_warnings::camera_inside_part(&scene, &eye.camera)).collect();
@@ -171,7 +172,7 @@ pub(crate) fn draw_model(
     let prepared = match eyes.as_slice() {
         [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
         eyes => {
-            let scene = &*of_scene.whole.insert(kept.insert(scene));
+            let scene = &*of_scene.scene.insert(kept.insert(scene));
             match eyes {
                 [eye] => Prepared::for_camera(scene, &style, &eye.camera),
                 _ => Prepared::new(scene, &style),
@@ -194,13 +195,13 @@ pub(crate) fn draw_model(
 struct SceneReport<'a> {
     triangles: u64,
     /// Warnings of the scene and of the options.
-    told: Vec<String>,
+    warnings: Vec<String>,
     /// Warning that lists the visible parts, for drawings that turn out empty under `--only` or `--hide`.
     hidden: Option<String>,
     /// Hints and choices made for the user.
     notes: Vec<String>,
     /// The scene, if views still need it.
-    whole: Option<&'a Scene>,
+    scene: Option<&'a Scene>,
 }
 
 fn draw_view(
@@ -213,11 +214,11 @@ fn draw_view(
 ) -> Result<EncodedDrawing, Error> {
     watch.lap_ms();
     let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
-    let bare = web_output::complete(request, &mut drawing, of_scene.whole, &camera, style)?;
+    let bare = web_output::complete(request, &mut drawing, of_scene.scene, &camera, style)?;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = of_scene.triangles;
     report.counts.paths = paths(&drawing);
-    let told = of_scene.told.iter().cloned();
+    let told = of_scene.warnings.iter().cloned();
     let hidden = of_scene.hidden.clone().filter(|_| report.counts.paths == 0);
     for warning in told.chain(hidden).chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
         if !report.warnings.contains(&warning) {
@@ -253,7 +254,14 @@ fn draw_view(
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
     report.warnings.extend(left_out);
     let notes = of_scene.notes.clone();
-    Ok(EncodedDrawing { drawing, seen: ViewRequest::Fixed(camera, paper), report, notes, encoded, maps })
+    Ok(EncodedDrawing {
+        drawing,
+        view_request: ViewRequest::Fixed(camera, paper),
+        report,
+        notes,
+        encoded,
+        maps,
+    })
 }
 
 pub(crate) fn default_dpi(unit: Unit) -> f64 {
@@ -283,7 +291,7 @@ pub(crate) fn encode_first_output(request: &DrawRequest) -> Result<Vec<u8>, Erro
 pub(crate) fn encode_with_view(request: &DrawRequest) -> Result<(Vec<u8>, ViewRequest), Error> {
     let drawn = draw(request, &mut Stopwatch::start())?;
     refuse_warnings(request, &drawn.report)?;
-    Ok((drawn.encoded.into_iter().next().unwrap_or_default(), drawn.seen))
+    Ok((drawn.encoded.into_iter().next().unwrap_or_default(), drawn.view_request))
 }
 
 /// Writes all outputs and the report, all or none.
@@ -308,7 +316,7 @@ fn write(request: &DrawRequest, drawn: &mut EncodedDrawing, watch: &mut Stopwatc
         let json = drawn.report.to_json();
         if is_stdout(path) { printed = Some(json) } else { staging.add(path, json.as_bytes())? }
     }
-    if let (Some(path), ViewRequest::Fixed(camera, _)) = (&request.save_camera, &drawn.seen) {
+    if let (Some(path), ViewRequest::Fixed(camera, _)) = (&request.save_camera, &drawn.view_request) {
         staging.add(path, camera.to_json().as_bytes())?;
     }
     for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
@@ -371,7 +379,7 @@ mod tests {
         let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
         let drawn = EncodedDrawing {
             drawing: Drawing::new("", page, Vec::new()),
-            seen: ViewRequest::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
+            view_request: ViewRequest::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
             notes: Vec::new(),
             encoded: Vec::new(),

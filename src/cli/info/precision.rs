@@ -50,7 +50,7 @@ pub(crate) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
     let lattice_source = if scene.format == "glTF" { StepSource::Quantisation } else { StepSource::Decimals };
     let of_part = |part: usize| {
         let lattice = lattices.get(body(part)).copied().unwrap_or_default();
-        PrecisionInfo::of(mesh.extents.of(PartId::from(part)), lattice, lattice_source)
+        PrecisionInfo::of(mesh.extents.part(PartId::from(part)), lattice, lattice_source)
     };
     (0..scene.parts.len()).map(of_part).collect()
 }

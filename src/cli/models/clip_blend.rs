@@ -15,7 +15,7 @@ pub(crate) struct ClipBlend {
     /// Earliest start and latest end of the clips, seconds.
     span: [f64; 2],
     /// Time span of weights without explicit times, seconds.
-    over: [f64; 2],
+    time_span: [f64; 2],
     repeats: bool,
     /// Notes on choices made for the user.
     notes: Vec<String>,
@@ -91,7 +91,7 @@ impl ClipBlend {
         }
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
-        Ok(Self { asked, span, over: span, repeats, notes })
+        Ok(Self { asked, span, time_span: span, repeats, notes })
     }
 
     /// Notes on choices made for the user, such as the first of several clips.
@@ -101,7 +101,7 @@ impl ClipBlend {
 
     /// Spreads weights without times over another time span.
     pub(crate) fn over(self, over: [f64; 2]) -> Self {
-        Self { over, ..self }
+        Self { time_span: over, ..self }
     }
 
     /// Earliest start and latest end of the clips, seconds.
@@ -117,7 +117,7 @@ impl ClipBlend {
     /// Clips with their local times and weights at a time in seconds.
     pub(crate) fn playing(&self, time: f64) -> Vec<Playing> {
         let weights: Vec<Option<f64>> = (self.asked.iter())
-            .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.over)))
+            .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.time_span)))
             .collect();
         let told: f64 = weights.iter().flatten().sum();
         let equal = weights.iter().filter(|weight| weight.is_none()).count();

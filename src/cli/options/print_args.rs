@@ -66,7 +66,11 @@ fn screen(text: &str) -> Result<Screen, String> {
 impl PrintArgs {
     /// Merges these options with the print settings of a page file. Typed options take precedence.
     #[cfg(feature = "page")]
-    pub(crate) fn beside(&self, ink: Option<&str>, file: &crate::page::PrintInks) -> (Self, Option<String>) {
+    pub(crate) fn merged_with(
+        &self,
+        ink: Option<&str>,
+        file: &crate::page::PrintInks,
+    ) -> (Self, Option<String>) {
         let mut all = self.clone();
         let inks = ink.map(str::to_owned).or_else(|| file.ink.clone());
         all.icc = all.icc.or_else(|| file.icc.clone());

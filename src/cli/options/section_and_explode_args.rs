@@ -83,12 +83,12 @@ fn explosion(text: &str) -> Result<Explosion, String> {
 
 impl SectionArgs {
     /// Whether the model is cut or exploded.
-    pub(crate) fn is_asked(&self) -> bool {
+    pub(crate) fn is_requested(&self) -> bool {
         self.section.is_some() || self.explode.is_some()
     }
 
     /// Explodes the scene if requested. Returns whether it did.
-    pub(crate) fn take_apart(&self, scene: &mut Scene) -> Result<bool, Error> {
+    pub(crate) fn explode(&self, scene: &mut Scene) -> Result<bool, Error> {
         let Some(explosion) = &self.explode else { return Ok(false) };
         let is_unknown =
             |told: &&PartExplosion| !scene.parts.iter().any(|part| told.name.matches(&part.name));

@@ -296,7 +296,7 @@ fn encode(
         }
         #[cfg(feature = "pdf")]
         Format::Pdf => {
-            let (print, ink) = args.print.beside(args.ink.as_deref(), file);
+            let (print, ink) = args.print.merged_with(args.ink.as_deref(), file);
             to_pdf(pages, &print.options(ink.as_deref())?.unwrap_or_default())
         }
         Format::Dxf => Ok(page.flattened().to_dxf(&DxfOptions::default().with_version(args.dxf))),

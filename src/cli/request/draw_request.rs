@@ -155,7 +155,7 @@ impl DrawRequest {
                 ViewRequest::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens }
             }
         };
-        let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
+        let page = args.page.map(|page| if args.landscape { page.landscape() } else { page });
         Ok(Self {
             model,
             piped: None,

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use crate::cli::options::values::model_unit::ModelUnit;
-use crate::cli::options::values::paper_size::{PageLength, Paper, PaperSize};
+use crate::cli::options::values::paper_size::{PageLength, PaperSize, PictureSheet};
 use crate::cli::output::number_text::plain;
 use crate::cli::tolerances;
 use crate::drawing::Unit;
@@ -33,7 +33,7 @@ pub(crate) enum ViewRequest {
     /// Angles and projection. Missing values are those of the three-quarter view in perspective.
     Angles { azimuth_deg: Option<f64>, elevation_deg: Option<f64>, lens: Option<Lens> },
     /// Camera and sheet of another drawing.
-    Fixed(Camera, Paper),
+    Fixed(Camera, PictureSheet),
 }
 
 /// Projection of a camera.
@@ -62,7 +62,7 @@ pub(crate) struct SheetRequest {
 #[derive(Debug)]
 pub(crate) struct Viewpoint {
     pub(crate) camera: Camera,
-    pub(crate) paper: Paper,
+    pub(crate) paper: PictureSheet,
     pub(crate) warning: Option<String>,
 }
 
@@ -94,7 +94,7 @@ pub(crate) fn viewpoint<'p>(
             lens.unwrap_or(Lens::Perspective { fov_y_deg: DEFAULT_FOV_Y_DEG }),
         ),
     };
-    let paper = Paper::new(extent, unit, sheet.margin)?;
+    let paper = PictureSheet::new(extent, unit, sheet.margin)?;
     let (width, height) = paper.frame();
     let projection = match lens {
         Lens::Perspective { fov_y_deg } => Projection::Perspective { fov_y_deg },
@@ -224,7 +224,7 @@ fn framing_warning(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
 pub(crate) fn on_sheet(sheet: &SheetRequest, camera: Camera) -> Result<Viewpoint, Error> {
     let own = (PaperSize { width: camera.width, height: camera.height }, Unit::Px);
     let (extent, unit) = sheet.extent.unwrap_or(own);
-    let paper = Paper::new(extent, unit, sheet.margin)?;
+    let paper = PictureSheet::new(extent, unit, sheet.margin)?;
     let (width, height) = paper.frame();
     Ok(Viewpoint { camera: camera.with_frame(width, height), paper, warning: None })
 }

@@ -106,7 +106,7 @@ impl<'a, 'input> Paths<'a, 'input> {
     /// Collects the paths of an element. The recursion is limited because files with deeper nesting are
     /// refused.
     fn inside(&mut self, node: Node<'a, 'input>, around: &ComputedStyle<'a>) {
-        let look = around.inside(node, &self.afar);
+        let look = around.child_style(node, &self.afar);
         // The previous path, while no other content separates it from the next one.
         let mut neighbour: Option<Node> = None;
         for child in node.children() {
@@ -125,13 +125,13 @@ impl<'a, 'input> Paths<'a, 'input> {
             if child.range().start < self.begin {
                 continue;
             }
-            let own = look.inside(child, &self.afar);
+            let own = look.child_style(child, &self.afar);
             let free = own.may_be_exchanged(child);
             if !(free && before.is_some_and(|before| painted_alike(before, child))) {
                 self.runs += 1;
             }
             neighbour = free.then_some(child);
-            self.found.push(PathElement { node: child, leave: own.leave(child), run: self.runs });
+            self.found.push(PathElement { node: child, leave: own.allowed_rewrite(child), run: self.runs });
         }
     }
 

@@ -47,11 +47,12 @@ impl PartLines<'_> {
 /// The cause and one finding for all marks if the camera changed. Returns `None` for small drawings and for
 /// all other changes.
 pub(crate) fn find(pictures: [&Picture; 2], parted: &ShapeMatching, reach: f64) -> Option<(Finding, Cause)> {
-    let marks = parted.rest[0].len().max(parted.rest[1].len());
+    let marks = parted.unequal_shapes[0].len().max(parted.unequal_shapes[1].len());
     if marks < MIN_UNMATCHED_MARKS || parted.equal.len() * MIN_MARKS_PER_EQUAL > marks {
         return None;
     }
-    let [before, after] = [0, 1].map(|side: usize| lines_of_parts(pictures[side], &parted.rest[side]));
+    let [before, after] =
+        [0, 1].map(|side: usize| lines_of_parts(pictures[side], &parted.unequal_shapes[side]));
     let both = before.iter().filter_map(|(part, old)| Some((old, after.get(part)?)));
     let both: Vec<(&PartLines, &PartLines)> = both.collect();
     let middles: Vec<[Point; 2]> = both.iter().map(|(old, new)| [old.middle(), new.middle()]).collect();

@@ -229,8 +229,10 @@ fn moved(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Vec<Cause> {
 
 /// Whether two parts moved alike: at the corners of both boxes, within a fiftieth of the shift plus 0.05 px.
 fn same_way(a: &MovedPart, b: &MovedPart) -> bool {
-    let corners = [a, b].into_iter().flat_map(|mover| mover.motion.ways(mover.places[0]));
-    let others = [(a, b), (b, a)].into_iter().flat_map(|(from, other)| other.motion.ways(from.places[0]));
+    let corners = [a, b].into_iter().flat_map(|mover| mover.motion.corner_displacements(mover.places[0]));
+    let others = [(a, b), (b, a)]
+        .into_iter()
+        .flat_map(|(from, other)| other.motion.corner_displacements(from.places[0]));
     corners.zip(others).all(|(one, other)| (one - other).hypot() <= 0.05 + 0.02 * one.hypot())
 }
 
@@ -241,7 +243,7 @@ pub(crate) fn motion(motion: &Motion, place: Rect, unit: UnitFormat) -> String {
     let grown =
         (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > tolerances::MIN_STATED_GROWTH_SHARE;
     let turned = turn.abs().to_radians() * reach > 0.05 && turn.abs() > 0.05;
-    let way = unit.sides(motion.of(place.center()));
+    let way = unit.sides(motion.displacement(place.center()));
     let mut words = Vec::new();
     if grown {
         words.push(format!("{} times as large", crate::diff::shapes::ink::trimmed(scale)));

@@ -42,27 +42,28 @@ impl Motion {
     }
 
     /// Displacement of a point.
-    pub(crate) fn of(&self, p: Point) -> Vec2 {
+    pub(crate) fn displacement(&self, p: Point) -> Vec2 {
         self.affine * p - p
     }
 
     /// Displacements of the four corners of a rectangle.
-    pub(crate) fn ways(&self, place: Rect) -> [Vec2; 4] {
+    pub(crate) fn corner_displacements(&self, place: Rect) -> [Vec2; 4] {
         let (x, y) = ([place.x0, place.x1], [place.y0, place.y1]);
-        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j): (usize, usize)| self.of(Point::new(x[i], y[j])))
+        [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .map(|(i, j): (usize, usize)| self.displacement(Point::new(x[i], y[j])))
     }
 }
 
 /// Input for fitting a motion to two drawings.
 pub(crate) struct MotionInput<'a> {
     /// Pairs of paths, one of each drawing, that may correspond.
-    pub likes: Vec<[&'a BezPath; 2]>,
+    pub path_pairs: Vec<[&'a BezPath; 2]>,
     /// All marks of each drawing as polylines.
     pub lines: [Vec<Vec<Point>>; 2],
 }
 
 /// Scores motions on two drawings.
-struct MotionScore {
+struct MotionScorer {
     /// Sample points of each drawing.
     places: [Vec<Point>; 2],
     lines: [LineIndex; 2],
@@ -70,7 +71,7 @@ struct MotionScore {
     reach: f64,
 }
 
-impl MotionScore {
+impl MotionScorer {
     fn new(marks: &MotionInput, reach: f64) -> Option<Self> {
         let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
         if places.iter().any(Vec::is_empty) {
@@ -80,7 +81,7 @@ impl MotionScore {
     }
 
     /// Scores a motion; `None` for extreme scale factors.
-    fn judge(&self, affine: Affine) -> Option<Motion> {
+    fn score(&self, affine: Affine) -> Option<Motion> {
         let Self { places, lines, reach } = self;
         let growth = affine.determinant().abs().sqrt();
         if !tolerances::MOTION_SCALES.contains(&growth) {
@@ -97,19 +98,19 @@ impl MotionScore {
 }
 
 /// Score of the identity: the share of both drawings that coincides with the other one without any motion.
-pub(crate) fn stays(marks: &MotionInput, reach: f64) -> f64 {
-    MotionScore::new(marks, reach)
-        .and_then(|judge| judge.judge(Affine::IDENTITY))
+pub(crate) fn static_share(marks: &MotionInput, reach: f64) -> f64 {
+    MotionScorer::new(marks, reach)
+        .and_then(|judge| judge.score(Affine::IDENTITY))
         .map_or(0.0, |motion| motion.share)
 }
 
 /// The motion with the highest score: a similarity if `similar`, otherwise a shift. `more` adds candidates;
 /// `reach` is the distance (px) within which a sample point hits a line.
 pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
-    let judge = MotionScore::new(marks, reach)?;
-    let judge = |affine: Affine| judge.judge(affine);
-    let step = (marks.likes.len() / MAX_MOTION_TRIALS).max(1);
-    let tried = marks.likes.iter().step_by(step).filter_map(|[old, new]| {
+    let judge = MotionScorer::new(marks, reach)?;
+    let judge = |affine: Affine| judge.score(affine);
+    let step = (marks.path_pairs.len() / MAX_MOTION_TRIALS).max(1);
+    let tried = marks.path_pairs.iter().step_by(step).filter_map(|[old, new]| {
         let (a, b) = (points(old), points(new));
         (a.len() == b.len()).then(|| fit(&a, &b, similar)).flatten()
     });
@@ -122,7 +123,7 @@ pub(crate) fn find(marks: &MotionInput, more: &[Affine], reach: f64, similar: bo
     let best = best?;
     // Refine the motion with all pairs that it carries onto each other.
     let (mut a, mut b) = (Vec::new(), Vec::new());
-    for [old, new] in &marks.likes {
+    for [old, new] in &marks.path_pairs {
         let (old, new) = (points(old), points(new));
         let growth = best.scale().max(1.0);
         if old.len() == new.len()
@@ -196,7 +197,7 @@ fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
 /// Lines with an index for distance queries.
 struct LineIndex {
     segments: Vec<Segment>,
-    bundles: SegmentClusters,
+    clusters: SegmentClusters,
 }
 
 impl LineIndex {
@@ -205,12 +206,12 @@ impl LineIndex {
         let segments: Vec<Segment> =
             segments.map(|pair| Segment { chain: 0, from: pair[0], to: pair[1] }).collect();
         let bundles = SegmentClusters::new(&segments);
-        Self { segments, bundles }
+        Self { segments, clusters: bundles }
     }
 
     /// Whether a point is within `reach` of the lines.
     fn has(&self, p: Point, reach: f64) -> bool {
-        self.bundles.any(&self.segments, p, reach)
+        self.clusters.any(&self.segments, p, reach)
     }
 }
 

@@ -26,7 +26,7 @@ const MAX_RESIDUAL_PX: f64 = 1.0;
 const MAX_PARTS: usize = 200;
 
 /// Parts with more than one changed mark, and their motions.
-pub(crate) fn movers(
+pub(crate) fn find_moved_parts(
     pictures: [&Picture; 2],
     rest: &[Vec<usize>; 2],
     findings: &[Finding],
@@ -72,11 +72,11 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
     };
     // Lines that are only cut differently by a moving occluder did not move, although a motion along
     // themselves fits as well.
-    let stays = motion::stays(&marks, reach);
+    let stays = motion::static_share(&marks, reach);
     if stays >= MIN_STAYED_SHARE || found.share <= stays {
         return None;
     }
-    let ways = found.ways(places[0]);
+    let ways = found.corner_displacements(places[0]);
     let goes = ways.iter().any(|way| way.hypot() > MIN_RESIDUAL_PX);
     (goes && found.share >= MIN_CARRIED_SHARE).then(|| MovedPart {
         part: Arc::clone(part),

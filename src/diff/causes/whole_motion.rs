@@ -60,7 +60,7 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
         found = motion::find(&marks, &[Affine::scale(grown), boxed], told, true);
     }
     let motion = found.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
-    let ends = motion.ways(boxes[0]);
+    let ends = motion.corner_displacements(boxes[0]);
     if ends.iter().all(|way| way.hypot() <= 2.0 * told) {
         return None;
     }
@@ -94,7 +94,7 @@ pub(crate) fn common_shift(
     if !near || parts < 2 {
         return None;
     }
-    findings.iter_mut().for_each(|finding| finding.carried = true);
+    findings.iter_mut().for_each(|finding| finding.follows_motion = true);
     Some(Motion { affine: Affine::translate(mean), share: 1.0 })
 }
 
@@ -116,7 +116,7 @@ pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> MotionInpu
     let mut likes: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(like).collect();
     // Long paths first, because they determine a motion better.
     likes.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
-    MotionInput { likes, lines }
+    MotionInput { path_pairs: likes, lines }
 }
 
 /// A picture whose unequal shapes are moved, with line widths scaled by `wider`.
@@ -151,10 +151,11 @@ pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
         if shape.kind == ShapeKind::Clip || gone.contains(&(place.key(), &*shape.label)) {
             continue;
         }
-        let mut ways: Vec<f64> = ends(&shape.path).into_iter().map(|p| motion.of(p).hypot()).collect();
+        let mut ways: Vec<f64> =
+            ends(&shape.path).into_iter().map(|p| motion.displacement(p).hypot()).collect();
         ways.sort_by(f64::total_cmp);
         let largest = ways.last().copied().unwrap_or_default();
-        let way = motion.of(shape.path.control_box().center());
+        let way = motion.displacement(shape.path.control_box().center());
         found.push(Finding {
             size: size(shape),
             largest,
@@ -164,10 +165,10 @@ pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
                 .unwrap_or(largest),
             shift: shifts.then_some([way.x, way.y]),
             place: FindingBox::of(new.control_box().union(shape.path.control_box())),
-            gone: shape.path.clone(),
-            carried: true,
+            removed_path: shape.path.clone(),
+            follows_motion: true,
             material: shape.material.clone(),
-            new,
+            added_path: new,
             ..Finding::in_place(Verdict::Moved, shape.kind, (*shape.label).clone(), Vec::new(), place)
         });
     }
@@ -176,7 +177,7 @@ pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
 
 /// Whether a finding follows from the motion of the whole drawing.
 pub(crate) fn is_carried(finding: &Finding) -> bool {
-    finding.carried
+    finding.follows_motion
 }
 
 fn size(shape: &Shape) -> f64 {

@@ -1,6 +1,6 @@
 //! Data and helpers shared by the findings about lines and regions.
 
-use crate::diff::curves::chain::Chain;
+use crate::diff::curves::chain::OutlineChain;
 use crate::diff::findings::finding::Change;
 use crate::diff::matching::chain_pairs::CoveredChains;
 use crate::diff::shapes::ignore_options::Ignore;
@@ -17,7 +17,7 @@ pub(crate) struct FindingWriter<'a> {
 
 impl<'a> FindingWriter<'a> {
     /// The first shape of a chain.
-    pub(crate) fn shape(&self, side: usize, chain: &Chain) -> Option<&'a Shape> {
+    pub(crate) fn shape(&self, side: usize, chain: &OutlineChain) -> Option<&'a Shape> {
         self.pictures[side].shapes.get(*chain.shapes.first()?)
     }
 

@@ -5,7 +5,7 @@ use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
 
 use super::finding_writer::{FindingWriter, label};
-use crate::diff::curves::chain::Chain;
+use crate::diff::curves::chain::OutlineChain;
 use crate::diff::findings::finding::{Finding, FindingBox, Verdict};
 use crate::diff::matching::chain_events::ChainEvent;
 use crate::diff::matching::chain_pairs::bounds;
@@ -21,10 +21,10 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
     let chain = |side: usize, index: Option<usize>| index.map(|index| &teller.sides[side].chains[index]);
     let (old, new) = (chain(0, event.old), chain(1, event.new));
     let shapes = [old.and_then(|c| teller.shape(0, c)), new.and_then(|c| teller.shape(1, c))];
-    let length = |chain: Option<&Chain>| chain.map_or(0.0, Chain::length);
+    let length = |chain: Option<&OutlineChain>| chain.map_or(0.0, OutlineChain::length);
     let boxes = [(0, old), (1, new)].into_iter().filter_map(|(_, c)| Some(bounds(&c?.points)));
     // If only a piece changed, its box is the place.
-    let bare = [&event.gone, &event.added].into_iter().filter(|path| !path.elements().is_empty());
+    let bare = [&event.removed, &event.added].into_iter().filter(|path| !path.elements().is_empty());
     let bare: Vec<Rect> = bare.map(BezPath::bounding_box).collect();
     let place = match event.verdict {
         Verdict::Moved => union(boxes),
@@ -36,7 +36,7 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
     };
     let pieces = match event.verdict {
         Verdict::Moved | Verdict::Reshaped => {
-            [&event.gone, &event.added].map(|path| path.perimeter(tolerances::MAX_LENGTH_ERROR_PX))
+            [&event.removed, &event.added].map(|path| path.perimeter(tolerances::MAX_LENGTH_ERROR_PX))
         }
         _ => [0.0; 2],
     };
@@ -53,9 +53,9 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
         largest: event.largest,
         p95: event.p95,
         shift: event.shift,
-        gone: event.gone,
-        new: event.added,
-        carried: false,
+        removed_path: event.removed,
+        added_path: event.added,
+        follows_motion: false,
     }
 }
 

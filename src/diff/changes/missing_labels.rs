@@ -71,7 +71,7 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
         let label: Label = (*shape.label).clone();
         Some(Finding {
             size,
-            new: shape.path.clone(),
+            added_path: shape.path.clone(),
             material: shape.material.as_ref().map(Arc::clone),
             ..Finding::in_place(Verdict::Relabelled, shape.kind, label, changes, place)
         })

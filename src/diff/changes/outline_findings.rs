@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashSet;
 
 use super::finding_writer::FindingWriter;
-use crate::diff::curves::chain::{self, Chain};
+use crate::diff::curves::chain::{self, OutlineChain};
 use crate::diff::curves::hausdorff_distance::NearestPointQuery;
 use crate::diff::curves::segment_grid::SegmentGrid;
 use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
@@ -67,7 +67,7 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
                 growth: long(1, new) - long(0, chain.shapes.first()),
                 largest: *wider,
                 p95: *wider,
-                new: shape.path.clone(),
+                added_path: shape.path.clone(),
                 material: shape.material.clone(),
                 ..Finding::in_place(Verdict::Reshaped, kind, label, Vec::new(), place)
             });
@@ -81,7 +81,7 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
         let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
         Some(Finding {
             size: cover.length,
-            new: shape.path.clone(),
+            added_path: shape.path.clone(),
             material: shape.material.clone(),
             ..Finding::in_place(Verdict::Restyled, kind, label, vec![change], place)
         })
@@ -90,7 +90,7 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
 }
 
 /// Rings of the outlines of all unequal lines, each with its shape, in sorted order.
-fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<Chain> {
+fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<OutlineChain> {
     let mut found = Vec::new();
     let mut seen: FxHashSet<usize> = FxHashSet::default();
     for chain in &teller.sides[side].chains {
@@ -98,7 +98,11 @@ fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<Chain>
         for index in chain.shapes.iter().filter(|index| seen.insert(**index)) {
             let outline = teller.pictures[side].shapes.get(*index).and_then(|shape| shape.outline.as_ref());
             let of_shape = chain::rings(outline, tolerance).into_iter();
-            found.extend(of_shape.map(|ring| Chain { group: chain.group, shapes: vec![*index], ..ring }));
+            found.extend(of_shape.map(|ring| OutlineChain {
+                group: chain.group,
+                shapes: vec![*index],
+                ..ring
+            }));
         }
     }
     chain::sort(&mut found);
@@ -106,7 +110,7 @@ fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<Chain>
 }
 
 /// Largest distance of the uncovered runs of a ring from another ring.
-fn off(ring: &Chain, cover: &ChainCover, other: &Chain) -> f64 {
+fn off(ring: &OutlineChain, cover: &ChainCover, other: &OutlineChain) -> f64 {
     let near = NearestPointQuery::new(other);
     let mut at = 0.0;
     let mut most = 0.0f64;

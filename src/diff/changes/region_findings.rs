@@ -139,15 +139,16 @@ fn region_finding(
         p95: events.iter().map(|event| event.p95).fold(0.0, f64::max),
         shift: first
             .filter(|_| verdict == Verdict::Moved && events.iter().all(|event| event.shift.is_some())),
-        gone: BezPath::new(),
-        new: BezPath::new(),
-        carried: false,
+        removed_path: BezPath::new(),
+        added_path: BezPath::new(),
+        follows_motion: false,
     };
     for event in &events {
-        finding.gone.extend(event.gone.iter());
-        finding.new.extend(event.added.iter());
+        finding.removed_path.extend(event.removed.iter());
+        finding.added_path.extend(event.added.iter());
     }
-    let pieces = [&finding.gone, &finding.new].into_iter().filter(|path| !path.elements().is_empty());
+    let pieces =
+        [&finding.removed_path, &finding.added_path].into_iter().filter(|path| !path.elements().is_empty());
     let pieces: Vec<Rect> = pieces.map(|path| path.bounding_box()).collect();
     let whole = shapes.into_iter().flatten().map(|shape| shape.path.bounding_box());
     let place = match verdict {

@@ -66,7 +66,7 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
         let label = Label { part: Some(Arc::clone(old)), ..Label::default() };
         Finding {
             size: length,
-            new: place.to_path(0.1),
+            added_path: place.to_path(0.1),
             ..Finding::in_place(
                 Verdict::Relabelled,
                 ShapeKind::Line,

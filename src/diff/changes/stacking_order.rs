@@ -40,7 +40,7 @@ pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize
             let place = FindingBox::of(boxes[item]);
             let label = (*was.label).clone();
             found.push(Finding {
-                new: shape.path.clone(),
+                added_path: shape.path.clone(),
                 ..Finding::in_place(Verdict::Restacked, shape.kind, label, vec![change], place)
             });
         }

@@ -1,4 +1,4 @@
-//! [`Chain`]: lines and outlines of a drawing as polylines, in a form that two drawings can be compared in.
+//! [`OutlineChain`]: lines and outlines of a drawing as polylines, in a form that two drawings can be compared in.
 //!
 //! 1. The paths of shapes are flattened to polylines.
 //! 2. Open polylines of one group are joined where exactly two ends meet, because one drawing may split a
@@ -16,7 +16,7 @@ use crate::diff::tolerances::{FLATTENING_OF_TOLERANCE, MAX_JOIN_GAP_OF_TOLERANCE
 /// A polyline in px with a canonical start and direction. Points are ordered by x, then y. An open chain
 /// starts at its lesser end; a closed one starts at its least point and continues to the lesser neighbour.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Chain {
+pub(crate) struct OutlineChain {
     /// Index of the group of marks that it belongs to. Only chains of one group are joined or compared.
     pub group: usize,
     /// At least two points; in a closed chain the last point repeats the first.
@@ -26,7 +26,7 @@ pub(crate) struct Chain {
     pub shapes: Vec<usize>,
 }
 
-impl Chain {
+impl OutlineChain {
     /// Length in px.
     pub(crate) fn length(&self) -> f64 {
         self.segments().map(|(p, q)| p.distance(q)).sum()
@@ -37,7 +37,7 @@ impl Chain {
     }
 
     /// Gives the chain its canonical start and direction.
-    fn in_order(mut self) -> Self {
+    fn canonical(mut self) -> Self {
         let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
         if self.closed {
             self.points.pop();
@@ -67,8 +67,13 @@ fn order(a: Point, b: Point) -> std::cmp::Ordering {
 
 /// The chains of some shapes of a picture, sorted by position. `of_shape` gives the group of each shape of
 /// the picture.
-pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &MarkGroups) -> Vec<Chain> {
-    let flat: Vec<Vec<Chain>> = shapes
+pub(crate) fn chains_of_shapes(
+    picture: &Picture,
+    shapes: &[usize],
+    of_shape: &[usize],
+    groups: &MarkGroups,
+) -> Vec<OutlineChain> {
+    let flat: Vec<Vec<OutlineChain>> = shapes
         .par_iter()
         .map(|index| {
             let (Some(shape), Some(group)) = (picture.shapes.get(*index), of_shape.get(*index)) else {
@@ -78,34 +83,38 @@ pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
             let closes = shape.kind != ShapeKind::Line;
             flatten(&shape.path, tolerance * FLATTENING_OF_TOLERANCE, closes)
                 .into_iter()
-                .map(|(points, closed)| Chain { group: *group, points, closed, shapes: vec![*index] })
+                .map(|(points, closed)| OutlineChain { group: *group, points, closed, shapes: vec![*index] })
                 .collect()
         })
         .collect();
-    let mut by_group: FxHashMap<usize, Vec<Chain>> = FxHashMap::default();
+    let mut by_group: FxHashMap<usize, Vec<OutlineChain>> = FxHashMap::default();
     let mut done = Vec::new();
     for chain in flat.into_iter().flatten() {
         match chain.closed {
-            true => done.push(chain.in_order()),
+            true => done.push(chain.canonical()),
             false => by_group.entry(chain.group).or_default().push(chain),
         }
     }
-    let mut open: Vec<(usize, Vec<Chain>)> = by_group.into_iter().collect();
+    let mut open: Vec<(usize, Vec<OutlineChain>)> = by_group.into_iter().collect();
     open.sort_unstable_by_key(|(group, _)| *group);
     for (group, chains) in open {
         let tolerance = groups.groups.get(group).map_or(0.01, |group| group.tolerance);
-        done.extend(join(chains, tolerance * MAX_JOIN_GAP_OF_TOLERANCE).into_iter().map(Chain::in_order));
+        done.extend(
+            join(chains, tolerance * MAX_JOIN_GAP_OF_TOLERANCE).into_iter().map(OutlineChain::canonical),
+        );
     }
     sort(&mut done);
     done
 }
 
 /// Sorts chains by their points, so that identical chains of one group are adjacent.
-pub(crate) fn sort(chains: &mut [Chain]) {
-    let key = |chain: &Chain| chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>();
+pub(crate) fn sort(chains: &mut [OutlineChain]) {
+    let key = |chain: &OutlineChain| {
+        chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>()
+    };
     chains.sort_by(|a, b| {
-        let start = |chain: &Chain| chain.points.first().copied().unwrap_or_default();
-        let end = |chain: &Chain| chain.points.last().copied().unwrap_or_default();
+        let start = |chain: &OutlineChain| chain.points.first().copied().unwrap_or_default();
+        let end = |chain: &OutlineChain| chain.points.last().copied().unwrap_or_default();
         order(start(a), start(b))
             .then_with(|| order(end(a), end(b)))
             .then_with(|| key(a).cmp(&key(b)))
@@ -115,7 +124,7 @@ pub(crate) fn sort(chains: &mut [Chain]) {
 
 /// For each chain, the index of the first chain of the same group with identical points, which may be the
 /// chain itself. Chains must be sorted.
-pub(crate) fn first_copies(chains: &[Chain]) -> Vec<usize> {
+pub(crate) fn first_copies(chains: &[OutlineChain]) -> Vec<usize> {
     let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
     for (index, chain) in chains.iter().enumerate() {
         let before = firsts.last().copied().filter(|first| {
@@ -129,12 +138,12 @@ pub(crate) fn first_copies(chains: &[Chain]) -> Vec<usize> {
 }
 
 /// The rings of an outline as closed chains of group 0, sorted by their start points.
-pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
+pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<OutlineChain> {
     let flat = outline
         .map(|outline| flatten(outline, tolerance * FLATTENING_OF_TOLERANCE, true))
         .unwrap_or_default();
-    let ring = |(points, closed)| Chain { group: 0, points, closed, shapes: Vec::new() }.in_order();
-    let mut rings: Vec<Chain> = flat.into_iter().map(ring).collect();
+    let ring = |(points, closed)| OutlineChain { group: 0, points, closed, shapes: Vec::new() }.canonical();
+    let mut rings: Vec<OutlineChain> = flat.into_iter().map(ring).collect();
     rings.sort_by(|a, b| order(a.points[0], b.points[0]));
     rings
 }
@@ -190,12 +199,12 @@ fn is_dot(points: &[Point]) -> bool {
 
 /// One end of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-struct ChainEnd {
+struct OutlineChainEnd {
     chain: usize,
     last: bool,
 }
 
-impl ChainEnd {
+impl OutlineChainEnd {
     /// The other end of the same chain.
     fn other(self) -> Self {
         Self { last: !self.last, ..self }
@@ -203,22 +212,22 @@ impl ChainEnd {
 }
 
 /// Joins open chains of one group where exactly two ends meet within `reach` px.
-fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
+fn join(chains: Vec<OutlineChain>, reach: f64) -> Vec<OutlineChain> {
     let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
-    let place = |end: ChainEnd| {
+    let place = |end: OutlineChainEnd| {
         let points = &chains[end.chain].points;
         if end.last { points[points.len() - 1] } else { points[0] }
     };
     let is_dot: Vec<bool> = chains.iter().map(|chain| is_dot(&chain.points)).collect();
     let ends = || {
-        let of = |chain| [ChainEnd { chain, last: false }, ChainEnd { chain, last: true }];
+        let of = |chain| [OutlineChainEnd { chain, last: false }, OutlineChainEnd { chain, last: true }];
         (0..chains.len()).filter(|chain| !is_dot[*chain]).flat_map(of)
     };
-    let mut cells: FxHashMap<(i64, i64), Vec<ChainEnd>> = FxHashMap::default();
+    let mut cells: FxHashMap<(i64, i64), Vec<OutlineChainEnd>> = FxHashMap::default();
     for end in ends() {
         cells.entry(cell(place(end))).or_default().push(end);
     }
-    let only = |end: ChainEnd| {
+    let only = |end: OutlineChainEnd| {
         let (x, y) = cell(place(end));
         let mut near = (x - 1..=x + 1)
             .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
@@ -228,7 +237,7 @@ fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
         let first = near.next().copied();
         if near.next().is_some() { None } else { first }
     };
-    let mut next: FxHashMap<ChainEnd, ChainEnd> = FxHashMap::default();
+    let mut next: FxHashMap<OutlineChainEnd, OutlineChainEnd> = FxHashMap::default();
     for end in ends() {
         if let Some(other) = only(end).filter(|other| only(*other) == Some(end)) {
             next.insert(end, other);
@@ -267,7 +276,7 @@ fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
                 *last = first;
             }
         }
-        joined.push(Chain { group: chains[start.chain].group, points, closed, shapes });
+        joined.push(OutlineChain { group: chains[start.chain].group, points, closed, shapes });
     }
     joined.extend(chains.into_iter().zip(is_dot).filter(|(_, dot)| *dot).map(|(chain, _)| chain));
     joined
@@ -277,15 +286,15 @@ fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
 mod tests {
     use super::*;
 
-    fn line(points: &[(f64, f64)]) -> Chain {
+    fn line(points: &[(f64, f64)]) -> OutlineChain {
         let points = points.iter().map(|p| Point::from(*p)).collect();
-        Chain { group: 0, points, closed: false, shapes: vec![0] }
+        OutlineChain { group: 0, points, closed: false, shapes: vec![0] }
     }
 
     #[test]
     fn split_lines_are_joined_where_two_ends_meet() {
         let split = vec![line(&[(5.0, 0.0), (9.0, 0.0)]), line(&[(5.0, 0.0), (0.0, 0.0)])];
-        let joined: Vec<Chain> = join(split, 0.01).into_iter().map(Chain::in_order).collect();
+        let joined: Vec<OutlineChain> = join(split, 0.01).into_iter().map(OutlineChain::canonical).collect();
         assert_eq!(joined, [line(&[(0.0, 0.0), (5.0, 0.0), (9.0, 0.0)])]);
         let star = vec![
             line(&[(0.0, 0.0), (1.0, 0.0)]),

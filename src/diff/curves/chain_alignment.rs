@@ -2,7 +2,7 @@
 
 use kurbo::{Point, Vec2};
 
-use super::chain::Chain;
+use super::chain::OutlineChain;
 use super::hausdorff_distance::evenly_spaced_points;
 use super::segment::nearest_on;
 
@@ -26,7 +26,7 @@ pub(crate) struct Alignment {
 
 /// Aligns two chains so that the largest distance is smallest, over both directions and several starts.
 /// Swapping the chains only changes signs.
-pub(crate) fn align(a: &Chain, b: &Chain) -> Alignment {
+pub(crate) fn align(a: &OutlineChain, b: &OutlineChain) -> Alignment {
     let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(MIN_SAMPLES, MAX_SAMPLES);
     let on_a: Vec<Point> = evenly_spaced_points(a, count).collect();
     let on_b: Vec<Point> = evenly_spaced_points(b, count).collect();
@@ -58,7 +58,7 @@ fn reversed(points: &[Point]) -> Vec<Point> {
 }
 
 /// Evenly spaced points along a closed chain, starting at its point nearest to `start`.
-fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
+fn from_nearest(chain: &OutlineChain, start: Point, count: usize) -> Vec<Point> {
     let nearest = chain
         .segments()
         .enumerate()
@@ -71,7 +71,7 @@ fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
     points.extend_from_slice(&chain.points[index + 1..]);
     points.extend(chain.points.iter().skip(1).take(index));
     points.push(point);
-    evenly_spaced_points(&Chain { points, ..chain.clone() }, count).collect()
+    evenly_spaced_points(&OutlineChain { points, ..chain.clone() }, count).collect()
 }
 
 /// Distances of two point lists of equal length, before and after the best motions.
@@ -107,13 +107,13 @@ mod tests {
 
     use super::*;
 
-    fn chain(points: &[(f64, f64)], closed: bool) -> Chain {
+    fn chain(points: &[(f64, f64)], closed: bool) -> OutlineChain {
         let points = points.iter().map(|p| Point::from(*p)).collect();
-        Chain { group: 0, points, closed, shapes: Vec::new() }
+        OutlineChain { group: 0, points, closed, shapes: Vec::new() }
     }
 
-    fn moved(chain: &Chain, motion: Affine) -> Chain {
-        Chain { points: chain.points.iter().rev().map(|p| motion * *p).collect(), ..chain.clone() }
+    fn moved(chain: &OutlineChain, motion: Affine) -> OutlineChain {
+        OutlineChain { points: chain.points.iter().rev().map(|p| motion * *p).collect(), ..chain.clone() }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use kurbo::Point;
 
-use super::chain::Chain;
+use super::chain::OutlineChain;
 use super::segment::nearest_on;
 use super::segment_grid::SegmentGrid;
 use crate::diff::tolerances::{DISTANCE_RESOLUTION_PX, MAX_DISTANCE_ERROR_SHARE};
@@ -26,10 +26,11 @@ pub(crate) struct ChainDistance {
 }
 
 /// Distances between two chains.
-pub(crate) fn chain_distance(a: &Chain, b: &Chain) -> ChainDistance {
+pub(crate) fn chain_distance(a: &OutlineChain, b: &OutlineChain) -> ChainDistance {
     let (near_a, near_b) = (NearestPointQuery::new(a), NearestPointQuery::new(b));
     let largest = near_b.farthest(a, near_a.farthest(b, 0.0));
-    let count = |chain: &Chain| (chain.points.len() * SAMPLES_PER_POINT).clamp(MIN_SAMPLES, MAX_SAMPLES);
+    let count =
+        |chain: &OutlineChain| (chain.points.len() * SAMPLES_PER_POINT).clamp(MIN_SAMPLES, MAX_SAMPLES);
     let mut all: Vec<f64> = evenly_spaced_points(a, count(a)).map(|p| near_b.nearest(p).1).collect();
     all.extend(evenly_spaced_points(b, count(b)).map(|p| near_a.nearest(p).1));
     all.sort_by(f64::total_cmp);
@@ -38,7 +39,7 @@ pub(crate) fn chain_distance(a: &Chain, b: &Chain) -> ChainDistance {
 }
 
 /// Evenly spaced points along a chain, from its start to its end.
-pub(crate) fn evenly_spaced_points(chain: &Chain, count: usize) -> impl Iterator<Item = Point> {
+pub(crate) fn evenly_spaced_points(chain: &OutlineChain, count: usize) -> impl Iterator<Item = Point> {
     let step = chain.length() / (count.max(2) - 1) as f64;
     let mut segments = chain.segments();
     let mut current = segments.next();
@@ -66,12 +67,12 @@ pub(crate) fn evenly_spaced_points(chain: &Chain, count: usize) -> impl Iterator
 
 /// Nearest-point queries on a chain.
 pub(crate) struct NearestPointQuery<'a> {
-    chain: &'a Chain,
+    chain: &'a OutlineChain,
     grid: Option<SegmentGrid>,
 }
 
 impl<'a> NearestPointQuery<'a> {
-    pub(crate) fn new(chain: &'a Chain) -> Self {
+    pub(crate) fn new(chain: &'a OutlineChain) -> Self {
         let grid = (chain.points.len() > MAX_UNINDEXED_POINTS)
             .then(|| SegmentGrid::new(std::slice::from_ref(chain)));
         Self { chain, grid }
@@ -106,7 +107,7 @@ impl<'a> NearestPointQuery<'a> {
     ///
     /// Between two points, the distance to one segment is convex, and the distance to the whole chain is no
     /// larger. So the larger end distance to the segment nearest to either end bounds all points between.
-    pub(crate) fn farthest(&self, other: &Chain, known: f64) -> f64 {
+    pub(crate) fn farthest(&self, other: &OutlineChain, known: f64) -> f64 {
         let mut most = known;
         let to_segment = |p: Point, index: usize| match self.chain.points.get(index..index + 2) {
             Some(&[from, to]) => p.distance(nearest_on(from, to, p)),
@@ -142,8 +143,8 @@ impl<'a> NearestPointQuery<'a> {
 mod tests {
     use super::*;
 
-    fn chain(points: &[(f64, f64)]) -> Chain {
-        Chain {
+    fn chain(points: &[(f64, f64)]) -> OutlineChain {
+        OutlineChain {
             group: 0,
             points: points.iter().map(|p| Point::from(*p)).collect(),
             closed: false,

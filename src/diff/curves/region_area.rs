@@ -51,7 +51,7 @@ mod tests {
 
     use super::*;
     use crate::colour::srgb::Colour;
-    use crate::diff::shapes::ink::{Ink, Paint};
+    use crate::diff::shapes::ink::{ShapeInk, ShapePaint};
     use crate::diff::shapes::picture::ShapeKind;
 
     #[test]
@@ -67,7 +67,7 @@ mod tests {
                 outline: None,
                 kind: ShapeKind::Region,
                 even_odd,
-                ink: Ink::region(Paint::Colour(Colour::BLACK), None),
+                ink: ShapeInk::region(ShapePaint::Colour(Colour::BLACK), None),
                 label: Arc::default(),
                 material: None,
             };

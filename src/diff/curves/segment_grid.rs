@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use kurbo::Point;
 
-use super::chain::Chain;
+use super::chain::OutlineChain;
 use super::segment::Segment;
 use super::segment_clusters::SegmentClusters;
 use crate::diff::tolerances;
@@ -29,17 +29,17 @@ pub(crate) struct SegmentGrid {
     rows: usize,
     /// Numbers of the segments that cross each cell.
     items: CsrLists<u32>,
-    bundles: OnceLock<SegmentClusters>,
+    clusters: OnceLock<SegmentClusters>,
 }
 
 impl SegmentGrid {
     /// Builds the grid from the segments of chains.
-    pub(crate) fn new(chains: &[Chain]) -> Self {
+    pub(crate) fn new(chains: &[OutlineChain]) -> Self {
         Self::of(chains.iter().enumerate())
     }
 
     /// Builds the grid from the segments of chains with given numbers.
-    pub(crate) fn of<'a>(chains: impl Iterator<Item = (usize, &'a Chain)>) -> Self {
+    pub(crate) fn of<'a>(chains: impl Iterator<Item = (usize, &'a OutlineChain)>) -> Self {
         let segments: Vec<Segment> = chains
             .flat_map(|(chain, c)| {
                 c.segments().map(move |(from, to)| Segment { chain: chain as u32, from, to })
@@ -69,7 +69,7 @@ impl SegmentGrid {
             columns,
             rows,
             items: CsrLists::default(),
-            bundles: OnceLock::new(),
+            clusters: OnceLock::new(),
         };
         grid.items = csr_lists(columns * rows, |put| {
             for (index, segment) in grid.segments.iter().enumerate() {
@@ -112,7 +112,7 @@ impl SegmentGrid {
     }
 
     /// Collects the segments that may lie within `reach` of a segment, each once, in order. Returns `false`
-    /// if there are too many; then use [`Self::bundles`].
+    /// if there are too many; then use [`Self::clusters`].
     pub(crate) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) -> bool {
         found.clear();
         let mut cells = 0;
@@ -135,7 +135,7 @@ impl SegmentGrid {
 
     /// Cluster tree of all segments, built on first use.
     pub(crate) fn bundles(&self) -> &SegmentClusters {
-        self.bundles.get_or_init(|| SegmentClusters::new(&self.segments))
+        self.clusters.get_or_init(|| SegmentClusters::new(&self.segments))
     }
 
     /// Visits segments in rings of cells around a point, nearest ring first.
@@ -186,7 +186,7 @@ mod tests {
     use super::super::segment::nearest_on;
     use super::*;
 
-    fn scattered(count: u32, seed: u64) -> Vec<Chain> {
+    fn scattered(count: u32, seed: u64) -> Vec<OutlineChain> {
         let mut state = seed;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -197,7 +197,7 @@ mod tests {
                 let start = Point::new(next() * 900.0, next() * 700.0);
                 let reach = if next() < 0.1 { 800.0 } else { 20.0 };
                 let end = Point::new(start.x + (next() - 0.5) * reach, start.y + (next() - 0.5) * reach);
-                Chain { group: 0, points: vec![start, end], closed: false, shapes: Vec::new() }
+                OutlineChain { group: 0, points: vec![start, end], closed: false, shapes: Vec::new() }
             })
             .collect()
     }

@@ -158,10 +158,10 @@ pub struct Finding {
     /// Shift of the mark, x right and y down, if all of it moved alike.
     pub shift: Option<[f64; 2]>,
     /// Removed part of the old mark, and added part of the new one.
-    pub(crate) gone: BezPath,
-    pub(crate) new: BezPath,
+    pub(crate) removed_path: BezPath,
+    pub(crate) added_path: BezPath,
     /// Whether the finding follows from a motion of the whole drawing.
-    pub(crate) carried: bool,
+    pub(crate) follows_motion: bool,
 }
 
 impl Finding {
@@ -186,9 +186,9 @@ impl Finding {
             largest: 0.0,
             p95: 0.0,
             shift: None,
-            gone: BezPath::new(),
-            new: BezPath::new(),
-            carried: false,
+            removed_path: BezPath::new(),
+            added_path: BezPath::new(),
+            follows_motion: false,
         }
     }
 }

@@ -26,7 +26,7 @@ pub(crate) fn is_long(style: &str) -> bool {
 ///
 /// # Errors
 /// If the style exceeds the limits.
-pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error> {
+pub(crate) fn merged_declarations(declared: &[Declaration], own: &str) -> Result<String, Error> {
     let many = declared.len() + own.matches(';').count() > MAX_UNMERGED_DECLARATIONS;
     let listed = if many || is_long(own) { css_sheet::declarations(own) } else { None };
     let rest = if listed.is_some() { "" } else { own };
@@ -59,11 +59,16 @@ mod tests {
     #[test]
     fn styles_are_as_long_as_there_are_properties() {
         let one = Declaration { name: "fill", value: "a<b", important: false };
-        assert_eq!(said(&[one], "fill:red;fill:url(#x)").unwrap(), "fill:a&lt;b;fill:red;fill:url(#x)");
+        assert_eq!(
+            merged_declarations(&[one], "fill:red;fill:url(#x)").unwrap(),
+            "fill:a&lt;b;fill:red;fill:url(#x)"
+        );
         let own = "fill:red;stroke:#000!important;fill:blue;".repeat(20_000);
-        assert_eq!(said(&[one; 300], &own).unwrap(), "stroke:#000 !important;fill:blue;");
+        assert_eq!(merged_declarations(&[one; 300], &own).unwrap(), "stroke:#000 !important;fill:blue;");
         let names: String = (0..2000).map(|i| format!("p{i}:1;")).collect();
-        assert!(said(&[], &names).unwrap_err().to_string().contains("declarations in a style"));
-        assert!(said(&[], &"{".repeat(5000)).is_err());
+        assert!(
+            merged_declarations(&[], &names).unwrap_err().to_string().contains("declarations in a style")
+        );
+        assert!(merged_declarations(&[], &"{".repeat(5000)).is_err());
     }
 }

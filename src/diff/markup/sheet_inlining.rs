@@ -3,7 +3,7 @@
 use usvg::roxmltree::Node;
 
 use super::cascade::Cascade;
-use super::inline_style::{is_long, said};
+use super::inline_style::{is_long, merged_declarations};
 use super::input_limits;
 use crate::error::Error;
 
@@ -52,7 +52,8 @@ fn collect(
         let own_is_long = node.attribute("style").is_some_and(is_long);
         if !declared.is_empty() || own_is_long {
             let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
-            let style = format!("style=\"{}\"", said(&declared, own.map_or("", |own| own.value()))?);
+            let style =
+                format!("style=\"{}\"", merged_declarations(&declared, own.map_or("", |own| own.value()))?);
             match own {
                 Some(own) => edits.push((own.range(), style)),
                 None => {

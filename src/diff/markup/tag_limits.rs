@@ -41,7 +41,7 @@ struct TagCounts {
     all_declared: usize,
     all_names: usize,
     lookups: usize,
-    entities: Entities,
+    entities: EntityUsage,
 }
 
 impl TagCounts {
@@ -104,7 +104,7 @@ impl TagCounts {
 
 /// Declared entities and their uses.
 #[derive(Default)]
-struct Entities {
+struct EntityUsage {
     /// Bytes of all declarations.
     bytes: usize,
     /// Number of references.
@@ -115,7 +115,7 @@ struct Entities {
     unusable: Option<Error>,
 }
 
-impl Entities {
+impl EntityUsage {
     /// Adds an entity declaration.
     fn declare(&mut self, text: &str, definition: EntityDefinition, whole: StrSpan) -> Result<(), Error> {
         self.bytes += whole.len();

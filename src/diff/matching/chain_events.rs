@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::chain_pairs::{ChainPair, CoveredChains, bounds, pairs};
 use super::interval_cover::{ChainCover, CoverRun};
-use crate::diff::curves::chain::{Chain, flatten};
+use crate::diff::curves::chain::{OutlineChain, flatten};
 use crate::diff::curves::chain_alignment::align;
 use crate::diff::curves::hausdorff_distance::{NearestPointQuery, chain_distance};
 use crate::diff::findings::finding::Verdict;
@@ -37,7 +37,7 @@ pub(crate) struct ChainEvent {
     pub largest: f64,
     pub p95: f64,
     pub shift: Option<[f64; 2]>,
-    pub gone: BezPath,
+    pub removed: BezPath,
     pub added: BezPath,
 }
 
@@ -125,7 +125,7 @@ fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroup
         largest: apart.largest,
         p95: apart.p95,
         shift: None,
-        gone: bare(a, cover_a),
+        removed: bare(a, cover_a),
         added: bare(b, cover_b),
     };
     if event.verdict == Verdict::Reshaped {
@@ -159,7 +159,7 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
         largest: 0.0,
         p95: 0.0,
         shift: None,
-        gone: BezPath::new(),
+        removed: BezPath::new(),
         added: BezPath::new(),
     };
     if let Some((a, b)) = old.zip(new) {
@@ -174,7 +174,7 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
     }
     let path = if rest.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
     match side {
-        0 => event.gone = path,
+        0 => event.removed = path,
         _ => event.added = path,
     }
     event
@@ -182,7 +182,7 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
 
 /// Largest distance of the uncovered runs of a chain from the other drawing. It is limited by the arc length
 /// to the nearest covered run, so that a line linked to another one counts only its difference.
-fn off(chain: &Chain, cover: &ChainCover, other: &Chain, tolerance: f64) -> f64 {
+fn off(chain: &OutlineChain, cover: &ChainCover, other: &OutlineChain, tolerance: f64) -> f64 {
     let near = NearestPointQuery::new(other);
     let is_covered =
         |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
@@ -193,7 +193,7 @@ fn off(chain: &Chain, cover: &ChainCover, other: &Chain, tolerance: f64) -> f64 
         let after = if index == last { chain.closed.then_some(0) } else { Some(index + 1) };
         let piece = stretch(chain, run.from, run.to);
         let points = flatten(&piece, 1.0, false).into_iter().flat_map(|(points, _)| points).collect();
-        let piece = Chain { group: chain.group, points, closed: false, shapes: Vec::new() };
+        let piece = OutlineChain { group: chain.group, points, closed: false, shapes: Vec::new() };
         let limit = match (is_covered(before), is_covered(after)) {
             (true, true) => run.length() / 2.0 + tolerance,
             (false, false) => f64::INFINITY,
@@ -259,7 +259,7 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
                     largest: 0.0,
                     p95: 0.0,
                     shift: None,
-                    gone: BezPath::new(),
+                    removed: BezPath::new(),
                     added: stretches(&sides[0].chains[index], &sides[0].covers[index], |run| {
                         run.likeness.is_some_and(|likeness| likeness != Likeness::Same)
                     }),
@@ -285,22 +285,22 @@ fn one_sided_event(sides: &[CoveredChains; 2], side: usize, index: usize) -> Cha
     let (gone, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
     let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
     let size = sides[side].covers[index].length;
-    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
+    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, removed: gone, added }
 }
 
 /// Uncovered runs of a chain as a path.
-fn bare(chain: &Chain, cover: &ChainCover) -> BezPath {
+fn bare(chain: &OutlineChain, cover: &ChainCover) -> BezPath {
     stretches(chain, cover, |run| run.likeness.is_none())
 }
 
 /// The runs of a chain that satisfy a condition, as a path.
-fn stretches(chain: &Chain, cover: &ChainCover, wanted: impl Fn(&CoverRun) -> bool) -> BezPath {
+fn stretches(chain: &OutlineChain, cover: &ChainCover, wanted: impl Fn(&CoverRun) -> bool) -> BezPath {
     let runs = cover.runs.iter().filter(|run| wanted(run));
     runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
 }
 
 /// Part of a chain between two arc lengths.
-fn stretch(chain: &Chain, from: f64, to: f64) -> BezPath {
+fn stretch(chain: &OutlineChain, from: f64, to: f64) -> BezPath {
     let mut path = BezPath::new();
     let mut at = 0.0;
     for (p, q) in chain.segments() {

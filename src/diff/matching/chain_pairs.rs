@@ -22,7 +22,7 @@ use kurbo::{Point, Rect};
 use rustc_hash::FxHashMap;
 
 use super::interval_cover::ChainCover;
-use crate::diff::curves::chain::Chain;
+use crate::diff::curves::chain::OutlineChain;
 use crate::diff::curves::chain_alignment::{Alignment, align};
 use crate::diff::curves::hausdorff_distance::evenly_spaced_points;
 use crate::diff::curves::segment::nearest_on;
@@ -51,7 +51,7 @@ const MAX_SEGMENTS_PER_SAMPLE: usize = 512;
 /// The chains of one drawing and their covers by the other drawing.
 #[derive(Debug)]
 pub(crate) struct CoveredChains {
-    pub chains: Vec<Chain>,
+    pub chains: Vec<OutlineChain>,
     /// For each chain, the index of its first copy.
     pub firsts: Vec<usize>,
     pub covers: Vec<ChainCover>,
@@ -80,13 +80,15 @@ pub(crate) fn pairs(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) 
     let mut near: Vec<(usize, usize)> = Vec::new();
     for side in 0..2 {
         let other = 1 - side;
-        let targets: Vec<Chain> =
+        let targets: Vec<OutlineChain> =
             bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
         let grid = SegmentGrid::new(&targets);
         let of = |index: &usize| {
             let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * MAX_SHIFT_PAGE_SHARE);
             let chain = &sides[side].chains[*index];
-            near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
+            near.sort_by_cached_key(|there| {
+                squared_end_distance(chain, &sides[other].chains[*there]).to_bits()
+            });
             near.truncate(MAX_CANDIDATES);
             let index = *index;
             near.into_iter().map(move |there| if side == 0 { (index, there) } else { (there, index) })
@@ -96,7 +98,7 @@ pub(crate) fn pairs(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) 
     near.par_sort_unstable();
     near.dedup();
     let mut found: Vec<ChainPair> =
-        near.into_par_iter().filter_map(|(old, new)| judge(sides, old, new, groups, page)).collect();
+        near.into_par_iter().filter_map(|(old, new)| score_pair(sides, old, new, groups, page)).collect();
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
     let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
     found.retain(|pair| {
@@ -233,8 +235,8 @@ fn candidates(
 
 /// Sum of the squared distances between the ends of two chains: a cheap estimate for ranking candidates. The
 /// second end of a closed chain is its middle point.
-fn ends_apart(a: &Chain, b: &Chain) -> f64 {
-    let ends = |chain: &Chain| {
+fn squared_end_distance(a: &OutlineChain, b: &OutlineChain) -> f64 {
+    let ends = |chain: &OutlineChain| {
         let start = chain.points.first().copied().unwrap_or(Point::ZERO);
         let end = if chain.closed { chain.points.get(chain.points.len() / 2) } else { chain.points.last() };
         (start, end.copied().unwrap_or(start))
@@ -245,7 +247,7 @@ fn ends_apart(a: &Chain, b: &Chain) -> f64 {
 }
 
 /// Aligns two chains and computes the cost of the pair; `None` if they cannot be the same mark.
-fn judge(
+fn score_pair(
     sides: &[CoveredChains; 2],
     old: usize,
     new: usize,
@@ -261,7 +263,7 @@ fn judge(
     let both = cover_a.length + cover_b.length;
     let common = if both > 0.0 { (of(cover_a, new) + of(cover_b, old)) / both } else { 0.0 };
     let alignment = align(a, b);
-    let size = |chain: &Chain| {
+    let size = |chain: &OutlineChain| {
         let bounds = bounds(&chain.points);
         bounds.size().to_vec2().hypot()
     };

@@ -14,7 +14,7 @@ pub(crate) struct ShapeMatching {
     /// Index pairs of equal shapes.
     pub equal: Vec<(usize, usize)>,
     /// Indexes of the shapes of each picture that have no equal.
-    pub rest: [Vec<usize>; 2],
+    pub unequal_shapes: [Vec<usize>; 2],
 }
 
 /// Matches equal shapes one to one. If a line is drawn twice in one picture and once in the other, one copy
@@ -50,7 +50,10 @@ pub(crate) fn part(before: &Picture, after: &Picture, groups: &MarkGroups) -> Sh
             None => new.push(index),
         }
     }
-    ShapeMatching { equal: equal_pairs, rest: [(0..gone.len()).filter(|index| gone[*index]).collect(), new] }
+    ShapeMatching {
+        equal: equal_pairs,
+        unequal_shapes: [(0..gone.len()).filter(|index| gone[*index]).collect(), new],
+    }
 }
 
 fn hash_path(path: &BezPath, hasher: &mut FxHasher) {

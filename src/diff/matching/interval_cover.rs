@@ -13,7 +13,7 @@ use crate::parallel::prelude::*;
 use kurbo::Point;
 
 use super::capsule_interval::within;
-use crate::diff::curves::chain::Chain;
+use crate::diff::curves::chain::OutlineChain;
 use crate::diff::curves::segment_clusters::ClusterVisit;
 use crate::diff::curves::segment_grid::SegmentGrid;
 use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
@@ -23,7 +23,7 @@ const MAX_CROSSING_TOLERANCES: f64 = 6.0;
 /// Number of segments tested for an identical mark in a dense place. After that, any mark counts.
 const MAX_SEGMENT_QUERIES: usize = 4096;
 /// Most runs stored for all copies of a line. Covers of lines with more are reduced to one run.
-const MAX_COPIED_PIECES: usize = 4_000_000;
+const MAX_COPIED_RUNS: usize = 4_000_000;
 
 /// A run of a chain, by arc length in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ pub(crate) struct ChainCover {
     /// Length of the chain in px.
     pub length: f64,
     /// Whether the chain has no length.
-    dot: bool,
+    is_point: bool,
 }
 
 impl ChainCover {
@@ -74,7 +74,7 @@ impl ChainCover {
 
     /// Covered share of the length.
     pub(crate) fn share(&self) -> f64 {
-        if self.dot {
+        if self.is_point {
             f64::from(u8::from(self.is_whole()))
         } else {
             1.0 - self.uncovered_length() / self.length
@@ -92,12 +92,12 @@ impl ChainCover {
             partners: Vec::new(),
             ..self
         };
-        cover.sum_up();
+        cover.collect_partners();
         cover
     }
 
     /// Computes `partners` from the runs.
-    fn sum_up(&mut self) {
+    fn collect_partners(&mut self) {
         for run in &self.runs {
             let Some(likeness) = run.likeness else { continue };
             match self.partners.iter_mut().find(|(partner, ..)| *partner == run.partner) {
@@ -118,8 +118,8 @@ impl ChainCover {
 /// first copy directly. The grid contains first copies only; the n-th copy of a chain is covered by the n-th
 /// copy of its partner.
 pub(crate) fn cover(
-    here: (&[Chain], &[usize]),
-    there: (&[Chain], &[usize]),
+    here: (&[OutlineChain], &[usize]),
+    there: (&[OutlineChain], &[usize]),
     grid: &SegmentGrid,
     groups: &MarkGroups,
 ) -> Vec<ChainCover> {
@@ -137,7 +137,7 @@ pub(crate) fn cover(
     let mut copies = vec![0usize; here.0.len()];
     (0..copies.len()).for_each(|index| copies[first(index)] += 1);
     let plainer = |(index, cover): (usize, Option<ChainCover>)| {
-        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MAX_COPIED_PIECES {
+        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MAX_COPIED_RUNS {
             true => cover.without_crossings(),
             false => cover,
         })
@@ -181,8 +181,8 @@ impl CoverScratch {
     fn add_segment(
         &mut self,
         here: &ChainSegment,
-        chain: &Chain,
-        others: &[Chain],
+        chain: &OutlineChain,
+        others: &[OutlineChain],
         grid: &SegmentGrid,
         groups: &MarkGroups,
         item: u32,
@@ -211,7 +211,7 @@ impl CoverScratch {
 struct DenseCover {
     seen: usize,
     /// Disjoint ranges in increasing order.
-    shares: Vec<(f64, f64)>,
+    ranges: Vec<(f64, f64)>,
 }
 
 impl DenseCover {
@@ -223,18 +223,18 @@ impl DenseCover {
         if likeness != Likeness::Same && self.seen < MAX_SEGMENT_QUERIES {
             return;
         }
-        let first = self.shares.partition_point(|share| share.1 < from);
-        let last = self.shares.partition_point(|share| share.0 <= to);
-        for share in self.shares.drain(first..last) {
+        let first = self.ranges.partition_point(|share| share.1 < from);
+        let last = self.ranges.partition_point(|share| share.0 <= to);
+        for share in self.ranges.drain(first..last) {
             (from, to) = (from.min(share.0), to.max(share.1));
         }
-        self.shares.insert(first, (from, to));
+        self.ranges.insert(first, (from, to));
     }
 
     /// Whether a range is covered completely.
     fn covers(&self, (from, to): (f64, f64)) -> bool {
-        let at = self.shares.partition_point(|share| share.1 < to);
-        self.shares.get(at).is_some_and(|share| share.0 <= from)
+        let at = self.ranges.partition_point(|share| share.1 < to);
+        self.ranges.get(at).is_some_and(|share| share.0 <= from)
     }
 }
 
@@ -249,15 +249,15 @@ struct CoverInterval {
 
 /// Covers one chain by the chains of the other drawing.
 fn cover_chain(
-    chain: &Chain,
-    others: &[Chain],
+    chain: &OutlineChain,
+    others: &[OutlineChain],
     grid: &SegmentGrid,
     groups: &MarkGroups,
     scratch: &mut CoverScratch,
 ) -> ChainCover {
     let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
     let mut cover = ChainCover { length: chain.length(), ..ChainCover::default() };
-    cover.dot = cover.length == 0.0;
+    cover.is_point = cover.length == 0.0;
     let mut at = 0.0;
     scratch.likeness.clear();
     for (from, to) in chain.segments() {
@@ -299,7 +299,7 @@ fn cover_chain(
     absorb(&mut cover.runs, most, |run, around| {
         run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
     });
-    cover.sum_up();
+    cover.collect_partners();
     cover
 }
 

@@ -27,7 +27,7 @@ const MAX_RECOLOURED: usize = 1000;
 
 /// A square of pixels with candidates.
 #[derive(Debug)]
-pub(crate) struct Tile {
+pub(crate) struct CandidateTile {
     column: usize,
     row: usize,
     /// Candidate pixels, those with the largest difference first.
@@ -69,9 +69,11 @@ impl ExplainedPixels {
             // A mitred corner may reach as far as two line widths.
             let near = EXPLAINED_MARGIN_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
             let lines = finding.kind == ShapeKind::Line
-                && [&finding.gone, &finding.new].iter().any(|path| !path.elements().is_empty());
+                && [&finding.removed_path, &finding.added_path]
+                    .iter()
+                    .any(|path| !path.elements().is_empty());
             if lines && pieces < MAX_PIECES {
-                pieces += places.along(&finding.gone, near) + places.along(&finding.new, near);
+                pieces += places.along(&finding.removed_path, near) + places.along(&finding.added_path, near);
             } else {
                 let FindingBox { x, y, width, height } = finding.place;
                 places.mark(Rect::new(x, y, x + width, y + height).inflate(near, near));
@@ -113,7 +115,7 @@ impl ExplainedPixels {
     }
 
     /// Tiles with unexplained differing pixels, or with `any` all differing pixels, largest difference first.
-    pub fn candidates(&self, coarse: &CoarseComparison, any: bool) -> Vec<Tile> {
+    pub fn candidates(&self, coarse: &CoarseComparison, any: bool) -> Vec<CandidateTile> {
         let across = self.columns.div_ceil(TILE_SIDE_PIXELS);
         let mut tiles: Vec<Vec<(u8, usize)>> = Vec::new();
         tiles.resize_with(across * self.rows.div_ceil(TILE_SIDE_PIXELS), Vec::new);
@@ -128,7 +130,7 @@ impl ExplainedPixels {
                 tiles[row / TILE_SIDE_PIXELS * across + column / TILE_SIDE_PIXELS].push((value, index));
             }
         }
-        let mut found: Vec<Tile> = Vec::new();
+        let mut found: Vec<CandidateTile> = Vec::new();
         for (number, mut pixels) in tiles.into_iter().enumerate() {
             pixels.sort_unstable_by_key(|(value, index)| (std::cmp::Reverse(*value), *index));
             let Some((most, _)) = pixels.first().copied() else { continue };
@@ -137,7 +139,7 @@ impl ExplainedPixels {
             for [x, y] in pixels.iter().map(at) {
                 bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x + 1), bounds[3].max(y + 1)];
             }
-            found.push(Tile {
+            found.push(CandidateTile {
                 column: number % across,
                 row: number / across,
                 pixels: pixels.iter().take(MAX_CANDIDATES_PER_TILE).map(at).collect(),
@@ -151,7 +153,7 @@ impl ExplainedPixels {
     }
 
     /// One finding for each connected group of tiles.
-    pub fn findings(&self, tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
+    pub fn findings(&self, tiles: &[CandidateTile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
         let by_place: FxHashMap<[usize; 2], usize> =
             tiles.iter().enumerate().map(|(index, tile)| ([tile.column, tile.row], index)).collect();
         let mut taken = vec![false; tiles.len()];
@@ -175,7 +177,7 @@ impl ExplainedPixels {
     }
 
     /// The finding for one group of tiles.
-    fn finding(&self, group: &[usize], tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Finding {
+    fn finding(&self, group: &[usize], tiles: &[CandidateTile], pictures: [&[Pixel]; 2]) -> Finding {
         let tiles = || group.iter().map(|index| &tiles[*index]);
         let [x0, y0, x1, y1] = tiles().fold([usize::MAX, usize::MAX, 0, 0], |all, tile| {
             let own = tile.bounds;
@@ -192,7 +194,7 @@ impl ExplainedPixels {
         let pixels: usize = tiles().map(|tile| tile.count).sum();
         Finding {
             size: pixels as f64 / (self.scale * self.scale),
-            new: place.to_path(0.1),
+            added_path: place.to_path(0.1),
             ..Finding::in_place(
                 Verdict::Picture,
                 ShapeKind::Region,

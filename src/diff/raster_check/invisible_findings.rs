@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diff::findings::finding::{Change, Finding, FindingBox, FindingBoxKey, Verdict};
 use crate::diff::shapes::ignore_options::Ignore;
-use crate::diff::shapes::ink::Paint;
+use crate::diff::shapes::ink::ShapePaint;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
@@ -82,7 +82,7 @@ struct MarkInventory<'a> {
 
 /// Number of marks of each picture with one paint.
 struct PaintCount<'a> {
-    paint: &'a Paint,
+    paint: &'a ShapePaint,
     width: f64,
     count: [usize; 2],
 }

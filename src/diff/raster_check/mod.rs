@@ -100,7 +100,7 @@ pub(crate) fn decide(
     }
     close.pixels = 0;
     let claimed = places.candidates(&coarse, true);
-    let differs = |tile: &explained_pixels::Tile, close: &mut CloseInspection| {
+    let differs = |tile: &explained_pixels::CandidateTile, close: &mut CloseInspection| {
         tile.pixels.iter().any(|at| close.differs(*at, finest, false).unwrap_or(true))
     };
     match claimed.iter().any(|tile| differs(tile, &mut close)) {

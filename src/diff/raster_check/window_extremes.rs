@@ -9,7 +9,7 @@
 ///
 /// Source: van Herk 1992; Gil and Werman 1993. The list is divided into blocks as long as the window. A
 /// window meets at most two blocks, so a running extreme from each end of the blocks is enough.
-fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
+fn windowed_extremes(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
     let window = 2 * reach + 1;
     let count = values.len();
     let mut forth = values.to_vec();
@@ -53,14 +53,15 @@ pub(crate) fn square_extremes(
     if reach == 0 || columns == 0 {
         return values.to_vec();
     }
-    let mut rows: Vec<u8> = values.chunks(columns).flat_map(|row| along(row, reach, pick)).collect();
+    let mut rows: Vec<u8> =
+        values.chunks(columns).flat_map(|row| windowed_extremes(row, reach, pick)).collect();
     let count = rows.len() / columns;
     let mut column = vec![0; count];
     for x in 0..columns {
         for (y, value) in column.iter_mut().enumerate() {
             *value = rows[y * columns + x];
         }
-        for (y, value) in along(&column, reach, pick).into_iter().enumerate() {
+        for (y, value) in windowed_extremes(&column, reach, pick).into_iter().enumerate() {
             rows[y * columns + x] = value;
         }
     }

@@ -11,7 +11,7 @@ use super::tagged_svg::{self, ShapeOrigin, TaggedSvg};
 use crate::colour::srgb::Colour;
 use crate::diff::markup::input_limits;
 use crate::diff::raster_check::{RenderTree, unread};
-use crate::diff::shapes::ink::{self, Ink, Paint};
+use crate::diff::shapes::ink::{self, ShapeInk, ShapePaint};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 use crate::diff::shapes::placeholder::Details;
 use crate::drawing::{Cap, Drawing, Join};
@@ -56,7 +56,7 @@ fn picture(svg: &str) -> Result<Picture, Error> {
 fn read(svg: &str) -> Result<Picture, Error> {
     let document = input_limits::parse(svg)?;
     let mut markup = tagged_svg::rewrite(&document)?;
-    let unread: Arc<[&'static str]> = unread(&document, markup.has_more).into_iter().collect();
+    let unread: Arc<[&'static str]> = unread(&document, markup.has_unapplied_rules).into_iter().collect();
     drop(document);
     let stand_ins = markup.origins.iter().filter_map(|(id, origin)| {
         Some((id.clone(), origin.words.as_ref().map(|words| ink::is_text(words))?))
@@ -183,13 +183,13 @@ impl<'a> ShapeReader<'a> {
                     outline: Some(geometry.clone()),
                     kind: kind(ShapeKind::Line),
                     even_odd,
-                    ink: Ink {
+                    ink: ShapeInk {
                         width: width * scale,
                         outlined: true,
                         cap: Cap::Round,
                         join: Join::Round,
                         invisibility: origin.invisibility,
-                        ..Ink::region(paint, None)
+                        ..ShapeInk::region(paint, None)
                     },
                     label: Arc::clone(&origin.label),
                     material: origin.material.clone(),
@@ -199,7 +199,11 @@ impl<'a> ShapeReader<'a> {
                     outline: None,
                     kind: kind(ShapeKind::Region),
                     even_odd,
-                    ink: Ink { is_crisp, details: details.clone(), ..Ink::region(paint, origin.tone) },
+                    ink: ShapeInk {
+                        is_crisp,
+                        details: details.clone(),
+                        ..ShapeInk::region(paint, origin.tone)
+                    },
                     label: Arc::clone(&origin.label),
                     material: origin.material.clone(),
                 },
@@ -213,7 +217,7 @@ impl<'a> ShapeReader<'a> {
                 outline: None,
                 kind: kind(ShapeKind::Line),
                 even_odd: false,
-                ink: Ink {
+                ink: ShapeInk {
                     width: f64::from(stroke.width().get()) * scale,
                     dash: dash.iter().map(|length| f64::from(*length) * scale).collect(),
                     cap: cap(stroke.linecap()),
@@ -221,7 +225,7 @@ impl<'a> ShapeReader<'a> {
                     tone: origin.tone,
                     invisibility: origin.invisibility,
                     is_crisp,
-                    ..Ink::region(paint, None)
+                    ..ShapeInk::region(paint, None)
                 },
                 label: Arc::clone(&origin.label),
                 material: origin.material.clone(),
@@ -240,24 +244,24 @@ fn painted(
     opacity: f32,
     inherited: &GroupContext,
     origin: &ShapeOrigin,
-) -> Option<Paint> {
+) -> Option<ShapePaint> {
     let opacity = f64::from(opacity) * inherited.opacity;
     let alpha = (opacity * 255.0).round() as u8;
     if alpha == 0 && !inherited.clip {
         return None;
     }
     let paint = match (paint, &origin.words) {
-        (_, Some(words)) if alpha == 255 => Paint::Other(Arc::clone(words)),
-        (_, Some(words)) => Paint::Other(Arc::from(format!("{words} at {:.0} %", opacity * 100.0))),
+        (_, Some(words)) if alpha == 255 => ShapePaint::Other(Arc::clone(words)),
+        (_, Some(words)) => ShapePaint::Other(Arc::from(format!("{words} at {:.0} %", opacity * 100.0))),
         (usvg::Paint::Color(colour), None) => {
-            Paint::Colour(Colour { r: colour.red, g: colour.green, b: colour.blue, a: alpha })
+            ShapePaint::Colour(Colour { r: colour.red, g: colour.green, b: colour.blue, a: alpha })
         }
-        (other, None) => Paint::Other(Arc::from(paint_description::of(other, alpha))),
+        (other, None) => ShapePaint::Other(Arc::from(paint_description::of(other, alpha))),
     };
     if inherited.effects.is_empty() {
         return Some(paint);
     }
-    Some(Paint::Other(Arc::from(format!("{paint} through {}", inherited.effects.join(", ")))))
+    Some(ShapePaint::Other(Arc::from(format!("{paint} through {}", inherited.effects.join(", ")))))
 }
 
 /// Properties of a text or a picture, with its rotation. The rectangle alone looks the same when rotated by

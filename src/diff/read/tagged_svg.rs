@@ -17,7 +17,7 @@ use usvg::roxmltree::{Document, Node};
 use super::inherited_context::InheritedContext;
 use crate::diff::markup::cascade::Cascade;
 use crate::diff::markup::css_sheet::{self, Declaration};
-use crate::diff::markup::inline_style::said;
+use crate::diff::markup::inline_style::merged_declarations;
 use crate::diff::markup::number_scan;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::placeholder::{self, Details};
@@ -82,11 +82,11 @@ pub(crate) struct TaggedSvg {
     pub arcs: bool,
     pub unit: Unit,
     /// Whether style sheets have rules that are not supported and were not applied.
-    pub has_more: bool,
+    pub has_unapplied_rules: bool,
     /// Definitions of the gradients that encode the content of texts and pictures.
     gradients: String,
     /// Whether the file has texts or pictures.
-    has_stand_ins: bool,
+    has_placeholders: bool,
 }
 
 /// Rewrites a document for usvg.
@@ -99,10 +99,10 @@ pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
     }
-    markup.has_stand_ins =
+    markup.has_placeholders =
         document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
     let mut cascade = Cascade::of(document);
-    markup.has_more = cascade.has_more;
+    markup.has_unapplied_rules = cascade.has_more;
     markup.element(root, &InheritedContext::default(), &mut cascade)?;
     Ok(markup)
 }
@@ -116,7 +116,7 @@ impl TaggedSvg {
         match name {
             // Style sheets are applied to the elements instead.
             "style" => {}
-            "text" | "image" if is_svg => self.stand_in(node, around, &declared, cascade)?,
+            "text" | "image" if is_svg => self.write_placeholder(node, around, &declared, cascade)?,
             _ if is_svg => self.plain(node, around, &declared, cascade)?,
             _ => {}
         }
@@ -134,7 +134,7 @@ impl TaggedSvg {
     ) -> Result<(), Error> {
         let name = node.tag_name().name();
         let mut around = around.enter(node);
-        if self.has_stand_ins {
+        if self.has_placeholders {
             around.props = placeholder::inherit(&around.props, node, declared);
         }
         self.svg.push('<');
@@ -188,7 +188,7 @@ impl TaggedSvg {
         if declared.is_empty() && own.is_empty() {
             return Ok(());
         }
-        let _ = write!(self.svg, " style=\"{}\"", said(declared, own)?);
+        let _ = write!(self.svg, " style=\"{}\"", merged_declarations(declared, own)?);
         Ok(())
     }
 
@@ -234,7 +234,7 @@ impl TaggedSvg {
     }
 
     /// Writes a rectangle in place of a text or a picture. Its colours encode the description and the look.
-    fn stand_in(
+    fn write_placeholder(
         &mut self,
         node: Node,
         around: &InheritedContext,

@@ -10,7 +10,7 @@ use crate::colour::srgb::Colour;
 use crate::diff::curves::chain;
 use crate::diff::curves::segment::nearest_on;
 use crate::diff::findings::finding::{Diff, Finding, Verdict};
-use crate::diff::shapes::ink::Paint as Ink;
+use crate::diff::shapes::ink::ShapePaint as Ink;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
@@ -109,8 +109,8 @@ impl Diff {
         let elsewhere =
             |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
         let rows: [(&str, Colour, bool); 5] = [
-            ("gone", GONE_COLOUR, has(&|f| elsewhere(f) && ink(&f.gone))),
-            ("new", NEW_COLOUR, has(&|f| elsewhere(f) && ink(&f.new))),
+            ("gone", GONE_COLOUR, has(&|f| elsewhere(f) && ink(&f.removed_path))),
+            ("new", NEW_COLOUR, has(&|f| elsewhere(f) && ink(&f.added_path))),
             ("moved", MOVED_COLOUR, view == View::Over && has(&|f| f.verdict == Verdict::Moved)),
             ("repainted", RESTYLED_COLOUR, has(&same_place)),
             ("relabelled", RELABELLED_COLOUR, has(&|f| f.verdict == Verdict::Relabelled)),
@@ -180,7 +180,7 @@ impl OverlayMarks {
             _ => {
                 let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
                 let width = if hidden { width * COVERED_WIDTH_FACTOR } else { width };
-                self.piece(finding, &finding.gone, GONE_COLOUR, to, width, note);
+                self.piece(finding, &finding.removed_path, GONE_COLOUR, to, width, note);
             }
         }
     }
@@ -193,7 +193,7 @@ impl OverlayMarks {
             Verdict::Relabelled => RELABELLED_COLOUR,
             _ => NEW_COLOUR,
         };
-        self.piece(finding, &finding.new, colour, to, width, note);
+        self.piece(finding, &finding.added_path, colour, to, width, note);
     }
 
     /// Adds a part of a finding in a colour, with a transparent fill for whole regions.
@@ -222,8 +222,8 @@ impl OverlayMarks {
         if finding.verdict != Verdict::Moved {
             return;
         }
-        let old = polylines(&finding.gone);
-        let new = polylines(&finding.new);
+        let old = polylines(&finding.removed_path);
+        let new = polylines(&finding.added_path);
         let mut path = BezPath::new();
         for points in &old {
             let step = (points.len().saturating_sub(1) / (SHIFT_LINES_PER_PATH - 1)).max(1);

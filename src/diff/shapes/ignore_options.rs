@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::ink::{Ink, Paint};
+use super::ink::{ShapeInk, ShapePaint};
 use super::label::Label;
 use super::picture::Shape;
 use crate::colour::srgb::Colour;
@@ -74,13 +74,13 @@ impl Ignore {
     }
 
     /// The ink without ignored aspects.
-    pub(crate) fn ink(self, ink: &Ink) -> Ink {
+    pub(crate) fn ink(self, ink: &ShapeInk) -> ShapeInk {
         let mut ink = ink.clone();
         if self.labels {
             (ink.tone, ink.invisibility) = (None, 0);
         }
         if self.colours && !ink.is_stand_in() {
-            ink.paint = Paint::Colour(Colour::BLACK);
+            ink.paint = ShapePaint::Colour(Colour::BLACK);
         }
         if let Some(details) = ink.details.as_mut().filter(|_| self.colours) {
             let is_colour = |name: &String| COLOUR_PROPERTIES.contains(&name.as_str());

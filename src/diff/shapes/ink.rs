@@ -11,14 +11,14 @@ use crate::drawing::{Cap, Join};
 
 /// Paint of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Paint {
+pub enum ShapePaint {
     /// One colour, including the opacity of groups.
     Colour(Colour),
     /// Gradients, patterns, pictures and texts as a description. Equal descriptions mean equal paint.
     Other(Arc<str>),
 }
 
-impl Paint {
+impl ShapePaint {
     /// Whether two paints look equal. Opacities are rounded several times in a file, so they may differ by 1.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
@@ -30,7 +30,7 @@ impl Paint {
     }
 }
 
-impl Paint {
+impl ShapePaint {
     /// Target of a linked picture.
     pub(crate) fn link(&self) -> Option<&str> {
         match self {
@@ -40,7 +40,7 @@ impl Paint {
     }
 }
 
-impl fmt::Display for Paint {
+impl fmt::Display for ShapePaint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Colour(colour) if colour.a == 255 => f.write_str(&colour.hex()),
@@ -55,9 +55,9 @@ impl fmt::Display for Paint {
 
 /// How a shape is painted; lengths in px.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ink {
+pub struct ShapeInk {
     /// Colour, or the description of another paint.
-    pub paint: Paint,
+    pub paint: ShapePaint,
     /// Line width; 0 for regions.
     pub width: f64,
     /// Lengths of dashes and gaps in turn; empty for solid lines.
@@ -83,10 +83,10 @@ pub(crate) fn is_text(words: &str) -> bool {
     words.starts_with("the text ")
 }
 
-impl Ink {
+impl ShapeInk {
     /// Ink of a region.
     #[must_use]
-    pub const fn region(paint: Paint, tone: Option<u16>) -> Self {
+    pub const fn region(paint: ShapePaint, tone: Option<u16>) -> Self {
         Self {
             paint,
             width: 0.0,
@@ -103,12 +103,12 @@ impl Ink {
 
     /// Whether the ink stands for a text.
     pub(crate) fn is_text(&self) -> bool {
-        matches!(&self.paint, Paint::Other(words) if is_text(words))
+        matches!(&self.paint, ShapePaint::Other(words) if is_text(words))
     }
 
     /// Whether the ink stands for a text or a picture.
     pub(crate) fn is_stand_in(&self) -> bool {
-        matches!(&self.paint, Paint::Other(words) if words.starts_with("the "))
+        matches!(&self.paint, ShapePaint::Other(words) if words.starts_with("the "))
     }
 
     /// Whether two inks look equal.

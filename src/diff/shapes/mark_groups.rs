@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::ignore_options::Ignore;
-use super::ink::Ink;
+use super::ink::ShapeInk;
 use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
 use super::tolerance_table::{Tolerances, default_px};
@@ -31,7 +31,7 @@ pub(crate) struct MarkGroup {
     /// Part of the model.
     part: Option<Arc<str>>,
     label: usize,
-    ink: Ink,
+    ink: ShapeInk,
     /// Largest distance in px between marks that count as equal.
     pub tolerance: f64,
 }
@@ -97,10 +97,17 @@ impl MarkGroups {
 }
 
 /// An ink as a hash key, with numbers by their bits.
-type InkKey =
-    (super::ink::Paint, u64, Vec<u64>, [u8; 4], Option<u16>, u16, Option<Arc<super::placeholder::Details>>);
+type InkKey = (
+    super::ink::ShapePaint,
+    u64,
+    Vec<u64>,
+    [u8; 4],
+    Option<u16>,
+    u16,
+    Option<Arc<super::placeholder::Details>>,
+);
 
-fn key(ink: &Ink) -> InkKey {
+fn key(ink: &ShapeInk) -> InkKey {
     let dash = ink.dash.iter().map(|length| length.to_bits()).collect();
     let forms = [ink.cap as u8, ink.join as u8, u8::from(ink.outlined), u8::from(ink.is_crisp)];
     (ink.paint.clone(), ink.width.to_bits(), dash, forms, ink.tone, ink.invisibility, ink.details.clone())

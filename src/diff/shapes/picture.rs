@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use kurbo::BezPath;
 
-use super::ink::Ink;
+use super::ink::ShapeInk;
 use super::label::Label;
 use crate::diff::raster_check::RenderTree;
 use crate::drawing::Unit;
@@ -32,7 +32,7 @@ pub struct Shape {
     /// Whether the fill rule of a region is even-odd.
     pub even_odd: bool,
     /// How the shape is painted.
-    pub ink: Ink,
+    pub ink: ShapeInk,
     /// Label of the shape.
     pub label: Arc<Label>,
     /// Material, where the file names one. It is not compared.

@@ -98,7 +98,11 @@ const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 
 /// Properties of an element in order of increasing precedence: attributes, style sheets, own style, important
 /// declarations.
-fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) -> Vec<(&'static str, String)> {
+fn cascaded_properties(
+    node: Node,
+    declared: &[Declaration],
+    known: &[(&'static str, &str)],
+) -> Vec<(&'static str, String)> {
     let own = css_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
     let attributes = node.attributes().filter(|a| a.namespace().is_none()).map(|a| (a.name(), a.value()));
     let listed = |important: bool| {
@@ -117,7 +121,7 @@ fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) ->
 
 /// Properties inherited by the children of an element.
 pub(crate) fn inherit(around: &Arc<Props>, node: Node, declared: &[Declaration]) -> Arc<Props> {
-    let said = said(node, declared, &INHERITED_PROPERTIES);
+    let said = cascaded_properties(node, declared, &INHERITED_PROPERTIES);
     if said.is_empty() {
         return Arc::clone(around);
     }
@@ -204,8 +208,8 @@ pub(crate) fn text(
 ) -> Result<Placeholder, Error> {
     let mut text = TextRuns::default();
     let mut props = around.clone();
-    props.extend(said(node, declared, &INHERITED_PROPERTIES));
-    props.extend(said(node, declared, &OWN_PROPERTIES).into_iter().filter(|(name, value)| {
+    props.extend(cascaded_properties(node, declared, &INHERITED_PROPERTIES));
+    props.extend(cascaded_properties(node, declared, &OWN_PROPERTIES).into_iter().filter(|(name, value)| {
         // The rectangle has a single position, so positions per letter are part of the properties.
         !BOX_PROPERTIES.contains(name) || matches!(*name, "x" | "y") && value.contains(' ')
     }));
@@ -258,11 +262,10 @@ impl TextRuns {
             let mut inner = props.clone();
             // Letter positions apply only to the piece that sets them.
             inner.retain(|name, _| !matches!(*name, "x" | "y" | "dx" | "dy" | "rotate"));
-            for (name, value) in said(child, &declared, &INHERITED_PROPERTIES).into_iter().chain(said(
-                child,
-                &declared,
-                &OWN_PROPERTIES,
-            )) {
+            for (name, value) in cascaded_properties(child, &declared, &INHERITED_PROPERTIES)
+                .into_iter()
+                .chain(cascaded_properties(child, &declared, &OWN_PROPERTIES))
+            {
                 // Text decorations accumulate through nested elements.
                 match inner.get_mut(name) {
                     Some(outer) if name.starts_with("text-decoration") => {
@@ -334,7 +337,7 @@ pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> O
         details.insert("fitted".to_owned(), fitted);
     }
     let mut props = around.clone();
-    props.extend(said(node, declared, &INHERITED_PROPERTIES));
+    props.extend(cascaded_properties(node, declared, &INHERITED_PROPERTIES));
     if let Some(smooth) = props.get("image-rendering").filter(|value| *value != "auto") {
         details.insert("image-rendering".to_owned(), smooth.clone());
     }

@@ -1,16 +1,16 @@
-//! [`ConvexPolygon`]: intersection of two triangles in the plane, and its area.
+//! [`TriangleOverlap`]: intersection of two triangles in the plane, and its area.
 
 use glam::DVec2;
 
 /// Convex polygon of at most 8 corners. Two triangles intersect in at most 6, and each of two further cuts
 /// adds one.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ConvexPolygon {
+pub(crate) struct TriangleOverlap {
     corners: [DVec2; 8],
     count: usize,
 }
 
-impl ConvexPolygon {
+impl TriangleOverlap {
     fn push(&mut self, corner: DVec2) {
         if let Some(slot) = self.corners.get_mut(self.count) {
             *slot = corner;
@@ -19,7 +19,7 @@ impl ConvexPolygon {
     }
 }
 
-impl std::ops::Deref for ConvexPolygon {
+impl std::ops::Deref for TriangleOverlap {
     type Target = [DVec2];
 
     fn deref(&self) -> &[DVec2] {
@@ -28,7 +28,7 @@ impl std::ops::Deref for ConvexPolygon {
 }
 
 /// Intersection of two counter-clockwise triangles.
-pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> ConvexPolygon {
+pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> TriangleOverlap {
     // Most triangles with overlapping boxes are separated by a side of one of them.
     let are_parted = |one: &[DVec2; 3], other: &[DVec2; 3]| {
         (0..3).any(|k| {
@@ -37,9 +37,9 @@ pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> ConvexPolygon {
         })
     };
     if are_parted(one, other) || are_parted(other, one) {
-        return ConvexPolygon::default();
+        return TriangleOverlap::default();
     }
-    let mut polygon = ConvexPolygon::default();
+    let mut polygon = TriangleOverlap::default();
     other.iter().for_each(|p| polygon.push(*p));
     for k in 0..3 {
         let (from, to) = (one[k], one[(k + 1) % 3]);
@@ -53,8 +53,8 @@ pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> ConvexPolygon {
 
 /// Part of a convex polygon where a linear function is not negative. Source: Sutherland and Hodgman,
 /// Reentrant polygon clipping, 1974.
-pub(crate) fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> ConvexPolygon {
-    let mut left = ConvexPolygon::default();
+pub(crate) fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> TriangleOverlap {
+    let mut left = TriangleOverlap::default();
     let Some(last) = polygon.last() else { return left };
     let (mut before, mut side_before) = (*last, side(last));
     for corner in polygon {

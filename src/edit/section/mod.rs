@@ -196,7 +196,7 @@ fn cap_solids(opened: &mut [CutSolid], plane: &Plane) -> Vec<SectionCap> {
     });
     let mut made: Vec<SectionCap> = opened.iter().map(|_| SectionCap::default()).collect();
     for first in 0..opened.len() as u32 {
-        let is_in = |k: usize| groups.of(k as u32) == groups.of(first);
+        let is_in = |k: usize| groups.representative(k as u32) == groups.representative(first);
         if (0..first as usize).any(is_in) {
             continue;
         }

@@ -31,11 +31,11 @@ pub(crate) fn orient_surfaces<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, G
         ConnectedTriangles { positions: &shape.positions, triangles: &triangles, parts: &[], edges: &edges };
     let mut surfaces = OrientedSurfaces::new(&mesh);
     let inset = CutTolerances::of(shape, &DAffine3::IDENTITY).plane;
-    if turn_voids(&mesh, &mut surfaces, inset).is_none() || surfaces.turned.is_empty() {
+    if turn_voids(&mesh, &mut surfaces, inset).is_none() || surfaces.is_turned.is_empty() {
         return Cow::Borrowed(shape);
     }
     let mut shape = shape.clone();
-    for (face, _) in faces.into_iter().zip(&surfaces.turned).filter(|(_, turned)| **turned) {
+    for (face, _) in faces.into_iter().zip(&surfaces.is_turned).filter(|(_, turned)| **turned) {
         shape.turn(face);
     }
     Cow::Owned(shape)
@@ -71,12 +71,12 @@ fn turn_voids(mesh: &ConnectedTriangles, surfaces: &mut OrientedSurfaces, inset:
         let surface = ray.surface as usize;
         is_void[surface] &= ray.turns * ways[surface] < 0;
     }
-    surfaces.turned.resize(mesh.triangles.len(), false);
-    for (turned, surface) in surfaces.turned.iter_mut().zip(&surfaces.of_face.of_face) {
+    surfaces.is_turned.resize(mesh.triangles.len(), false);
+    for (turned, surface) in surfaces.is_turned.iter_mut().zip(&surfaces.surface_of_face.set_of_face) {
         *turned ^= is_void[*surface as usize];
     }
-    if !surfaces.turned.contains(&true) {
-        surfaces.turned.clear();
+    if !surfaces.is_turned.contains(&true) {
+        surfaces.is_turned.clear();
     }
     Some(())
 }
@@ -84,7 +84,9 @@ fn turn_voids(mesh: &ConnectedTriangles, surfaces: &mut OrientedSurfaces, inset:
 /// Winding of each surface in the file: 1 if most of its area faces outward, -1 if inward.
 fn file_winding_signs(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces) -> Vec<i32> {
     let mut outward = vec![0.0; surfaces.is_closed.len()];
-    for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+    for (face, (corners, surface)) in
+        mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face).enumerate()
+    {
         let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
         let area = (b - a).cross(c - a).length();
         outward[*surface as usize] += if is_turned(surfaces, face) { -area } else { area };
@@ -93,7 +95,7 @@ fn file_winding_signs(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces) ->
 }
 
 fn is_turned(surfaces: &OrientedSurfaces, face: usize) -> bool {
-    surfaces.turned.get(face).copied().unwrap_or_default()
+    surfaces.is_turned.get(face).copied().unwrap_or_default()
 }
 
 /// Whether the box of each closed surface lies in the box of another one, boundaries included.
@@ -104,7 +106,7 @@ fn closed_in_boxes(
 ) -> Option<Vec<bool>> {
     let count = surfaces.is_closed.len();
     let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
-    for (corners, surface) in mesh.triangles.iter().zip(&surfaces.of_face.of_face) {
+    for (corners, surface) in mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face) {
         let [low, high] = &mut boxes[*surface as usize];
         for p in corners.map(|v| mesh.positions[v as usize]) {
             (*low, *high) = (low.min(p), high.max(p));
@@ -159,7 +161,9 @@ impl VertexRays {
     /// 2005: the inward direction at a vertex is against its angle-weighted normal.
     fn new(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces, (wanted, inset): (&[bool], f64)) -> Self {
         let mut corners: Vec<((u32, u32), DVec3)> = Vec::new();
-        for (face, (t, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+        for (face, (t, surface)) in
+            mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face).enumerate()
+        {
             if !wanted[*surface as usize] {
                 continue;
             }
@@ -209,7 +213,9 @@ impl VertexRays {
         ways: &[i32],
         mut budget: usize,
     ) -> Option<()> {
-        for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+        for (face, (corners, surface)) in
+            mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face).enumerate()
+        {
             if !surfaces.is_closed[*surface as usize] {
                 continue;
             }

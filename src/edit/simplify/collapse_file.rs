@@ -13,7 +13,7 @@
 
 use super::collapse_record::CollapseRecord;
 use super::edge_collapse::{Collapser, DEGENERATE_STEP};
-use super::flat_surface::FlatSurface;
+use super::flat_surface::IndexedSurface;
 use crate::error::{Error, ErrorKind};
 use crate::scene::Scene;
 
@@ -24,7 +24,7 @@ const FILE_VERSION: u8 = 1;
 pub(crate) fn written(record: &CollapseRecord, scene: &Scene) -> Vec<u8> {
     let mut bytes = FILE_MAGIC.to_vec();
     bytes.push(FILE_VERSION);
-    bytes.extend(model_checksum(&FlatSurface::of(scene)).to_le_bytes());
+    bytes.extend(model_checksum(&IndexedSurface::of(scene)).to_le_bytes());
     let steps = || record.steps.iter().filter(|step| step.from != DEGENERATE_STEP);
     put(&mut bytes, steps().count() as u64);
     for step in steps() {
@@ -47,7 +47,7 @@ pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<CollapseRecord, Error>
             .remedy("write them again with ligne lod"));
     }
     let (sum, mut rest) = rest.split_first_chunk().ok_or_else(cut_off)?;
-    let flat = FlatSurface::of(scene);
+    let flat = IndexedSurface::of(scene);
     if u64::from_le_bytes(*sum) != model_checksum(&flat) {
         return Err(Error::new(
             "these levels of detail belong to another model, or to an older version of it",
@@ -119,7 +119,7 @@ impl Checksum {
 }
 
 /// Checksum of everything that determines the order of collapses.
-fn model_checksum(flat: &FlatSurface) -> u64 {
+fn model_checksum(flat: &IndexedSurface) -> u64 {
     let mut sum = Checksum::default();
     sum.add_all(flat.points.iter(), |p| {
         let [x, y, z] = p.to_array().map(f64::to_bits);

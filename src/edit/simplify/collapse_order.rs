@@ -5,7 +5,7 @@ use crate::parallel::prelude::*;
 use super::collapse_record::{CollapseRecord, NO_INDEX};
 use super::cost_heap::CostHeap;
 use super::edge_collapse::{Collapser, opposite_points};
-use super::flat_surface::FlatSurface;
+use super::flat_surface::IndexedSurface;
 use super::point_constraints::PointConstraint;
 use crate::edit::tolerances::LENGTH_COST_WEIGHT;
 
@@ -25,7 +25,7 @@ pub(crate) struct FaceBudget<'a> {
 }
 
 /// Finds the collapses of a surface in their order, until the budget is met or none is possible.
-pub(crate) fn record_collapses(flat: FlatSurface, budget: &FaceBudget) -> CollapseRecord {
+pub(crate) fn record_collapses(flat: IndexedSurface, budget: &FaceBudget) -> CollapseRecord {
     let mut queue = CollapseQueue::new(Collapser::new(flat), budget);
     queue.start();
     for _ in 0..MAX_RETRY_ROUNDS {

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::collapse_record::{Collapse, CollapseRecord, NO_INDEX, WedgeChange};
-use super::flat_surface::FlatSurface;
+use super::flat_surface::IndexedSurface;
 use super::point_constraints::{PointConstraint, Site, sites};
 use super::point_faces::PointFaces;
 
@@ -25,7 +25,7 @@ const MIN_SLIVER_SHARE_KEPT: f64 = 0.3;
 
 /// A surface under simplification.
 pub(crate) struct Collapser {
-    pub flat: FlatSurface,
+    pub flat: IndexedSurface,
     /// Points of each face; [`NO_INDEX`] for removed faces.
     pub corners: Vec<[u32; 3]>,
     pub fans: PointFaces,
@@ -43,7 +43,7 @@ pub(crate) struct Collapser {
 
 impl Collapser {
     /// The surface before any collapse. A first step removes faces with two corners at one point.
-    pub fn new(flat: FlatSurface) -> Self {
+    pub fn new(flat: IndexedSurface) -> Self {
         let mut corners = flat.corners();
         let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
         let fans = PointFaces::new(flat.points.len(), &corners, |face| is_none(corners[face]));

@@ -1,4 +1,4 @@
-//! [`FlatSurface`]: all drawn triangles of a scene, as points, wedges and faces in plain arrays.
+//! [`IndexedSurface`]: all drawn triangles of a scene, as points, wedges and faces in plain arrays.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ use crate::scene::{Geometry, Material, Scene};
 /// A point is a position; the wedges at a point differ in vertex, normal or texture coordinates. Geometries
 /// with a single instance are welded with each other in world space.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct FlatSurface {
+pub(crate) struct IndexedSurface {
     /// Positions of the points, centred and scaled so that the scene has size 1.
     pub points: Vec<DVec3>,
     /// Attributes of each wedge.
@@ -48,7 +48,7 @@ pub(crate) struct FlatSurface {
     pub weights: Vec<f64>,
 }
 
-impl FlatSurface {
+impl IndexedSurface {
     /// Builds the surface of a scene.
     pub fn of(scene: &Scene) -> Self {
         let shown = shown(scene);

@@ -48,7 +48,7 @@ use crate::scene::Scene;
 use collapse_order::{FaceBudget, record_collapses};
 use collapse_record::CollapseRecord;
 use detail_levels::shown;
-use flat_surface::FlatSurface;
+use flat_surface::IndexedSurface;
 
 /// The collapses that reduce a scene to its fewest faces, in the order of the error that they add.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,7 @@ impl Detail {
     #[must_use]
     pub fn down_to(scene: &Scene, faces: u64) -> Self {
         let budget = FaceBudget { shown: &shown(scene), most: faces };
-        Self { record: record_collapses(FlatSurface::of(scene), &budget) }
+        Self { record: record_collapses(IndexedSurface::of(scene), &budget) }
     }
 
     /// Writes the collapses of `scene`, the scene for which they were found, to the bytes of a file. Reading

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::collapse_record::NO_INDEX;
 use super::error_quadric::Quadric;
-use super::flat_surface::FlatSurface;
+use super::flat_surface::IndexedSurface;
 use super::point_faces::PointFaces;
 
 /// Weight of a plane that holds a border in its place, relative to the area of the adjacent faces.
@@ -69,7 +69,7 @@ struct FaceSide {
 }
 
 /// Initial state of each point.
-pub(crate) fn sites(flat: &FlatSurface, corners: &[[u32; 3]], fans: &PointFaces) -> Vec<Site> {
+pub(crate) fn sites(flat: &IndexedSurface, corners: &[[u32; 3]], fans: &PointFaces) -> Vec<Site> {
     let normal = |corners: &[u32; 3]| match corners.contains(&NO_INDEX) {
         true => DVec3::ZERO,
         false => doubled_area(corners.map(|point| flat.points[point as usize])),
@@ -89,7 +89,7 @@ pub(crate) fn sites(flat: &FlatSurface, corners: &[[u32; 3]], fans: &PointFaces)
 }
 
 fn site(
-    flat: &FlatSurface,
+    flat: &IndexedSurface,
     corners: &[[u32; 3]],
     fans: &PointFaces,
     planes: &[(DVec3, f64)],

@@ -53,7 +53,7 @@ const MIN_CIRCLE_POINTS: usize = 8;
 
 /// Fits lines and arcs to each subpath of a path transformed by `place`. `tolerance` is the largest distance,
 /// in units after the transform. Subpaths with points that are not finite are left out.
-pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<FittedCurve> {
+pub(crate) fn fit_curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<FittedCurve> {
     let within = tolerance * (1.0 - FLATTENING_SHARE);
     let moved = place * path;
     let subpaths = PathSteps::of(moved.elements(), tolerance * FLATTENING_SHARE);
@@ -128,8 +128,8 @@ fn pieces(points: &[Point], tolerance: f64) -> Vec<FittedPiece> {
     let mut pieces = Vec::new();
     let mut at = 0;
     while at + 1 < points.len() {
-        let (straight, _) = furthest(points, at, 1, |run| is_straight(run, tolerance).then_some(0.0));
-        let (round, bulge) = furthest(points, at, 2, |run| arc(run, tolerance));
+        let (straight, _) = farthest_fit(points, at, 1, |run| is_straight(run, tolerance).then_some(0.0));
+        let (round, bulge) = farthest_fit(points, at, 2, |run| arc(run, tolerance));
         let (end, bulge) = if round > straight { (round, bulge) } else { (straight, 0.0) };
         pieces.push(FittedPiece { end: points[end], bulge });
         at = end;
@@ -139,7 +139,7 @@ fn pieces(points: &[Point], tolerance: f64) -> Vec<FittedPiece> {
 
 /// Index of the farthest point that one piece from the point `from` can reach, and the bulge of that piece.
 /// Searched by doubling steps from `least`, then bisection. `fits` returns the bulge if a piece fits.
-fn furthest(
+fn farthest_fit(
     points: &[Point],
     from: usize,
     least: usize,
@@ -215,7 +215,8 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
 fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let mut turn = 0.0;
     for pair in run.windows(2) {
-        let Chord { step, off, rise } = Chord::new([pair[0], pair[1]], centre, radius)?;
+        let ArcChord { angle: step, end_distance: off, sagitta: rise } =
+            ArcChord::new([pair[0], pair[1]], centre, radius)?;
         if off + rise > tolerance || step == 0.0 || step * turn < 0.0 {
             return None;
         }
@@ -229,7 +230,8 @@ fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Opti
 fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
     for pair in run.windows(2) {
-        let Chord { step, off, rise } = Chord::new([pair[0], pair[1]], centre, radius)?;
+        let ArcChord { angle: step, end_distance: off, sagitta: rise } =
+            ArcChord::new([pair[0], pair[1]], centre, radius)?;
         if off > tolerance || rise > MAX_FACET_RISE_TOLERANCES * tolerance || step == 0.0 || step * turn < 0.0
         {
             return None;
@@ -241,22 +243,26 @@ fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> 
 }
 
 /// A chord compared with a circle.
-struct Chord {
+struct ArcChord {
     /// Angle it subtends at the centre, radians, positive from x to y.
-    step: f64,
+    angle: f64,
     /// Larger distance of its ends from the circle.
-    off: f64,
+    end_distance: f64,
     /// Sagitta: distance between the middle of the chord and that of the arc.
-    rise: f64,
+    sagitta: f64,
 }
 
-impl Chord {
+impl ArcChord {
     fn new([a, b]: [Point; 2], centre: Point, radius: f64) -> Option<Self> {
         let (from, to) = (a - centre, b - centre);
         let half = (b - a).hypot() / 2.0;
         let rise = radius - (radius * radius - half * half).max(0.0).sqrt();
         let off = (from.hypot() - radius).abs().max((to.hypot() - radius).abs());
-        (half <= radius).then(|| Self { step: atan2(from.cross(to), from.dot(to)), off, rise })
+        (half <= radius).then(|| Self {
+            angle: atan2(from.cross(to), from.dot(to)),
+            end_distance: off,
+            sagitta: rise,
+        })
     }
 }
 

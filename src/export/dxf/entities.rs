@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use kurbo::Point;
 
-use super::arc_fitting::{FittedCurve, FittedPiece, circle_of, curves};
+use super::arc_fitting::{FittedCurve, FittedPiece, circle_of, fit_curves};
 use super::dxf_source::{DxfSource, DxfVersion};
 use super::group_codes::GroupCodes;
 use super::layer_table::{DxfLayer, DxfLayers, LayerPen, pen_of};
@@ -17,13 +17,13 @@ use crate::geometry::numbers::portable_math::atan2;
 const MAX_TEXT_BYTES: usize = 250;
 
 /// All entities of a drawing as group codes.
-pub(crate) struct Entities {
+pub(crate) struct DxfEntities {
     pub(crate) tags: GroupCodes,
     /// The first unused handle.
     pub(crate) next_handle: u32,
 }
 
-impl Entities {
+impl DxfEntities {
     pub(crate) fn of(sheet: &DxfSource, layers: &DxfLayers) -> Self {
         let next_handle = super::objects::FIRST_ENTITY_HANDLE;
         let mut writer = EntityWriter { sheet, own: Self { tags: GroupCodes::default(), next_handle } };
@@ -39,7 +39,7 @@ impl Entities {
 /// Writer of entities.
 struct EntityWriter<'a> {
     sheet: &'a DxfSource<'a>,
-    own: Entities,
+    own: DxfEntities,
 }
 
 /// Properties shared by all entities of a mark.
@@ -55,9 +55,11 @@ impl EntityWriter<'_> {
         let common =
             EntityCommon { layer, pen: pen_of(self.sheet, mark), part: mark.provenance.part.as_deref() };
         match &mark.paint {
-            Paint::Stroke(_) => self.lines(&curves(&mark.path, place, tolerance), &common),
-            Paint::Outline(outline) => self.lines(&curves(&outline.axis, place, tolerance), &common),
-            Paint::Fill(_) | Paint::Gradient(_) => self.hatch(&curves(&mark.path, place, tolerance), &common),
+            Paint::Stroke(_) => self.lines(&fit_curves(&mark.path, place, tolerance), &common),
+            Paint::Outline(outline) => self.lines(&fit_curves(&outline.axis, place, tolerance), &common),
+            Paint::Fill(_) | Paint::Gradient(_) => {
+                self.hatch(&fit_curves(&mark.path, place, tolerance), &common)
+            }
             Paint::Image(_) => {}
         }
     }

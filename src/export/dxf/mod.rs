@@ -27,7 +27,7 @@ pub use dxf_source::{DxfLength, DxfOptions, DxfVersion};
 
 use crate::drawing::Drawing;
 use dxf_source::{DxfSource, is_exported, is_exported_layer};
-use entities::Entities;
+use entities::DxfEntities;
 use group_codes::GroupCodes;
 use layer_table::DxfLayers;
 
@@ -53,7 +53,7 @@ impl Drawing {
     pub fn to_dxf(&self, options: &DxfOptions) -> Vec<u8> {
         let sheet = DxfSource::new(self, options);
         let layers = DxfLayers::of(&sheet);
-        let entities = Entities::of(&sheet, &layers);
+        let entities = DxfEntities::of(&sheet, &layers);
         let mut tags = GroupCodes::default();
         tables::header(&mut tags, &sheet, entities.next_handle);
         tables::write(&mut tags, &sheet, &layers);

@@ -13,7 +13,7 @@ pub(crate) const NO_DOMAIN: u32 = u32::MAX;
 /// The domain of each cell.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Domains {
-    of: Vec<u32>,
+    domain_of_cell: Vec<u32>,
 }
 
 impl Domains {
@@ -21,16 +21,21 @@ impl Domains {
     pub fn of_facets(ground: &HatchRegions, inked: &[bool]) -> Self {
         let of =
             |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { NO_DOMAIN };
-        Self { of: (0u32..).zip(inked).map(of).collect() }
+        Self { domain_of_cell: (0u32..).zip(inked).map(of).collect() }
     }
 
     /// Makes each inked cell its own domain.
     pub fn of_cells(inked: &[bool]) -> Self {
-        Self { of: (0u32..).zip(inked).map(|(cell, inked)| if *inked { cell } else { NO_DOMAIN }).collect() }
+        Self {
+            domain_of_cell: (0u32..)
+                .zip(inked)
+                .map(|(cell, inked)| if *inked { cell } else { NO_DOMAIN })
+                .collect(),
+        }
     }
 
     /// Joins the inked cells of one part, material and tone.
-    pub fn of_looks(ground: &HatchRegions, inked: &[bool]) -> Self {
+    pub fn by_label(ground: &HatchRegions, inked: &[bool]) -> Self {
         let mut numbers = BTreeMap::new();
         let of = |(cell, inked): (u32, &bool)| {
             let look = ground.cells[cell as usize].look;
@@ -40,17 +45,17 @@ impl Domains {
                 NO_DOMAIN
             }
         };
-        Self { of: (0u32..).zip(inked).map(of).collect() }
+        Self { domain_of_cell: (0u32..).zip(inked).map(of).collect() }
     }
 
     /// The domain of a cell, or [`NO_DOMAIN`].
-    pub fn of(&self, cell: u32) -> u32 {
-        self.of.get(cell as usize).copied().unwrap_or(NO_DOMAIN)
+    pub fn domain(&self, cell: u32) -> u32 {
+        self.domain_of_cell.get(cell as usize).copied().unwrap_or(NO_DOMAIN)
     }
 
     /// The domains on the two sides of a border piece, if they differ.
     pub fn differing_domains(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
-        let sides = piece.sides.map(|cell| self.of(cell));
+        let sides = piece.sides.map(|cell| self.domain(cell));
         (sides[0] != sides[1]).then_some(sides)
     }
 }

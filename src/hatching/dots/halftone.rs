@@ -240,7 +240,7 @@ impl DotClipper<'_> {
                 self.whole(row, spot, &mut dots);
             }
             let spot = spots.next_if(|spot| spot.column == column);
-            let own = spot.map(|spot| self.domains.of(spot.cell));
+            let own = spot.map(|spot| self.domains.domain(spot.cell));
             let mut is_met = false;
             for met in at_column.chunk_by(|a, b| a.domain == b.domain) {
                 is_met |= own == Some(met[0].domain);
@@ -269,7 +269,9 @@ impl DotClipper<'_> {
         let pieces: Vec<([Point; 2], u32)> = met
             .iter()
             .filter_map(|m| {
-                directed_border(&self.ground.pieces[m.piece as usize], |cell| self.domains.of(cell) == domain)
+                directed_border(&self.ground.pieces[m.piece as usize], |cell| {
+                    self.domains.domain(cell) == domain
+                })
             })
             .collect();
         let (cell, radius) = match own {

@@ -30,9 +30,9 @@ impl<'a> GuideDirections<'a> {
     /// The field that smooths the axes given at the points of a lattice.
     #[must_use]
     pub fn new(samples: &'a LightLattice, axes: &DirectionField) -> Self {
-        let given = &axes.of;
+        let given = &axes.directions;
         let axes = samples.spread(given.clone(), SPREAD_ROUNDS, |k, own, around| {
-            if samples.facets[k] == 0 || axes.hold[k] {
+            if samples.facets[k] == 0 || axes.is_independent[k] {
                 return own;
             }
             let sure = (given[k][0] * given[k][0] + given[k][1] * given[k][1]).sqrt();

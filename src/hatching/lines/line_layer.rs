@@ -41,7 +41,7 @@ pub(crate) fn lines(
             let look = ground.cells[cell as usize].look;
             let swollen = |cell: u32, p: Point| {
                 let covered = covered_at(ground, context, layer, cell, p);
-                tone::shares(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
+                tone::coverage_per_layer(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
             };
             let pressure = if layer.pressure > 0.0 { stroke_path::pressure(*degree) } else { 1.0 };
             let nib = HatchNib { width: width * pressure, taper: layer.taper, px };

@@ -87,7 +87,7 @@ pub fn pattern(
     let cut: Vec<Vec<(u32, BezPath)>> = lines.par_iter().with_min_len(16).map(cut).collect();
     let mut marks = marks_by_look(cut.into_iter().flatten(), ground, context, own, Some(long(own.width)));
     if own.kind == PatternKind::Tile && !own.tile.shapes.is_empty() {
-        let domains = Domains::of_looks(ground, &wanted);
+        let domains = Domains::by_label(ground, &wanted);
         let shapes = TilePlacement::new(size, angle, own.tile.height, [low, high]).shapes(&own.tile);
         let cut = |rings: Vec<Vec<Point>>| {
             clip_to_domains(ground, &domains, |_| true, FilledShape { rings, whole: None })

@@ -39,7 +39,7 @@ pub(crate) fn clip_to_domains(
 ) -> Vec<(u32, BezPath)> {
     let Some(bounds) = rings_bounds(&shape.rings) else { return Vec::new() };
     let around = clip_reach(bounds);
-    let own = |cell: u32| Some(domains.of(cell)).filter(|domain| *domain != NO_DOMAIN && wanted(*domain));
+    let own = |cell: u32| Some(domains.domain(cell)).filter(|domain| *domain != NO_DOMAIN && wanted(*domain));
     let near: Vec<u32> = ground
         .pieces_near(around.center(), around.width().max(around.height()) / 2.0)
         .into_iter()

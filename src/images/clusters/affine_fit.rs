@@ -32,7 +32,7 @@ impl AffineFit {
     }
 
     /// Error of the map at a corner: distance on the page, and in texels.
-    pub fn miss(&self, corner: &FacetCorner) -> (f64, f64) {
+    pub fn error(&self, corner: &FacetCorner) -> (f64, f64) {
         let off = corner.place - self.place(corner.image.truncate());
         ((self.page_from_place * off).length(), off.length())
     }
@@ -136,7 +136,7 @@ mod tests {
         let affine = |x: f64, y: f64| corner(x, y, 2.0 * x - y + 700.0, 0.5 * y + x - 3.0);
         let map =
             solved(&[affine(1.0, 2.0), affine(30.0, -4.0), affine(9.0, 50.0), affine(3.0, 3.0)]).unwrap();
-        let (page, off) = map.miss(&affine(500.0, 77.0));
+        let (page, off) = map.error(&affine(500.0, 77.0));
         assert!(page < 1e-9 && off < 1e-9, "{page} {off}");
         let (matrix, origin) = map.to_page();
         let there = matrix * DVec2::new(701.0, -1.5) + origin;
@@ -150,7 +150,7 @@ mod tests {
         let map = solved(&corners).unwrap();
         let (matrix, _) = map.to_page();
         assert!(matrix.is_finite() && matrix.determinant() != 0.0);
-        assert!(corners.iter().all(|corner| map.miss(corner).1 < 0.3));
+        assert!(corners.iter().all(|corner| map.error(corner).1 < 0.3));
         assert!((map.place(DVec2::new(4.0, 0.0)).x - 9.0).abs() < 0.1);
         assert!(solved(&[line(0.0, 0.0), line(1.0, 1.0), line(2.0, 2.0)]).is_none());
     }

@@ -269,7 +269,7 @@ impl ClusterGrowth {
         }
         let map = wider.sums.solved()?;
         let is_right = |(_, corner): &(u32, FacetCorner)| {
-            let (page, texels) = map.miss(corner);
+            let (page, texels) = map.error(corner);
             page <= fit.tolerance || texels <= MAX_ERROR_TEXELS
         };
         wider.corners.iter().all(is_right).then_some((wider, map))

@@ -16,7 +16,7 @@ const MAX_HALVINGS: u32 = 20;
 
 /// Facets of the faces that show a picture and may be visible.
 pub(crate) fn visible_facets(stage: &ImageContext, imaged: &EmbeddedTexture) -> Vec<Facet> {
-    let ImageContext { mesh, view, screen, in_front, crossings, px, .. } = *stage;
+    let ImageContext { mesh, view, screen, visible_faces: in_front, crossings, px, .. } = *stage;
     let frame = &view.frame;
     let mut facets = Vec::new();
     let texels = imaged.texels();

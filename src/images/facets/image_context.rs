@@ -17,7 +17,7 @@ pub(crate) struct ImageContext<'a> {
     /// The projected mesh over a grid of pixels.
     pub screen: &'a PixelGrid<'a>,
     /// Faces that may be visible; images are projected for these only.
-    pub in_front: &'a VisibleFaces,
+    pub visible_faces: &'a VisibleFaces,
     /// Lines where faces intersect. Faces are cut there, so that a painting order exists.
     pub crossings: &'a FaceCrossings,
     /// Offset of the camera's frame on the page, user units.
@@ -25,5 +25,5 @@ pub(crate) struct ImageContext<'a> {
     /// Length of a px in user units.
     pub px: f64,
     /// Largest number of image pixels per px of the page.
-    pub samples: f64,
+    pub max_pixels_per_px: f64,
 }

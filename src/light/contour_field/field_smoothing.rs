@@ -124,7 +124,7 @@ fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
         }
         let middle = squares.len() / 2;
         let (_, median, _) = squares.select_nth_unstable_by(middle, f64::total_cmp);
-        let extent = mesh.extents.of(PartId::from(part));
+        let extent = mesh.extents.part(PartId::from(part));
         let depth = frame.depth(extent.middle()).max(extent.scale * tolerances::MIN_SMOOTHING_DEPTH_OF_PART);
         let edge = median.sqrt() / frame.px_at(depth);
         let rounds = SMOOTHING_RADIUS_PX * SMOOTHING_RADIUS_PX

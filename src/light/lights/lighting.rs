@@ -40,7 +40,7 @@ pub struct SurfacePoint {
     /// Unit normal of the visible side, local space. A surface without normal counts as turned to the eye.
     pub normal: DVec3,
     /// Share of the sky it sees, 0 (none) to 1 (all).
-    pub openness: f64,
+    pub ambient_visibility: f64,
 }
 
 /// Selection of lights.
@@ -347,7 +347,7 @@ impl Lighting {
 
     /// Share of the light left after ambient occlusion.
     fn open(&self, point: &SurfacePoint) -> f64 {
-        1.0 - self.occlusion * (1.0 - point.openness.clamp(0.0, 1.0))
+        1.0 - self.occlusion * (1.0 - point.ambient_visibility.clamp(0.0, 1.0))
     }
 }
 

@@ -13,7 +13,7 @@ use crate::light::tones::tone_ramps::{Strip, Table};
 use crate::light::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::mesh::{MaterialId, PaintId};
 use crate::scene::material::Gloss;
-use crate::scene::{Material, Paint, Scene};
+use crate::scene::{Material, MaterialPaint, Scene};
 
 const FIRST: PaintId = PaintId(0);
 const ORANGE: Colour = Colour::rgb(200, 120, 40);
@@ -344,7 +344,7 @@ fn materials_are_changed_by_name() {
 #[test]
 fn paints_of_a_material_have_its_tones_in_their_colours() {
     let scene = scene(&[("body", Colour::WHITE)]);
-    let paint = |colour| Paint { material: MaterialId(0), colour };
+    let paint = |colour| MaterialPaint { material: MaterialId(0), colour };
     let paints = [paint(Colour::WHITE), paint(Colour::BLACK), paint(ORANGE)];
     let mut options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
     let painted = |options: &ToneOptions| {

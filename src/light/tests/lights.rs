@@ -214,7 +214,7 @@ fn nooks_are_darker_and_lost_normals_look_at_the_eye() {
     let (shading_, _) = shading(&Scene::default(), &light, &ToneOptions::default());
     let mut at = point(DVec3::ZERO, DVec3::ZERO);
     near(shading_.value(0, ANY, &at, 0), 1.0);
-    at.openness = 0.5;
+    at.ambient_visibility = 0.5;
     near(shading_.value(0, ANY, &at, 0), 0.75);
     at.normal = DVec3::NAN;
     near(shading_.value(0, ANY, &at, 0), 0.75);

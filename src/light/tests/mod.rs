@@ -37,7 +37,7 @@ fn shading(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading
 }
 
 fn point(position: DVec3, normal: DVec3) -> SurfacePoint {
-    SurfacePoint { position, normal: normal.normalize_or_zero(), openness: 1.0 }
+    SurfacePoint { position, normal: normal.normalize_or_zero(), ambient_visibility: 1.0 }
 }
 
 fn near(a: f64, b: f64) {

@@ -9,7 +9,7 @@ use crate::light::lights::light_options::LightOptions;
 use crate::light::lights::lighting::{Caster, LampFilter, Lighting, SurfacePoint};
 use crate::light::{LightSlope, ShadeOptions};
 use crate::mesh::{Mesh, PaintId};
-use crate::scene::{Material, Paint, Scene};
+use crate::scene::{Material, MaterialPaint, Scene};
 use crate::view::Frame;
 
 /// Lighting of a view, and the tones of its surface.
@@ -38,7 +38,7 @@ impl Shading {
     #[must_use]
     pub fn new(
         scene: &Scene,
-        paints: &[Paint],
+        paints: &[MaterialPaint],
         mesh: &Mesh,
         frame: &Frame,
         light: &LightOptions,
@@ -102,7 +102,7 @@ impl Shading {
 
     /// Adds the bins of hatching. `paints` are the same as in [`Shading::new`].
     #[must_use]
-    pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
+    pub fn with_bins(mut self, scene: &Scene, paints: &[MaterialPaint], options: &ShadeOptions) -> Self {
         self.channels.push(ToneChannel::Shade);
         let without = Material::default();
         for (k, tones) in self.tones.iter_mut().enumerate() {
@@ -117,7 +117,7 @@ impl Shading {
 
     /// Channel whose levels are the bins of hatching, if there is one.
     #[must_use]
-    pub fn bins(&self) -> Option<usize> {
+    pub fn bin_channel(&self) -> Option<usize> {
         self.channels.iter().position(|channel| *channel == ToneChannel::Shade)
     }
 
@@ -125,7 +125,7 @@ impl Shading {
     /// several tones.
     #[must_use]
     pub fn most_levels(&self) -> usize {
-        let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
+        let others = || (0..self.channels.len()).filter(|channel| self.bin_channel() != Some(*channel));
         let of = |tones: &Tones| others().map(|channel| tones.levels(channel).len()).max();
         self.tones.iter().filter_map(of).max().unwrap_or_default()
     }

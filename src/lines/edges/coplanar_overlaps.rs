@@ -121,10 +121,12 @@ fn merge_planes(one: &[OverlapPiece], two: &[OverlapPiece]) -> Vec<OverlapPiece>
         let (start, end) = (pair[0], pair[1]);
         let there = || one.iter().chain(two).filter(|piece| piece.start <= start && piece.end >= end);
         let parted = there().find(|piece| piece.kind == LineKind::Material);
-        let Some(&OverlapPiece { kind, beyond, .. }) = parted.or_else(|| there().next()) else { continue };
+        let Some(&OverlapPiece { kind, outer_face: beyond, .. }) = parted.or_else(|| there().next()) else {
+            continue;
+        };
         match pieces.last_mut().filter(|last| last.end == start && last.kind == kind) {
             Some(last) => last.end = end,
-            None => pieces.push(OverlapPiece { start, end, kind, beyond }),
+            None => pieces.push(OverlapPiece { start, end, kind, outer_face: beyond }),
         }
     }
     pieces
@@ -159,7 +161,7 @@ impl OverlapLines {
             self.pieces.push(FeatureSegment {
                 ends,
                 kind: piece.kind,
-                hosts: [first, if second == NO_FACE { piece.beyond } else { second }],
+                hosts: [first, if second == NO_FACE { piece.outer_face } else { second }],
                 both_seen: is_material || segment.both_seen,
                 strength: if is_material { 0.0 } else { segment.strength },
                 smooth: false,
@@ -186,7 +188,7 @@ struct OverlapPiece {
     end: f64,
     kind: LineKind,
     /// Topmost face on the outer side of the edge.
-    beyond: u32,
+    outer_face: u32,
 }
 
 impl OverlapPiece {
@@ -209,7 +211,7 @@ struct EdgeProbe<'a> {
     inward: DVec3,
     length: f64,
     /// Distance of the test lines from the edge, world units.
-    beside: f64,
+    probe_offset: f64,
 }
 
 impl<'a> EdgeProbe<'a> {
@@ -224,7 +226,7 @@ impl<'a> EdgeProbe<'a> {
         let [first, second] = segment.hosts;
         let is_flat = second == NO_FACE || mesh.share_plane(first, second);
         let (kind, length) = (segment.kind, a.distance(b));
-        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
+        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, probe_offset: beside })
     }
 
     /// Pieces that are lines, from end to end. `faces` is a tree of the overlapping faces.
@@ -232,7 +234,7 @@ impl<'a> EdgeProbe<'a> {
         // Ranges of the two test lines that each face covers.
         let mut covers = [Vec::new(), Vec::new()];
         let to = self.from + self.along * self.length;
-        let room = DVec3::splat(2.0 * self.beside);
+        let room = DVec3::splat(2.0 * self.probe_offset);
         faces.near_box(self.from.min(to) - room, self.from.max(to) + room, |face| {
             if !self.mesh.share_plane(self.host, face) {
                 return;
@@ -244,7 +246,7 @@ impl<'a> EdgeProbe<'a> {
         });
         let mut cuts: Vec<f64> =
             covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
-        let least = MIN_PIECE_OFFSETS * self.beside / self.length;
+        let least = MIN_PIECE_OFFSETS * self.probe_offset / self.length;
         cuts.retain(|t| *t > least && *t < 1.0 - least);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a < least);
@@ -263,7 +265,7 @@ impl<'a> EdgeProbe<'a> {
                 .filter(|(last, own)| last.end == start && last.kind == kind && *own == sides)
             {
                 Some((last, _)) => last.end = end,
-                None => pieces.push((OverlapPiece { start, end, kind, beyond }, sides)),
+                None => pieces.push((OverlapPiece { start, end, kind, outer_face: beyond }, sides)),
             }
         }
         pieces.into_iter().map(|(piece, _)| piece).collect()
@@ -300,11 +302,11 @@ impl<'a> EdgeProbe<'a> {
         let [low, high] =
             [heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2])];
         // Early exit: most faces of a large plane lie far to one side.
-        if high < -self.beside || low > self.beside {
+        if high < -self.probe_offset || low > self.probe_offset {
             return [None; 2];
         }
         let places = corners.map(|p| (p - self.from).dot(self.along) / self.length);
-        [self.beside, -self.beside].map(|inward| {
+        [self.probe_offset, -self.probe_offset].map(|inward| {
             let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
             for k in 0..3 {
                 let (p, q) = (heights[k] - inward, heights[(k + 1) % 3] - inward);

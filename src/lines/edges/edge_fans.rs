@@ -42,7 +42,7 @@ impl EdgeClassifier<'_> {
             }
             _ => self.classify_own_fan(edge, own),
         });
-        let extent = |line: &FeatureSegment| mesh.extents.of(line.part);
+        let extent = |line: &FeatureSegment| mesh.extents.part(line.part);
         lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))
     }
 
@@ -132,7 +132,7 @@ impl EdgeClassifier<'_> {
         let above = angles.iter().find(|x| **x > eye).copied();
         let (low, high) =
             (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
-        let doubt = faces.iter().map(|f| Dihedral::doubt_of(mesh, *f)).fold(0.0, f64::max);
+        let doubt = faces.iter().map(|f| Dihedral::normal_error(mesh, *f)).fold(0.0, f64::max);
         ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
     }
 }

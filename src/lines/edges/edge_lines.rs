@@ -47,8 +47,8 @@ pub fn find_among(
 pub(crate) struct EdgeClassifier<'a> {
     pub(crate) mesh: &'a Mesh,
     hard: &'a HardEdges,
-    wrinkles: &'a EdgeSet,
-    roundings: &'a EdgeSet,
+    sliver_creases: &'a EdgeSet,
+    fillet_centres: &'a EdgeSet,
     pub(crate) view: &'a View,
     smooth: &'a SmoothNormals,
     wanted: u32,
@@ -59,12 +59,12 @@ pub(crate) struct EdgeClassifier<'a> {
 
 impl<'a> EdgeClassifier<'a> {
     fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
-        let Surface { mesh, hard, wrinkles, roundings, smooth, .. } = surface;
+        let Surface { mesh, hard, sliver_creases: wrinkles, fillet_centres: roundings, smooth, .. } = surface;
         Self {
             mesh,
             hard,
-            wrinkles,
-            roundings,
+            sliver_creases: wrinkles,
+            fillet_centres: roundings,
             view,
             smooth,
             wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
@@ -110,7 +110,7 @@ impl<'a> EdgeClassifier<'a> {
                 ..self.segment(edge, LineKind::Contour, nearer, [first, second])
             });
         }
-        if self.roundings.contains(edge) && self.wants(LineKind::Crease) {
+        if self.fillet_centres.contains(edge) && self.wants(LineKind::Crease) {
             return Some(FeatureSegment {
                 smooth: true,
                 strength: Dihedral::of(self.mesh, [first, second], false).turn(),
@@ -200,7 +200,7 @@ impl<'a> EdgeClassifier<'a> {
     /// Whether the edge is a crease from every viewpoint.
     #[inline]
     pub(crate) fn is_crease(&self, edge: usize) -> bool {
-        self.hard.is_hard(edge) || self.roundings.contains(edge)
+        self.hard.is_hard(edge) || self.fillet_centres.contains(edge)
     }
 
     pub(crate) fn degenerate(&self, face: u32) -> bool {
@@ -223,7 +223,7 @@ impl<'a> EdgeClassifier<'a> {
         let found = self.classify_flat_pair(edge, [first, second], same_way, crease)?;
         // A material boundary on a flat face is painted there, so its corners are real.
         let is_painted = found.kind == LineKind::Material && dihedral().is_flat(self.mesh, edge);
-        let smooth = !self.hard.is_hard(edge) && !self.wrinkles.contains(edge) && !is_painted;
+        let smooth = !self.hard.is_hard(edge) && !self.sliver_creases.contains(edge) && !is_painted;
         Some(FeatureSegment { smooth, ..found })
     }
 

@@ -34,9 +34,11 @@ impl EdgeSearch {
     pub fn new(surface: &Surface) -> Self {
         let mesh = &surface.mesh;
         let edges = mesh.edges.len();
-        let fixed =
-            (0..edges).filter(|e| chance(surface, *e) == EdgePotential::Other).map(|e| e as u32).collect();
-        let tree = DualTree::new(mesh, |edge| chance(surface, edge) == EdgePotential::ContourOnly);
+        let fixed = (0..edges)
+            .filter(|e| edge_potential(surface, *e) == EdgePotential::Other)
+            .map(|e| e as u32)
+            .collect();
+        let tree = DualTree::new(mesh, |edge| edge_potential(surface, edge) == EdgePotential::ContourOnly);
         Self { fixed, tree, faces: mesh.triangles.len(), edges }
     }
 
@@ -91,8 +93,8 @@ impl EdgeSearch {
 }
 
 /// Kinds of line that an edge may be; mirrors the cases of `edge_lines`.
-fn chance(surface: &Surface, edge: usize) -> EdgePotential {
-    let Surface { mesh, hard, roundings, smooth, .. } = surface;
+fn edge_potential(surface: &Surface, edge: usize) -> EdgePotential {
+    let Surface { mesh, hard, fillet_centres: roundings, smooth, .. } = surface;
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return EdgePotential::Other };
     let is_drawn = hard.is_hard(edge) || roundings.contains(edge);
     if is_drawn || faces.iter().any(|f| mesh.face_normals[*f as usize] == [0.0; 3]) {

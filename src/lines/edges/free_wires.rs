@@ -33,12 +33,12 @@ const TREE_FANOUT: usize = 8;
 /// Wires of a mesh that do not run along a line on its edges.
 pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
     let drawn = lines.iter().filter(|line| line.role == Role::Line);
-    let drawn = Chords::new(mesh, drawn.map(|line| (line.ends, mesh.extents.of(line.part).scale)));
+    let drawn = Chords::new(mesh, drawn.map(|line| (line.ends, mesh.extents.part(line.part).scale)));
     if drawn.list.is_empty() {
         return mesh.wires.clone();
     }
     let wires =
-        Chords::new(mesh, mesh.wires.iter().map(|wire| (wire.vertices, mesh.extents.of(wire.part).scale)));
+        Chords::new(mesh, mesh.wires.iter().map(|wire| (wire.vertices, mesh.extents.part(wire.part).scale)));
     let tree = ChordTree::new(&drawn.list);
     let is_free = |wire: &WireChord| !is_covered(wire, &drawn.list, &tree);
     let free: Vec<bool> = wires.list.par_iter().with_min_len(256).map(is_free).collect();

@@ -27,7 +27,7 @@ pub struct ImagePoint {
 
 /// Straight piece of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImagePiece {
+pub struct ImageLinePiece {
     /// Ends, as indices into [`ImageLines::points`].
     pub ends: [u32; 2],
     /// Part of the nearer surface.
@@ -48,7 +48,7 @@ pub struct ImageLines {
     /// Ends of pieces.
     pub points: Vec<ImagePoint>,
     /// Pieces, line by line.
-    pub pieces: Vec<ImagePiece>,
+    pub pieces: Vec<ImageLinePiece>,
     /// Number of lines.
     pub lines: u32,
 }
@@ -58,7 +58,7 @@ pub struct ImageLines {
 pub fn trace(mesh: &Mesh, maps: &NormalDepthMaps, edges: &[bool], options: &ImageOptions) -> ImageLines {
     let jumps = PixelJumps::new(mesh, maps, options);
     let jump_map = jumps.map(edges);
-    let mut lattice = CrackLattice::crests(&jump_map);
+    let mut lattice = CrackLattice::local_maxima(&jump_map);
     close_gaps(&mut lattice, &jump_map);
     remove_spurs(&mut lattice);
     let mut paths = paths(&lattice);
@@ -212,7 +212,7 @@ fn assemble(lattice: &CrackLattice, maps: &NormalDepthMaps, pulled: &[TautLine])
                 let side = own.sides[middle.min(n - 1)];
                 let CrackOwner { part, material, both_seen } = side.owner;
                 let silhouette = side.silhouette;
-                lines.pieces.push(ImagePiece {
+                lines.pieces.push(ImageLinePiece {
                     ends: [from, to],
                     part,
                     material,

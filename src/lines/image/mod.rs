@@ -15,7 +15,7 @@ pub mod image_options;
 pub mod ink_dilation;
 pub mod soup_normals;
 
-pub use image_lines::{ImageLines, ImagePiece, ImagePoint, trace};
+pub use image_lines::{ImageLinePiece, ImageLines, ImagePoint, trace};
 pub use image_options::{Dilation, EdgeTest, ImageOptions, Source};
 pub use soup_normals::SoupNormals;
 

@@ -72,7 +72,7 @@ impl SoupNormals {
         let mut corners: Vec<LooseCorner> = loose.iter().copied().flat_map(corners_of).collect();
         corners.par_sort_unstable_by_key(|corner| (corner.cell.to_array(), corner.face));
         let least = crease_deg.to_radians();
-        let near = CornerGrid {
+        let near = LooseCornerGrid {
             corners: &corners,
             reach,
             cosine: crate::geometry::numbers::portable_math::cos(least),
@@ -120,13 +120,13 @@ impl SoupNormals {
 }
 
 /// Corners, sorted by grid cell.
-struct CornerGrid<'a> {
+struct LooseCornerGrid<'a> {
     corners: &'a [LooseCorner],
     reach: f64,
     cosine: f64,
 }
 
-impl CornerGrid<'_> {
+impl LooseCornerGrid<'_> {
     /// Normal at a position of the surface that a face belongs to.
     fn normal(&self, position: DVec3, own: DVec3) -> Option<DVec3> {
         let cell = (position / self.reach).floor().as_ivec3();

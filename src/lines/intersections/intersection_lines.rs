@@ -10,9 +10,9 @@
 use crate::parallel::prelude::*;
 
 use super::facet_contacts;
-use crate::lines::prepared_surface::Finer;
+use crate::lines::prepared_surface::RefinedSurface;
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
-use crate::mesh::intersect::curve_tracer::Tracer;
+use crate::mesh::intersect::curve_tracer::CurveTracer;
 use crate::mesh::intersect::intersection_cache::{FaceHosts, IntersectionCache};
 use crate::mesh::intersect::intersection_curves::{
     IntersectionCurves, IntersectionInput, IntersectionSegment, intersections_of_parts,
@@ -115,10 +115,10 @@ pub fn search(mesh: &Mesh) -> IntersectionCache {
 /// All curves of a refined surface, from a [`search`] of the original mesh. The result is that of
 /// [`all_curves`].
 #[must_use]
-pub fn curves_of_finer(search: &IntersectionCache, finer: &Finer) -> IntersectionCurves {
+pub fn curves_of_finer(search: &IntersectionCache, finer: &RefinedSurface) -> IntersectionCurves {
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
-    let hosts = FaceHosts { faces: &finer.hosts, kept: finer.kept };
+    let hosts = FaceHosts { faces: &finer.hosts, kept_count: finer.kept_count };
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
     facet_contacts::remove_contacts(
         search.refined_curves(&input(mesh, &active, &mesh.face_bodies()), hosts, tolerance),
@@ -143,6 +143,6 @@ fn input<'a>(mesh: &'a Mesh, active: &'a [bool], bodies: &'a [PartId]) -> Inters
 pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
     let buffer = FaceBuffer::new(&PixelGrid::new(mesh, view));
     let active = intersecting_candidates::find(mesh, &buffer);
-    let tracer = Tracer::new(mesh);
+    let tracer = CurveTracer::new(mesh);
     facet_contacts::remove_contacts(tracer.curves(&tracer.pairs_among(&active)), mesh)
 }

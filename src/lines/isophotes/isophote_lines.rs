@@ -81,7 +81,7 @@ impl ShadingTables {
         // The light does not depend on the paint.
         let paint = PaintId(0);
         let value = |channel: usize, normal: DVec3, shadowed: u32| {
-            let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            let point = SurfacePoint { position: DVec3::ZERO, normal, ambient_visibility: 1.0 };
             lit.shading.value(channel, paint, &point, shadowed)
         };
         let of = |channel: usize, shadowed: u32| {
@@ -202,7 +202,7 @@ impl<'a> IsophoteTracer<'a> {
         shadowed: u32,
     ) -> LevelTracer<'a> {
         // Hatching strokes end there one by one, so lower accuracy is enough.
-        let (near, exact) = if self.lit.shading.bins() == Some(channel) {
+        let (near, exact) = if self.lit.shading.bin_channel() == Some(channel) {
             (tolerances::MAX_BIN_BORDER_ERROR_PX, tolerances::MAX_BIN_BORDER_ERROR_TONE)
         } else if self.lit.is_gradient(channel, levels) {
             (tolerances::MAX_BIN_BORDER_ERROR_PX, tolerances::MAX_GRADIENT_BORDER_ERROR_TONE)
@@ -221,8 +221,8 @@ impl<'a> IsophoteTracer<'a> {
             shadowed,
             levels,
             stride: self.lit.stride(face, channel, levels, shadowed),
-            alike: max_value_error(levels),
-            near,
+            max_light_error: max_value_error(levels),
+            max_position_error: near,
             exact,
             measures,
         }
@@ -231,7 +231,7 @@ impl<'a> IsophoteTracer<'a> {
     /// Paints that a textured face shows; only the first if all have the same levels. None without texture.
     fn paints_shown(&self, face: u32) -> Option<Vec<PaintId>> {
         let Lit { mesh, shading, textures, .. } = self.lit;
-        let textured = textures.on(mesh, face)?;
+        let textured = textures.face_texture(mesh, face)?;
         let (first, others) = textured.palette().split_first()?;
         let differs =
             |channel| others.iter().any(|p| shading.levels(*p, channel) != shading.levels(*first, channel));

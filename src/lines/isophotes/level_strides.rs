@@ -15,7 +15,8 @@ use crate::mesh::PaintId;
 impl Lit<'_> {
     /// Whether the levels of a channel are too close for single steps to be seen.
     pub(crate) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
-        levels.len() > crate::light::tolerances::MAX_SEPARATE_LEVELS && self.shading.bins() != Some(channel)
+        levels.len() > crate::light::tolerances::MAX_SEPARATE_LEVELS
+            && self.shading.bin_channel() != Some(channel)
     }
 
     /// Number of steps of a channel that a face shows as one: a power of two, 1 unless it is a gradient.

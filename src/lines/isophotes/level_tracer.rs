@@ -40,9 +40,9 @@ pub(crate) struct LevelTracer<'a> {
     /// Only each `stride`-th level is traced, since the others are too close to be seen.
     pub stride: usize,
     /// Largest invisible error of light.
-    pub alike: f64,
+    pub max_light_error: f64,
     /// Largest error of a curve's position, px.
-    pub near: f64,
+    pub max_position_error: f64,
     /// Largest error of light at a point of the curve.
     pub exact: f64,
     pub measures: FaceExtents,
@@ -85,7 +85,7 @@ impl LevelTracer<'_> {
             let normal = self.lit.normal(self.face, &self.normals, weights);
             // Without a normal, the direction to the camera replaces it, and that depends on position.
             if normal != DVec3::ZERO {
-                return SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+                return SurfacePoint { position: DVec3::ZERO, normal, ambient_visibility: 1.0 };
             }
         }
         self.lit.point(self.face, weights)
@@ -173,7 +173,7 @@ impl LevelTracer<'_> {
         let off = turn * turn / 8.0 * self.slope.most;
         let is_straight = !self.is_local
             && turn <= MAX_TURN_RAD
-            && off * length <= self.near * self.px * (a.value - b.value).abs();
+            && off * length <= self.max_position_error * self.px * (a.value - b.value).abs();
         PieceSide { turn, length, is_straight }
     }
 
@@ -188,7 +188,7 @@ impl LevelTracer<'_> {
     /// Whether the difference between a value and the linear one would move a level.
     fn is_off(&self, nodes: &[FaceSample], value: f64, linear: f64, length: f64) -> bool {
         let off = (value - linear).abs();
-        if length <= MIN_SIDE_PX * self.px || off <= self.alike {
+        if length <= MIN_SIDE_PX * self.px || off <= self.max_light_error {
             return false;
         }
         let (mut low, mut high) = (value, value);
@@ -198,7 +198,7 @@ impl LevelTracer<'_> {
         }
         let crossed = self.levels.partition_point(|level| *level < low - off)
             < self.levels.partition_point(|level| *level <= high + off);
-        crossed && off * length > self.near * self.px * (high - low)
+        crossed && off * length > self.max_position_error * self.px * (high - low)
     }
 
     fn draw(&self, nodes: [FaceSample; 3], found: &mut Vec<LevelSegment>) {

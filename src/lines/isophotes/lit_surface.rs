@@ -20,7 +20,7 @@ pub struct Lit<'a> {
     /// Lights and levels of tone.
     pub shading: &'a Shading,
     /// Ambient visibility per vertex, 0 to 1; empty if not used.
-    pub openness: &'a [f64],
+    pub ambient_visibility: &'a [f64],
     /// Textures of the surface.
     pub textures: &'a Textures,
     /// Whether the inside of each part is never visible; empty if unknown.
@@ -39,16 +39,16 @@ impl Lit<'_> {
     #[must_use]
     pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
         let t = self.mesh.triangles[face as usize];
-        let openness = if self.openness.is_empty() {
+        let openness = if self.ambient_visibility.is_empty() {
             1.0
         } else {
-            (0..3).map(|k| self.openness[t[k] as usize] * weights[k]).sum()
+            (0..3).map(|k| self.ambient_visibility[t[k] as usize] * weights[k]).sum()
         };
         let [a, b, c] = self.mesh.corners(FaceId(face));
         SurfacePoint {
             position: DVec3::ZERO + a * weights[0] + b * weights[1] + c * weights[2],
             normal: self.normal(face, &self.normals.of(face), weights),
-            openness,
+            ambient_visibility: openness,
         }
     }
 
@@ -95,7 +95,7 @@ impl Lit<'_> {
     /// Tone and hatching bin of a point; 0 is the darkest.
     #[must_use]
     pub fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
-        self.look(paint, point, shadowed, |_, _, band| band)
+        self.tone_and_bin_at(paint, point, shadowed, |_, _, band| band)
     }
 
     /// Tone and hatching bin of a point of a face as drawn, where narrow steps of a gradient are merged.
@@ -108,12 +108,12 @@ impl Lit<'_> {
         shadowed: u32,
     ) -> (u16, u16) {
         let shown = |channel, levels: &[f64], band| self.band_shown(face, channel, levels, band, shadowed);
-        self.look(paint, point, shadowed, shown)
+        self.tone_and_bin_at(paint, point, shadowed, shown)
     }
 
     /// Tone and hatching bin of a point. `shown` maps the number of levels reached in a channel to the number
     /// that counts.
-    fn look(
+    fn tone_and_bin_at(
         &self,
         paint: PaintId,
         point: &SurfacePoint,
@@ -127,7 +127,8 @@ impl Lit<'_> {
             let levels = self.shading.levels(paint, channel);
             *band = shown(channel, levels, levels.partition_point(|level| *level <= value)) as u16;
         }
-        let bin = self.shading.bins().and_then(|channel| bands.get(channel)).copied().unwrap_or_default();
+        let bin =
+            self.shading.bin_channel().and_then(|channel| bands.get(channel)).copied().unwrap_or_default();
         (self.shading.tone(paint, &bands[..channels.min(MAX_CHANNELS)]), bin)
     }
 }

@@ -30,7 +30,7 @@ pub struct TraceReason {
 
 /// Positions of the tone borders among all segments.
 #[derive(Debug, Clone, Default)]
-pub struct ToneBorders {
+pub struct ToneBorderRanges {
     /// Uncut edges between tones.
     pub edges: Range<usize>,
     /// Isophotes.
@@ -67,7 +67,7 @@ enum ToneBorderClass {
 #[must_use]
 pub fn unchanged(
     lit: &Lit,
-    borders: &ToneBorders,
+    borders: &ToneBorderRanges,
     darkens: ShadowEffects,
     shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
     lines: &mut FeatureLines,
@@ -110,14 +110,14 @@ struct ToneBorderPiece {
 
 struct ToneChangeFinder<'a> {
     lit: &'a Lit<'a>,
-    borders: &'a ToneBorders,
+    borders: &'a ToneBorderRanges,
     darkens: ShadowEffects,
     lines: &'a FeatureLines,
 }
 
 impl ToneChangeFinder<'_> {
     fn class(&self, segment: usize) -> ToneBorderClass {
-        let ToneBorders { isophotes, traced, shadows, casters, .. } = self.borders;
+        let ToneBorderRanges { isophotes, traced, shadows, casters, .. } = self.borders;
         if isophotes.contains(&segment) {
             return traced
                 .get(segment - isophotes.start)
@@ -136,8 +136,8 @@ impl ToneChangeFinder<'_> {
     }
 
     /// Isophotes and shadow borders, sorted by face.
-    fn on_faces(&self) -> Vec<(u32, usize)> {
-        let ToneBorders { isophotes, shadows, .. } = self.borders;
+    fn segments_by_face(&self) -> Vec<(u32, usize)> {
+        let ToneBorderRanges { isophotes, shadows, .. } = self.borders;
         let all = isophotes.clone().chain(shadows.clone());
         let mut on_faces: Vec<(u32, usize)> =
             all.map(|segment| (self.lines.segments[segment].hosts[0], segment)).collect();
@@ -147,7 +147,7 @@ impl ToneChangeFinder<'_> {
 
     /// Crossings of borders on a face.
     fn cuts_on_faces(&self) -> Vec<SegmentCut> {
-        let on_faces = self.on_faces();
+        let on_faces = self.segments_by_face();
         let faces: Vec<&[(u32, usize)]> =
             on_faces.chunk_by(|a, b| a.0 == b.0).filter(|own| own.len() > 1).collect();
         faces.into_par_iter().flat_map_iter(|own| self.crossings(own)).collect()
@@ -197,7 +197,7 @@ impl ToneChangeFinder<'_> {
 
     /// Ends of borders at an edge of their face.
     fn cuts_on_edges(&self) -> Vec<SegmentCut> {
-        let on_faces = self.on_faces();
+        let on_faces = self.segments_by_face();
         let frame = &self.lit.view.frame;
         let px = frame.width.max(frame.height) / 1000.0;
         let of_edge = |segment: usize| {
@@ -227,7 +227,7 @@ impl ToneChangeFinder<'_> {
 
     /// Pieces of all tone borders, in order.
     fn pieces(&self, cuts: &[SegmentCut]) -> Vec<ToneBorderPiece> {
-        let ToneBorders { edges, isophotes, shadows, .. } = self.borders;
+        let ToneBorderRanges { edges, isophotes, shadows, .. } = self.borders;
         let mut pieces = Vec::new();
         let mut next = cuts.iter().peekable();
         for segment in edges.clone().chain(isophotes.clone()).chain(shadows.clone()) {
@@ -273,14 +273,16 @@ impl ToneChangeFinder<'_> {
                 let (Some(first), Some(second)) = (sides(hosts[0]), sides(hosts[1])) else { return true };
                 let mesh = self.lit.mesh;
                 let paint = |face: u32| mesh.paint(FaceId(face));
-                let is_plain = |face: u32| self.lit.textures.on(mesh, face).is_none();
+                let is_plain = |face: u32| self.lit.textures.face_texture(mesh, face).is_none();
                 paint(hosts[0]) != paint(hosts[1])
                     || !hosts.into_iter().all(is_plain)
-                    || self.look(first.0, &first.1, masks[0]) != self.look(second.0, &second.1, masks[1])
+                    || self.tone_and_bin_at(first.0, &first.1, masks[0])
+                        != self.tone_and_bin_at(second.0, &second.1, masks[1])
             }
             ToneBorderClass::Shadow(caster) => sides(hosts[0]).is_none_or(|(paint, point)| {
                 let bit = 1 << caster;
-                self.look(paint, &point, masks[0] | bit) != self.look(paint, &point, masks[0] & !bit)
+                self.tone_and_bin_at(paint, &point, masks[0] | bit)
+                    != self.tone_and_bin_at(paint, &point, masks[0] & !bit)
             }),
             ToneBorderClass::Isophote(traced) => {
                 sides(hosts[0]).is_none_or(|(paint, point)| self.is_level(paint, &point, traced, masks[0]))
@@ -303,7 +305,7 @@ impl ToneChangeFinder<'_> {
 
     /// Shadowed lights that count for a channel.
     fn mask(&self, channel: usize, shadowed: u32) -> u32 {
-        let is_bin = self.lit.shading.bins() == Some(channel);
+        let is_bin = self.lit.shading.bin_channel() == Some(channel);
         let darkens = if is_bin { self.darkens.bins } else { self.darkens.tones };
         if darkens { shadowed } else { 0 }
     }
@@ -318,14 +320,14 @@ impl ToneChangeFinder<'_> {
     }
 
     /// Tone and hatching bin of a point.
-    fn look(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, Option<u16>) {
+    fn tone_and_bin_at(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, Option<u16>) {
         let bands = self.bands(paint, point, shadowed);
-        self.look_of(paint, &bands)
+        self.tone_and_bin_of_bands(paint, &bands)
     }
 
-    fn look_of(&self, paint: PaintId, bands: &[u16]) -> (u16, Option<u16>) {
+    fn tone_and_bin_of_bands(&self, paint: PaintId, bands: &[u16]) -> (u16, Option<u16>) {
         let shading = self.lit.shading;
-        let bin = shading.bins().and_then(|channel| bands.get(channel)).copied();
+        let bin = shading.bin_channel().and_then(|channel| bands.get(channel)).copied();
         (shading.tone(paint, bands), bin)
     }
 
@@ -347,7 +349,7 @@ impl ToneChangeFinder<'_> {
         let mut bands = self.bands(paint, point, shadowed);
         let mut look_with = |band: usize| {
             bands[channel] = band as u16;
-            self.look_of(paint, &bands)
+            self.tone_and_bin_of_bands(paint, &bands)
         };
         look_with(nearest) != look_with(nearest + 1)
     }

@@ -33,7 +33,7 @@ pub(crate) struct JointPiece {
 }
 
 /// Straight line between two points.
-struct LineSpan {
+struct JointLine {
     from: DVec3,
     to: DVec3,
     along: DVec3,
@@ -62,7 +62,7 @@ impl<'a> JointFaces<'a> {
         if !owners.windows(2).any(|pair| pair[0].0 == pair[1].0) {
             return None;
         }
-        let contact = owners.iter().map(|(_, part)| mesh.extents.of(*part).contact).fold(0.0, f64::max);
+        let contact = owners.iter().map(|(_, part)| mesh.extents.part(*part).contact).fold(0.0, f64::max);
         let active: Vec<bool> =
             (0..mesh.triangles.len() as u32).map(|face| !mesh.is_degenerate(FaceId(face))).collect();
         let half = DVec3::splat(mesh.extents.diagonal / 2.0);
@@ -75,9 +75,9 @@ impl<'a> JointFaces<'a> {
     /// near.
     pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<JointPiece>> {
         let along = (to - from).try_normalize()?;
-        let way = LineSpan { from, to, along, length: from.distance(to) };
+        let way = JointLine { from, to, along, length: from.distance(to) };
         let mut near = self.near(&way, most)?;
-        let own = self.mesh.extents.of(part).contact;
+        let own = self.mesh.extents.part(part).contact;
         let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own);
         near.retain(|face| self.reached(&way, *face, contact_of(*face)).is_some());
         // Two parts of one kind must be among them.
@@ -97,7 +97,7 @@ impl<'a> JointFaces<'a> {
     }
 
     /// Faces whose boxes are near that of the line, ascending.
-    fn near(&self, way: &LineSpan, most: usize) -> Option<Vec<u32>> {
+    fn near(&self, way: &JointLine, most: usize) -> Option<Vec<u32>> {
         let around = 2.0 * PROBE_OFFSET_CONTACTS * self.contact;
         let (low, high) = (way.from.min(way.to) - around, way.from.max(way.to) + around);
         let mut near = Vec::new();
@@ -107,7 +107,7 @@ impl<'a> JointFaces<'a> {
     }
 
     /// Ranges that a face covers on both sides of a line, if its plane holds the line.
-    fn reached(&self, way: &LineSpan, face: u32, contact: f64) -> Option<ReachingFace> {
+    fn reached(&self, way: &JointLine, face: u32, contact: f64) -> Option<ReachingFace> {
         let mesh = self.mesh;
         let corners = mesh.corners(FaceId(face));
         let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
@@ -137,7 +137,7 @@ impl<'a> JointFaces<'a> {
     }
 
     /// Pieces of a line, given the faces that reach it.
-    fn cut(&self, way: &LineSpan, reached: &[ReachingFace], contact: f64) -> Vec<JointPiece> {
+    fn cut(&self, way: &JointLine, reached: &[ReachingFace], contact: f64) -> Vec<JointPiece> {
         let least = MIN_PIECE_OFFSETS * PROBE_OFFSET_CONTACTS * contact / way.length;
         let mut cuts: Vec<f64> =
             reached.iter().flat_map(|own| own.covers.into_iter().flatten().flatten()).collect();
@@ -165,7 +165,7 @@ impl<'a> JointFaces<'a> {
     }
 
     /// Faces at a position on the line, as rays.
-    fn rays(&self, way: &LineSpan, reached: &[ReachingFace], at: f64, contact: f64) -> Vec<FaceRay> {
+    fn rays(&self, way: &JointLine, reached: &[ReachingFace], at: f64, contact: f64) -> Vec<FaceRay> {
         let mesh = self.mesh;
         let mut rays = Vec::new();
         for own in reached {
@@ -173,9 +173,9 @@ impl<'a> JointFaces<'a> {
             for (cover, (side, begins)) in own.covers.iter().zip([(side, false), (-side, true)]) {
                 if cover.is_some_and(|[start, end]| (start..=end).contains(&at)) {
                     rays.push(FaceRay {
-                        way: side,
+                        direction: side,
                         begins,
-                        doubt: angle_error_sine(contact, own.height, way.length),
+                        angle_error: angle_error_sine(contact, own.height, way.length),
                         kind: kind(mesh, self.kinds, own.face),
                         part: mesh.face_part[own.face as usize],
                         body: mesh.body(own.face),

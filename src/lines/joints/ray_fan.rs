@@ -15,11 +15,11 @@ use crate::mesh::tolerances::MAX_NORMAL_ERROR_SINE;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FaceRay {
     /// Direction away from the line, a unit vector across it.
-    pub way: DVec3,
+    pub direction: DVec3,
     /// Whether material starts behind the ray, when turning from `right` to `up`.
     pub begins: bool,
     /// Sine of its largest angle error.
-    pub doubt: f64,
+    pub angle_error: f64,
     pub kind: u32,
     pub part: PartId,
     pub body: PartId,
@@ -36,9 +36,10 @@ pub(crate) struct RayFan {
 impl RayFan {
     /// Sorts rays in the plane of `right` and `up`, and groups those that coincide.
     pub fn new(mut rays: Vec<FaceRay>, right: DVec3, up: DVec3) -> Self {
-        rays.sort_by(|a, b| turn(a.way, right, up).total_cmp(&turn(b.way, right, up)));
+        rays.sort_by(|a, b| turn(a.direction, right, up).total_cmp(&turn(b.direction, right, up)));
         let is_one = |a: &FaceRay, b: &FaceRay| {
-            a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) > 0.0
+            a.direction.cross(b.direction).length() <= a.angle_error + b.angle_error
+                && a.direction.dot(b.direction) > 0.0
         };
         let mut count = 0;
         let mut numbered: Vec<(FaceRay, usize)> = Vec::with_capacity(rays.len());
@@ -57,7 +58,7 @@ impl RayFan {
         }
         let best = |number: usize| {
             let own = numbered.iter().filter(|(_, own)| *own == number).map(|(ray, _)| *ray);
-            own.min_by(|a, b| a.doubt.total_cmp(&b.doubt))
+            own.min_by(|a, b| a.angle_error.total_cmp(&b.angle_error))
         };
         let directions = (0..count).filter_map(best).collect();
         Self { rays: numbered, directions }
@@ -124,7 +125,8 @@ impl RayFan {
 
     fn is_opposite(&self, a: usize, b: usize) -> bool {
         let (a, b) = (&self.directions[a], &self.directions[b]);
-        a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) < 0.0
+        a.direction.cross(b.direction).length() <= a.angle_error + b.angle_error
+            && a.direction.dot(b.direction) < 0.0
     }
 }
 
@@ -161,7 +163,14 @@ mod tests {
                 crate::geometry::numbers::portable_math::sin(angle),
                 0.0,
             );
-            FaceRay { way, begins, doubt: 1e-6, kind, part: PartId(part), body: PartId(part) }
+            FaceRay {
+                direction: way,
+                begins,
+                angle_error: 1e-6,
+                kind,
+                part: PartId(part),
+                body: PartId(part),
+            }
         };
         let rays = corners.iter().flat_map(|(kind, part, [from, to])| {
             [ray(*from, true, *kind, *part), ray(*to, false, *kind, *part)]

@@ -24,7 +24,7 @@ pub(crate) fn borders(lit: &Lit, face: u32, textured: &TexturedFace) -> Vec<Pain
     let middle = |[a, b]: [[f64; 3]; 2]| [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]));
     if let Some(on) = textured.picture {
         picture_borders(lit, face, &on, |ends, colours| {
-            let paints = textured.parted(colours, middle(ends));
+            let paints = textured.border_paints(colours, middle(ends));
             pieces.extend(paints.map(|paints| PaintBorder { ends, paints }));
         });
         let own = lit.mesh.paint(crate::mesh::FaceId(face));
@@ -35,7 +35,7 @@ pub(crate) fn borders(lit: &Lit, face: u32, textured: &TexturedFace) -> Vec<Pain
     }
     if let Some((tints, light)) = textured.tints {
         for (ends, parted) in TintedFace::new(lit, face, tints, light, page_px(lit)).borders() {
-            let paints = textured.parted_tints(parted, middle(ends)).filter(|[a, b]| a != b);
+            let paints = textured.tint_border_paints(parted, middle(ends)).filter(|[a, b]| a != b);
             pieces.extend(paints.map(|paints| PaintBorder { ends, paints }));
         }
     }

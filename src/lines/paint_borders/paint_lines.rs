@@ -36,14 +36,14 @@ pub fn find(lit: &Lit, seams: Vec<ToneEdge>, lines: &mut FeatureLines) {
                         pieces.push((face, kind, ends));
                     }
                 };
-                if let Some(textured) = lit.textures.on(lit.mesh, face) {
+                if let Some(textured) = lit.textures.face_texture(lit.mesh, face) {
                     for PaintBorder { ends, paints: [a, b] } in borders(lit, face, &textured) {
-                        put(lit.textures.parting(a, b), ends);
+                        put(lit.textures.line_kind_between(a, b), ends);
                     }
                 }
                 if let Some(ink) = lit.textures.ink_on(lit.mesh, face) {
                     for PaintBorder { ends, paints } in borders(lit, face, &ink) {
-                        let kind = lit.textures.parting_ink(lit.mesh, face, paints);
+                        let kind = lit.textures.picture_line_kind_between(lit.mesh, face, paints);
                         if kind == LineKind::Artist {
                             put(kind, ends);
                         }

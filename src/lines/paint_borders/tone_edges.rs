@@ -139,22 +139,24 @@ fn kinds_along(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> Vec<([Option<[f64;
         let kind = |at: f64| {
             let [a, b] = [(&first, faces[0]), (&second, faces[1])]
                 .map(|(ink, face)| ink.paint(weights_along(mesh, ends, face, at)));
-            a.zip(b).map_or(LineKind::Isophote, |(a, b)| lit.textures.parting_ink(mesh, faces[0], [a, b]))
+            a.zip(b).map_or(LineKind::Isophote, |(a, b)| {
+                lit.textures.picture_line_kind_between(mesh, faces[0], [a, b])
+            })
         };
         let places = stretches(lit, ends, faces, |face| lit.textures.ink_on(mesh, face));
         return places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect();
     }
     let kind = |at: f64| {
         let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
-        lit.textures.parting(a, b)
+        lit.textures.line_kind_between(a, b)
     };
-    let places = stretches(lit, ends, faces, |face| lit.textures.on(mesh, face));
+    let places = stretches(lit, ends, faces, |face| lit.textures.face_texture(mesh, face));
     places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect()
 }
 
 /// Paint of a face at a parameter of its edge.
 fn paint_along(lit: &Lit, ends: [u32; 2], face: u32, at: f64) -> PaintId {
-    let textured = lit.textures.on(lit.mesh, face);
+    let textured = lit.textures.face_texture(lit.mesh, face);
     let weights = weights_along(lit.mesh, ends, face, at);
     textured.and_then(|textured| textured.paint(weights)).unwrap_or_else(|| lit.mesh.paint(FaceId(face)))
 }
@@ -240,10 +242,10 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
 
 /// Whether two faces show different colours anywhere along their edge.
 fn shown_colours_differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
-    if faces.iter().any(|face| lit.textures.on(lit.mesh, *face).is_none()) {
+    if faces.iter().any(|face| lit.textures.face_texture(lit.mesh, *face).is_none()) {
         return false;
     }
-    stretches(lit, ends, faces, |face| lit.textures.on(lit.mesh, face)).into_iter().any(|places| {
+    stretches(lit, ends, faces, |face| lit.textures.face_texture(lit.mesh, face)).into_iter().any(|places| {
         let at = middle(lit, ends, faces[0], places);
         let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
         a != b

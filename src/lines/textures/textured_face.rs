@@ -33,14 +33,14 @@ impl TexturedFace<'_> {
     }
 
     /// Paints on both sides of a border between two colours of the picture, near a point of the face.
-    pub fn parted(&self, colours: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
+    pub fn border_paints(&self, colours: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let tint = self.tint(near);
         let [a, b] = colours.map(|colour| self.paints.paint(Some(colour), tint));
         Some([a?, b?])
     }
 
     /// Paints on both sides of a border between two tints, near a point of the face.
-    pub fn parted_tints(&self, tints: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
+    pub fn tint_border_paints(&self, tints: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let colour = self.colour(near);
         let [a, b] = tints.map(|tint| self.paints.paint(colour, Some(tint)));
         Some([a?, b?])

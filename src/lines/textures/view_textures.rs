@@ -29,7 +29,7 @@ pub struct Textures {
 #[derive(Debug)]
 struct ArtistLines {
     /// Colour of each paint; none on materials whose lines follow another picture.
-    looks: Vec<Option<Oklab>>,
+    paint_colours: Vec<Option<Oklab>>,
     /// Smallest colour distance with a line.
     tolerance: f32,
     /// Indexed by material: the picture that lines follow although it is not painted, and its palette.
@@ -78,12 +78,12 @@ impl Textures {
                 inked[material.index()] = shown.map(|shown| (shown, looks.to_vec()));
             }
             let is_inked = |material: usize| inked.get(material).is_some_and(Option::is_some);
-            let look = |paint: &crate::scene::Paint| {
+            let look = |paint: &crate::scene::MaterialPaint| {
                 (!is_inked(paint.material.index())).then(|| oklab::of(paint.colour))
             };
             let looks = paints.list.iter().map(look).collect();
             let tolerance = options.artist_tolerance as f32;
-            textures.artist = Some(ArtistLines { looks, tolerance, inked });
+            textures.artist = Some(ArtistLines { paint_colours: looks, tolerance, inked });
         }
         textures
     }
@@ -96,19 +96,19 @@ impl Textures {
     /// Paint at a point of a face.
     #[must_use]
     pub fn paint(&self, mesh: &Mesh, face: u32, at: DVec3) -> PaintId {
-        let shown = self.on(mesh, face);
+        let shown = self.face_texture(mesh, face);
         let shown = shown.and_then(|shown| shown.paint(mesh.weights(FaceId(face), at)));
         shown.unwrap_or_else(|| mesh.paint(FaceId(face)))
     }
 
     /// Kind of the line between two paints of one material.
-    pub(crate) fn parting(&self, a: PaintId, b: PaintId) -> LineKind {
-        let look = |paint: PaintId| self.artist.as_ref()?.looks.get(paint.index()).copied().flatten();
+    pub(crate) fn line_kind_between(&self, a: PaintId, b: PaintId) -> LineKind {
+        let look = |paint: PaintId| self.artist.as_ref()?.paint_colours.get(paint.index()).copied().flatten();
         self.kind(look(a), look(b))
     }
 
     /// Kind of the line between two colours of the picture that lines follow on a face.
-    pub(crate) fn parting_ink(&self, mesh: &Mesh, face: u32, [a, b]: [PaintId; 2]) -> LineKind {
+    pub(crate) fn picture_line_kind_between(&self, mesh: &Mesh, face: u32, [a, b]: [PaintId; 2]) -> LineKind {
         let inked = self.inked(mesh, face);
         let look = |colour: PaintId| inked?.1.get(colour.index()).copied();
         self.kind(look(a), look(b))
@@ -136,13 +136,13 @@ impl Textures {
     }
 
     /// Varying colours of a face; none if it has a single paint.
-    pub(crate) fn on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
-        self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?.on(mesh, face)
+    pub(crate) fn face_texture(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
+        self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?.face_texture(mesh, face)
     }
 
     /// The picture that lines follow on a face. Its colours are paints with the same numbers.
     pub(crate) fn ink_on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
-        self.inked(mesh, face)?.0.on(mesh, face)
+        self.inked(mesh, face)?.0.face_texture(mesh, face)
     }
 
     fn inked(&self, mesh: &Mesh, face: u32) -> Option<&(ShownPaint, Vec<Oklab>)> {
@@ -152,7 +152,7 @@ impl Textures {
 
 impl ShownPaint {
     /// Varying colours on a face.
-    fn on(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
+    fn face_texture(&self, mesh: &Mesh, face: u32) -> Option<TexturedFace<'_>> {
         let picture = self.picture.as_ref().and_then(|drawn| {
             let [a, b, c] = mesh.corner_uvs.get(face as usize)?.map(|uv| mesh.uvs.get(uv as usize).copied());
             drawn.on(face, [a?, b?, c?])

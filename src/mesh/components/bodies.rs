@@ -44,7 +44,7 @@ pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
         return Vec::new();
     }
     let groups = DisjointSets::new(count, |join| joints.iter().for_each(|[a, b]| join(a.0, b.0)));
-    (0..count as u32).map(|part| PartId(groups.of(part))).collect()
+    (0..count as u32).map(|part| PartId(groups.representative(part))).collect()
 }
 
 /// Pairs of faces around an edge with material between them: a face with material in the direction of growing
@@ -165,7 +165,7 @@ mod tests {
         let mesh = Mesh::build(soup);
         let found: Vec<u32> = mesh.bodies.iter().map(|body| body.0).collect();
         assert_eq!(found, [0, 0, 0, 0, 0, 0, 6, 6, 6, 6, 6, 6, 12, 13]);
-        let scale = |part: u32| mesh.extents.of(PartId(part)).scale;
+        let scale = |part: u32| mesh.extents.part(PartId(part)).scale;
         assert!((0..14).all(|part| (scale(part) - 3.0_f64.sqrt()).abs() < 1e-12));
     }
 

@@ -34,7 +34,7 @@ impl DisjointSets {
     /// The smallest face in the set of a face.
     #[inline]
     #[must_use]
-    pub fn of(&self, face: u32) -> u32 {
+    pub fn representative(&self, face: u32) -> u32 {
         self.first[face as usize]
     }
 
@@ -53,7 +53,7 @@ impl DisjointSets {
         of_face.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|first| {
             *first = instead(*first).unwrap_or_else(|| ranks.of(*first as usize));
         });
-        NumberedSets { of_face, first }
+        NumberedSets { set_of_face: of_face, first }
     }
 }
 
@@ -61,7 +61,7 @@ impl DisjointSets {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct NumberedSets {
     /// Set number of each face.
-    pub of_face: Vec<u32>,
+    pub set_of_face: Vec<u32>,
     /// The smallest face of each set.
     pub first: Vec<u32>,
 }
@@ -113,7 +113,7 @@ mod tests {
             assert_eq!(groups.first, [0, 1, 2, 1, 2, 1, 1, 7]);
             let numbered = groups.numbered(|face| (face == 0).then_some(u32::MAX));
             assert_eq!(numbered.first, [1, 2, 7]);
-            assert_eq!(numbered.of_face, [u32::MAX, 0, 1, 0, 1, 0, 0, 2]);
+            assert_eq!(numbered.set_of_face, [u32::MAX, 0, 1, 0, 1, 0, 0, 2]);
         }
     }
 
@@ -147,7 +147,7 @@ mod tests {
         let firsts: Vec<u32> = (0..count).filter(|k| plain[*k as usize] == *k && counts(*k)).collect();
         assert!(numbered.first == firsts && firsts.len() > 5000);
         let number = |first: &u32| firsts.binary_search(first).map_or(9, |at| at as u32);
-        assert_eq!(numbered.of_face, plain.iter().map(number).collect::<Vec<_>>());
+        assert_eq!(numbered.set_of_face, plain.iter().map(number).collect::<Vec<_>>());
     }
 
     #[test]

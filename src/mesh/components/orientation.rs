@@ -46,11 +46,11 @@ pub(crate) struct ConnectedTriangles<'a> {
 #[derive(Debug, Default)]
 pub(crate) struct OrientedSurfaces {
     /// Surface of each face.
-    pub of_face: NumberedSets,
+    pub surface_of_face: NumberedSets,
     /// Whether each surface is closed and two-sided.
     pub is_closed: Vec<bool>,
     /// Whether each face must be turned; empty if none must.
-    pub turned: Vec<bool>,
+    pub is_turned: Vec<bool>,
 }
 
 impl OrientedSurfaces {
@@ -73,7 +73,7 @@ impl OrientedSurfaces {
         let turns: Vec<bool> = (0..count).map(turns).collect();
         if turns.contains(&true) {
             turned.resize(mesh.triangles.len(), false);
-            let of_face = of_face.of_face.par_iter().with_min_len(MIN_TASK_ITEMS);
+            let of_face = of_face.set_of_face.par_iter().with_min_len(MIN_TASK_ITEMS);
             turned
                 .par_iter_mut()
                 .zip(of_face)
@@ -82,7 +82,7 @@ impl OrientedSurfaces {
         if !turned.contains(&true) {
             turned.clear();
         }
-        Self { of_face, is_closed, turned }
+        Self { surface_of_face: of_face, is_closed, is_turned: turned }
     }
 
     /// Whether any surface is open.
@@ -94,11 +94,11 @@ impl OrientedSurfaces {
     /// are none.
     pub fn turn_closed_only(&mut self) -> Vec<bool> {
         let is_open = |surface: &u32| !self.is_closed[*surface as usize];
-        let of_face = &self.of_face.of_face;
+        let of_face = &self.surface_of_face.set_of_face;
         let mut of_open: Vec<bool> =
-            self.turned.iter().zip(of_face).map(|(turned, of)| *turned && is_open(of)).collect();
-        self.turned.iter_mut().zip(&of_open).for_each(|(turned, open)| *turned &= !*open);
-        for list in [&mut self.turned, &mut of_open] {
+            self.is_turned.iter().zip(of_face).map(|(turned, of)| *turned && is_open(of)).collect();
+        self.is_turned.iter_mut().zip(&of_open).for_each(|(turned, open)| *turned &= !*open);
+        for list in [&mut self.is_turned, &mut of_open] {
             if !list.contains(&true) {
                 list.clear();
             }
@@ -109,9 +109,9 @@ impl OrientedSurfaces {
     /// Adds the turned faces to the counts per part, which are in part order.
     pub fn count(&self, parts: &[PartId], counts: &mut Vec<TurnedFaces>) {
         let part = |face: usize| parts.get(face).copied().unwrap_or_default();
-        let faces = (0..self.turned.len()).filter(|face| self.turned[*face]);
+        let faces = (0..self.is_turned.len()).filter(|face| self.is_turned[*face]);
         let mut found: Vec<(PartId, u32)> =
-            faces.map(|face| (part(face), self.of_face.of_face[face])).collect();
+            faces.map(|face| (part(face), self.surface_of_face.set_of_face[face])).collect();
         found.sort_unstable();
         for own in found.chunk_by(|a, b| a.0 == b.0) {
             let (part, faces) = (own[0].0, own.len() as u64);
@@ -247,7 +247,7 @@ impl ConnectedTriangles<'_> {
     fn joints(&self, surfaces: &NumberedSets) -> SurfaceFlags {
         let flags = || -> Vec<AtomicBool> { surfaces.first.iter().map(|_| AtomicBool::new(false)).collect() };
         let (open, mixed) = (flags(), flags());
-        let of = |face: u32| surfaces.of_face[face as usize] as usize;
+        let of = |face: u32| surfaces.set_of_face[face as usize] as usize;
         (0..self.edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK).for_each(|edge| {
             match self.edges.faces(edge) {
                 EdgeFaces::One(face) => open[of(face)].store(true, Relaxed),
@@ -273,7 +273,7 @@ impl ConnectedTriangles<'_> {
     /// The faces to turn for consistent windings. Surfaces where this is impossible are marked as `twisted`
     /// and stay unchanged.
     fn agreeing(&self, surfaces: &NumberedSets, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
-        let of = |face: u32| surfaces.of_face[face as usize] as usize;
+        let of = |face: u32| surfaces.set_of_face[face as usize] as usize;
         let mut parities = ParityUnionFind::new(self.triangles.len());
         for edge in 0..self.edges.len() {
             self.each_pair(edge, |a, b, same_way| {
@@ -355,7 +355,7 @@ impl ConnectedTriangles<'_> {
             runs
         };
         let chunks: Vec<Vec<(u32, SurfaceSums)>> =
-            surfaces.of_face.par_chunks(EDGES_PER_TASK).enumerate().map(of_chunk).collect();
+            surfaces.set_of_face.par_chunks(EDGES_PER_TASK).enumerate().map(of_chunk).collect();
         chunks.into_iter().flatten().for_each(|(surface, sums)| call(surface as usize, sums));
     }
 }

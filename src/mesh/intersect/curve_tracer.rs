@@ -1,4 +1,4 @@
-//! [`Tracer`]: follows intersection curves over a mesh, from one pair of triangles to the next.
+//! [`CurveTracer`]: follows intersection curves over a mesh, from one pair of triangles to the next.
 //!
 //! At each end of the common segment of two triangles, an edge of one pierces the other. The curve continues
 //! in the face across that edge. At a vertex in the other plane, it continues in one of the faces around the
@@ -12,11 +12,11 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Follows the intersection curves of a mesh.
 #[derive(Debug, Clone, Copy)]
-pub struct Tracer<'a> {
+pub struct CurveTracer<'a> {
     mesh: &'a Mesh,
 }
 
-impl<'a> Tracer<'a> {
+impl<'a> CurveTracer<'a> {
     /// The tracer of a mesh.
     #[must_use]
     pub fn new(mesh: &'a Mesh) -> Self {

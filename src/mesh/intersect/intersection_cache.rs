@@ -36,7 +36,7 @@ pub struct FaceHosts<'a> {
     /// The original face that each face is or is part of.
     pub faces: &'a [u32],
     /// Number of kept faces, which come first; their hosts ascend.
-    pub kept: usize,
+    pub kept_count: usize,
 }
 
 impl IntersectionCache {
@@ -68,7 +68,7 @@ impl IntersectionCache {
     ) -> IntersectionCurves {
         let Some(tree) = &self.tree else { return IntersectionCurves::default() };
         let mut places = vec![u32::MAX; self.ranks.len()];
-        for (place, face) in hosts.faces[..hosts.kept].iter().enumerate() {
+        for (place, face) in hosts.faces[..hosts.kept_count].iter().enumerate() {
             places[*face as usize] = place as u32;
         }
         let whole = |face: u32| places.get(face as usize).copied().filter(|place| *place != u32::MAX);
@@ -82,7 +82,7 @@ impl IntersectionCache {
         let is_active = |face: usize| finer.active.get(face).is_none_or(|active| *active);
         let is_known =
             |face: usize| self.ranks.get(hosts.faces[face] as usize).is_some_and(|r| *r != u32::MAX);
-        if (hosts.kept..finer.triangles.len()).any(|piece| is_active(piece) && !is_known(piece)) {
+        if (hosts.kept_count..finer.triangles.len()).any(|piece| is_active(piece) && !is_known(piece)) {
             return intersections_of_parts(finer, tolerance);
         }
 
@@ -106,7 +106,7 @@ impl IntersectionCache {
 struct RefinedFaces<'a> {
     finer: &'a IntersectionInput<'a>,
     tree: BoxTree,
-    kept: usize,
+    kept_count: usize,
     /// Rank and id of each cut face, by rank.
     faces: Vec<(u32, u32)>,
     /// Pieces by the rank of their face.
@@ -136,7 +136,7 @@ struct NearbyFace {
 
 impl<'a> RefinedFaces<'a> {
     fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: FaceHosts) -> Self {
-        let kept = hosts.kept;
+        let kept = hosts.kept_count;
         let corners = |triangle: &[u32; 3]| triangle.map(|v| finer.positions[v as usize]);
         let boxes: Vec<FineBox> = finer.triangles[kept..]
             .par_iter()
@@ -154,7 +154,7 @@ impl<'a> RefinedFaces<'a> {
         let changed: Vec<(u32, FineBox)> = (0..pieces.count()).filter_map(around).collect();
         let host = |rank: u32| hosts.faces[pieces.of(rank as usize)[0] as usize];
         let faces = changed.iter().map(|(rank, _)| (*rank, host(*rank))).collect();
-        Self { finer, tree: tree.with_boxes(&changed), kept, faces, pieces, boxes, ranks }
+        Self { finer, tree: tree.with_boxes(&changed), kept_count: kept, faces, pieces, boxes, ranks }
     }
 
     /// Calls `visit` for each piece of a cut face with the faces that may pass through it. A pair of cut
@@ -169,11 +169,11 @@ impl<'a> RefinedFaces<'a> {
     ) {
         let PieceSearch { stack, near, others } = search;
         let piece = |face: u32| {
-            let own_box = self.boxes[face as usize - self.kept];
+            let own_box = self.boxes[face as usize - self.kept_count];
             NearbyFace { own_box, face, vertices: self.finer.triangles[face as usize] }
         };
         let pieces = self.pieces.of(rank as usize);
-        let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept]);
+        let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept_count]);
         let Some(around) = boxes.reduce(FineBox::union) else { return };
         near.clear();
         self.tree.near(around, stack, |other| {
@@ -260,8 +260,9 @@ mod tests {
             let finer =
                 IntersectionInput { positions: &positions, triangles: &after, active: &[], bodies: &[] };
 
-            let curves = search
-                .refined_curves(&finer, FaceHosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));
+            let curves = search.refined_curves(&finer, FaceHosts { faces: &hosts, kept_count: kept }, |_| {
+                PairTolerance::of_exact(1.0)
+            });
             assert_eq!(curves, intersections_of_parts(&finer, |_| PairTolerance::of_exact(1.0)), "{seed}");
             for segment in &curves.segments {
                 let [a, b] = segment.faces.map(|face| face as usize);

@@ -65,18 +65,18 @@ impl Dihedral {
     /// turn equal to the limit never exceeds it because of rounding.
     #[must_use]
     pub fn sure_turn(&self, mesh: &Mesh) -> f32 {
-        self.turn() - self.doubt(mesh)
+        self.turn() - self.angle_error(mesh)
     }
 
     /// Error bound of the angle, degrees.
-    fn doubt(&self, mesh: &Mesh) -> f32 {
-        let [a, b] = self.faces.map(|face| Self::doubt_of(mesh, face));
+    fn angle_error(&self, mesh: &Mesh) -> f32 {
+        let [a, b] = self.faces.map(|face| Self::normal_error(mesh, face));
         (a + b) as f32
     }
 
     /// Error bound of a face normal due to rounding, degrees.
     #[must_use]
-    pub fn doubt_of(mesh: &Mesh, face: u32) -> f64 {
+    pub fn normal_error(mesh: &Mesh, face: u32) -> f64 {
         let least = tolerances::DIHEDRAL_ROUNDING_DEG / 2.0;
         let rounding = mesh.extent(FaceId(face)).rounding;
         if rounding == 0.0 {

@@ -74,7 +74,7 @@ impl<'a> CoplanarSearch<'a> {
     }
 
     fn rounding(&self, face: u32) -> f64 {
-        self.extents.of(self.parts[face as usize]).rounding
+        self.extents.part(self.parts[face as usize]).rounding
     }
 
     fn is_unsure(&self, face: u32) -> bool {
@@ -83,7 +83,7 @@ impl<'a> CoplanarSearch<'a> {
         // Faces without area are skipped.
         rounding > 0.0
             && is_narrow(height(&corners), rounding)
-            && has_area(corners, self.extents.of(self.parts[face as usize]).scale)
+            && has_area(corners, self.extents.part(self.parts[face as usize]).scale)
     }
 
     /// The first sure face on a path across longest edges, through planes that contain the face.

@@ -49,9 +49,9 @@ pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
     if count == 0 || (0..count).into_par_iter().with_min_len(MIN_TASK_ITEMS).all(is_alike) {
         return Vec::new();
     }
-    let surfaces = FlatSurfaces::of(mesh);
+    let surfaces = CoplanarPatches::of(mesh);
     let mut planes = SurfaceUnionFind::new(surfaces.all.len());
-    let related = surfaces.related(mesh, &mut planes);
+    let related = surfaces.join_overlapping(mesh, &mut planes);
     if !related {
         return Vec::new();
     }
@@ -134,7 +134,7 @@ impl SurfaceUnionFind {
 
 /// Connected flat patch of one part, material and paint.
 #[derive(Debug, Clone, Copy)]
-struct FlatSurface {
+struct CoplanarPatch {
     part: PartId,
     colour: (MaterialId, PaintId),
     area: f64,
@@ -145,8 +145,8 @@ struct FlatSurface {
     contact: f64,
 }
 
-struct FlatSurfaces {
-    all: Vec<FlatSurface>,
+struct CoplanarPatches {
+    all: Vec<CoplanarPatch>,
     /// Surface of each face; `u32::MAX` without area, and where no other colour is near.
     of_face: Vec<u32>,
     faces: CsrLists<u32>,
@@ -154,7 +154,7 @@ struct FlatSurfaces {
     near: Vec<bool>,
 }
 
-impl FlatSurfaces {
+impl CoplanarPatches {
     fn of(mesh: &Mesh) -> Self {
         let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
         let is_one = |[a, b]: [u32; 2], same_way: bool, edge: usize| {
@@ -189,11 +189,11 @@ impl FlatSurfaces {
         let near = faces_near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
         let mut is_asked = vec![false; near.len()];
         for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
-            is_asked[groups.of(face) as usize] = true;
+            is_asked[groups.representative(face) as usize] = true;
         }
-        let (mut all, mut of_face): (Vec<FlatSurface>, Vec<u32>) = (Vec::new(), Vec::new());
+        let (mut all, mut of_face): (Vec<CoplanarPatch>, Vec<u32>) = (Vec::new(), Vec::new());
         for face in 0..mesh.triangles.len() as u32 {
-            let root = groups.of(face);
+            let root = groups.representative(face);
             if mesh.is_degenerate(FaceId(face)) || !is_asked[root as usize] {
                 of_face.push(u32::MAX);
                 continue;
@@ -206,7 +206,15 @@ impl FlatSurfaces {
                 let (part, colour) = owner(face);
                 let contact = mesh.extent(FaceId(face)).contact;
                 let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                all.push(FlatSurface { part, colour, area: 0.0, low, high, largest: (face, area), contact });
+                all.push(CoplanarPatch {
+                    part,
+                    colour,
+                    area: 0.0,
+                    low,
+                    high,
+                    largest: (face, area),
+                    contact,
+                });
             }
             let own = &mut all[surface as usize];
             own.area += area;
@@ -228,14 +236,14 @@ impl FlatSurfaces {
         order.sort_by(|a, b| of(b).area.total_cmp(&of(a).area).then_with(|| in_file(a).cmp(&in_file(b))));
         // Areas that differ only by rounding are equal.
         let is_equal = |a: &u32, b: &u32| {
-            let reach = |own: &FlatSurface| 2.0 * own.contact * own.low.distance(own.high);
+            let reach = |own: &CoplanarPatch| 2.0 * own.contact * own.low.distance(own.high);
             (of(a).area - of(b).area).abs() <= reach(of(a)) + reach(of(b))
         };
         order.chunk_by_mut(is_equal).for_each(|equal| equal.sort_by_key(in_file));
     }
 
     /// Joins the overlapping surfaces of different colours. Returns whether there are any.
-    fn related(&self, mesh: &Mesh, planes: &mut SurfaceUnionFind) -> bool {
+    fn join_overlapping(&self, mesh: &Mesh, planes: &mut SurfaceUnionFind) -> bool {
         let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
         let of_surface = |surface: u32| keys[surface as usize].cells().map(move |cell| (cell, surface));
@@ -251,7 +259,7 @@ impl FlatSurfaces {
             }
             own.clear();
             own.extend(cell.iter().map(|(_, surface)| {
-                let FlatSurface { low, high, colour, contact, .. } = self.all[*surface as usize];
+                let CoplanarPatch { low, high, colour, contact, .. } = self.all[*surface as usize];
                 OverlapCandidate {
                     low: low - contact,
                     high: high + contact,

@@ -51,7 +51,7 @@ impl FaceTilts {
     }
 
     /// Whether each position is free to move: all its faces may tilt by more than the limit.
-    pub fn doubted(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
+    pub fn movable_positions(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
         let mut doubted = vec![false; places];
         for is_doubted in [true, false] {
             let such = faces
@@ -76,7 +76,7 @@ impl FaceTilts {
 pub(crate) struct Hinge {
     /// Both ends of the edge, then both opposite corners.
     pub corners: [u32; 4],
-    /// Coefficients of the second end and of the first opposite corner; see [`Self::shares`].
+    /// Coefficients of the second end and of the first opposite corner; see [`Self::corner_coefficients`].
     pub halves: [f32; 2],
     /// Gap without displacements, in half steps.
     pub gap: Vec3,
@@ -88,7 +88,7 @@ impl Hinge {
     /// Coefficients of the four corners in the gap. Both ends count negatively, both opposite corners
     /// positively.
     #[inline]
-    pub fn shares(&self) -> [f32; 4] {
+    pub fn corner_coefficients(&self) -> [f32; 4] {
         let [end, far] = self.halves;
         [end - 1.0, -end, far, 1.0 - far]
     }
@@ -96,7 +96,7 @@ impl Hinge {
     /// Gap after displacements, in half steps.
     #[inline]
     pub fn gap_at(&self, moved: &[Vec3]) -> Vec3 {
-        let ([a, b, c, d], [of_a, of_b, of_c, of_d]) = (self.corners, self.shares());
+        let ([a, b, c, d], [of_a, of_b, of_c, of_d]) = (self.corners, self.corner_coefficients());
         let at = |v: u32| moved[v as usize];
         self.gap + at(a) * of_a + at(b) * of_b + at(c) * of_c + at(d) * of_d
     }
@@ -105,7 +105,7 @@ impl Hinge {
     /// displacements of the others.
     #[inline]
     pub fn steepest(&self, share: f32) -> f32 {
-        let [a, b, c, d] = self.shares();
+        let [a, b, c, d] = self.corner_coefficients();
         self.weight * share.abs() * (a.abs() + b.abs() + c.abs() + d.abs())
     }
 }

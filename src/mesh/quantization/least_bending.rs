@@ -22,7 +22,11 @@ pub(crate) const MAX_DESCENT_STEPS: usize = 16;
 pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Vec<Vec3> {
     // For each position, its hinges and its coefficient in each.
     let parts = hinges.iter().zip(0u32..).flat_map(|(hinge, k)| {
-        hinge.corners.into_iter().zip(hinge.shares()).map(move |(v, share)| (v as usize, (k, share)))
+        hinge
+            .corners
+            .into_iter()
+            .zip(hinge.corner_coefficients())
+            .map(move |(v, share)| (v as usize, (k, share)))
     });
     let parts = csr_lists_from_pairs(free.len(), parts);
     let all = (0..free.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);

@@ -92,7 +92,7 @@ pub fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f3
     if triangles.as_flattened().iter().any(|v| *v as usize >= vertices.len()) {
         return;
     }
-    let (place_of, places) = places(&lattice, vertices);
+    let (place_of, places) = distinct_positions(&lattice, vertices);
     let sound = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| place_of[v as usize]);
         a != b && b != c && c != a
@@ -100,7 +100,7 @@ pub fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f3
     let corners: Vec<[u32; 3]> = triangles.iter().filter(|t| sound(t)).copied().collect();
     let faces: Vec<[u32; 3]> = corners.iter().map(|t| t.map(|v| place_of[v as usize])).collect();
     let doubts = FaceTilts::of(&places, &faces, lattice.step / 2.0);
-    let mut free = doubts.doubted(&faces, places.len());
+    let mut free = doubts.movable_positions(&faces, places.len());
     if !free.contains(&true) {
         return;
     }
@@ -122,7 +122,7 @@ pub fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f3
 
 /// Position index of each vertex, and the positions in the order of their first vertices, which keeps
 /// neighbours close in memory.
-fn places(lattice: &QuantizationLattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
+fn distinct_positions(lattice: &QuantizationLattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
     let keys = vertices.par_iter().with_min_len(MIN_TASK_ITEMS).enumerate();
     let mut keys: Vec<(u64, u32)> = keys.map(|(v, p)| (lattice.key(*p), v as u32)).collect();
     keys.par_sort_unstable();

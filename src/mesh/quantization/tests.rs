@@ -190,7 +190,7 @@ fn vertices_at_one_place_stay_at_one_place() {
 fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::DVec3> {
     let mut moved = vec![DVec3::ZERO; free.len()];
     let gap = |hinge: &super::hinges::Hinge, moved: &[DVec3]| {
-        let shares = hinge.shares().map(f64::from);
+        let shares = hinge.corner_coefficients().map(f64::from);
         hinge
             .corners
             .iter()
@@ -201,7 +201,7 @@ fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::D
         for v in (0..free.len()).filter(|v| free[*v]) {
             let (mut slope, mut steep) = (DVec3::ZERO, 0.0);
             for hinge in hinges {
-                for (corner, share) in hinge.corners.iter().zip(hinge.shares()) {
+                for (corner, share) in hinge.corners.iter().zip(hinge.corner_coefficients()) {
                     if *corner as usize == v {
                         let (share, weight) = (f64::from(share), f64::from(hinge.weight));
                         slope += gap(hinge, &moved) * share * weight;
@@ -219,7 +219,7 @@ fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::D
 
 fn bending(hinges: &[super::hinges::Hinge], moved: impl Fn(u32) -> DVec3) -> f64 {
     let square = |hinge: &super::hinges::Hinge| {
-        let shares = hinge.shares().map(f64::from);
+        let shares = hinge.corner_coefficients().map(f64::from);
         let gap = hinge.corners.iter().zip(shares);
         let gap = gap.fold(hinge.gap.as_dvec3(), |gap, (v, share)| gap + moved(*v) * share);
         f64::from(hinge.weight) * gap.length_squared()
@@ -232,7 +232,7 @@ fn descent_comes_near_the_least_bending_there_is() {
     let (truth, triangles) = torus(16, 8);
     let (places, step) = rounded(&truth, 5);
     let doubts = FaceTilts::of(&places, &triangles, step / 2.0);
-    let free = doubts.doubted(&triangles, places.len());
+    let free = doubts.movable_positions(&triangles, places.len());
     assert!(free.iter().all(|free| *free));
     let edges = Edges::build(places.len(), &triangles);
     let hinges = hinges(&places, (&triangles, &edges), &doubts, (&triangles, &[]), &free);

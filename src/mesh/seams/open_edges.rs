@@ -145,7 +145,7 @@ impl OpenEdge {
     }
 
     /// Whether the paint of a corner at parameter `t` matches the paint interpolated between both ends.
-    fn goes_on(&self, t: f64, corner: CornerPaint) -> bool {
+    fn matches_paint(&self, t: f64, corner: CornerPaint) -> bool {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
                 ([Some(a), Some(b)], Some(c)) => {
@@ -219,7 +219,7 @@ impl<'a> SeamSearch<'a> {
             .into_par_iter()
             .with_min_len(256)
             .map(|edge| {
-                self.cuts(edge, tolerances::MAX_SEAM_GAP_OF_PART * extents.of(self.open[edge].part).scale)
+                self.cuts(edge, tolerances::MAX_SEAM_GAP_OF_PART * extents.part(self.open[edge].part).scale)
             })
             .collect();
         let mut faces: Vec<FaceCuts> = Vec::new();
@@ -252,10 +252,10 @@ impl<'a> SeamSearch<'a> {
         };
         let mut own = borders(corner).peekable();
         own.peek()?;
-        let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
+        let scale = own.clone().map(|edge| extents.part(edge.part).scale).fold(0.0, f64::max);
         let (reach, place) = (tolerances::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
-        self.places.near(place, DVec3::ZERO, reach, |other, at| {
+        self.places.visit_near(place, DVec3::ZERO, reach, |other, at| {
             let apart = at.distance(place);
             let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
             if other != corner && apart <= reach && is_nearer && borders(other).next().is_some() {
@@ -268,7 +268,7 @@ impl<'a> SeamSearch<'a> {
         let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
         let meets = |a: &OpenEdge, b: &OpenEdge| {
             let end = usize::from(a.ends[1] == p);
-            b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
+            b.ends[1 - end] == q && a.faces_across(b) && a.matches_paint(end as f64, b.paint[1 - end])
         };
         (!is_strip && own.any(|a| borders(other).any(|b| meets(a, b)))).then_some(other)
     }
@@ -294,7 +294,7 @@ impl<'a> SeamSearch<'a> {
         if own.length == 0.0 || reach == 0.0 {
             return cuts;
         }
-        self.places.near(start, own.along * own.length, reach, |corner, at| {
+        self.places.visit_near(start, own.along * own.length, reach, |corner, at| {
             let vertex = self.corners[corner as usize];
             let way = at - start;
             let along = way.dot(own.along);
@@ -308,7 +308,7 @@ impl<'a> SeamSearch<'a> {
                 && clear
                 && !is_own
                 && is_between(way)
-                && self.is_of_seam(own, along / own.length, corner)
+                && self.has_seam_partner(own, along / own.length, corner)
             {
                 cuts.push((along / own.length, vertex));
             }
@@ -319,11 +319,11 @@ impl<'a> SeamSearch<'a> {
     }
 
     /// Whether an open edge at this corner runs along the given edge, as the other side of a seam.
-    fn is_of_seam(&self, own: &OpenEdge, t: f64, corner: u32) -> bool {
+    fn has_seam_partner(&self, own: &OpenEdge, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
             own.runs_against(other)
-                && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+                && own.matches_paint(t, other.paint[usize::from(other.ends[1] == vertex)])
                 && (!own.folds(other) || self.meets_on_both_sides(own, vertex))
         })
     }

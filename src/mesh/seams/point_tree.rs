@@ -27,7 +27,7 @@ struct PointBox {
 
 /// Points in tree order. Each box covers a run of points, or of boxes one level down.
 pub(crate) struct PointTree {
-    places: Vec<IndexedPoint>,
+    points: Vec<IndexedPoint>,
     /// Boxes of points first, the box of all points last.
     levels: Vec<Vec<PointBox>>,
 }
@@ -46,12 +46,12 @@ impl PointTree {
             let above = last.par_chunks(CHILDREN_PER_BOX).map(of_boxes).collect();
             levels.push(above);
         }
-        Self { places, levels }
+        Self { points: places, levels }
     }
 
     /// Visits all points within `reach` of the segment from `start` to `start + way`, and some others, each
     /// once.
-    pub fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
+    pub fn visit_near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
         let line = QuerySegment { start, per_way: way.recip(), reach };
         let top = self.levels.len() - 1;
         for k in 0..self.levels[top].len() {
@@ -64,10 +64,10 @@ impl PointTree {
         if !line.meets(&self.levels[level][k]) {
             return;
         }
-        let all = if level == 0 { self.places.len() } else { self.levels[level - 1].len() };
+        let all = if level == 0 { self.points.len() } else { self.levels[level - 1].len() };
         let run = CHILDREN_PER_BOX * k..(CHILDREN_PER_BOX * (k + 1)).min(all);
         if level == 0 {
-            self.places[run].iter().for_each(|(place, number)| visit(*number, *place));
+            self.points[run].iter().for_each(|(place, number)| visit(*number, *place));
         } else {
             run.for_each(|k| self.visit_box(line, level - 1, k, visit));
         }
@@ -162,7 +162,7 @@ mod tests {
             };
             let reach = [0.0, 0.001, 0.02, 0.2][k / 4 % 4];
             let mut visited = Vec::new();
-            places.near(start, way, reach, |number, place| {
+            places.visit_near(start, way, reach, |number, place| {
                 assert_eq!(place, all[number as usize]);
                 visited.push(number);
             });
@@ -178,7 +178,7 @@ mod tests {
         }
         assert!(found > 1000, "{found}");
         let none = PointTree::new(Vec::new());
-        none.near(DVec3::ZERO, DVec3::X, 1.0, |_, _| unreachable!("there is no point"));
+        none.visit_near(DVec3::ZERO, DVec3::X, 1.0, |_, _| unreachable!("there is no point"));
     }
 
     #[test]
@@ -187,7 +187,7 @@ mod tests {
         let places = PointTree::new(all.iter().copied());
         let mut visits = 0;
         for start in &all {
-            places.near(*start, DVec3::new(0.004, 0.002, 0.001), 1e-6, |_, _| visits += 1);
+            places.visit_near(*start, DVec3::new(0.004, 0.002, 0.001), 1e-6, |_, _| visits += 1);
         }
         assert!(visits < 12 * all.len(), "{visits} visits of {}", all.len());
     }
@@ -198,7 +198,7 @@ mod tests {
         let places = PointTree::new(row());
         for (start, way) in [(DVec3::X * 20.0, DVec3::X * 10.0), (DVec3::X * 30.0, DVec3::X * -10.0)] {
             let mut met = Vec::new();
-            places.near(start, way, 0.0, |number, place| {
+            places.visit_near(start, way, 0.0, |number, place| {
                 if (20.0..=30.0).contains(&place.x) {
                     met.push(number);
                 }

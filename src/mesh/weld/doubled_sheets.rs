@@ -38,7 +38,7 @@ struct DoubledSheets<'a> {
     pair_of: Vec<u32>,
     /// For each side of the first face of each pair, the face of the same part across it: the first face of
     /// another pair, or a single face. [`NO_FACE_OR_PAIR`] if there is no such face, or more than one.
-    beyond: Vec<[AtomicU32; 3]>,
+    face_across: Vec<[AtomicU32; 3]>,
 }
 
 impl<'a> DoubledSheets<'a> {
@@ -48,7 +48,7 @@ impl<'a> DoubledSheets<'a> {
             faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
         }
         let beyond = pairs.iter().map(|_| [NO_FACE_OR_PAIR; 3].map(AtomicU32::new)).collect();
-        let sheets = Self { soup, pairs, pair_of, beyond };
+        let sheets = Self { soup, pairs, pair_of, face_across: beyond };
         let all = (0..edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK);
         all.for_each(|edge| sheets.record_neighbours(edges, edge));
         sheets
@@ -69,7 +69,7 @@ impl<'a> DoubledSheets<'a> {
             let [p, q, r] = [a, b, c].map(|v| self.soup.positions[v as usize]);
             volume += p.dot(q.cross(r));
             for edge in [[a, b], [b, c], [c, a]] {
-                let other = self.beyond[pair][self.side(self.pairs[pair][0], edge)].load(Relaxed);
+                let other = self.face_across[pair][self.side(self.pairs[pair][0], edge)].load(Relaxed);
                 if other == NO_FACE_OR_PAIR {
                     continue;
                 }
@@ -107,7 +107,7 @@ impl<'a> DoubledSheets<'a> {
             let Some((pair, _)) = first_of(face) else { continue };
             let mut others = counted().filter(|other| *other != face && part(*other) == part(face));
             if let (Some(other), None) = (others.next(), others.next()) {
-                self.beyond[pair][self.side(face, edges.vertices[edge])].store(other, Relaxed);
+                self.face_across[pair][self.side(face, edges.vertices[edge])].store(other, Relaxed);
             }
         }
     }
@@ -207,7 +207,7 @@ mod tests {
             let pairs: Vec<[u32; 2]> = (0..faces).filter(is_pair).map(|face| [face, face + 1]).collect();
             let edges = Edges::build(9, &soup.triangles);
             let sheets = DoubledSheets::new(&soup, &edges, &pairs);
-            for ([first, second], beyond) in pairs.iter().zip(&sheets.beyond) {
+            for ([first, second], beyond) in pairs.iter().zip(&sheets.face_across) {
                 let [a, b, c] = soup.triangles[*first as usize];
                 for (ends, beyond) in [[a, b], [b, c], [c, a]].iter().zip(beyond) {
                     let is_other = |face: &u32| {

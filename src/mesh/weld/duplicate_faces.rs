@@ -1,4 +1,4 @@
-//! Removal of duplicate faces: faces of one part with the same three vertices. Also [`Cleaning`], the
+//! Removal of duplicate faces: faces of one part with the same three vertices. Also [`RepairCounts`], the
 //! counts of repaired defects.
 //!
 //! 1. Each face is looked up at the edge between its two smallest vertices, so only faces that share this
@@ -15,7 +15,7 @@ use crate::mesh::soup::Soup;
 
 /// Counts of defects that were repaired or found while a mesh was built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Cleaning {
+pub struct RepairCounts {
     /// Vertices joined to another at the same position.
     pub welded: u64,
     /// Faces dropped because two of their corners coincide.
@@ -114,7 +114,7 @@ impl DuplicateFaces {
     fn add(&mut self, soup: &Soup, same: &[(u32, u32, u32)]) {
         let faces = || same.iter().map(|(_, _, face)| *face);
         let Some(first) = faces().next() else { return };
-        match faces().find(|face| is_upward(soup, *face) != is_upward(soup, first)) {
+        match faces().find(|face| has_ascending_winding(soup, *face) != has_ascending_winding(soup, first)) {
             Some(other) => {
                 self.pairs.push([first, other]);
                 self.dropped.extend(faces());
@@ -130,7 +130,7 @@ fn part(soup: &Soup, face: u32) -> u32 {
 }
 
 /// Whether the corners of a face are a cyclic permutation of ascending ids.
-fn is_upward(soup: &Soup, face: u32) -> bool {
+fn has_ascending_winding(soup: &Soup, face: u32) -> bool {
     let [a, b, c] = soup.triangles[face as usize];
     [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
 }
@@ -154,7 +154,10 @@ mod tests {
         let mut keep = vec![false; soup.triangles.len()];
         let mut pairs = Vec::new();
         for faces in alike.values() {
-            match faces.iter().find(|face| is_upward(soup, **face) != is_upward(soup, faces[0])) {
+            match faces
+                .iter()
+                .find(|face| has_ascending_winding(soup, **face) != has_ascending_winding(soup, faces[0]))
+            {
                 Some(other) => pairs.push([faces[0], *other]),
                 None => keep[faces[0] as usize] = true,
             }

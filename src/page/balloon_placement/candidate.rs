@@ -38,7 +38,7 @@ pub(crate) fn candidates(wish: &PlacementRequest, room: &PlacementArea) -> Vec<B
                     None => continue,
                 },
             };
-            let around = tail.as_ref().map(|tail| tail_polygon(middle, tail.tip, wish.foot));
+            let around = tail.as_ref().map(|tail| tail_polygon(middle, tail.tip, wish.tail_half_width));
             let place = PlacedBalloon { shape, middle, tip: tail.as_ref().map(|tail| tail.tip), hull };
             if wish.at.is_some() || meets_constraints(&place, around.as_ref(), wish, room) {
                 let bounds = place.hull.bounds();
@@ -77,6 +77,6 @@ fn meets_constraints(
 ) -> bool {
     let free = |other: &ConvexPolygon| !own.hull.meets(other, room.gap);
     let is_own = |other: &ConvexPolygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
-    room.kept.iter().all(|other| free(other) && (is_own(other) || is_clear(tail, other)))
+    room.protected.iter().all(|other| free(other) && (is_own(other) || is_clear(tail, other)))
         && room.obstacles.iter().all(|other| free(other) && is_clear(tail, other))
 }

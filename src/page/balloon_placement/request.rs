@@ -19,9 +19,9 @@ pub struct PlacementRequest {
     /// Em size of its letters, mm.
     pub em: f64,
     /// Minimum length of its tail, mm.
-    pub tail: f64,
+    pub min_tail_length: f64,
     /// Half the width of its tail at the balloon, mm.
-    pub foot: f64,
+    pub tail_half_width: f64,
     /// Centre on the page, if the page file gives one.
     pub at: Option<Point>,
     /// Whether it belongs in the corner where reading starts, as captions do.
@@ -35,7 +35,7 @@ pub struct PlacementArea {
     pub outline: ConvexPolygon,
     /// Areas that no balloon may cover, such as faces and parts in the key `keep`. A tail may cover only
     /// the area of its own target.
-    pub kept: Vec<ConvexPolygon>,
+    pub protected: Vec<ConvexPolygon>,
     /// Areas that neither balloons nor tails may cover, such as sound effects.
     pub obstacles: Vec<ConvexPolygon>,
     /// The area that models cover; balloons avoid it if possible.

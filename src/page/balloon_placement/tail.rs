@@ -60,7 +60,7 @@ pub(crate) fn fit_tail(
     let leaves = exit_distance(hull, middle, aim);
     // If the balloon is inside a large part, the tail points to the aim itself.
     let reach = if target.holds(middle) { length } else { enters } - room.gap * TIP_GAP_FACTOR;
-    let least = leaves + wish.tail;
+    let least = leaves + wish.min_tail_length;
     if reach.is_nan() || reach < least {
         return None;
     }

@@ -37,18 +37,18 @@ pub fn compose(comic: &ComicPage, source: &PageSource) -> Result<ComposedPage, E
     let lettering = lettering::Lettering::new(&comic.lettering, comic.reading.into(), source)?;
     let panels: Vec<panel_drawing::DrawnPanel> = shapes
         .par_iter()
-        .map(|shape| panel_drawing::draw(shape, comic, &sheet, source))
+        .map(|shape| panel_drawing::draw_panel(shape, comic, &sheet, source))
         .collect::<Result<_, _>>()?;
     let mut items = Vec::new();
     let (mut over, mut letters) = (Vec::new(), Vec::new());
     let mut warnings = Vec::new();
     for (shape, mut panel) in shapes.iter().zip(panels) {
         items.append(&mut panel.items);
-        over.extend(panel.over.take());
+        over.extend(panel.breakout.take());
         // Panels share the style of the page, and would repeat a warning about it.
         panel.warnings.retain(|warning| !warnings.contains(warning));
         warnings.append(&mut panel.warnings);
-        letters.extend(lettering.letter(shape, panel.seen.as_ref(), &sheet, &mut warnings)?);
+        letters.extend(lettering.letter(shape, panel.scene.as_ref(), &sheet, &mut warnings)?);
     }
     items.extend(over.into_iter().chain(letters));
     let Rect { x1, y1, .. } = sheet.bleed;

@@ -36,9 +36,9 @@ pub(crate) struct DrawnPanel {
     /// The drawing of the scene, clipped to the panel, and the border.
     pub items: Vec<PlacedDrawing>,
     /// Parts that break out of the border; they may cover other panels.
-    pub over: Option<PlacedDrawing>,
+    pub breakout: Option<PlacedDrawing>,
     /// The scene and its camera; `None` without a model.
-    pub seen: Option<PanelScene>,
+    pub scene: Option<PanelScene>,
     /// Warnings about the panel.
     pub warnings: Vec<String>,
 }
@@ -48,7 +48,7 @@ pub(crate) struct PanelScene {
     scene: Scene,
     camera: Camera,
     /// Page position of the upper left corner of the camera's frame, mm.
-    place: Vec2,
+    frame_origin: Vec2,
 }
 
 impl PanelScene {
@@ -63,21 +63,21 @@ impl PanelScene {
             let own = part.name.split_once('/').map(|(model, _)| model);
             models.is_empty() || own.is_some_and(|own| models.contains(&own))
         };
-        CoverageGrid::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
+        CoverageGrid::of(&self.scene, &self.camera, self.frame_origin.to_point(), &is_figure)
     }
 
     /// Bounds and hulls on the page, mm, of the parts whose names match a pattern.
     ///
     /// # Errors
     /// Returns an error if no part matches.
-    pub fn places(&self, glob: &Spanned<String>, source: &PageSource) -> Result<Vec<PartExtent>, Error> {
+    pub fn part_bounds(&self, glob: &Spanned<String>, source: &PageSource) -> Result<Vec<PartExtent>, Error> {
         let mut places = figure::find_part_bounds(&self.scene, &self.camera, glob.get_ref());
         if !self.scene.parts.iter().any(|part| name_matches(glob.get_ref(), &part.name)) {
             return Err(camera_spec::unknown_part(glob, &self.scene, source));
         }
         for place in &mut places {
-            place.bounds = place.bounds + self.place;
-            place.hull.iter_mut().for_each(|p| *p += self.place);
+            place.bounds = place.bounds + self.frame_origin;
+            place.hull.iter_mut().for_each(|p| *p += self.frame_origin);
         }
         Ok(places)
     }
@@ -87,7 +87,7 @@ impl PanelScene {
 ///
 /// # Errors
 /// Returns an error if a model, style or camera is missing or invalid.
-pub(crate) fn draw(
+pub(crate) fn draw_panel(
     shape: &PanelOutline,
     page: &ComicPage,
     sheet: &PageBoxes,
@@ -100,10 +100,10 @@ pub(crate) fn draw(
     let sets: Vec<Spanned<String>> = page.set.iter().chain(&keys.set).cloned().collect();
     let mut style = figure::style(name, &sets, source)?;
     if let Some(colour) = &keys.background {
-        style.background = background(colour, source)?;
+        style.background = parse_background(colour, source)?;
     }
     let warnings = figure::figure_style::unit_warning(name, &sets, source).into_iter().collect();
-    let mut drawn = DrawnPanel { items: Vec::new(), over: None, seen: None, warnings };
+    let mut drawn = DrawnPanel { items: Vec::new(), breakout: None, scene: None, warnings };
     let item = |name: &str, drawing, corner: Vec2, clip| PlacedDrawing {
         name: name.to_owned(),
         drawing,
@@ -144,7 +144,7 @@ pub(crate) fn draw(
             broken = Some((break_out_drawing(&drawing, &scene, &wide, &style, keys)?, corner));
         }
         drawn.items.push(item(&shape.name, drawing, corner, outline));
-        drawn.seen = Some(PanelScene { scene, camera, place: bounds.origin().to_vec2() });
+        drawn.scene = Some(PanelScene { scene, camera, frame_origin: bounds.origin().to_vec2() });
     }
     let Mm(width) = *keys.border.as_ref().unwrap_or(&page.border).get_ref();
     if width < 0.0 {
@@ -165,7 +165,7 @@ pub(crate) fn draw(
     if let Some((drawing, corner)) = broken {
         let inner = shape.outline.inset(width / 2.0 + hand + BREAK_OVERLAP_MM);
         let clip = frame_with_hole(sheet.bleed, &inner.path());
-        drawn.over = Some(item(&format!("{}-break", shape.name), drawing, corner, clip));
+        drawn.breakout = Some(item(&format!("{}-break", shape.name), drawing, corner, clip));
     }
     Ok(drawn)
 }
@@ -175,7 +175,7 @@ fn paper([width, height]: [f64; 2], background: Option<Colour>) -> Page {
 }
 
 /// Parses a colour or `none`.
-fn background(word: &Spanned<String>, source: &PageSource) -> Result<Option<Colour>, Error> {
+fn parse_background(word: &Spanned<String>, source: &PageSource) -> Result<Option<Colour>, Error> {
     if word.get_ref().eq_ignore_ascii_case("none") {
         return Ok(None);
     }

@@ -74,7 +74,7 @@ impl SheetPage {
     /// The size of the sheet, mm. Default: A3. Sizes above A4 are turned to landscape format; smaller ones
     /// keep their orientation.
     #[must_use]
-    pub fn lying(&self) -> PageSize {
+    pub fn oriented_size(&self) -> PageSize {
         let size = self.size.unwrap_or(PageSize { width: 420.0, height: 297.0 });
         let is_small = size.width.max(size.height) <= 297.0;
         if is_small { size } else { size.landscape() }
@@ -99,7 +99,7 @@ pub fn compose(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, E
 }
 
 fn compose_sheet(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
-    let size = sheet.lying();
+    let size = sheet.oriented_size();
     let font = match &sheet.font {
         None => Font::named("technical")?,
         Some(name) => {

@@ -103,7 +103,8 @@ impl<'a> SheetLayout<'a> {
         let sets = plan.sets.clone();
         let mut prepared = Vec::new();
         for (number, set) in sets.iter().enumerate() {
-            prepared.push(plan.set_of.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
+            prepared
+                .push(plan.scene_of_view.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
         }
         let mut drawn = ViewDrawings::new(prepared, plan.views.len());
         let mut anchors: Option<Vec<Option<DVec2>>> = None;
@@ -118,9 +119,9 @@ impl<'a> SheetLayout<'a> {
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
-                    let found = find_anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
+                    let found = find_anchors(sight, &plan.sets[plan.scene_of_view[view]].scene, items);
                     let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
-                    found.into_iter().map(|p| p.map(|p| within(p) / sight.unit)).collect()
+                    found.into_iter().map(|p| p.map(|p| within(p) / sight.mm_per_unit)).collect()
                 });
                 anchors = Some(found.unwrap_or_default());
             }
@@ -189,7 +190,7 @@ fn fill_ring(
     (scale, laid): (f64, &mut AnnotationBoard),
     board: impl Fn(&ViewPlan, &ViewDrawings) -> Result<AnnotationBoard, Error>,
 ) -> Result<(), Error> {
-    let unit = plan.views[view].sight.unit;
+    let unit = plan.views[view].sight.mm_per_unit;
     let Some(most) = plan.views[view].placement.max_unit(scale * plan.unit_mm()) else { return Ok(()) };
     for larger in RING_ENLARGEMENTS {
         plan.views[view].rescale(unit, (unit * larger).min(most));
@@ -202,7 +203,7 @@ fn fill_ring(
                 return Ok(());
             }
         }
-        let now = plan.views[view].sight.unit;
+        let now = plan.views[view].sight.mm_per_unit;
         plan.views[view].rescale(now, unit);
     }
     drawn.update(plan)?;
@@ -214,7 +215,7 @@ fn make_room(views: &mut [PlacedView], boards: &[AnnotationBoard]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
         let needed = Annotations::room(board, placed.sight.rect());
-        let own = placed.margins_at(placed.sight.unit);
+        let own = placed.margins_at(placed.sight.mm_per_unit);
         if needed.iter().zip(own).all(|(needed, own)| *needed <= own + LENGTH_ROUNDING_MM) {
             continue;
         }

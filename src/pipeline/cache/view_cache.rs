@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use crate::light::NormalCones;
 use crate::lines::intersections::intersection_lines;
-use crate::lines::{EdgeSearch, Finer, HiddenLines, LineKind, LineOptions, SharedSearches, Surface};
+use crate::lines::{EdgeSearch, HiddenLines, LineKind, LineOptions, RefinedSurface, SharedSearches, Surface};
 use crate::mesh::intersect::intersection_cache::IntersectionCache;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
@@ -35,7 +35,7 @@ pub(crate) struct ViewCache {
     is_found: AtomicBool,
     intersections: OnceLock<IntersectionCurves>,
     /// Number of views that may split faces.
-    asked_views: AtomicU32,
+    splittable_views: AtomicU32,
     cones: OnceLock<NormalCones>,
     /// Number of views that split faces.
     finer_views: AtomicU32,
@@ -49,7 +49,12 @@ impl ViewCache {
     /// waits.
     ///
     /// With `finds`, this view finds all intersections if no earlier one has.
-    pub fn of_next_view(&self, surface: &Surface, options: &LineOptions, finds: bool) -> SharedSearches<'_> {
+    pub fn share_with_next_view(
+        &self,
+        surface: &Surface,
+        options: &LineOptions,
+        finds: bool,
+    ) -> SharedSearches<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
         if view + 1 == SEARCH_BUILD_VIEW && surface.mesh.edges.len() >= MIN_SEARCH_EDGES {
@@ -89,17 +94,17 @@ impl ViewCache {
         let is_asked =
             !surface.refined && surface.mesh.edges.len() >= MIN_SEARCH_EDGES && !surface.smooth.is_empty();
         // Built at the second view: a surface drawn only once gains nothing.
-        if is_asked && self.asked_views.fetch_add(1, Ordering::Relaxed) == 1 {
+        if is_asked && self.splittable_views.fetch_add(1, Ordering::Relaxed) == 1 {
             let _ = self.cones.set(NormalCones::new(&surface.mesh, &surface.smooth));
         }
         self.cones.get()
     }
 
     /// The intersections for one more view that splits faces, if the shared search finds them faster.
-    pub fn of_finer_view(
+    pub fn share_with_finer_view(
         &self,
         surface: &Surface,
-        finer: &Finer,
+        finer: &RefinedSurface,
         options: &LineOptions,
     ) -> Option<IntersectionCurves> {
         if !is_wanted(&finer.surface, options) {

@@ -74,19 +74,19 @@ pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Re
         bin: 0,
         cast: false,
     };
-    let areas = prepared.on_view(camera, page.unit, |on_view| {
+    let areas = prepared.with_visibility(camera, page.unit, |on_view| {
         let fills = on_view.fills?;
-        let seen = fills.see(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
+        let seen = fills.label_page(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
         let regions = regions::gather_relabelled(&seen, by_part, &style.region, &style.chain, page.unit);
         let offset = fills.paint_context(&page, camera).offset;
         Some(region_paint::outlines(&regions, offset, 0.0, |_| true))
     });
     let mut areas = areas.unwrap_or_default();
-    areas.sort_by_key(|(_, region)| region.look.part);
+    areas.sort_by_key(|(_, region)| region.label.part);
     let mut spots: Vec<Hotspot> = Vec::new();
     let mut numbers: FxHashMap<&str, usize> = FxHashMap::default();
     for (path, region) in areas {
-        let Some(part) = prepared.scene.parts.get(region.look.part.index()) else { continue };
+        let Some(part) = prepared.scene.parts.get(region.label.part.index()) else { continue };
         if part.name.is_empty() {
             continue;
         }

@@ -43,7 +43,7 @@ impl Prepared<'_> {
         stage: Option<Stage>,
     ) -> Result<(Drawing, Report), Error> {
         camera.validate()?;
-        Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
+        Ok(self.with_visibility(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
     /// The maps of a view for finding image lines, even if the style draws none. `unit` is that of the page.
@@ -66,13 +66,13 @@ impl Prepared<'_> {
     #[must_use]
     pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(HatchRegions, Vec<LayerStrokes>)> {
         camera.validate().ok()?;
-        self.on_view(camera, page.unit, |on_view| {
+        self.with_visibility(camera, page.unit, |on_view| {
             let VisibleView { fills, map, behind, .. } = on_view;
             let fills = fills.filter(|_| self.style.hatch.enabled)?;
             let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
-            let see = || fills.see(&PageBorders::of(&map, &on_view.view.frame), &page);
-            let seen = behind.map_or_else(see, |behind| behind.see(fills, &page));
+            let see = || fills.label_page(&PageBorders::of(&map, &on_view.view.frame), &page);
+            let seen = behind.map_or_else(see, |behind| behind.label_page(fills, &page));
             Some(hatching.strokes(&seen))
         })
     }
@@ -108,7 +108,7 @@ impl Prepared<'_> {
             if fills.is_some() {
                 surface_fills::keep_inked(&mut map, style, &unchanged);
             }
-            let lines = image_line_pass::joined(&mut map, lines, surface, view, style, page.unit);
+            let lines = image_line_pass::add_image_lines(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
             let ahead = GapOcclusion::new(whole, view, &lines, &map.visible_contours, margin);
@@ -181,7 +181,7 @@ impl Prepared<'_> {
                     surface,
                     view,
                     lines,
-                    ahead: &ahead,
+                    gap_occlusion: &ahead,
                     map: &map,
                     chains: &chains,
                     style,
@@ -195,7 +195,7 @@ impl Prepared<'_> {
         report.counts.feature_edges = lines.segments.len() as u64;
         report.counts.ray_tests = map.tests;
         report.counts.contour_curves = map.contours.curves;
-        report.counts.contour_bare = map.contours.bare;
+        report.counts.contour_bare = map.contours.unmatched;
         report.counts.contour_folds = map.contours.folds;
         report.counts.chains = chains.len() as u64;
         report.counts.points =

@@ -49,7 +49,8 @@ impl FillPass {
         let FillInputs { scene, style, paints, fills, surface, lines, borders, behind } = *on;
         let mut watch = Stopwatch::start();
         let mut painted = Self::default();
-        let seen = behind.map_or_else(|| fills.see(borders, page), |behind| behind.see(fills, page));
+        let seen =
+            behind.map_or_else(|| fills.label_page(borders, page), |behind| behind.label_page(fills, page));
         if style.region.enabled {
             let (mut layers, regions) = fills.paint(&seen, page, camera, style);
             painted.regions = regions.regions.len() as u64;

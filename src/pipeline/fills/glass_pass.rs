@@ -72,7 +72,7 @@ impl GlassPanes {
     }
 
     /// Decides what is visible through the panes.
-    pub fn look_behind(
+    pub fn decide_behind(
         &self,
         mesh: &Mesh,
         view: &View,
@@ -91,8 +91,8 @@ impl BehindGlass<'_> {
     }
 
     /// The surfaces visible without panes.
-    pub fn see(&self, fills: &SurfaceFills, page: &Page) -> regions::LabelledPage {
-        fills.see_behind(&self.panes.clear, &self.map, page)
+    pub fn label_page(&self, fills: &SurfaceFills, page: &Page) -> regions::LabelledPage {
+        fills.label_page_behind(&self.panes.clear, &self.map, page)
     }
 
     /// Paints the panes over the layers behind them. Each region has the colour of its tone and the opacity
@@ -105,7 +105,7 @@ impl BehindGlass<'_> {
         layers: &mut Vec<Layer>,
     ) {
         let opacity = |material: MaterialId| self.panes.opacities.get(material.index()).copied().flatten();
-        let seen = fills.see(borders, page);
+        let seen = fills.label_page(borders, page);
         let panes = fills.outlines(&seen, page, camera, style, |look| opacity(look.material).is_some());
         if layers.is_empty() {
             layers.push(Layer { kind: LayerKind::Fills, pen: None, ordered: false, marks: Vec::new() });

@@ -82,7 +82,7 @@ fn guides(
     let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
     let of = |turn: &f64| {
         let across = cut_of(scene, (own.angle + turn).to_radians());
-        let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
+        let cut = |face: u32| Some(fills.rest_corners(face).map(|p| p.dot(across) / spacing));
         let curves = level_curves(&lit, offset, cut, |_, density| density * width < MAX_LINE_COVERAGE);
         section_guides::guides_along_curves(
             ground,

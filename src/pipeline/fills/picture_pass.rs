@@ -36,7 +36,16 @@ pub(crate) fn add(
     let in_front = &VisibleFaces::new(mesh, screen);
     let px = Length::px(1.0).in_unit(page.unit);
     let (crossings, samples) = (&FaceCrossings::of(mesh, view, lines), style.textures.samples);
-    let stage = ImageContext { mesh, view, screen, in_front, crossings, offset: context.offset, px, samples };
+    let stage = ImageContext {
+        mesh,
+        view,
+        screen,
+        visible_faces: in_front,
+        crossings,
+        offset: context.offset,
+        px,
+        max_pixels_per_px: samples,
+    };
     for imaged in &paints.images {
         let Some(shades) = ToneVeils::of(context.shading, &paints.list, imaged) else { continue };
         let Some(pieces) = pictures(&stage, imaged, |picture| shades.tone(picture)) else { continue };
@@ -84,7 +93,7 @@ impl PictureRegions<'_> {
     /// tones.
     fn outlines(&self, parts: &[PartId], of_tone: impl Fn(u16) -> bool) -> Vec<BezPath> {
         let class = |number: u32| {
-            let look = self.regions.regions.get(number as usize)?.look;
+            let look = self.regions.regions.get(number as usize)?.label;
             let shown = look.paint == self.imaged.paint && of_tone(look.tone);
             parts.binary_search(&look.part).ok().filter(|_| shown).map(|part| part as u32)
         };

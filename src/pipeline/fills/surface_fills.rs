@@ -11,7 +11,7 @@ use crate::drawing::{Layer, Page, Provenance};
 use crate::light::ambient_occlusion::ambient_visibility;
 use crate::light::{Shading, ShadingNormals};
 use crate::lines::isophotes::isophote_lines;
-use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorders};
+use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorderRanges};
 use crate::lines::paint_borders::{paint_lines, tone_edges};
 use crate::lines::{FeatureLines, LineKind, Lit, Source, Surface, Textures, visible_faces_of};
 use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
@@ -23,15 +23,15 @@ use crate::regions::{
     self, LabelledPage, PageBorders, Region, RegionOptions, Regions, ShadowDarkening, StepsAs, SurfaceLabel,
 };
 use crate::scene::paints::triangle_paints::Paints;
-use crate::scene::{Camera, Paint, Scene};
+use crate::scene::{Camera, MaterialPaint, Scene};
 use crate::shadows::Shadows;
 use crate::style::Style;
 use crate::view::View;
 use crate::visibility::ViewMap;
 
 /// The unlit colours of paints: those of their materials, or the fill colours that replace them.
-pub(crate) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> Vec<Colour> {
-    let instead = |paint: &Paint| {
+pub(crate) fn paint_colours(paints: &[MaterialPaint], scene: &Scene, style: &Style) -> Vec<Colour> {
+    let instead = |paint: &MaterialPaint| {
         let material = scene.materials.get(paint.material.index()).filter(|_| style.region.enabled)?;
         style.tones.for_material(&material.name).1
     };
@@ -91,16 +91,16 @@ pub(crate) struct SurfaceFills<'a> {
     view: &'a View,
     shading: Shading,
     shadows: Arc<Shadows>,
-    openness: Vec<f64>,
+    ambient_visibility: Vec<f64>,
     /// Every set of lights that may be in shadow together, as bit masks.
     masks: Vec<u32>,
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
-    paints: &'a [Paint],
+    paints: &'a [MaterialPaint],
     textures: &'a Textures,
     darkened: ShadowDarkening,
     /// Rest positions of the mesh, if it is posed.
-    rest: Option<RestPose<'a>>,
+    rest_pose: Option<RestPose<'a>>,
 }
 
 impl<'a> SurfaceFills<'a> {
@@ -142,37 +142,37 @@ impl<'a> SurfaceFills<'a> {
             masks: masks(shading.casters().len() as u32),
             shading,
             shadows,
-            openness,
+            ambient_visibility: openness,
             paints: &paints.list,
             textures,
             darkened: darkened(style),
             parts: scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect(),
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
-            rest: None,
+            rest_pose: None,
         }
     }
 
     /// Fixes patterns and strokes through the model to its rest pose.
     pub fn laid_at(self, anchors: &'a Anchors) -> Self {
-        Self { rest: RestPose::new(anchors, &self.surface.mesh), ..self }
+        Self { rest_pose: RestPose::new(anchors, &self.surface.mesh), ..self }
     }
 
     /// The rest positions of a face's corners, world.
-    pub fn resting_corners(&self, face: u32) -> [DVec3; 3] {
+    pub fn rest_corners(&self, face: u32) -> [DVec3; 3] {
         let mesh = &self.surface.mesh;
-        let rest = self.rest.as_ref().zip(mesh.triangles.get(face as usize));
+        let rest = self.rest_pose.as_ref().zip(mesh.triangles.get(face as usize));
         let rest = rest.and_then(|(rest, triangle)| rest.corners(*triangle));
         rest.unwrap_or_else(|| mesh.corners(FaceId(face)).map(|p| p + mesh.origin))
     }
 
     /// Rough rest position of a surface point in its part, in units of `share` times the part's size. `at` is
     /// relative to the mesh's origin.
-    pub fn rough_place(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
+    pub fn rough_rest_position(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
         let mesh = &self.surface.mesh;
         let world = at + mesh.origin;
-        match self.rest.as_ref().and_then(|rest| rest.anchor(part, world)) {
-            Some(anchor) => Vec3::from_array(anchor.place).as_dvec3() / share,
-            None => world / (mesh.extents.of(part).scale * share),
+        match self.rest_pose.as_ref().and_then(|rest| rest.anchor(part, world)) {
+            Some(anchor) => Vec3::from_array(anchor.rest_position).as_dvec3() / share,
+            None => world / (mesh.extents.part(part).scale * share),
         }
     }
 
@@ -182,7 +182,7 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// The paints of the scene.
-    pub fn paints(&self) -> &[Paint] {
+    pub fn paints(&self) -> &[MaterialPaint] {
         self.paints
     }
 
@@ -205,7 +205,7 @@ impl<'a> SurfaceFills<'a> {
             view: self.view,
             normals: &self.paintable.normals,
             shading: &self.shading,
-            openness: &self.openness,
+            ambient_visibility: &self.ambient_visibility,
             textures: self.textures,
             solid: if is_cut { &[] } else { &self.paintable.solid },
         }
@@ -230,7 +230,7 @@ impl<'a> SurfaceFills<'a> {
         }
         let casters = self.shadows.lines.segments.iter().map(|segment| segment.caster).collect();
         let shadows = first..lines.segments.len();
-        let borders = ToneBorders { edges, isophotes, traced, shadows, casters };
+        let borders = ToneBorderRanges { edges, isophotes, traced, shadows, casters };
         let ShadowDarkening { tones, bins } = self.darkened;
         tone_changes::unchanged(
             &lit,
@@ -242,17 +242,17 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// The visible surface, divided by the given borders.
-    pub fn see(&self, borders: &PageBorders, page: &Page) -> LabelledPage {
-        self.see_lit(&self.lit(), borders, page)
+    pub fn label_page(&self, borders: &PageBorders, page: &Page) -> LabelledPage {
+        self.label_lit_page(&self.lit(), borders, page)
     }
 
     /// The visible surface with another mesh in front, which has the same faces but hides less.
-    pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> LabelledPage {
+    pub fn label_page_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> LabelledPage {
         let borders = PageBorders::of(map, &self.view.frame);
-        self.see_lit(&Lit { mesh: clear, ..self.lit() }, &borders, page)
+        self.label_lit_page(&Lit { mesh: clear, ..self.lit() }, &borders, page)
     }
 
-    fn see_lit(&self, lit: &Lit, borders: &PageBorders, page: &Page) -> LabelledPage {
+    fn label_lit_page(&self, lit: &Lit, borders: &PageBorders, page: &Page) -> LabelledPage {
         let has_shadows = !self.shadows.casters().is_empty();
         let shadowed = has_shadows.then_some(|points: &[_]| self.shadowed(points));
         regions::label_page(lit, borders, shadowed, self.darkened, page.unit)
@@ -271,9 +271,9 @@ impl<'a> SurfaceFills<'a> {
         let options = RegionOptions { steps_as: StepsAs::Bands, ..style.region.clone() };
         let regions = regions::gather(seen, &options, &style.chain, page.unit);
         let context = self.paint_context(page, camera);
-        regions::paint::region_paint::outlines(&regions, context.offset, 0.0, |region| pick(&region.look))
+        regions::paint::region_paint::outlines(&regions, context.offset, 0.0, |region| pick(&region.label))
             .into_iter()
-            .map(|(path, Region { look, .. })| {
+            .map(|(path, Region { label: look, .. })| {
                 let provenance = regions::paint::region_paint::provenance(look, &context);
                 (path, self.shading.colour(look.paint, look.tone), look, provenance)
             })

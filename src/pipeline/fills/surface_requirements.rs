@@ -65,7 +65,7 @@ const REGION_BORDER_KINDS: [LineKind; 4] =
 
 /// Options for the feature lines to be found: those that the style draws, and with regions, those that may
 /// separate them.
-pub(crate) fn sought(style: &Style) -> LineOptions {
+pub(crate) fn required_lines(style: &Style) -> LineOptions {
     let mut options = style.lines.clone();
     if options.source == Source::Image {
         options.kinds.clear();

@@ -153,9 +153,9 @@ impl Hatching<'_> {
         let regions = regions::gather_relabelled(seen, coarser, &options, &style.chain, self.page.unit);
         let reach = style.region.underlap.in_unit(self.page.unit);
         let black = regions::paint::region_paint::outlines(&regions, self.offset(), reach, |region| {
-            region.look.bin == 0
+            region.label.bin == 0
         });
-        black.into_iter().map(|(path, region)| (path, region.look)).collect()
+        black.into_iter().map(|(path, region)| (path, region.label)).collect()
     }
 }
 
@@ -205,7 +205,7 @@ fn fixed(
     let angle = layer.angle.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let across = cut_of(scene, angle);
-    let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
+    let cut = |face: u32| Some(fills.rest_corners(face).map(|p| p.dot(across) / spacing));
     let texels = if layer.direction == Direction::Uv { texture_scales(mesh) } else { Vec::new() };
     let woven = |face: u32| {
         let corners = mesh.corner_uvs.get(face as usize)?;
@@ -228,7 +228,7 @@ fn fixed(
     let names = stable_ids(scene.parts.iter().map(|part| part.name.as_str()));
     let name = |part: PartId, at: DVec3| {
         let [x, y, z] = fills
-            .rough_place(part, at, IDENTITY_CELL_OF_PART)
+            .rough_rest_position(part, at, IDENTITY_CELL_OF_PART)
             .round()
             .to_array()
             .map(|x| (x as i64).cast_unsigned());
@@ -272,7 +272,7 @@ pub(crate) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
     }
     let scale = |(part, [space, texture]): (usize, [f64; 2])| {
         let scale = (space / texture).sqrt();
-        if scale.is_normal() { scale } else { mesh.extents.of(PartId::from(part)).scale }
+        if scale.is_normal() { scale } else { mesh.extents.part(PartId::from(part)).scale }
     };
     sums.into_iter().enumerate().map(scale).collect()
 }
@@ -283,7 +283,7 @@ const LATTICE_STEP_PX: f64 = 3.0;
 /// The tone of each paint.
 fn tones(fills: &SurfaceFills, scene: &Scene, style: &Style) -> Vec<ToneCoverage> {
     let lit = fills.lit();
-    let Some(bins) = lit.shading.bins() else { return Vec::new() };
+    let Some(bins) = lit.shading.bin_channel() else { return Vec::new() };
     let paints = fills.paints();
     let of = |number: usize| {
         let name = paints

@@ -82,7 +82,7 @@ fn sample_blacks(chains: &mut [Chain], blacks: &HatchRegions, rings: u32, px: f6
                 is_black(p + away) && is_black(p - away)
             };
             let reach = (1..=rings).take_while(both).count();
-            chain.samples[i].under.black = reach as f64 * px;
+            chain.samples[i].backdrop.black = reach as f64 * px;
         }
     });
 }
@@ -132,7 +132,7 @@ fn sample_surface_colours(
             });
             let faces = nearer.into_iter().flatten();
             let darkest = faces.filter_map(colour_at).min_by_key(|c| (weight(*c), *c));
-            sample.under.colour = darkest.or(own);
+            sample.backdrop.colour = darkest.or(own);
         }
     }
 }

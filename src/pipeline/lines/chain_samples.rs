@@ -106,7 +106,7 @@ pub(crate) fn sample_chains(chains: &mut [Chain], beside: &ChainSampler) {
         densify(chain, SAMPLE_STEP_PX * px, beside.view.frame.perspective);
     }
     if wanted.sides {
-        beside.ask_sides(chains, px, wanted.light);
+        beside.sample_sides(chains, px, wanted.light);
     }
 }
 
@@ -150,7 +150,7 @@ struct SideSample {
 }
 
 impl ChainSampler<'_> {
-    fn ask_sides(&self, chains: &mut [Chain], px: f64, light: bool) {
+    fn sample_sides(&self, chains: &mut [Chain], px: f64, light: bool) {
         let mut places: Vec<DVec2> = Vec::new();
         for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
             for i in 0..chain.points.len() {
@@ -161,7 +161,7 @@ impl ChainSampler<'_> {
                 }
             }
         }
-        let seen = self.seen(&places, light);
+        let seen = self.sample_surfaces(&places, light);
         let mut pairs = seen.chunks_exact(2);
         let frame = &self.view.frame;
         for chain in chains.iter_mut().filter(|chain| chain.invisibility == 0) {
@@ -174,7 +174,7 @@ impl ChainSampler<'_> {
     }
 
     /// The surfaces visible at points of the frame; `None` is background.
-    fn seen(&self, places: &[DVec2], light: bool) -> Vec<Option<SideSample>> {
+    fn sample_surfaces(&self, places: &[DVec2], light: bool) -> Vec<Option<SideSample>> {
         let (mesh, view) = (&self.surface.mesh, self.view);
         let frame = &view.frame;
         let fronts = front_faces(mesh, view, places);
@@ -192,7 +192,7 @@ impl ChainSampler<'_> {
             view,
             normals: &normals,
             shading: &shading,
-            openness: &[],
+            ambient_visibility: &[],
             textures: &textures,
             solid: &[],
         };

@@ -25,7 +25,7 @@ pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) ->
 }
 
 /// Adds the lines found in the image to those found on the surface.
-pub(crate) fn joined<'a>(
+pub(crate) fn add_image_lines<'a>(
     map: &mut ViewMap,
     lines: &'a FeatureLines,
     surface: &Surface,

@@ -9,12 +9,12 @@ use crate::colour::srgb::Colour;
 use crate::lines::{FeatureLines, joints};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
-use crate::scene::paints::triangle_paints::{Paint, Paints};
+use crate::scene::paints::triangle_paints::{MaterialPaint, Paints};
 use crate::style::Style;
 
 /// Removes the joints from the lines of a view, unless the style draws them. With `has_regions` they stay
 /// as borders of regions, and their indices are returned, ascending.
-pub(crate) fn take_out(
+pub(crate) fn remove_part_joints(
     scene: &Scene,
     paints: Option<&Paints>,
     mesh: &Mesh,
@@ -43,7 +43,7 @@ fn kinds(scene: &Scene, paints: Option<&Paints>) -> Vec<u32> {
     }
     let Some(paints) = paints else { return materials };
     let mut first: FxHashMap<(u32, [u8; 4]), u32> = FxHashMap::default();
-    let of_paint = |(paint, number): (&Paint, u32)| {
+    let of_paint = |(paint, number): (&MaterialPaint, u32)| {
         let material = materials.get(paint.material.index()).copied().unwrap_or(paint.material.0);
         *first.entry((material, channels(paint.colour))).or_insert(number)
     };

@@ -10,7 +10,7 @@ use crate::scene::{Geometry, Part, Scene};
 use crate::strokes::InkWidths;
 use crate::style::Style;
 use crate::view::Frame;
-use crate::visibility::overlap::hidden_line_precedence::{self, Ink};
+use crate::visibility::overlap::hidden_line_precedence::{self, LineInk};
 use crate::visibility::{GapOcclusion, ViewEdge, ViewMap};
 
 /// Links the lines of a view. `widths` gives their ink widths; `extents` are those of the scene's parts.
@@ -33,7 +33,7 @@ pub(crate) fn chains(
     // Visible lines are extended across gaps by the hidden lines there, so they are linked with all of them.
     let px = Length::px(1.0).in_unit(unit);
     let half_width = |edge: &ViewEdge| widths.half(map, edge);
-    let ink = Ink { half_width: &half_width, extents, perspective, px };
+    let ink = LineInk { half_width: &half_width, extents, perspective, px };
     if let Some(cut) = hidden_line_precedence::without_hidden_in_ink(map, &ink) {
         chains.retain(|chain| chain.invisibility == 0);
         let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= MIN_HIDDEN_LENGTH_PX * px;

@@ -39,7 +39,7 @@ pub struct Prepared<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) warnings: Warnings,
     pub(crate) style: &'a Style,
-    pub(crate) sought: LineOptions,
+    pub(crate) line_options: LineOptions,
     /// Paints of the scene, if surfaces are painted or hatched, or lines take their colour.
     pub(crate) paints: Option<Arc<Paints>>,
     pub(crate) surface: Surface,
@@ -57,29 +57,29 @@ impl<'a> Prepared<'a> {
     /// Welds the scene into a mesh and finds its creases and rounded areas.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
-        run_on_pool(|| Self::made(PreparedMesh::of(scene, style), style, None).0)
+        run_on_pool(|| Self::from_mesh(PreparedMesh::of(scene, style), style, None).0)
     }
 
     /// Prepares the scene for one camera. The surface is refined for it at once and permanently, which takes
     /// less memory than a refined copy next to the model.
     #[must_use]
     pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
-        run_on_pool(|| Self::made(PreparedMesh::of(scene, style), style, Some(camera)).0)
+        run_on_pool(|| Self::from_mesh(PreparedMesh::of(scene, style), style, Some(camera)).0)
     }
 
     /// Prepares an owned scene for one camera. Its geometry is freed once the mesh is built.
     #[must_use]
     pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
-        run_on_pool(|| Self::made(PreparedMesh::of_all(scene, style), style, Some(camera)).0)
+        run_on_pool(|| Self::from_mesh(PreparedMesh::of_all(scene, style), style, Some(camera)).0)
     }
 
-    pub(crate) fn made(
+    pub(crate) fn from_mesh(
         welded: PreparedMesh<'a>,
         style: &'a Style,
         only: Option<&Camera>,
     ) -> (Self, Option<Patches>) {
         let PreparedMesh { scene, warnings, paints, mesh } = welded;
-        let sought = surface_requirements::sought(style);
+        let sought = surface_requirements::required_lines(style);
         let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
         let painted = paints.as_ref().filter(|_| surface_requirements::uses_paints(style));
@@ -93,7 +93,7 @@ impl<'a> Prepared<'a> {
             scene,
             warnings,
             style,
-            sought,
+            line_options: sought,
             paints: paints.map(Arc::new),
             surface,
             counts,

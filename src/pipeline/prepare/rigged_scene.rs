@@ -65,7 +65,8 @@ impl<'a> PosedRenderer<'a> {
     }
 
     fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
-        let (still, patches) = run_on_pool(|| Prepared::made(PreparedMesh::of(scene, style), style, None));
+        let (still, patches) =
+            run_on_pool(|| Prepared::from_mesh(PreparedMesh::of(scene, style), style, None));
         let sources = VertexSources::of(&still.surface.mesh, &still.scene.to_soup());
         Self { scene, style, still, patches, sources }
     }
@@ -147,7 +148,7 @@ impl<'a> PosedRenderer<'a> {
                 .to_soup();
             still.mesh.posed(sources, &cut)
         });
-        let sought = surface_requirements::sought(style);
+        let sought = surface_requirements::required_lines(style);
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
         let paintable = paints.as_deref().filter(|_| surface_requirements::uses_paints(style));
         let paintable = paintable.map(|paints| ToneInputs::new(&surface, paints, solid_parts(&surface.mesh)));
@@ -157,7 +158,7 @@ impl<'a> PosedRenderer<'a> {
             scene,
             warnings,
             style,
-            sought,
+            line_options: sought,
             paints,
             surface,
             counts,

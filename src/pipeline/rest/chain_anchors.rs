@@ -42,8 +42,8 @@ struct PosedPart {
     /// World units per diagonal of its geometry.
     size: f64,
     /// Transform from the geometry at rest to the world, and whether every corner now lies there.
-    rest: DAffine3,
-    rests: bool,
+    world_from_rest: DAffine3,
+    is_at_rest: bool,
 }
 
 impl Anchors {
@@ -65,7 +65,13 @@ impl Anchors {
                 rest.eq(corners.iter().copied())
             });
             let size = stretch * diagonal;
-            PosedPart { geometry: part.geometry, tree: NearestTree::new(&corners), size, rest: own, rests }
+            PosedPart {
+                geometry: part.geometry,
+                tree: NearestTree::new(&corners),
+                size,
+                world_from_rest: own,
+                is_at_rest: rests,
+            }
         };
         let parts = posed.parts.par_iter().enumerate().map(part).collect();
         let names = stable_ids(posed.parts.iter().map(|part| part.name.as_str()));
@@ -101,23 +107,23 @@ impl Anchors {
 
     /// Whether every part is in its rest position.
     pub fn rests(&self) -> bool {
-        self.parts.iter().all(|part| part.rests)
+        self.parts.iter().all(|part| part.is_at_rest)
     }
 
     /// The rest position of a point near a part, world.
     pub fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
         let part = self.parts.get(part.index())?;
-        let (place, _) = self.resting_place(part, world)?;
-        Some(part.rest.transform_point3(place))
+        let (place, _) = self.rest_position(part, world)?;
+        Some(part.world_from_rest.transform_point3(place))
     }
 
     /// The anchor of a point near a part.
-    pub fn place(&self, part: PartId, world: DVec3) -> Option<Anchor> {
+    pub fn anchor_at(&self, part: PartId, world: DVec3) -> Option<Anchor> {
         self.anchor(self.parts.get(part.index())?, world, 1.0)
     }
 
     /// The position of a point near a part on its resting geometry.
-    fn resting_place(&self, part: &PosedPart, world: DVec3) -> Option<(DVec3, &RestGeometry)> {
+    fn rest_position(&self, part: &PosedPart, world: DVec3) -> Option<(DVec3, &RestGeometry)> {
         let resting = self.resting.get(part.geometry)?;
         let nearest = part.tree.nearest(world)?;
         let [a, b, c] = resting.triangles.get(nearest.triangle as usize)?;
@@ -126,9 +132,9 @@ impl Anchors {
 
     /// The anchor of a point near a part. `unit` is the length of a page unit there.
     fn anchor(&self, part: &PosedPart, world: DVec3, unit: f64) -> Option<Anchor> {
-        let (place, resting) = self.resting_place(part, world).filter(|_| unit > 0.0)?;
+        let (place, resting) = self.rest_position(part, world).filter(|_| unit > 0.0)?;
         let place = (place - resting.middle) / resting.diagonal;
-        let anchor = Anchor { place: place.as_vec3().to_array(), scale: (part.size / unit) as f32 };
+        let anchor = Anchor { rest_position: place.as_vec3().to_array(), scale: (part.size / unit) as f32 };
         (place.is_finite() && anchor.scale.is_finite()).then_some(anchor)
     }
 }

@@ -44,6 +44,6 @@ impl<'a> RestPose<'a> {
 
     /// The anchor of a point on the posed surface of a part, world.
     pub fn anchor(&self, part: PartId, world: DVec3) -> Option<Anchor> {
-        self.anchors.place(part, world)
+        self.anchors.anchor_at(part, world)
     }
 }

@@ -64,7 +64,7 @@ const KIND_COUNT: usize = HATCH_KINDS.len() + (EXTRA_ANGLES_DEG.len() + 180) * S
 
 /// Angle (degrees) and spacing factor of a kind. The last kinds use whole degrees, starting next to 45 and
 /// 135.
-fn lines_of(kind: usize) -> (f64, f64) {
+fn hatching_of_kind(kind: usize) -> (f64, f64) {
     let kind = kind % KIND_COUNT;
     let Some(more) = kind.checked_sub(HATCH_KINDS.len()) else { return HATCH_KINDS[kind] };
     let (number, farther) = (more / SPACING_FACTORS.len(), SPACING_FACTORS[more % SPACING_FACTORS.len()]);
@@ -104,7 +104,7 @@ pub fn with_cut_hatching_for(
         // A pattern that the style defines itself keeps its angle.
         let is_right = |kind: &usize| {
             !taken.contains(kind)
-                && (has_pattern(style, &material_name(*kind)) || !runs_along(lines_of(*kind).0))
+                && (has_pattern(style, &material_name(*kind)) || !runs_along(hatching_of_kind(*kind).0))
         };
         let usual = || (0..).find(|kind| !taken.contains(kind)).unwrap_or_default();
         let kind = (0..KIND_COUNT).find(is_right).unwrap_or_else(usual);
@@ -159,7 +159,7 @@ fn with_kinds(style: &Style, faces: &[CutFaces]) -> Style {
         if has_pattern(&style, &name) {
             continue;
         }
-        let (angle, farther) = lines_of(kind);
+        let (angle, farther) = hatching_of_kind(kind);
         style.patterns.push(Pattern {
             material: Glob::new(name),
             kind: PatternKind::Lines,
@@ -191,8 +191,10 @@ mod tests {
 
     #[test]
     fn the_ways_of_hatching_differ_and_begin_with_the_usual_ones() {
-        assert_eq!([0, 1, 2].map(lines_of), [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7)]);
-        let degrees = |kind: usize| (lines_of(kind).0.round() as usize, (lines_of(kind).1 * 10.0) as usize);
+        assert_eq!([0, 1, 2].map(hatching_of_kind), [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7)]);
+        let degrees = |kind: usize| {
+            (hatching_of_kind(kind).0.round() as usize, (hatching_of_kind(kind).1 * 10.0) as usize)
+        };
         let all: std::collections::BTreeSet<_> = (0..KIND_COUNT).map(degrees).collect();
         assert!((0..180).all(|degree| degree == 45 || degree == 135 || all.contains(&(degree, 10))));
         let first = (0..60).map(degrees).collect::<std::collections::BTreeSet<_>>();

@@ -31,7 +31,7 @@ pub(crate) struct StageInputs<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    pub ahead: &'a GapOcclusion<'a>,
+    pub gap_occlusion: &'a GapOcclusion<'a>,
     /// View map, centred on the page.
     pub map: &'a ViewMap,
     pub chains: &'a [Chain],

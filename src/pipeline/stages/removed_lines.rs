@@ -26,8 +26,13 @@ fn note(reason: RemovalReason) -> &'static str {
 /// The remaining lines, and the lines that tidying removed.
 pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
     let style = made.style;
-    let (chains, removed) =
-        link_with_removed(Some(made.ahead), made.map, &style.chain, made.page.unit, style.lines.hidden);
+    let (chains, removed) = link_with_removed(
+        Some(made.gap_occlusion),
+        made.map,
+        &style.chain,
+        made.page.unit,
+        style.lines.hidden,
+    );
     let seen = chains.iter().filter(|chain| chain.invisibility == 0);
     let mut marks: Vec<_> =
         seen.map(|chain| line(chain.path.clone(), PALE, made.px(1.2), &[chain.kind.name()], None)).collect();

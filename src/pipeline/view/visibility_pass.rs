@@ -34,7 +34,7 @@ pub(crate) struct VisibleView<'a> {
 
 impl Prepared<'_> {
     /// Decides the visibility of the lines of a view and calls `call` with the result.
-    pub(crate) fn on_view<T: Send>(
+    pub(crate) fn with_visibility<T: Send>(
         &self,
         camera: &Camera,
         unit: Unit,
@@ -44,7 +44,7 @@ impl Prepared<'_> {
     }
 
     fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(VisibleView) -> T) -> T {
-        let Self { scene, style, sought, paints, .. } = self;
+        let Self { scene, style, line_options: sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
         [report.counts.vertices, report.counts.edges] = self.counts;
@@ -56,8 +56,9 @@ impl Prepared<'_> {
             let whole = self.paintable.as_ref().filter(|_| refined.is_some())?;
             Some(whole.finer(surface, paints.as_deref()?))
         };
-        let search =
-            || refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
+        let search = || {
+            refined.as_ref().and_then(|finer| self.search.share_with_finer_view(&self.surface, finer, sought))
+        };
         let look = || crate::parallel::join(|| View::new(&surface.mesh, camera), paint);
         let (finer, (view, own)) = crate::parallel::join(search, look);
         let paintable = own.as_ref().or(self.paintable.as_ref());
@@ -72,14 +73,20 @@ impl Prepared<'_> {
         let mut known = if surface.refined {
             SharedSearches { intersections: finer.as_ref(), ..SharedSearches::default() }
         } else {
-            self.search.of_next_view(surface, sought, in_sight.is_none())
+            self.search.share_with_next_view(surface, sought, in_sight.is_none())
         };
         known.intersections = known.intersections.or(in_sight.as_ref());
         let mut lines = lines::extract_with(surface, known, &view, sought);
         // Parts on both sides of a joint stay separate regions.
         let has_regions = self.paintable.is_some();
-        let joints =
-            part_joints::take_out(scene, paints.as_deref(), &surface.mesh, &mut lines, style, has_regions);
+        let joints = part_joints::remove_part_joints(
+            scene,
+            paints.as_deref(),
+            &surface.mesh,
+            &mut lines,
+            style,
+            has_regions,
+        );
         let mut warnings = Vec::new();
         let px = Length::px(1.0).in_unit(unit);
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
@@ -114,7 +121,7 @@ impl Prepared<'_> {
 
         let map = visibility::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());
         report.stages_ms.visibility = watch.lap_ms();
-        let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
+        let behind = panes.as_ref().map(|panes| panes.decide_behind(&surface.mesh, &view, &lines, sought));
         let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
         call(VisibleView {
             surface,

@@ -29,7 +29,7 @@ pub(crate) fn simplify_borders(segments: &Segments, tolerance: impl Fn(Border) -
     for closed in [false, true] {
         for first in 0..segments.len() {
             for end in 0..2 {
-                let starts_here = closed || !lines.goes_on(lines.ends[first][end]);
+                let starts_here = closed || !lines.continues_at(lines.ends[first][end]);
                 if done[first] || !starts_here {
                     continue;
                 }
@@ -106,7 +106,7 @@ impl<'a> SegmentGraph<'a> {
     }
 
     /// Whether a line continues at a point: exactly two segments meet there, of the same kind.
-    fn goes_on(&self, point: u32) -> bool {
+    fn continues_at(&self, point: u32) -> bool {
         let [a, b] = self.at[point as usize];
         self.count[point as usize] == 2
             && a != b
@@ -121,7 +121,7 @@ impl<'a> SegmentGraph<'a> {
             done[segment] = true;
             points.push(self.segments[segment].0[1 - from]);
             let point = self.ends[segment][1 - from];
-            if !self.goes_on(point) {
+            if !self.continues_at(point) {
                 return;
             }
             let [a, b] = self.at[point as usize];

@@ -72,13 +72,13 @@ pub(crate) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borde
     for k in 1..starts.len() {
         starts[k] += starts[k - 1];
     }
-    let tracer = Tracer { cut, halves, starts };
+    let tracer = ArcTracer { cut, halves, starts };
     let (arcs, arc_of) = tracer.arcs();
     let loops = tracer.loops(&arcs, &arc_of, count);
     Borders { arcs, loops }
 }
 
-struct Tracer<'a> {
+struct ArcTracer<'a> {
     cut: &'a Triangulation,
     /// Half edges, sorted by their first point.
     halves: Vec<HalfEdge>,
@@ -87,7 +87,7 @@ struct Tracer<'a> {
 
 const NO_ARC: u32 = u32::MAX;
 
-impl Tracer<'_> {
+impl ArcTracer<'_> {
     fn from(&self, point: u32) -> std::ops::Range<usize> {
         self.starts[point as usize] as usize..self.starts[point as usize + 1] as usize
     }

@@ -1,4 +1,4 @@
-//! [`Patches`]: connected triangles of equal label, with small patches merged into their neighbours.
+//! [`LabelComponents`]: connected triangles of equal label, with small patches merged into their neighbours.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,11 +6,11 @@ use super::triangulation::{OUTSIDE, Triangulation};
 
 /// Connected triangles of equal label.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Patches {
+pub(crate) struct LabelComponents {
     /// Patch of each triangle.
-    pub of: Vec<u32>,
+    pub component_of_triangle: Vec<u32>,
     /// Label of each patch.
-    pub looks: Vec<u32>,
+    pub labels: Vec<u32>,
     /// Twice the area of each patch, squared grid steps.
     pub area2: Vec<f64>,
 }
@@ -20,18 +20,19 @@ pub(crate) struct Patches {
 /// A patch with less than `crumb2` (twice the area) goes to the neighbour with the longest shared border,
 /// smallest patch first. The label `background` receives none, since a model must not get holes. Patches with
 /// only background around them stay.
-pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> Patches {
+pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> LabelComponents {
     let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
-    let mut patches = Patches { of, looks: vec![0; count], area2: vec![0.0; count] };
+    let mut patches =
+        LabelComponents { component_of_triangle: of, labels: vec![0; count], area2: vec![0.0; count] };
     let mut shared: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); count];
     for (triangle, look) in looks.iter().enumerate() {
-        let own = patches.of[triangle];
-        patches.looks[own as usize] = *look;
+        let own = patches.component_of_triangle[triangle];
+        patches.labels[own as usize] = *look;
         patches.area2[own as usize] += cut.area2(triangle);
         for side in 0..3 {
             let next = cut.neighbours[triangle][side];
-            if next != OUTSIDE && patches.of[next as usize] != own {
-                *shared[own as usize].entry(patches.of[next as usize]).or_default() +=
+            if next != OUTSIDE && patches.component_of_triangle[next as usize] != own {
+                *shared[own as usize].entry(patches.component_of_triangle[next as usize]).or_default() +=
                     cut.side(triangle, side);
             }
         }
@@ -58,7 +59,7 @@ pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2
             small.insert((patches.area2[to as usize].to_bits(), to));
         }
     }
-    for patch in &mut patches.of {
+    for patch in &mut patches.component_of_triangle {
         *patch = merging.root(*patch);
     }
     patches
@@ -80,8 +81,8 @@ impl Merging {
     }
 
     /// Neighbour with the longest shared border, background excluded.
-    fn neighbour(&self, crumb: u32, patches: &Patches) -> Option<u32> {
-        let is_background = |p: u32| patches.looks[p as usize] == self.background;
+    fn neighbour(&self, crumb: u32, patches: &LabelComponents) -> Option<u32> {
+        let is_background = |p: u32| patches.labels[p as usize] == self.background;
         let others = self.shared[crumb as usize].iter().filter(|(other, _)| !is_background(**other));
         let longest = others.fold(None, |most: Option<(u32, f64)>, (other, length)| match most {
             Some((_, greatest)) if greatest >= *length => most,
@@ -91,10 +92,10 @@ impl Merging {
     }
 
     /// Neighbours of a small patch with the label of the patch it is merged into.
-    fn alike(&self, crumb: u32, to: u32, patches: &Patches) -> Vec<u32> {
-        let look = patches.looks[to as usize];
+    fn alike(&self, crumb: u32, to: u32, patches: &LabelComponents) -> Vec<u32> {
+        let look = patches.labels[to as usize];
         let others = self.shared[crumb as usize].keys().copied();
-        others.filter(|other| *other != to && patches.looks[*other as usize] == look).collect()
+        others.filter(|other| *other != to && patches.labels[*other as usize] == look).collect()
     }
 
     fn join(&mut self, patch: u32, to: u32) {

@@ -112,10 +112,10 @@ impl HatchRegions {
         let patches = label_components::gather(cut, &keyed, NO_LABEL, 2.0 * crumb * crumb);
 
         let mut ground = Self { cells: vec![paper()], facets: 1, ..Self::default() };
-        let mut cell_of: Vec<Option<u32>> = vec![None; patches.looks.len()];
+        let mut cell_of: Vec<Option<u32>> = vec![None; patches.labels.len()];
         let mut facets: BTreeMap<u32, u32> = BTreeMap::new();
-        for patch in &patches.of {
-            let (look, facet) = keys[patches.looks[*patch as usize] as usize];
+        for patch in &patches.component_of_triangle {
+            let (look, facet) = keys[patches.labels[*patch as usize] as usize];
             let cell = &mut cell_of[*patch as usize];
             if cell.is_some() {
                 continue;
@@ -132,7 +132,7 @@ impl HatchRegions {
             let area = patches.area2[*patch as usize] / 2.0 * seen.step * seen.step;
             ground.cells.push(HatchCell { look: *look, facet, area });
         }
-        let of = |triangle: usize| cell_of[patches.of[triangle] as usize].unwrap_or(PAPER);
+        let of = |triangle: usize| cell_of[patches.component_of_triangle[triangle] as usize].unwrap_or(PAPER);
         ground.add_pieces(cut, of, |v: u32| {
             let [x, y] = cut.points[v as usize];
             Point::new(x as f64 * seen.step, y as f64 * seen.step) + offset

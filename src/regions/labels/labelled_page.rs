@@ -23,7 +23,7 @@ use crate::visibility::ViewMap;
 pub struct LabelledPage {
     pub(crate) cut: Triangulation,
     /// Label of each triangle: [`NO_LABEL`], or an index into `table` plus 1.
-    pub(crate) looks: Vec<u32>,
+    pub(crate) triangle_labels: Vec<u32>,
     pub(crate) table: Vec<SurfaceLabel>,
     /// User units per grid step of the triangulation.
     pub(crate) step: f64,
@@ -83,7 +83,7 @@ pub fn label_page(
     drop(centres);
     let (looks, leaks) =
         cell_labels::label_cells(&cut, &looks, tolerances::MIN_LABEL_DIFFERENCE_PX * px / step);
-    LabelledPage { cut, looks, table, step, leaks }
+    LabelledPage { cut, triangle_labels: looks, table, step, leaks }
 }
 
 impl LabelledPage {
@@ -92,7 +92,7 @@ impl LabelledPage {
         self.table.iter().any(is_so)
     }
 
-    /// Labels after relabelling by `coarser`, which may make labels equal: indices as in [`LabelledPage::looks`], and
+    /// Labels after relabelling by `coarser`, which may make labels equal: indices as in [`LabelledPage::triangle_labels`], and
     /// their table.
     pub(crate) fn relabelled(
         &self,
@@ -104,7 +104,7 @@ impl LabelledPage {
         table.dedup();
         let number: Vec<u32> =
             of.iter().map(|look| table.binary_search(look).map_or(NO_LABEL, |at| at as u32 + 1)).collect();
-        let looks = self.looks.iter().map(|look| match look.checked_sub(1) {
+        let looks = self.triangle_labels.iter().map(|look| match look.checked_sub(1) {
             Some(k) => number.get(k as usize).copied().unwrap_or(NO_LABEL),
             None => NO_LABEL,
         });

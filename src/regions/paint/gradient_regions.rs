@@ -15,7 +15,7 @@ use kurbo::{Point, Vec2};
 use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
 use crate::regions::cells::border_arcs::{Borders, OUTSIDE_PATCH, RawArc};
-use crate::regions::cells::label_components::Patches;
+use crate::regions::cells::label_components::LabelComponents;
 use crate::regions::cells::triangulation::Triangulation;
 use crate::regions::labels::surface_label::SurfaceLabel;
 
@@ -50,7 +50,7 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     let from = shades.first().map_or(0.0, |shade| shade.0);
     let length = shades.last().map_or(0.0, |shade| shade.0) - from;
     let mut kept = vec![false; shades.len()];
-    keep(&shades, 0, shades.len().saturating_sub(1), &mut kept);
+    mark_needed_stops(&shades, 0, shades.len().saturating_sub(1), &mut kept);
     let place = |at: f64| if length > 0.0 { (at - from) / length } else { 0.0 };
     let stop = |(at, channels): &(f64, [f64; 3])| {
         (place(*at), Colour { a: alpha, ..Colour::from_channels(*channels) })
@@ -63,7 +63,7 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
 /// Marks the stops that are needed: all others lie on the line between their neighbours.
 ///
 /// Source: Douglas and Peucker, 1973, in one dimension.
-fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]) {
+fn mark_needed_stops(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]) {
     let (Some(a), Some(b)) = (shades.get(first), shades.get(last)) else { return };
     (kept[first], kept[last]) = (true, true);
     let off = |k: usize| {
@@ -74,8 +74,8 @@ fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]
     let worst =
         (first + 1..last).map(|k| (off(k), k)).fold((0.0, first), |w, o| if o.0 > w.0 { o } else { w });
     if worst.0 > MAX_CHANNEL_ERROR {
-        keep(shades, first, worst.1, kept);
-        keep(shades, worst.1, last, kept);
+        mark_needed_stops(shades, first, worst.1, kept);
+        mark_needed_stops(shades, worst.1, last, kept);
     }
 }
 
@@ -117,14 +117,14 @@ type Spans = BTreeMap<[u16; 2], (f64, f64)>;
 /// Joins bands into ramps, and gives their patches a common number. Returns one entry per patch.
 pub(crate) fn join(
     cut: &Triangulation,
-    patches: &mut Patches,
+    patches: &mut LabelComponents,
     table: &[SurfaceLabel],
     borders: &Borders,
     unit: f64,
     tolerance: f64,
 ) -> Vec<Option<Ramp>> {
-    let count = patches.looks.len();
-    let look = |patch: u32| patches.looks[patch as usize].checked_sub(1).and_then(|k| table.get(k as usize));
+    let count = patches.labels.len();
+    let look = |patch: u32| patches.labels[patch as usize].checked_sub(1).and_then(|k| table.get(k as usize));
     let points: Vec<Vec<Point>> = borders
         .arcs
         .iter()
@@ -164,10 +164,10 @@ pub(crate) fn join(
             }
         }
         // The region gets the label of its middle tone.
-        own.sort_by_key(|patch| (patches.looks[*patch as usize], *patch));
-        patches.looks[root as usize] = patches.looks[own[own.len() / 2] as usize];
+        own.sort_by_key(|patch| (patches.labels[*patch as usize], *patch));
+        patches.labels[root as usize] = patches.labels[own[own.len() / 2] as usize];
     }
-    patches.of.iter_mut().for_each(|patch| *patch = number[*patch as usize]);
+    patches.component_of_triangle.iter_mut().for_each(|patch| *patch = number[*patch as usize]);
     ramps
 }
 

@@ -37,7 +37,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
         let region = &regions.regions[k as usize];
         let around: f64 = region.loops.iter().flatten().map(|(border, _)| lengths[*border as usize]).sum();
         // Bits sort like positive numbers.
-        (region.look.cast, (region.area / around.max(f64::MIN_POSITIVE)).to_bits(), k)
+        (region.label.cast, (region.area / around.max(f64::MIN_POSITIVE)).to_bits(), k)
     };
     order.sort_by_cached_key(|k| key(*k));
     let mut rank = vec![0u32; order.len()];
@@ -56,7 +56,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
             let region = &regions.regions[*k as usize];
             let mut path = outline(regions, *k, &rank, reach);
             path.apply_affine(Affine::translate(context.offset));
-            (region.look.cast, mark(region, path, context))
+            (region.label.cast, mark(region, path, context))
         })
         .collect();
     let layer = |kind: LayerKind, cast: bool| {
@@ -103,7 +103,7 @@ fn length(path: &BezPath) -> f64 {
 }
 
 fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
-    let look = region.look;
+    let look = region.label;
     let colour = |tone: u16| context.shading.colour(look.paint, tone);
     let paint = match &region.ramp {
         Some(ramp) => Paint::Gradient(gradient(ramp, colour, context.offset)),

@@ -99,7 +99,7 @@ mod tests {
         let (part, material, paint) = (PartId(0), MaterialId(0), PaintId(0));
         let region = |tone| Region {
             ramp: None,
-            look: SurfaceLabel { part, material, paint, tone, bin: 0, cast: false },
+            label: SurfaceLabel { part, material, paint, tone, bin: 0, cast: false },
             area: 50.0,
             loops: vec![],
         };

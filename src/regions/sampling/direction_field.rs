@@ -27,9 +27,9 @@ pub type LineDirection = [f32; 2];
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DirectionField {
     /// One per point.
-    pub of: Vec<LineDirection>,
+    pub directions: Vec<LineDirection>,
     /// Whether a point's direction is independent of its neighbours; true on wide flat faces.
-    pub hold: Vec<bool>,
+    pub is_independent: Vec<bool>,
 }
 
 impl LightLattice {
@@ -43,7 +43,7 @@ impl LightLattice {
         };
         // On flat faces distant light is constant, but the light of lamps changes.
         let follows_light = matches!(asked, DirectionSource::LightGradient(_))
-            && probe.lit.shading.bins().is_some_and(|bins| probe.lit.shading.is_local(bins));
+            && probe.lit.shading.bin_channel().is_some_and(|bins| probe.lit.shading.is_local(bins));
         let mut hold = if asked == DirectionSource::Light || follows_light {
             vec![false; of.len()]
         } else {
@@ -62,7 +62,7 @@ impl LightLattice {
                 }
             }
         });
-        DirectionField { of, hold }
+        DirectionField { directions: of, is_independent: hold }
     }
 
     /// Directions of the light's gradient on the page, by central differences within a facet.

@@ -82,7 +82,7 @@ impl LightLattice {
                 if hit.is_some() { masks.get(place - 1).copied().unwrap_or_default() } else { 0 }
             })
             .collect();
-        let channel = lit.shading.bins().unwrap_or(0);
+        let channel = lit.shading.bin_channel().unwrap_or(0);
         let lights = hits
             .par_iter()
             .zip(&mask_of)

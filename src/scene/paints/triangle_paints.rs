@@ -20,7 +20,7 @@ use crate::scene::{Material, Scene, Warnings};
 
 /// A material in one of its colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Paint {
+pub struct MaterialPaint {
     /// The material.
     pub material: MaterialId,
     /// Colour that replaces the material's.
@@ -33,7 +33,7 @@ pub struct Paints {
     /// First one paint per material, and one for triangles without a material, with the same ids and colours.
     /// Then the paints of textures and vertex colours, by material and colour. A picture also has a paint in
     /// its mean colour.
-    pub list: Vec<Paint>,
+    pub list: Vec<MaterialPaint>,
     /// Textures that could not be read.
     pub warnings: Warnings,
     /// Pictures of the style for lines along colour changes, by material.
@@ -59,7 +59,7 @@ impl Paints {
             materials
                 .iter()
                 .enumerate()
-                .map(|(id, material)| Paint { material: id.into(), colour: material.colour }),
+                .map(|(id, material)| MaterialPaint { material: id.into(), colour: material.colour }),
         );
         let read = |material: &&Material| {
             if options.fill == TextureFill::Off { None } else { Texture::of(scene, material) }
@@ -187,7 +187,7 @@ impl Paints {
                 known.insert(colour, PaintId::from(material));
             } else {
                 known.insert(colour, PaintId::from(self.list.len()));
-                self.list.push(Paint { material: material.into(), colour });
+                self.list.push(MaterialPaint { material: material.into(), colour });
             }
         }
         known
@@ -255,7 +255,7 @@ mod tests {
         let mesh = Mesh::build(scene.to_painted_soup(&paints));
         assert_eq!(paints.of_geometry(0), [4, 3, 0, 1].map(PaintId));
         assert_eq!(mesh.face_paint, [4, 3, 0, 1].map(PaintId));
-        assert_eq!(paints.list[3], Paint { material: MaterialId(0), colour: Colour::rgb(0, 0, 255) });
+        assert_eq!(paints.list[3], MaterialPaint { material: MaterialId(0), colour: Colour::rgb(0, 0, 255) });
         assert_eq!(paints.list[4].colour, Colour::rgb(255, 0, 0));
         // Lines distinguish materials only.
         assert_eq!(mesh.face_material, [0, 0, 0, 1].map(MaterialId));
@@ -278,7 +278,7 @@ mod tests {
         scene.geometries[0].triangle_material.clear();
         scene.geometries[0].colours = vec![[0.0, 1.0, 0.0, 1.0]; 6];
         let paints = Paints::of(&scene, &TextureOptions::default());
-        let green = Paint { material: MaterialId(0), colour: Colour::rgb(0, 255, 0) };
+        let green = MaterialPaint { material: MaterialId(0), colour: Colour::rgb(0, 255, 0) };
         assert_eq!(paints.list[1..], [green]);
         assert_eq!(paints.of_geometry(0), [PaintId(1); 4]);
     }

@@ -1,7 +1,7 @@
 //! Paints of triangles that show pictures or blended vertex colours.
 
 use super::triangle_colour::{MaterialFactor, TriangleColour, light};
-use super::triangle_paints::{Paint, Paints};
+use super::triangle_paints::{MaterialPaint, Paints};
 use super::varying_surface::VaryingSurface;
 use super::vertex_colours::{self, VertexColourPalette};
 use crate::colour::srgb::Colour;
@@ -74,7 +74,7 @@ impl Paints {
         }
         let picture = PaintId::from(self.list.len());
         let whole = texture.mean(&shown);
-        self.list.push(Paint { material: material.into(), colour: factor.tint(whole) });
+        self.list.push(MaterialPaint { material: material.into(), colour: factor.tint(whole) });
         for own in triangles {
             let own_paint = own.shown.filter(|_| is_whole(own)).and_then(paint_of);
             self.paint(scene, own, own_paint.unwrap_or(picture));
@@ -113,7 +113,7 @@ impl Paints {
         }
         let known = self.of_colours(material, &colours);
         let varied = PaintId::from(self.list.len());
-        self.list.push(Paint { material: material.into(), colour: opaque(mean(&seen)) });
+        self.list.push(MaterialPaint { material: material.into(), colour: opaque(mean(&seen)) });
         for (number, own) in triangles.iter().enumerate() {
             let swatch = swatches.as_ref().map(|swatches| swatches[number]).filter(|_| own.is_flat());
             self.paint(scene, own, swatch.and_then(|s| known.get(&s).copied()).unwrap_or(varied));
@@ -155,7 +155,7 @@ impl Paints {
         let varied = PaintId::from(self.list.len());
         let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), false)).collect();
         let colour = Colour { a: factor.base.a, ..mean(&seen) };
-        self.list.push(Paint { material: material.into(), colour });
+        self.list.push(MaterialPaint { material: material.into(), colour });
         triangles.iter().for_each(|own| self.paint(scene, own, varied));
         let paints = products.iter().filter_map(|colour| known.get(colour).copied()).collect();
         let painted = texture.painted(shown, &of_picture, whole);
@@ -183,7 +183,7 @@ impl Paints {
             Colour { a: mean.a, ..Colour::from_channels(channels) }
         };
         let [paint, dark, light] = [mean, bright(DARK_PROBE_LEVEL), bright(1.0)].map(|colour| {
-            self.list.push(Paint { material: material.into(), colour });
+            self.list.push(MaterialPaint { material: material.into(), colour });
             PaintId::from(self.list.len() - 1)
         });
         for own in triangles {

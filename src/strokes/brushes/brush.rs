@@ -221,8 +221,8 @@ pub(crate) fn brush_outline(
                 };
                 let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
                 let columns = match shape {
-                    BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ways),
-                    BrushShape::Image(strip, _) => Cow::Borrowed(&strip.ways),
+                    BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ink_offsets),
+                    BrushShape::Image(strip, _) => Cow::Borrowed(&strip.ink_offsets),
                     _ => Cow::Owned(brush_core::columns(&straight)),
                 };
                 let mut core = BezPath::new();

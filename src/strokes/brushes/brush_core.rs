@@ -43,14 +43,14 @@ pub(crate) fn columns(shape: &BezPath) -> Vec<Option<InkOffset>> {
             }
         }
         meets.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        nearest(&meets)
+        nearest_ink(&meets)
     };
     (0..BRUSH_COLUMNS).map(column).collect()
 }
 
 /// The ink nearest to the axis in one column. `meets` holds the y of the shape's crossings with the column
 /// in ascending order, each with its winding (1 or -1).
-pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<InkOffset> {
+pub(crate) fn nearest_ink(meets: &[(f64, i32)]) -> Option<InkOffset> {
     let mut winding = 0;
     let mut begun = 0.0;
     let mut best: Option<InkOffset> = None;

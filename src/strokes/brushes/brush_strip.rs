@@ -3,7 +3,7 @@
 
 use kurbo::{BezPath, Point};
 
-use super::brush_core::{BRUSH_COLUMNS, InkOffset, nearest};
+use super::brush_core::{BRUSH_COLUMNS, InkOffset, nearest_ink};
 use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
@@ -34,7 +34,7 @@ const MAX_SOLID_PAPER_SHARE: f64 = 0.01;
 pub struct BrushStrip {
     shades: DarknessMap,
     /// Distances from the middle into the ink, evenly along the picture. Bristles count as one.
-    pub(crate) ways: Vec<Option<InkOffset>>,
+    pub(crate) ink_offsets: Vec<Option<InkOffset>>,
 }
 
 impl BrushStrip {
@@ -50,10 +50,10 @@ impl BrushStrip {
             let column = k * wide.width / BRUSH_COLUMNS;
             let (top, bottom) = edges(&wide, column)?;
             let [top, bottom] = [top, bottom].map(|row| row / wide.height as f64 - 0.5);
-            nearest(&[(top, 1), (bottom, -1)])
+            nearest_ink(&[(top, 1), (bottom, -1)])
         };
         let ways = (0..BRUSH_COLUMNS).map(way).collect();
-        Self { shades, ways }
+        Self { shades, ink_offsets: ways }
     }
 
     /// Whether the stroke has almost no paper between its edges.

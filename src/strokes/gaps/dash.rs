@@ -63,7 +63,7 @@ fn fit_from(path: &BezPath, closed: bool, lengths: &[f64], share: f64) -> (Vec<f
 #[must_use]
 pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f64) {
     let (pattern, _) = fit(path, false, lengths);
-    let [from, to] = ends.map(|anchor| DVec3::from_array(anchor.place.map(f64::from)));
+    let [from, to] = ends.map(|anchor| DVec3::from_array(anchor.rest_position.map(f64::from)));
     let chord = (to - from).length();
     let mut own: Vec<f64> = lengths.to_vec();
     if own.len() % 2 == 1 {
@@ -320,7 +320,7 @@ mod tests {
         let mut path = BezPath::new();
         path.move_to((from, 0.0));
         path.line_to((to, 0.0));
-        let anchor = |x: f64| Anchor { place: [(x / all - 0.3) as f32, 0.1, 0.2], scale: 100.0 };
+        let anchor = |x: f64| Anchor { rest_position: [(x / all - 0.3) as f32, 0.1, 0.2], scale: 100.0 };
         let (pattern, offset) = fixed(&path, [anchor(from), anchor(to)], &[6.0, 4.0]);
         assert_eq!(pattern, [6.0, 4.0]);
         let way = if to > from { 1.0 } else { -1.0 };
@@ -343,7 +343,7 @@ mod tests {
             let known = |dash: &[i64; 2]| all.iter().any(|own| own[0].abs_diff(dash[0]) <= 1);
             assert!(part.len() > 9 && part.iter().all(known), "{from} {to}: {part:?} of {all:?}");
         }
-        let nowhere = Anchor { place: [0.0; 3], scale: 1.0 };
+        let nowhere = Anchor { rest_position: [0.0; 3], scale: 1.0 };
         let path = BezPath::from_svg("M0 0H50").unwrap_or_default();
         assert!(!fixed(&path, [nowhere, nowhere], &[6.0, 4.0]).0.is_empty());
         assert!(fixed(&path, [nowhere, nowhere], &[]).0.is_empty());

@@ -21,8 +21,9 @@ const OBLIQUE_AXIS: [f64; 3] = [0.37, 0.79, 0.49];
 /// 1.
 ///
 /// It is the point farthest along [`OBLIQUE_AXIS`] on the model at rest; 0 if anchors are unknown.
-pub(crate) fn fixed_share(chain: &Chain) -> f64 {
-    let along = |anchor: Anchor| (0..3).map(|k| OBLIQUE_AXIS[k] * f64::from(anchor.place[k])).sum::<f64>();
+pub(crate) fn closed_origin_share(chain: &Chain) -> f64 {
+    let along =
+        |anchor: Anchor| (0..3).map(|k| OBLIQUE_AXIS[k] * f64::from(anchor.rest_position[k])).sum::<f64>();
     let known = chain.samples.iter().map(|sample| sample.anchor).enumerate().filter(|(_, a)| a.is_known());
     let farthest = known.map(|(k, anchor)| (k, along(anchor))).max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((farthest, _)) = farthest else { return 0.0 };
@@ -34,9 +35,9 @@ pub(crate) fn fixed_share(chain: &Chain) -> f64 {
 
 /// The origin of gaps for a chain of the given length in user units; `None` if its anchors are unknown.
 pub(crate) fn gap_origin(chain: &Chain, length: f64) -> Option<GapOrigin> {
-    let [from, to] = end_anchors(chain)?.map(|anchor| DVec3::from_array(anchor.place.map(f64::from)));
+    let [from, to] = end_anchors(chain)?.map(|anchor| DVec3::from_array(anchor.rest_position.map(f64::from)));
     if chain.closed {
-        return Some(GapOrigin { arc: fixed_share(chain) * length, backwards: false });
+        return Some(GapOrigin { arc: closed_origin_share(chain) * length, backwards: false });
     }
     let way = to - from;
     // The part's centre projected onto the line through both ends. It stays the same if the ends move along

@@ -31,7 +31,13 @@ pub(crate) struct GapOrigin {
 impl HandGaps {
     /// Splits piece `number` of an axis at its gaps. The number of gaps does not depend on the seed, unless
     /// they are fixed to the model.
-    pub fn leave(&self, piece: AxisPart, number: usize, moored: Option<GapOrigin>, px: f64) -> Vec<AxisPart> {
+    pub fn split_at_gaps(
+        &self,
+        piece: AxisPart,
+        number: usize,
+        moored: Option<GapOrigin>,
+        px: f64,
+    ) -> Vec<AxisPart> {
         let (Some(first), true) = (piece.axis.arcs.first(), self.mean > 0.0 && self.gap > 0.0) else {
             return vec![piece];
         };

@@ -92,7 +92,7 @@ impl ChainInk<'_> {
         let pieces: Vec<AxisPart> = split_axis(&axis, self.gaps, lifts, ends, px)
             .into_iter()
             .enumerate()
-            .flat_map(|(k, piece)| breaks.leave(piece, k, moored, px))
+            .flat_map(|(k, piece)| breaks.split_at_gaps(piece, k, moored, px))
             .collect();
         let mut shapes = Vec::new();
         for pass in 0..u64::from(hand.passes.max(1)) {

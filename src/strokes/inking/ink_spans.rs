@@ -85,7 +85,7 @@ fn merge_short_spans(mut stretches: Vec<InkSpan>, least: f64) -> Vec<InkSpan> {
 
 /// The ink at a point of an axis.
 fn tint(axis: &StrokeAxis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -> SpanInk {
-    let under = axis.samples[i].under;
+    let under = axis.samples[i].backdrop;
     if let Some(parting) = context.parting.filter(|_| chain.invisibility == 0 && parts(chain.kind)) {
         let half = parting.width * pen.width.in_unit(context.unit) / 2.0;
         if half > 0.0 && under.black >= half + half.max(MIN_BLACK_MARGIN_PX * context.px()) {

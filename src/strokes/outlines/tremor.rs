@@ -119,7 +119,7 @@ fn on_surface(seed: u64, anchor: Anchor, wave: f64) -> f64 {
         let waves = pow(2.0, octave);
         value_noise_3d(
             hash(seed, &[(octave as i64).cast_unsigned()]),
-            anchor.place.map(|x| f64::from(x) * waves),
+            anchor.rest_position.map(|x| f64::from(x) * waves),
         )
     };
     (1.0 - t) * at(coarse) + t * at(coarse + 1.0)

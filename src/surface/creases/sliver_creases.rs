@@ -41,10 +41,10 @@ pub(crate) fn wrinkles(
     let lines = lines(mesh, creases);
     let all = (0..creases.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
     // The first edge of a line already rules out most lines.
-    let may = |k: u32| lines.of(k) == k && beside(creases[k as usize]) != [None; 2];
+    let may = |k: u32| lines.representative(k) == k && beside(creases[k as usize]) != [None; 2];
     let may: Vec<bool> = all.clone().map(may).collect();
     let mut by_line: Vec<(u32, u32)> =
-        all.map(|k| (lines.of(k), k)).filter(|(line, _)| may[*line as usize]).collect();
+        all.map(|k| (lines.representative(k), k)).filter(|(line, _)| may[*line as usize]).collect();
     by_line.par_sort_unstable();
     // All edges of a line must touch the same sliver, which has at most three edges per face.
     let is_wrinkle = |line: &&[(u32, u32)]| {

@@ -46,7 +46,7 @@ pub(crate) fn feature_sizes(
     let mut sizes = vec![0.0; bends.last().map_or(0, |last| last.0.index() + 1)];
     for of_part in bends.chunk_by(|a, b| a.0 == b.0) {
         let part = of_part[0].0;
-        sizes[part.index()] = feature_size(of_part, MAX_FEATURE_OF_PART * mesh.extents.of(part).scale);
+        sizes[part.index()] = feature_size(of_part, MAX_FEATURE_OF_PART * mesh.extents.part(part).scale);
     }
     sizes
 }

@@ -36,7 +36,7 @@ impl Curvature {
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
         let fans = VertexFans::new(mesh, smooth);
         let part_of = fans.bodies(mesh, smooth.vertices.len());
-        let length = |part: PartId| smoothing * mesh.extents.of(part).scale;
+        let length = |part: PartId| smoothing * mesh.extents.part(part).scale;
         let normals = diffuse(smooth, &fans, &part_of, length);
         let principal = principal(mesh, smooth, &fans, &normals);
         let derivative = curvature_derivative::derivative(mesh, smooth, &fans, &normals, &principal);

@@ -35,7 +35,7 @@ struct RimChord {
     /// Difference between the largest and smallest distance of its corners from the axis.
     spread: f64,
     /// Whether its normal points to the axis, as inside a hole.
-    hollow: bool,
+    is_hole: bool,
     /// Angle it subtends at the axis, radians.
     arc: f64,
     /// Start and end along the axis.
@@ -64,7 +64,7 @@ pub(crate) fn rims(
     }
     let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); mesh.triangles.len()];
     for face in 0..mesh.triangles.len() as u32 {
-        faces_of[facets.of(face) as usize].push(face);
+        faces_of[facets.representative(face) as usize].push(face);
     }
     let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or_default();
     let mut of_body: Vec<Vec<&[u32]>> = vec![Vec::new(); parts];
@@ -76,16 +76,16 @@ pub(crate) fn rims(
         let facets = of_body[body(axis.part).index()].iter();
         let mut chords: Vec<RimChord> =
             facets.filter_map(|own| chord(mesh, own, normals[own[0] as usize], axis)).collect();
-        chords.sort_by(|a, b| a.hollow.cmp(&b.hollow).then(a.radius.total_cmp(&b.radius)));
+        chords.sort_by(|a, b| a.is_hole.cmp(&b.is_hole).then(a.radius.total_cmp(&b.radius)));
         let alike = |a: &RimChord, b: &RimChord| {
-            a.hollow == b.hollow && b.radius - a.radius < MAX_RIM_RADIUS_SPREAD * b.radius
+            a.is_hole == b.is_hole && b.radius - a.radius < MAX_RIM_RADIUS_SPREAD * b.radius
         };
         for own in chords.chunk_by(alike).filter(|own| own.len() >= MIN_RIM_FACETS) {
-            let rim = whole(own, axis.part, axis);
+            let rim = rim_cylinder(own, axis.part, axis);
             let is_known = |other: &Cylinder| {
                 body(other.part) == body(rim.part)
                     && is_coaxial(other, &rim)
-                    && other.hollow == rim.hollow
+                    && other.is_hole == rim.is_hole
                     && (other.radius - rim.radius).abs() < 5.0 * MAX_RIM_RADIUS_SPREAD * rim.radius
             };
             if !known.iter().chain(&found).any(is_known) {
@@ -130,11 +130,11 @@ fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<
     let arc = 2.0 * atan2(half, out.abs());
     let is_chord =
         half > 0.0 && (sides[0] + sides[1]).abs() < MAX_RIM_RADIUS_SPREAD * radius && arc < MAX_FACET_ARC_RAD;
-    is_chord.then_some(RimChord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
+    is_chord.then_some(RimChord { radius, spread: radii[1] - radii[0], is_hole: out < 0.0, arc, ends })
 }
 
 /// The cylinder formed by chords around an axis.
-fn whole(chords: &[RimChord], part: PartId, about: &Cylinder) -> Cylinder {
+fn rim_cylinder(chords: &[RimChord], part: PartId, about: &Cylinder) -> Cylinder {
     let ends = chords.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], chord| {
         [low.min(chord.ends[0]), high.max(chord.ends[1])]
     });
@@ -148,6 +148,6 @@ fn whole(chords: &[RimChord], part: PartId, about: &Cylinder) -> Cylinder {
         spread: off.fold(about.spread, f64::max),
         ends,
         arc: chords.iter().map(|chord| chord.arc).sum::<f64>().min(TAU),
-        hollow: chords[0].hollow,
+        is_hole: chords[0].is_hole,
     }
 }

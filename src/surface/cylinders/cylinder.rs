@@ -22,5 +22,5 @@ pub struct Cylinder {
     /// Angle that its facets cover, radians.
     pub arc: f64,
     /// Whether it is a hole: material is outside.
-    pub hollow: bool,
+    pub is_hole: bool,
 }

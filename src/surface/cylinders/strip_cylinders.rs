@@ -46,7 +46,7 @@ struct StripPair {
     strips: [usize; 2],
     centre: DVec3,
     radius: f64,
-    hollow: bool,
+    is_hole: bool,
 }
 
 /// The cylinders of a mesh, by part, then by descending radius.
@@ -71,7 +71,7 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     // Edges where the surface bends slightly, by the facets on both sides.
     let mut lines: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let mut order: Vec<u32> = Vec::new();
-    let facet = |face: u32| facets.of(face);
+    let facet = |face: u32| facets.representative(face);
     for edge in 0..mesh.edges.len() {
         let Some(faces) =
             two(edge).filter(|faces| (MIN_STRIP_COSINE..=MIN_FACET_COSINE).contains(&turn(*faces)))
@@ -200,7 +200,7 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[FlatStrip]) ->
             let centre = one.middle + one.normal * far;
             let radius = flat(on - centre).length();
             let hollow = flat(on - centre).dot(one.normal) < 0.0;
-            pairs.push(StripPair { strips: [*a, *b], centre, radius, hollow });
+            pairs.push(StripPair { strips: [*a, *b], centre, radius, is_hole: hollow });
         }
     }
     pairs
@@ -218,7 +218,7 @@ fn grouped(
         let apart = a.centre - b.centre;
         let apart = (apart - axis * apart.dot(axis)).length();
         let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * a.radius.min(b.radius);
-        a.hollow == b.hollow && apart < reach && (a.radius - b.radius).abs() < reach
+        a.is_hole == b.is_hole && apart < reach && (a.radius - b.radius).abs() < reach
     };
     let mut at_strip: Vec<Vec<usize>> = vec![Vec::new(); strips.len()];
     for (k, pair) in pairs.iter().enumerate() {
@@ -235,7 +235,7 @@ fn grouped(
     });
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); pairs.len()];
     for k in 0..pairs.len() {
-        members[groups.of(k as u32) as usize].push(k);
+        members[groups.representative(k as u32) as usize].push(k);
     }
     let mut found: Vec<Cylinder> = Vec::new();
     for own in members.into_iter().filter(|own| own.len() > 1) {
@@ -266,8 +266,8 @@ fn grouped(
         let corners = corners_of(mesh, &of, edges_of);
         let (centre, radius, spread) = fitted(&corners, axis, centre, radius);
         let (part, point) = (part_of[of[0]], centre + mesh.origin);
-        let (arc, hollow) = (arc.min(TAU), pairs[own[0]].hollow);
-        merge(mesh, &mut found, Cylinder { part, point, axis, radius, spread, ends, arc, hollow });
+        let (arc, hollow) = (arc.min(TAU), pairs[own[0]].is_hole);
+        merge(mesh, &mut found, Cylinder { part, point, axis, radius, spread, ends, arc, is_hole: hollow });
     }
     found
 }
@@ -325,7 +325,7 @@ fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
         let apart = known.point - new.point;
         let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * new.radius;
         body(known.part) == body(new.part)
-            && known.hollow == new.hollow
+            && known.is_hole == new.is_hole
             && known.axis.cross(new.axis).length() < MAX_PARALLEL_SINE
             && (known.radius - new.radius).abs() < reach
             && (apart - new.axis * apart.dot(new.axis)).length() < reach

@@ -22,7 +22,7 @@ pub struct SmoothNormals {
     /// entry per face, or empty where all faces are flat.
     pub corners: Vec<[u32; 3]>,
     /// Edges that separate curved surfaces from each other or from flat faces.
-    pub parting: EdgeSet,
+    pub separating_edges: EdgeSet,
     /// Edges along which the surface is straight, although its normals turn. A straight edge has no arc.
     pub straight: EdgeSet,
     /// Edges away from separating edges, whose end normals differ by less than 15 degrees. Empty if not
@@ -44,11 +44,11 @@ impl SmoothNormals {
     /// same number. Empty if there are no separating edges.
     #[must_use]
     pub fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
-        if self.parting.is_empty() {
+        if self.separating_edges.is_empty() {
             return Vec::new();
         }
         let mut parted = vec![false; mesh.positions.len()];
-        self.parting
+        self.separating_edges
             .iter()
             .flat_map(|edge| mesh.edges.vertices[edge])
             .for_each(|vertex| parted[vertex as usize] = true);
@@ -64,7 +64,7 @@ impl SmoothNormals {
         if self.seamless {
             return Some(ends);
         }
-        if self.parting.contains(edge) {
+        if self.separating_edges.contains(edge) {
             return None;
         }
         let face = match mesh.edges.faces(edge) {

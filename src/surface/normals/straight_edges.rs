@@ -93,7 +93,7 @@ fn fan(mesh: &Mesh, smooth: &SmoothNormals, vertex: u32, edge: usize) -> impl It
             crossed = side;
             if let EdgeFaces::Two { faces, .. } = mesh.edges.faces(side)
                 && side != edge
-                && !smooth.parting.contains(side)
+                && !smooth.separating_edges.contains(side)
             {
                 next = Some(faces[usize::from(faces[0] == face)]);
             }

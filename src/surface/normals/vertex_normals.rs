@@ -23,7 +23,7 @@ impl SmoothNormals {
             normals: vertex_normals(mesh, |_| true),
             vertices: (0..mesh.positions.len() as u32).collect(),
             corners: mesh.triangles.clone(),
-            parting: EdgeSet::default(),
+            separating_edges: EdgeSet::default(),
             straight: EdgeSet::default(),
             gentle: EdgeSet::default(),
             seamless: true,
@@ -38,7 +38,7 @@ impl SmoothNormals {
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
     ) -> Self {
-        let mut smooth = Self::parted(mesh, is_rounded, is_hard);
+        let mut smooth = Self::without_straight_edges(mesh, is_rounded, is_hard);
         if !smooth.is_empty() {
             smooth.gentle = straight_edges::gentle(mesh, &smooth);
             smooth.straight = straight_edges::straight(mesh, &smooth);
@@ -48,7 +48,7 @@ impl SmoothNormals {
 
     /// Same, without gentle and straight edges, which shading does not need.
     #[must_use]
-    pub fn parted(
+    pub fn without_straight_edges(
         mesh: &Mesh,
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
@@ -79,7 +79,7 @@ impl SmoothNormals {
             vertices: (0..mesh.positions.len() as u32).collect(),
             corners,
             seamless: all && parting.is_empty(),
-            parting,
+            separating_edges: parting,
             straight: EdgeSet::default(),
             gentle: EdgeSet::default(),
         };

@@ -20,11 +20,15 @@ struct FanCorner {
 /// Gives each fan around a vertex on a separating edge its smooth vertex. The first fan keeps the number of
 /// the vertex; the others get new numbers.
 pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
-    if smooth.parting.is_empty() {
+    if smooth.separating_edges.is_empty() {
         return;
     }
-    let mut cuts: Vec<[u32; 2]> =
-        smooth.parting.iter().map(|e| mesh.edges.vertices[e]).flat_map(|[a, b]| [[a, b], [b, a]]).collect();
+    let mut cuts: Vec<[u32; 2]> = smooth
+        .separating_edges
+        .iter()
+        .map(|e| mesh.edges.vertices[e])
+        .flat_map(|[a, b]| [[a, b], [b, a]])
+        .collect();
     cuts.sort_unstable();
     let mut is_parted = vec![false; mesh.positions.len()];
     cuts.iter().for_each(|[vertex, _]| is_parted[*vertex as usize] = true);
@@ -172,6 +176,6 @@ mod tests {
         let flat = SmoothNormals::new(&mesh, |face| !below(face), |_| false);
         assert_eq!(flat.corners_of(outside), None);
         assert_eq!(flat.corners_of(inside), Some(mesh.triangles[inside as usize]));
-        assert_eq!(flat.parting.iter().count(), 4);
+        assert_eq!(flat.separating_edges.iter().count(), 4);
     }
 }

@@ -87,7 +87,7 @@ const MAX_LEANING_FACES: f64 = 0.2;
 
 impl ComponentStats {
     /// Classifies the component. With `all`, no component is faceted.
-    fn verdict(&self, all: bool) -> ComponentClass {
+    fn classify(&self, all: bool) -> ComponentClass {
         let Self { faces, edges, .. } = self;
         let share = |of: u32, all: u32| f64::from(of) / f64::from(all.max(1));
         let faceted = faces.with_normals == faces.all && share(faces.curved, faces.all) < MIN_CURVED_FACES;
@@ -115,9 +115,9 @@ impl ComponentStats {
         let plain = faceted || edges.all < MIN_SAMPLE_EDGES;
         // Faceted components are drawn with their faces, but shaded as the round surface they approximate. If
         // all surfaces are to be round, the angles of a machined component show where it is not.
-        let astray = share(faces.astray, faces.all) >= MIN_ASTRAY_FACES;
+        let astray = share(faces.contradicting, faces.all) >= MIN_ASTRAY_FACES;
         let as_planes = faceted && shape == SurfaceClass::Round;
-        let leans = share(self.leans, faces.all) > MAX_LEANING_FACES;
+        let leans = share(self.deviating_faces, faces.all) > MAX_LEANING_FACES;
         let believed = !(astray || leans || armoured || as_planes || (all && machined));
         let make = if plain && !all { SurfaceClass::Faceted } else { shape };
         let origin = match (make, shaded) {
@@ -125,12 +125,12 @@ impl ComponentStats {
             (SurfaceClass::Round, true) => MeshSource::Modelled,
             _ => MeshSource::Constructed,
         };
-        ComponentClass { make, origin, believed }
+        ComponentClass { make, origin, trusts_file_normals: believed }
     }
 
     /// Whether the component stays round next to machined ones: it has almost no sharp edges, or many edges
     /// with no more flat ones than noise explains.
-    fn stays_round(&self) -> bool {
+    fn is_always_round(&self) -> bool {
         let EdgeStats { all, flat, nearly_flat, sharp } = self.edges;
         let by_chance = FLAT_OF_NEARLY_FLAT_NOISE * f64::from(nearly_flat);
         f64::from(sharp) < MAX_SHARP_EDGES_ROUND * f64::from(all)
@@ -156,14 +156,14 @@ pub(crate) fn pieces(mesh: &Mesh) -> NumberedSets {
 ///
 /// Components too small for statistics are classified together with those of the same body and material.
 /// Scans may take the class of the largest component among these.
-pub(crate) fn verdicts(
+pub(crate) fn classify_components(
     mesh: &Mesh,
     turns: &DihedralCosines,
     (planes, pieces): (&PlanarRegions, NumberedSets),
     all: bool,
 ) -> ComponentClasses {
     let faces = mesh.triangles.len();
-    let NumberedSets { of_face: number, first } = &pieces;
+    let NumberedSets { set_of_face: number, first } = &pieces;
     let (of_faces, of_edges): (Vec<FaceStats>, Vec<EdgeStats>) = crate::parallel::join(
         || sums(first.len(), faces, |face| Some((number[face], of_face(mesh, planes, face as u32)))),
         || {
@@ -184,7 +184,7 @@ pub(crate) fn verdicts(
     let verdict = |(face, count): (&u32, &ComponentStats)| {
         let is_small = count.edges.all < MIN_SAMPLE_EDGES;
         let judged = if is_small { together.get(&key(*face)).unwrap_or(count) } else { count };
-        judged.verdict(all)
+        judged.classify(all)
     };
     let mut verdicts: Vec<ComponentClass> = first.iter().zip(&counts).map(verdict).collect();
     reclassify_tessellated(mesh, turns, number, &mut counts, &mut verdicts);
@@ -196,7 +196,7 @@ pub(crate) fn verdicts(
 /// deviate.
 fn count_leaning(mesh: &Mesh, turns: &DihedralCosines, pieces: &[u32], counts: &mut [ComponentStats]) {
     let many = |count: &ComponentStats| {
-        f64::from(count.faces.leaning) > MAX_LEANING_FACES * f64::from(count.faces.all)
+        f64::from(count.faces.deviating) > MAX_LEANING_FACES * f64::from(count.faces.all)
     };
     let asked: Vec<bool> = counts.iter().map(many).collect();
     if !asked.contains(&true) {
@@ -208,7 +208,7 @@ fn count_leaning(mesh: &Mesh, turns: &DihedralCosines, pieces: &[u32], counts: &
         let cosine = asked[piece as usize].then(|| leaning_at(mesh, face as u32))??;
         Some((piece, u32::from(leans(mesh, (turns, &edges), face as u32, cosine))))
     });
-    counts.iter_mut().zip(lean).for_each(|(count, lean)| count.leans = lean);
+    counts.iter_mut().zip(lean).for_each(|(count, lean)| count.deviating_faces = lean);
 }
 
 /// Reclassifies scans as machined if too many of their faces are long across bends. No surface is sampled in
@@ -227,7 +227,7 @@ fn reclassify_tessellated(
         .map(|(verdict, count)| {
             verdict.origin == MeshSource::Scanned
                 && count.edges.all >= MIN_SAMPLE_EDGES
-                && count.faces.slender > MIN_SLIVER_BEND_LENGTH * count.faces.longest
+                && count.faces.sliver_length > MIN_SLIVER_BEND_LENGTH * count.faces.longest
         })
         .collect();
     if !asked.contains(&true) {
@@ -267,7 +267,7 @@ fn follow_largest<K: Ord>(
     for (kin, (count, verdict)) in kin.zip(counts.iter().zip(verdicts)) {
         let [other, machined] = largest.get(&kin).copied().unwrap_or_default();
         let follows = machined > 0.0 && machined >= other * tolerances::AREA_ROUNDING_FACTOR;
-        if verdict.origin == MeshSource::Scanned && follows && !count.stays_round() {
+        if verdict.origin == MeshSource::Scanned && follows && !count.is_always_round() {
             (verdict.make, verdict.origin) = (SurfaceClass::Machined, MeshSource::Constructed);
         }
     }

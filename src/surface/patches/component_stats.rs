@@ -28,7 +28,7 @@ pub(crate) struct ComponentStats {
     pub bends: SliverBends,
     /// Faces whose normals in the file all deviate by more than the surface turns. Counted only if many
     /// deviate at all.
-    pub leans: u32,
+    pub deviating_faces: u32,
 }
 
 /// Statistics of the faces of a component.
@@ -37,15 +37,15 @@ pub(crate) struct FaceStats {
     pub all: u32,
     pub curved: u32,
     pub with_normals: u32,
-    pub astray: u32,
+    pub contradicting: u32,
     /// Faces whose normals in the file all deviate.
-    pub leaning: u32,
+    pub deviating: u32,
     pub area: f64,
     pub in_flats: f64,
     pub level: f64,
     /// Sum of the longest sides of all faces, and of sliver faces.
     pub longest: f64,
-    pub slender: f64,
+    pub sliver_length: f64,
 }
 
 /// Statistics of the edges between two faces with area.
@@ -69,7 +69,7 @@ impl AddAssign<&ComponentStats> for ComponentStats {
         self.faces += &other.faces;
         self.edges += &other.edges;
         self.bends += &other.bends;
-        self.leans += other.leans;
+        self.deviating_faces += other.deviating_faces;
     }
 }
 
@@ -79,13 +79,13 @@ impl AddAssign<&FaceStats> for FaceStats {
         self.all += other.all;
         self.curved += other.curved;
         self.with_normals += other.with_normals;
-        self.astray += other.astray;
-        self.leaning += other.leaning;
+        self.contradicting += other.contradicting;
+        self.deviating += other.deviating;
         self.area += other.area;
         self.in_flats += other.in_flats;
         self.level += other.level;
         self.longest += other.longest;
-        self.slender += other.slender;
+        self.sliver_length += other.sliver_length;
     }
 }
 
@@ -131,11 +131,12 @@ pub(crate) fn of_edge(
 #[inline]
 pub(crate) fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> FaceStats {
     let area = area(mesh, face);
-    let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
+    let in_flats = if planes.region_at(face).is_some() { area } else { 0.0 };
     let level = if planes.is_level(face) { area } else { 0.0 };
     let longest = longest_side(mesh, face);
-    let slender = if SliverFace::is(area, longest) { longest } else { 0.0 };
-    let mut count = FaceStats { all: 1, area, in_flats, level, longest, slender, ..FaceStats::default() };
+    let slender = if SliverFace::is_sliver(area, longest) { longest } else { 0.0 };
+    let mut count =
+        FaceStats { all: 1, area, in_flats, level, longest, sliver_length: slender, ..FaceStats::default() };
     if let Some(ids) = mesh.corner_normals.get(face as usize) {
         let own = Vec3::from_array(mesh.face_normals[face as usize]);
         let normals = ids.map(|id| mesh.normals.get(id as usize));
@@ -143,8 +144,8 @@ pub(crate) fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> FaceSta
         count.with_normals = u32::from(normals.iter().all(Option::is_some));
         count.curved = u32::from(normals.iter().flatten().any(|n| leaves(n)));
         let strays = |n: &[f32; 3]| Vec3::from_array(*n).dot(own).abs() < MAX_ASTRAY_COSINE;
-        count.astray = u32::from(normals.iter().flatten().any(|n| strays(n)));
-        count.leaning = u32::from(leaning(own, normals).is_some());
+        count.contradicting = u32::from(normals.iter().flatten().any(|n| strays(n)));
+        count.deviating = u32::from(leaning(own, normals).is_some());
     }
     count
 }

@@ -112,7 +112,7 @@ pub(crate) fn add_curved_patches(
         edges.clone().filter_map(inner).for_each(|[a, b]| join(a, b));
     });
     let patches = groups.numbered(|face| (!machined(face)).then_some(u32::MAX));
-    let patch = |face: u32| patches.of_face[face as usize];
+    let patch = |face: u32| patches.set_of_face[face as usize];
     let of_edges: Vec<PatchEdgeStats> = sums(patches.first.len(), mesh.edges.len(), |edge| {
         let [face, _] = inner(edge)?;
         let flat = u32::from(planes.flat.contains(edge));
@@ -149,7 +149,7 @@ pub(crate) fn add_curved_patches(
 /// Statistics of one face.
 fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> PatchFaceStats {
     let area = area(mesh, face);
-    let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
+    let in_flats = if planes.region_at(face).is_some() { area } else { 0.0 };
     let corners = mesh.corners(FaceId(face));
     let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
     let in_long = if longest > MAX_FACE_ASPECT * 2.0 * area { area } else { 0.0 };

@@ -80,7 +80,8 @@ mod tests {
 
     #[test]
     fn normals_of_another_place_are_not_believed() {
-        let believed = |rings: u32, turned: f64| Patches::new(&ball(rings, turned), 40.0, false).believed;
+        let believed =
+            |rings: u32, turned: f64| Patches::new(&ball(rings, turned), 40.0, false).trusts_file_normals;
         for rings in [8, 12, 32, 64] {
             assert!(believed(rings, 0.0).iter().all(|believed| *believed), "{rings} rings");
         }

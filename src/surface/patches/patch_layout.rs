@@ -4,7 +4,7 @@
 //! its edges only. Surfaces that bend both ways are rounded. These are scans and figures, except at their
 //! creases, and on machined parts the patches between hard edges with curvature inside.
 
-use super::component_classes::{pieces, verdicts};
+use super::component_classes::{classify_components, pieces};
 use super::curved_patches::add_curved_patches;
 use super::planar_regions::{PlanarRegions, area};
 use super::surface_class::{ComponentClasses, MeshSource, SurfaceClass};
@@ -35,9 +35,9 @@ pub struct Patches {
     pub hard: HardEdges,
     /// Sharp edges of machined parts that are no creases because only a sliver causes them. They separate
     /// surfaces.
-    pub wrinkles: EdgeSet,
+    pub sliver_creases: EdgeSet,
     /// Centre edges of narrow fillets. They are drawn as creases, but the surface continues across them.
-    pub roundings: EdgeSet,
+    pub fillet_centres: EdgeSet,
     /// Edges that separate surfaces although they turn too little for a crease: rims of planar regions, and
     /// strips next to wide faces.
     pub rims: EdgeSet,
@@ -50,7 +50,7 @@ pub struct Patches {
     /// Connected component of each face; empty if there is only one.
     pub pieces: Vec<u32>,
     /// Whether the normals of the file, if any, describe the shape of each face.
-    pub believed: Vec<bool>,
+    pub trusts_file_normals: Vec<bool>,
 }
 
 impl Patches {
@@ -60,7 +60,7 @@ impl Patches {
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let (turns, planes, verdicts) = classify(mesh, all);
         let turns = &turns;
-        let believed = verdicts.map(|verdict| verdict.believed);
+        let believed = verdicts.map(|verdict| verdict.trusts_file_normals);
         let makes = verdicts.map(|verdict| verdict.make);
         let ((hard, wrinkles), rims) = crate::parallel::join(
             || hard_edges(mesh, turns, &verdicts, crease_deg),
@@ -74,7 +74,8 @@ impl Patches {
                 add_curved_patches(mesh, (turns, &planes), &makes, parts, &mut rounded);
             }
             // A figure with faceted normals bends at all edges.
-            let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
+            let is_exact =
+                |face: &u32| !rounded[*face as usize] && verdicts.class_of_face(*face).trusts_file_normals;
             let may =
                 |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
             let shallow = shallow_creases(mesh, (turns, &planes.flat), crease_deg, &hard, may);
@@ -90,7 +91,17 @@ impl Patches {
         let origins = verdicts.map(|verdict| verdict.origin);
         let figure = verdicts.map(|verdict| verdict.make == SurfaceClass::Round);
         let pieces = verdicts.into_pieces();
-        Self { hard, wrinkles, roundings, rims, rounded, figure, origins, pieces, believed }
+        Self {
+            hard,
+            sliver_creases: wrinkles,
+            fillet_centres: roundings,
+            rims,
+            rounded,
+            figure,
+            origins,
+            pieces,
+            trusts_file_normals: believed,
+        }
     }
 }
 
@@ -112,7 +123,7 @@ fn classify(mesh: &Mesh, all: bool) -> (DihedralCosines, PlanarRegions, Componen
         (turns, planes)
     };
     let ((turns, planes), pieces) = crate::parallel::join(turned, || pieces(mesh));
-    let verdicts = verdicts(mesh, &turns, (&planes, pieces), all);
+    let verdicts = classify_components(mesh, &turns, (&planes, pieces), all);
     (turns, planes, verdicts)
 }
 
@@ -127,7 +138,7 @@ fn sharp_edges(
     verdicts: &ComponentClasses,
     crease_deg: f64,
 ) -> (HardEdges, EdgeSet) {
-    let is_machined = |face: &u32| verdicts.of(*face).make == SurfaceClass::Machined;
+    let is_machined = |face: &u32| verdicts.class_of_face(*face).make == SurfaceClass::Machined;
     if !verdicts.any(SurfaceClass::Machined) {
         return (HardEdges::above_with(mesh, turns, crease_deg), EdgeSet::default());
     }
@@ -148,7 +159,7 @@ fn hard_edges(
     verdicts: &ComponentClasses,
     crease_deg: f64,
 ) -> (HardEdges, EdgeSet) {
-    let is_round = |face: u32| verdicts.of(face).make == SurfaceClass::Round;
+    let is_round = |face: u32| verdicts.class_of_face(face).make == SurfaceClass::Round;
     let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
     if !verdicts.any(SurfaceClass::Round) {
         return above();
@@ -160,7 +171,7 @@ fn hard_edges(
     let (above, wrinkles) = above();
     let least = cos(crease_deg.to_radians()) as f32;
     let shaded_sharp = |edge: usize, faces: [u32; 2]| {
-        faces.iter().all(|face| verdicts.of(*face).believed)
+        faces.iter().all(|face| verdicts.class_of_face(*face).trusts_file_normals)
             && file_cosines(mesh, edge, faces).is_some_and(|[a, b]| a.min(b) < least)
     };
     let hard = HardEdges::of(mesh, |edge| match mesh.edges.faces(edge) {
@@ -172,7 +183,7 @@ fn hard_edges(
     (hard, wrinkles)
 }
 
-/// Centre edges of narrow fillets, except on figures and scans, at `hard` edges and at `wrinkles`.
+/// Centre edges of narrow fillets, except on figures and scans, at `hard` edges and at `sliver_creases`.
 fn roundings(
     mesh: &Mesh,
     (turns, planes): (&DihedralCosines, &PlanarRegions),
@@ -181,8 +192,8 @@ fn roundings(
     crease_deg: f64,
 ) -> EdgeSet {
     let is_made = |face: &u32| {
-        let verdict = verdicts.of(*face);
-        verdict.make != SurfaceClass::Round && verdict.believed
+        let verdict = verdicts.class_of_face(*face);
+        verdict.make != SurfaceClass::Round && verdict.trusts_file_normals
     };
     let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_made) && !wrinkles.contains(edge);
     let asked = shallow_edges(mesh, turns, crease_deg, hard, may);

@@ -34,7 +34,7 @@ pub(crate) struct PlanarRegions {
     /// Edges where the surface is flat.
     pub flat: EdgeSet,
     /// Planar region of each face.
-    of_face: Vec<u32>,
+    region_of_face: Vec<u32>,
     /// Whether each region is compact, not a strip.
     compact: Vec<bool>,
 }
@@ -51,7 +51,7 @@ impl PlanarRegions {
             });
         });
         let sizes = sizes(&groups, faces);
-        let NumberedSets { of_face, first } =
+        let NumberedSets { set_of_face: of_face, first } =
             groups.numbered(|face| match sizes[face as usize].load(Relaxed) {
                 MIN_REGION_FACES.. => None,
                 2.. => Some(TOO_SMALL_REGION),
@@ -78,25 +78,25 @@ impl PlanarRegions {
         let is_compact =
             |(area, outline): (f64, f64)| area >= MIN_AREA_PER_SQUARED_OUTLINE * outline * outline;
         let compact = areas.into_iter().zip(outlines).map(is_compact).collect();
-        Self { flat, of_face, compact }
+        Self { flat, region_of_face: of_face, compact }
     }
 
     /// The planar region that contains a face.
     #[inline]
-    pub fn of(&self, face: u32) -> Option<u32> {
-        Some(self.of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION)
+    pub fn region_at(&self, face: u32) -> Option<u32> {
+        Some(self.region_of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION)
     }
 
     /// Whether a face is coplanar with a neighbour.
     #[inline]
     pub fn is_level(&self, face: u32) -> bool {
-        self.of_face[face as usize] != NO_REGION
+        self.region_of_face[face as usize] != NO_REGION
     }
 
     /// The planar region that contains a face, unless it is a strip.
     #[inline]
     pub fn compact(&self, face: u32) -> Option<u32> {
-        self.of(face).filter(|flat| self.compact[*flat as usize])
+        self.region_at(face).filter(|flat| self.compact[*flat as usize])
     }
 }
 
@@ -113,7 +113,7 @@ fn sizes(groups: &DisjointSets, faces: usize) -> Vec<AtomicU32> {
     let last_run = faces.fold(
         || (0, 0),
         |(group, size), face| {
-            let own = groups.of(face);
+            let own = groups.representative(face);
             if own == group {
                 (group, size + 1)
             } else {

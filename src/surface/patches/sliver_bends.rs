@@ -29,7 +29,7 @@ pub(crate) struct SliverFace {
 impl SliverFace {
     /// Whether a face with this area and longest side is a sliver.
     #[inline]
-    pub fn is(area: f64, longest: f64) -> bool {
+    pub fn is_sliver(area: f64, longest: f64) -> bool {
         area > 0.0 && 2.0 * area * BEND_OF_ASPECT < MAX_BEND_RAD * longest * longest
     }
 
@@ -44,7 +44,7 @@ impl SliverFace {
             return None;
         }
         let (area, length) = (area(mesh, face), longest_side(mesh, face));
-        Self::is(area, length).then(|| Self { length, width: 2.0 * area / length })
+        Self::is_sliver(area, length).then(|| Self { length, width: 2.0 * area / length })
     }
 }
 

@@ -37,7 +37,7 @@ pub enum MeshSource {
 pub(crate) struct ComponentClass {
     pub make: SurfaceClass,
     pub origin: MeshSource,
-    pub believed: bool,
+    pub trusts_file_normals: bool,
 }
 
 /// Classes of the components of a mesh, and the component of each face.
@@ -52,12 +52,12 @@ pub(crate) struct ComponentClasses {
 impl ComponentClasses {
     /// Takes one class per component, in the order of component numbers.
     pub fn new(of_pieces: Vec<ComponentClass>, pieces: NumberedSets) -> Self {
-        Self { of_pieces, pieces: pieces.of_face }
+        Self { of_pieces, pieces: pieces.set_of_face }
     }
 
     /// The class of the component that a face belongs to.
     #[inline]
-    pub fn of(&self, face: u32) -> &ComponentClass {
+    pub fn class_of_face(&self, face: u32) -> &ComponentClass {
         &self.of_pieces[self.pieces[face as usize] as usize]
     }
 
@@ -93,12 +93,12 @@ mod tests {
     #[test]
     fn faces_are_told_by_their_pieces() {
         let make = |make| ComponentClass { make, ..ComponentClass::default() };
-        let numbered = |of_face: &[u32]| NumberedSets { of_face: of_face.to_vec(), first: Vec::new() };
+        let numbered = |of_face: &[u32]| NumberedSets { set_of_face: of_face.to_vec(), first: Vec::new() };
         let two = ComponentClasses::new(
             vec![make(SurfaceClass::Round), make(SurfaceClass::Machined)],
             numbered(&[0, 1, 1, 0]),
         );
-        assert_eq!(two.of(2).make, SurfaceClass::Machined);
+        assert_eq!(two.class_of_face(2).make, SurfaceClass::Machined);
         assert!(
             two.any(SurfaceClass::Machined)
                 && !two.any(SurfaceClass::Faceted)

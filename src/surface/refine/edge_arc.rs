@@ -54,10 +54,11 @@ impl EdgeArc {
         let vertices = between.map(|v| smooth.vertices[v as usize]);
         let ends = vertices.map(|v| mesh.positions[v as usize]);
         let normals = between.map(|v| smooth.normals[v as usize]);
-        if !smooth.parting.is_empty() || !smooth.straight.is_empty() {
+        if !smooth.separating_edges.is_empty() || !smooth.straight.is_empty() {
             let [a, b] = vertices;
             let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]);
-            if edge.is_ok_and(|edge| smooth.parting.contains(edge) || smooth.straight.contains(edge)) {
+            if edge.is_ok_and(|edge| smooth.separating_edges.contains(edge) || smooth.straight.contains(edge))
+            {
                 let third = (ends[1] - ends[0]) / 3.0;
                 return Self { ends, normals, handles: [third, -third] };
             }

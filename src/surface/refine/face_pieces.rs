@@ -49,13 +49,13 @@ pub(crate) enum SideState {
 pub(crate) struct SubdividedSide {
     /// Indices of the smooth vertices (position and normal) at its ends, smaller first.
     pub ends: [u32; 2],
-    pub fate: SideState,
+    pub state: SideState,
 }
 
 impl SubdividedSide {
     /// An undecided side between two smooth vertices.
     pub fn open(a: u32, b: u32) -> Self {
-        Self { ends: [a.min(b), a.max(b)], fate: SideState::Open }
+        Self { ends: [a.min(b), a.max(b)], state: SideState::Open }
     }
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct SplitPieces {
     /// Pieces that may be cut further.
     pub open: Vec<SubdividedPiece>,
     /// Finished pieces.
-    pub whole: Vec<PieceTriangle>,
+    pub finished: Vec<PieceTriangle>,
     /// New sides inside the pieces.
     pub inner: Vec<SubdividedSide>,
     /// Smooth vertices at the ends of new straight sides.
@@ -75,7 +75,7 @@ pub(crate) struct SplitPieces {
 impl SubdividedPiece {
     /// The same piece with its corners rotated, so that corner `by` comes first.
     #[inline]
-    pub fn turned(mut self, by: usize) -> Self {
+    pub fn rotated(mut self, by: usize) -> Self {
         self.facet.corners.rotate_left(by);
         self.facet.marks.rotate_left(by);
         self.sides.rotate_left(by);

@@ -38,7 +38,7 @@ pub struct RefinedMesh {
     /// The face of the given mesh that each face is or is part of. Those of kept faces ascend.
     pub hosts: Vec<u32>,
     /// Number of kept faces, which come first.
-    pub kept: usize,
+    pub kept_count: usize,
     /// For each edge of the given mesh its edge in the finer one, `u32::MAX` for edges that were cut.
     pub edges: Vec<u32>,
 }
@@ -169,7 +169,7 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Mes
         Cow::Borrowed(mesh) => Cow::Borrowed(&mesh.edges),
         Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
-    let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
+    let sets = [&smooth.straight, &smooth.separating_edges].map(EdgeSet::clone);
     let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
     let by_edges = || SplicedEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
     let (of_edges, (mut mesh, mut smooth)) =
@@ -181,17 +181,17 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Mes
             crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
         };
     mesh.edges = of_edges.edges;
-    (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
+    (smooth.straight, smooth.separating_edges) = (of_edges.straight, of_edges.separating_edges);
     let MeshCuts { pieces, kept, .. } = &cuts;
     let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
-    RefinedMesh { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
+    RefinedMesh { mesh, smooth, hosts, kept_count: kept.count, edges: of_edges.ids }
 }
 
 /// The parts of the finer mesh that are indexed by edge.
 struct SplicedEdges {
     edges: Edges,
     straight: EdgeSet,
-    parting: EdgeSet,
+    separating_edges: EdgeSet,
     /// See [`RefinedMesh::edges`].
     ids: Vec<u32>,
 }
@@ -210,7 +210,7 @@ impl SplicedEdges {
         let level: Vec<usize> = level.iter().filter_map(find).collect();
         let straight = straight.with(thin, before).remapped(&ids, edges.len()).with(&level, edges.len());
         let parting = parting.remapped(&ids, edges.len());
-        Self { edges, straight, parting, ids }
+        Self { edges, straight, separating_edges: parting, ids }
     }
 }
 
@@ -269,7 +269,7 @@ fn of_faces(
         vertices: extended(part!(smooth, vertices), &added.collect::<Vec<_>>()),
         normals: extended(part!(smooth, normals), &cuts.normals),
         corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
-        parting: EdgeSet::default(),
+        separating_edges: EdgeSet::default(),
         straight: EdgeSet::default(),
         gentle: EdgeSet::default(),
         seamless: smooth.seamless,

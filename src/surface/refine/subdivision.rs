@@ -71,9 +71,9 @@ pub fn cuts(
         if cuts > 0 {
             work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
         }
-        let parted = work.parted(&open);
+        let parted = work.split_pieces(&open);
         open.clear();
-        for SplitPieces { open: left, whole, inner, straight: level } in parted {
+        for SplitPieces { open: left, finished: whole, inner, straight: level } in parted {
             open.extend(left);
             done.extend(whole);
             work.sides.extend(inner);
@@ -137,13 +137,13 @@ impl<'a> Subdivision<'a> {
             sides.par_iter().with_min_len(1 << 8).map(middle).collect();
         for (side, middle) in sides.iter().zip(middles) {
             let Some((position, normal)) = middle else {
-                self.sides[*side as usize].fate = SideState::Whole;
+                self.sides[*side as usize].state = SideState::Whole;
                 continue;
             };
             let middle = (self.smooth.vertices.len() + self.normals.len()) as u32;
             let halves = self.sides.len() as u32;
             let [a, b] = self.sides[*side as usize].ends;
-            self.sides[*side as usize].fate = SideState::Cut { middle, halves };
+            self.sides[*side as usize].state = SideState::Cut { middle, halves };
             self.sides.extend([SubdividedSide::open(a, middle), SubdividedSide::open(b, middle)]);
             self.positions.push(position);
             self.normals.push(normal);
@@ -155,7 +155,7 @@ impl<'a> Subdivision<'a> {
         // Most sides belong to two pieces.
         let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
         for side in pieces.iter().flat_map(|piece| piece.sides).filter(is_open) {
-            let fate = &mut self.sides[side as usize].fate;
+            let fate = &mut self.sides[side as usize].state;
             if *fate == SideState::Open {
                 *fate = SideState::Whole;
                 asked.push(side);
@@ -221,7 +221,7 @@ impl<'a> Subdivision<'a> {
     fn cuts(&self, piece: &SubdividedPiece) -> [Option<(u32, u32)>; 3] {
         let mut cuts = [None; 3];
         for (cut, side) in cuts.iter_mut().zip(piece.sides) {
-            if let Some(SubdividedSide { fate: SideState::Cut { middle, halves }, .. }) =
+            if let Some(SubdividedSide { state: SideState::Cut { middle, halves }, .. }) =
                 self.sides.get(side as usize)
             {
                 *cut = Some((*middle, *halves));
@@ -231,7 +231,7 @@ impl<'a> Subdivision<'a> {
     }
 
     /// Cuts pieces whose sides are decided.
-    fn parted(&self, pieces: &[SubdividedPiece]) -> Vec<SplitPieces> {
+    fn split_pieces(&self, pieces: &[SubdividedPiece]) -> Vec<SplitPieces> {
         // A piece gets one new inner side per split side.
         let inner = |pieces: &[SubdividedPiece]| {
             pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
@@ -247,7 +247,7 @@ impl<'a> Subdivision<'a> {
         let part = |(pieces, first): (&[SubdividedPiece], usize)| {
             let mut parted = SplitPieces {
                 open: Vec::with_capacity(pieces.len() * 2),
-                whole: Vec::with_capacity(pieces.len() * 2),
+                finished: Vec::with_capacity(pieces.len() * 2),
                 inner: Vec::with_capacity(pieces.len() * 3),
                 straight: Vec::new(),
             };
@@ -268,7 +268,7 @@ impl<'a> Subdivision<'a> {
             2 => (cuts.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
             _ => 0,
         };
-        let SubdividedPiece { facet, sides } = piece.turned(turn);
+        let SubdividedPiece { facet, sides } = piece.rotated(turn);
         let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED_SIDE));
         let m = |side: usize| cut(side).0;
         let [a, b, c] = facet.corners;
@@ -291,7 +291,7 @@ impl<'a> Subdivision<'a> {
             if sides.iter().any(is_open) {
                 out.open.push(SubdividedPiece { facet, sides });
             } else {
-                out.whole.push(facet);
+                out.finished.push(facet);
             }
         };
         match count {

@@ -5,7 +5,7 @@ use kurbo::Point;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::plane::planar_distance::segment_distance_squared;
-use crate::lines::image::{ImageLines, ImagePiece, ImagePoint};
+use crate::lines::image::{ImageLinePiece, ImageLines, ImagePoint};
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
 use crate::mesh::Mesh;
 use crate::surface::MeshSource;
@@ -85,7 +85,7 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
     let mut rest = ImageLines { lines: image.lines, ..ImageLines::default() };
     // Each continuous line is sampled in steps. Runs of steps without a line next to them are kept.
     for line in image.pieces.chunk_by(|a, b| a.line == b.line && a.ends[1] == b.ends[0]) {
-        let mut steps: Vec<(ImagePoint, ImagePoint, ImagePiece)> = Vec::new();
+        let mut steps: Vec<(ImagePoint, ImagePoint, ImageLinePiece)> = Vec::new();
         for piece in line {
             let [a, b] = piece.ends.map(|id| image.points[id as usize]);
             let count = (a.position.distance(b.position) / (SAMPLE_STEP_PX * px)).ceil().clamp(1.0, 1e4);
@@ -116,7 +116,7 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
                 for (_, to, piece) in of_run {
                     let last = (rest.points.len() - 1) as u32;
                     rest.points.push(*to);
-                    rest.pieces.push(ImagePiece { ends: [last, last + 1], ..*piece });
+                    rest.pieces.push(ImageLinePiece { ends: [last, last + 1], ..*piece });
                 }
             }
         }

@@ -82,7 +82,7 @@ pub(crate) fn of_hidden(
     let limits = ViewTolerances::new(&view.frame);
     let mut cuts = CutSegments::default();
     for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
-        cuts.add(id, segment, SegmentOcclusion { hidden, backed: &[] }, limits.piece, false);
+        cuts.add(id, segment, SegmentOcclusion { hidden, non_silhouette: &[] }, limits.piece, false);
     }
     let mut builder = MapBuilder::new(mesh, view, lines);
     builder.add_all(segments, &cuts);
@@ -103,7 +103,7 @@ struct ProjectedLines<'a> {
 
 /// Visibility of the lines with a given mesh in front of them.
 struct LineVisibility {
-    seen: SegmentVisibility,
+    segment_visibility: SegmentVisibility,
     rounded: ContourVisibility,
 }
 
@@ -126,7 +126,7 @@ impl<'a> ProjectedLines<'a> {
         let rounded = smooth.map_or_else(ContourVisibility::default, |smooth| {
             contour_visibility::decide_contours(self.mesh, view, smooth, segments, &seen, limits, counting)
         });
-        LineVisibility { seen, rounded }
+        LineVisibility { segment_visibility: seen, rounded }
     }
 
     /// Builds the map of the visible pieces. With `but`, only of pieces that are not visible with that other
@@ -137,10 +137,10 @@ impl<'a> ProjectedLines<'a> {
             || self.map_with_doubles(told, but),
             || thin_folds::find_thin_folds(mesh, view, lines, &self.segments),
         );
-        map.tests = told.seen.tests;
+        map.tests = told.segment_visibility.tests;
         map.contours = told.rounded.counts;
-        map.visible_contours = told.rounded.seen.clone();
-        map.needles = needles;
+        map.visible_contours = told.rounded.visible_mesh_contours.clone();
+        map.thin_folds = needles;
         coincident_lines::remove_coincident(&mut map, limits.double, &view.frame, &mesh.extents);
         map
     }
@@ -163,13 +163,13 @@ impl<'a> ProjectedLines<'a> {
         let mut cuts = CutSegments::default();
         let end = (first + SEGMENTS_PER_TASK).min(self.segments.len());
         for (i, segment) in (first..end).zip(&self.segments[first..end]) {
-            let seen = told.of(i, segment.role);
+            let seen = told.occlusion_of(i, segment.role);
             let mut drawn = told.draws(i, segment.role);
             let left;
             let seen = match but {
                 None => seen,
                 Some(but) => {
-                    let front = but.of(i, segment.role);
+                    let front = but.occlusion_of(i, segment.role);
                     let front = if but.draws(i, segment.role) {
                         front.hidden
                     } else {
@@ -177,7 +177,7 @@ impl<'a> ProjectedLines<'a> {
                     };
                     drawn &= !front.is_empty();
                     left = interval_sweep::only_behind(front, seen.hidden);
-                    SegmentOcclusion { hidden: &left, backed: seen.backed }
+                    SegmentOcclusion { hidden: &left, non_silhouette: seen.non_silhouette }
                 }
             };
             if drawn {
@@ -203,11 +203,17 @@ impl LineVisibility {
     }
 
     /// Hidden and backed intervals of a segment.
-    fn of(&self, segment: usize, role: Role) -> SegmentOcclusion<'_> {
+    fn occlusion_of(&self, segment: usize, role: Role) -> SegmentOcclusion<'_> {
         if role == Role::Line {
-            return SegmentOcclusion { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
+            return SegmentOcclusion {
+                hidden: self.segment_visibility.hidden(segment),
+                non_silhouette: self.segment_visibility.backed(segment),
+            };
         }
-        SegmentOcclusion { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
+        SegmentOcclusion {
+            hidden: self.rounded.hidden.of(segment),
+            non_silhouette: self.rounded.non_silhouette.of(segment),
+        }
     }
 }
 

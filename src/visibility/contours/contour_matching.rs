@@ -79,11 +79,11 @@ pub(crate) struct UnmatchedSpan {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MatchResult {
     /// Visible (count 0) and hidden spans of runs.
-    pub told: Vec<CurveSpan>,
+    pub matched: Vec<CurveSpan>,
     /// Visible parts without a curve, in the order of segments.
-    pub bare: Vec<UnmatchedSpan>,
+    pub unmatched: Vec<UnmatchedSpan>,
     /// Visible parts of all mesh contours, with or without a curve.
-    pub seen: Vec<VisibleContour>,
+    pub visible_contours: Vec<VisibleContour>,
 }
 
 /// Input of the matching.
@@ -91,7 +91,7 @@ pub(crate) struct ContourMatcher<'a> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
     pub segments: &'a [ImageSegment],
-    pub runs: &'a [ContourChain],
+    pub contour_chains: &'a [ContourChain],
     pub curve_index: CurveIndex,
     pub px: f64,
 }
@@ -120,10 +120,10 @@ impl CurveIndex {
 
 /// Place on a run.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CurvePosition {
-    pub run: u32,
+pub(crate) struct ContourPosition {
+    pub chain: u32,
     /// Arc length along the run, user units.
-    pub at: f64,
+    pub arc_length: f64,
 }
 
 impl ContourMatcher<'_> {
@@ -143,9 +143,9 @@ impl ContourMatcher<'_> {
             .collect();
         let mut all = MatchResult::default();
         for one in heard {
-            all.told.extend(one.told);
-            all.seen.extend(one.seen);
-            all.bare.extend(one.bare);
+            all.matched.extend(one.matched);
+            all.visible_contours.extend(one.visible_contours);
+            all.unmatched.extend(one.unmatched);
         }
         all
     }
@@ -177,7 +177,7 @@ impl ContourMatcher<'_> {
                     count: 0,
                 };
                 let ends = [at, start].map(|t| segment.at(t).truncate());
-                out.seen.push(VisibleContour { ends, segment: segment.source });
+                out.visible_contours.push(VisibleContour { ends, segment: segment.source });
                 for piece in backed_pieces(&whole, seen.backed(id as usize)) {
                     self.match_part(id, convex, &piece, out);
                 }
@@ -213,7 +213,7 @@ impl ContourMatcher<'_> {
                     self.add_curve_span(p, q, way, kinds, piece, out);
                 }
                 _ if piece.count == 0 => {
-                    out.bare.push(UnmatchedSpan { segment: id, from, to, silhouette: piece.silhouette });
+                    out.unmatched.push(UnmatchedSpan { segment: id, from, to, silhouette: piece.silhouette });
                 }
                 _ => {}
             }
@@ -224,39 +224,42 @@ impl ContourMatcher<'_> {
     /// Adds the span between two places of a run, if it is no longer than `most`.
     fn add_curve_span(
         &self,
-        p: CurvePosition,
-        q: CurvePosition,
+        p: ContourPosition,
+        q: ContourPosition,
         most: f64,
         kinds: [ViewVertexKind; 2],
         piece: &CurveSpan,
         out: &mut MatchResult,
     ) {
-        let run = &self.runs[p.run as usize];
-        if p.run != q.run || run.between(p.at, q.at) > most {
+        let run = &self.contour_chains[p.chain as usize];
+        if p.chain != q.chain || run.between(p.arc_length, q.arc_length) > most {
             return;
         }
-        let (from, to, kinds) =
-            if p.at <= q.at { (p.at, q.at, kinds) } else { (q.at, p.at, [kinds[1], kinds[0]]) };
-        let told = CurveSpan { run: p.run, kinds, ..*piece };
+        let (from, to, kinds) = if p.arc_length <= q.arc_length {
+            (p.arc_length, q.arc_length, kinds)
+        } else {
+            (q.arc_length, p.arc_length, [kinds[1], kinds[0]])
+        };
+        let told = CurveSpan { run: p.chain, kinds, ..*piece };
         if run.closed && to - from > run.length() / 2.0 {
             // The span crosses the seam of the closed run.
             let inner = ViewVertexKind::Vertex;
-            out.told.push(CurveSpan { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
-            out.told.push(CurveSpan { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
+            out.matched.push(CurveSpan { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
+            out.matched.push(CurveSpan { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
         } else {
-            out.told.push(CurveSpan { from, to, ..told });
+            out.matched.push(CurveSpan { from, to, ..told });
         }
     }
 
     /// Nearest place of a curve that may stand for a mesh contour edge at one of its points.
-    pub fn place(&self, witness: &ImageSegment, p: DVec3) -> Option<CurvePosition> {
+    pub fn match_point(&self, witness: &ImageSegment, p: DVec3) -> Option<ContourPosition> {
         match witness.role {
             Role::MeshContour { convex, .. } => self.nearest(witness, convex, p),
             _ => None,
         }
     }
 
-    fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<CurvePosition> {
+    fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<ContourPosition> {
         let normal = |face: u32| Vec3::from_array(self.mesh.face_normals[face as usize]);
         let outward = (normal(witness.hosts[0]) + normal(witness.hosts[1])).normalize_or_zero();
         let body = |face: u32| self.mesh.body(face);
@@ -264,14 +267,17 @@ impl ContourMatcher<'_> {
         let reach_own = self.reach(witness.hosts[0]).max(self.reach(witness.hosts[1]));
         let per_px =
             if self.view.frame.perspective { depth.abs() } else { 1.0 } / self.view.frame.scale * self.px;
-        let mut best: Option<(f64, CurvePosition)> = None;
-        self.each_near(p, MAX_MATCH_DISTANCE_PX * self.px, |away, r, k, place| {
+        let mut best: Option<(f64, ContourPosition)> = None;
+        self.visit_near(p, MAX_MATCH_DISTANCE_PX * self.px, |away, r, k, place| {
             if best.as_ref().is_some_and(|(least, other)| {
-                away.total_cmp(least).then(r.cmp(&other.run)).then(place.total_cmp(&other.at)).is_ge()
+                away.total_cmp(least)
+                    .then(r.cmp(&other.chain))
+                    .then(place.total_cmp(&other.arc_length))
+                    .is_ge()
             }) {
                 return;
             }
-            let run = &self.runs[r as usize];
+            let run = &self.contour_chains[r as usize];
             let curve = &self.segments[run.segments[k] as usize];
             let host = curve.hosts[0];
             if run.backward[k] == convex
@@ -283,7 +289,7 @@ impl ContourMatcher<'_> {
             let t = (place - run.starts[k]) / (run.starts[k + 1] - run.starts[k]).max(f64::MIN_POSITIVE);
             let gap = (self.view.frame.depth_of(curve.at(t).z) - depth).abs();
             if gap <= MAX_DEPTH_GAP_FACES * (reach_own + self.reach(host)) + MAX_DEPTH_GAP_PX * per_px {
-                best = Some((away, CurvePosition { run: r, at: place }));
+                best = Some((away, ContourPosition { chain: r, arc_length: place }));
             }
         });
         best.map(|(_, place)| place)
@@ -293,17 +299,19 @@ impl ContourMatcher<'_> {
     /// run and a place along it.
     pub fn has_ink_near(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
         let mut inked = false;
-        self.each_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, place| inked = inked || is_seen(r, place));
+        self.visit_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, place| {
+            inked = inked || is_seen(r, place)
+        });
         inked
     }
 
     /// Calls `visit(squared distance, run, index in it, place along it)` for the nearest points of all curve
     /// pieces within a distance.
-    fn each_near(&self, p: DVec3, reach: f64, mut visit: impl FnMut(f64, u32, usize, f64)) {
+    fn visit_near(&self, p: DVec3, reach: f64, mut visit: impl FnMut(f64, u32, usize, f64)) {
         let CurveIndex { grid, pieces } = &self.curve_index;
         for (tile, _) in grid.tiles_of(grid.tile_box(p - reach, p + reach)) {
             for (r, k) in pieces.of(tile) {
-                let run = &self.runs[*r as usize];
+                let run = &self.contour_chains[*r as usize];
                 let segment = &self.segments[run.segments[*k as usize] as usize];
                 let (a, along) = (segment.a.truncate(), (segment.b - segment.a).truncate());
                 let squared = along.length_squared();

@@ -6,7 +6,7 @@
 
 use crate::parallel::prelude::*;
 
-use super::contour_matching::{ContourMatcher, CurvePosition};
+use super::contour_matching::{ContourMatcher, ContourPosition};
 use crate::lines::Role;
 use crate::visibility::projection::image_segments::ImageSegment;
 
@@ -15,7 +15,7 @@ const MAX_SPUR_EDGES: usize = 12;
 
 /// Graph of the mesh contour, visible and hidden parts alike.
 pub(crate) struct ContourSpurs<'a> {
-    court: &'a ContourMatcher<'a>,
+    matcher: &'a ContourMatcher<'a>,
     segments: &'a [ImageSegment],
     /// Vertices with the mesh contour segments that end there, sorted by vertex.
     ends: Vec<(u32, u32)>,
@@ -28,29 +28,29 @@ impl<'a> ContourSpurs<'a> {
         let mut ends: Vec<(u32, u32)> =
             witnesses.flat_map(|(id, s)| s.ends.map(|end| (end, id as u32))).collect();
         ends.par_sort_unstable();
-        Self { court, segments, ends }
+        Self { matcher: court, segments, ends }
     }
 
-    /// Whether a mesh contour segment is part of a spur. `is_seen(run, from, to)` must hold for the curve
+    /// Whether a mesh contour segment is part of a spur. `is_seen(chain, from, to)` must hold for the curve
     /// along its base.
-    pub fn holds(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
+    pub fn contains(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
         let Some((p, there)) = self.walk(id, 0) else { return false };
         let Some((q, back)) = self.walk(id, 1) else { return false };
         let way = there + back + self.segments[id as usize].length();
-        p.run == q.run && self.court.runs[p.run as usize].between(p.at, q.at) <= way && {
-            is_seen(p.run, p.at.min(q.at), p.at.max(q.at))
-        }
+        p.chain == q.chain
+            && self.matcher.contour_chains[p.chain as usize].between(p.arc_length, q.arc_length) <= way
+            && { is_seen(p.chain, p.arc_length.min(q.arc_length), p.arc_length.max(q.arc_length)) }
     }
 
     /// First place on a curve along the mesh contour from one end of a segment, with the distance to it.
-    fn walk(&self, id: u32, end: usize) -> Option<(CurvePosition, f64)> {
+    fn walk(&self, id: u32, end: usize) -> Option<(ContourPosition, f64)> {
         let mut way = 0.0;
         let (mut at, mut vertex) = (id, self.segments[id as usize].ends[end]);
         let mut passed = vec![id];
         while passed.len() <= MAX_SPUR_EDGES {
             let segment = &self.segments[at as usize];
             let point = if segment.ends[0] == vertex { segment.a } else { segment.b };
-            if let Some(place) = self.court.place(segment, point) {
+            if let Some(place) = self.matcher.match_point(segment, point) {
                 return Some((place, way));
             }
             let first = self.ends.partition_point(|(of, _)| *of < vertex);

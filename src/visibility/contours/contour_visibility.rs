@@ -35,18 +35,18 @@ pub(crate) struct ContourVisibility {
     /// Undrawn parts of each image segment of a rounded surface, ascending.
     pub hidden: CsrLists<HiddenInterval>,
     /// Parts of each image segment with a surface, not background, behind its outer side, ascending.
-    pub backed: CsrLists<Interval>,
+    pub non_silhouette: CsrLists<Interval>,
     /// Whether each segment is a mesh contour with a drawn part.
-    bare: Vec<bool>,
+    has_unmatched: Vec<bool>,
     pub counts: ContourCounts,
     /// Visible parts of all mesh contours, with or without a match.
-    pub seen: Vec<VisibleContour>,
+    pub visible_mesh_contours: Vec<VisibleContour>,
 }
 
 impl ContourVisibility {
     /// Whether any part of an image segment of a rounded surface may be drawn.
     pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
-        role == Role::SmoothContour || self.bare[segment]
+        role == Role::SmoothContour || self.has_unmatched[segment]
     }
 }
 
@@ -54,9 +54,9 @@ impl ContourVisibility {
 #[derive(Debug, Default)]
 struct ContourPieces {
     hidden: Vec<(u32, HiddenInterval)>,
-    backed: Vec<(u32, Interval)>,
+    non_silhouette: Vec<(u32, Interval)>,
     /// Mesh contour segments with a drawn part.
-    bare: Vec<u32>,
+    unmatched: Vec<u32>,
     counts: ContourCounts,
 }
 
@@ -64,10 +64,16 @@ impl ContourPieces {
     /// Groups the results by image segment.
     fn sorted(self, segments: usize, seen: Vec<VisibleContour>) -> ContourVisibility {
         let mut bare = vec![false; segments];
-        self.bare.iter().for_each(|segment| bare[*segment as usize] = true);
+        self.unmatched.iter().for_each(|segment| bare[*segment as usize] = true);
         let hidden = by_segment(segments, &self.hidden, |layer| layer.interval.start);
-        let backed = by_segment(segments, &self.backed, |interval| interval.start);
-        ContourVisibility { hidden, backed, bare, counts: self.counts, seen }
+        let backed = by_segment(segments, &self.non_silhouette, |interval| interval.start);
+        ContourVisibility {
+            hidden,
+            non_silhouette: backed,
+            has_unmatched: bare,
+            counts: self.counts,
+            visible_mesh_contours: seen,
+        }
     }
 }
 
@@ -83,14 +89,14 @@ fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -
 
 /// Smooth contours in the image, indexed for lookup.
 pub(crate) struct SmoothContours {
-    runs: Vec<ContourChain>,
-    sought: CurveIndex,
+    contour_chains: Vec<ContourChain>,
+    curve_index: CurveIndex,
 }
 
 impl SmoothContours {
     pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &ViewTolerances) -> Self {
         let runs = contour_chains(lines, segments, tolerances::MIN_CUSP_PX * limits.px);
-        Self { sought: CurveIndex::new(segments, &runs), runs }
+        Self { curve_index: CurveIndex::new(segments, &runs), contour_chains: runs }
     }
 }
 
@@ -99,15 +105,16 @@ impl SmoothContours {
 pub(crate) fn decide_contours(
     mesh: &Mesh,
     view: &View,
-    SmoothContours { runs, sought }: SmoothContours,
+    SmoothContours { contour_chains: runs, curve_index: sought }: SmoothContours,
     segments: &[ImageSegment],
     seen: &SegmentVisibility,
     limits: &ViewTolerances,
     counting: bool,
 ) -> ContourVisibility {
-    let court = ContourMatcher { mesh, view, segments, runs: &runs, curve_index: sought, px: limits.px };
+    let court =
+        ContourMatcher { mesh, view, segments, contour_chains: &runs, curve_index: sought, px: limits.px };
     let mut testimony = court.match_contours(seen, counting);
-    testimony.told.par_sort_by(|a, b| {
+    testimony.matched.par_sort_by(|a, b| {
         a.run
             .cmp(&b.run)
             .then(a.from.total_cmp(&b.from))
@@ -117,7 +124,7 @@ pub(crate) fn decide_contours(
     let mut found = ContourPieces::default();
     found.counts.curves = runs.len() as u64;
     let mut seen_of_run: Vec<Vec<CurveSpan>> = Vec::with_capacity(runs.len());
-    let mut told = testimony.told.as_slice();
+    let mut told = testimony.matched.as_slice();
     for (r, run) in runs.iter().enumerate() {
         let count = told.partition_point(|t| t.run as usize == r);
         let (own, rest) = told.split_at(count);
@@ -127,8 +134,8 @@ pub(crate) fn decide_contours(
         found.add_run(run, [&visible, &silhouette, own], MAX_MATCH_DISTANCE_PX * limits.px);
         seen_of_run.push(visible);
     }
-    found.add_bare(&court, segments, &testimony.bare, &seen_of_run);
-    found.sorted(segments.len(), testimony.seen)
+    found.add_unmatched(&court, segments, &testimony.unmatched, &seen_of_run);
+    found.sorted(segments.len(), testimony.visible_contours)
 }
 
 /// Merges spans that overlap or nearly meet; they must be sorted by start.
@@ -150,12 +157,12 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a CurveSpan>, gap: f64) -> Vec<Curv
 
 /// Visible spans of each run (chain of a smooth contour), ascending.
 struct VisibleChains<'a> {
-    runs: &'a [ContourChain],
+    contour_chains: &'a [ContourChain],
     pieces: &'a [Vec<CurveSpan>],
 }
 
 impl VisibleChains<'_> {
-    fn at(&self, run: u32, place: f64) -> bool {
+    fn is_visible_at(&self, run: u32, place: f64) -> bool {
         let pieces = &self.pieces[run as usize];
         let next = pieces.partition_point(|t| t.to < place);
         pieces.get(next).is_some_and(|t| t.from <= place)
@@ -165,7 +172,7 @@ impl VisibleChains<'_> {
     fn between(&self, run: u32, from: f64, to: f64) -> bool {
         let holds =
             |from: f64, to: f64| self.pieces[run as usize].iter().any(|t| t.from <= from && t.to >= to);
-        let run = &self.runs[run as usize];
+        let run = &self.contour_chains[run as usize];
         holds(from, to) || (run.closed && holds(0.0, from) && holds(to, run.length()))
     }
 }
@@ -175,18 +182,18 @@ impl ContourPieces {
     ///
     /// Two kinds of parts are left out: those near a visible part of a smooth contour, and ripples of the
     /// mesh in front of another surface.
-    fn add_bare(
+    fn add_unmatched(
         &mut self,
         court: &ContourMatcher,
         segments: &[ImageSegment],
         bare: &[UnmatchedSpan],
         seen: &[Vec<CurveSpan>],
     ) {
-        let seen = VisibleChains { runs: court.runs, pieces: seen };
+        let seen = VisibleChains { contour_chains: court.contour_chains, pieces: seen };
         let teeth = ContourSpurs::new(court, segments);
         let is_ripple = |id: u32| {
             matches!(segments[id as usize].role, Role::MeshContour { fold: true, .. })
-                || teeth.holds(id, |run, from, to| seen.between(run, from, to))
+                || teeth.contains(id, |run, from, to| seen.between(run, from, to))
         };
         let mut drawn: Vec<UnmatchedSpan> = Vec::new();
         for own in bare.chunk_by(|a, b| a.segment == b.segment) {
@@ -194,7 +201,7 @@ impl ContourPieces {
             let mut ripple = None;
             for piece in own {
                 let middle = segment.at((piece.from + piece.to) / 2.0);
-                if court.has_ink_near(middle, |run, place| seen.at(run, place)) {
+                if court.has_ink_near(middle, |run, place| seen.is_visible_at(run, place)) {
                     continue;
                 }
                 if !piece.silhouette && *ripple.get_or_insert_with(|| is_ripple(piece.segment)) {
@@ -213,10 +220,10 @@ impl ContourPieces {
                 }
             }
         }
-        self.counts.bare = drawn.len() as u64;
+        self.counts.unmatched = drawn.len() as u64;
         for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
-            self.add_witness(own);
-            self.bare.push(own[0].segment);
+            self.add_mesh_contour(own);
+            self.unmatched.push(own[0].segment);
         }
     }
 
@@ -240,13 +247,13 @@ impl ContourPieces {
             let backdrop = ViewVertexKind::Backdrop;
             each_part(run, at, from, |segment, start, end| {
                 let interval = Interval { start, end, start_kind: backdrop, end_kind: backdrop };
-                self.backed.push((segment, interval));
+                self.non_silhouette.push((segment, interval));
             });
             at = to;
         }
     }
 
-    /// Adds a hidden range of a run, with the kinds of its ends. `told` gives the number of surfaces in
+    /// Adds a hidden range of a run, with the kinds of its ends. `matched` gives the number of surfaces in
     /// front.
     fn hide(
         &mut self,
@@ -269,7 +276,7 @@ impl ContourPieces {
     }
 
     /// Adds the undrawn parts of a mesh contour segment: everything outside its unmatched visible spans.
-    fn add_witness(&mut self, bare: &[UnmatchedSpan]) {
+    fn add_mesh_contour(&mut self, bare: &[UnmatchedSpan]) {
         let inner = ViewVertexKind::Vertex;
         let mut at = 0.0;
         let segment = bare[0].segment;
@@ -283,7 +290,7 @@ impl ContourPieces {
                 let kind = ViewVertexKind::Backdrop;
                 let interval =
                     Interval { start: piece.from, end: piece.to, start_kind: kind, end_kind: kind };
-                self.backed.push((segment, interval));
+                self.non_silhouette.push((segment, interval));
             }
             at = piece.to;
         }

@@ -34,7 +34,7 @@ impl BackFaces {
         let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         outer.filter(|edge| !inner.contains(*edge)).for_each(|edge| {
             let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(edge) else { return };
-            let [first, second] = faces.map(|face| groups.of(face));
+            let [first, second] = faces.map(|face| groups.representative(face));
             if let Some((second_is_nearer, length)) = fold(mesh, view, edge, faces)
                 && first != second
             {
@@ -50,14 +50,14 @@ impl BackFaces {
     /// First face of the group of a face.
     #[inline]
     pub fn group(&self, face: u32) -> u32 {
-        self.groups.of(face)
+        self.groups.representative(face)
     }
 
     /// Whether a face is part of a back: along most of its folds, the neighbouring group is nearer to the
     /// eye.
     #[inline]
-    pub fn holds(&self, face: u32) -> bool {
-        self.behind[self.groups.of(face) as usize].load(Relaxed) > 0
+    pub fn contains(&self, face: u32) -> bool {
+        self.behind[self.groups.representative(face) as usize].load(Relaxed) > 0
     }
 }
 

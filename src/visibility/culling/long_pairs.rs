@@ -6,7 +6,7 @@
 
 use crate::parallel::prelude::*;
 
-use super::longest_interval::{NO_INTERVAL, longer};
+use super::longest_interval::{NO_INTERVAL, join_or_longer};
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::visibility::graph::ViewVertexKind;
 use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
@@ -29,7 +29,7 @@ pub(crate) struct LongPairs {
     /// Number of each segment among the long ones; [`NO_NUMBER`] for the others.
     numbers: Vec<u32>,
     is_long: Vec<bool>,
-    known: Vec<KnownOcclusion>,
+    occlusions: Vec<KnownOcclusion>,
     /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
@@ -39,7 +39,7 @@ pub(crate) struct LongPairs {
 struct KnownOcclusion {
     hidden: Vec<HiddenInterval>,
     /// Where a long triangle lies next to the segment, for each of its [`OuterSides`].
-    backed: [Vec<HiddenInterval>; 2],
+    side_cover: [Vec<HiddenInterval>; 2],
     tests: u64,
 }
 
@@ -90,7 +90,7 @@ impl LongPairs {
             )
             .collect();
         let tests = known.iter().map(|known| known.tests).sum();
-        Some(Self { numbers: segments.numbers, is_long, known, tests })
+        Some(Self { numbers: segments.numbers, is_long, occlusions: known, tests })
     }
 
     /// Whether a segment is one of the long ones.
@@ -105,17 +105,17 @@ impl LongPairs {
 
     /// Hidden parts of an item.
     pub fn hidden(&self, item: &TileSegment) -> impl Iterator<Item = HiddenInterval> {
-        self.known(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
+        self.occlusion_of(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
     }
 
     /// Parts of an item that a long triangle lies next to, on one of its outer sides.
     pub fn backed(&self, item: &TileSegment, side: usize) -> impl Iterator<Item = Interval> {
-        let known = self.known(item.segment).into_iter();
-        known.flat_map(move |known| within(&known.backed[side], *item)).map(|layer| layer.interval)
+        let known = self.occlusion_of(item.segment).into_iter();
+        known.flat_map(move |known| within(&known.side_cover[side], *item)).map(|layer| layer.interval)
     }
 
-    fn known(&self, segment: u32) -> Option<&KnownOcclusion> {
-        self.known.get(self.numbers[segment as usize] as usize)
+    fn occlusion_of(&self, segment: u32) -> Option<&KnownOcclusion> {
+        self.occlusions.get(self.numbers[segment as usize] as usize)
     }
 }
 
@@ -221,7 +221,7 @@ impl<'a> LongTriangles<'a> {
         if segment.bounds && !is_buried(&known) {
             for (number, side) in OuterSides::of(segment, self.compared.triangles).open() {
                 let mut found = self.backed(side, stays, &known.hidden, seen);
-                sweep(&mut found, &[], 0.0, false, &mut known.backed[number]);
+                sweep(&mut found, &[], 0.0, false, &mut known.side_cover[number]);
             }
         }
         known
@@ -257,7 +257,7 @@ impl<'a> LongTriangles<'a> {
                 *tests += 1;
                 let found = hidden_interval(segment, (0.0, 1.0), occluder, &triangles.view.frame, limits);
                 if let Some(found) = found {
-                    run = longer(run, (found.start, found.end));
+                    run = join_or_longer(run, (found.start, found.end));
                     hidden.push(found);
                 }
             }
@@ -292,7 +292,7 @@ impl<'a> LongTriangles<'a> {
                 }
                 if let Some((start, end)) = side.range(&self.triangles[*number as usize].1, limits) {
                     backed.push(backdrop(start, end));
-                    run = longer(run, (start, end));
+                    run = join_or_longer(run, (start, end));
                 }
             }
         }

@@ -9,7 +9,7 @@ pub(crate) const NO_INTERVAL: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// Union of the running range `run` and the range `found` if they meet, otherwise the longer one.
 #[inline]
-pub(crate) fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
+pub(crate) fn join_or_longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
     if found.0 <= run.1 && found.1 >= run.0 {
         (run.0.min(found.0), run.1.max(found.1))
     } else if found.1 - found.0 > run.1 - run.0 {

@@ -94,7 +94,7 @@ impl FusedOccluders {
     fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &BackFaces, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NO_GROUP; turns.len()];
-        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.holds(*face as u32)) {
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.contains(*face as u32)) {
             let id = &mut ids[far.group(face as u32) as usize];
             if *id == NO_GROUP {
                 *id = found.len() as u32;
@@ -136,7 +136,7 @@ impl FusedOccluders {
     /// Whether a face is part of the back of a body.
     #[inline]
     pub fn is_far_side(&self, face: u32) -> bool {
-        self.far.holds(face)
+        self.far.contains(face)
     }
 
     /// Raises the value of each square that a group fills.

@@ -48,9 +48,9 @@ pub struct OcclusionBuffer {
     tiles: TileGrid,
     squares: TileGrid,
     /// One per square, row by row. In single precision, never nearer than the exact value.
-    of_square: Vec<f32>,
+    square_nearness: Vec<f32>,
     /// Farthest value of the squares of each tile.
-    pub of_tile: Vec<f64>,
+    pub tile_nearness: Vec<f64>,
     /// Nearest value of the squares of each tile.
     nearest: Vec<f32>,
 }
@@ -159,7 +159,7 @@ impl OcclusionBuffer {
         let spans: Vec<Vec<[f32; 2]>> = rows.with_min_len(4).with_max_len(8).map(of_row).collect();
         let (of_tile, nearest) =
             spans.iter().flatten().map(|[least, most]| (f64::from(*least), *most)).unzip();
-        Self { tiles: *triangles.grid, squares, of_square, of_tile, nearest }
+        Self { tiles: *triangles.grid, squares, square_nearness: of_square, tile_nearness: of_tile, nearest }
     }
 
     /// Empty buffer, which hides nothing. Used where all layers must be counted.
@@ -168,8 +168,8 @@ impl OcclusionBuffer {
         Self {
             tiles: *grid,
             squares: *grid,
-            of_square: Vec::new(),
-            of_tile: vec![f64::from(UNCOVERED); grid.len()],
+            square_nearness: Vec::new(),
+            tile_nearness: vec![f64::from(UNCOVERED); grid.len()],
             nearest: vec![UNCOVERED; grid.len()],
         }
     }
@@ -177,7 +177,7 @@ impl OcclusionBuffer {
     /// Whether the buffer is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.of_square.is_empty()
+        self.square_nearness.is_empty()
     }
 
     /// Whether a triangle is behind the buffer in every square that its bounding box meets.
@@ -194,25 +194,25 @@ impl OcclusionBuffer {
             if high.z >= f64::from(self.nearest[tile]) {
                 return false;
             }
-            tells_all &= high.z < self.of_tile[tile];
+            tells_all &= high.z < self.tile_nearness[tile];
         }
         let squares = self.squares.tile_box(low, high);
         if tells_all && squares.area() <= most {
             return true;
         }
-        let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.of_square[square]);
+        let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.square_nearness[square]);
         squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
 
     /// Whether a part of a segment inside one tile is behind the buffer in all squares it passes.
     #[must_use]
     pub fn hides_segment_part(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
-        if self.of_square.is_empty() {
+        if self.square_nearness.is_empty() {
             return false;
         }
         let (a, b) = (segment.at(start), segment.at(end));
         // The tile settles most cases.
-        if a.z.max(b.z) < self.of_tile[tile] {
+        if a.z.max(b.z) < self.tile_nearness[tile] {
             return true;
         }
         if a.z.min(b.z) >= f64::from(self.nearest[tile]) {
@@ -221,7 +221,7 @@ impl OcclusionBuffer {
         let mut buried = true;
         self.squares.walk(a, b, |square, t0, t1| {
             let nearest = (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1);
-            buried &= nearest < f64::from(self.of_square[square]);
+            buried &= nearest < f64::from(self.square_nearness[square]);
         });
         buried
     }

@@ -16,7 +16,7 @@ pub(crate) struct TileOccluders {
     /// Bounds of each triangle.
     pub(crate) reaches: Vec<OccluderBounds>,
     /// Index of each triangle among the loaded ones, if it is loaded.
-    places: Vec<u32>,
+    loaded_indices: Vec<u32>,
     loaded: Vec<LoadedTriangle>,
     /// Area of the tile, with a small margin.
     pub(crate) window: Window,
@@ -43,19 +43,19 @@ impl TileOccluders {
         // Lines are also tested slightly next to themselves.
         self.window = Window {
             middle: corner + half,
-            reach: half * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * limits.beside,
+            reach: half * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * limits.side_offset,
         };
         self.reaches.clear();
         self.reaches.extend(reaches);
-        self.places.clear();
-        self.places.resize(self.reaches.len(), NOT_LOADED);
+        self.loaded_indices.clear();
+        self.loaded_indices.resize(self.reaches.len(), NOT_LOADED);
         self.loaded.clear();
     }
 
     /// Returns a triangle with everything the exact comparison needs, and loads it first if necessary.
     #[inline]
     pub(crate) fn load_triangle(&mut self, entry: u32, triangles: &TiledTriangles) -> &LoadedTriangle {
-        let place = &mut self.places[entry as usize];
+        let place = &mut self.loaded_indices[entry as usize];
         if *place == NOT_LOADED {
             *place = self.loaded.len() as u32;
             let whole = triangles.occluder(self.reaches[entry as usize].id);

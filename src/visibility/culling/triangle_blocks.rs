@@ -74,8 +74,8 @@ impl TriangleBlocks {
     fn squares(&self, triangles: &TiledTriangles, wanted: &TileSet) -> Option<TileSet> {
         let (grid, own) = (triangles.grid, &self.grid);
         // Margin between a tile and a triangle whose bounding box meets it, and a little for rounding.
-        let slack =
-            (grid.cell.max(own.cell) * tolerances::BLOCK_MARGIN_OF_TILE).max(4.0 * triangles.limits.beside);
+        let slack = (grid.cell.max(own.cell) * tolerances::BLOCK_MARGIN_OF_TILE)
+            .max(4.0 * triangles.limits.side_offset);
         let (low, high) = (own.corner(0, 0), own.corner(own.columns, own.rows));
         let over = |tile: usize| {
             let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);

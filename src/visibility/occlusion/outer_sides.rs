@@ -32,12 +32,12 @@ impl OuterSides {
         let ImageSegment { a, b, ends, hosts, .. } = *segment;
         let hosted = HostedLine { line: [a, b], ends, hosts };
         let Some(across) = hosted.across() else { return Self::default() };
-        let covered = hosted.covered_sides(across, mesh, view, limits.beside);
+        let covered = hosted.covered_sides(across, mesh, view, limits.side_offset);
         let side = |is_covered: bool, shift: DVec2| {
             (!is_covered)
                 .then(|| OuterSide { line: [segment.a, segment.b].map(|end| end.truncate() + shift), shift })
         };
-        Self([side(covered[0], -across * limits.beside), side(covered[1], across * limits.beside)])
+        Self([side(covered[0], -across * limits.side_offset), side(covered[1], across * limits.side_offset)])
     }
 
     /// Iterates over the open sides, with their numbers.
@@ -49,7 +49,7 @@ impl OuterSides {
 impl OuterSide {
     /// Ends of the shifted line next to two points of the segment.
     #[inline]
-    pub(crate) fn beside(&self, from: DVec3, to: DVec3) -> [DVec2; 2] {
+    pub(crate) fn shifted_ends(&self, from: DVec3, to: DVec3) -> [DVec2; 2] {
         [from, to].map(|end| end.truncate() + self.shift)
     }
 

@@ -96,7 +96,7 @@ impl TiledTriangles<'_> {
 
     /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
     pub(crate) fn slack(&self) -> f64 {
-        (self.grid.cell * tolerances::BOX_MARGIN_OF_TILE).max(2.0 * self.limits.beside)
+        (self.grid.cell * tolerances::BOX_MARGIN_OF_TILE).max(2.0 * self.limits.side_offset)
     }
 
     #[inline]
@@ -251,7 +251,8 @@ impl TiledTriangles<'_> {
         let (points, _) = corners(self.mesh, self.view, id);
         let nearest = points[0].z.max(points[1].z).max(points[2].z);
         let sides = TriangleHalfPlanes::new(&points);
-        let reach = self.grid.cell / 2.0 * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * self.limits.beside;
+        let reach =
+            self.grid.cell / 2.0 * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + 2.0 * self.limits.side_offset;
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
                 let tile = self.grid.tile(column, u32::from(row));

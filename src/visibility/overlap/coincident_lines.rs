@@ -25,7 +25,7 @@ const MIN_LENGTH_PER_DISTANCE: f64 = 8.0;
 /// Lines per task of the grid traversal.
 const LINES_PER_TASK: usize = 1 << 11;
 
-/// Removes the parts of visible edges that lie within `within` (user units) of a stronger visible edge.
+/// Removes the parts of visible edges that lie within `max_distance` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
 pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) {
@@ -83,7 +83,7 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics
     let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
     let in_tile = csr_lists_from_pairs(grid.len(), passed);
     drop(walked);
-    let among = CoincidenceSearch { map, extents, frame, within, lines, grid, in_tile };
+    let among = CoincidenceSearch { map, extents, frame, max_distance: within, lines, grid, in_tile };
     let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
         .into_par_iter()
         .with_min_len(256)
@@ -99,7 +99,7 @@ struct CoincidenceSearch<'a> {
     map: &'a ViewMap,
     extents: &'a MeshMetrics,
     frame: &'a Frame,
-    within: f64,
+    max_distance: f64,
     /// Indices of edges, ascending, with their lines.
     lines: Vec<(u32, EdgeLine)>,
     grid: TileGrid,
@@ -109,7 +109,7 @@ struct CoincidenceSearch<'a> {
 impl CoincidenceSearch<'_> {
     /// Ranges of one line and the lines before it that cover each other.
     fn covered_with(&self, number: usize, near: &mut NearbyLines) -> Vec<(u32, (f64, f64))> {
-        let Self { map, extents, within, lines, .. } = self;
+        let Self { map, extents, max_distance: within, lines, .. } = self;
         let (id, line) = &lines[number];
         let edge = &map.edges[*id as usize];
         let mut covered = Vec::new();
@@ -121,7 +121,7 @@ impl CoincidenceSearch<'_> {
                 || edge.start == other.end
                 || edge.end == other.start
                 || edge.end == other.end;
-            let within = if joined { self.within_joined([edge, other]) } else { *within };
+            let within = if joined { self.joined_tolerance([edge, other]) } else { *within };
             if !line.runs_along(other_line, within) {
                 continue;
             }
@@ -137,23 +137,23 @@ impl CoincidenceSearch<'_> {
 
     /// Distance within which two lines with a common vertex coincide, user units: the effect of rounding on a
     /// line that was split.
-    fn within_joined(&self, edges: [&ViewEdge; 2]) -> f64 {
+    fn joined_tolerance(&self, edges: [&ViewEdge; 2]) -> f64 {
         let shift = |edge: &ViewEdge| {
             let depth = self.map.vertices[edge.start.index()].depth;
-            2.0 * self.extents.of(edge.part).rounding / self.frame.px_at(depth) * self.frame.px()
+            2.0 * self.extents.part(edge.part).rounding / self.frame.px_at(depth) * self.frame.px()
         };
         // NaN at the eye itself, which `f64::max` ignores.
         let rounding = edges.map(shift).into_iter().fold(0.0, f64::max);
-        (self.within * tolerances::JOINED_LINE_OF_DISTANCE).max(rounding.min(self.within))
+        (self.max_distance * tolerances::JOINED_LINE_OF_DISTANCE).max(rounding.min(self.max_distance))
     }
 
     /// Collects the earlier lines that may coincide with a line, ascending.
     ///
-    /// Such a line passes a tile of the line itself or of one of its parallels at distance `within`, because
+    /// Such a line passes a tile of the line itself or of one of its parallels at distance `max_distance`, because
     /// tiles are convex.
     fn find_near(&self, number: usize, NearbyLines { tiles, lines }: &mut NearbyLines) {
         let (_, line) = &self.lines[number];
-        let across = Vec2::new(-line.along.y, line.along.x) * self.within;
+        let across = Vec2::new(-line.along.y, line.along.x) * self.max_distance;
         tiles.clear();
         for shift in [Vec2::ZERO, across, -across] {
             self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
@@ -169,7 +169,7 @@ impl CoincidenceSearch<'_> {
         };
         lines.clear();
         // Only few lines remain, so sorting them is cheap.
-        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.within);
+        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.max_distance);
         lines.extend(tiles.iter().flat_map(before).filter(runs_along));
         if tiles.len() > 1 {
             lines.sort_unstable();
@@ -196,7 +196,7 @@ pub(crate) fn precedence(map: &ViewMap, extents: &MeshMetrics, one: &ViewEdge, o
     };
     let by_depth = || depth(one).total_cmp(&depth(other));
     let by_place = || place(one).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
-    let by_part = || extents.of(one.part).precedence(extents.of(other.part));
+    let by_part = || extents.part(one.part).precedence(extents.part(other.part));
     let last = || other.segment.cmp(&one.segment);
     one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)
 }

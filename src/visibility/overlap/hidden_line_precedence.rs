@@ -31,7 +31,7 @@ const MIN_CELL_PER_REACH: f64 = 2.0;
 type ParameterRange = (f64, f64);
 
 /// Ink of the lines on the page.
-pub struct Ink<'a> {
+pub struct LineInk<'a> {
     /// Half the ink width of an edge, user units; 0 if it is unknown. At least [`BEHIND_INK_PX`] is used.
     pub half_width: &'a (dyn Fn(&ViewEdge) -> f64 + Sync),
     /// Sizes of the parts, which decide between parts in one place.
@@ -46,7 +46,7 @@ pub struct Ink<'a> {
 ///
 /// All edges of the map count as drawn.
 #[must_use]
-pub fn without_hidden_in_ink(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
+pub fn without_hidden_in_ink(map: &ViewMap, ink: &LineInk) -> Option<ViewMap> {
     let behind = find(map, ink);
     if behind.iter().all(Vec::is_empty) {
         return None;
@@ -65,7 +65,7 @@ pub fn without_hidden_in_ink(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
 }
 
 /// Ranges of each edge that lie in the ink of others.
-fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<ParameterRange>> {
+fn find(map: &ViewMap, ink: &LineInk) -> Vec<Vec<ParameterRange>> {
     let lines: Vec<EdgeLine> = map.edges.iter().map(|edge| EdgeLine::of(map, edge)).collect();
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = lines
@@ -88,9 +88,9 @@ fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<ParameterRange>> {
             grid.walk(p, q, |tile, _, _| put(tile, number));
         }
     });
-    let among = InkSearch { map, reaches, widest, lines, grid, in_tile, ink };
+    let among = InkSearch { map, half_widths: reaches, widest, lines, grid, in_tile, ink };
     let found: Vec<NearbyEdges> =
-        (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.around(edge)).collect();
+        (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.nearby_edges(edge)).collect();
     among.resolve(found)
 }
 
@@ -102,15 +102,15 @@ struct NearbyEdges {
     /// Whether all of it lies in the ink of visible edges.
     within: bool,
     /// Hidden edges that precede it and run along it.
-    before: Vec<u32>,
+    preceding_hidden: Vec<u32>,
 }
 
 /// All edges of a map, in a grid of tiles.
 struct InkSearch<'a> {
     map: &'a ViewMap,
-    ink: &'a Ink<'a>,
+    ink: &'a LineInk<'a>,
     /// Half the ink width of each edge.
-    reaches: Vec<f64>,
+    half_widths: Vec<f64>,
     widest: f64,
     /// One per edge.
     lines: Vec<EdgeLine>,
@@ -120,15 +120,15 @@ struct InkSearch<'a> {
 
 impl InkSearch<'_> {
     /// Edges near an edge; none near a visible one.
-    fn around(&self, number: usize) -> NearbyEdges {
+    fn nearby_edges(&self, number: usize) -> NearbyEdges {
         let (edge, line) = (&self.map.edges[number], &self.lines[number]);
         if edge.invisibility == 0 || line.length == 0.0 {
             return NearbyEdges { within: edge.invisibility > 0, ..NearbyEdges::default() };
         }
         let mut found = NearbyEdges::default();
         let mut covered = Vec::new();
-        for other in self.near(line).into_iter().filter(|other| *other as usize != number) {
-            let (its, reach) = (&self.lines[other as usize], self.reaches[other as usize]);
+        for other in self.candidates_near(line).into_iter().filter(|other| *other as usize != number) {
+            let (its, reach) = (&self.lines[other as usize], self.half_widths[other as usize]);
             let is_visible = self.map.edges[other as usize].invisibility == 0;
             if is_visible {
                 covered.extend(line.within_ink_of(its, reach));
@@ -140,7 +140,7 @@ impl InkSearch<'_> {
             if is_visible {
                 found.behind.push(range);
             } else if self.order(other, number as u32).is_lt() {
-                found.before.push(other);
+                found.preceding_hidden.push(other);
             }
         }
         found.within = matches!(joined(covered, 0.0).as_slice(), [(from, to)] if *from <= 0.0 && *to >= 1.0);
@@ -165,22 +165,24 @@ impl InkSearch<'_> {
         }
         let mut order: Vec<u32> = (0..found.len() as u32)
             .filter(|edge| {
-                !(found[*edge as usize].behind.is_empty() && found[*edge as usize].before.is_empty())
+                !(found[*edge as usize].behind.is_empty()
+                    && found[*edge as usize].preceding_hidden.is_empty())
             })
             .collect();
         order.par_sort_by(|a, b| self.order(*a, *b));
         for number in order {
-            let NearbyEdges { behind, before, .. } = std::mem::take(&mut found[number as usize]);
+            let NearbyEdges { behind, preceding_hidden: before, .. } =
+                std::mem::take(&mut found[number as usize]);
             let line = &self.lines[number as usize];
             let mut ranges = behind;
             for other in before {
-                let (its, reach) = (&self.lines[other as usize], self.reaches[other as usize]);
+                let (its, reach) = (&self.lines[other as usize], self.half_widths[other as usize]);
                 let left = rest(&lost[other as usize]);
                 ranges.extend(left.into_iter().filter_map(|piece| along(line, &its.piece(piece), reach)));
             }
             // Gaps shorter than the ink width are closed by the ink around them. Where lines only meet, the
             // overlap is no longer than that.
-            let width = self.reaches[number as usize] / line.length;
+            let width = self.half_widths[number as usize] / line.length;
             let mut ranges = joined(ranges, width);
             ranges.retain(|(from, to)| to - from > width.min(0.5));
             lost[number as usize] = ranges;
@@ -192,7 +194,7 @@ impl InkSearch<'_> {
     ///
     /// Edges that are not parallel count only if the line is short enough to cross their ink lengthwise. The
     /// lookup is complete, because tiles are convex and wider than the reach.
-    fn near(&self, line: &EdgeLine) -> Vec<u32> {
+    fn candidates_near(&self, line: &EdgeLine) -> Vec<u32> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.widest;
         let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
         let reach = if is_short { line.along * self.widest } else { Vec2::ZERO };

@@ -39,7 +39,7 @@ pub(crate) fn smooth_chains(map: &ViewMap) -> Vec<Vec<u32>> {
     let groups = DisjointSets::new(map.edges.len(), |join| pairs.into_iter().for_each(|(a, b)| join(a, b)));
     let mut lines: Vec<Vec<u32>> = vec![Vec::new(); map.edges.len()];
     for (number, _) in (0..).zip(&map.edges).filter(|(_, edge)| hidden(edge)) {
-        lines[groups.of(number) as usize].push(number);
+        lines[groups.representative(number) as usize].push(number);
     }
     lines.retain(|line| !line.is_empty());
     lines

@@ -37,10 +37,10 @@ pub struct GapOcclusion<'a> {
     pieces: &'a [u32],
     view: &'a View,
     lines: &'a FeatureLines,
-    seen: &'a [VisibleContour],
+    visible_contours: &'a [VisibleContour],
     moved: Vec2,
     /// Built on the first query.
-    near: OnceLock<TriangleBlocks>,
+    triangle_blocks: OnceLock<TriangleBlocks>,
 }
 
 /// Straight gap in the image between two points of lines.
@@ -57,7 +57,7 @@ pub struct GapSegment {
 impl<'a> GapOcclusion<'a> {
     /// Prepares queries against all surfaces of `mesh` in front of the `lines` of a view.
     ///
-    /// `pieces` holds the connected component of each face, and is empty if there is only one. `seen` lists
+    /// `pieces` holds the connected component of each face, and is empty if there is only one. `visible_contours` lists
     /// the visible parts of the mesh contour. `moved` is the offset on the page applied to the view map since
     /// it was made, user units.
     #[must_use]
@@ -68,7 +68,7 @@ impl<'a> GapOcclusion<'a> {
         seen: &'a [VisibleContour],
         moved: Vec2,
     ) -> Self {
-        Self { mesh, pieces, view, lines, seen, moved, near: OnceLock::new() }
+        Self { mesh, pieces, view, lines, visible_contours: seen, moved, triangle_blocks: OnceLock::new() }
     }
 
     /// Reports for each gap whether it passes behind a visible surface of another component than its two
@@ -98,10 +98,10 @@ impl<'a> GapOcclusion<'a> {
             items.iter().map(|(tile, item)| (wanted.number(*tile), *item)),
         );
         let triangles = TiledTriangles { mesh, view, grid: &grid, limits: &limits };
-        let occluders = self.near(&limits).fill(&triangles, &wanted);
+        let occluders = self.blocks(&limits).fill(&triangles, &wanted);
         let reach = DVec2::splat(MAX_MATCH_DISTANCE_PX * limits.px);
         let seen = csr_lists(wanted.count(), |put| {
-            for seen in self.seen {
+            for seen in self.visible_contours {
                 let [a, b] = seen.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
                 if !tiles.is_empty() && wanted.has_any(tiles) {
@@ -118,7 +118,12 @@ impl<'a> GapOcclusion<'a> {
                     .iter()
                     .map(|id| BoxedOccluder::from(triangles.occluder(*id)))
                     .collect();
-                let around = GapTile { ahead: self, limits: &limits, over: &over, seen: seen.of(tile) };
+                let around = GapTile {
+                    gap_occlusion: self,
+                    limits: &limits,
+                    occluders: &over,
+                    visible_contours: seen.of(tile),
+                };
                 let is_behind = |item: &&TileSegment| {
                     let way = item.segment as usize;
                     around.occludes_gap_part(&segments[way], (item.start, item.end), own[way])
@@ -131,14 +136,14 @@ impl<'a> GapOcclusion<'a> {
         hidden
     }
 
-    fn near(&self, limits: &ViewTolerances) -> &TriangleBlocks {
-        if let Some(near) = self.near.get() {
+    fn blocks(&self, limits: &ViewTolerances) -> &TriangleBlocks {
+        if let Some(near) = self.triangle_blocks.get() {
             return near;
         }
         // Built outside the lock, so it may be built twice. Waiting for another thread here could deadlock,
         // because that thread may run this very task while it builds.
         let made = TriangleBlocks::new(self.mesh, self.view, limits);
-        self.near.get_or_init(|| made)
+        self.triangle_blocks.get_or_init(|| made)
     }
 
     fn piece(&self, segment: u32) -> u32 {
@@ -180,18 +185,18 @@ impl From<Occluder> for BoxedOccluder {
 
 /// Triangles and contours around one tile of the image.
 struct GapTile<'a> {
-    ahead: &'a GapOcclusion<'a>,
+    gap_occlusion: &'a GapOcclusion<'a>,
     limits: &'a ViewTolerances,
     /// Triangles over the tile.
-    over: &'a [BoxedOccluder],
+    occluders: &'a [BoxedOccluder],
     /// Visible parts of the mesh contour in the tile or within the match distance of it.
-    seen: &'a [VisibleContour],
+    visible_contours: &'a [VisibleContour],
 }
 
 impl GapTile<'_> {
     /// Whether a triangle of another component hides the part of a gap in the tile.
     fn occludes_gap_part(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
-        let Self { ahead, limits, over, .. } = self;
+        let Self { gap_occlusion: ahead, limits, occluders: over, .. } = self;
         let is_own = |over: &BoxedOccluder| own.contains(&ahead.pieces[over.whole.face as usize]);
         let ends = [part.0, part.1].map(|t| way.at(t).truncate());
         let (low, high) = (
@@ -218,14 +223,14 @@ impl GapTile<'_> {
     fn is_contour_visible_near(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
         let along = (way.b - way.a).truncate();
         let across = along.perp().normalize_or_zero();
-        self.seen.iter().any(|seen| {
+        self.visible_contours.iter().any(|seen| {
             let [from, to] = seen.ends.map(|end| end - at);
             let (before, behind) = (from.dot(along), to.dot(along));
             let crosses = before * behind <= 0.0 && before != behind;
             let away = || from.lerp(to, before / (before - behind)).dot(across).abs();
             crosses
                 && away() <= MAX_MATCH_DISTANCE_PX * self.limits.px
-                && own.contains(&self.ahead.piece(seen.segment))
+                && own.contains(&self.gap_occlusion.piece(seen.segment))
         })
     }
 }

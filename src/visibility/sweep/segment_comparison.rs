@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::visibility::culling::long_pairs::LongPairs;
-use crate::visibility::culling::longest_interval::{NO_INTERVAL, longer};
+use crate::visibility::culling::longest_interval::{NO_INTERVAL, join_or_longer};
 use crate::visibility::culling::tile_occluders::{LoadedTriangle, TileOccluders};
 use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
 use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
@@ -79,7 +79,7 @@ impl TileContext<'_> {
             };
             hidden.push(found);
             if !counting {
-                run = longer(run, (found.start, found.end));
+                run = join_or_longer(run, (found.start, found.end));
                 if run.0 <= item.start && run.1 >= item.end {
                     return true;
                 }
@@ -126,13 +126,13 @@ impl TileContext<'_> {
     ) {
         let OcclusionInput { triangles, segments, limits, .. } = self.compared;
         let segment = &segments[item.segment as usize];
-        let beside = side.beside(segment.at(item.start), segment.at(item.end));
+        let beside = side.shifted_ends(segment.at(item.start), segment.at(item.end));
         let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
         let ends = all.window.both(beside);
         let mut run = NO_INTERVAL;
         for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
             backed.push((item.segment, interval));
-            run = longer(run, (interval.start, interval.end));
+            run = join_or_longer(run, (interval.start, interval.end));
         }
         for entry in entries.chosen {
             // The range is already complete.
@@ -151,7 +151,7 @@ impl TileContext<'_> {
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 backed.push((item.segment, backdrop(start, end)));
-                run = longer(run, (start, end));
+                run = join_or_longer(run, (start, end));
             }
         }
     }

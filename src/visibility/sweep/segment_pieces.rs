@@ -11,7 +11,7 @@ use crate::visibility::projection::image_segments::ImageSegment;
 #[derive(Clone, Copy)]
 pub(crate) struct SegmentOcclusion<'a> {
     pub hidden: &'a [HiddenInterval],
-    pub backed: &'a [Interval],
+    pub non_silhouette: &'a [Interval],
 }
 
 /// Piece of a segment between two parameters.
@@ -112,8 +112,8 @@ fn visible(
     if bounds {
         // A line behind many thin parts has many visible pieces and many backed intervals, hence the binary
         // search.
-        let first = seen.backed.partition_point(|backed| backed.end <= start);
-        for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
+        let first = seen.non_silhouette.partition_point(|backed| backed.end <= start);
+        for backed in seen.non_silhouette[first..].iter().take_while(|backed| backed.start < end) {
             let (from, to) = (backed.start.max(at), backed.end.min(end));
             if to - from <= shortest {
                 continue;
@@ -170,7 +170,7 @@ mod tests {
             cuts.add(
                 id,
                 &segment,
-                SegmentOcclusion { hidden, backed: &[interval(0.7, 0.8)] },
+                SegmentOcclusion { hidden, non_silhouette: &[interval(0.7, 0.8)] },
                 0.1,
                 keeps_hidden,
             );

@@ -54,9 +54,9 @@ const fn whole(start: f64, end: f64) -> HiddenInterval {
 pub struct SegmentVisibility {
     /// Whether each segment is hidden from end to end by at least one layer; only where layers are not
     /// counted.
-    buried: Vec<bool>,
+    fully_hidden: Vec<bool>,
     hidden: CsrLists<HiddenInterval>,
-    backed: CsrLists<Interval>,
+    non_silhouette: CsrLists<Interval>,
     /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
@@ -65,14 +65,14 @@ impl SegmentVisibility {
     /// Hidden pieces of a segment with their counts, ascending.
     #[must_use]
     pub fn hidden(&self, segment: usize) -> &[HiddenInterval] {
-        if self.buried[segment] { &FULLY_HIDDEN } else { self.hidden.of(segment) }
+        if self.fully_hidden[segment] { &FULLY_HIDDEN } else { self.hidden.of(segment) }
     }
 
     /// Ranges of a segment with a surface next to them on the outer side, ascending. Only for segments that
     /// bound a surface.
     #[must_use]
     pub fn backed(&self, segment: usize) -> &[Interval] {
-        self.backed.of(segment)
+        self.non_silhouette.of(segment)
     }
 }
 
@@ -116,9 +116,9 @@ pub(crate) fn decide_with(
         (TileSegments::new(segments, &grid, &covers), covers)
     };
     let ((items, covers), boxes) = crate::parallel::join(items, || triangles.tile_boxes());
-    let TileSegments { open: items, buried } = items;
+    let TileSegments { open: items, behind_buffer: buried } = items;
     let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
-    let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
+    let occluders = triangles.fill(boxes, &wanted, &covers.tile_nearness);
 
     // Where triangles overlap several tiles, their bounds are computed once.
     let several = occluders.value_count() > 2 * triangles.count();
@@ -179,7 +179,7 @@ fn gather(
     results: &[TileResult],
 ) -> SegmentVisibility {
     let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
-    let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.whole));
+    let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.fully_hidden));
     // The parts of a segment divide its parameter range. So a segment is entirely hidden if its hidden parts
     // add up to 1.
     let mut length = vec![0.0f64; segments.len()];
@@ -198,7 +198,7 @@ fn gather(
         hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))
     };
     let backed = || {
-        let pairs = results.iter().flat_map(|r| &r.backed);
+        let pairs = results.iter().flat_map(|r| &r.non_silhouette);
         let backed = csr_lists_from_pairs(
             segments.len(),
             pairs.map(|(segment, interval)| (*segment as usize, *interval)),
@@ -206,14 +206,19 @@ fn gather(
         backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
             // Near a corner, the outer side may graze a face that only shares the vertex.
-            let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
+            let grazing = 4.0 * limits.side_offset / segments[segment].length().max(4.0 * limits.side_offset);
             sweep(intervals, &[], grazing, false, &mut joined);
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
         })
     };
     let (hidden, backed) = crate::parallel::join(hidden, backed);
-    SegmentVisibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
+    SegmentVisibility {
+        tests: results.iter().map(|r| r.tests).sum(),
+        hidden,
+        non_silhouette: backed,
+        fully_hidden: buried,
+    }
 }
 
 /// Joins touching pieces of equal count and drops those shorter than rounding.

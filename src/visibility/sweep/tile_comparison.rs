@@ -28,11 +28,11 @@ const MAX_PAIR_GROWTH: usize = 2;
 #[derive(Debug, Default)]
 pub(crate) struct TileResult {
     /// Segment parts that are hidden from end to end.
-    pub(crate) whole: Vec<TileSegment>,
+    pub(crate) fully_hidden: Vec<TileSegment>,
     /// Hidden pieces of the other segment parts.
     pub(crate) hidden: Vec<(u32, HiddenInterval)>,
     /// Where a segment that may bound a surface has no background next to it.
-    pub(crate) backed: Vec<(u32, Interval)>,
+    pub(crate) non_silhouette: Vec<(u32, Interval)>,
     /// Number of comparisons between a segment and a triangle.
     pub(crate) tests: u64,
 }
@@ -40,9 +40,9 @@ pub(crate) struct TileResult {
 impl TileResult {
     /// Frees unused capacity.
     pub(crate) fn tidy(&mut self) {
-        self.whole.shrink_to_fit();
+        self.fully_hidden.shrink_to_fit();
         self.hidden.shrink_to_fit();
-        self.backed.shrink_to_fit();
+        self.non_silhouette.shrink_to_fit();
     }
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct TileScratch {
 struct SegmentScratch {
     hidden: Vec<Interval>,
     /// Layers known to hide it before the comparison.
-    known: Vec<HiddenInterval>,
+    known_layers: Vec<HiddenInterval>,
     layers: Vec<HiddenInterval>,
 }
 
@@ -96,7 +96,7 @@ impl TileContext<'_> {
         let count = entries.chosen.len();
         if count > MAX_UNSORTED_TRIANGLES
             && items.len() * count > MAX_PAIRS_PER_ENTRY * (items.len() + count)
-            && grid.cell > limits.beside * 64.0
+            && grid.cell > limits.side_offset * 64.0
             && self.decide_subdivided(
                 items,
                 memory,
@@ -115,14 +115,15 @@ impl TileContext<'_> {
             sorted = nearest_first(&memory.triangles.reaches, entries.chosen);
             entries = TriangleChoice { chosen: &sorted, ordered: true };
         }
-        let SegmentScratch { mut hidden, mut known, mut layers } = std::mem::take(&mut memory.found);
+        let SegmentScratch { mut hidden, known_layers: mut known, mut layers } =
+            std::mem::take(&mut memory.found);
         for item in items.iter().filter(|item| item.end > item.start) {
             let segment = &segments[item.segment as usize];
             let is_whole = |l: &HiddenInterval| l.interval.start <= item.start && l.interval.end >= item.end;
             known.clear();
             known.extend(self.long.iter().flat_map(|long| long.hidden(item)));
             if !counting && known.iter().any(is_whole) {
-                result.whole.push(*item);
+                result.fully_hidden.push(*item);
                 continue;
             }
             hidden.clear();
@@ -134,7 +135,7 @@ impl TileContext<'_> {
                 &mut hidden,
                 &mut result.tests,
             ) {
-                result.whole.push(*item);
+                result.fully_hidden.push(*item);
                 continue;
             }
             layers.clear();
@@ -142,10 +143,10 @@ impl TileContext<'_> {
             sweep(&mut hidden, &known, shortest * tolerances::TILE_SPAN_OF_SHORTEST, counting, &mut layers);
             result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
             if segment.bounds && !layers.iter().any(is_whole) {
-                self.gather_backed(segment, item, &mut memory.triangles, entries, &mut result.backed);
+                self.gather_backed(segment, item, &mut memory.triangles, entries, &mut result.non_silhouette);
             }
         }
-        memory.found = SegmentScratch { hidden, known, layers };
+        memory.found = SegmentScratch { hidden, known_layers: known, layers };
     }
 
     /// Subdivides a crowded tile: where a dense model is small on the page, the grid over the page does not
@@ -162,7 +163,7 @@ impl TileContext<'_> {
         result: &mut TileResult,
     ) -> bool {
         let OcclusionInput { triangles, segments, limits, counting } = self.compared;
-        let before = result.whole.len();
+        let before = result.fully_hidden.len();
         let mut cover = vec![UNCOVERED; grid.len()];
         if !counting {
             for entry in entries.chosen {
@@ -177,19 +178,19 @@ impl TileContext<'_> {
             let segment = &segments[item.segment as usize];
             let (a, b) = (segment.at(item.start), segment.at(item.end));
             let span = item.end - item.start;
-            let (first_fine, first_whole) = (fine.len(), result.whole.len());
+            let (first_fine, first_whole) = (fine.len(), result.fully_hidden.len());
             grid.walk(a, b, |tile, t0, t1| {
                 let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
                 let part = TileSegment { start: at(t0), end: at(t1), ..*item };
                 if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < f64::from(cover[tile]) {
-                    result.whole.push(part);
+                    result.fully_hidden.push(part);
                 } else {
                     fine.push((tile as u32, part));
                 }
             });
             if fine.len() == first_fine {
-                result.whole.truncate(first_whole);
-                result.whole.push(*item);
+                result.fully_hidden.truncate(first_whole);
+                result.fully_hidden.push(*item);
             }
         }
         let fine_items = csr_lists(grid.len(), |put| {
@@ -207,7 +208,7 @@ impl TileContext<'_> {
         });
         let pairs = |tile: usize| fine_items.of(tile).len() * fine_entries.of(tile).len();
         if (0..grid.len()).map(pairs).sum::<usize>() > MAX_PAIR_GROWTH * items.len() * entries.chosen.len() {
-            result.whole.truncate(before);
+            result.fully_hidden.truncate(before);
             return false;
         }
         for tile in 0..grid.len() {
@@ -228,7 +229,7 @@ impl TileContext<'_> {
         is_wanted: impl Fn(usize, f64) -> bool,
     ) -> Vec<(u32, u32)> {
         let OcclusionInput { triangles, limits, .. } = self.compared;
-        let slack = 2.0 * limits.beside;
+        let slack = 2.0 * limits.side_offset;
         let reach = grid.cell / 2.0 * (1.0 + tolerances::TILE_MARGIN_OF_TILE) + slack;
         let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
         for entry in entries.chosen {

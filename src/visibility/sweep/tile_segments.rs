@@ -18,14 +18,14 @@ pub(crate) struct TileSegments {
     /// Parts that must be compared with triangles, by tile.
     pub open: CsrLists<TileSegment>,
     /// Parts behind the occlusion buffer; a single one for a segment that is entirely behind it.
-    pub buried: Vec<TileSegment>,
+    pub behind_buffer: Vec<TileSegment>,
 }
 
 /// Parts of the segments of one task; open parts come with their tiles.
 #[derive(Default)]
 struct TraversedSegments {
     open: Vec<(u32, TileSegment)>,
-    buried: Vec<TileSegment>,
+    behind_buffer: Vec<TileSegment>,
 }
 
 impl TileSegments {
@@ -46,8 +46,8 @@ impl TileSegments {
             .collect();
         let pairs = walked.iter().flat_map(|walked| &walked.open).map(|(tile, item)| (*tile as usize, *item));
         let open = csr_lists_from_pairs(grid.len(), pairs);
-        let buried = walked.iter().flat_map(|walked| &walked.buried).copied().collect();
-        Self { open, buried }
+        let buried = walked.iter().flat_map(|walked| &walked.behind_buffer).copied().collect();
+        Self { open, behind_buffer: buried }
     }
 }
 
@@ -57,7 +57,7 @@ fn walked(
     grid: &TileGrid,
     covers: &OcclusionBuffer,
 ) -> TraversedSegments {
-    let TraversedSegments { mut open, mut buried } = TraversedSegments::default();
+    let TraversedSegments { mut open, behind_buffer: mut buried } = TraversedSegments::default();
     for (segment, s) in some.map(|k| (k as u32, &segments[k])).filter(|(_, s)| s.role != Role::SmoothContour)
     {
         let before = (open.len(), buried.len());
@@ -74,7 +74,7 @@ fn walked(
             buried.push(TileSegment { segment, start: 0.0, end: 1.0 });
         }
     }
-    TraversedSegments { open, buried }
+    TraversedSegments { open, behind_buffer: buried }
 }
 
 #[cfg(test)]
@@ -149,7 +149,7 @@ mod tests {
             OcclusionBuffer::find(&TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits });
         assert!(!found.is_empty());
         for covers in [OcclusionBuffer::none(&grid), found] {
-            let TileSegments { open, buried } = TileSegments::new(&segments, &grid, &covers);
+            let TileSegments { open, behind_buffer: buried } = TileSegments::new(&segments, &grid, &covers);
             let mut parts = vec![0.0; segments.len()];
             for tile in 0..grid.len() {
                 let mut last = 0;

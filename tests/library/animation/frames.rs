@@ -26,10 +26,10 @@ pub(crate) fn moments(crane: &Rigged, fps: f64) -> Vec<FrameSpec> {
     let [from, to] = crane.rig.clips[0].span();
     let timeline = Timeline::between(from, to, fps).unwrap();
     let playing = |frame: usize| vec![Playing::all(0, timeline.time(frame))];
-    let poses: Vec<_> = timeline.drawn().map(|frame| (playing(frame), DAffine3::IDENTITY)).collect();
+    let poses: Vec<_> = timeline.drawn_frames().map(|frame| (playing(frame), DAffine3::IDENTITY)).collect();
     let points = film_points(crane, &poses).unwrap();
     let camera = Camera::three_quarter().with_frame(PAGE_SIDE_PX, PAGE_SIDE_PX).fit_points(&points, 0.05);
-    timeline.drawn().map(|frame| FrameSpec { playing: playing(frame), camera, page: page() }).collect()
+    timeline.drawn_frames().map(|frame| FrameSpec { playing: playing(frame), camera, page: page() }).collect()
 }
 
 pub(crate) fn drawings(moments: &[FrameSpec], crane: &Rigged, style: &Style) -> Vec<Drawing> {

@@ -286,7 +286,7 @@ fn coarse_search_results_give_the_curves_of_refined_surfaces() {
         let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
         let finer =
             surface.refined_for(&camera.fit_points(&all.positions, 0.05), None).expect("it is coarse");
-        let (kept, faces) = (finer.kept, finer.surface.mesh.triangles.len());
+        let (kept, faces) = (finer.kept_count, finer.surface.mesh.triangles.len());
         assert!(kept > 0 && faces > kept);
         let curves = all_curves(&finer.surface.mesh);
         for segment in &curves.segments {

@@ -292,7 +292,7 @@ fn shaded_ink_follows_the_fill_colour_next_to_the_line() {
         polyline_chain(&(0..=20).map(|k| (f64::from(k) * 10.0, 50.0)).collect::<Vec<_>>(), [1.0; 2]);
     for (k, sample) in line.samples.iter_mut().enumerate() {
         let colour = if k < 10 { Colour::rgb(200, 0, 0) } else { Colour::rgb(0, 0, 100) };
-        sample.under.colour = Some(colour);
+        sample.backdrop.colour = Some(colour);
     }
     let drawn = marks(&[line], &ink_style(&["pen.colour={shade=0.5}"]));
     let found: Vec<(Colour, f64, f64)> = drawn

@@ -51,7 +51,7 @@ fn pipes_have_two_cylinders_in_any_pose() {
         for (cylinder, (radius, hollow)) in own.iter().zip([(5.0, false), (3.0, true)]) {
             let axis = turn * DVec3::Z;
             assert!(
-                (cylinder.radius - radius).abs() < 1e-9 * radius && cylinder.hollow == hollow,
+                (cylinder.radius - radius).abs() < 1e-9 * radius && cylinder.is_hole == hollow,
                 "{cylinder:?}"
             );
             assert!(cylinder.axis.cross(axis).length() < 1e-9);

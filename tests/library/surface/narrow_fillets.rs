@@ -26,7 +26,7 @@ fn patches(solid: Solid) -> (Mesh, Patches) {
 fn middle_edges(solid: Solid) -> Vec<[DVec3; 2]> {
     let (mesh, patches) = patches(solid);
     let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize] + mesh.origin);
-    patches.roundings.iter().map(ends).collect()
+    patches.fillet_centres.iter().map(ends).collect()
 }
 
 /// A plate with one corner rounded in `steps` steps. The profile begins with the fillet.
@@ -68,7 +68,7 @@ fn edges_hidden_by_the_file_are_not_drawn() {
             ..Soup::default()
         });
         let patches = Patches::new(&mesh, 40.0, false);
-        patches.hard.count() + patches.roundings.iter().count()
+        patches.hard.count() + patches.fillet_centres.iter().count()
     };
     assert_eq!(hidden(bar(&plate(4, 0.3))), 0, "a narrow rounding");
     let low = 1.0 - 0.5 / 3f64.sqrt();
@@ -220,7 +220,7 @@ fn lengths(drawn: &Stages, kind: LineKind) -> f64 {
 fn a_filleted_box_has_edge_lines_and_the_fine_outline() {
     for steps in [3, 4, 5] {
         let (_, patches) = patches(rounded_box(steps));
-        assert_eq!((patches.hard.count(), patches.roundings.iter().count()), (0, 12), "{steps} steps");
+        assert_eq!((patches.hard.count(), patches.fillet_centres.iter().count()), (0, 12), "{steps} steps");
         let model = scene([rounded_box(steps)]);
         let drawn = run_stages(&model, &from_a_corner(), &LineOptions::default());
         // Three meet at the corner nearest to the camera. Others near the outline may be visible as well.

@@ -6,7 +6,7 @@ use kurbo::{Point, Vec2};
 use ligne::drawing::{Drawing, LayerKind};
 use ligne::mesh::MeshMetrics;
 use ligne::scene::{NamedView, UpAxis};
-use ligne::visibility::overlap::hidden_line_precedence::{self, Ink};
+use ligne::visibility::overlap::hidden_line_precedence::{self, LineInk};
 use ligne::visibility::tolerances::{BEHIND_INK_PX, BEHIND_INK_SINE};
 use ligne::visibility::{ViewEdge, ViewMap};
 use ligne::{Camera, Scene, Style, render};
@@ -41,7 +41,7 @@ fn a_box_seen_face_on_has_no_hidden_lines() {
 fn without_covered_hidden_lines(map: &ViewMap, extents: &MeshMetrics, perspective: bool) -> Option<ViewMap> {
     hidden_line_precedence::without_hidden_in_ink(
         map,
-        &Ink { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 },
+        &LineInk { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 },
     )
 }
 

@@ -57,7 +57,7 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<BatchJob>, Error> {
         }
         let mut job = BatchJob { requests: Vec::new() };
         for view in views(args) {
-            let outputs = plain.iter().map(|path| Output::new(seen_from(path, view, args)));
+            let outputs = plain.iter().map(|path| Output::new(with_view_name(path, view, args)));
             let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
             for output in &outputs {
                 match taken.insert(key(&output.path), model) {
@@ -127,7 +127,7 @@ fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf
 }
 
 /// Adds the name of the view to the file name if there are several views.
-fn seen_from(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
+fn with_view_name(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
     let Some(view) = view.filter(|_| args.how.view.len() > 1) else { return path.to_path_buf() };
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push(format!("-{}", view.name()));

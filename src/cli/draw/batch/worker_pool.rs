@@ -116,7 +116,7 @@ impl WorkerPool<'_> {
                 }
             }
             Err(failure) => {
-                let ModelFailure { error, passes } = *failure;
+                let ModelFailure { error, is_temporary: passes } = *failure;
                 *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
                 let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
                 progress.print_line(&format!("error: {error}"));
@@ -141,7 +141,7 @@ impl BatchTally {
 struct ModelFailure {
     error: Error,
     /// Whether the same call may succeed later.
-    passes: bool,
+    is_temporary: bool,
 }
 
 /// Draws a model from all views and writes the files, all or none. Returns the warnings without duplicates.
@@ -190,7 +190,7 @@ fn draw_task(task: &DrawTask) -> Result<(WrittenFiles, Vec<String>), Box<ModelFa
     // Any error of the output folder may be temporary, because it says nothing about the model.
     let failure = |error: Error, writes: bool| {
         let passes = exit_status::is_temporary(&error) || (writes && error.kind == ErrorKind::Io);
-        Box::new(ModelFailure { error, passes })
+        Box::new(ModelFailure { error, is_temporary: passes })
     };
     drawn.map_err(|error| failure(error, writes.get()))?;
     staging.commit().map_err(|error| failure(error, true))?;

@@ -38,7 +38,7 @@ impl PaperSize {
     }
 
     /// The size in landscape orientation.
-    pub(crate) fn lying(self) -> Self {
+    pub(crate) fn landscape(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }
     }
 }
@@ -126,7 +126,7 @@ pub(crate) fn scale(text: &str) -> Result<f64, String> {
 
 /// Sheet of a drawing, with a margin around the frame of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Paper {
+pub(crate) struct PictureSheet {
     /// Width and height in user units.
     pub(crate) extent: PaperSize,
     /// User unit.
@@ -135,7 +135,7 @@ pub(crate) struct Paper {
     pub(crate) margin: f64,
 }
 
-impl Paper {
+impl PictureSheet {
     /// Sheet with a margin. The default margin is 10 mm on a page in mm and 0 on a picture in px.
     pub(crate) fn new(extent: PaperSize, unit: Unit, margin: Option<PageLength>) -> Result<Self, Error> {
         let margin = match (margin, unit) {
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(page_mm("100x50"), extent(100.0, 50.0));
         assert_eq!(page_mm("21x29.7cm"), extent(210.0, 297.0));
         assert_eq!(page_mm("20mmx3cm"), extent(20.0, 30.0));
-        assert_eq!(page_mm("A3").map(PaperSize::lying), extent(420.0, 297.0));
+        assert_eq!(page_mm("A3").map(PaperSize::landscape), extent(420.0, 297.0));
         for wrong in ["", "A9", "210", "0x5mm", "5x5furlong"] {
             assert!(page_mm(wrong).is_err(), "{wrong}");
         }
@@ -220,12 +220,12 @@ mod tests {
     #[test]
     fn the_margin_leaves_a_frame() -> Result<(), Error> {
         let sheet = PaperSize { width: 210.0, height: 297.0 };
-        assert_eq!(Paper::new(sheet, Unit::Mm, None)?.frame(), (190.0, 277.0));
-        assert_eq!(Paper::new(sheet, Unit::Px, None)?.frame(), (210.0, 297.0));
-        assert_eq!(Paper::new(sheet, Unit::Mm, margin("1cm").ok())?.margin, 10.0);
-        assert_eq!(Paper::new(sheet, Unit::Mm, margin("5").ok())?.margin, 5.0);
-        assert!((Paper::new(sheet, Unit::Px, margin("0.1in").ok())?.margin - 9.6).abs() < 1e-12);
-        assert!(Paper::new(sheet, Unit::Mm, margin("105mm").ok()).is_err());
+        assert_eq!(PictureSheet::new(sheet, Unit::Mm, None)?.frame(), (190.0, 277.0));
+        assert_eq!(PictureSheet::new(sheet, Unit::Px, None)?.frame(), (210.0, 297.0));
+        assert_eq!(PictureSheet::new(sheet, Unit::Mm, margin("1cm").ok())?.margin, 10.0);
+        assert_eq!(PictureSheet::new(sheet, Unit::Mm, margin("5").ok())?.margin, 5.0);
+        assert!((PictureSheet::new(sheet, Unit::Px, margin("0.1in").ok())?.margin - 9.6).abs() < 1e-12);
+        assert!(PictureSheet::new(sheet, Unit::Mm, margin("105mm").ok()).is_err());
         assert!(margin("-1mm").is_err() && margin("wide").is_err());
         Ok(())
     }

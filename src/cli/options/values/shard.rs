@@ -6,11 +6,11 @@ use std::fmt;
 
 use crate::error::Error;
 
-/// Every `of`-th item of a list, starting with item `first` (counted from 0).
+/// Every `count`-th item of a list, starting with item `first` (counted from 0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
     first: usize,
-    of: usize,
+    count: usize,
 }
 
 /// Value of `--shard`.
@@ -25,13 +25,13 @@ pub(crate) enum ShardSpec {
 impl Shard {
     /// Whether item `number`, counted from 0, belongs to the shard.
     pub(crate) const fn has(self, number: usize) -> bool {
-        number % self.of == self.first
+        number % self.count == self.first
     }
 }
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.first + 1, self.of)
+        write!(f, "{}/{}", self.first + 1, self.count)
     }
 }
 
@@ -44,7 +44,7 @@ impl ShardSpec {
                 return Some(Self::InJobArray(of));
             }
             let k: usize = k.parse().ok().filter(|k| (1..=of).contains(k))?;
-            Some(Self::Given(Shard { first: k - 1, of }))
+            Some(Self::Given(Shard { first: k - 1, count: of }))
         });
         share.ok_or_else(|| "write K/N, such as 1/4 for the first of four, or /4 in a job array".to_owned())
     }
@@ -86,7 +86,7 @@ fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Optio
     number.map(Some).map_err(wrong)
 }
 
-/// Shard of this task among `of` tasks; `None` outside a job array. Slurm must number its tasks from 1;
+/// Shard of this task among `count` tasks; `None` outside a job array. Slurm must number its tasks from 1;
 /// Kubernetes numbers them from 0.
 fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let slurm = number("SLURM_ARRAY_TASK_ID", variable)?.map(|id| ("SLURM_ARRAY_TASK_ID", id, 1));
@@ -102,7 +102,7 @@ fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Opti
             .at(name)
             .remedy(format!("number the tasks from {least} to {}, or give --shard K/N", of - 1 + least))
     })?;
-    Ok(Some(Shard { first, of }))
+    Ok(Some(Shard { first, count: of }))
 }
 
 /// Shard of this task, with the number of tasks taken from the environment; `None` outside a job array.
@@ -125,14 +125,14 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
         let place = |id: usize| id.checked_sub(least).filter(|off| off % step == 0).map(|off| off / step);
         // A list such as 3,7 has gaps, so the position of this task in it is unknown.
         return match place(id).filter(|first| *first < of && place(most) == Some(of - 1)) {
-            Some(first) => Ok(Some(Shard { first, of })),
+            Some(first) => Ok(Some(Shard { first, count: of })),
             None => unsaid(name, "its task numbers have gaps"),
         };
     }
     if let Some(first) = number("JOB_COMPLETION_INDEX")? {
         let name = "JOB_COMPLETION_INDEX";
         return match number("JOB_COMPLETIONS")? {
-            Some(of) if first < of => Ok(Some(Shard { first, of })),
+            Some(of) if first < of => Ok(Some(Shard { first, count: of })),
             Some(of) => unsaid(name, &format!("JOB_COMPLETIONS is {of}, and the index is not below it")),
             None => unsaid(name, "JOB_COMPLETIONS is missing"),
         };
@@ -152,19 +152,19 @@ mod tests {
 
     #[test]
     fn shards_count_from_one() {
-        assert_eq!(ShardSpec::parse("1/4"), Ok(ShardSpec::Given(Shard { first: 0, of: 4 })));
-        assert_eq!(ShardSpec::parse("4/4"), Ok(ShardSpec::Given(Shard { first: 3, of: 4 })));
+        assert_eq!(ShardSpec::parse("1/4"), Ok(ShardSpec::Given(Shard { first: 0, count: 4 })));
+        assert_eq!(ShardSpec::parse("4/4"), Ok(ShardSpec::Given(Shard { first: 3, count: 4 })));
         assert_eq!(ShardSpec::parse("/4"), Ok(ShardSpec::InJobArray(4)));
         for wrong in ["0/4", "5/4", "1", "a/b", "1/0", "-1/2", "/0", "/"] {
             assert!(ShardSpec::parse(wrong).is_err(), "{wrong}");
         }
-        let all: Vec<usize> = (0..10).filter(|n| Shard { first: 1, of: 4 }.has(*n)).collect();
+        let all: Vec<usize> = (0..10).filter(|n| Shard { first: 1, count: 4 }.has(*n)).collect();
         assert_eq!(all, [1, 5, 9]);
     }
 
     #[test]
     fn arrays_tell_their_tasks() -> Result<(), Error> {
-        let shard = |first, of| Some(Shard { first, of });
+        let shard = |first, of| Some(Shard { first, count: of });
         assert_eq!(counted(&set(""))?, None);
         let slurm = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=4";
         assert_eq!(counted(&set(slurm))?, shard(2, 4));

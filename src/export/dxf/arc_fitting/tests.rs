@@ -8,7 +8,7 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 const TOLERANCE: f64 = 0.005;
 
 fn of(path: &BezPath) -> Vec<FittedCurve> {
-    curves(path, Affine::IDENTITY, TOLERANCE)
+    fit_curves(path, Affine::IDENTITY, TOLERANCE)
 }
 
 fn only(path: &BezPath) -> (Point, Vec<FittedPiece>, bool) {

@@ -25,12 +25,12 @@ pub(crate) struct CrackLattice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Crack {
     pub corner: usize,
-    pub way: usize,
+    pub direction: usize,
 }
 
 impl CrackLattice {
     /// Cracks whose jump is a local maximum and no echo.
-    pub fn crests(jumps: &JumpTiles) -> Self {
+    pub fn local_maxima(jumps: &JumpTiles) -> Self {
         let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
@@ -86,7 +86,7 @@ impl CrackLattice {
     #[inline]
     pub fn end(&self, crack: Crack) -> Option<usize> {
         let [column, row] = self.place(crack.corner);
-        let [dx, dy] = CRACK_DIRECTIONS[crack.way];
+        let [dx, dy] = CRACK_DIRECTIONS[crack.direction];
         let (column, row) = (column as i32 + dx, row as i32 + dy);
         let inside = column >= 0 && row >= 0 && column < self.stride as i32 && row < self.height as i32;
         inside.then(|| row as usize * self.stride + column as usize)
@@ -96,7 +96,7 @@ impl CrackLattice {
     #[inline]
     fn flag(&self, crack: Crack) -> Option<(usize, u8)> {
         let end = self.end(crack)?;
-        Some((crack.corner.min(end), if crack.way.is_multiple_of(2) { 1 } else { 2 }))
+        Some((crack.corner.min(end), if crack.direction.is_multiple_of(2) { 1 } else { 2 }))
     }
 
     /// Whether a line runs along a crack.
@@ -117,7 +117,7 @@ impl CrackLattice {
 
     /// Cracks with a line at a corner.
     pub fn leaving(&self, corner: usize) -> impl Iterator<Item = Crack> + '_ {
-        (0..4).map(move |way| Crack { corner, way }).filter(|crack| self.has(*crack))
+        (0..4).map(move |way| Crack { corner, direction: way }).filter(|crack| self.has(*crack))
     }
 
     /// Number of cracks with a line at a corner.
@@ -129,7 +129,7 @@ impl CrackLattice {
     /// running down.
     pub fn pixels(&self, crack: Crack) -> [[i32; 2]; 2] {
         let [column, row] = self.place(crack.corner).map(|i| i as i32);
-        match crack.way {
+        match crack.direction {
             0 => [[column, row - 1], [column, row]],
             1 => [[column, row], [column - 1, row]],
             2 => [[column - 1, row], [column - 1, row - 1]],

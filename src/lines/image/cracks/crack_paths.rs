@@ -30,7 +30,7 @@ impl CrackPath {
     fn turned(&self, lattice: &CrackLattice) -> Self {
         let back = |crack: &Crack| Crack {
             corner: lattice.end(*crack).unwrap_or(crack.corner),
-            way: (crack.way + 2) % 4,
+            direction: (crack.direction + 2) % 4,
         };
         Self { cracks: self.cracks.iter().rev().map(back).collect(), closed: self.closed }
     }
@@ -60,12 +60,12 @@ fn branches(lattice: &CrackLattice) -> Vec<CrackPath> {
         let mut next = Some(first);
         while let Some(crack) = next {
             let Some(end) = lattice.end(crack) else { break };
-            done[crack.corner] |= 1 << crack.way;
-            done[end] |= 1 << ((crack.way + 2) % 4);
+            done[crack.corner] |= 1 << crack.direction;
+            done[end] |= 1 << ((crack.direction + 2) % 4);
             path.cracks.push(crack);
             let is_through = lattice.degree(end) == 2;
             next = is_through
-                .then(|| lattice.leaving(end).find(|crack| done[end] & (1 << crack.way) == 0))
+                .then(|| lattice.leaving(end).find(|crack| done[end] & (1 << crack.direction) == 0))
                 .flatten();
             path.closed = is_through && next.is_none() && end == first.corner;
         }
@@ -78,7 +78,7 @@ fn branches(lattice: &CrackLattice) -> Vec<CrackPath> {
                 continue;
             }
             for crack in lattice.leaving(corner) {
-                if done[corner] & (1 << crack.way) == 0 {
+                if done[corner] & (1 << crack.direction) == 0 {
                     follow(crack, &mut done);
                 }
             }

@@ -26,12 +26,12 @@ pub(crate) fn close_gaps(lattice: &mut CrackLattice, jumps: &JumpTiles) {
         let mut met = false;
         while way.len() < MAX_GAP_CRACKS && !met {
             let next = (0..4)
-                .map(|way| Crack { corner: at, way })
+                .map(|way| Crack { corner: at, direction: way })
                 .filter(|crack| !lattice.has(*crack))
                 .filter(|crack| lattice.end(*crack).is_some_and(|end| !own.contains(&end)))
                 .map(|crack| (lattice.jump(jumps, crack), crack))
                 .filter(|(jump, _)| *jump > 0.0)
-                .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.way.cmp(&a.1.way)));
+                .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.direction.cmp(&a.1.direction)));
             let Some((_, crack)) = next else { break };
             let Some(end) = lattice.end(crack) else { break };
             way.push(crack);

@@ -54,7 +54,7 @@ fn side(
     let near = if maps.faces[near] == NO_FRONT { a } else { near };
     // Of the two pixels, the one in the later row or column has the other before it.
     let [column, row] = [0, 1].map(|axis| pixels[0][axis].max(pixels[1][axis]));
-    let line = if crack.way.is_multiple_of(2) {
+    let line = if crack.direction.is_multiple_of(2) {
         jumps.line_down(column, row)
     } else {
         jumps.line_across(column, row)

@@ -37,7 +37,7 @@ const NO_POINT: u32 = u32::MAX;
 
 /// Whether any interior line is drawn.
 #[must_use]
-pub fn wanted(options: &LineOptions) -> bool {
+pub fn has_interior_lines(options: &LineOptions) -> bool {
     options.kinds.iter().any(|kind| kind.is_inside())
 }
 

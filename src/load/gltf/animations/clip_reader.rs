@@ -65,7 +65,7 @@ fn read(
 
 /// Shape of a value: how many numbers it has, and how the file stores them.
 #[derive(Clone, Copy)]
-enum Width {
+enum ValueShape {
     /// This many scalars, each stored separately: morph weights, or one for a single number.
     Scalars(usize),
     /// A vector of three numbers.
@@ -74,7 +74,7 @@ enum Width {
     Four,
 }
 
-impl Width {
+impl ValueShape {
     fn numbers(self) -> usize {
         match self {
             Self::Scalars(count) => count,
@@ -85,24 +85,24 @@ impl Width {
 }
 
 /// Shape of the values that a target takes.
-fn width(nodes: &[Node], target: AnimationTarget) -> Result<Width, Error> {
+fn width(nodes: &[Node], target: AnimationTarget) -> Result<ValueShape, Error> {
     Ok(match target {
         AnimationTarget::Node(node, property) => {
             let Some(own) = nodes.get(node) else {
                 return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
             };
             match property {
-                NodeProperty::Translation | NodeProperty::Scale => Width::Three,
-                NodeProperty::Rotation => Width::Four,
-                NodeProperty::Weights => Width::Scalars(own.weights.len()),
-                NodeProperty::Visible => Width::Scalars(1),
+                NodeProperty::Translation | NodeProperty::Scale => ValueShape::Three,
+                NodeProperty::Rotation => ValueShape::Four,
+                NodeProperty::Weights => ValueShape::Scalars(own.weights.len()),
+                NodeProperty::Visible => ValueShape::Scalars(1),
             }
         }
         AnimationTarget::Light(_, LightProperty::Colour)
-        | AnimationTarget::Material(_, MaterialProperty::Emissive) => Width::Three,
-        AnimationTarget::Material(_, MaterialProperty::Base) => Width::Four,
+        | AnimationTarget::Material(_, MaterialProperty::Emissive) => ValueShape::Three,
+        AnimationTarget::Material(_, MaterialProperty::Base) => ValueShape::Four,
         AnimationTarget::Camera(..) | AnimationTarget::Light(..) | AnimationTarget::Material(..) => {
-            Width::Scalars(1)
+            ValueShape::Scalars(1)
         }
     })
 }
@@ -129,7 +129,7 @@ fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<AnimationT
 }
 
 /// Reads the keys of a sampler.
-fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<Track, Error> {
+fn track(buffers: &Buffers, sampler: &AnimationSampler, width: ValueShape) -> Result<Track, Error> {
     let interpolation = match sampler.interpolation.as_deref() {
         None | Some("LINEAR") => Interpolation::Linear,
         Some("STEP") => Interpolation::Step,
@@ -146,9 +146,9 @@ fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<
     };
     let times = buffers.read(input, |[time]: [f64; 1]| time)?;
     let values = match width {
-        Width::Three => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
-        Width::Four => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
-        Width::Scalars(_) => buffers.read(output, |[value]: [f64; 1]| value)?,
+        ValueShape::Three => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
+        ValueShape::Four => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
+        ValueShape::Scalars(_) => buffers.read(output, |[value]: [f64; 1]| value)?,
     };
     Track::new(times, values, interpolation).map_err(Error::new)
 }

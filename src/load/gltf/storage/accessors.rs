@@ -119,7 +119,7 @@ impl Buffers<'_> {
         let elements = self.elements(accessor, N).map_err(place)?;
         let mut values = elements.collect(make);
         if let Some(sparse) = &accessor.sparse {
-            self.patch(&mut values, sparse, elements, make).map_err(place)?;
+            self.apply_sparse(&mut values, sparse, elements, make).map_err(place)?;
         }
         Ok(values)
     }
@@ -196,7 +196,7 @@ impl Buffers<'_> {
     }
 
     /// Replaces the elements that a sparse accessor lists. `like` gives the type of the new values.
-    fn patch<const N: usize, R: Clone>(
+    fn apply_sparse<const N: usize, R: Clone>(
         &self,
         values: &mut [R],
         sparse: &json::Sparse,

@@ -181,7 +181,7 @@ impl<'a> Lettering<'a> {
                     "leave out `keep`",
                 ));
             };
-            let places = seen.places(glob, self.source)?;
+            let places = seen.part_bounds(glob, self.source)?;
             let within = |hull| ConvexPolygon(hull).common(&shape.outline);
             kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
         }
@@ -196,7 +196,7 @@ impl<'a> Lettering<'a> {
             let gap = BALLOON_GAP_EM * self.setting.em() * size;
             let room = PlacementArea {
                 outline: shape.outline.inset(gap).common(&ConvexPolygon::from(sheet.safe)),
-                kept: kept.clone(),
+                protected: kept.clone(),
                 obstacles: obstacles.clone(),
                 cover: cover.clone(),
                 gap,
@@ -249,7 +249,7 @@ impl<'a> Lettering<'a> {
                 "leave out the tail",
             ));
         };
-        let places = seen.places(glob, self.source)?;
+        let places = seen.part_bounds(glob, self.source)?;
         match TailTarget::of(&places, &shape.outline) {
             Some(target) => Ok(Some(target)),
             None => {
@@ -276,7 +276,7 @@ impl<'a> Lettering<'a> {
         BALLOON_ASPECTS.into_iter().map(set).collect()
     }
 
-    /// The marks of the placed balloons and their letters. `places` is parallel to `balloons`.
+    /// The marks of the placed balloons and their letters. `part_bounds` is parallel to `balloons`.
     fn painted(
         &self,
         balloons: &[Vec<Balloon>],
@@ -309,8 +309,8 @@ fn placement_request(shapes: &[Balloon], told: &BalloonSpec, shape: &PanelOutlin
         target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
         at,
         em: of(Balloon::em),
-        tail: of(Balloon::shortest_tail),
-        foot: of(Balloon::foot),
+        min_tail_length: of(Balloon::shortest_tail),
+        tail_half_width: of(Balloon::foot),
         is_caption: told.keys.kind == BalloonKind::Caption,
     }
 }

@@ -41,13 +41,13 @@ fn draw_axes(sight: &SheetView, found: &[Cylinder], board: &mut AnnotationBoard)
     let mut crosses: Vec<(Point, f64)> = Vec::new();
     let mut lines: Vec<[Point; 2]> = Vec::new();
     for cylinder in found {
-        let radius = cylinder.radius * sight.unit;
+        let radius = cylinder.radius * sight.mm_per_unit;
         let towards = cylinder.axis.dot(forward).abs();
         if radius < MIN_RADIUS_MM {
             continue;
         }
         if towards > tolerances::MIN_END_ON_COSINE {
-            let at = sight.page(cylinder.point);
+            let at = sight.to_page(cylinder.point);
             match crosses
                 .iter_mut()
                 .find(|(known, _)| (*known - at).hypot2() < MERGE_DISTANCE_MM * MERGE_DISTANCE_MM)
@@ -56,7 +56,7 @@ fn draw_axes(sight: &SheetView, found: &[Cylinder], board: &mut AnnotationBoard)
                 None => crosses.push((at, radius)),
             }
         } else if towards < tolerances::MAX_SIDE_ON_COSINE {
-            let [a, b] = cylinder.ends.map(|end| sight.page(cylinder.point + cylinder.axis * end));
+            let [a, b] = cylinder.ends.map(|end| sight.to_page(cylinder.point + cylinder.axis * end));
             add_or_extend(&mut lines, [a, b]);
         }
     }

@@ -77,7 +77,8 @@ impl Annotations<'_> {
             board.taken.take(ConvexShape::line(a, b, width), OccupantKind::Geometry);
         }
         let anchors: Vec<Option<Point>> = if plan.balloons == Some(view) {
-            let anchor = |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.unit);
+            let anchor =
+                |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.mm_per_unit);
             self.anchors.iter().map(anchor).collect()
         } else {
             Vec::new()
@@ -88,10 +89,14 @@ impl Annotations<'_> {
         }
         centre_lines::centre_lines(plan, view, self.cylinders, &mut board);
         for circled in &plan.circled {
-            if circled.of == view && circled.meets(sight) {
-                detail_labels::draw_circle(sight.page(circled.at), circled.radius * sight.unit, &mut board);
+            if circled.source_view == view && circled.meets(sight) {
+                detail_labels::draw_circle(
+                    sight.to_page(circled.at),
+                    circled.radius * sight.mm_per_unit,
+                    &mut board,
+                );
             }
-            if circled.shown == view {
+            if circled.detail_view == view {
                 detail_labels::draw_circle(rect.center(), rect.width() / 2.0, &mut board);
             }
         }
@@ -122,14 +127,16 @@ impl Annotations<'_> {
             board.reserved = dimension_lines::extension_line_paper(rect, slanted.iter().skip(k + 1).copied());
             dimension_lines::draw_slanted(rect, own, &mut board)?;
         }
-        for (_, led) in self.measures.led.iter().filter(|(of, _)| *of == view) {
+        for (_, led) in self.measures.diameters.iter().filter(|(of, _)| *of == view) {
             diameter_leaders::draw_diameter(rect, led, &mut board)?;
         }
         for mark in marks {
             mark.finish(&mut board)?;
         }
-        for circled in plan.circled.iter().filter(|circled| circled.of == view && circled.meets(sight)) {
-            let (centre, radius) = (sight.page(circled.at), circled.radius * sight.unit);
+        for circled in
+            plan.circled.iter().filter(|circled| circled.source_view == view && circled.meets(sight))
+        {
+            let (centre, radius) = (sight.to_page(circled.at), circled.radius * sight.mm_per_unit);
             detail_labels::draw_detail_label(&circled.label, centre, radius, &mut board)?;
         }
         if let Some(title) = titles_and_notes::view_title(plan, view, self.scale) {
@@ -147,9 +154,9 @@ impl Annotations<'_> {
         for cut in plan.cuts.iter().filter(|cut| titles_and_notes::edge_on_view(plan, cut) == Some(view)) {
             let normal = cut.plane.normal();
             // Towards the viewer of the section, on the page.
-            let back = sight.page(plan.middle + normal) - sight.page(plan.middle);
+            let back = sight.to_page(plan.middle + normal) - sight.to_page(plan.middle);
             let back = back / back.hypot2().sqrt();
-            let on = sight.page(plan.middle - normal * cut.plane.distance(plan.middle));
+            let on = sight.to_page(plan.middle - normal * cut.plane.distance(plan.middle));
             marks.push(SectionMark::new(&cut.label, on, back, rect));
         }
         marks.sort_by(|a, b| b.depth().total_cmp(&a.depth()));

@@ -46,7 +46,7 @@ impl<'a> ViewDrawings<'a> {
     pub fn update(&mut self, plan: &ViewPlan) -> Result<bool, Error> {
         let mut any = false;
         for view in 0..plan.views.len() {
-            let unit = plan.views[view].sight.unit;
+            let unit = plan.views[view].sight.mm_per_unit;
             let is_outdated = |drawn: &ViewDrawing| {
                 (drawn.unit / unit - 1.0).abs() > tolerances::MAX_DRAWN_SCALE_DIFFERENCE_SHARE
             };
@@ -60,11 +60,11 @@ impl<'a> ViewDrawings<'a> {
 
     fn drawn(&self, view: usize, plan: &ViewPlan) -> Result<Option<ViewDrawing>, Error> {
         let sight = &plan.views[view].sight;
-        let Some(prepared) = self.prepared.get(plan.set_of[view]).and_then(Option::as_ref) else {
+        let Some(prepared) = self.prepared.get(plan.scene_of_view[view]).and_then(Option::as_ref) else {
             return Ok(None);
         };
-        let (mut item, mut warnings) = sight.item(prepared)?;
-        if let Some(circled) = plan.circled.iter().find(|circled| circled.shown == view) {
+        let (mut item, mut warnings) = sight.draw(prepared)?;
+        if let Some(circled) = plan.circled.iter().find(|circled| circled.detail_view == view) {
             let circle = detail_circle(sight).to_path(tolerances::MAX_CLIP_CIRCLE_ERROR_MM);
             let circle = item.place.inverse() * circle;
             item.drawing.cut(&circle, CLIP_TOLERANCE_MM);
@@ -86,13 +86,13 @@ impl<'a> ViewDrawings<'a> {
                 chords.push(([a, b].map(|p: Point| p.to_vec2() - corner), width));
             });
         }
-        Ok(Some(ViewDrawing { item, warnings, unit: sight.unit, chords }))
+        Ok(Some(ViewDrawing { item, warnings, unit: sight.mm_per_unit, chords }))
     }
 
     /// The chords of a view at its present position and scale, with their widths.
     pub fn chords(&self, view: usize, plan: &ViewPlan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
         let sight = &plan.views[view].sight;
-        let (corner, unit) = (sight.corner, sight.unit);
+        let (corner, unit) = (sight.corner, sight.mm_per_unit);
         let of = move |drawn: &'_ ViewDrawing| {
             let larger = unit / drawn.unit;
             drawn
@@ -109,8 +109,8 @@ impl<'a> ViewDrawings<'a> {
         let (mut items, mut warnings) = (Vec::new(), Vec::new());
         for (view, drawn) in self.views.into_iter().enumerate() {
             let Some(drawn) = drawn else { continue };
-            items.push(PlacedDrawing { place: plan.views[view].sight.place(), ..drawn.item });
-            let scene = &plan.sets[plan.set_of[view]].scene;
+            items.push(PlacedDrawing { place: plan.views[view].sight.frame_to_page(), ..drawn.item });
+            let scene = &plan.sets[plan.scene_of_view[view]].scene;
             for warning in scene.warnings.lines().into_iter().chain(drawn.warnings) {
                 if !warnings.contains(&warning) {
                     warnings.push(warning);

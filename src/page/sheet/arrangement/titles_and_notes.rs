@@ -23,7 +23,7 @@ use crate::text::Font;
 /// `scale` is the scale of the sheet. The scale of free and pictorial views is never written.
 pub(crate) fn view_title(plan: &ViewPlan, view: usize, scale: f64) -> Option<String> {
     let placed = &plan.views[view];
-    let own = placed.sight.unit / plan.unit_mm();
+    let own = placed.sight.mm_per_unit / plan.unit_mm();
     let is_other = !matches!(placed.placement, ViewPlacement::Free | ViewPlacement::Pictorial)
         && (own / scale - 1.0).abs() > tolerances::MAX_SCALE_DIFFERENCE_SHARE;
     let scale = is_other.then(|| scale_series::format_scale(own));

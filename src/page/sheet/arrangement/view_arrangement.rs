@@ -56,7 +56,7 @@ impl PlacedView {
 }
 
 impl PlacedView {
-    /// Extra margins if a model unit is `unit` mm long on paper: left, above, right, below.
+    /// Extra margins if a model unit is `mm_per_unit` mm long on paper: left, above, right, below.
     ///
     /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
     /// the margins found last.
@@ -72,7 +72,7 @@ impl PlacedView {
 
     /// Widens the margins at the present scale to at least `needed`.
     pub fn widen_margins(&mut self, needed: [f64; 4]) {
-        let unit = self.sight.unit;
+        let unit = self.sight.mm_per_unit;
         let own = self.margins_at(unit);
         let is_other = |known: &f64| (known / unit - 1.0).abs() >= tolerances::MAX_SCALE_DIFFERENCE_SHARE;
         self.margins.retain(|(known, _)| is_other(known));
@@ -82,7 +82,7 @@ impl PlacedView {
     /// Changes the scale from `from` to `to` and keeps the centre of the view.
     pub fn rescale(&mut self, from: f64, to: f64) {
         let ([w, h], [wide, high]) = (self.sight.size(from), self.sight.size(to));
-        self.sight.unit = to;
+        self.sight.mm_per_unit = to;
         self.sight.corner += kurbo::Vec2::new((w - wide) / 2.0, (h - high) / 2.0);
     }
 
@@ -170,7 +170,7 @@ pub(crate) fn arrange_views(
                 continue;
             }
             fits = true;
-            let size: f64 = views.iter().map(|placed| ln(placed.sight.unit)).sum();
+            let size: f64 = views.iter().map(|placed| ln(placed.sight.mm_per_unit)).sum();
             if best.is_none_or(|(known, ..)| size > known + tolerances::MIN_LOG_SCALE_GAIN) {
                 best = Some((size, *scale, order));
             }
@@ -292,7 +292,7 @@ fn try_scale(
         for (k, field) in &beside {
             let (place, corner) = place(&views[*k], *field, start);
             let placed = &mut views[*k];
-            (placed.place, placed.sight.unit, placed.sight.corner) = (place, unit, corner);
+            (placed.place, placed.sight.mm_per_unit, placed.sight.corner) = (place, unit, corner);
             room.take(place);
         }
     }
@@ -321,7 +321,7 @@ fn try_scale(
         let (scale, place) = found?;
         let [left, above, ..] = placed.margins_at(scale * unit_mm);
         placed.place = place;
-        placed.sight.unit = scale * unit_mm;
+        placed.sight.mm_per_unit = scale * unit_mm;
         placed.sight.corner = Point::new(place.x0 + VIEW_MARGIN_MM + left, place.y0 + VIEW_MARGIN_MM + above);
     }
     Some(())

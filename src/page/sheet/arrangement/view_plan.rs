@@ -42,7 +42,7 @@ pub(crate) struct CutLine {
     pub label: String,
     pub plane: Plane,
     /// The view that shows the section, and the parts that are not cut.
-    pub shown: usize,
+    pub section_view: usize,
     pub uncut: Vec<Glob>,
 }
 
@@ -50,8 +50,8 @@ pub(crate) struct CutLine {
 pub(crate) struct DetailCircle {
     pub label: String,
     /// The view that contains the circle, and the view that shows the detail.
-    pub of: usize,
-    pub shown: usize,
+    pub source_view: usize,
+    pub detail_view: usize,
     pub at: DVec3,
     pub radius: f64,
 }
@@ -59,8 +59,8 @@ pub(crate) struct DetailCircle {
 impl DetailCircle {
     /// Whether the circle reaches into a view; otherwise it is not drawn.
     pub fn meets(&self, sight: &SheetView) -> bool {
-        let radius = self.radius * sight.unit;
-        sight.rect().inflate(radius, radius).contains(sight.page(self.at))
+        let radius = self.radius * sight.mm_per_unit;
+        sight.rect().inflate(radius, radius).contains(sight.to_page(self.at))
     }
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct ViewPlan {
     pub sets: Vec<Arc<ShownScene>>,
     pub views: Vec<PlacedView>,
     /// The index of each view's scene in `sets`.
-    pub set_of: Vec<usize>,
+    pub scene_of_view: Vec<usize>,
     pub cuts: Vec<CutLine>,
     pub circled: Vec<DetailCircle>,
     /// How lengths are written.
@@ -108,7 +108,7 @@ impl ViewPlan {
         let mut plan = Self {
             sets: Vec::new(),
             views: Vec::new(),
-            set_of: Vec::new(),
+            scene_of_view: Vec::new(),
             cuts: Vec::new(),
             circled: Vec::new(),
             values,
@@ -134,7 +134,7 @@ impl ViewPlan {
         if sheet.hidden && views.iter().any(|view| !SIDE_VIEWS.contains(view)) {
             let scene = plan.sets[0].scene.clone();
             plan.sets.push(Arc::new(ShownScene { scene, style: pictorial.clone() }));
-            for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
+            for (placed, set) in plan.views.iter().zip(&mut plan.scene_of_view) {
                 if *set == 0 && placed.placement == ViewPlacement::Pictorial {
                     *set = plan.sets.len() - 1;
                 }
@@ -154,7 +154,7 @@ impl ViewPlan {
         let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
         let sight = SheetView::new(&name, camera, self.middle, points);
         self.views.push(PlacedView::new(sight, stands));
-        self.set_of.push(set);
+        self.scene_of_view.push(set);
     }
 
     fn add_sections(
@@ -199,7 +199,7 @@ impl ViewPlan {
             if let Some(placed) = self.views.last_mut() {
                 placed.sight.title = Some(format!("{label}-{label}"));
             }
-            self.cuts.push(CutLine { label, plane, shown: self.views.len() - 1, uncut });
+            self.cuts.push(CutLine { label, plane, section_view: self.views.len() - 1, uncut });
         }
         Ok(())
     }
@@ -243,16 +243,16 @@ impl ViewPlan {
         }
         let label = keys.label.clone().unwrap_or_else(|| label_letter(number));
         let at = DVec3::from_array(keys.at);
-        let mut sight = self.views[of].sight.around(&format!("detail-{label}"), at, radius);
+        let mut sight = self.views[of].sight.detail(&format!("detail-{label}"), at, radius);
         sight.title = Some(label.clone());
         // A step of the series enlarges by 2 or 2.5; two steps by about 5.
         let stands = match &keys.scale {
             None => ViewPlacement::Enlarged(5.0),
             Some(told) => ViewPlacement::At(read_scale(told, source)?),
         };
-        self.circled.push(DetailCircle { label, of, shown: self.views.len(), at, radius });
+        self.circled.push(DetailCircle { label, source_view: of, detail_view: self.views.len(), at, radius });
         self.views.push(PlacedView::new(sight, stands));
-        self.set_of.push(self.set_of[of]);
+        self.scene_of_view.push(self.scene_of_view[of]);
         Ok(())
     }
 
@@ -263,9 +263,9 @@ impl ViewPlan {
 
     /// How lengths in a view relate to lengths of the model.
     pub fn foreshortening(&self, view: usize) -> Foreshortening {
-        let shown = self.circled.iter().find(|circled| circled.shown == view);
+        let shown = self.circled.iter().find(|circled| circled.detail_view == view);
         match (shown, self.views[view].placement) {
-            (Some(detail), _) => self.foreshortening(detail.of),
+            (Some(detail), _) => self.foreshortening(detail.source_view),
             (None, ViewPlacement::Pictorial) => Foreshortening::Pictorial,
             (None, ViewPlacement::Free) => Foreshortening::Moved,
             (None, _) => Foreshortening::None,
@@ -296,7 +296,7 @@ impl ViewPlan {
 
     /// The section plane of a section view.
     pub fn section_of(&self, view: usize) -> Option<&CutLine> {
-        self.cuts.iter().find(|cut| cut.shown == view)
+        self.cuts.iter().find(|cut| cut.section_view == view)
     }
 
     /// The index of a view, by its name.

@@ -47,7 +47,7 @@ pub(crate) struct SlantedLength {
 pub(crate) struct DimensionSet {
     pub lengths: Vec<(usize, SideLength)>,
     pub slanted: Vec<(usize, SlantedLength)>,
-    pub led: Vec<(usize, DiameterLeader)>,
+    pub diameters: Vec<(usize, DiameterLeader)>,
 }
 
 impl DimensionSet {
@@ -75,7 +75,7 @@ impl DimensionSet {
                 told.push(axis);
                 // From the outermost points, take those nearest to the dimension line.
                 let key = |p: &MeasuredPoint| {
-                    let page = sight.page(p.at);
+                    let page = sight.to_page(p.at);
                     if side.is_across() { (page.x, -page.y) } else { (page.y, page.x) }
                 };
                 let order = |a: &MeasuredPoint, b: &MeasuredPoint| {
@@ -90,7 +90,7 @@ impl DimensionSet {
                 if let (Some(from), Some(to)) = ends {
                     let length = (to.at - from.at).dot(axis).abs();
                     let text = plan.values.written(length, LengthPrecision::between([from, to], axis));
-                    self.add(view, [from, to].map(|p| sight.page(p.at)), side, text);
+                    self.add(view, [from, to].map(|p| sight.to_page(p.at)), side, text);
                 }
             }
         }
@@ -102,19 +102,20 @@ impl DimensionSet {
             let sight = &plan.views[round.view].sight;
             let count =
                 if round.centres.len() > 1 { format!("{}× ", round.centres.len()) } else { String::new() };
-            let pitch = round.pitch.map(|(middle, radius)| (sight.page(middle), radius * sight.unit));
+            let pitch =
+                round.pitch.map(|(middle, radius)| (sight.to_page(middle), radius * sight.mm_per_unit));
             let on = round.pitch.map_or_else(String::new, |(_, radius)| {
                 format!(" / ⌀{}", plan.values.written(2.0 * radius, round.precision))
             });
             let text = format!("{count}⌀{}{on}", plan.values.written(2.0 * round.radius, round.precision));
-            let centres: Vec<Point> = round.centres.iter().map(|at| sight.page(*at)).collect();
+            let centres: Vec<Point> = round.centres.iter().map(|at| sight.to_page(*at)).collect();
             // The leader belongs to the circle nearest to the upper right corner.
             let high = |p: &Point| p.x - p.y;
             let Some(centre) = centres.iter().copied().max_by(|a, b| high(a).total_cmp(&high(b))) else {
                 continue;
             };
-            let radius = round.radius * sight.unit;
-            self.led.push((round.view, DiameterLeader { centre, radius, text, pitch }));
+            let radius = round.radius * sight.mm_per_unit;
+            self.diameters.push((round.view, DiameterLeader { centre, radius, text, pitch }));
         }
         let mut views: Vec<usize> = rounds.iter().map(|round| round.view).collect();
         views.dedup();
@@ -127,17 +128,17 @@ impl DimensionSet {
             // already.
             let outer: Vec<Point> = own
                 .iter()
-                .filter(|round| !round.hollow)
-                .flat_map(|round| round.centres.iter().map(|at| sight.page(*at)))
+                .filter(|round| !round.is_hole)
+                .flat_map(|round| round.centres.iter().map(|at| sight.to_page(*at)))
                 .collect();
             let places: Vec<(DVec3, LengthPrecision)> = own
                 .iter()
-                .filter(|round| round.hollow && round.pitch.is_none())
+                .filter(|round| round.is_hole && round.pitch.is_none())
                 .flat_map(|round| round.centres.iter().map(|at| (*at, round.precision)))
                 .filter(|(at, _)| {
                     outer
                         .iter()
-                        .all(|other| (*other - sight.page(*at)).hypot2() > MIN_OFFSET_MM * MIN_OFFSET_MM)
+                        .all(|other| (*other - sight.to_page(*at)).hypot2() > MIN_OFFSET_MM * MIN_OFFSET_MM)
                 })
                 .collect();
             let [right, up, _] = sight.axes();
@@ -156,7 +157,7 @@ impl DimensionSet {
                     let ends = [MeasuredPoint { at: corner, step }, MeasuredPoint::exact(at)];
                     let text =
                         plan.values.written(far, LengthPrecision::between(ends, axis).coarser(precision));
-                    if far * sight.unit < MIN_OFFSET_MM
+                    if far * sight.mm_per_unit < MIN_OFFSET_MM
                         || done.len() >= MAX_POSITIONS_PER_SIDE
                         || done.contains(&text)
                     {
@@ -164,7 +165,7 @@ impl DimensionSet {
                     }
                     done.push(text.clone());
                     let from = Point::new(rect.x0, rect.y1);
-                    self.add(view, [from, sight.page(at)], side, text);
+                    self.add(view, [from, sight.to_page(at)], side, text);
                 }
             }
         }

@@ -25,7 +25,7 @@ pub(crate) struct HoleDimension {
     pub radius: f64,
     /// Precision of the radius and the positions.
     pub precision: LengthPrecision,
-    pub hollow: bool,
+    pub is_hole: bool,
     /// Points on the axes, projected along the viewing direction, world.
     pub centres: Vec<DVec3>,
     /// Centre and radius of the pitch circle of three or more equally spaced axes.
@@ -52,7 +52,8 @@ pub(crate) fn find_hole_dimensions(plan: &ViewPlan) -> Vec<HoleDimension> {
     let mut left = whole_cylinders(&mesh);
     let mut found: Vec<HoleDimension> = Vec::new();
     for (view, placed) in plan.views.iter().enumerate() {
-        let is_side = matches!(placed.placement, ViewPlacement::Projected(_)) && plan.set_of[view] == 0;
+        let is_side =
+            matches!(placed.placement, ViewPlacement::Projected(_)) && plan.scene_of_view[view] == 0;
         if !is_side {
             continue;
         }
@@ -67,7 +68,7 @@ pub(crate) fn find_hole_dimensions(plan: &ViewPlan) -> Vec<HoleDimension> {
             let precision = LengthPrecision::of_cylinder(&cylinder);
             let written = plan.values.written(2.0 * cylinder.radius, precision);
             let is_same = |round: &&mut HoleDimension| {
-                round.hollow == cylinder.hollow
+                round.is_hole == cylinder.is_hole
                     && plan.values.written(2.0 * round.radius, round.precision) == written
             };
             match own.iter_mut().find(is_same) {
@@ -75,7 +76,7 @@ pub(crate) fn find_hole_dimensions(plan: &ViewPlan) -> Vec<HoleDimension> {
                     view,
                     radius: cylinder.radius,
                     precision,
-                    hollow: cylinder.hollow,
+                    is_hole: cylinder.is_hole,
                     centres: vec![flat],
                     pitch: None,
                 }),
@@ -130,10 +131,10 @@ fn split_visible(mesh: &Mesh, sight: &SheetView, cylinders: Vec<Cylinder>) -> (V
     let screen = PixelGrid::of_side(mesh, &view, LONGER_SIDE_PX);
     let buffer = FaceBuffer::new(&screen);
     let [right, up, forward] = sight.axes();
-    let inner = sight.place().inverse();
+    let inner = sight.frame_to_page().inverse();
     let size = (sight.high - sight.low).length();
     let is_free = |p: DVec3, part: Option<crate::mesh::PartId>| {
-        let at = inner * sight.page(p);
+        let at = inner * sight.to_page(p);
         let (x, y) = (at.x * screen.scale(), at.y * screen.scale());
         if x < 0.0 || y < 0.0 || x as usize >= screen.columns || y as usize >= screen.rows {
             return false;
@@ -150,7 +151,7 @@ fn split_visible(mesh: &Mesh, sight: &SheetView, cylinders: Vec<Cylinder>) -> (V
     let is_seen = |cylinder: &Cylinder| {
         let towards = if cylinder.axis.dot(forward) < 0.0 { cylinder.ends[1] } else { cylinder.ends[0] };
         let end = cylinder.point + cylinder.axis * towards;
-        let part = (!cylinder.hollow).then_some(cylinder.part);
+        let part = (!cylinder.is_hole).then_some(cylinder.part);
         let free = (0..8).filter(|k| {
             let turn = std::f64::consts::TAU * (f64::from(*k) + 0.37) / 8.0;
             let out = right * crate::geometry::numbers::portable_math::cos(turn)

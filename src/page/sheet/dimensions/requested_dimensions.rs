@@ -63,14 +63,14 @@ pub(crate) fn add_requested(
             let told = keys.at.as_ref().map_or(span, Spanned::span);
             let remedy = "name a point on a cylinder that is seen along its axis in this view";
             let led = led.ok_or_else(|| source.fault(&told, "there is no cylinder in this view", remedy))?;
-            measures.led.push((view, led));
+            measures.diameters.push((view, led));
             continue;
         }
         let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
         let length = true_length([from, to], measure, sight, plan.foreshortening(view));
         let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
         let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
-        let ends = [from, to].map(|p| sight.page(p.at));
+        let ends = [from, to].map(|p| sight.to_page(p.at));
         add_length(ends, (measure, text), keys, view, measures);
     }
     Ok(())
@@ -156,7 +156,7 @@ fn nearest_cylinder_leader(
     let text = keys.text.clone().unwrap_or_else(|| {
         format!("{sign}{}", plan.values.written(length, LengthPrecision::of_cylinder(nearest)))
     });
-    let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
+    let (centre, radius) = (sight.to_page(nearest.point), nearest.radius * sight.mm_per_unit);
     Some(DiameterLeader { centre, radius, text, pitch: None })
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn find_anchors(sight: &SheetView, scene: &Scene, items: &[PartsListI
         let best = item.parts.iter().copied().max_by(|a, b| counts[*a].cmp(&counts[*b]).then(b.cmp(a)))?;
         let pixel = deepest[best]?;
         let at = Point::new((pixel % columns) as f64 + 0.5, (pixel / columns) as f64 + 0.5);
-        Some(sight.place() * (at.to_vec2() / screen.scale()).to_point())
+        Some(sight.frame_to_page() * (at.to_vec2() / screen.scale()).to_point())
     };
     items.iter().map(of).collect()
 }

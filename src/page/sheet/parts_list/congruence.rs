@@ -53,7 +53,7 @@ impl PartShape {
         let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
         let place = part.world_from_part;
         let rounding = file_rounding(geometry, &place);
-        let mut grid = CornerGrid::new(4.0 * rounding);
+        let mut grid = CongruenceGrid::new(4.0 * rounding);
         let mut known: FxHashMap<u32, u32> = FxHashMap::default();
         let mut number = |p: u32| {
             *known.entry(p).or_insert_with(|| {
@@ -104,7 +104,7 @@ impl PartShape {
             // All corners are on a line, so there are no faces.
             return true;
         }
-        let mut grid = CornerGrid::new(16.0 * near);
+        let mut grid = CongruenceGrid::new(16.0 * near);
         other.corners.iter().for_each(|p| {
             grid.add(*p);
         });
@@ -152,7 +152,7 @@ impl PartShape {
 /// The corner at each point, all distinct; `None` if a point is on no free corner.
 fn match_corners(
     points: impl Iterator<Item = DVec3>,
-    grid: &CornerGrid,
+    grid: &CongruenceGrid,
     near: f64,
     left: &mut usize,
 ) -> Option<Vec<u32>> {
@@ -237,13 +237,13 @@ fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
 }
 
 /// Corners in a grid of cubic cells.
-struct CornerGrid {
+struct CongruenceGrid {
     corners: Vec<DVec3>,
     cell: f64,
     cells: FxHashMap<[i64; 3], Vec<u32>>,
 }
 
-impl CornerGrid {
+impl CongruenceGrid {
     fn new(cell: f64) -> Self {
         Self { corners: Vec::new(), cell: cell.max(f64::MIN_POSITIVE), cells: FxHashMap::default() }
     }

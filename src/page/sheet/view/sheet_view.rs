@@ -31,7 +31,7 @@ pub(crate) struct SheetView {
     /// Upper right corner of the extent, model units to the right and up.
     pub high: DVec2,
     /// Scale: length on paper of a model unit, mm.
-    pub unit: f64,
+    pub mm_per_unit: f64,
     /// Upper left corner of the extent on the page, mm.
     pub corner: Point,
 }
@@ -49,12 +49,21 @@ impl SheetView {
         if low.x > high.x {
             (low, high) = (DVec2::ZERO, DVec2::ZERO);
         }
-        Self { name: name.to_owned(), title: None, camera, middle, low, high, unit: 1.0, corner: Point::ZERO }
+        Self {
+            name: name.to_owned(),
+            title: None,
+            camera,
+            middle,
+            low,
+            high,
+            mm_per_unit: 1.0,
+            corner: Point::ZERO,
+        }
     }
 
     /// The same view, limited to a square around a point: the extent of a detail. `radius` is half the side,
     /// model units.
-    pub fn around(&self, name: &str, at: DVec3, radius: f64) -> Self {
+    pub fn detail(&self, name: &str, at: DVec3, radius: f64) -> Self {
         let [right, up, _] = self.camera.axes();
         let p = DVec2::new((at - self.middle).dot(right), (at - self.middle).dot(up));
         let (low, high) = (p - radius, p + radius);
@@ -66,7 +75,7 @@ impl SheetView {
         self.camera.axes()
     }
 
-    /// Width and height on paper if a model unit is `unit` mm long.
+    /// Width and height on paper if a model unit is `mm_per_unit` mm long.
     pub fn size(&self, unit: f64) -> [f64; 2] {
         let size = (self.high - self.low) * unit;
         [size.x, size.y]
@@ -74,16 +83,16 @@ impl SheetView {
 
     /// The rectangle of the view on the page, mm.
     pub fn rect(&self) -> Rect {
-        let [w, h] = self.size(self.unit);
+        let [w, h] = self.size(self.mm_per_unit);
         Rect::from_origin_size(self.corner, (w, h))
     }
 
     /// Maps a point of the model to the page, mm.
-    pub fn page(&self, p: DVec3) -> Point {
+    pub fn to_page(&self, p: DVec3) -> Point {
         let [right, up, _] = self.axes();
         let p = p - self.middle;
         let (x, y) = (p.dot(right) - self.low.x, self.high.y - p.dot(up));
-        self.corner + kurbo::Vec2::new(x * self.unit, y * self.unit)
+        self.corner + kurbo::Vec2::new(x * self.mm_per_unit, y * self.mm_per_unit)
     }
 
     /// The camera of the view. Its frame is the view on paper with a margin, in mm.
@@ -91,12 +100,12 @@ impl SheetView {
         let [right, up, forward] = self.axes();
         let centre = (self.low + self.high) / 2.0;
         let target = self.middle + right * centre.x + up * centre.y;
-        let [w, h] = self.size(self.unit).map(|side| side + 2.0 * LINE_MARGIN_MM);
+        let [w, h] = self.size(self.mm_per_unit).map(|side| side + 2.0 * LINE_MARGIN_MM);
         Camera {
             eye: target - forward * (self.high - self.low).length().max(f64::MIN_POSITIVE),
             target,
             up,
-            projection: Projection::Orthographic { height: h / self.unit },
+            projection: Projection::Orthographic { height: h / self.mm_per_unit },
             width: w,
             height: h,
             near: None,
@@ -104,7 +113,7 @@ impl SheetView {
     }
 
     /// Transform from the frame of [`Self::view_camera`] to the page, both in mm.
-    pub fn place(&self) -> Affine {
+    pub fn frame_to_page(&self) -> Affine {
         Affine::translate((self.corner.x - LINE_MARGIN_MM, self.corner.y - LINE_MARGIN_MM))
     }
 
@@ -112,12 +121,12 @@ impl SheetView {
     ///
     /// # Errors
     /// Returns an error if there is nothing to draw.
-    pub fn item(&self, prepared: &Prepared) -> Result<(PlacedDrawing, Vec<String>), Error> {
+    pub fn draw(&self, prepared: &Prepared) -> Result<(PlacedDrawing, Vec<String>), Error> {
         let camera = self.view_camera();
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Mm, background: None };
         let (drawing, report): (Drawing, _) = prepared.draw(&camera, page, None)?;
         Ok((
-            PlacedDrawing { name: self.name.clone(), drawing, place: self.place(), clip: None },
+            PlacedDrawing { name: self.name.clone(), drawing, place: self.frame_to_page(), clip: None },
             report.warnings,
         ))
     }

@@ -22,7 +22,7 @@ enum BorderEnd {
 /// Traces the borders between labels; `None` if there are too many.
 pub(crate) fn trace_label_borders(labels: &ColourLabels) -> Option<TracedBorders> {
     let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
-    let mut pieces: Vec<BorderPiece> = Vec::new();
+    let mut pieces: Vec<LabelBorderPiece> = Vec::new();
     let columns: Vec<usize> = (0..=reach[0] as i64).map(|i| labels.texels.index(i, 0)).collect();
     for j in 0..reach[1] as u32 {
         let rows = [0, 1].map(|down| labels.texels.index(0, i64::from(j) + down));
@@ -49,13 +49,13 @@ pub(crate) fn trace_label_borders(labels: &ColourLabels) -> Option<TracedBorders
                 CellBorders::Uniform => {}
                 CellBorders::Across(ways) => {
                     pieces.extend(ways.iter().filter_map(|way| {
-                        Some(BorderPiece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
+                        Some(LabelBorderPiece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
                     }));
                 }
                 CellBorders::Meeting(middle) => {
                     let middle = (BorderEnd::Middle(i, j), at + middle);
                     pieces.extend((0..4).filter_map(|side| {
-                        Some(BorderPiece { ends: [end(side)?, middle], parted: parted(side) })
+                        Some(LabelBorderPiece { ends: [end(side)?, middle], parted: parted(side) })
                     }));
                 }
             }
@@ -69,7 +69,7 @@ pub(crate) fn trace_label_borders(labels: &ColourLabels) -> Option<TracedBorders
 }
 
 /// Piece of a border within a cell.
-struct BorderPiece {
+struct LabelBorderPiece {
     ends: [(BorderEnd, DVec2); 2],
     /// The two colours on its sides.
     parted: [u8; 2],
@@ -77,7 +77,7 @@ struct BorderPiece {
 
 /// Links pieces to lines that end where three borders meet or where a border ends, with the two colours of
 /// each line.
-fn link_pieces(pieces: &[BorderPiece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
+fn link_pieces(pieces: &[LabelBorderPiece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
     let mut at: FxHashMap<BorderEnd, Vec<u32>> = FxHashMap::default();
     for (number, piece) in pieces.iter().enumerate() {
         for (place, _) in piece.ends {

@@ -60,7 +60,7 @@ impl SurfaceTracer<'_> {
     /// for that.
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
         let (bend, faces) = self.bend(edge)?;
-        let [first, second] = faces.map(|face| self.beyond(&bend, face));
+        let [first, second] = faces.map(|face| self.continuation(&bend, face));
         let beyond = [first?, second?];
         // A trace is enough for most facets of curves. Only for the rest are the facets examined all around.
         if !is_end(beyond) {
@@ -79,11 +79,11 @@ impl SurfaceTracer<'_> {
     }
 
     /// Continuation of the surface from an edge, straight across one of its faces; `None` if undecided.
-    fn beyond(&self, bend: &BentEdge, face: u32) -> Option<Continuation> {
+    fn continuation(&self, bend: &BentEdge, face: u32) -> Option<Continuation> {
         let (beyond, crossed) = self.across(bend, face)?;
         match (beyond, crossed) {
             (Continuation::Ends(near), Some((sharp, last)))
-                if self.is_of_rounding(bend, near, sharp, last) =>
+                if self.is_fillet_centre(bend, near, sharp, last) =>
             {
                 Some(Continuation::Bends(near))
             }
@@ -111,11 +111,11 @@ impl SurfaceTracer<'_> {
 
     /// Whether a crease at distance `near` is the middle of a fillet of few steps: the next strip has a
     /// similar width and bends in the same direction.
-    fn is_of_rounding(&self, bend: &BentEdge, near: f64, sharp: usize, last: u32) -> bool {
+    fn is_fillet_centre(&self, bend: &BentEdge, near: f64, sharp: usize, last: u32) -> bool {
         let most = cos((MAX_MIDDLE_TURN_RATIO * bend.turn).min(PI)) as f32;
         let is_step =
             |edge: usize| self.turns.of_two(edge) >= most && self.is_convex(edge) == Some(bend.convex);
-        let Some(other) = self.over(sharp, last).filter(|_| is_step(sharp)) else { return false };
+        let Some(other) = self.opposite_face(sharp, last).filter(|_| is_step(sharp)) else { return false };
         let far = match self.across(&BentEdge { edge: sharp, ..*bend }, other) {
             Some((Continuation::Bends(far), _)) => far,
             Some((Continuation::Ends(far), Some((next, _)))) if is_step(next) => far,
@@ -133,7 +133,7 @@ impl SurfaceTracer<'_> {
             let [a, b, c] = self.mesh.triangles[face as usize];
             for [a, b] in [[a, b], [b, c], [c, a]] {
                 let Some(edge) = self.edge([a.min(b), a.max(b)]) else { continue };
-                match self.over(edge, face).filter(|_| self.flat.contains(edge)) {
+                match self.opposite_face(edge, face).filter(|_| self.flat.contains(edge)) {
                     Some(other) if own.contains(&other) => {}
                     Some(_) if own.len() == MAX_FACET_FACES => return None,
                     Some(other) => own.push(other),
@@ -169,7 +169,7 @@ impl SurfaceTracer<'_> {
         let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
         let bends = |edge: usize| {
             let cosine = self.turns.of_two(edge);
-            cosine < again && cosine >= self.most && self.is_convex(edge) == Some(bend.convex)
+            cosine < again && cosine >= self.crease_cosine && self.is_convex(edge) == Some(bend.convex)
         };
         let way = |edge: usize| {
             let [p, q] = ends(edge);
@@ -217,7 +217,7 @@ impl SurfaceTracer<'_> {
                 return None;
             }
             let cosine = self.turns.of_two(edge);
-            if self.hard.is_hard(edge) || cosine < self.most {
+            if self.hard.is_hard(edge) || cosine < self.crease_cosine {
                 return Some((Continuation::Ends(reach), Some((edge, before))));
             }
             if cosine < again {

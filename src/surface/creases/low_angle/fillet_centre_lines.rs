@@ -55,7 +55,7 @@ pub(crate) fn centre_lines(walk: &SurfaceTracer, asked: &[usize], found: &[Centr
             continue;
         }
         let beyond = outside.into_iter().flatten().try_fold(0.0, |beyond, (edge, end)| {
-            lines.beyond(edge, end, beyond, length / MIN_LENGTH_PER_EXTENSION)
+            lines.remaining_length(edge, end, beyond, length / MIN_LENGTH_PER_EXTENSION)
         });
         if beyond.is_some() {
             stays.extend(line.iter().map(|at| found[*at].0));
@@ -71,8 +71,8 @@ struct CentreLines<'a> {
     found: &'a [CentreEdge],
     /// Vertices of the found edges with their indices, sorted; then vertices of all examined edges with their
     /// edges.
-    found_at: Vec<(u32, usize)>,
-    asked_at: Vec<(u32, usize)>,
+    centre_edge_ends: Vec<(u32, usize)>,
+    examined_edge_ends: Vec<(u32, usize)>,
     /// Whether a crease or border ends at each vertex.
     is_on_line: Vec<bool>,
 }
@@ -96,7 +96,7 @@ impl<'a> CentreLines<'a> {
             .flat_map_iter(|edge| edges.vertices[edge])
             .collect();
         of_lines.into_iter().for_each(|v| is_on_line[v as usize] = true);
-        Self { walk, found, found_at, asked_at, is_on_line }
+        Self { walk, found, centre_edge_ends: found_at, examined_edge_ends: asked_at, is_on_line }
     }
 
     /// The other end of an edge.
@@ -118,7 +118,7 @@ impl<'a> CentreLines<'a> {
 
     /// Found edges that end at a vertex, except one edge.
     fn found_at(&self, vertex: u32, edge: usize) -> impl Iterator<Item = usize> {
-        at_vertex(&self.found_at, vertex).filter(move |other| self.found[*other].0 != edge)
+        at_vertex(&self.centre_edge_ends, vertex).filter(move |other| self.found[*other].0 != edge)
     }
 
     /// The found edge that continues an edge at one end: the only one there, if it does not turn away.
@@ -137,7 +137,7 @@ impl<'a> CentreLines<'a> {
 
     /// Length of the fillet after the end of a line, until it meets another line or turns away, added to
     /// `length`. `None` if the sum exceeds `most`.
-    fn beyond(&self, mut edge: usize, mut end: u32, mut length: f64, most: f64) -> Option<f64> {
+    fn remaining_length(&self, mut edge: usize, mut end: u32, mut length: f64, most: f64) -> Option<f64> {
         let convex = self.walk.is_convex(edge);
         let ahead = self.towards(edge, end).normalize_or_zero();
         for _ in 0..MAX_EXTENSION_EDGES {
@@ -148,7 +148,7 @@ impl<'a> CentreLines<'a> {
                 let next = self.towards(other, self.far(other, end));
                 (ahead.dot(next.normalize_or_zero()), other)
             };
-            let next = at_vertex(&self.asked_at, end)
+            let next = at_vertex(&self.examined_edge_ends, end)
                 .filter(|other| *other != edge && self.walk.is_convex(*other) == convex)
                 .map(onward)
                 .max_by(|a, b| a.0.total_cmp(&b.0));

@@ -75,7 +75,7 @@ impl FilletSide {
                 break;
             }
             let cosine = walk.turns.of_two(edge);
-            let next = walk.bend(edge).filter(|_| cosine >= walk.most && !walk.hard.is_hard(edge));
+            let next = walk.bend(edge).filter(|_| cosine >= walk.crease_cosine && !walk.hard.is_hard(edge));
             if next.is_some() && cosine >= again {
                 continue;
             }
@@ -91,7 +91,11 @@ impl FilletSide {
             {
                 break;
             }
-            last = FilletStep { reach: crossing.reach, turned, face: walk.over(edge, crossing.before)? };
+            last = FilletStep {
+                reach: crossing.reach,
+                turned,
+                face: walk.opposite_face(edge, crossing.before)?,
+            };
             side.steps[side.count] = last;
             side.count += 1;
             side.end = f64::INFINITY;

@@ -33,7 +33,7 @@ pub(crate) struct SurfaceTracer<'a> {
     pub flat: &'a EdgeSet,
     pub hard: &'a HardEdges,
     /// Cosine of the crease angle.
-    pub most: f32,
+    pub crease_cosine: f32,
     /// For each vertex, its first edge in the edge table: edges are sorted by their smaller vertex.
     first: Vec<u32>,
 }
@@ -54,7 +54,7 @@ impl<'a> SurfaceTracer<'a> {
         for v in 1..first.len() {
             first[v] += first[v - 1];
         }
-        Self { mesh, turns, flat, hard, most, first }
+        Self { mesh, turns, flat, hard, crease_cosine: most, first }
     }
 
     /// The edge between two vertices in ascending order.
@@ -66,7 +66,7 @@ impl<'a> SurfaceTracer<'a> {
     }
 
     /// The face across an edge, if the edge has two consistently wound faces.
-    pub fn over(&self, edge: usize, face: u32) -> Option<u32> {
+    pub fn opposite_face(&self, edge: usize, face: u32) -> Option<u32> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
             _ => None,

@@ -30,7 +30,7 @@ pub fn polyline_chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     let samples: Vec<Sample> = (0..=last).map(|i| Sample::new(depth(i), 1.0)).collect();
     let mut chain = Chain {
         identity: 0,
-        places: Arc::default(),
+        rest_cells: Arc::default(),
         points,
         samples,
         closed,

@@ -162,7 +162,7 @@ pub fn count_contour_ends(map: &ViewMap) -> ContourEndCounts {
     let mut tally = ContourEndCounts {
         views: 1,
         curves: map.contours.curves,
-        mesh_contours: map.contours.bare,
+        mesh_contours: map.contours.unmatched,
         ..ContourEndCounts::default()
     };
     let place = |v: u32| map.vertices[v as usize].position;
