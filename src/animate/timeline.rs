@@ -97,7 +97,7 @@ impl Timeline {
         frame - frame % self.hold
     }
 
-    /// Number of frames that show the drawing of frame `drawn_frames`; fewer than the hold at the end of the film.
+    /// Number of frames that show the drawing of frame `drawn`; fewer than the hold at the end of the film.
     #[must_use]
     pub fn repeat_count(&self, drawn: usize) -> usize {
         self.hold.min(self.frames.saturating_sub(drawn))

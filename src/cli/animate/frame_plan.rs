@@ -141,7 +141,7 @@ impl FramePlan {
 }
 
 impl FrameSchedule {
-    /// Drawing `by` drawings after (negative: before) the one at frame `drawn_frames`; none outside the animation. A
+    /// Drawing `by` drawings after (negative: before) the one at frame `drawn`; none outside the animation. A
     /// turntable without other animation wraps around.
     pub(crate) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
         let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn_frames().count());

@@ -253,7 +253,7 @@ impl ContourPieces {
         }
     }
 
-    /// Adds a hidden range of a run, with the kinds of its ends. `matched` gives the number of surfaces in
+    /// Adds a hidden range of a run, with the kinds of its ends. `told` gives the number of surfaces in
     /// front.
     fn hide(
         &mut self,

@@ -25,7 +25,7 @@ const MIN_LENGTH_PER_DISTANCE: f64 = 8.0;
 /// Lines per task of the grid traversal.
 const LINES_PER_TASK: usize = 1 << 11;
 
-/// Removes the parts of visible edges that lie within `max_distance` (user units) of a stronger visible edge.
+/// Removes the parts of visible edges that lie within `within` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
 pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) {

@@ -86,7 +86,7 @@ fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Optio
     number.map(Some).map_err(wrong)
 }
 
-/// Shard of this task among `count` tasks; `None` outside a job array. Slurm must number its tasks from 1;
+/// Shard of this task among `of` tasks; `None` outside a job array. Slurm must number its tasks from 1;
 /// Kubernetes numbers them from 0.
 fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let slurm = number("SLURM_ARRAY_TASK_ID", variable)?.map(|id| ("SLURM_ARRAY_TASK_ID", id, 1));

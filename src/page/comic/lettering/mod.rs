@@ -276,7 +276,7 @@ impl<'a> Lettering<'a> {
         BALLOON_ASPECTS.into_iter().map(set).collect()
     }
 
-    /// The marks of the placed balloons and their letters. `part_bounds` is parallel to `balloons`.
+    /// The marks of the placed balloons and their letters. `places` is parallel to `balloons`.
     fn painted(
         &self,
         balloons: &[Vec<Balloon>],

@@ -56,7 +56,7 @@ impl PlacedView {
 }
 
 impl PlacedView {
-    /// Extra margins if a model unit is `mm_per_unit` mm long on paper: left, above, right, below.
+    /// Extra margins if a model unit is `unit` mm long on paper: left, above, right, below.
     ///
     /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
     /// the margins found last.

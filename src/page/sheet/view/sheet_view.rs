@@ -75,7 +75,7 @@ impl SheetView {
         self.camera.axes()
     }
 
-    /// Width and height on paper if a model unit is `mm_per_unit` mm long.
+    /// Width and height on paper if a model unit is `unit` mm long.
     pub fn size(&self, unit: f64) -> [f64; 2] {
         let size = (self.high - self.low) * unit;
         [size.x, size.y]
