@@ -20,7 +20,7 @@
 //! let page = Page { width: 300.0, height: 300.0, unit: Unit::Px, background: None };
 //! let style = Style::default();
 //! let mut animator = Animator::new(&crane, &style);
-//! for frame in timeline.drawn() {
+//! for frame in timeline.drawn_frames() {
 //!     let playing = vec![Playing::all(0, timeline.time(frame))];
 //!     let drawing = animator.step(&FrameSpec { playing, camera, page })?;
 //!     assert!(!drawing.layers.is_empty());

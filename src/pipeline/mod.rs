@@ -56,12 +56,12 @@ use crate::style::Style;
 /// Draws a scene on a page in px with the size of the camera's frame.
 ///
 /// ```no_run
-/// use ligne::{render, scene::{Camera, Scene}, style::Style};
+/// use ligne::{pipeline, scene::{Camera, Scene}, style::Style};
 ///
 /// let scene = Scene::open("gear.obj")?;
 /// let camera = Camera::three_quarter().fit(&scene);
 /// let style = Style::preset("ink").unwrap_or_default();
-/// let drawing = render::render(&scene, &camera, &style)?;
+/// let drawing = pipeline::render(&scene, &camera, &style)?;
 /// drawing.warnings.iter().for_each(|warning| eprintln!("{warning}"));
 /// println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
 /// # Ok::<(), ligne::Error>(())

@@ -1,13 +1,13 @@
 //! PDF files of pages with several drawings, for screens, presses and archives.
 //!
 //! ```
-//! use ligne::drawing::{Composition, Drawing, Item, Page, Unit};
+//! use ligne::drawing::{Composition, Drawing, Page, PlacedDrawing, Unit};
 //! use ligne::export::{Inks, PdfOptions, to_pdf};
 //! use ligne::kurbo::Affine;
 //!
 //! let page = Page { width: 80.0, height: 60.0, unit: Unit::Mm, background: None };
 //! let drawing = Drawing::new("panel", page, Vec::new());
-//! let item = Item { name: "panel-1".to_owned(), drawing, place: Affine::IDENTITY, clip: None };
+//! let item = PlacedDrawing { name: "panel-1".to_owned(), drawing, place: Affine::IDENTITY, clip: None };
 //! let options = PdfOptions::default().with_inks(Inks::K).with_marks();
 //! let bytes = to_pdf(&[Composition::new("a page", page, vec![item])], &options)?;
 //! assert!(bytes.starts_with(b"%PDF"));

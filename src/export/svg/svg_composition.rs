@@ -16,12 +16,12 @@ impl Composition {
     /// same page gives the same bytes.
     ///
     /// ```
-    /// use ligne::drawing::{Composition, Drawing, Item, Page, Unit};
+    /// use ligne::drawing::{Composition, Drawing, Page, PlacedDrawing, Unit};
     /// use ligne::kurbo::Affine;
     ///
     /// let page = Page { width: 50.0, height: 50.0, unit: Unit::Mm, background: None };
     /// let drawing = Drawing::new("", page, Vec::new());
-    /// let item = Item { name: "left".into(), drawing, place: Affine::translate((5.0, 0.0)), clip: None };
+    /// let item = PlacedDrawing { name: "left".into(), drawing, place: Affine::translate((5.0, 0.0)), clip: None };
     /// let svg = Composition::new("two", page, vec![item]).to_svg(&Default::default());
     /// assert!(svg.contains(r#"<g id="left" inkscape:groupmode="layer" inkscape:label="left" transform="translate(5)""#));
     /// ```

@@ -43,13 +43,13 @@ impl QuantizationLattice {
     ///
     /// ```
     /// use glam::DVec3;
-    /// use ligne::mesh::quantization::Lattice;
+    /// use ligne::mesh::quantization::QuantizationLattice;
     ///
     /// let on = |i: u32| DVec3::new(f64::from(i * 7 % 1024), f64::from(i * 5 % 256), 3.0) / 1023.0;
     /// let vertices: Vec<DVec3> = (0..1024).map(on).collect();
-    /// assert!((Lattice::of(&vertices).expect("ten bits").step() - 1.0 / 1023.0).abs() < 1e-12);
+    /// assert!((QuantizationLattice::of(&vertices).expect("ten bits").step() - 1.0 / 1023.0).abs() < 1e-12);
     /// let off: Vec<DVec3> = vertices.iter().map(|p| *p * p.x).collect();
-    /// assert_eq!(Lattice::of(&off), None);
+    /// assert_eq!(QuantizationLattice::of(&off), None);
     /// ```
     #[must_use]
     pub fn of(vertices: &[DVec3]) -> Option<Self> {

@@ -49,13 +49,13 @@ fn one_tone(style: &Style) -> Style {
 ///
 /// ```
 /// use ligne::drawing::{Page, Unit};
-/// use ligne::{Camera, Scene, Style, render};
+/// use ligne::{Camera, Scene, Style, pipeline};
 ///
 /// let scene = Scene::open("examples/models/gear.obj")?;
 /// let camera = Camera::three_quarter().fit(&scene);
 /// let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-/// let mut drawing = render::render(&scene, &camera, &Style::default())?;
-/// drawing.hotspots = render::hotspots(&scene, &camera, page, &Style::default())?;
+/// let mut drawing = pipeline::render(&scene, &camera, &Style::default())?;
+/// drawing.hotspots = pipeline::hotspots(&scene, &camera, page, &Style::default())?;
 /// assert!(drawing.to_svg(&Default::default()).contains("pointer-events=\"all\""));
 /// # Ok::<(), ligne::Error>(())
 /// ```

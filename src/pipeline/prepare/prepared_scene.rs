@@ -20,7 +20,7 @@ use crate::surface::Patches;
 /// Scene prepared for a style: everything that its views share.
 ///
 /// ```no_run
-/// use ligne::{drawing::{Page, Unit}, render::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
+/// use ligne::{drawing::{Page, Unit}, pipeline::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
 ///
 /// let scene = Scene::open("gear.obj")?;
 /// let style = Style::preset("toon").unwrap_or_default();
