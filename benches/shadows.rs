@@ -12,10 +12,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DVec3;
+use ligne::light::Caster;
 use ligne::light::ambient_visibility;
 use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
-use ligne::shadows::{Caster, Shadows};
+use ligne::shadows::Shadows;
 
 const SHARED: [&str; 7] = [
     "cad/drive.glb",

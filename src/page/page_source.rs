@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::model_reader::ModelReader;
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::style::sheet_errors;
 use crate::style::toml_reader::TomlFault;
 
@@ -61,7 +62,7 @@ impl PageSource {
     /// An error about an unknown word; it names the nearest known word or all of them.
     #[must_use]
     pub fn unknown(&self, word: &Spanned<String>, what: &str, known: &[&str]) -> Error {
-        let advice = match sheet_errors::nearest(word.get_ref(), known) {
+        let advice = match nearest(word.get_ref(), known) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("there are {}", known.join(", ")),
         };

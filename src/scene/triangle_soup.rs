@@ -6,7 +6,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::{Geometry, Paints, Part, Scene};
 use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::scene::cameras::framing::{bounds, world_points};
+use crate::scene::cameras::framing::world_points;
+use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
 const NO_INDEX: u32 = u32::MAX;

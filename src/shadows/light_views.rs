@@ -3,8 +3,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::Caster;
 use crate::geometry::numbers::portable_math::atan2;
+use crate::light::Caster;
 use crate::mesh::Mesh;
 use crate::scene::{Camera, Projection};
 use crate::view::View;

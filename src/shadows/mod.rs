@@ -26,7 +26,7 @@ mod upper_envelope;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-pub use crate::light::Caster;
+use crate::light::Caster;
 pub use shadow_lines::{ShadowLines, ShadowSegment};
 
 use crate::lines::Surface;

@@ -3,9 +3,9 @@
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::Caster;
 use super::face_orientation::FaceOrientation;
 use super::light_views::LightView;
+use crate::light::Caster;
 use crate::mesh::{FaceId, Mesh};
 use crate::visibility::front_faces;
 

@@ -26,7 +26,6 @@ use std::sync::Arc;
 use crate::parallel::prelude::*;
 use kurbo::BezPath;
 
-pub use crate::geometry::names::glob::Glob;
 pub use brushes::brush::{Brush, BrushShape, TurnShapes};
 pub use brushes::brush_source::{BrushChange, BrushSource, PictureInside, ShapeSource, TurnSources};
 pub use brushes::brush_strip::BrushStrip;

@@ -18,8 +18,6 @@ use crate::error::nearest::distance;
 use crate::error::spelling::british;
 use crate::style::keys::advice::{alternatives, ending, listed, write_value};
 
-pub(crate) use crate::error::nearest::nearest;
-
 /// Longest line that is shown in full, characters.
 const MAX_SHOWN_CHARACTERS: usize = 120;
 

@@ -9,9 +9,10 @@ use toml::{Table, Value};
 
 use super::Style;
 use super::key_spelling::to_british;
-use super::sheet_errors::{self, nearest};
+use super::sheet_errors;
 use super::toml_reader::{self, TomlFault};
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::style::files::artist_file::{place_artist_textures, read_artist_textures};
 use crate::style::files::brush_file::place_brushes;
 use crate::style::files::picture_file::place_paper;

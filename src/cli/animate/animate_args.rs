@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::draw::contact_sheet::MomentSheetArgs;
+use crate::cli::options::contact_sheet_args::MomentSheetArgs;
 use crate::cli::options::draw_args::HowArgs;
 use crate::cli::options::values::shard::ShardSpec;
 

@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::error::spelling::british;
 use crate::style::{self, Style, sheet_errors};
 
@@ -64,7 +65,7 @@ impl TomlFile {
     /// Error about an unknown key.
     pub(crate) fn unknown(&self, key: &Spanned<impl AsRef<str>>, known: &[&str]) -> Error {
         let word = key.get_ref().as_ref();
-        let advice = match sheet_errors::nearest(word, known) {
+        let advice = match nearest(word, known) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("known keys: {}", known.join(", ")),
         };
@@ -247,7 +248,7 @@ pub(crate) fn option_fault(
                 Some(ContextValue::Strings(known)) => known.iter().map(String::as_str).collect(),
                 _ => Vec::new(),
             };
-            let advice = match sheet_errors::nearest(shown, &known) {
+            let advice = match nearest(shown, &known) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if known.is_empty() => None,
                 None => Some(format!("known values: {}", known.join(", "))),

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::options::step_args::StepArgs;
 use crate::cli::options::values::model_unit::ModelUnit;
-use crate::cli::step::StepArgs;
 
 /// Options of `ligne info`.
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use crate::animation::Rig;
 use crate::cli::library_calls;
 use crate::cli::options::values::model_unit::{self, ModelUnit};
 use crate::cli::request::model_hints;
-use crate::scene::cameras::framing::bounds;
+use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::{DrawnPoints, used_points};
 use crate::scene::{Geometry, Scene, UpAxis};
 

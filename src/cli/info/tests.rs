@@ -6,7 +6,7 @@ use super::info_args::InfoArgs;
 use super::model_contents::ModelInfo;
 use crate::animation::rig::{Node, Placement, Skin};
 use crate::animation::{AnimationTarget, Clip, ClipChannel, Interpolation, NodeProperty, Rig, Track};
-use crate::cli::step::StepArgs;
+use crate::cli::options::step_args::StepArgs;
 use crate::scene::{Geometry, Material, Part, Scene};
 
 fn scene(parts: usize) -> Scene {

@@ -7,7 +7,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 use super::command_reference;
 use super::conventions::{EXIT_STATUS, FILES, environment};
 use crate::error::Error;
-use crate::style::sheet_errors::nearest;
+use crate::error::nearest::nearest;
 
 /// Options of `ligne man`.
 #[derive(Debug, Args)]

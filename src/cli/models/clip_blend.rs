@@ -2,8 +2,8 @@
 
 use crate::animation::{Clip, Playing};
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::geometry::names::glob::Glob;
-use crate::style::sheet_errors::nearest;
 
 /// Maximum number of clip names in a message.
 const MAX_SHOWN_CLIPS: usize = 12;

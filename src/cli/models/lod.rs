@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::number_text::{bytes as size, counted, grouped};
 use crate::cli::output::output_files::{Staging, check_place};
 use crate::cli::request::draw_request::same_file;
 use crate::cli::say;
-use crate::cli::step::{StepArgs, open_scene};
+use crate::cli::step::open_scene;
 use crate::edit::simplify::Detail;
 use crate::error::Error;
 use crate::pipeline::Stopwatch;

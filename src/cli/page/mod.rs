@@ -16,8 +16,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
 use super::output::number_text;
-use super::step::{StepArgs, open_other};
+use super::step::open_other;
 use super::{library_calls, print, say};
+use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::numbered_files::NumberedFiles;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;

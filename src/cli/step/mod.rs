@@ -21,7 +21,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use self::conversion_cache::{ConversionCache, ConversionKey};
 use self::converter::{ConversionResult, candidates};
 use crate::animation::Rigged;
-pub(crate) use crate::cli::options::step_args::StepArgs;
+use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::file_stamp::stamp;
 use crate::error::{Error, ErrorKind};
 use crate::load::ModelFormat;

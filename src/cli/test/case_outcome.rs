@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::test_case::{CaseSettings, CaseSubject, TestCase};
 use crate::cli::draw::model_drawing;
-use crate::cli::step::{StepArgs, open_other};
+use crate::cli::options::step_args::StepArgs;
+use crate::cli::step::open_other;
 use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
 use crate::error::Error;
 use crate::export::SvgOptions;

@@ -27,11 +27,9 @@ pub(crate) use self::invisible_findings::without_picture;
 use self::pixel_comparison::FineComparison;
 use super::tolerances::{MAX_PICTURE_MATCH_PX, MIN_PICTURE_DIFFERENCE_PX};
 use crate::diff::findings::finding::Finding;
-pub(crate) use crate::diff::read::unsupported_features::unread;
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::Picture;
-pub(crate) use crate::diff::shapes::render_tree::RenderTree;
 
 /// Most pixels rasterised in close inspection, for each of its two uses.
 const MAX_CLOSE_PIXELS: usize = 64_000_000;

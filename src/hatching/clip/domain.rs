@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use kurbo::Point;
 
 use crate::regions::HatchRegions;
-use crate::regions::hatch_regions::hatch_map::BorderPiece;
+use crate::regions::hatch_regions::border_piece::BorderPiece;
 
 /// Stands for no domain: paper, and cells that stay blank.
 pub(crate) const NO_DOMAIN: u32 = u32::MAX;

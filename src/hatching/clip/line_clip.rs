@@ -126,7 +126,8 @@ pub(crate) mod tests {
     use super::*;
     use crate::mesh::{MaterialId, PaintId, PartId};
     use crate::regions::SurfaceLabel;
-    use crate::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
+    use crate::regions::hatch_regions::border_piece::BorderPiece;
+    use crate::regions::hatch_regions::hatch_map::HatchCell;
 
     /// Two squares of side 10 side by side from (0, 0), in bins 0 and 1, on one facet or on two.
     pub fn two_squares(parts_surfaces: bool) -> HatchRegions {

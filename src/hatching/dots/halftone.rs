@@ -17,7 +17,7 @@ use crate::hatching::clip::disc::Disc;
 use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border, nearest};
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
-use crate::regions::hatch_regions::hatch_map::PAPER;
+use crate::regions::hatch_regions::border_piece::PAPER;
 
 /// Half-tone screen of dots. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]

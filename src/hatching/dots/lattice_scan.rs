@@ -10,7 +10,7 @@ use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
-use crate::regions::hatch_regions::hatch_map::PAPER;
+use crate::regions::hatch_regions::border_piece::PAPER;
 
 /// Square lattice, rotated and placed on the page.
 #[derive(Debug, Clone, Copy)]
@@ -137,7 +137,8 @@ mod tests {
     use crate::geometry::numbers::noise::{hash, unit_interval};
     use crate::mesh::{MaterialId, PaintId, PartId};
     use crate::regions::SurfaceLabel;
-    use crate::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
+    use crate::regions::hatch_regions::border_piece::BorderPiece;
+    use crate::regions::hatch_regions::hatch_map::HatchCell;
 
     const CELL: HatchCell = HatchCell {
         look: SurfaceLabel {

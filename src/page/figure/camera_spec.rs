@@ -16,12 +16,12 @@ use toml::Spanned;
 
 use super::part_bounds::{name_matches, part_points};
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 use crate::page::page_source::PageSource;
 use crate::scene::cameras::framing::{FRAME_MARGIN, world_points};
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 use crate::scene::{Camera, NamedView, Projection, Scene, UpAxis};
-use crate::style::sheet_errors;
 
 /// Share of the height that a bust shows.
 const BUST_HEIGHT_SHARE: f64 = 0.42;
@@ -184,7 +184,7 @@ fn named_camera(name: &Spanned<String>, scene: &Scene, source: &PageSource) -> R
     }
     let cameras = scene.cameras.iter().map(|camera| camera.name.as_str());
     let known: Vec<&str> = cameras.chain(NamedView::ALL.map(NamedView::name)).collect();
-    let advice = match sheet_errors::nearest(name.get_ref(), &known) {
+    let advice = match nearest(name.get_ref(), &known) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("there are {}; or name a camera record, FILE.json", known.join(", ")),
     };
@@ -233,8 +233,7 @@ fn fit_camera(
 pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &PageSource) -> Error {
     let mut known: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
     known.dedup();
-    let near =
-        sheet_errors::nearest(glob.get_ref(), &known).filter(|near| !name_matches(glob.get_ref(), near));
+    let near = nearest(glob.get_ref(), &known).filter(|near| !name_matches(glob.get_ref(), near));
     known.truncate(12);
     let advice = match near {
         Some(near) => format!("did you mean `{near}`?"),

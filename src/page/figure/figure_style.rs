@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use toml::Spanned;
 
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::page::page_source::PageSource;
-use crate::style::{Style, placed_change, sheet_errors, unitless_length_warning};
+use crate::style::{Style, placed_change, unitless_length_warning};
 
 /// Loads a style by name or file, relative to the page file, and applies changes (`KEY=VALUE` each).
 ///
@@ -17,7 +18,7 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSour
     let sheet = match style_file(name, source) {
         None => name.get_ref().clone(),
         Some(_) if !name.get_ref().ends_with(".toml") => {
-            let advice = match sheet_errors::nearest(name.get_ref(), &known) {
+            let advice = match nearest(name.get_ref(), &known) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
                     format!("built-in styles: {}; or name a sheet's file, such as my.toml", known.join(", "))

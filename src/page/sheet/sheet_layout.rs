@@ -7,13 +7,14 @@
 use glam::DVec2;
 use kurbo::{Point, Rect};
 
-use super::annotations::{AnnotationBoard, Annotations, ViewDrawings};
+use super::annotations::{Annotations, ViewDrawings};
 use crate::drawing::PlacedDrawing;
 use crate::error::Error;
 use crate::mesh::Mesh;
 use crate::page::page_source::PageSource;
 use crate::page::sheet::arrangement::view_arrangement::{PlacedView, arrange_views};
 use crate::page::sheet::arrangement::view_plan::{ViewPlan, read_scale};
+use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
 use crate::page::sheet::dimensions::dimension_set::DimensionSet;
 use crate::page::sheet::dimensions::hole_dimensions::{HoleDimension, find_hole_dimensions, whole_cylinders};
 use crate::page::sheet::dimensions::requested_dimensions::add_requested;

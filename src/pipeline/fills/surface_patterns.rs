@@ -11,7 +11,8 @@ use crate::lines::Lit;
 use crate::mesh::{FaceId, Mesh};
 use crate::pipeline::tolerances;
 use crate::regions::HatchRegions;
-use crate::regions::surface_curves::decals::{Chart, Figure, MAX_FIGURES, count, decals};
+use crate::regions::surface_curves::decals::{Figure, MAX_FIGURES, count, decals};
+use crate::regions::surface_curves::surface_chart::Chart;
 use crate::scene::{Scene, UpAxis};
 use crate::view::{Frame, View};
 

@@ -10,6 +10,6 @@
 //! exact tests in integers; [`grid_tiles`] only for speed: segments by the tiles they touch.
 
 pub(crate) mod border_simplification;
-mod grid_tiles;
+pub(crate) mod grid_tiles;
 mod segment_crossing;
 pub(crate) mod snap_rounding;

@@ -11,7 +11,7 @@
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
-pub(crate) use super::grid_tiles::GridPoint;
+use super::grid_tiles::GridPoint;
 use super::grid_tiles::GridTiles;
 use super::segment_crossing::{TilePiece, box_distance2, dot, foot};
 

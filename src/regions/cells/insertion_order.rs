@@ -5,7 +5,7 @@ use crate::parallel::prelude::*;
 use crate::geometry::numbers::noise::hash;
 use crate::mesh::order::morton_curve::spread;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::regions::arrangement::snap_rounding::GridPoint;
+use crate::regions::arrangement::grid_tiles::GridPoint;
 
 /// Bits per coordinate in a Morton code.
 const MAX_COORDINATE_BITS: u32 = 21;

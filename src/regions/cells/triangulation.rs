@@ -8,7 +8,8 @@ use spade::handles::{FixedFaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
 use super::insertion_order::insertion_order;
-use crate::regions::arrangement::snap_rounding::{Border, GridPoint, Noded};
+use crate::regions::arrangement::grid_tiles::GridPoint;
+use crate::regions::arrangement::snap_rounding::{Border, Noded};
 
 /// Entry of [`Triangulation::neighbours`] outside the page.
 pub(crate) const OUTSIDE: u32 = u32::MAX;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use kurbo::{Point, Vec2};
 
-pub use super::border_piece::{BorderPiece, PAPER};
+use super::border_piece::{BorderPiece, PAPER};
 
 use super::piece_tiles::BorderPieceTiles;
 use crate::drawing::{Length, Unit};

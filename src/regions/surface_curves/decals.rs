@@ -14,12 +14,12 @@ use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 
 use super::level_curves::are_visible;
-pub use super::surface_chart::Chart;
+use super::surface_chart::Chart;
 use super::surface_chart::Walker;
 use crate::lines::{Lit, shows_inside};
 use crate::mesh::{FaceId, Mesh};
 use crate::regions::HatchRegions;
-use crate::regions::hatch_regions::hatch_map::PAPER;
+use crate::regions::hatch_regions::border_piece::PAPER;
 
 /// Figure that is repeated on the plane.
 #[derive(Debug, Clone, Default, PartialEq)]

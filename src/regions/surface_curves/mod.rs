@@ -9,4 +9,4 @@
 
 pub mod decals;
 pub mod level_curves;
-mod surface_chart;
+pub(crate) mod surface_chart;

@@ -10,7 +10,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::tan;
-pub use crate::scene::extent::coordinate_limits::bounds;
+use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::tolerances;
 use crate::scene::{Camera, Projection, Scene};

@@ -9,5 +9,5 @@
 //! (step 4).
 
 mod coaxial_rims;
-mod cylinder;
+pub mod cylinder;
 pub mod strip_cylinders;

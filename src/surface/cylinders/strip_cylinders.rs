@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::coaxial_rims::rims;
-pub use super::cylinder::Cylinder;
+use super::cylinder::Cylinder;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh, PartId};

@@ -10,10 +10,11 @@ use crate::support::scenes::random_scenes;
 use crate::support::scenes::round_solids;
 use crate::support::scenes::solids::{Solid, cuboid, torus};
 use glam::DVec3;
+use ligne::light::Caster;
 use ligne::lines::{FeatureLines, LineKind, NO_FACE};
 use ligne::mesh::Mesh;
 use ligne::scene::Scene;
-use ligne::shadows::{Caster, Shadows};
+use ligne::shadows::Shadows;
 
 fn mesh(solids: impl IntoIterator<Item = Solid>) -> Mesh {
     Mesh::build(scene(solids).to_soup())

@@ -19,7 +19,6 @@ pub(crate) use self::style_grid_args::StyleSheetArgs;
 pub(crate) use self::view_grid::run as of_views;
 use super::model_drawing;
 use super::model_drawing::EncodedDrawing;
-pub(crate) use crate::cli::options::contact_sheet_args::{MomentSheetArgs, ViewSheetArgs};
 use crate::cli::options::values::paper_size::PaperSize;
 use crate::cli::output::number_text;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place};

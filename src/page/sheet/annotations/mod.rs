@@ -27,7 +27,7 @@ mod view_drawings;
 use glam::DVec2;
 use kurbo::{Point, Rect, Vec2};
 
-pub(crate) use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
+use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
 pub(crate) use view_drawings::ViewDrawings;
 
 use super::arrangement::titles_and_notes;

@@ -11,7 +11,7 @@ use kurbo::{Point, Rect};
 
 use super::free_rectangles::FreeRectangles;
 use crate::geometry::numbers::portable_math::ln;
-use crate::page::sheet::annotations::AnnotationBoard;
+use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
 use crate::page::sheet::view::projection_method::ProjectionMethod;
 use crate::page::sheet::view::scale_series::STANDARD_SCALES;
 use crate::page::sheet::view::sheet_view::SheetView;

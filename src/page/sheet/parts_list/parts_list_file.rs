@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::parts_list_items::PartsListItem;
 use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 use crate::style::{sheet_errors, toml_reader};
@@ -115,7 +116,7 @@ fn rows_of_csv(text: &str) -> Result<Vec<(String, FileRow)>, Error> {
         let key = CSV_HEADINGS.iter().position(|names| names.contains(&word.as_str()));
         let known = CSV_HEADINGS.map(|names| names[0]);
         columns.push(key.ok_or_else(|| {
-            let near = sheet_errors::nearest(&word, &known).map(|near| format!("did you mean `{near}`?"));
+            let near = nearest(&word, &known).map(|near| format!("did you mean `{near}`?"));
             Error::new(format!("there is no column `{}`", heading.trim()))
                 .at("line 1")
                 .remedy(near.unwrap_or_else(|| format!("there are {}", known.join(", "))))

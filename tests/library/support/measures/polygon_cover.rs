@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use kurbo::{BezPath, PathEl, Point};
 use ligne::mesh::{MaterialId, PaintId, PartId};
-use ligne::regions::hatch_regions::hatch_map::{BorderPiece, HatchCell};
+use ligne::regions::hatch_regions::border_piece::BorderPiece;
+use ligne::regions::hatch_regions::hatch_map::HatchCell;
 use ligne::regions::{HatchRegions, SurfaceLabel};
 
 /// Hatch regions whose cells are polygons, given as facet number and corners.

@@ -1,8 +1,9 @@
 //! Reference for cast shadows: one ray from each point through every triangle.
 
 use glam::DVec3;
+use ligne::light::Caster;
 use ligne::mesh::{FaceId, Mesh};
-use ligne::shadows::{Caster, Shadows};
+use ligne::shadows::Shadows;
 
 use crate::support::scenes::random_dice::Dice;
 
