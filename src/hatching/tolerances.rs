@@ -40,9 +40,10 @@ pub(crate) const MIN_STROKE_LENGTH_UNITS: f64 = 1e-6;
 /// change the direction where any weight is larger.
 pub(crate) const MIN_SAMPLE_WEIGHT: f64 = 1e-9;
 
-/// Smallest and largest ratio of height to width of a pattern tile. Not a tolerance, but the range of valid
-/// input.
+/// Minimum ratio of height to width of a pattern tile. Not a tolerance, but the range of valid input.
 pub(crate) const MIN_TILE_ASPECT: f64 = 1e-3;
+
+/// Maximum ratio of height to width of a pattern tile.
 pub(crate) const MAX_TILE_ASPECT: f64 = 1e3;
 
 /// Distance from the middle of a ring's side to the points that are tested for being inside the ring, as a

@@ -57,9 +57,15 @@ pub const MAX_FACET_DEG: f64 = 40.0;
 /// Planes at an angle with this sine or less are parallel and have no common line.
 pub const PARALLEL_SINE: f64 = 1e-9;
 
+/// A face within this sine of the view direction is edge-on and counts as averted.
+///
+/// A face as wide as a picture of 1000 px is then narrower than 0.003 px. Errors of single-precision cameras
+/// are smaller.
+pub const EDGE_ON_SINE: f64 = 3e-6;
+
 /// A plane may be edge-on if its distance from the eye is at most this fraction of their maximum distance:
-/// twice [`EDGE_ON_SINE`](crate::view::tolerances::EDGE_ON_SINE), to allow for rounding.
-pub const EDGE_ON_PLANE_OF_REACH: f64 = 2.0 * crate::view::tolerances::EDGE_ON_SINE;
+/// twice [`EDGE_ON_SINE`], to allow for rounding.
+pub const EDGE_ON_PLANE_OF_REACH: f64 = 2.0 * EDGE_ON_SINE;
 
 /// A file's polygon that turns by more than this (degrees) at a diagonal is folded there and may have a
 /// crease; otherwise it is a curved surface. Equal to the default of `lines.crease_deg`.

@@ -30,7 +30,7 @@ use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-pub use crate::assert_drawing;
+pub use super::assert_drawing;
 
 /// Environment variable that approves changed drawings.
 pub const BLESS: &str = "LIGNE_BLESS";

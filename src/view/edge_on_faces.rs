@@ -1,7 +1,7 @@
 //! Facing, averted and edge-on faces, decided once for all faces of a plane.
 //!
 //! 1. A face is edge-on if the sine of the angle between its plane and the line of sight is below
-//!    [`EDGE_ON_SINE`](tolerances::EDGE_ON_SINE). No part of it can be seen.
+//!    [`EDGE_ON_SINE`](crate::mesh::tolerances::EDGE_ON_SINE). No part of it can be seen.
 //! 2. Rounding turns a face by up to the rounding error divided by the face's height. Where the angle is
 //!    smaller than that, the face is *unsure*.
 //! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::normals::normal_carriers)) are decided together. They
@@ -12,6 +12,7 @@
 //! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact, because their corners
 //! were not rounded.
 
+use crate::mesh::tolerances::EDGE_ON_SINE;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -101,6 +102,6 @@ fn is_unsure(frame: &Frame, &[a, b, c]: &[DVec3; 3], rounding: f64) -> bool {
         return false;
     }
     let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
-    let least = tolerances::EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
+    let least = EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
     away * away <= least * least * far
 }

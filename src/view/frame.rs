@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::tolerances;
 use crate::geometry::numbers::portable_math::tan;
+use crate::mesh::tolerances::EDGE_ON_SINE;
 use crate::scene::{Camera, Projection};
 
 /// Camera relative to the origin of a mesh, ready to project.
@@ -202,14 +202,14 @@ impl Frame {
 
     /// Whether the triangle a, b, c turns its outside (counter-clockwise) to the eye.
     ///
-    /// Edge-on faces, within [`tolerances::EDGE_ON_SINE`], count as averted.
+    /// Edge-on faces, within [`EDGE_ON_SINE`], count as averted.
     #[inline]
     #[must_use]
     pub fn faces_eye(&self, a: DVec3, b: DVec3, c: DVec3) -> bool {
         let normal = (b - a).cross(c - a);
         let to_eye = if self.perspective { self.eye - a } else { -self.forward };
         let d = normal.dot(to_eye);
-        let limit = tolerances::EDGE_ON_SINE * tolerances::EDGE_ON_SINE;
+        let limit = EDGE_ON_SINE * EDGE_ON_SINE;
         d > 0.0 && d * d > limit * normal.length_squared() * to_eye.length_squared()
     }
 }

@@ -113,6 +113,29 @@ fn imports_point_down_the_list_of_areas() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// A type has one address: a file exports names of its own children only.
+#[test]
+fn files_export_only_names_of_their_children() {
+    let mut faults = Vec::new();
+    let mut exports = 0;
+    for source in sources().iter().filter(|s| !s.is_test()) {
+        for (number, line) in source.code() {
+            let Some((_, path)) = line.split_once("use ").filter(|(before, _)| before.starts_with("pub"))
+            else {
+                continue;
+            };
+            exports += 1;
+            // A macro belongs to the root of the crate.
+            let is_macro = path.starts_with("super::assert_drawing");
+            if (path.starts_with("crate::") || path.starts_with("super::")) && !is_macro {
+                faults.push(format!("{}:{number}: {}", source.name(), line.trim()));
+            }
+        }
+    }
+    assert!(exports > 100, "{exports} exports");
+    assert!(faults.is_empty(), "second addresses:\n{}", faults.join("\n"));
+}
+
 /// Circles among the files of a crate, each as its paths.
 fn circles_among(files: &[File]) -> Vec<String> {
     import_cycles(&import_graph(files)).into_iter().map(|circle| circle.join(" > ")).collect()
