@@ -104,7 +104,7 @@ mod tests {
 
     /// Simulates frames on a machine with the given speed in faces per millisecond, with some variation.
     /// Returns faces and times.
-    fn run(budget: &mut Budget, frames: u64, speed: impl Fn(u64) -> f64) -> Vec<(u64, f64)> {
+    fn simulate_frames(budget: &mut Budget, frames: u64, speed: impl Fn(u64) -> f64) -> Vec<(u64, f64)> {
         let frame = |number: u64| {
             let faces = budget.faces();
             let ms = faces as f64 / speed(number) * (0.85 + 0.3 * unit_interval(hash(1, &[number])));
@@ -115,10 +115,10 @@ mod tests {
     }
 
     #[test]
-    fn frames_come_to_take_what_they_may_and_levels_last() {
+    fn budget_settles_within_the_frame_time_and_rarely_changes_level() {
         for speed in [20.0, 400.0, 3000.0] {
             let mut budget = Budget::new(33.0, 200_000);
-            let frames = run(&mut budget, 400, |_| speed);
+            let frames = simulate_frames(&mut budget, 400, |_| speed);
             let late = &frames[60..];
             assert!(late.iter().all(|(_, ms)| *ms <= 33.0), "{speed}");
             let wanted = (speed * 33.0 * 0.3).min(200_000.0);
@@ -129,16 +129,21 @@ mod tests {
     }
 
     #[test]
-    fn a_machine_that_slows_down_is_followed_at_once_and_back_slowly() {
+    fn budget_drops_at_once_on_a_slow_machine_and_recovers_later() {
         let mut budget = Budget::new(33.0, 1_000_000);
-        let frames = run(&mut budget, 300, |frame| if (100..150).contains(&frame) { 100.0 } else { 400.0 });
+        let frames =
+            simulate_frames(
+                &mut budget,
+                300,
+                |frame| if (100..150).contains(&frame) { 100.0 } else { 400.0 },
+            );
         assert!(frames[104..150].iter().all(|(_, ms)| *ms < 33.0));
         assert!(frames[103].0 < frames[99].0 / 2);
         assert!(frames[299].0 > frames[149].0 * 2);
     }
 
     #[test]
-    fn small_scenes_are_left_whole() {
+    fn budget_of_a_small_scene_stays_at_its_face_count() {
         let mut budget = Budget::new(33.0, 60);
         assert_eq!(budget.faces(), 60);
         budget.record_frame(1e9);

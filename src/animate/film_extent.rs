@@ -70,7 +70,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn almost_nothing_of_a_ball_is_beyond_its_outermost_points() {
+    fn outermost_points_of_a_ball_reach_98_percent_in_every_direction() {
         let ball: Vec<DVec3> = (0..20_000)
             .map(|i| {
                 let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 20_000.0;
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_still_is_asked_once_and_moved_every_time() -> Result<(), Error> {
+    fn film_points_apply_the_transform_of_each_pose() -> Result<(), Error> {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let rigged = Rigged::from(Scene::from_triangles(corners, [[0, 1, 2]])?);
         let moved = DAffine3::from_translation(DVec3::Z);

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_fill_the_time_without_its_end() -> Result<(), Error> {
+    fn timeline_excludes_its_end_and_holding_repeats_frames() -> Result<(), Error> {
         for (to, fps, frames) in [(4.0, 12.0, 48), (0.1, 30.0, 3), (0.0, 24.0, 1), (1.01, 10.0, 11)] {
             let timeline = Timeline::between(0.0, to, fps)?;
             assert_eq!(timeline.frames(), frames, "{to} s");
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_is_refused() {
+    fn timeline_rejects_invalid_times_and_frame_rates() {
         for (from, to, fps) in [
             (0.0, -1.0, 12.0),
             (f64::NAN, 1.0, 12.0),

@@ -66,7 +66,7 @@ mod tests {
     use crate::scene::NamedView;
 
     #[test]
-    fn a_quarter_turn_leads_from_the_front_to_the_right() {
+    fn turntable_quarter_turn_goes_from_front_to_right_view() {
         for up in [UpAxis::Y, UpAxis::Z] {
             let axis = if up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
             let table = Turntable { centre: DVec3::ZERO, axis, steps: 4 };

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn normals_stand_upright_after_any_transform() {
+    fn cofactors_keep_normals_perpendicular_under_shear_and_mirroring() {
         let m = DMat3::from_cols(
             DVec3::new(2.0, 0.0, 0.0),
             DVec3::new(1.0, 1.0, 0.0),

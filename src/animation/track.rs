@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_three_ways_between_keys() {
+    fn track_interpolates_linear_step_and_cubic_spline_keys() {
         let track = |values: &[f64], interpolation| {
             Track::new(vec![1.0, 3.0], values.to_vec(), interpolation).unwrap()
         };
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn rotations_go_the_shorter_way_at_one_speed() {
+    fn track_rotations_take_the_shorter_arc_at_constant_speed() {
         let turn = |degrees: f64| {
             let half = degrees.to_radians() / 2.0;
             [0.0, sin(half), 0.0, crate::geometry::numbers::portable_math::cos(half)]
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_keys_are_told() {
+    fn track_errors_describe_invalid_keys() {
         let new = |times: &[f64], values: &[f64]| {
             Track::new(times.to_vec(), values.to_vec(), Interpolation::Linear).map(|_| ()).unwrap_err()
         };
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_at_one_time_jump() {
+    fn track_jumps_between_two_keys_of_equal_time() {
         let track = Track::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0, 5.0, 6.0], Interpolation::Linear);
         let track = track.unwrap();
         assert_eq!([0.5, 1.0, 1.5].map(|t| track.at(t)[0]), [0.5, 5.0, 5.5]);

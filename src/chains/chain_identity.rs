@@ -164,7 +164,7 @@ mod tests {
     use crate::mesh::{MaterialId, PartId};
 
     /// A chain along a straight line in the rest pose.
-    fn chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
+    fn straight_chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
         let at = |k: usize| k as f64 / (points - 1) as f64;
         let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
         let sample = |k| Sample {
@@ -191,13 +191,13 @@ mod tests {
         }
     }
 
-    fn names(mut chains: Vec<Chain>) -> Vec<u64> {
+    fn assigned_identities(mut chains: Vec<Chain>) -> Vec<u64> {
         assign_identities(&mut chains, &[7]);
         chains.iter().map(|chain| chain.identity).collect()
     }
 
     /// End points of lines all over the model.
-    fn lines() -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+    fn line_ends() -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         (0..300).map(f64::from).map(|k| {
             let from = [0.3 * cos(k), 0.3 * sin(1.7 * k), 0.3 * cos(2.3 * k)];
             (from, [from[0] + 0.2 * sin(0.9 * k), from[1] + 0.2 * cos(0.9 * k), from[2] + 0.1])
@@ -205,26 +205,31 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_loses_a_tenth_keeps_its_name_nine_times_of_ten() {
-        let kept = lines().filter(|(from, to)| {
+    fn identity_survives_loss_of_a_tenth_of_the_line_in_most_cases() {
+        let kept = line_ends().filter(|(from, to)| {
             let shorter = [0, 1, 2].map(|axis| from[axis] + 0.9 * (to[axis] - from[axis]));
-            names(vec![chain(*from, *to, 9)]) == names(vec![chain(*from, shorter, 9)])
+            assigned_identities(vec![straight_chain(*from, *to, 9)])
+                == assigned_identities(vec![straight_chain(*from, shorter, 9)])
         });
         let kept = kept.count();
         assert!((255..300).contains(&kept), "{kept} of 300");
     }
 
     #[test]
-    fn points_more_or_fewer_do_not_change_a_name() {
-        for (from, to) in lines() {
-            assert_eq!(names(vec![chain(from, to, 2)]), names(vec![chain(from, to, 65)]));
+    fn identity_does_not_depend_on_the_number_of_points() {
+        for (from, to) in line_ends() {
+            assert_eq!(
+                assigned_identities(vec![straight_chain(from, to, 2)]),
+                assigned_identities(vec![straight_chain(from, to, 65)])
+            );
         }
     }
 
     #[test]
-    fn lines_through_the_same_cells_have_names_of_their_own() {
-        let beside = |k: i32| chain([0.0, f64::from(k) * 1e-5, 0.0], [0.3, f64::from(k) * 1e-5, 0.1], 4);
-        let mut given = names((0..40).map(beside).collect());
+    fn lines_through_the_same_cells_have_different_identities() {
+        let beside =
+            |k: i32| straight_chain([0.0, f64::from(k) * 1e-5, 0.0], [0.3, f64::from(k) * 1e-5, 0.1], 4);
+        let mut given = assigned_identities((0..40).map(beside).collect());
         assert!(given.iter().all(|name| *name != 0));
         given.sort_unstable();
         given.dedup();

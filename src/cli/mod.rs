@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn the_commands_are_sound_and_show_an_example() {
+    fn commands_are_valid_and_their_help_shows_an_example() {
         let mut command = super::program();
         command.build();
         command.clone().debug_assert();

@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn models_are_drawn_and_commands_stay() {
+    fn shorthand_inserts_draw_before_models_and_keeps_commands() {
         for (line, expected) in [
             ("gear.obj", "draw gear.obj"),
             ("gear.obj a.svg b.png --style toon", "draw gear.obj a.svg b.png --style toon"),

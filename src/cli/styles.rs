@@ -81,7 +81,7 @@ fn sheet_summary(sheet: &str) -> &str {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_idea_is_the_first_comment() {
+    fn sheet_summary_is_the_first_comment() {
         assert_eq!(super::sheet_summary("\n# Black ink.\n# More.\nseed = 1 # no"), "Black ink.");
         assert_eq!(super::sheet_summary("seed = 1"), "");
     }

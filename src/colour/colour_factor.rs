@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_and_colours() {
+    fn colour_factor_parses_numbers_colours_and_lists() {
         let read = |text: &str| toml::from_str::<Sheet>(&format!("factor = {text}")).map(|s| s.factor);
         assert_eq!(read("0.5"), Ok(ColourFactor([0.5; 3])));
         assert_eq!(read("1"), Ok(ColourFactor::ALL));

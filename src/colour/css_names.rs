@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_in_order_and_found() {
+    fn css_names_are_sorted_and_found() {
         assert!(NAMES.is_sorted_by(|a, b| a.0 < b.0));
         assert_eq!(css_colour("RebeccaPurple"), Some([0x66, 0x33, 0x99]));
         assert_eq!(css_colour("aliceblue"), Some([0xf0, 0xf8, 0xff]));

@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_is_an_island_with_a_hole_where_they_are() {
+    fn outlines_of_a_ring_have_its_radii_and_area() {
         let rings = annulus(64, [9.3, 25.8]).outlines(&TRACING).unwrap();
         let [outer, inner] = &rings[..] else { panic!("{}", rings.len()) };
         let (outer, inner) =
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_dark_to_the_frame_ends_at_it() {
+    fn outlines_of_dark_areas_at_the_frame_end_at_it() {
         let dark = DarknessMap::of_values(7, 4, |_, _| 1.0);
         let [ring] = &dark.outlines(&TRACING).unwrap()[..] else { panic!("one") };
         assert_eq!(ring.len(), 4, "{ring:?}");
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn what_repeats_meets_itself_over_the_frame() {
+    fn outlines_of_a_repeating_picture_match_across_the_frame() {
         // Slanted band that leaves on the right where it enters on the left.
         let band = DarknessMap::of_values(32, 32, |column, row| {
             let way = (column as f64 + row as f64).rem_euclid(32.0) - 16.0;
@@ -291,8 +291,8 @@ mod tests {
             found.sort_unstable();
             found
         };
-        type Order = fn(&Point) -> (f64, f64);
-        let [x, y]: [Order; 2] = [|p| (p.x, p.y), |p| (p.y, p.x)];
+        type CoordinateOrder = fn(&Point) -> (f64, f64);
+        let [x, y]: [CoordinateOrder; 2] = [|p| (p.x, p.y), |p| (p.y, p.x)];
         assert!(on(x, 0.0) == on(x, 32.0) && !on(x, 0.0).is_empty(), "{:?} {:?}", on(x, 0.0), on(x, 32.0));
         assert!(on(y, 0.0) == on(y, 32.0) && !on(y, 0.0).is_empty());
     }

@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn known_colours_have_the_coordinates_of_the_source() {
+    fn oklab_of_known_colours_matches_published_values() {
         let near = |a: Oklab, b: Oklab| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 2e-3);
         assert!(near(of(Colour::WHITE), [1.0, 0.0, 0.0]));
         assert!(near(of(Colour::BLACK), [0.0; 3]));

@@ -162,7 +162,7 @@ fn decode_webp(bytes: &[u8]) -> Result<Picture, String> {
 mod tests {
     use super::*;
 
-    fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    fn encode_png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
@@ -171,15 +171,15 @@ mod tests {
     }
 
     #[test]
-    fn pixels_of_a_png() {
-        let picture = Picture::decode(&png(2, 1, &[1, 2, 3, 250, 0, 9])).unwrap();
+    fn picture_decodes_png_pixels() {
+        let picture = Picture::decode(&encode_png(2, 1, &[1, 2, 3, 250, 0, 9])).unwrap();
         assert_eq!((picture.width, picture.height), (2, 1));
         assert_eq!(picture.row(0), [Colour::rgb(1, 2, 3), Colour::rgb(250, 0, 9)]);
         assert_eq!(picture.at(7, 7), Colour::rgb(250, 0, 9));
     }
 
     #[test]
-    fn large_pictures_are_made_smaller() {
+    fn at_most_downsamples_large_pictures() {
         let grey = |v: u8| Colour::rgb(v, v, v);
         let picture =
             Picture { width: 4, height: 2, pixels: [0, 100, 7, 7, 100, 200, 7, 7].map(grey).to_vec() };
@@ -188,37 +188,37 @@ mod tests {
     }
 
     /// JPEG files in base 64: one with blocks of several colours, and a grey one.
-    const RED_AND_BLUE: &str = "\
+    const RED_AND_BLUE_JPEG_BASE64: &str = "\
         /9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU\
         FRUVDA8XGBYUGBIUFRT/2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQU\
         FBQUFBQUFBT/wAARCAAIABADAREAAhEBAxEB/8QAFAABAAAAAAAAAAAAAAAAAAAAB//EABQQAQAAAAAAAAAAAAAAAAAAAAD/xAAW\
         AQEBAQAAAAAAAAAAAAAAAAAJBwj/xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oADAMBAAIRAxEAPwASSptgeEIGu//Z";
-    const GREY: &str = "\
+    const GREY_JPEG_BASE64: &str = "\
         /9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYn\
         KSopGR8tMC0oMCUoKSj/wAALCAAIAAgBAREA/8QAFAABAAAAAAAAAAAAAAAAAAAAB//EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAI\
         AQEAAD8AO3//2Q==";
 
-    fn bytes(base64: &str) -> Vec<u8> {
+    fn decode_base64(base64: &str) -> Vec<u8> {
         base64::Engine::decode(&base64::engine::general_purpose::STANDARD, base64).unwrap()
     }
 
     #[test]
-    fn pixels_of_jpegs() {
+    fn picture_decodes_jpeg_pixels() {
         let is_near = |a: Colour, b: Colour| {
             [(a.r, b.r), (a.g, b.g), (a.b, b.b)].iter().all(|(a, b)| a.abs_diff(*b) <= 3) && a.a == 255
         };
-        let picture = Picture::decode(&bytes(RED_AND_BLUE)).unwrap();
+        let picture = Picture::decode(&decode_base64(RED_AND_BLUE_JPEG_BASE64)).unwrap();
         assert_eq!((picture.width, picture.height), (16, 8));
         assert!(picture.row(5)[..8].iter().all(|pixel| is_near(*pixel, Colour::rgb(200, 40, 30))));
         assert!(picture.row(5)[8..].iter().all(|pixel| is_near(*pixel, Colour::rgb(20, 60, 180))));
-        let grey = Picture::decode(&bytes(GREY)).unwrap();
+        let grey = Picture::decode(&decode_base64(GREY_JPEG_BASE64)).unwrap();
         assert!(grey.pixels.len() == 64 && grey.pixels.iter().all(|p| is_near(*p, Colour::rgb(77, 77, 77))));
-        let whole = bytes(RED_AND_BLUE);
+        let whole = decode_base64(RED_AND_BLUE_JPEG_BASE64);
         assert!(Picture::decode(&whole[..60]).unwrap_err().starts_with("cannot be read"));
     }
 
     #[test]
-    fn pixels_of_a_webp() {
+    fn picture_decodes_webp_pixels() {
         let mut bytes = Vec::new();
         let encoder = image_webp::WebPEncoder::new(&mut bytes);
         encoder.encode(&[9, 8, 7, 255, 250, 1, 2, 60], 2, 1, image_webp::ColorType::Rgba8).unwrap();
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn pngs_of_every_depth_have_eight_bits() {
+    fn picture_decodes_png_of_every_depth_to_eight_bits() {
         let encoded = |colour: png::ColorType, depth: png::BitDepth, palette: &[u8], pixels: &[u8]| {
             let mut bytes = Vec::new();
             let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
@@ -257,9 +257,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_is_named() {
+    fn picture_decode_explains_unreadable_files() {
         assert_eq!(Picture::decode(b"hello").unwrap_err(), "is neither PNG, JPEG nor WebP");
-        let whole = png(64, 64, &[7; 64 * 64 * 3]);
+        let whole = encode_png(64, 64, &[7; 64 * 64 * 3]);
         assert!(Picture::decode(&whole[..whole.len() / 2]).unwrap_err().starts_with("cannot be read"));
     }
 }

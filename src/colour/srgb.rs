@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mixing_keeps_the_ends() {
+    fn mix_returns_its_end_colours_at_zero_and_one() {
         let (a, b) = (Colour::rgb(10, 200, 30), Colour { r: 0, g: 0, b: 255, a: 0 });
         assert_eq!((a.mix(b, 0.0), a.mix(b, 1.0)), (a, b));
         assert_eq!(a.mix(b, 0.5), Colour { r: 5, g: 100, b: 143, a: 128 });

@@ -102,7 +102,7 @@ mod tests {
     use crate::colour::srgb::Colour;
 
     #[test]
-    fn lines_of_all_drawings_are_placed_and_cut() {
+    fn flattened_composition_transforms_and_clips_all_drawings() {
         let page = |width| Page { width, height: 100.0, unit: Unit::Mm, background: None };
         let stroke = StrokePaint {
             width: 0.5,

@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_convert_and_text_is_read() {
+    fn length_parses_text_and_converts_units() {
         assert_eq!(Length::parse("0.35mm"), Some(Length::mm(0.35)));
         assert_eq!(Length::parse(" 2 px "), Some(Length::px(2.0)));
         assert_eq!(Length::parse("1e1"), Some(Length::px(10.0)));

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_at_the_border() {
+    fn clipped_lines_end_at_the_region_border() {
         let region = ClipRegion::new(&path("M0 0H10V10H0Z"), 0.01);
         assert_eq!(region.line(&path("M-5 5H15")).to_svg(), "M0,5 L10,5");
         assert_eq!(region.line(&path("M1 1H9V9")).to_svg(), "M1,1 L9,1 L9,9");
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_stay_curves() {
+    fn clipped_curves_stay_curves() {
         let region = ClipRegion::new(&path("M0 0H10V10H0Z"), 0.01);
         let kept = region.line(&path("M-2 5C4 0 8 10 12 5"));
         assert_eq!(kept.elements().len(), 2, "{}", kept.to_svg());

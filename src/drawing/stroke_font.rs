@@ -114,7 +114,7 @@ mod tests {
     use kurbo::Shape;
 
     #[test]
-    fn every_letter_parses_and_has_its_width() {
+    fn stroke_font_letters_parse_and_fit_their_width() {
         for (letter, width, has_bowl, strokes) in LETTER_STROKES {
             let path = BezPath::from_svg(strokes).unwrap();
             let bounds = path.bounding_box();
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn every_style_name_can_be_lettered() {
+    fn stroke_font_covers_every_style_name() {
         for name in crate::Style::names() {
             assert!(name.chars().all(|c| LETTER_STROKES.iter().any(|(known, ..)| *known == c)), "{name}");
             let bounds = stroke_text(name, 8.0, Point::new(100.0, 50.0)).bounding_box();

@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn types_of_the_program_do_not_leak() {
+    fn explain_hides_rust_type_names() {
         for (theirs, message, advice) in [
             (
                 "invalid type: integer `-3`, expected usize",

@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances() {
+    fn distance_counts_edits_and_swaps() {
         assert_eq!(distance("crease_dg", "crease_deg"), 1);
         assert_eq!(distance("wdith", "width"), 1);
         assert_eq!(distance("", "abc"), 3);
@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_word_is_near() {
+    fn nearest_returns_only_similar_words() {
         assert_eq!(nearest("colour", &["width", "colour"]), Some("colour"));
         assert_eq!(nearest("fills", &["lines", "chain", "pen"]), None);
         assert_eq!(nearest("x", &[]), None);

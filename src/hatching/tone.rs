@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn layers_fill_one_after_the_other() {
+    fn coverage_per_layer_fills_layers_in_order() {
         assert_eq!(coverage_per_layer(0.2, &[0.25, 0.25]), [0.2, 0.0]);
         let both = coverage_per_layer(0.4, &[0.25, 0.25]);
         assert_eq!(both[0], 0.25);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_are_spread_over_bins() {
+    fn tone_coverage_spreads_tables_over_bins() {
         let tone = ToneCoverage::new(&[0.2, 0.4, 0.6, 0.8], &[1.0, 0.0]);
         assert_eq!(tone.coverage, [1.0, 0.75, 0.5, 0.25, 0.0]);
         assert_eq!(ToneCoverage::new(&[], &[0.5, 0.0]).coverage, [0.5]);

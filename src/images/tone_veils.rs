@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     /// Resulting colour in a tone.
-    fn seen(shades: &ToneVeils, colour: [f64; 3], tone: u16) -> [f64; 3] {
+    fn veiled_colour(shades: &ToneVeils, colour: [f64; 3], tone: u16) -> [f64; 3] {
         let below = [0, 1, 2].map(|c| colour[c] * shades.tone[c][0] + shades.tone[c][1]);
         shades.veils.iter().filter(|(_, tones)| tones.contains(&tone)).fold(below, |below, (veil, _)| {
             let opacity = f64::from(veil.a) / 255.0;
@@ -141,52 +141,57 @@ mod tests {
         })
     }
 
-    const MEAN: [f64; 3] = [0.6, 0.5, 0.3];
+    const MEAN_COLOUR: [f64; 3] = [0.6, 0.5, 0.3];
 
-    fn multiplying(factors: &[[f64; 3]]) -> Vec<ToneResponse> {
-        let made =
-            |slope: &[f64; 3]| ToneResponse { slope: *slope, mean: [0, 1, 2].map(|c| slope[c] * MEAN[c]) };
+    fn multiplying_tones(factors: &[[f64; 3]]) -> Vec<ToneResponse> {
+        let made = |slope: &[f64; 3]| ToneResponse {
+            slope: *slope,
+            mean: [0, 1, 2].map(|c| slope[c] * MEAN_COLOUR[c]),
+        };
         factors.iter().map(made).collect()
     }
 
-    fn off(a: [f64; 3], b: [f64; 3]) -> f64 {
+    fn max_channel_error(a: [f64; 3], b: [f64; 3]) -> f64 {
         [0, 1, 2].map(|c| (a[c] - b[c]).abs()).into_iter().fold(0.0, f64::max)
     }
 
     #[test]
-    fn grey_tones_are_exact_and_lie_on_each_other() {
-        let shades = ToneVeils::over(&multiplying(&[[0.3; 3], [0.7; 3], [1.0; 3]]), MEAN).unwrap();
+    fn grey_tone_veils_are_exact_and_layered() {
+        let shades =
+            ToneVeils::over(&multiplying_tones(&[[0.3; 3], [0.7; 3], [1.0; 3]]), MEAN_COLOUR).unwrap();
         assert_eq!(
             shades.veils.iter().map(|(_, tones)| tones.clone()).collect::<Vec<_>>(),
             [vec![1, 0], vec![0]]
         );
         for (tone, factor) in [(0, 0.3), (1, 0.7), (2, 1.0)] {
             for colour in [[0.0; 3], [1.0, 0.5, 0.2], [1.0; 3]] {
-                let off = off(seen(&shades, colour, tone), colour.map(|c| c * factor));
+                let off = max_channel_error(veiled_colour(&shades, colour, tone), colour.map(|c| c * factor));
                 assert!(off < 0.004, "{tone}: {off}");
             }
         }
     }
 
     #[test]
-    fn many_steps_add_up_to_no_error() {
+    fn errors_of_many_veils_do_not_accumulate() {
         let factors: Vec<[f64; 3]> = (0..128).map(|k| [0.3 + 0.7 * f64::from(k) / 127.0; 3]).collect();
-        let shades = ToneVeils::over(&multiplying(&factors), MEAN).unwrap();
+        let shades = ToneVeils::over(&multiplying_tones(&factors), MEAN_COLOUR).unwrap();
         for (tone, factor) in (0..).zip(&factors) {
-            let off = off(seen(&shades, [0.9; 3], tone), factor.map(|f| f * 0.9));
+            let off = max_channel_error(veiled_colour(&shades, [0.9; 3], tone), factor.map(|f| f * 0.9));
             assert!(off < 0.004, "{tone}: {off}");
         }
     }
 
     #[test]
-    fn tinted_tones_are_right_for_the_mean_and_highlights_lie_alone() {
-        let mut tones = multiplying(&[[0.7, 0.66, 0.78], [1.0; 3]]);
-        tones.push(ToneResponse { slope: [0.4; 3], mean: MEAN.map(|c| 0.4 * c + 0.6) });
-        let shades = ToneVeils::over(&tones, MEAN).unwrap();
-        assert!(off(seen(&shades, MEAN, 0), tones[0].mean) < 0.004);
-        assert!(off(seen(&shades, [0.2, 0.3, 0.1], 2), [0.68, 0.72, 0.64]) < 0.004);
-        let white = seen(&shades, [1.0; 3], 0);
-        assert!(off(white, [0.7, 0.66, 0.78]) < 0.09, "{white:?}");
-        assert!(ToneVeils::over(&[ToneResponse { slope: [0.0; 3], mean: MEAN }], MEAN).is_none());
+    fn tinted_veils_match_the_mean_colour_and_highlights_are_exact() {
+        let mut tones = multiplying_tones(&[[0.7, 0.66, 0.78], [1.0; 3]]);
+        tones.push(ToneResponse { slope: [0.4; 3], mean: MEAN_COLOUR.map(|c| 0.4 * c + 0.6) });
+        let shades = ToneVeils::over(&tones, MEAN_COLOUR).unwrap();
+        assert!(max_channel_error(veiled_colour(&shades, MEAN_COLOUR, 0), tones[0].mean) < 0.004);
+        assert!(max_channel_error(veiled_colour(&shades, [0.2, 0.3, 0.1], 2), [0.68, 0.72, 0.64]) < 0.004);
+        let white = veiled_colour(&shades, [1.0; 3], 0);
+        assert!(max_channel_error(white, [0.7, 0.66, 0.78]) < 0.09, "{white:?}");
+        assert!(
+            ToneVeils::over(&[ToneResponse { slope: [0.0; 3], mean: MEAN_COLOUR }], MEAN_COLOUR).is_none()
+        );
     }
 }

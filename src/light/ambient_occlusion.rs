@@ -144,22 +144,22 @@ mod tests {
         }
     }
 
-    fn everywhere(_: DVec3) -> f64 {
+    fn unlimited_reach(_: DVec3) -> f64 {
         f64::INFINITY
     }
 
-    fn at(mesh: &Mesh, openness: &[f64], p: DVec3) -> f64 {
+    fn visibility_at(mesh: &Mesh, openness: &[f64], p: DVec3) -> f64 {
         let local = p - mesh.origin;
         let vertex = mesh.positions.iter().position(|q| q.distance(local) < 1e-6).expect("a vertex");
         openness[vertex]
     }
 
     #[test]
-    fn an_open_sheet_sees_the_whole_sky_and_a_covered_one_part_of_it() {
+    fn ambient_visibility_of_open_and_covered_sheets_matches_view_factors() {
         let mut soup = Soup::default();
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
         let alone = Mesh::build(soup.clone());
-        assert!(ambient_visibility(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
+        assert!(ambient_visibility(&alone, &[], unlimited_reach).iter().all(|o| *o == 1.0));
         // A square of side 2 at height 1 covers a known part of the sky for the point below its middle. It is
         // the view factor of four rectangles with sides 1 and 1 at distance 1.
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
@@ -167,30 +167,31 @@ mod tests {
         let r = 0.5_f64.sqrt();
         let covered =
             4.0 / std::f64::consts::TAU * 2.0 * r * crate::geometry::numbers::portable_math::atan2(r, 1.0);
-        let found = at(&mesh, &ambient_visibility(&mesh, &[], everywhere), DVec3::ZERO);
+        let found = visibility_at(&mesh, &ambient_visibility(&mesh, &[], unlimited_reach), DVec3::ZERO);
         assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
-        assert_eq!(at(&mesh, &ambient_visibility(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
+        assert_eq!(visibility_at(&mesh, &ambient_visibility(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
     }
 
     #[test]
-    fn the_foot_of_a_wall_sees_what_geometry_says() {
+    fn ambient_visibility_at_the_foot_of_a_wall_matches_the_closed_form() {
         let mut soup = Soup::default();
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
         let mesh = Mesh::build(soup);
-        let found = ambient_visibility(&mesh, &[], everywhere);
+        let found = ambient_visibility(&mesh, &[], unlimited_reach);
         // In the corner the normal is halfway, and a right-angled wedge is left: sin 45°.
-        let corner = at(&mesh, &found, DVec3::ZERO);
+        let corner = visibility_at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
         // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is its elevation angle.
         for x in [2.5, 17.5] {
-            let (found, wanted) = (at(&mesh, &found, DVec3::X * x), (1.0 + x / (x * x + 400.0).sqrt()) / 2.0);
+            let (found, wanted) =
+                (visibility_at(&mesh, &found, DVec3::X * x), (1.0 + x / (x * x + 400.0).sqrt()) / 2.0);
             assert!((found - wanted).abs() < 0.04, "{x}: {found} {wanted}");
         }
     }
 
     #[test]
-    fn a_box_sees_all_of_the_sky_however_it_is_wound_and_none_inside_a_room() {
+    fn ambient_visibility_is_one_on_a_box_and_zero_inside_a_closed_room() {
         let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
         let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let add = |soup: &mut Soup, low: DVec3, size: f64, inward: bool| {
@@ -203,22 +204,22 @@ mod tests {
         for inward in [false, true] {
             let mut alone = Soup::default();
             add(&mut alone, DVec3::ZERO, 1.0, inward);
-            assert!(ambient_visibility(&Mesh::build(alone), &[], everywhere).iter().all(|o| *o == 1.0));
+            assert!(ambient_visibility(&Mesh::build(alone), &[], unlimited_reach).iter().all(|o| *o == 1.0));
         }
         let mut room = Soup::default();
         add(&mut room, DVec3::ZERO, 1.0, false);
         add(&mut room, DVec3::splat(-2.0), 5.0, false);
         let mesh = Mesh::build(room);
-        let found = ambient_visibility(&mesh, &[], everywhere);
+        let found = ambient_visibility(&mesh, &[], unlimited_reach);
         for (position, open) in mesh.positions.iter().zip(found) {
             let is_outside = (*position - DVec3::splat(0.5)).abs().max_element() > 1.0;
             assert_eq!(open, if is_outside { 1.0 } else { 0.0 }, "{position}");
         }
-        assert!(ambient_visibility(&Mesh::default(), &[], everywhere).is_empty());
+        assert!(ambient_visibility(&Mesh::default(), &[], unlimited_reach).is_empty());
     }
 
     #[test]
-    fn a_thicket_of_large_faces_is_as_open_on_any_number_of_threads() {
+    fn ambient_visibility_does_not_depend_on_the_number_of_threads() {
         // Enough overlapping faces to make the rays use a tree.
         let part = |n: u32| hash(7, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
         let point = |n: u32| DVec3::new(part(3 * n), part(3 * n + 1), part(3 * n + 2));
@@ -231,7 +232,7 @@ mod tests {
         assert!(ParallelRays::new(&mesh).blocked(&starts, DVec3::Z, None).is_none());
         let on = |threads| {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| ambient_visibility(&mesh, &[], everywhere))
+            pool.install(|| ambient_visibility(&mesh, &[], unlimited_reach))
         };
         assert_eq!(on(1), on(4));
     }

@@ -146,7 +146,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn a_bent_sheet_is_smooth_where_its_edge_is_not_hard() {
+    fn shading_normals_are_flat_at_hard_edges_and_smooth_elsewhere() {
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
         let sheet = |rise: f64| {
             let positions = vec![
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn the_files_normals_win_on_the_side_of_their_face() {
+    fn file_normals_are_flipped_to_the_side_of_their_face() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let normals = vec![[0.0, 0.6, -0.8]; 3];
         let soup = Soup {

@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn middle_edges_are_whole_where_faces_are_cut() {
+    fn fillet_centre_edges_stay_complete_after_refinement() {
         let options = LineOptions { contours: Contours::Smooth, ..LineOptions::default() };
         let mut surface = Surface::new(ball(7), &options);
         let is_level = |mesh: &Mesh, edge: usize| {

@@ -132,7 +132,7 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     #[test]
-    fn points_are_numbered_as_they_come_whatever_table_they_are_in() {
+    fn shared_point_numbers_match_a_sequential_table() {
         let mut dice = Dice::new(2);
         let some: Vec<DVec3> = (0..2000).map(|_| dice.point(1.0)).collect();
         let runs: Vec<Vec<DVec3>> = (0..40)

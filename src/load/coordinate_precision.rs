@@ -110,47 +110,56 @@ mod tests {
     use super::*;
     use crate::geometry::dice::Dice;
 
-    fn written(size: f64, write: impl Fn(f64) -> f64) -> Precision {
+    fn precision_of_written(size: f64, write: impl Fn(f64) -> f64) -> Precision {
         let mut dice = Dice::new(5);
         let points: Vec<DVec3> = (0..300).map(|_| (dice.point(size)).to_array().map(&write).into()).collect();
         Precision::of(&points)
     }
 
-    fn decimals(places: usize) -> impl Fn(f64) -> f64 {
+    fn round_to_decimals(places: usize) -> impl Fn(f64) -> f64 {
         move |x| format!("{x:.places$}").parse().unwrap()
     }
 
     #[test]
-    fn the_precision_of_a_file_is_that_of_its_writer() {
-        assert_eq!(written(20.0, |x| f64::from(x as f32)), Precision::Single);
+    fn coordinate_precision_matches_how_numbers_were_written() {
+        assert_eq!(precision_of_written(20.0, |x| f64::from(x as f32)), Precision::Single);
         // C's %.9g, and the shortest digits of an `f32`.
-        assert_eq!(written(20.0, |x| format!("{:.8e}", x as f32).parse().unwrap()), Precision::Single);
-        assert_eq!(written(20.0, |x| (x as f32).to_string().parse().unwrap()), Precision::Single);
+        assert_eq!(
+            precision_of_written(20.0, |x| format!("{:.8e}", x as f32).parse().unwrap()),
+            Precision::Single
+        );
+        assert_eq!(
+            precision_of_written(20.0, |x| (x as f32).to_string().parse().unwrap()),
+            Precision::Single
+        );
         let step = |precision| match precision {
             Precision::Decimals(step) => step,
             other => panic!("{other:?}"),
         };
         for (places, unit) in [(4, 1e-4), (5, 1e-5), (9, 1e-9)] {
-            let found = step(written(20.0, decimals(places)));
+            let found = step(precision_of_written(20.0, round_to_decimals(places)));
             assert!((found / unit - 1.0).abs() < 1e-9, "{places}: {found}");
         }
-        let found = step(written(9.0, decimals(6)));
+        let found = step(precision_of_written(9.0, round_to_decimals(6)));
         assert!((found / 1e-6 - 1.0).abs() < 1e-9, "{found}");
         // Eight digits have the precision of an `f32`, so both results are valid.
-        assert!(matches!(written(20.0, decimals(6)), Precision::Single | Precision::Decimals(_)));
+        assert!(matches!(
+            precision_of_written(20.0, round_to_decimals(6)),
+            Precision::Single | Precision::Decimals(_)
+        ));
         // Six digits, C's %g, of numbers up to 20.
-        let found = step(written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
+        let found = step(precision_of_written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
         assert!((found / 1e-4 - 1.0).abs() < 1e-9, "{found}");
-        assert_eq!(written(20.0, |x| x), Precision::Exact);
+        assert_eq!(precision_of_written(20.0, |x| x), Precision::Exact);
         // Quarters are exact, and so are whole numbers of a small range.
-        assert_eq!(written(20.0, |x| (4.0 * x).round() / 4.0), Precision::Exact);
-        assert_eq!(written(20.0, |x| x.round()), Precision::Exact);
+        assert_eq!(precision_of_written(20.0, |x| (4.0 * x).round() / 4.0), Precision::Exact);
+        assert_eq!(precision_of_written(20.0, |x| x.round()), Precision::Exact);
         assert_eq!(Precision::of(&[]), Precision::Exact);
     }
 
     #[test]
-    fn noise_around_zero_says_nothing() {
+    fn coordinate_precision_ignores_noise_near_zero() {
         let exact = |x: f64| if x.abs() < 10.0 { 1.224_646_799_147_353_2e-16 } else { x.round() };
-        assert_eq!(written(20.0, exact), Precision::Exact);
+        assert_eq!(precision_of_written(20.0, exact), Precision::Exact);
     }
 }

@@ -226,7 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_are_read_as_files_are() {
+    fn from_bytes_reads_the_same_scene_as_open() {
         use ModelFormat::{Gltf, Obj, Ply, Stl};
         let names = [("gear.obj", Obj), ("bracket.stl", Stl), ("knot.ply", Ply), ("pump.glb", Gltf)];
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn strangers_are_told() {
+    fn refuse_other_content_names_lfs_pointers_and_web_pages() {
         for (bytes, wanted) in [
             ("version https://git-lfs.github.com/spec/v1\noid", "git lfs pull"),
             ("\n <!DOCTYPE html><html>", "web page"),
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_endings_list_the_formats() {
+    fn unknown_file_extensions_list_the_supported_formats() {
         for name in ["Cargo.toml", ".gitignore"] {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
             let error = open(&path).unwrap_err().to_string();

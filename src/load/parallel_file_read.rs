@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_read_in_blocks_is_the_file() {
+    fn parallel_file_read_returns_the_bytes_of_the_file() {
         let path = std::env::temp_dir().join(format!("ligne-large-file-{}", std::process::id()));
         for size in [1, BLOCK_BYTES - 1, BLOCK_BYTES, 40 * BLOCK_BYTES + 12_345] {
             let bytes: Vec<u8> = (0..size).map(|k| ((k * 31) % 251) as u8).collect();

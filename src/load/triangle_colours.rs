@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn each_colour_is_a_material_whatever_the_order() {
+    fn each_triangle_colour_becomes_a_material_in_a_fixed_order() {
         let (red, blue) = (Colour::rgb(255, 0, 0), Colour::rgb(0, 0, 255));
         let (mut geometry, mut materials) = (fan(4), Vec::new());
         paint(&mut geometry, &[Some(red), Some(blue), None, Some(red)], &mut materials);
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn alpha_counts_unless_it_is_nothing_everywhere() {
+    fn triangle_alpha_is_ignored_if_it_is_zero_everywhere() {
         let clear = |a| Some(Colour { a, ..Colour::rgb(255, 0, 0) });
         let mut materials = Vec::new();
         paint(&mut fan(1), &[clear(0)], &mut materials);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn many_colours_are_paint() {
+    fn many_triangle_colours_become_vertex_colours() {
         let (mut geometry, mut materials) = (fan(300), Vec::new());
         let colours: Vec<_> =
             (0..300_u32).map(|k| Some(Colour::rgb((k % 256) as u8, (k / 256) as u8, 0))).collect();

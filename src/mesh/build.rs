@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn separate_corners_are_welded_and_nearly_equal_ones_too() {
+    fn build_welds_equal_and_nearly_equal_vertices() {
         let d = 1e-9;
         let mesh = Mesh::build(soup(
             &[
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn doubled_collapsed_and_flat_faces_are_counted() {
+    fn cleaning_counts_doubled_collapsed_and_flat_faces() {
         let mesh = Mesh::build(soup(
             &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]],
             &[[0, 1, 2], [2, 1, 0], [1, 1, 2], [0, 1, 3]],

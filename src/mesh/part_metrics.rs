@@ -302,7 +302,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_origin_is_zero_near_zero_and_near_the_model_far_away() {
+    fn origin_is_zero_for_near_models_and_close_to_far_ones() {
         let at = |x: f64| origin(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0));
         assert_eq!(at(-0.3), DVec3::ZERO);
         assert_eq!(at(100.0), DVec3::ZERO);
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_measured_each_by_itself() {
+    fn part_extents_do_not_depend_on_other_parts() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let soup = |far: f64| Soup {
             positions: corners.into_iter().chain(corners.map(|p| p * 3.0 + DVec3::Z * far)).collect(),
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_without_area_and_wires_without_length_do_not_count() {
+    fn part_extents_ignore_faces_without_area_and_wires_without_length() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let far = [[1e6, 0.0, 0.0], [1e6 + 1.0, 0.0, 0.0], [1e6 + 2.0, 0.0, 0.0]].map(DVec3::from_array);
         // Once the model is far from zero, and once the flat face.

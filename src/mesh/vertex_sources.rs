@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_moved_mesh_is_as_one_built_there() {
+    fn posed_mesh_equals_a_mesh_built_in_the_pose() {
         let rest = Mesh::build(soup(0.0, 0.0));
         let sources = VertexSources::of(&rest, &soup(0.0, 0.0)).unwrap();
         let moved = rest.posed(&sources, &soup(3.0, 0.0)).unwrap();
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn what_parts_is_built_anew() {
+    fn posed_is_none_if_welded_vertices_separate_or_soups_differ() {
         let rest = Mesh::build(soup(0.0, 0.0));
         let sources = VertexSources::of(&rest, &soup(0.0, 0.0)).unwrap();
         assert!(rest.posed(&sources, &soup(0.0, 0.1)).is_none());

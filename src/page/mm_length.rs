@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_mm() {
+    fn mm_parse_reads_plain_numbers_as_mm_and_converts_units() {
         let near = |text: &str, mm: f64| (Mm::parse(text).unwrap().0 - mm).abs() < 1e-9;
         assert!(near("5", 5.0) && near("5.", 5.0) && near("0.5in", 12.7) && near("-3mm", -3.0));
         assert_eq!(Mm::parse("5 ells"), None);

@@ -32,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_come_one_after_the_other() {
+    fn concatenate_joins_lists_in_order() {
         let lists: Vec<Vec<usize>> = (0..200)
             .map(|k| (0..(k * 7919) % 301 * usize::from(k % 5 > 1)).map(|i| k * 1000 + i).collect())
             .collect();

@@ -23,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_lent_is_lent_again_and_what_is_out_is_not() {
+    fn scratch_pool_reuses_only_returned_objects() {
         let spare: ScratchPool<Vec<u32>> = ScratchPool::default();
         spare.lend(|one| {
             one.push(1);

@@ -12,7 +12,7 @@ fn with_threads(check: impl Fn() + Send + Sync) {
 }
 
 #[test]
-fn steps_keep_the_order_of_iterators() {
+fn parallel_steps_keep_the_iterator_order() {
     with_threads(|| {
         for len in [0_u32, 1, 2, 7, 100, 1000] {
             let items: Vec<u32> = (0..len).map(|k| k * 7919 % 1009).collect();
@@ -33,7 +33,7 @@ fn steps_keep_the_order_of_iterators() {
 }
 
 #[test]
-fn pairs_end_with_the_shorter_loop() {
+fn parallel_zip_ends_with_the_shorter_input() {
     with_threads(|| {
         let (long, short): (Vec<u32>, Vec<u32>) = ((0..1000).collect(), (0..613).rev().collect());
         let pairs: Vec<(u32, u32)> =
@@ -49,7 +49,7 @@ fn pairs_end_with_the_shorter_loop() {
 }
 
 #[test]
-fn chunks_cover_the_slice_once() {
+fn parallel_chunks_cover_the_slice_once() {
     with_threads(|| {
         for (len, size) in [(0, 4), (1, 4), (4, 4), (1001, 4), (1001, 1000), (5, 9)] {
             let mut items = vec![0_usize; len];
@@ -65,7 +65,7 @@ fn chunks_cover_the_slice_once() {
 }
 
 #[test]
-fn ends_agree_with_iterators() {
+fn parallel_reductions_agree_with_iterators() {
     with_threads(|| {
         let items: Vec<u64> = (0..5000).map(|k| k * 7919 % 1009).collect();
         assert!(items.par_iter().any(|k| *k == 1008) && !items.par_iter().any(|k| *k == 1009));
@@ -94,7 +94,7 @@ fn ends_agree_with_iterators() {
 }
 
 #[test]
-fn parts_keep_to_their_limits() {
+fn part_count_respects_its_length_limits() {
     with_threads(|| {
         let threads = rayon_core::current_num_threads();
         for (len, min, max) in [(0, 1, 1), (1, 1, 9), (1000, 1, usize::MAX), (1000, 300, 1), (9999, 1, 4)] {
@@ -109,7 +109,7 @@ fn parts_keep_to_their_limits() {
 }
 
 #[test]
-fn nested_loops_end() {
+fn nested_parallel_loops_terminate() {
     with_threads(|| {
         let sums: Vec<u64> = (0..50_u64)
             .into_par_iter()

@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_camera_that_can_take_no_picture_is_an_error_on_every_road() {
+    fn invalid_cameras_are_errors_in_every_render_function() {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let scene = Scene::from_triangles(corners, [[0, 1, 2]]).unwrap();
         let good = Camera::three_quarter().fit(&scene);

@@ -11,7 +11,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_begins_on_a_thread_that_shares_it() {
+    fn run_on_pool_runs_work_on_a_pool_thread() {
         assert!(rayon_core::current_thread_index().is_none());
         assert!(run_on_pool(rayon_core::current_thread_index).is_some());
     }

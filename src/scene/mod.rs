@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn models_made_by_programs_are_checked() {
+    fn from_triangles_checks_indices_and_positions() {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         assert_eq!(Scene::from_triangles(corners, [[0, 1, 2]]).unwrap().parts.len(), 1);
         let error = Scene::from_triangles(corners, [[0, 1, 2], [0, 1, 3]]).unwrap_err();

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_stay_inside() {
+    fn stays_inside_refuses_paths_out_of_the_folder() {
         for good in ["a.mtl", "a/b.mtl", "a/../b.mtl", "./a b.mtl", ".a"] {
             assert!(stays_inside(good), "{good}");
         }
@@ -165,9 +165,9 @@ mod tests {
     }
 
     /// Temporary folder, deleted when dropped.
-    struct Folder(PathBuf);
+    struct TempFolder(PathBuf);
 
-    impl Folder {
+    impl TempFolder {
         fn new(name: &str, files: &[&str]) -> Self {
             let folder = std::env::temp_dir().join(format!("ligne-{name}-{}", std::process::id()));
             for file in files {
@@ -179,14 +179,14 @@ mod tests {
         }
     }
 
-    impl Drop for Folder {
+    impl Drop for TempFolder {
         fn drop(&mut self) {
             _ = fs::remove_dir_all(&self.0);
         }
     }
 
     #[test]
-    fn files_are_found_by_the_end_of_their_path_in_any_case() {
+    fn model_folder_finds_files_by_path_suffix_ignoring_case() {
         let files = [
             "models/Wall.PNG",
             "models/maps/wood.png",
@@ -194,7 +194,7 @@ mod tests {
             "models/lib/wood.PNG",
             "secret.png",
         ];
-        let folder = Folder::new("beside", &files);
+        let folder = TempFolder::new("beside", &files);
         let beside = ModelFolder::of(&folder.0.join("models/a.obj"));
         for (below, name, wanted) in [
             ("", "wall.png", Some("Wall.PNG")),
@@ -223,9 +223,9 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_that_lead_out_of_the_folder_are_not_followed() {
+    fn model_folder_does_not_follow_links_to_the_outside() {
         use std::os::unix::fs::symlink;
-        let folder = Folder::new("links", &["models/real.png", "outside/secret.png"]);
+        let folder = TempFolder::new("links", &["models/real.png", "outside/secret.png"]);
         let models = folder.0.join("models");
         symlink(folder.0.join("outside/secret.png"), models.join("linked.png")).unwrap();
         symlink(folder.0.join("outside"), models.join("maps")).unwrap();

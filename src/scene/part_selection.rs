@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn globs() {
+    fn glob_matches_handles_stars_and_question_marks() {
         for (glob, name) in [
             ("*", ""),
             ("a", "a"),
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_chosen() {
+    fn keep_parts_applies_only_and_hide_patterns() {
         let part = |name: &str| Part { name: name.into(), geometry: 0, world_from_part: DAffine3::IDENTITY };
         let scene = Scene { parts: ["wheel 1", "wheel 2", "axle"].map(part).into(), ..Scene::default() };
         let kept = |only: &[&str], hide: &[&str]| {

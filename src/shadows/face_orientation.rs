@@ -90,7 +90,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn solids_have_an_outside_and_sheets_have_none() {
+    fn face_orientations_are_known_for_solids_and_unknown_for_sheets() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let solid = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();

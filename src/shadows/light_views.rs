@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn every_vertex_lies_in_an_image_of_each_light() {
+    fn each_vertex_is_shown_in_one_light_view() {
         let mesh = mesh();
         for caster in [
             Caster::Directional { towards: DVec3::new(0.0, 0.0, 7.0) },
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_that_are_nowhere_see_nothing() {
+    fn invalid_lights_have_no_light_views() {
         for caster in [Caster::Directional { towards: DVec3::ZERO }, Caster::Point { position: DVec3::NAN }] {
             assert!(views(&mesh(), &caster).is_empty());
         }

@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_from_a_triangle() {
+    fn distance_to_a_triangle_is_exact() {
         let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
         for (p, wanted) in [
             (DVec3::new(0.2, 0.2, -3.0), 3.0),

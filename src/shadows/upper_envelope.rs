@@ -157,43 +157,46 @@ mod tests {
         ReceiverCandidate { face, start, end, nearness, touches: false }
     }
 
-    fn found(candidates: &[ReceiverCandidate]) -> Vec<(u32, f64, f64)> {
+    fn envelope_runs(candidates: &[ReceiverCandidate]) -> Vec<(u32, f64, f64)> {
         envelope(candidates.to_vec(), 1e-6).iter().map(|r| (r.face, r.start, r.end)).collect()
     }
 
     #[test]
-    fn the_nearer_face_wins_where_it_is() {
+    fn envelope_follows_the_nearest_face() {
         let far = candidate(1, 0.0, 1.0, [1.0, 1.0]);
         let near = candidate(2, 0.25, 0.5, [2.0, 2.0]);
-        assert_eq!(found(&[far, near]), [(1, 0.0, 0.25), (2, 0.25, 0.5), (1, 0.5, 1.0)]);
+        assert_eq!(envelope_runs(&[far, near]), [(1, 0.0, 0.25), (2, 0.25, 0.5), (1, 0.5, 1.0)]);
         let touching = ReceiverCandidate { touches: true, ..near };
-        assert_eq!(found(&[touching, far]), [(1, 0.0, 0.25), (1, 0.5, 1.0)]);
+        assert_eq!(envelope_runs(&[touching, far]), [(1, 0.0, 0.25), (1, 0.5, 1.0)]);
     }
 
     #[test]
-    fn faces_that_cross_change_places_at_the_crossing() {
+    fn envelope_switches_faces_at_their_crossing() {
         let rising = candidate(1, 0.0, 1.0, [0.0, 1.0]);
         let falling = candidate(2, 0.0, 1.0, [1.0, 0.0]);
         let level = candidate(3, 0.0, 1.0, [0.25, 0.25]);
-        assert_eq!(found(&[rising, falling, level]), [(2, 0.0, 0.5), (1, 0.5, 1.0)]);
+        assert_eq!(envelope_runs(&[rising, falling, level]), [(2, 0.0, 0.5), (1, 0.5, 1.0)]);
         let high = candidate(4, 0.0, 1.0, [0.75, 0.75]);
-        assert_eq!(found(&[rising, falling, high]), [(2, 0.0, 0.25), (4, 0.25, 0.75), (1, 0.75, 1.0)]);
+        assert_eq!(
+            envelope_runs(&[rising, falling, high]),
+            [(2, 0.0, 0.25), (4, 0.25, 0.75), (1, 0.75, 1.0)]
+        );
     }
 
     #[test]
-    fn rounding_at_a_crossing_does_not_bring_the_loser_back() {
+    fn rounding_at_a_crossing_adds_no_run_to_the_envelope() {
         for k in 1..2000 {
             let at = f64::from(k) * 0.000_37 + 0.01;
             let near = candidate(1, 0.0, 1.0, [at, 0.0]);
             let far = candidate(2, 0.0, 1.0, [0.0, 1.0 - at]);
-            let runs = found(&[near, far]);
+            let runs = envelope_runs(&[near, far]);
             assert_eq!(runs.iter().map(|r| r.0).collect::<Vec<_>>(), [1, 2], "{at}");
             assert!((runs[0].2 - at).abs() < 1e-12 && runs[1].1 == runs[0].2);
         }
     }
 
     #[test]
-    fn slivers_and_gaps_are_closed() {
+    fn envelope_closes_slivers_and_gaps() {
         let parts = [
             candidate(1, 0.0, 0.5, [1.0, 1.0]),
             candidate(7, 0.5 - 1e-9, 0.5 + 1e-9, [3.0, 3.0]),
@@ -207,8 +210,8 @@ mod tests {
     }
 
     #[test]
-    fn nothing_behind_no_runs() {
+    fn envelope_of_nothing_has_no_runs() {
         assert!(envelope(Vec::new(), 1e-6).is_empty());
-        assert!(found(&[candidate(1, 0.3, 0.3, [1.0, 1.0])]).is_empty());
+        assert!(envelope_runs(&[candidate(1, 0.3, 0.3, [1.0, 1.0])]).is_empty());
     }
 }

@@ -53,7 +53,7 @@ fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
     ink(chains, &context, &style.stroke)
 }
 
-fn stroke(mark: &Mark) -> &StrokePaint {
+fn stroke_paint(mark: &Mark) -> &StrokePaint {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke,
         Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => panic!("no stroke"),
@@ -61,7 +61,7 @@ fn stroke(mark: &Mark) -> &StrokePaint {
 }
 
 #[test]
-fn outlines_paint_over_weaker_lines() {
+fn silhouettes_are_painted_over_weaker_line_kinds() {
     let mut silhouette = chain(LineKind::Contour, 0.0);
     silhouette.silhouette = true;
     let chains = [
@@ -77,7 +77,7 @@ fn outlines_paint_over_weaker_lines() {
     let order: Vec<f64> =
         layers[0].marks.iter().filter_map(|m| m.path.elements()[0].end_point()).map(|p| p.x).collect();
     assert_eq!(order, [3.0, 2.0, 4.0, 1.0, 0.0]);
-    let widths: Vec<f64> = layers[0].marks.iter().map(|m| stroke(m).width).collect();
+    let widths: Vec<f64> = layers[0].marks.iter().map(|m| stroke_paint(m).width).collect();
     assert_eq!(widths, [0.8, 1.0, 1.0, 1.6, 2.2]);
     assert_eq!(layers[0].marks[4].provenance.classes, ["contour", "silhouette"]);
 }
@@ -92,18 +92,18 @@ fn hidden_lines_have_their_own_layer_behind() {
     assert_eq!(dashed[0].kind, LayerKind::HiddenLines);
     assert_eq!(dashed[1].kind, LayerKind::Lines);
     assert_eq!(dashed[0].marks[0].provenance.invisibility, 2);
-    assert_eq!(stroke(&dashed[0].marks[0]).dash.len(), 2);
+    assert_eq!(stroke_paint(&dashed[0].marks[0]).dash.len(), 2);
     let solid = layers(&chains, "ink", &["lines.hidden=solid"]);
-    assert!(stroke(&solid[0].marks[0]).dash.is_empty());
+    assert!(stroke_paint(&solid[0].marks[0]).dash.is_empty());
 }
 
 #[test]
-fn thick_and_thin() {
+fn technical_style_uses_thick_and_thin_line_widths() {
     let mut both = chain(LineKind::Crease, 0.0);
     both.both_seen = true;
     let layers = layers(&[both, chain(LineKind::Crease, 1.0), chain(LineKind::Wire, 2.0)], "technical", &[]);
     let widths: Vec<f64> =
-        layers[0].marks.iter().map(|m| stroke(m).width * crate::drawing::length::MM_PER_PX).collect();
+        layers[0].marks.iter().map(|m| stroke_paint(m).width * crate::drawing::length::MM_PER_PX).collect();
     for (width, wanted) in widths.iter().zip([0.25, 0.25, 0.5]) {
         assert!((width - wanted).abs() < 1e-12, "{widths:?}");
     }
@@ -119,7 +119,7 @@ fn rules_select_by_name_and_override_single_fields() {
         "rule=[{when={material=\"br?ss\"}, pen={opacity=0.5}}]",
     ];
     let layers = layers(&[chain(LineKind::Crease, 0.0), bolt], "ink", &sets);
-    let pens: Vec<&StrokePaint> = layers[0].marks.iter().map(stroke).collect();
+    let pens: Vec<&StrokePaint> = layers[0].marks.iter().map(stroke_paint).collect();
     assert_eq!((pens[0].width, pens[0].colour), (1.0, Colour::rgb(26, 26, 26)));
     assert_eq!((pens[1].width, pens[1].colour), (3.0, Colour { r: 128, g: 128, b: 128, a: 128 }));
     assert_eq!(layers[0].marks[1].provenance.part.as_deref(), Some("bolt-1"));
@@ -127,18 +127,18 @@ fn rules_select_by_name_and_override_single_fields() {
 }
 
 #[test]
-fn a_pen_without_width_draws_nothing_and_unknown_ids_do_no_harm() {
+fn zero_width_pens_draw_nothing_and_unknown_ids_are_harmless() {
     assert!(layers(&[chain(LineKind::Crease, 0.0)], "ink", &["pen.crease.width=0"]).is_empty());
     let mut lost = chain(LineKind::Crease, 0.0);
     lost.part = PartId(9);
     lost.material = MaterialId(9);
     let found = layers(&[lost], "ink", &["pen.colour={shade=1}"]);
     assert_eq!(found[0].marks[0].provenance.part, None);
-    assert_eq!(stroke(&found[0].marks[0]).colour, Colour::BLACK);
+    assert_eq!(stroke_paint(&found[0].marks[0]).colour, Colour::BLACK);
 }
 
 #[test]
-fn a_plotter_has_a_layer_for_each_pen() {
+fn plotter_style_has_one_layer_per_pen() {
     let chains = [chain(LineKind::Crease, 0.0), chain(LineKind::Contour, 5.0), chain(LineKind::Crease, 2.0)];
     let one = layers(&chains, "plotter", &[]);
     assert_eq!(one.len(), 1);

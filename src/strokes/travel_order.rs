@@ -236,7 +236,7 @@ mod tests {
         }
     }
 
-    fn way(marks: &[Mark]) -> f64 {
+    fn travel_length(marks: &[Mark]) -> f64 {
         let mut pen = Point::ZERO;
         let mut sum = 0.0;
         for mark in marks {
@@ -247,17 +247,17 @@ mod tests {
     }
 
     #[test]
-    fn a_comb_is_drawn_back_and_forth() {
+    fn shorten_travel_draws_a_comb_back_and_forth() {
         let teeth: Vec<Mark> =
             (0..50).map(|i| mark(f64::from(i * 37 % 50), 0.0, f64::from(i * 37 % 50), 100.0)).collect();
         let short = shorten_travel(teeth.clone());
         assert_eq!(short.len(), 50);
-        assert!((way(&short) - 49.0).abs() < 1e-9, "{}", way(&short));
-        assert!(way(&teeth) > 5_000.0);
+        assert!((travel_length(&short) - 49.0).abs() < 1e-9, "{}", travel_length(&short));
+        assert!(travel_length(&teeth) > 5_000.0);
     }
 
     #[test]
-    fn nothing_is_lost_and_the_nearest_is_really_the_nearest() {
+    fn shorten_travel_keeps_all_marks_and_picks_the_nearest() {
         let mut state = 7u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn degenerate_drawings() {
+    fn shorten_travel_handles_empty_and_point_drawings() {
         assert!(shorten_travel(vec![]).is_empty());
         assert_eq!(shorten_travel(vec![mark(5.0, 5.0, 5.0, 5.0); 3]).len(), 3);
     }

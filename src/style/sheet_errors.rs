@@ -208,7 +208,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_lines_are_excerpted() {
+    fn long_sheet_lines_are_excerpted_in_errors() {
         let line = format!("{}x{}", "a".repeat(500), "b".repeat(500));
         let told = at_span(&line, &(500..501), "wrong", None).remedy.unwrap();
         let lines: Vec<&str> = told.lines().collect();

@@ -338,7 +338,7 @@ mod tests {
         toml::from_str(text).map_err(|error| (error.message().to_owned(), error.span()))
     }
 
-    fn agree<T: DeserializeOwned + PartialEq + Debug>(text: &str) {
+    fn assert_agrees_with_toml<T: DeserializeOwned + PartialEq + Debug>(text: &str) {
         let read = from_text::<T>(text).map_err(|fault| (fault.message().to_owned(), fault.span()));
         assert_eq!(read, expected::<T>(text), "{text}");
     }
@@ -363,7 +363,7 @@ mod tests {
             "width = ",
             "width = 99999999999999999999999999999999999999999",
         ] {
-            agree::<Options>(text);
+            assert_agrees_with_toml::<Options>(text);
         }
         assert!(from_text::<Options>("width = 2020-01-02").is_err());
     }

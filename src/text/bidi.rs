@@ -103,17 +103,17 @@ pub(crate) fn visual_order(levels: &[u8]) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn seen(text: &str) -> String {
+    fn visual_text(text: &str) -> String {
         let characters: Vec<char> = text.chars().collect();
         let levels = embedding_levels(text, u8::from(runs_left(text)));
         visual_order(&levels).into_iter().map(|n| characters[n]).collect()
     }
 
     #[test]
-    fn mixed_text_is_in_visual_order() {
-        assert_eq!(seen("abc 12, d"), "abc 12, d");
-        assert_eq!(seen("abc אבג דה. d"), "abc הד גבא. d");
-        assert_eq!(seen("אב 12 גד ab"), "ab דג 12 בא");
-        assert_eq!(seen("אב (abc)"), ")abc( בא", "brackets are mirrored where letters are shaped");
+    fn mixed_direction_text_is_in_visual_order() {
+        assert_eq!(visual_text("abc 12, d"), "abc 12, d");
+        assert_eq!(visual_text("abc אבג דה. d"), "abc הד גבא. d");
+        assert_eq!(visual_text("אב 12 גד ab"), "ab דג 12 בא");
+        assert_eq!(visual_text("אב (abc)"), ")abc( בא", "brackets are mirrored where letters are shaped");
     }
 }

@@ -73,7 +73,7 @@ fn hyphenate_words(text: &str, range: std::ops::Range<usize>, language: Lang, fo
 mod tests {
     use super::*;
 
-    fn shown(text: &str, code: Option<&str>) -> String {
+    fn text_with_marked_breaks(text: &str, code: Option<&str>) -> String {
         let mut out = text.to_owned();
         for LineBreak { at, hyphen, must } in
             line_breaks(text, code.map(|code| language(code).unwrap())).into_iter().rev()
@@ -94,9 +94,12 @@ mod tests {
 
     #[test]
     fn lines_break_between_words_and_at_hyphenation_points() {
-        assert_eq!(shown("a well-known fact.\nSo", None), "!a |well-|known |fact.\n!So!");
-        assert_eq!(shown("Extensive hyphenation!", Some("en")), "!Ex-ten-sive |hy-phen-ation!!");
-        assert_eq!(shown("Kraftfahrzeug", Some("de")), "!Kraft-fahr-zeug!");
+        assert_eq!(text_with_marked_breaks("a well-known fact.\nSo", None), "!a |well-|known |fact.\n!So!");
+        assert_eq!(
+            text_with_marked_breaks("Extensive hyphenation!", Some("en")),
+            "!Ex-ten-sive |hy-phen-ation!!"
+        );
+        assert_eq!(text_with_marked_breaks("Kraftfahrzeug", Some("de")), "!Kraft-fahr-zeug!");
         assert!(language("xx").unwrap_err().to_string().contains("`xx`"));
         assert!(language("english").is_err());
     }

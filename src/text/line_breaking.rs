@@ -98,12 +98,12 @@ mod tests {
     use super::*;
 
     /// All possible ends of a number of lines.
-    fn all(lines: usize, last: usize) -> Vec<Vec<usize>> {
+    fn all_line_ends(lines: usize, last: usize) -> Vec<Vec<usize>> {
         if lines == 1 {
             return vec![vec![last]];
         }
-        let ways =
-            (1..last).flat_map(|end| all(lines - 1, last - end).into_iter().map(move |rest| (end, rest)));
+        let ways = (1..last)
+            .flat_map(|end| all_line_ends(lines - 1, last - end).into_iter().map(move |rest| (end, rest)));
         ways.map(|(end, rest)| std::iter::once(end).chain(rest.into_iter().map(|e| e + end)).collect())
             .collect()
     }
@@ -122,7 +122,7 @@ mod tests {
             let bonus: Vec<f64> = (0..lines).map(|_| random() * 5.0).collect();
             let own =
                 |line: usize, from: usize, to: usize| widths[from..to].iter().sum::<f64>() + bonus[line];
-            let of_all = all(lines, last).into_iter().map(|ends| {
+            let of_all = all_line_ends(lines, last).into_iter().map(|ends| {
                 let begins = std::iter::once(0).chain(ends.iter().copied());
                 let costs = begins.zip(&ends).enumerate().map(|(line, (from, to))| own(line, from, *to));
                 let costs: Vec<f64> = costs.collect();

@@ -203,7 +203,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cubic_is_found_from_far_off_parameters() {
+    fn fit_reproduces_a_cubic_of_uneven_speed_with_one_curve() {
         // Cubics of very uneven speed, for which arc lengths are a poor first guess of the parameters.
         for (bend, tolerance) in [(0.3, 0.5), (0.6, 0.5), (0.9, 1.0)] {
             let whole = CubicBez::new((0.0, 0.0), (10.0, 60.0 * bend), (40.0, 60.0), (120.0, 10.0));

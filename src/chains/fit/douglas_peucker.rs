@@ -170,7 +170,7 @@ mod tests {
     use crate::geometry::plane::planar_distance::segment_distance_squared;
 
     /// Reference: the same recursion without parallel tasks.
-    fn plain(line: &SampledLine, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
+    fn sequential_keep(line: &SampledLine, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
         let off = |i: usize| {
             let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
             let (p, way) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
@@ -181,13 +181,13 @@ mod tests {
         };
         let far = (a + 1..b).filter(|i| off(*i) > tolerance2);
         let Some(worst) = far.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else { return };
-        plain(line, [a, worst], tolerance2, stays);
+        sequential_keep(line, [a, worst], tolerance2, stays);
         stays.push(worst);
-        plain(line, [worst, b], tolerance2, stays);
+        sequential_keep(line, [worst, b], tolerance2, stays);
     }
 
     #[test]
-    fn points_stay_as_one_stretch_after_the_other_says() {
+    fn keep_matches_a_sequential_douglas_peucker() {
         let mut dice = Dice::new(7);
         for n in [2, 3, 40, 700, 5000] {
             let mut line = SampledLine::default();
@@ -199,7 +199,7 @@ mod tests {
             }
             for tolerance in [0.1, 1.0, 10.0] {
                 let mut stays = vec![0];
-                plain(&line, [0, n - 1], tolerance * tolerance, &mut stays);
+                sequential_keep(&line, [0, n - 1], tolerance * tolerance, &mut stays);
                 stays.push(n - 1);
                 assert_eq!(keep(&line, tolerance * tolerance), stays, "{n} points, {tolerance}");
             }

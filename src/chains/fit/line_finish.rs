@@ -317,7 +317,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     #[test]
-    fn curves_are_the_same_whether_points_are_asked_for_or_not() {
+    fn finish_gives_the_same_curve_with_and_without_points() {
         let t = FinishTolerances {
             px: 1.0,
             smooth: 0.4,

@@ -236,7 +236,7 @@ mod tests {
     use crate::chains::Sample;
     use crate::geometry::numbers::portable_math::{cos, sin};
 
-    fn ring(closed: bool, part: impl Fn(usize) -> u32) -> SampledLine {
+    fn ring_of_parts(closed: bool, part: impl Fn(usize) -> u32) -> SampledLine {
         let mut line = SampledLine { closed, ..SampledLine::default() };
         for i in 0..60 {
             let turn = std::f64::consts::TAU * i as f64 / 60.0;
@@ -259,9 +259,9 @@ mod tests {
     }
 
     #[test]
-    fn pieces_are_the_whole_line_and_begin_where_their_parts_do() {
+    fn part_run_pieces_cover_the_whole_line_and_match_their_parts() {
         for closed in [true, false] {
-            let line = ring(closed, |i| (i as u32 / 7) % 3);
+            let line = ring_of_parts(closed, |i| (i as u32 / 7) % 3);
             let path = polyline(&line);
             // A closed line may also start elsewhere.
             for turned in if closed { vec![0, 25] } else { vec![0] } {
@@ -287,6 +287,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(PartRuns::of(&ring(true, |_| 4)), None);
+        assert_eq!(PartRuns::of(&ring_of_parts(true, |_| 4)), None);
     }
 }

@@ -237,7 +237,7 @@ mod tests {
     use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
     /// A random graph with the given numbers of vertices and edges.
-    fn tangle(vertices: u64, edges: u64) -> ViewMap {
+    fn random_view_map(vertices: u64, edges: u64) -> ViewMap {
         let roll = |what: u64, k: u64, sides: u64| hash(what, &[k, vertices, edges]) % sides;
         let mut map = ViewMap::default();
         for k in 0..vertices {
@@ -270,7 +270,7 @@ mod tests {
     }
 
     /// Reference: the same pairing, one vertex and one class at a time.
-    fn plain(map: &ViewMap, classes: &[Option<EdgeClass>], window: f64) -> Vec<u32> {
+    fn pair_ends_per_vertex(map: &ViewMap, classes: &[Option<EdgeClass>], window: f64) -> Vec<u32> {
         let step = |end: u32| DirectedEdge { edge: end / 2, reversed: end % 2 == 1 };
         let all = || (0..2 * map.edges.len() as u32).filter(|end| class(classes, *end).is_some());
         let mut groups: Vec<Vec<u32>> = Vec::new();
@@ -298,13 +298,17 @@ mod tests {
     }
 
     #[test]
-    fn ends_continue_each_other_as_one_vertex_after_the_other_says() {
+    fn pair_ends_matches_a_vertex_by_vertex_reference() {
         for (vertices, edges) in [(1, 9), (20, 30), (300, 400), (150, 600)] {
-            let map = tangle(vertices, edges);
+            let map = random_view_map(vertices, edges);
             let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| EdgeClass::of(&map, edge));
             let classes: Vec<Option<EdgeClass>> = map.edges.iter().enumerate().map(of).collect();
             for window in [0.0, 500.0] {
-                assert_eq!(pair_ends(&map, &classes, window), plain(&map, &classes, window), "{edges} edges");
+                assert_eq!(
+                    pair_ends(&map, &classes, window),
+                    pair_ends_per_vertex(&map, &classes, window),
+                    "{edges} edges"
+                );
             }
         }
     }

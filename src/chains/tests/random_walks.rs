@@ -5,11 +5,11 @@ use crate::chains::fit::douglas_peucker::simplify;
 use crate::geometry::numbers::noise::hash;
 
 /// Text form of everything that a set of chains draws, independent of order.
-fn drawing_of(chains: &[Chain]) -> Vec<String> {
+fn sorted_chain_texts(chains: &[Chain]) -> Vec<String> {
     let mut drawn: Vec<String> = chains
         .iter()
         .map(|c| {
-            let lengths = length_of(&c.points, c.closed);
+            let lengths = polyline_length(&c.points, c.closed);
             let mut points: Vec<[i64; 2]> =
                 c.points.iter().map(|p| [(p.x * 1e6) as i64, (p.y * 1e6) as i64]).collect();
             points.sort_unstable();
@@ -21,25 +21,25 @@ fn drawing_of(chains: &[Chain]) -> Vec<String> {
 }
 
 /// Seeded random numbers.
-struct Dice {
+struct RandomNumbers {
     seed: u64,
     thrown: u64,
 }
 
-impl Dice {
-    fn word(&mut self) -> u64 {
+impl RandomNumbers {
+    fn next_u64(&mut self) -> u64 {
         self.thrown += 1;
         hash(self.seed, &[self.thrown])
     }
 
     /// A random number in `0..count`.
     fn below(&mut self, count: u64) -> i32 {
-        (self.word() % count) as i32
+        (self.next_u64() % count) as i32
     }
 }
 
 /// Random walks on a coarse grid, with crossings, junctions, doubled edges and loops.
-fn walks(dice: &mut Dice) -> Vec<Polyline> {
+fn random_polylines(dice: &mut RandomNumbers) -> Vec<Polyline> {
     (0..1 + dice.below(7))
         .map(|_| {
             let mut at = (dice.below(8), dice.below(8));
@@ -56,25 +56,25 @@ fn walks(dice: &mut Dice) -> Vec<Polyline> {
 }
 
 /// Runs a check on 256 random drawings.
-fn all(check: impl Fn(&mut Dice, &[Polyline])) {
+fn for_each_random_drawing(check: impl Fn(&mut RandomNumbers, &[Polyline])) {
     for seed in 0..256 {
-        let mut dice = Dice { seed, thrown: 0 };
-        let lines = walks(&mut dice);
+        let mut dice = RandomNumbers { seed, thrown: 0 };
+        let lines = random_polylines(&mut dice);
         check(&mut dice, &lines);
     }
 }
 
 #[test]
 fn with_all_off_no_length_is_lost() {
-    all(|_, lines| {
-        let map = map_of(lines);
+    for_each_random_drawing(|_, lines| {
+        let map = view_map_of(lines);
         let whole: f64 = map
             .edges
             .iter()
             .map(|e| map.vertices[e.start.index()].position.distance(map.vertices[e.end.index()].position))
             .sum();
-        let chains = linked(&map, &off(), Unit::Px);
-        let drawn: f64 = chains.iter().map(|c| length_of(&c.points, c.closed)).sum();
+        let chains = link_with_hidden_lines(&map, &all_options_off(), Unit::Px);
+        let drawn: f64 = chains.iter().map(|c| polyline_length(&c.points, c.closed)).sum();
         assert!((whole - drawn).abs() < 1e-6 * (1.0 + whole), "{whole} drawn as {drawn}: {lines:?}");
         for c in &chains {
             assert_eq!(c.points.len(), c.samples.len());
@@ -83,25 +83,29 @@ fn with_all_off_no_length_is_lost() {
 }
 
 #[test]
-fn the_sense_of_edges_changes_nothing() {
-    all(|dice, lines| {
-        let map = map_of(lines);
+fn edge_direction_does_not_change_the_chains() {
+    for_each_random_drawing(|dice, lines| {
+        let map = view_map_of(lines);
         let mut turned = map.clone();
         for edge in &mut turned.edges {
             if dice.below(2) == 0 {
                 std::mem::swap(&mut edge.start, &mut edge.end);
             }
         }
-        assert_eq!(linked(&map, &off(), Unit::Px), linked(&turned, &off(), Unit::Px), "{lines:?}");
+        assert_eq!(
+            link_with_hidden_lines(&map, &all_options_off(), Unit::Px),
+            link_with_hidden_lines(&turned, &all_options_off(), Unit::Px),
+            "{lines:?}"
+        );
     });
 }
 
 #[test]
-fn the_order_of_edges_and_vertices_changes_nothing() {
-    all(|dice, lines| {
-        let map = map_of(lines);
+fn edge_and_vertex_order_does_not_change_the_chains() {
+    for_each_random_drawing(|dice, lines| {
+        let map = view_map_of(lines);
         let mut order: Vec<usize> = (0..map.vertices.len()).collect();
-        order.sort_by_cached_key(|i| (dice.word(), *i));
+        order.sort_by_cached_key(|i| (dice.next_u64(), *i));
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(to, from)| place[*from] = to as u32);
         let mut shuffled =
@@ -111,16 +115,17 @@ fn the_order_of_edges_and_vertices_changes_nothing() {
             edge.end = ViewVertexId(place[edge.end.index()]);
         }
         let mut turn: Vec<usize> = (0..map.edges.len()).collect();
-        turn.sort_by_cached_key(|i| (dice.word(), *i));
+        turn.sort_by_cached_key(|i| (dice.next_u64(), *i));
         shuffled.edges = turn.iter().map(|i| shuffled.edges[*i]).collect();
-        let [one, other] = [&map, &shuffled].map(|map| drawing_of(&linked(map, &off(), Unit::Px)));
+        let [one, other] = [&map, &shuffled]
+            .map(|map| sorted_chain_texts(&link_with_hidden_lines(map, &all_options_off(), Unit::Px)));
         assert_eq!(one, other, "{lines:?}");
     });
 }
 
 #[test]
-fn simplifying_twice_is_simplifying_once() {
-    all(|dice, lines| {
+fn simplify_is_idempotent() {
+    for_each_random_drawing(|dice, lines| {
         let tolerance = 0.1 + f64::from(dice.below(90)) / 10.0;
         for (points, ..) in lines {
             let mut line = SampledLine::default();
@@ -134,9 +139,9 @@ fn simplifying_twice_is_simplifying_once() {
 }
 
 #[test]
-fn any_graph_gives_finite_chains() {
-    all(|_, lines| {
-        for chain in linked(&map_of(lines), &ChainOptions::default(), Unit::Px) {
+fn random_view_maps_give_finite_chains() {
+    for_each_random_drawing(|_, lines| {
+        for chain in link_with_hidden_lines(&view_map_of(lines), &ChainOptions::default(), Unit::Px) {
             assert!(chain.points.len() > 1 && chain.path.is_finite(), "{lines:?}");
         }
     });

@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rim_of_a_small_hole_by_an_outline_is_no_flake() {
+    fn drop_doubles_keeps_the_rim_of_a_small_hole_near_an_outline() {
         // Each side of the rim is short enough to be dropped, both together are not.
         let left = |far_ends: [u32; 2]| {
             let outline = contour(&[(0.0, 0.0), (200.0, 0.0)], [0, 1]);
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn a_crease_that_may_go_for_noise_stands_for_no_contour() {
+    fn drop_doubles_keeps_a_contour_next_to_a_weak_crease() {
         let left = |pronounced: f64| {
             let rim = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
             let mut crease = contour(&[(0.0, 2.5), (200.0, 2.5)], [2, 3]);
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_line_of_a_rounding_gives_way_to_a_contour() {
+    fn drop_doubles_drops_a_rounding_crease_next_to_a_contour() {
         let left = |is_rounding: bool| {
             let outline = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
             let mut crease = contour(&[(50.0, 2.5), (119.0, 2.5), (123.0, 2.5)], [2, 3]);

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     /// Lengths that remain of runs that alternate between silhouette and not.
-    fn left(lengths: &[f64], is_hard: bool) -> Vec<f64> {
+    fn merged_lengths(lengths: &[f64], is_hard: bool) -> Vec<f64> {
         let stretch = |(k, length): (usize, &f64)| SilhouetteRun {
             first: k,
             end: k + 1,
@@ -117,10 +117,10 @@ mod tests {
     }
 
     #[test]
-    fn stretches_of_sharp_edges_stay_that_would_be_noise_on_a_rounded_surface() {
-        assert_eq!(left(&[30.0, 9.0, 40.0], false), [79.0]);
-        assert_eq!(left(&[30.0, 9.0, 40.0], true), [30.0, 9.0, 40.0]);
-        assert_eq!(left(&[30.0, 3.0, 40.0], true), [73.0]);
-        assert_eq!(left(&[3.0, 30.0], true), [33.0]);
+    fn merge_short_runs_keeps_shorter_runs_on_sharp_edges() {
+        assert_eq!(merged_lengths(&[30.0, 9.0, 40.0], false), [79.0]);
+        assert_eq!(merged_lengths(&[30.0, 9.0, 40.0], true), [30.0, 9.0, 40.0]);
+        assert_eq!(merged_lengths(&[30.0, 3.0, 40.0], true), [73.0]);
+        assert_eq!(merged_lengths(&[3.0, 30.0], true), [33.0]);
     }
 }

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_stand_where_they_are_told_to() -> Result<(), Error> {
+    fn numbered_destination_inserts_the_frame_number() -> Result<(), Error> {
         for (name, frame, path) in [
             ("frames/%04d.svg", 7, "frames/0007.svg"),
             ("a-%d.png", 12, "a-12.png"),
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_tell_nothing_are_refused() {
+    fn destination_accepts_film_formats_and_rejects_other_names() {
         for name in [
             "-",
             "film",

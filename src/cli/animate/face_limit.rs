@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_have_units() {
+    fn budget_parses_frame_times_with_units() {
         assert_eq!(budget("33ms"), Ok(33.0));
         assert_eq!(budget("0.1s"), Ok(100.0));
         assert_eq!(budget("20"), Ok(20.0));

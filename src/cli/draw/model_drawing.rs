@@ -374,7 +374,7 @@ mod tests {
     use crate::pipeline::report::drawing_report::Counts;
 
     #[test]
-    fn the_summary_is_one_line() {
+    fn drawing_summary_is_one_line() {
         let page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
         let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
         let drawn = EncodedDrawing {

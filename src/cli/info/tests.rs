@@ -32,7 +32,7 @@ fn scene(parts: usize) -> Scene {
     scene
 }
 
-fn walk() -> Clip {
+fn walk_clip() -> Clip {
     let track = Track::new(vec![0.5, 1.0, 2.5], vec![0.0; 9], Interpolation::Linear).unwrap();
     Clip {
         name: "Walk".to_owned(),
@@ -49,8 +49,8 @@ fn args(model: &str) -> InfoArgs {
 }
 
 #[test]
-fn people_read_lists_of_a_bearable_length() {
-    let text = ModelInfo::of(&scene(22), &rig(walk()), &args("m.obj")).text(false);
+fn info_text_shortens_long_part_lists() {
+    let text = ModelInfo::of(&scene(22), &rig(walk_clip()), &args("m.obj")).text(false);
     let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                  22 parts:\n    bolt 0: 1 triangle, 1 line\n";
     assert!(text.starts_with(start), "{text}");
@@ -64,7 +64,7 @@ fn people_read_lists_of_a_bearable_length() {
 }
 
 #[test]
-fn people_read_what_parts_are_painted_by() {
+fn info_text_lists_texture_coordinates_and_vertex_colours() {
     let mut scene = scene(1);
     scene.geometries[0].corner_uvs = vec![[0; 3]];
     assert!(
@@ -78,7 +78,7 @@ fn people_read_what_parts_are_painted_by() {
 }
 
 #[test]
-fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
+fn info_reports_parts_that_are_wound_inward() -> Result<(), serde_json::Error> {
     let mut scene = scene(2);
     scene.geometries[0].positions.push(DVec3::Z);
     // A tetrahedron that is wound inward.
@@ -101,8 +101,8 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
 }
 
 #[test]
-fn programs_read_everything() -> Result<(), serde_json::Error> {
-    let json = serde_json::to_string(&ModelInfo::of(&scene(22), &rig(walk()), &args("m.obj")))?;
+fn info_json_lists_all_parts() -> Result<(), serde_json::Error> {
+    let json = serde_json::to_string(&ModelInfo::of(&scene(22), &rig(walk_clip()), &args("m.obj")))?;
     let value: serde_json::Value = serde_json::from_str(&json)?;
     assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
     assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
@@ -112,7 +112,7 @@ fn programs_read_everything() -> Result<(), serde_json::Error> {
 }
 
 #[test]
-fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error> {
+fn parts_scaled_to_zero_have_no_coordinate_precision() -> Result<(), serde_json::Error> {
     let mut scene = scene(2);
     scene.parts[1].world_from_part = DAffine3::from_scale(DVec3::ZERO);
     let info = ModelInfo::of(&scene, &Rig::default(), &args("m.obj"));
@@ -128,7 +128,7 @@ fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error>
 }
 
 #[test]
-fn parts_of_one_body_have_the_step_of_the_coarsest() {
+fn parts_of_one_body_share_the_coarsest_lattice_step() {
     // Two faces of one tetrahedron in two parts; only the first part has a lattice.
     let mut scene = scene(2);
     let step = 1e-5;
@@ -146,7 +146,7 @@ fn parts_of_one_body_have_the_step_of_the_coarsest() {
 }
 
 #[test]
-fn an_empty_model_has_no_bounds() {
+fn info_text_of_an_empty_model_reports_zero_triangles() {
     assert!(
         ModelInfo::of(&scene(0), &Rig::default(), &args("m.obj"))
             .text(false)
@@ -155,7 +155,7 @@ fn an_empty_model_has_no_bounds() {
 }
 
 #[test]
-fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
+fn info_text_counts_joints_and_lists_them_with_all() -> Result<(), serde_json::Error> {
     let node = |name: &str, parent| Node {
         name: name.to_owned(),
         leaves_lines: false,
@@ -167,7 +167,7 @@ fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
     let rig = Rig {
         nodes: vec![node("hips", None), node("mesh", None), node("spine", Some(0))],
         skins: vec![Skin { joints: vec![2, 0], binds: vec![DAffine3::IDENTITY; 2] }],
-        ..rig(walk())
+        ..rig(walk_clip())
     };
     let info = ModelInfo::of(&scene(1), &rig, &args("m.glb"));
     assert!(info.text(false).contains("  2 joints (--all lists them)\n"), "{}", info.text(false));
@@ -182,8 +182,8 @@ fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
 }
 
 #[test]
-fn clips_beyond_twenty_are_listed_in_full_only() {
-    let clips = vec![walk(); 25];
+fn info_text_lists_more_than_twenty_clips_only_with_all() {
+    let clips = vec![walk_clip(); 25];
     let info = ModelInfo::of(&scene(1), &Rig { clips, ..Rig::default() }, &args("m.glb"));
     assert_eq!(info.text(false).matches("    Walk: ").count(), 20);
     assert_eq!(info.text(true).matches("    Walk: ").count(), 25);

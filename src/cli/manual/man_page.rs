@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use crate::cli::options::draw_args::HowArgs;
 
-    fn text(command: Option<&str>) -> String {
+    fn page_text(command: Option<&str>) -> String {
         let mut program = crate::cli::program();
         program.build();
         let command = command.and_then(|name| program.find_subcommand(name)).unwrap_or(&program);
@@ -190,11 +190,11 @@ mod tests {
     }
 
     #[test]
-    fn every_command_has_a_page() {
+    fn every_command_has_a_man_page() {
         let mut program = crate::cli::program();
         program.build();
         for command in program.get_subcommands().filter(|c| c.get_name() != "help") {
-            let page = text(Some(command.get_name()));
+            let page = page_text(Some(command.get_name()));
             let title = format!(".TH LIGNE-{} 1", command.get_name().to_uppercase());
             assert!(page.contains(&title), "{title} in {page}");
             for section in ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "\"EXIT STATUS\"", "EXAMPLES"] {
@@ -204,8 +204,8 @@ mod tests {
     }
 
     #[test]
-    fn the_page_names_every_key_of_the_file() {
-        let page = text(None).replace('\\', "");
+    fn man_page_names_every_key_of_the_configuration_file() {
+        let page = page_text(None).replace('\\', "");
         let draw = HowArgs::augment_args(Command::new("draw"));
         for option in draw.get_arguments().filter_map(|option| option.get_long()) {
             let named = page.contains(&format!(" {option},"))

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_patterns_and_the_first_clip_is_the_default() {
+    fn clip_names_are_patterns_and_default_to_the_first_clip() {
         let named = |text: &str| blend(&[text]).map(|blend| (blend.playing(0.0)[0].clip, blend.notes));
         assert_eq!(named("R*").unwrap(), (1, Vec::new()));
         assert_eq!(weights(&["W??k:0.3,R*"], 0.0), [(0, 0.3), (1, 0.7)]);
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn weights_are_told_or_shared() {
+    fn clips_without_a_weight_share_the_rest() {
         assert_eq!(weights(&["Walk", "Run"], 0.0), [(0, 0.5), (1, 0.5)]);
         assert_eq!(weights(&["Walk,Run"], 0.0), [(0, 0.5), (1, 0.5)]);
         assert_eq!(weights(&["Walk:0.75, Run"], 0.0), [(0, 0.75), (1, 0.25)]);
@@ -275,27 +275,27 @@ mod tests {
     }
 
     #[test]
-    fn weights_change_in_time() {
-        let fade = |time| weights(&["Walk:1@1..0@3,Run:0@1..1@3"], time).map_weights();
+    fn clip_weights_change_over_time() {
+        let fade = |time| weights(&["Walk:1@1..0@3,Run:0@1..1@3"], time).weight_pair();
         assert_eq!(
             [0.0, 1.0, 1.5, 3.0, 9.0].map(fade),
             [[1.0, 0.0], [1.0, 0.0], [0.75, 0.25], [0.0, 1.0], [0.0, 1.0]]
         );
         // Over the span of the clips, or over the drawn time.
-        assert_eq!(weights(&["Walk:1..0", "Run"], 1.0).map_weights(), [0.75, 0.25]);
+        assert_eq!(weights(&["Walk:1..0", "Run"], 1.0).weight_pair(), [0.75, 0.25]);
         let film = blend(&["Walk:0..1..0", "Run"]).unwrap().over([0.0, 8.0]);
         assert_eq!([0.0, 4.0, 6.0].map(|time| film.playing(time)[0].weight), [0.0, 1.0, 0.5]);
     }
 
     #[test]
-    fn clips_begin_again() {
+    fn repeating_clips_start_again_after_their_end() {
         let blend = ClipBlend { repeats: true, ..blend(&["Walk", "Run"]).unwrap() };
         let times: Vec<f64> = blend.playing(5.25).iter().map(|own| own.time).collect();
         assert_eq!(times, [0.25, 1.25]);
     }
 
     #[test]
-    fn what_is_no_weight_is_refused() {
+    fn invalid_clip_names_and_weights_are_rejected() {
         for (text, expected) in [
             ("Jump", "no animation `Jump`"),
             ("Jump:1", "no animation `Jump`"),
@@ -311,12 +311,12 @@ mod tests {
         }
     }
 
-    trait Weights {
-        fn map_weights(&self) -> [f64; 2];
+    trait WeightPair {
+        fn weight_pair(&self) -> [f64; 2];
     }
 
-    impl Weights for Vec<(usize, f64)> {
-        fn map_weights(&self) -> [f64; 2] {
+    impl WeightPair for Vec<(usize, f64)> {
+        fn weight_pair(&self) -> [f64; 2] {
             [self[0].1, self[1].1]
         }
     }

@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_points() {
+    fn point_parses_three_coordinates() {
         assert_eq!(point("0, 12.5,-3"), Ok(DVec3::new(0.0, 12.5, -3.0)));
         for wrong in ["", "1", "1,2", "1,2,3,4", "a,2,3", "1,2,3,a", "nan,0,0", "1,,3"] {
             assert!(point(wrong).is_err(), "{wrong}");

@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn spots_are_read() {
+    fn spot_parses_a_colour_and_an_ink_name() {
         let read = spot("#e4002b=PANTONE 185 C").unwrap();
         assert_eq!((read.colour, read.name.as_str()), (Colour::rgb(228, 0, 43), "PANTONE 185 C"));
         assert!(spot("red").unwrap_err().contains("COLOUR=INK"));
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_that_was_asked_for_is_nothing() {
+    fn pdf_options_are_none_without_print_options() {
         assert_eq!(PrintArgs::default().options(None).unwrap(), None);
         assert_eq!(PrintArgs::default().options(Some("currentColor")).unwrap(), None);
         assert!(PrintArgs::default().options(Some("k")).unwrap().is_some());

@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_explosions() {
+    fn explosion_parses_an_axis_and_a_factor() {
         let apart = |axis, factor| Ok(Explosion { axis, factor, parts: Vec::new() });
         assert_eq!(explosion("z"), apart(Some(DVec3::Z), 1.0));
         assert_eq!(explosion("auto:1.5"), apart(None, 1.5));
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn reads_what_is_told_of_parts() {
+    fn part_explosion_parses_a_pattern_and_its_settings() {
         let part = part_explosion("M6: nut*: along=-z distance=12.5 order=2 group=cover").unwrap();
         assert_eq!(part.name, Glob::new("M6: nut*"));
         assert_eq!((part.direction, part.distance, part.order), (Some(DVec3::NEG_Z), Some(12.5), Some(2.0)));

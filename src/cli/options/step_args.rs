@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tolerances_have_units() {
+    fn step_tolerance_accepts_units_and_rejects_invalid_lengths() {
         for (text, mm) in [("0.1mm", 0.1), ("0.05", 0.05), ("0.1in", 2.54), ("1cm", 10.0)] {
             assert!((tolerance(text).unwrap() - mm).abs() < 1e-12, "{text}");
         }
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_finer_tolerance_has_smaller_angles() {
+    fn facet_angle_grows_with_the_step_tolerance_within_limits() {
         let angle = |mm| StepArgs { step_tolerance: Some(mm), ..StepArgs::default() }.angle();
         assert!((StepArgs::default().angle() - 0.2).abs() < 1e-12);
         assert!(angle(0.01) < angle(0.1) && angle(0.1) < angle(1.0));

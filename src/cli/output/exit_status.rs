@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_full_disc_passes_and_a_missing_file_does_not() {
+    fn exit_status_separates_temporary_from_permanent_errors() {
         let of = |kind: ErrorKind| of_error(&Error::io("cannot write", kind.into()));
         assert_eq!(
             [ErrorKind::StorageFull, ErrorKind::TimedOut, ErrorKind::Other].map(of),

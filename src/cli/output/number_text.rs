@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_well() {
+    fn number_texts_have_digit_groups_plurals_and_units() {
         assert_eq!(
             [0, 999, 1_000, 69_451, 1_234_567].map(grouped),
             ["0", "999", "1,000", "69,451", "1,234,567"]
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_are_short() {
+    fn short_and_three_digits_limit_significant_digits() {
         let numbers = [0.0, -1.5, 4_600_000.123, 1e-7, 3e9, 77.990_000_1, 0.25];
         let texts = ["0", "-1.5", "4600000", "1.00000e-7", "3.00000e9", "77.99", "0.25"];
         assert_eq!(numbers.map(short), texts);

@@ -227,14 +227,14 @@ mod tests {
     use super::*;
 
     /// Creates an empty folder for one test.
-    fn folder(name: &str) -> std::io::Result<PathBuf> {
+    fn empty_folder(name: &str) -> std::io::Result<PathBuf> {
         let folder = std::env::temp_dir().join(format!("ligne-output-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder)?;
         Ok(folder)
     }
 
-    fn names(folder: &Path) -> std::io::Result<Vec<String>> {
+    fn file_names(folder: &Path) -> std::io::Result<Vec<String>> {
         let mut names = Vec::new();
         for entry in fs::read_dir(folder)? {
             names.push(entry?.file_name().to_string_lossy().into_owned());
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn files_beside_drawings_tell_which() {
+    fn staged_target_returns_the_file_of_a_temporary_name() {
         assert_eq!(staged_target(".gear.v2.svg.812-0.tmp"), Some("gear.v2.svg"));
         for other in
             ["gear.svg", ".gear.svg", ".tmp", ".gear.svg.812.tmp", ".gear.svg.x-0.tmp", "gear.svg.812-0.tmp"]
@@ -254,8 +254,8 @@ mod tests {
     }
 
     #[test]
-    fn nothing_changes_before_the_commit() -> Result<(), Box<dyn std::error::Error>> {
-        let folder = folder("commit")?;
+    fn staging_changes_no_file_before_commit() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = empty_folder("commit")?;
         let (old, new) = (folder.join("old.svg"), folder.join("new.svg"));
         fs::write(&old, "before")?;
         let mut staging = Staging::default();
@@ -264,14 +264,14 @@ mod tests {
         assert_eq!((fs::read(&old)?.as_slice(), new.exists()), (b"before".as_slice(), false));
         staging.commit()?;
         assert_eq!((fs::read(&old)?, fs::read(&new)?), (b"after".to_vec(), b"new".to_vec()));
-        assert_eq!(names(&folder)?, ["new.svg", "old.svg"]);
+        assert_eq!(file_names(&folder)?, ["new.svg", "old.svg"]);
         fs::remove_dir_all(folder)?;
         Ok(())
     }
 
     #[test]
-    fn a_failure_leaves_everything_as_it_was() -> Result<(), Box<dyn std::error::Error>> {
-        let folder = folder("failure")?;
+    fn failed_staging_leaves_existing_files_unchanged() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = empty_folder("failure")?;
         let old = folder.join("old.svg");
         fs::write(&old, "before")?;
         let mut staging = Staging::default();
@@ -281,14 +281,14 @@ mod tests {
         assert!(staging.add(&folder, b"x").is_err());
         drop(staging);
         assert_eq!(fs::read(&old)?, b"before");
-        assert_eq!(names(&folder)?, ["old.svg"]);
+        assert_eq!(file_names(&folder)?, ["old.svg"]);
         fs::remove_dir_all(folder)?;
         Ok(())
     }
 
     #[test]
-    fn a_folder_made_for_nothing_goes_again() -> Result<(), Box<dyn std::error::Error>> {
-        let folder = folder("made")?;
+    fn staging_removes_created_folders_unless_committed() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = empty_folder("made")?;
         let made = folder.join("maps");
         let mut staging = Staging::default();
         staging.make_folder(&made)?;
@@ -299,16 +299,16 @@ mod tests {
         staging.make_folder(&made)?;
         staging.add(&made.join("a.png"), b"a")?;
         staging.commit()?;
-        assert_eq!(names(&made)?, ["a.png"]);
+        assert_eq!(file_names(&made)?, ["a.png"]);
         fs::remove_dir_all(folder)?;
         Ok(())
     }
 
     #[cfg(unix)]
     #[test]
-    fn links_and_permissions_stay() -> Result<(), Box<dyn std::error::Error>> {
+    fn commit_keeps_symbolic_links_and_permissions() -> Result<(), Box<dyn std::error::Error>> {
         use std::os::unix::fs::{PermissionsExt, symlink};
-        let folder = folder("links")?;
+        let folder = empty_folder("links")?;
         let (real, link) = (folder.join("real.svg"), folder.join("link.svg"));
         fs::write(&real, "before")?;
         fs::set_permissions(&real, fs::Permissions::from_mode(0o640))?;

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_block_wanders_within_the_bar() {
+    fn progress_block_stays_within_the_bar() {
         for tick in 0..100 {
             let text = picture(TICK_INTERVAL * tick, "drawing", "bunny.obj");
             let bar = text.split_once('[').and_then(|_| text.rsplit_once('[')).map(|(_, rest)| rest);

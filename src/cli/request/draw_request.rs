@@ -245,19 +245,19 @@ mod tests {
     use crate::cli::options::values::paper_size::PaperSize;
 
     #[derive(Parser)]
-    struct Typed {
+    struct DrawCommand {
         #[command(flatten)]
         args: DrawArgs,
     }
 
     fn request(line: &str) -> Result<DrawRequest, String> {
         let words = std::iter::once("draw").chain(line.split_whitespace());
-        let typed = Typed::try_parse_from(words).map_err(|error| error.to_string())?;
+        let typed = DrawCommand::try_parse_from(words).map_err(|error| error.to_string())?;
         DrawRequest::new(typed.args).map_err(|error| error.to_string())
     }
 
     #[test]
-    fn the_drawing_is_named_after_the_model() -> Result<(), String> {
+    fn draw_request_names_the_output_after_the_model() -> Result<(), String> {
         let request = request("some/folder/bunny.v2.obj")?;
         let paths: Vec<_> = request.outputs.iter().map(|output| output.path.clone()).collect();
         assert_eq!(paths, [PathBuf::from("bunny.v2.svg")]);
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn options_become_what_is_meant() -> Result<(), String> {
+    fn draw_request_holds_the_values_of_its_options() -> Result<(), String> {
         let printed =
             request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
         let formats: Vec<_> = printed.outputs.iter().map(|output| output.format).collect();
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn contradictions_are_refused() {
+    fn draw_request_rejects_contradictory_and_invalid_options() {
         let wrong = [
             "",
             "m.stl a.gif",

@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn models_that_lie_on_their_back_are_found() {
+    fn hint_reports_models_that_lie_on_their_back() {
         let lies = |format, low, high| !hints(format, &[("lid", low, high)]).is_empty();
         assert!(lies("OBJ", [-3.0, -2.0, 0.0], [3.0, 2.0, 5.0]));
         assert!(lies("PLY", [-3.0, -2.0, 0.01], [3.0, 2.0, 5.0]));
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ground_that_shrinks_the_rest_is_named() {
+    fn hint_names_a_ground_that_shrinks_the_other_parts() {
         let house = ("house", [0.0, 0.0, 0.0], [10.0, 8.0, 10.0]);
         let found = hints("glTF", &[house, ("ground", [-1000.0, -1.0, -1000.0], [1000.0, 0.0, 1000.0])]);
         assert!(found[0].contains("`ground`") && found[0].contains("to 1 %"), "{found:?}");

@@ -114,19 +114,19 @@ mod tests {
     use crate::cli::options::draw_args::DrawArgs;
 
     #[derive(Parser)]
-    struct Typed {
+    struct DrawCommand {
         #[command(flatten)]
         args: DrawArgs,
     }
 
-    fn told(line: &str) -> Vec<String> {
+    fn unused_option_warnings(line: &str) -> Vec<String> {
         let words = || std::iter::once("draw").chain(line.split_whitespace());
-        let request = DrawRequest::new(Typed::try_parse_from(words()).unwrap().args).unwrap();
+        let request = DrawRequest::new(DrawCommand::try_parse_from(words()).unwrap().args).unwrap();
         unused_options(&request, words().map(OsString::from))
     }
 
     #[test]
-    fn options_that_do_nothing_are_told() {
+    fn unused_options_lists_options_without_effect() {
         for (line, options) in [
             ("m.obj", 0),
             ("m.obj --dpi 300", 1),
@@ -136,7 +136,12 @@ mod tests {
             ("m.obj --repeat --frame all", 2),
             ("m.glb --repeat --time 3 --frame all --hide bolt", 0),
         ] {
-            assert_eq!(told(line).len(), options, "{line}: {:?}", told(line));
+            assert_eq!(
+                unused_option_warnings(line).len(),
+                options,
+                "{line}: {:?}",
+                unused_option_warnings(line)
+            );
         }
     }
 }

@@ -192,15 +192,15 @@ fn folder(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
 mod tests {
     use super::*;
 
-    fn cache(name: &str, max_bytes: u64) -> ConversionCache {
+    fn temporary_cache(name: &str, max_bytes: u64) -> ConversionCache {
         let folder = std::env::temp_dir().join(format!("ligne-step-cache-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         ConversionCache { folder, max_bytes }
     }
 
     #[test]
-    fn entries_come_back_and_broken_ones_do_not() {
-        let cache = cache("broken", 1000);
+    fn conversion_cache_returns_entries_and_ignores_damaged_ones() {
+        let cache = temporary_cache("broken", 1000);
         let key = ConversionKey::of(&[b"a", b"bc"]);
         assert_ne!(key, ConversionKey::of(&[b"ab", b"c"]));
         assert_eq!(cache.get(key), None);
@@ -219,8 +219,8 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_entries_go_first() {
-        let cache = cache("full", 150);
+    fn conversion_cache_evicts_the_oldest_entries_first() {
+        let cache = temporary_cache("full", 150);
         let keys = [b"a", b"b", b"c"].map(|thing| ConversionKey::of(&[thing]));
         for (key, days) in keys.iter().zip([30, 20, 10]) {
             cache.put(*key, &[0; 40], UpAxis::Y);
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn folders_follow_the_variables() {
+    fn cache_folder_follows_environment_variables() {
         let with = |set: &[(&str, &str)]| {
             folder(|name| set.iter().find(|(known, _)| *known == name).map(|(_, value)| PathBuf::from(value)))
         };

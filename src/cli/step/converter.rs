@@ -259,7 +259,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn programs_are_known_by_their_names() {
+    fn converter_kind_is_recognized_by_program_name() {
         for (program, kind) in [
             ("/usr/bin/python3", ConverterKind::Cascadio),
             ("venv/bin/python3.12", ConverterKind::Cascadio),

@@ -186,7 +186,7 @@ mod tests {
     use super::read;
 
     #[test]
-    fn the_grammar_is_read() {
+    fn path_parser_follows_the_svg_path_grammar() {
         for (data, wanted) in [
             ("M1 2 3 4", "M1,2 L3,4"),
             (" m 1,2 , 3 -4.5.5-1e1 ", "M1,2 L4,-2.5 L4.5,-12.5"),
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn what_leaves_the_grammar_is_not_read() {
+    fn path_parser_rejects_malformed_path_data() {
         for data in [
             "L1 1",
             "M1",

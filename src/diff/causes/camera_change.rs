@@ -137,7 +137,7 @@ mod tests {
 
     /// Boxes of lines in space, in a parallel view rotated by `degrees`. Each box moves along x by `apart`
     /// times its position.
-    fn picture(degrees: f64, apart: f64, scale: f64) -> Picture {
+    fn picture_of_boxes(degrees: f64, apart: f64, scale: f64) -> Picture {
         let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         let mut paths = String::new();
         for part in 0..300 {
@@ -159,24 +159,24 @@ mod tests {
         Picture::from_svg(&format!(r##"{head}<g fill="none" stroke="#000">{paths}</g></svg>"##)).unwrap()
     }
 
-    fn sentence(after: &Picture) -> Option<String> {
-        let brief = compare(&picture(20.0, 0.0, 1.0), after, &DiffOptions::default().in_brief());
+    fn brief_cause(after: &Picture) -> Option<String> {
+        let brief = compare(&picture_of_boxes(20.0, 0.0, 1.0), after, &DiffOptions::default().in_brief());
         assert!(!brief.is_same());
         brief.is_brief.then(|| brief.causes[0].sentence.clone())
     }
 
     #[test]
-    fn a_turned_camera_is_one_sentence() {
-        let said = sentence(&picture(21.0, 0.0, 1.0));
+    fn rotated_camera_is_reported_in_one_sentence() {
+        let said = brief_cause(&picture_of_boxes(21.0, 0.0, 1.0));
         assert_eq!(said.as_deref(), Some("the drawing is seen from another side: 1200 marks of 300 parts"));
     }
 
     #[test]
-    fn parts_that_move_and_drawings_that_grow_or_turn_are_compared_mark_by_mark() {
-        assert_eq!(sentence(&picture(20.0, 0.1, 1.0)), None);
-        assert_eq!(sentence(&picture(20.0, 0.0, 1.1)), None);
-        let old = picture(20.0, 0.0, 1.0);
+    fn moved_parts_and_page_transforms_are_not_camera_changes() {
+        assert_eq!(brief_cause(&picture_of_boxes(20.0, 0.1, 1.0)), None);
+        assert_eq!(brief_cause(&picture_of_boxes(20.0, 0.0, 1.1)), None);
+        let old = picture_of_boxes(20.0, 0.0, 1.0);
         let turned = old.svg.replacen("<g ", r#"<g transform="rotate(2 500 400)" "#, 1);
-        assert_eq!(sentence(&Picture::from_svg(&turned).unwrap()), None);
+        assert_eq!(brief_cause(&Picture::from_svg(&turned).unwrap()), None);
     }
 }

@@ -117,7 +117,7 @@ mod tests {
     use super::out_of_order;
 
     #[test]
-    fn the_fewest_marks_moved() {
+    fn out_of_order_returns_the_fewest_moved_marks() {
         assert!(out_of_order(&[(0, 3), (1, 5), (2, 9)]).is_empty());
         assert_eq!(out_of_order(&[(0, 9), (1, 0), (2, 1), (3, 2)]), [0]);
         assert_eq!(out_of_order(&[(0, 0), (1, 2), (2, 3), (3, 1)]), [3]);

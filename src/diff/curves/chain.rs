@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn split_lines_are_joined_where_two_ends_meet() {
+    fn join_connects_split_lines_where_two_ends_meet() {
         let split = vec![line(&[(5.0, 0.0), (9.0, 0.0)]), line(&[(5.0, 0.0), (0.0, 0.0)])];
         let joined: Vec<OutlineChain> = join(split, 0.01).into_iter().map(OutlineChain::canonical).collect();
         assert_eq!(joined, [line(&[(0.0, 0.0), (5.0, 0.0), (9.0, 0.0)])]);
@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn subpaths_and_dots() {
+    fn flatten_returns_one_polyline_per_subpath_and_dot() {
         let path = kurbo::BezPath::from_svg("M0 0H4V4ZM9 9h0M1 1L2 2").unwrap();
         let found = flatten(&path, 0.01, false);
         let lengths: Vec<(usize, bool)> =

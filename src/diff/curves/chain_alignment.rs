@@ -112,19 +112,19 @@ mod tests {
         OutlineChain { group: 0, points, closed, shapes: Vec::new() }
     }
 
-    fn moved(chain: &OutlineChain, motion: Affine) -> OutlineChain {
+    fn reversed_and_moved(chain: &OutlineChain, motion: Affine) -> OutlineChain {
         OutlineChain { points: chain.points.iter().rev().map(|p| motion * *p).collect(), ..chain.clone() }
     }
 
     #[test]
-    fn motions_are_found() {
+    fn align_finds_translations_and_rotations() {
         let open = chain(&[(0.0, 0.0), (40.0, 10.0), (60.0, 40.0)], false);
         let closed = chain(&[(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 0.0)], true);
         for chain in [open, closed] {
-            let shifted = align(&chain, &moved(&chain, Affine::translate((3.0, 4.0))));
+            let shifted = align(&chain, &reversed_and_moved(&chain, Affine::translate((3.0, 4.0))));
             assert!((shifted.shift - Vec2::new(3.0, 4.0)).hypot() < 0.5, "{shifted:?}");
             assert!(!chain.closed || shifted.after_shift < 6.0);
-            let turned = align(&chain, &moved(&chain, Affine::rotate(0.02)));
+            let turned = align(&chain, &reversed_and_moved(&chain, Affine::rotate(0.02)));
             assert!(turned.after_similarity < 0.2 * turned.largest.max(1.0), "{turned:?}");
         }
     }

@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_evenly_spaced() {
+    fn evenly_spaced_points_divide_a_chain_into_equal_lengths() {
         let bent = chain(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)]);
         let found: Vec<Point> = evenly_spaced_points(&bent, 5).collect();
         assert_eq!(found, [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(Point::from));

@@ -55,7 +55,7 @@ mod tests {
     use crate::diff::shapes::picture::ShapeKind;
 
     #[test]
-    fn holes_are_taken_out() {
+    fn region_area_subtracts_holes() {
         for (path, even_odd, wanted) in [
             ("M0 0H10V10H0Z", false, 100.0),
             ("M0 0H10V10H0ZM2 2H4V4H2Z", true, 96.0),

@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     /// Segments from one point whose ends are `step` px apart.
-    fn fan(count: u32, step: f64) -> Vec<Segment> {
+    fn segment_fan(count: u32, step: f64) -> Vec<Segment> {
         let segment = |chain: u32| Segment {
             chain,
             from: Point::new(60.0, 40.0),
@@ -135,8 +135,8 @@ mod tests {
     }
 
     #[test]
-    fn points_are_near_as_by_asking_all() {
-        let segments = fan(500, 0.1);
+    fn cluster_search_matches_a_test_of_all_segments() {
+        let segments = segment_fan(500, 0.1);
         let tree = SegmentClusters::new(&segments);
         let mut hits = 0;
         for i in 0..900 {
@@ -149,8 +149,8 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_nearly_on_each_other_is_asked_as_one() {
-        let segments = fan(10_000, 1e-5);
+    fn nearly_coincident_segments_are_tested_as_one_cluster() {
+        let segments = segment_fan(10_000, 1e-5);
         let tree = SegmentClusters::new(&segments);
         let p = Point::new(75.0, 32.0);
         let mut asked = 0;

@@ -186,7 +186,7 @@ mod tests {
     use super::super::segment::nearest_on;
     use super::*;
 
-    fn scattered(count: u32, seed: u64) -> Vec<OutlineChain> {
+    fn random_chains(count: u32, seed: u64) -> Vec<OutlineChain> {
         let mut state = seed;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -203,11 +203,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_near_is_found_as_by_asking_all() {
-        let chains = scattered(400, 7);
+    fn near_finds_every_segment_within_reach() {
+        let chains = random_chains(400, 7);
         let grid = SegmentGrid::new(&chains);
         let mut found = Vec::new();
-        for chain in scattered(60, 9) {
+        for chain in random_chains(60, 9) {
             let (from, to) = (chain.points[0], chain.points[1]);
             assert!(grid.near(from, to, 3.0, &mut found));
             for (index, segment) in grid.segments.iter().enumerate() {
@@ -221,10 +221,10 @@ mod tests {
     }
 
     #[test]
-    fn rings_find_the_nearest() {
-        let chains = scattered(300, 11);
+    fn visit_rings_finds_the_nearest_segment() {
+        let chains = random_chains(300, 11);
         let grid = SegmentGrid::new(&chains);
-        for chain in scattered(80, 13) {
+        for chain in random_chains(80, 13) {
             let p = chain.points[0];
             let distance = |s: &Segment| p.distance(nearest_on(s.from, s.to, p));
             let wanted = grid.segments.iter().map(distance).fold(f64::INFINITY, f64::min);

@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     /// The declared values of each element, keyed by its attribute `n`.
-    fn told(svg: &str) -> String {
+    fn declared_values(svg: &str) -> String {
         fn inside(node: Node, cascade: &mut Cascade, out: &mut String) {
             let list = cascade.enter(node).unwrap();
             let values: Vec<&str> = list.iter().map(|declaration| declaration.value).collect();
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn selectors_fit_as_css_says() {
+    fn cascade_matches_css_selectors() {
         let body = "<g n='a' class='x y'><g n='b'><p n='c' id='i'/><p n='d' k='en-us'/><q n='e'/></g></g><p n='f' class='xy'/>";
         for (selector, wanted) in [
             ("p", "c d f"),
@@ -232,13 +232,13 @@ mod tests {
         ] {
             let svg = format!("<s><style>{}{{v:1}}</style>{body}</s>", selector.replace('>', "&gt;"));
             let found: Vec<String> =
-                told(&svg).split_whitespace().map(|word| word.replace("=1", "")).collect();
+                declared_values(&svg).split_whitespace().map(|word| word.replace("=1", "")).collect();
             assert_eq!(found.join(" "), wanted, "{selector}");
         }
     }
 
     #[test]
-    fn work_is_bounded() {
+    fn cascade_bounds_the_work_of_style_rules() {
         let refused = |sheet: &str, body: &str| {
             fn inside(node: Node, cascade: &mut Cascade) -> Result<(), Error> {
                 cascade.enter(node)?;
@@ -267,10 +267,10 @@ mod tests {
     }
 
     #[test]
-    fn the_weightier_rule_comes_last() {
+    fn cascade_orders_rules_by_specificity() {
         let sheet = "#i{v:4} p{v:1} .x{v:2} g .x{v:3}";
         assert_eq!(
-            told(&format!("<s><style>{sheet}</style><g><p n='a' id='i' class='x'/></g></s>")),
+            declared_values(&format!("<s><style>{sheet}</style><g><p n='a' id='i' class='x'/></g></s>")),
             "a=1,2,3,4 "
         );
     }

@@ -309,7 +309,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rules_are_read() {
+    fn css_sheet_parses_selectors_and_declarations() {
         let mut sheet = CssSheet::default();
         sheet.read(
             "/* a{} */ @media print { path{fill:red} } g > path.a.b , #c rect + [d|='x,}'] { fill : url(a;b) ; stroke:#000!important }\
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_come_to_an_end() {
+    fn css_parser_terminates_on_malformed_input() {
         for piece in
             ["{", "}", "a{", "/*", "\"", "'", "@", "@a{", "a,", "[", "(", ":", "a b>", ".", "\u{e9}", "\\"]
         {

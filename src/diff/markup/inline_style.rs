@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn styles_are_as_long_as_there_are_properties() {
+    fn merged_declarations_have_a_bounded_length() {
         let one = Declaration { name: "fill", value: "a<b", important: false };
         assert_eq!(
             merged_declarations(&[one], "fill:red;fill:url(#x)").unwrap(),

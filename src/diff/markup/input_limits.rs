@@ -145,41 +145,41 @@ fn draws_its_target(node: Node) -> bool {
 mod tests {
     use super::*;
 
-    fn refused(svg: &str) -> String {
+    fn parse_result(svg: &str) -> String {
         parse(svg).err().map_or_else(|| "read".to_owned(), |error| error.to_string())
     }
 
-    fn inside(text: &str) -> String {
+    fn svg_with(text: &str) -> String {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">{text}</svg>")
     }
 
     #[test]
-    fn bombs_are_refused() {
+    fn parse_refuses_svg_bombs() {
         let mut laughs = String::from("<g id=\"a0\"><path d=\"M0 0h1\"/></g>");
         for level in 1..40 {
             let below = level - 1;
             laughs += &format!("<g id=\"a{level}\"><use href=\"#a{below}\"/><use href=\"#a{below}\"/></g>");
         }
-        assert!(refused(&inside(&laughs)).contains("multiply"));
+        assert!(parse_result(&svg_with(&laughs)).contains("multiply"));
         let deep = "<g>".repeat(400) + &"</g>".repeat(400);
-        assert!(refused(&inside(&deep)).contains("256 deep"));
+        assert!(parse_result(&svg_with(&deep)).contains("256 deep"));
         let cycle = "<g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g>";
-        assert!(refused(&inside(cycle)).contains("refers to itself"));
+        assert!(parse_result(&svg_with(cycle)).contains("refers to itself"));
         let entities =
-            "<!DOCTYPE svg [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>".to_owned() + &inside("&b;");
-        assert!(refused(&entities).contains("made of entities"));
+            "<!DOCTYPE svg [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>".to_owned() + &svg_with("&b;");
+        assert!(parse_result(&entities).contains("made of entities"));
         let long =
-            format!("<!DOCTYPE svg [<!ENTITY a \"{}\">]>{}", "a".repeat(9000), inside(&"&a;".repeat(9000)));
-        assert!(refused(&long).contains("uses of entities"));
+            format!("<!DOCTYPE svg [<!ENTITY a \"{}\">]>{}", "a".repeat(9000), svg_with(&"&a;".repeat(9000)));
+        assert!(parse_result(&long).contains("uses of entities"));
         let many: String = (0..600).map(|i| format!(" a{i}=\"\"")).collect();
-        assert!(refused(&inside(&format!("<g{many}/>"))).contains("600 attributes"));
+        assert!(parse_result(&svg_with(&format!("<g{many}/>"))).contains("600 attributes"));
         let marked = format!("<marker id=\"m\">{}</marker>", "<path d=\"M0 0h1\"/>".repeat(900))
             + &format!("<path marker-mid=\"url(#m)\" d=\"M0 0{}\"/>", "h1".repeat(90_000));
-        assert!(refused(&inside(&marked)).contains("multiply"));
+        assert!(parse_result(&svg_with(&marked)).contains("multiply"));
     }
 
     #[test]
-    fn what_is_no_svg_is_named() {
+    fn parse_errors_explain_files_that_are_not_svg() {
         for (text, word) in [
             ("", "empty"),
             ("solid cube", "not SVG"),
@@ -187,20 +187,20 @@ mod tests {
             ("<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0", "well-formed"),
             ("\u{0}\u{1}", "not SVG"),
         ] {
-            assert!(refused(text).contains(word), "{text}: {}", refused(text));
+            assert!(parse_result(text).contains(word), "{text}: {}", parse_result(text));
         }
     }
 
     #[test]
-    fn ordinary_files_are_read() {
+    fn parse_accepts_ordinary_svg_files() {
         let picture = format!("<image id=\"p\" href=\"data:image/png;base64,{}\"/>", "A".repeat(1 << 20));
         let used = "<use href=\"#p\"/>".repeat(2000);
-        assert_eq!(refused(&inside(&format!("<defs>{picture}</defs>{used}"))), "read");
+        assert_eq!(parse_result(&svg_with(&format!("<defs>{picture}</defs>{used}"))), "read");
         let plain = "<defs><g id=\"a\"><path d=\"M0 0h1\"/></g></defs><use href=\"#a\"/><use href=\"#a\"/>";
-        assert_eq!(refused(&inside(plain)), "read");
+        assert_eq!(parse_result(&svg_with(plain)), "read");
         let style = "g,h{fill:red;stroke:none}".repeat(20_000);
-        assert_eq!(refused(&inside(&format!("<style>{style}</style>"))), "read");
-        let entity = "<!DOCTYPE svg [<!ENTITY ns \"http://x\">]>".to_owned() + &inside("<g a=\"&ns;\"/>");
-        assert_eq!(refused(&entity), "read");
+        assert_eq!(parse_result(&svg_with(&format!("<style>{style}</style>"))), "read");
+        let entity = "<!DOCTYPE svg [<!ENTITY ns \"http://x\">]>".to_owned() + &svg_with("<g a=\"&ns;\"/>");
+        assert_eq!(parse_result(&entity), "read");
     }
 }

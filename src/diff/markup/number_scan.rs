@@ -71,7 +71,7 @@ mod tests {
     use super::scan;
 
     #[test]
-    fn decimals_and_size() {
+    fn scan_finds_decimals_and_too_large_numbers() {
         for (text, decimals) in [
             ("M1 2L3 4", 0),
             ("M1.5.25-3.125", 3),

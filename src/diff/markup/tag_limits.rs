@@ -191,7 +191,7 @@ pub(crate) fn too_deep() -> Error {
 mod tests {
     use super::*;
 
-    fn refused(svg: &str) -> String {
+    fn check_result(svg: &str) -> String {
         check(svg).err().map_or_else(|| "passed".to_owned(), |error| error.to_string())
     }
 
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_tag_hides_none() {
+    fn tag_check_counts_tags_after_comments_cdata_and_quotes() {
         let many = format!("<g{}/>", attributes(600));
         for before in [
             "<!-- it's -->",
@@ -214,7 +214,10 @@ mod tests {
             "<g a='>'/>",
             "<g></g >",
         ] {
-            assert!(refused(&format!("<svg>{before}{many}</svg>")).contains("600 attributes"), "{before}");
+            assert!(
+                check_result(&format!("<svg>{before}{many}</svg>")).contains("600 attributes"),
+                "{before}"
+            );
         }
         for prolog in [
             "<!-- it's -->",
@@ -223,13 +226,16 @@ mod tests {
             "<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" 'a\"b' [<!-- it's ]> --><?x '?><!ENTITY a '\"'>]>",
             "<!DOCTYPE svg [<!ELEMENT g (a|b)><!ATTLIST g a CDATA \"'\"><!ENTITY % p \"<!ATTLIST\">]>",
         ] {
-            assert!(refused(&format!("{prolog}<svg>{many}</svg>")).contains("600 attributes"), "{prolog}");
-            assert_eq!(refused(&format!("{prolog}<svg><g/></svg>")), "passed", "{prolog}");
+            assert!(
+                check_result(&format!("{prolog}<svg>{many}</svg>")).contains("600 attributes"),
+                "{prolog}"
+            );
+            assert_eq!(check_result(&format!("{prolog}<svg><g/></svg>")), "passed", "{prolog}");
         }
     }
 
     #[test]
-    fn what_only_looks_like_tags_is_not_counted() {
+    fn tag_check_ignores_tags_inside_comments_cdata_and_values() {
         let many = attributes(600);
         for inside in [
             format!("<!-- <g{many}> -->"),
@@ -243,58 +249,58 @@ mod tests {
                 "<!DOCTYPE svg [<!ENTITY ns \"{}\">]><svg a=\"&ns;\">{inside}</svg>",
                 "x".repeat(2000)
             );
-            assert_eq!(refused(&svg), "passed");
+            assert_eq!(check_result(&svg), "passed");
         }
     }
 
     #[test]
-    fn entities_hide_nothing() {
+    fn tag_check_counts_tags_inside_used_entities() {
         let with =
             |value: &str, text: &str| format!("<!DOCTYPE svg [<!ENTITY e '{value}'>]><svg>{text}</svg>");
         let many = format!("<g{}/>", attributes(600));
-        assert!(refused(&with(&many, "&e;")).contains("600 attributes"));
-        assert_eq!(refused(&with(&many, "")), "passed");
+        assert!(check_result(&with(&many, "&e;")).contains("600 attributes"));
+        assert_eq!(check_result(&with(&many, "")), "passed");
         let deep = "<g>".repeat(300) + &"</g>".repeat(300);
-        assert!(refused(&with(&deep, "&e;")).contains("256 deep"));
-        assert_eq!(refused(&with("<g/>text<g a=\"1\"/>", "&e;<g a=\"&e;\"/>")), "passed");
-        assert!(refused(&with("<g xmlns:a=\"b\"/>", "&e;")).contains("namespaces"));
-        assert!(refused(&with("<g/>", &"&e;".repeat(900_000))).contains("uses of entities"));
+        assert!(check_result(&with(&deep, "&e;")).contains("256 deep"));
+        assert_eq!(check_result(&with("<g/>text<g a=\"1\"/>", "&e;<g a=\"&e;\"/>")), "passed");
+        assert!(check_result(&with("<g xmlns:a=\"b\"/>", "&e;")).contains("namespaces"));
+        assert!(check_result(&with("<g/>", &"&e;".repeat(900_000))).contains("uses of entities"));
         let late = with(&"x".repeat(9000), &"&e;".repeat(9000)) + "<!-- <!ENTITY f ''> -->";
-        assert!(refused(&late).contains("uses of entities"));
+        assert!(check_result(&late).contains("uses of entities"));
         let decoy = "<!-- <!ENTITY f '&e;'> -->".to_owned() + &with("x", "&e;");
-        assert_eq!(refused(&decoy), "passed");
+        assert_eq!(check_result(&decoy), "passed");
     }
 
     #[test]
-    fn namespaces_are_weighed_by_their_scope() {
+    fn tag_check_limits_namespaces_in_scope() {
         let names: String = (0..500).map(|i| format!(" xmlns:n{i}=\"u\"")).collect();
         let copies = "<g xmlns:a=\"b\"/>".repeat(20_000);
-        assert!(refused(&format!("<svg{names}>{copies}</svg>")).contains("namespaces in scope"));
+        assert!(check_result(&format!("<svg{names}>{copies}</svg>")).contains("namespaces in scope"));
         let sought = "<n0:g n0:a=\"\"/>".repeat(1_000_000);
-        assert!(refused(&format!("<svg{names}>{sought}</svg>")).contains("namespaces in scope"));
+        assert!(check_result(&format!("<svg{names}>{sought}</svg>")).contains("namespaces in scope"));
         let nested: String = (0..200)
             .map(|i| format!("<g xmlns:n{i}=\"u\"{}>", names.replace(":n", &format!(":m{i}x"))))
             .collect();
-        assert!(refused(&format!("<svg>{nested}")).contains("namespaces"));
+        assert!(check_result(&format!("<svg>{nested}")).contains("namespaces"));
         let usual =
             "<g xmlns=\"http://www.w3.org/2000/svg\" xmlns:i=\"u\" i:label=\"a\"><path i:x=\"\"/></g>";
-        assert_eq!(refused(&format!("<svg>{}</svg>", usual.repeat(100_000))), "passed");
+        assert_eq!(check_result(&format!("<svg>{}</svg>", usual.repeat(100_000))), "passed");
     }
 
     #[test]
-    fn mistakes_have_a_place() {
-        let told = refused("<svg>\n<g a/></svg>");
+    fn tag_check_errors_report_line_and_column() {
+        let told = check_result("<svg>\n<g a/></svg>");
         assert!(
             told.contains("line 2, column 3: the file is not well-formed XML: expected '=' not '/'"),
             "{told}"
         );
         for broken in ["<svg><!-- ", "<svg><![CDATA[", "<svg a='", "<svg><?x", "<!DOCTYPE svg [", "<svg><"] {
-            _ = refused(broken);
+            _ = check_result(broken);
         }
     }
 
     #[test]
-    fn millions_of_repetitions_come_to_an_end() {
+    fn tag_check_terminates_on_millions_of_repetitions() {
         for piece in [
             "<g a='1'>",
             "<!--",
@@ -311,7 +317,7 @@ mod tests {
             for start in ["<svg>", "<!DOCTYPE svg [", ""] {
                 let text = start.to_owned() + &piece.repeat(4_000_000 / piece.len());
                 // Work that grows faster than the text would not finish here.
-                _ = refused(&text);
+                _ = check_result(&text);
             }
         }
     }

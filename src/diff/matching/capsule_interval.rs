@@ -64,7 +64,7 @@ mod tests {
     use crate::diff::curves::segment::nearest_on;
 
     #[test]
-    fn the_interval_is_that_of_sampling() {
+    fn capsule_interval_matches_dense_sampling() {
         let mut state = 5u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn extremes_are_those_of_brute_force() {
+    fn square_extremes_match_brute_force() {
         let (columns, rows) = (23, 17);
         let values: Vec<u8> = (0..columns * rows).map(|i| (i * 7919 % 251) as u8).collect();
         for reach in [0, 1, 2, 5, 11, 40] {

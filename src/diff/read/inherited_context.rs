@@ -71,7 +71,7 @@ mod tests {
     use super::known_layer;
 
     #[test]
-    fn layers_are_known_by_prefix_and_pen() {
+    fn known_layer_recognizes_prefixed_and_suffixed_layer_names() {
         assert_eq!(known_layer("lines"), Some("lines"));
         assert_eq!(known_layer("hidden-lines"), Some("hidden-lines"));
         assert_eq!(known_layer("page2-hidden-lines-3"), Some("hidden-lines"));

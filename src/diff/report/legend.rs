@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_word_can_be_written() {
+    fn legend_glyphs_cover_every_word() {
         for letter in "gonenewmovedrepaintedrelabelled".chars() {
             assert!(glyph(letter).0.elements().len() > 1, "{letter}");
         }

@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_narrowest_name_counts() -> Result<(), Error> {
+    fn tolerance_of_the_most_specific_name_applies() -> Result<(), Error> {
         let read = Tolerances::parse("1px, lines=2px, hatching=3px, contour=4px")?;
         let label = |layer: &str, class: &str| Label {
             layer: layer.into(),
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn text_and_tables_are_read() {
+    fn tolerances_parse_from_text_and_tables() {
         for wrong in ["", "wide", "lines=", "=1px", "-1px", "lines=nan", "1px,,2px"] {
             assert!(Tolerances::parse(wrong).is_err(), "{wrong}");
         }

@@ -64,7 +64,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     #[test]
-    fn a_turned_prism_has_its_axis() {
+    fn body_axes_include_the_axis_of_a_rotated_prism() {
         let turn = glam::DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
         for sides in [3, 4, 6, 24] {
             let at = |k: usize, z: f64| {

@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_triangle_and_its_mirror_image_share_a_hexagon() {
+    fn overlap_of_a_triangle_and_its_mirror_image_is_a_hexagon() {
         let height = 3.0_f64.sqrt() / 2.0;
         let triangle =
             [DVec2::new(-0.5, -height / 3.0), DVec2::new(0.5, -height / 3.0), DVec2::new(0.0, height / 1.5)];

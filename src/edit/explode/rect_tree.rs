@@ -90,7 +90,7 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     #[test]
-    fn all_boxes_that_overlap_are_found_once() {
+    fn rect_tree_finds_every_overlapping_rectangle_once() {
         let mut dice = Dice::new(4);
         let mut random = |size: f64| {
             let (x, y) = (dice.between(0.0, 1.0), dice.between(0.0, 1.0));

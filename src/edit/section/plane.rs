@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_turn_from_the_first_to_the_second_round_the_normal() {
+    fn plane_axes_are_right_handed_around_the_normal() {
         for normal in [DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::new(-1.0, 2.0, 0.5)] {
             let plane = Plane::new(DVec3::splat(3.0), normal).unwrap();
             for plane in [plane, plane.turned()] {
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_are_told_to_the_last_bit() {
+    fn plane_side_is_exact_to_the_last_bit() {
         let plane = Plane::new(DVec3::new(0.1, 7.0, -3.0), DVec3::X).unwrap();
         let beside = |x: f64| DVec3::new(x, 0.3, 12.7);
         assert_eq!(plane.side(beside(0.1)), 0);

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_planes() {
+    fn cut_plane_parses_axes_offsets_and_normals() {
         let plane = |normal, signed, at| Ok(CutPlane { normal, signed, at });
         assert_eq!(CutPlane::parse("x"), plane(DVec3::X, false, PlaneOffset::Share(0.5)));
         assert_eq!(CutPlane::parse("y=12.5"), plane(DVec3::Y, false, PlaneOffset::Units(12.5)));

@@ -290,7 +290,7 @@ mod tests {
     }
 
     /// Whether each cube is wound inward after orientation.
-    fn inward(of: &[(DVec3, f64, bool)]) -> Vec<bool> {
+    fn cubes_wound_inward(of: &[(DVec3, f64, bool)]) -> Vec<bool> {
         let shape = cubes(of);
         let one: Vec<u32> = (0..shape.positions.len() as u32).collect();
         let right = orient_surfaces(&shape, &one);
@@ -304,27 +304,27 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_inside_others_bound_voids_if_they_are_wound_against_them() {
+    fn inner_surface_wound_against_its_enclosing_one_bounds_a_void() {
         let o = DVec3::ZERO;
         for flags in 0..8_u32 {
             let is = |k: u32| flags >> k & 1 == 1;
-            assert_eq!(inward(&[(o, 3.0, is(0)), (o, 2.0, is(1))]), [false, is(0) != is(1)]);
+            assert_eq!(cubes_wound_inward(&[(o, 3.0, is(0)), (o, 2.0, is(1))]), [false, is(0) != is(1)]);
             // A core in a void is a solid, and a void in that core is a void again.
             let core = [(o, 4.0, is(0)), (o, 3.0, !is(0)), (o, 2.0, is(1)), (o, 1.0, !is(0))];
-            assert_eq!(inward(&core), [false, true, false, is(0) == is(1)]);
+            assert_eq!(cubes_wound_inward(&core), [false, true, false, is(0) == is(1)]);
             // Inside, and touching one side.
             let at_side = [(o, 3.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))];
-            assert_eq!(inward(&at_side), [false, is(0) != is(1)]);
+            assert_eq!(cubes_wound_inward(&at_side), [false, is(0) != is(1)]);
             // Apart, overlapping, protruding, and touching cubes.
-            assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::X * 5.0, 1.0, is(1))]), [false; 2]);
-            assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::ONE, 1.0, is(1))]), [false; 2]);
-            assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))]), [false; 2]);
-            assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 3.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(cubes_wound_inward(&[(o, 1.0, is(0)), (DVec3::X * 5.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(cubes_wound_inward(&[(o, 1.0, is(0)), (DVec3::ONE, 1.0, is(1))]), [false; 2]);
+            assert_eq!(cubes_wound_inward(&[(o, 2.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(cubes_wound_inward(&[(o, 2.0, is(0)), (DVec3::X * 3.0, 1.0, is(1))]), [false; 2]);
         }
     }
 
     #[test]
-    fn rays_cross_one_of_two_triangles_at_an_edge() {
+    fn ray_crossing_counts_a_shared_edge_once() {
         let [a, b, c, d] =
             [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(2.0, y, z));
         for (p, wanted) in [(DVec3::new(0.0, 0.5, 0.5), 1), (DVec3::new(3.0, 0.5, 0.5), 0)] {

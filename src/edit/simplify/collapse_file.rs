@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_of_any_size_are_read_as_written() {
+    fn variable_length_numbers_round_trip() {
         let numbers = [0, 1, 127, 128, 300, 1 << 20, u64::from(u32::MAX), (1 << 63) - 1];
         let mut bytes = Vec::new();
         numbers.iter().for_each(|number| put(&mut bytes, *number));

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_come_in_order_whatever_changes() {
+    fn cost_heap_pops_points_by_cost_after_any_changes() {
         let chance = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64;
         let costs: Vec<Option<f64>> = (0..500).map(|k| (k % 3 != 0).then(|| chance(k))).collect();
         let mut heap = CostHeap::new(&costs);

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_squared_distance_from_planes() {
+    fn quadric_is_the_weighted_squared_distance_from_planes() {
         let normal = DVec3::new(2.0, -1.0, 2.0) / 3.0;
         let mut sum = Quadric::of_plane(normal, DVec3::new(1.0, 2.0, 3.0), 2.0);
         sum.add(&Quadric::of_plane(DVec3::Z, DVec3::Z, 0.5));

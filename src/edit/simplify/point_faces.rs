@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_grow_and_forget() {
+    fn point_faces_merge_lists_and_drop_removed_faces() {
         let corners = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [1, 2, 3]];
         let mut fans = PointFaces::new(5, &corners, |face| face == 3);
         assert_eq!((fans.about(0), fans.about(1), fans.about(2)), (&[0, 1, 2][..], &[0][..], &[0, 1][..]));

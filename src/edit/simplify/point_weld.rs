@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_place_is_one_point() {
+    fn weld_gives_equal_positions_of_one_group_one_point() {
         let mut weld = Weld::with_room(4);
         let places = [DVec3::X, DVec3::ZERO, DVec3::X, -DVec3::ZERO];
         assert_eq!(places.map(|place| weld.point(0, place)), [0, 1, 0, 1]);
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(weld.into_points(), [DVec3::X, DVec3::ZERO, DVec3::X, DVec3::Y]);
     }
     #[test]
-    fn open_edges_are_joined_where_they_nearly_meet() {
+    fn join_near_points_joins_open_edges_within_tolerance() {
         let far = DVec3::new(1e-9, -1e-9, 0.0);
         let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + far, DVec3::Y + far, DVec3::ONE];
         let corners = [[0, 1, 2], [4, 3, 5], [NO_INDEX; 3]];

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_those_of_their_numbers() {
+    fn dxf_colour_numbers_have_their_standard_colours() {
         for (number, wanted) in [
             (10, [255, 0, 0]),
             (50, [255, 255, 0]),
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_is_found() {
+    fn nearest_returns_the_closest_dxf_colour_number() {
         let of = |r, g, b| nearest(Colour { r, g, b, ..Colour::BLACK });
         assert_eq!(
             [of(0, 0, 0), of(20, 20, 20), of(250, 3, 3), of(0, 0, 255), of(255, 255, 255)],

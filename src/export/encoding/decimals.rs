@@ -96,7 +96,7 @@ mod tests {
     use super::Decimals;
 
     #[test]
-    fn short_decimals() {
+    fn decimals_have_no_needless_zeros() {
         for (decimals, value, text) in [
             (2, 0.0, "0"),
             (2, -0.0, "0"),
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn agrees_with_the_standard_library() {
+    fn decimals_agree_with_the_standard_library() {
         let three = Decimals::new(3);
         for i in -5000..5000 {
             let value = f64::from(i) * 0.0137;

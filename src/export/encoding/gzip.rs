@@ -96,12 +96,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_sum_is_that_of_the_standard() {
+    fn crc32_matches_the_standard_check_value() {
         assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
     }
 
     #[test]
-    fn what_is_packed_comes_back_and_what_is_broken_does_not() {
+    fn gzip_round_trips_and_rejects_damaged_files() {
         let text = b"<svg/> ".repeat(1000);
         let mut file = packed(&text);
         assert!(is_packed(&file) && file.len() < 200);

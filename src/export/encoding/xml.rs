@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn markup_and_control_characters() {
+    fn escape_replaces_markup_and_control_characters() {
         assert_eq!(escaped("plain büro"), "plain büro");
         assert_eq!(escaped("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
         assert_eq!(read_back("a\nb\u{0}\u{ffff}"), "a\nb\u{fffd}\u{fffd}");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn ids_are_unique_and_names() {
+    fn unique_ids_are_unique_and_valid_names() {
         let mut ids = UniqueIds::new("");
         assert_eq!(ids.take("part-big bolt"), "part-big-bolt");
         assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-2");

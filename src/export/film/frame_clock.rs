@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_rounding_takes_does_not_add_up() {
+    fn frame_clock_rounding_errors_do_not_accumulate() {
         let mut pace = FrameClock::new(24.0);
         let delays: Vec<u32> = (0..24).map(|_| pace.next(1, 100.0)).collect();
         assert_eq!(delays.iter().sum::<u32>(), 100);

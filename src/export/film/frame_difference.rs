@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rectangle_holds_all_that_differs() {
+    fn changed_rect_contains_all_different_pixels() {
         let before = Pixels { width: 7, height: 5, rgba: vec![9; 140], dpi: 96.0 };
         let mut after = before.clone();
         assert_eq!(

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_is_known_wherever_it_begins() {
+    fn frame_tokens_recognize_a_path_at_any_start_point() {
         let mut tokens = FrameTokens::default();
         let lines = [
             "<g>",

@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_colours_are_exact() {
+    fn palette_of_255_colours_is_exact() {
         let colours: Vec<[u8; 3]> = (0..255_u8).map(|i| [i, 255 - i, i / 2]).collect();
         let mut palette = Palette::of(colours.iter().copied());
         let numbers: Vec<u8> = colours.iter().map(|colour| palette.number(*colour)).collect();
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_colours_the_frequent_ones_are_exact_and_the_others_near() {
+    fn palette_of_many_colours_keeps_frequent_ones_exact() {
         let many = (0..40_000_u32).map(|i| [(i % 250) as u8, (i / 160) as u8, (i % 7) as u8 * 9]);
         let flat = std::iter::repeat_n([254, 3, 77], 5000);
         let mut palette = Palette::of(many.clone().chain(flat));

@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_always_follows_is_a_run() {
+    fn path_run_groups_paths_that_always_follow_each_other() {
         let mut tokens = FrameTokens::default();
         let mut frame = |text: &str| {
             let lines: Vec<String> = text

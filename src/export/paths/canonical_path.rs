@@ -186,24 +186,24 @@ fn least_rotation<T: Ord>(cycle: &[T]) -> usize {
 mod tests {
     use super::*;
 
-    fn form(text: &str, form: PathForm) -> String {
+    fn canonical_form(text: &str, form: PathForm) -> String {
         let mut out = Vec::new();
         CanonicalWriter::new(Decimals::new(2)).write(&mut out, &BezPath::from_svg(text).unwrap(), form);
         String::from_utf8(out).unwrap()
     }
 
     #[test]
-    fn lines_begin_at_their_lesser_end() {
+    fn canonical_lines_begin_at_their_lesser_end() {
         for text in ["M5 5 L3 9 L1 2", "M1 2 L3 9 L5 5"] {
-            assert_eq!(form(text, PathForm::Stroked), "M1 2l2 7 2-4");
+            assert_eq!(canonical_form(text, PathForm::Stroked), "M1 2l2 7 2-4");
         }
-        assert_eq!(form("M9 1 C8 2 7 3 1 1", PathForm::Stroked), "M1 1c6 2 7 1 8 0");
-        assert_eq!(form("M5 5 L3 9 L1 2", PathForm::Kept), "M5 5l-2 4-2-7");
-        assert_eq!(form("M5 5 L3 9 L1 2", PathForm::Filled), "M5 5l-2 4-2-7");
+        assert_eq!(canonical_form("M9 1 C8 2 7 3 1 1", PathForm::Stroked), "M1 1c6 2 7 1 8 0");
+        assert_eq!(canonical_form("M5 5 L3 9 L1 2", PathForm::Kept), "M5 5l-2 4-2-7");
+        assert_eq!(canonical_form("M5 5 L3 9 L1 2", PathForm::Filled), "M5 5l-2 4-2-7");
     }
 
     #[test]
-    fn rings_begin_at_their_least_point() {
+    fn canonical_rings_begin_at_their_least_point() {
         // A square written from every corner, in both directions, with and without its last side.
         let corners = ["1 1", "5 1", "5 4", "1 4"];
         for first in 0..4 {
@@ -212,24 +212,24 @@ mod tests {
                 for last in ["", " L"] {
                     let last = if last.is_empty() { String::new() } else { format!("{last}{}", at(0)) };
                     let text = format!("M{} L{} L{} L{}{last} Z", at(0), at(1), at(2), at(3));
-                    assert_eq!(form(&text, PathForm::Stroked), "M1 1h4v3h-4z", "{text}");
+                    assert_eq!(canonical_form(&text, PathForm::Stroked), "M1 1h4v3h-4z", "{text}");
                     let filled = if step == 1 { "M1 1h4v3h-4z" } else { "M1 1v3h4v-3z" };
-                    assert_eq!(form(&text, PathForm::Filled), filled, "{text}");
+                    assert_eq!(canonical_form(&text, PathForm::Filled), filled, "{text}");
                 }
             }
         }
         // The order of subpaths is kept, and segments after a close start at the old start.
-        assert_eq!(form("M5 5 L1 1 L9 1 Z L7 7", PathForm::Filled), "M1 1h8l-4 4zm4 4 2 2");
+        assert_eq!(canonical_form("M5 5 L1 1 L9 1 Z L7 7", PathForm::Filled), "M1 1h8l-4 4zm4 4 2 2");
     }
 
     #[test]
-    fn figures_of_eight_have_one_form() {
+    fn figure_of_eight_has_one_canonical_form() {
         let eight = ["2 2", "4 1", "4 3", "2 2", "0 3", "0 1"];
         let mut forms: Vec<String> = Vec::new();
         for first in 0..6 {
             for step in [1, 5] {
                 let points: Vec<&str> = (0..6).map(|index| eight[(first + index * step) % 6]).collect();
-                forms.push(form(&format!("M{}Z", points.join(" L")), PathForm::Stroked));
+                forms.push(canonical_form(&format!("M{}Z", points.join(" L")), PathForm::Stroked));
             }
         }
         forms.dedup();
@@ -240,11 +240,11 @@ mod tests {
     }
 
     #[test]
-    fn pieces_of_no_length_go() {
-        assert_eq!(form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", PathForm::Stroked), "M1 1h4");
-        assert_eq!(form("M1 1 L1.001 1 Z", PathForm::Stroked), "M1 1z");
-        assert_eq!(form("M1 1 L1.001 1", PathForm::Filled), "M1 1h0");
+    fn canonical_path_drops_segments_of_zero_length() {
+        assert_eq!(canonical_form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", PathForm::Stroked), "M1 1h4");
+        assert_eq!(canonical_form("M1 1 L1.001 1 Z", PathForm::Stroked), "M1 1z");
+        assert_eq!(canonical_form("M1 1 L1.001 1", PathForm::Filled), "M1 1h0");
         // A loop has equal ends but a nonzero length.
-        assert_eq!(form("M1 1 C3 1 1 3 1 1", PathForm::Filled), "M1 1c2 0 0 2 0 0");
+        assert_eq!(canonical_form("M1 1 C3 1 1 3 1 1", PathForm::Filled), "M1 1c2 0 0 2 0 0");
     }
 }

@@ -158,18 +158,18 @@ mod tests {
     use super::super::canonical_path::{CanonicalWriter, PathForm};
     use super::*;
 
-    fn write(path: &BezPath, decimals: u8) -> String {
+    fn write_path(path: &BezPath, decimals: u8) -> String {
         let mut out = Vec::new();
         CanonicalWriter::new(Decimals::new(decimals)).write(&mut out, path, PathForm::Kept);
         String::from_utf8(out).unwrap()
     }
 
-    fn data(text: &str, decimals: u8) -> String {
-        write(&BezPath::from_svg(text).unwrap(), decimals)
+    fn rewritten_data(text: &str, decimals: u8) -> String {
+        write_path(&BezPath::from_svg(text).unwrap(), decimals)
     }
 
     #[test]
-    fn short_commands() {
+    fn path_data_uses_short_commands() {
         for (read, written) in [
             ("M1 2 L3 4", "M1 2l2 2"),
             ("M1 2 L3 2 L7 2 L7 .5", "M1 2h2 4v-1.5"),
@@ -187,7 +187,7 @@ mod tests {
             ("M-1 -1 L-2 -3", "M-1-1l-1-2"),
             ("M0 0 L1 0 Z M5 5 L6 6", "M0 0h1zm5 5 1 1"),
         ] {
-            assert_eq!(data(read, 2), written);
+            assert_eq!(rewritten_data(read, 2), written);
         }
     }
 
@@ -198,7 +198,7 @@ mod tests {
         for i in 1..=1000 {
             path.line_to((f64::from(i) * 0.0149, f64::from(i % 2)));
         }
-        let read = BezPath::from_svg(&write(&path, 2)).unwrap();
+        let read = BezPath::from_svg(&write_path(&path, 2)).unwrap();
         let end = read.current_position().unwrap();
         assert!((end.x - 14.9).abs() < 0.005 + 1e-9, "{}", end.x);
     }

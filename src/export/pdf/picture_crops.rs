@@ -169,7 +169,7 @@ mod tests {
     use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
 
     /// A drawing of a picture with `side` pixels per side, in squares of ten px.
-    fn drawing(side: usize) -> Drawing {
+    fn drawing_of_picture(side: usize) -> Drawing {
         let picture =
             Arc::new(Picture { width: side, height: side, pixels: vec![Colour::WHITE; side * side] });
         let square = |k: usize| {
@@ -185,10 +185,10 @@ mod tests {
     }
 
     #[test]
-    fn large_pictures_fall_into_parts_that_hold_what_is_shown() {
-        let small = drawing(500);
+    fn large_pictures_are_split_into_crops_that_cover_their_pieces() {
+        let small = drawing_of_picture(500);
         assert_eq!(Crops::of(&small).list.len(), 1);
-        let large = drawing(2000);
+        let large = drawing_of_picture(2000);
         let crops = Crops::of(&large);
         let all: usize = crops.list.iter().map(|crop| crop.width * crop.height).sum();
         assert!(crops.list.len() > 20 && all < 3 * 2000 * 2000, "{} parts of {all} pixels", crops.list.len());

@@ -141,7 +141,7 @@ mod tests {
     use crate::drawing::Provenance;
 
     #[test]
-    fn a_disc_covers_its_cells_and_not_those_of_its_hole() {
+    fn cells_of_a_ring_exclude_the_cells_of_its_hole() {
         let page = Page { width: 256.0, height: 256.0, unit: Unit::Px, background: None };
         let ring = "M28 128A100 100 0 0 1 228 128A100 100 0 0 1 28 128ZM78 128A50 50 0 0 0 178 128A50 50 0 0 0 78 128Z";
         let mark = Mark {
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_off_the_page_takes_no_time() {
+    fn cells_of_a_mark_off_the_page_are_few() {
         let page = Page { width: 100.0, height: 1.0, unit: Unit::Mm, background: None };
         for data in ["M-1e300 0L1e300 1e300Z", "M0 0", "M1e9 1e9L2e9 1e9", ""] {
             let path = BezPath::from_svg(data).unwrap();

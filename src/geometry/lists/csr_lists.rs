@@ -153,13 +153,13 @@ impl<T: Copy> CsrLists<T> {
 mod tests {
     use super::*;
 
-    fn of_words(words: &[&'static str]) -> CsrLists<&'static str> {
+    fn lists_by_word_length(words: &[&'static str]) -> CsrLists<&'static str> {
         csr_lists(4, |put| words.iter().copied().for_each(|word| put(word.len(), word)))
     }
 
     #[test]
-    fn values_keep_their_order_in_their_group() {
-        let lengths = of_words(&["an", "b", "of", "", "c", "to"]);
+    fn csr_lists_keep_the_order_of_values_in_a_group() {
+        let lengths = lists_by_word_length(&["an", "b", "of", "", "c", "to"]);
         assert_eq!((lengths.count(), lengths.value_count()), (4, 6));
         assert_eq!([lengths.of(0), lengths.of(1), lengths.of(3)], [&[""][..], &["b", "c"], &[]]);
         assert_eq!(lengths.of(2), ["an", "of", "to"]);
@@ -168,14 +168,14 @@ mod tests {
     }
 
     #[test]
-    fn groups_may_have_no_values() {
-        let none = of_words(&[]);
+    fn csr_lists_may_have_empty_groups() {
+        let none = lists_by_word_length(&[]);
         assert_eq!((none.count(), none.of(3).len()), (4, 0));
         assert_eq!(CsrLists::<u32>::default().count(), 0);
     }
 
     #[test]
-    fn pairs_are_sorted_as_what_is_called_for_is_and_many_groups_are_tidied_like_few() {
+    fn csr_lists_from_pairs_and_tidied_match_plain_lists() {
         let count = 3 * LISTS_PER_TASK + 17;
         let pairs =
             |items: usize| (0..items).map(move |item| (item.wrapping_mul(2_654_435_761) % count, item));
@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn tidied_groups_are_shorter_and_in_order() {
-        let tidied = of_words(&["to", "an", "x", "to"]).tidied(|_, own| {
+        let tidied = lists_by_word_length(&["to", "an", "x", "to"]).tidied(|_, own| {
             own.sort_unstable();
             own.dedup();
         });

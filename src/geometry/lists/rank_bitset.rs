@@ -80,7 +80,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
 
     #[test]
-    fn ranks_and_spans_are_those_of_a_plain_list() {
+    fn rank_bitset_matches_a_sorted_list() {
         for (bound, of) in [(1, 1), (64, 3), (65, 2), (1000, 17), (1000, 400), (300, 1)] {
             let is_held = |number: &usize| hash(1, &[*number as u64]).is_multiple_of(of);
             let plain: Vec<usize> = (0..bound).filter(is_held).collect();

@@ -60,7 +60,7 @@ mod tests {
     use super::Glob;
 
     #[test]
-    fn stars_and_question_marks() {
+    fn glob_matches_stars_and_question_marks() {
         for (pattern, name, fits) in [
             ("bolt", "bolt", true),
             ("bolt", "bolt2", false),

@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_comes_and_goes_changes_no_other() {
+    fn stable_ids_do_not_depend_on_other_names() {
         let all = stable_ids(["bolt", "bolt", "wheel", "", "a name of many letters"]);
         let mut different = all.clone();
         different.sort_unstable();

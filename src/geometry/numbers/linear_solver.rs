@@ -51,7 +51,7 @@ mod tests {
     use super::solve;
 
     #[test]
-    fn solutions_fulfil_their_equations() {
+    fn solve_satisfies_the_equations() {
         let matrix = [[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 2.0]];
         let x = solve(matrix, [1.0, 2.0, 3.0]).expect("a definite matrix");
         for (row, right) in matrix.iter().zip([1.0, 2.0, 3.0]) {

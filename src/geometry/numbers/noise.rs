@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hashes_depend_on_all_they_are_given() {
+    fn hash_depends_on_the_seed_and_every_word() {
         let all = [
             hash(0, &[]),
             hash(1, &[]),
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_spread_evenly() {
+    fn unit_interval_values_are_evenly_spread() {
         let mut tenths = [0usize; 10];
         for word in 0..10_000 {
             let unit = unit_interval(hash(3, &[word]));
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_smooth_and_takes_its_range() {
+    fn value_noise_is_smooth_and_spans_its_range() {
         let step = 1e-4;
         let (mut low, mut high) = (0.0_f64, 0.0_f64);
         for i in -200_000..200_000 {
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_in_space_is_smooth_and_takes_its_range() {
+    fn value_noise_3d_is_smooth_and_spans_its_range() {
         let (mut least, mut most, mut last) = (1.0_f64, -1.0_f64, None);
         for step in 0..100_000 {
             let x = f64::from(step) * 0.01;
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_passes_its_lattice_and_bears_any_number() {
+    fn value_noise_passes_lattice_values_and_accepts_any_number() {
         assert_eq!(value_noise(9, 4.0), 2.0 * unit_interval(hash(9, &[4])) - 1.0);
         assert_ne!(value_noise(9, -3.0), value_noise(9, 3.0));
         for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

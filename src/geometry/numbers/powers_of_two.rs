@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn powers_are_around() {
+    fn powers_of_two_below_and_above_enclose_a_number() {
         for (x, below, above) in [(1.0, 1.0, 2.0), (0.3, 0.25, 0.5), (1000.0, 512.0, 1024.0)] {
             assert_eq!((power_of_two_below(x), power_of_two_above(x)), (below, above));
         }

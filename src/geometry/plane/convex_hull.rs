@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hulls_hold_their_points() {
+    fn convex_hull_of_a_square_has_four_corners() {
         let points = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 2.0), (1.0, 0.0)];
         let found = convex_hull(points.iter().map(|p| Point::new(p.0, p.1)).collect());
         assert_eq!(found.len(), 4, "{found:?}");

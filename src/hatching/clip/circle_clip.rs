@@ -292,30 +292,32 @@ mod tests {
         }
     }
 
-    fn at(x: f64, y: f64) -> Point {
+    fn disc_point(x: f64, y: f64) -> Point {
         DISC.centre + Vec2::new(x, y)
     }
 
-    fn round(centre: Point, radius: f64, corners: usize) -> Vec<Point> {
+    fn regular_polygon(centre: Point, radius: f64, corners: usize) -> Vec<Point> {
         let at = |k: usize| TAU * k as f64 / corners as f64;
         (0..corners).map(|k| centre + Vec2::new(cos(at(k)), sin(at(k))) * radius).collect()
     }
 
-    fn ring(corners: &[Point]) -> Vec<[Point; 2]> {
+    fn closed_sides(corners: &[Point]) -> Vec<[Point; 2]> {
         corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]).collect()
     }
 
     #[test]
-    fn halves_quarters_and_segments() {
-        let half = [[at(-9.0, 0.0), at(9.0, 0.0)]];
+    fn disc_clipped_by_lines_has_exact_areas() {
+        let half = [[disc_point(-9.0, 0.0), disc_point(9.0, 0.0)]];
         assert!((cut(&half, true) - 8.0 * PI).abs() < 1e-9);
         // The same in two pieces that meet at the centre and bend there.
-        let bent = [[at(-9.0, 0.0), at(0.0, 0.0)], [at(0.0, 0.0), at(0.0, -9.0)]];
+        let bent =
+            [[disc_point(-9.0, 0.0), disc_point(0.0, 0.0)], [disc_point(0.0, 0.0), disc_point(0.0, -9.0)]];
         assert!((cut(&bent, true) - 12.0 * PI).abs() < 1e-9);
         let back = bent.map(|[a, b]| [b, a]);
         assert!((cut(&back, true) - 4.0 * PI).abs() < 1e-9);
         // A strip between two lines, 2 wide.
-        let strip = [[at(-9.0, -1.0), at(9.0, -1.0)], [at(9.0, 1.0), at(-9.0, 1.0)]];
+        let strip =
+            [[disc_point(-9.0, -1.0), disc_point(9.0, -1.0)], [disc_point(9.0, 1.0), disc_point(-9.0, 1.0)]];
         let segment = 16.0 * crate::geometry::numbers::portable_math::acos(0.25) - 15.0_f64.sqrt();
         assert!((cut(&strip, true) - (16.0 * PI - 2.0 * segment)).abs() < 1e-9);
         // The complement of the strip.
@@ -324,36 +326,44 @@ mod tests {
     }
 
     #[test]
-    fn what_only_touches_cuts_nothing_off() {
+    fn touching_borders_clip_nothing_off_a_disc() {
         for x in [4.0, 4.0 + 1e-12, 4.0 - 1e-12] {
-            assert!((cut(&[[at(x, -9.0), at(x, 9.0)]], true) - 16.0 * PI).abs() < 2e-3, "{x}");
+            assert!(
+                (cut(&[[disc_point(x, -9.0), disc_point(x, 9.0)]], true) - 16.0 * PI).abs() < 2e-3,
+                "{x}"
+            );
             // A square that touches the circle with a corner, and one with a side along the tangent.
-            let square = [at(x, 0.0), at(x + 2.0, -2.0), at(x + 4.0, 0.0), at(x + 2.0, 2.0)];
-            let mut hole = ring(&square);
+            let square = [
+                disc_point(x, 0.0),
+                disc_point(x + 2.0, -2.0),
+                disc_point(x + 4.0, 0.0),
+                disc_point(x + 2.0, 2.0),
+            ];
+            let mut hole = closed_sides(&square);
             hole.iter_mut().for_each(|ends| ends.reverse());
             assert!((cut(&hole, true) - 16.0 * PI).abs() < 2e-3, "{x}");
-            assert!(cut(&ring(&square), false).abs() < 2e-3, "{x}");
+            assert!(cut(&closed_sides(&square), false).abs() < 2e-3, "{x}");
         }
     }
 
     #[test]
-    fn holes_and_islands_within() {
-        let island = ring(&round(at(1.0, 0.0), 1.0, 400));
+    fn borders_inside_a_disc_clip_holes_and_islands() {
+        let island = closed_sides(&regular_polygon(disc_point(1.0, 0.0), 1.0, 400));
         assert!((cut(&island, false) - PI).abs() < 1e-3);
         let hole: Vec<[Point; 2]> = island.iter().map(|[a, b]| [*b, *a]).collect();
         assert!((cut(&hole, true) - 15.0 * PI).abs() < 1e-3);
         // Two triangles that share one point.
-        let left = ring(&[at(0.0, 0.0), at(-2.0, 1.0), at(-2.0, -1.0)]);
-        let right = ring(&[at(0.0, 0.0), at(2.0, -1.0), at(2.0, 1.0)]);
+        let left = closed_sides(&[disc_point(0.0, 0.0), disc_point(-2.0, 1.0), disc_point(-2.0, -1.0)]);
+        let right = closed_sides(&[disc_point(0.0, 0.0), disc_point(2.0, -1.0), disc_point(2.0, 1.0)]);
         assert!((cut(&[left, right].concat(), true) - 4.0).abs() < 1e-9);
     }
 
     #[test]
-    fn stars_are_cut_as_samples_say() {
+    fn disc_clipped_by_stars_matches_sampled_areas() {
         for seed in 0..200_u64 {
             let chance = |k: u64, n: u64| unit_interval(hash(seed, &[k, n]));
             let corners = 3 + (chance(0, 0) * 40.0) as u64;
-            let middle = at(chance(1, 0) * 8.0 - 4.0, chance(2, 0) * 8.0 - 4.0);
+            let middle = disc_point(chance(1, 0) * 8.0 - 4.0, chance(2, 0) * 8.0 - 4.0);
             let star: Vec<Point> = (0..corners)
                 .map(|k| {
                     let angle = TAU * (k as f64 + 0.9 * chance(3, k)) / corners as f64;
@@ -368,14 +378,17 @@ mod tests {
             let n = 100;
             let samples = (0..n * n).map(|k| {
                 let cell = 8.0 / f64::from(n);
-                at(f64::from(k % n) * cell - 4.0 + cell / 2.0, f64::from(k / n) * cell - 4.0 + cell / 2.0)
+                disc_point(
+                    f64::from(k % n) * cell - 4.0 + cell / 2.0,
+                    f64::from(k / n) * cell - 4.0 + cell / 2.0,
+                )
             });
             let within = samples.filter(|p| (*p - DISC.centre).hypot2() < 16.0 && outline.winding(*p) != 0);
             let wanted = within.count() as f64 * 64.0 / f64::from(n * n);
             let inside = outline.winding(DISC.centre) != 0;
-            let got = cut(&ring(&star), inside);
+            let got = cut(&closed_sides(&star), inside);
             assert!((got - wanted).abs() < 0.25, "seed {seed}: {got} {wanted}");
-            let back: Vec<[Point; 2]> = ring(&star).iter().map(|[a, b]| [*b, *a]).collect();
+            let back: Vec<[Point; 2]> = closed_sides(&star).iter().map(|[a, b]| [*b, *a]).collect();
             let rest = cut(&back, !inside);
             assert!((got + rest - 16.0 * PI).abs() < 0.03, "seed {seed}: {got} and {rest}");
         }

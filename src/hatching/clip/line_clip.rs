@@ -159,7 +159,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn points_are_located() {
+    fn cell_at_finds_the_cell_of_a_point() {
         let ground = two_squares(false);
         for (x, y, cell) in [(5.0, 5.0, 1), (15.0, 5.0, 2), (25.0, 5.0, 0), (-5.0, 5.0, 0), (5.0, 11.0, 0)] {
             assert_eq!(ground.cell_at(Point::new(x, y)), cell, "{x} {y}");
@@ -167,7 +167,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn lines_end_at_borders_of_surfaces() {
+    fn clip_to_cells_ends_lines_at_surface_borders() {
         let line = [Point::new(-5.0, 4.0), Point::new(30.0, 4.0)];
         let found = |parts: bool, wanted: fn(u32) -> bool| {
             let stretches = clip_to_cells(&two_squares(parts), &line, wanted);
@@ -181,7 +181,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn lines_through_corners_and_inside() {
+    fn clip_to_cells_handles_corners_and_lines_inside_a_cell() {
         let ground = two_squares(false);
         let diagonal = [Point::new(-3.0, -3.0), Point::new(13.0, 13.0)];
         let found = clip_to_cells(&ground, &diagonal, |cell| cell > 0);

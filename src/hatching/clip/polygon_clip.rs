@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_of_stars_is_what_lies_in_both() {
+    fn clip_polygon_returns_the_intersection_of_random_stars() {
         let mut inside = 0;
         for case in 0..60 {
             let middle = |k: u64| {
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn borders_that_run_along_a_shape_or_through_its_corners_are_no_trouble() {
+    fn clip_polygon_accepts_borders_along_sides_and_through_corners() {
         let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
         let square: Vec<Point> = square.map(Point::from).to_vec();
         let left = |x: f64| {

@@ -319,7 +319,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn discs_on_a_lattice_cover_what_is_asked() {
+    fn halftone_radius_covers_the_wanted_share() {
         assert_eq!(radius(0.0), 0.0);
         assert!((radius(FRAC_PI_4) - 0.5).abs() < 1e-6);
         assert!(radius(1.0) > FRAC_1_SQRT_2 && radius(2.0) > FRAC_1_SQRT_2 && radius(f64::NAN) == 0.0);

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_run_through_the_cells_that_points_lie_in() {
+    fn lattice_rows_pass_through_the_cells_of_their_points() {
         for corners in [3, 5, 12, 80] {
             let ground = sectors(corners);
             for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {

@@ -45,7 +45,7 @@ impl InkGrid {
 
     /// `count` initial positions, each in the middle of about the same amount of ink.
     ///
-    /// The squares are ordered along a Hilbert curve, which keeps neighbours together. `chance` (0 to 1)
+    /// The squares are ordered along a Hilbert curve, which keeps neighbours together. `random_triple` (0 to 1)
     /// places each position inside its stretch of ink and inside its square.
     pub fn place_sites(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
         let levels = self.width.max(self.height).next_power_of_two().trailing_zeros();
@@ -314,7 +314,7 @@ mod tests {
     use super::*;
 
     /// Wanted ink that increases to the right, with a hole.
-    fn patch(width: usize, height: usize) -> InkGrid {
+    fn ink_gradient_with_hole(width: usize, height: usize) -> InkGrid {
         let ink = |k: usize| {
             let (x, y) = (k % width, k / width);
             let is_hole = x.abs_diff(width / 3) < 9 && y.abs_diff(height / 2) < 7;
@@ -323,16 +323,16 @@ mod tests {
         InkGrid { width, height, ink: (0..width * height).map(ink).collect() }
     }
 
-    fn chance(k: usize) -> [f64; 3] {
+    fn random_triple(k: usize) -> [f64; 3] {
         use crate::geometry::numbers::noise::{hash, unit_interval};
         [0, 1, 2].map(|word| unit_interval(hash(7, &[k as u64, word])))
     }
 
     #[test]
-    fn squares_belong_to_the_nearest_site() {
-        let patch = patch(97, 61);
+    fn owners_are_the_nearest_sites() {
+        let patch = ink_gradient_with_hole(97, 61);
         for count in [1, 2, 40, 700] {
-            let sites = patch.place_sites(count, chance);
+            let sites = patch.place_sites(count, random_triple);
             assert_eq!(sites.len(), count);
             for (k, owner) in patch.owners(&sites).into_iter().enumerate() {
                 if patch.ink[k] == 0 {
@@ -347,10 +347,10 @@ mod tests {
     }
 
     #[test]
-    fn shares_at_rest_hold_the_same_ink() {
-        let patch = patch(240, 200);
+    fn relaxed_sites_have_nearly_equal_ink() {
+        let patch = ink_gradient_with_hole(240, 200);
         let count = 600;
-        let mut sites = patch.place_sites(count, chance);
+        let mut sites = patch.place_sites(count, random_triple);
         let spread = |sites: &[[f64; 2]]| {
             let inks = patch.inks(&patch.owners(sites), count);
             let mean = patch.total() / count as f64;
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn hilberts_curve_goes_from_square_to_square() {
+    fn hilbert_curve_steps_between_adjacent_squares() {
         let mut at = vec![[0i64; 2]; 64 * 64];
         for y in 0..64 {
             for x in 0..64 {

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranks_part_lines_evenly() {
+    fn rank_spreads_guides_evenly() {
         // Of any 64 consecutive lines a quarter has a rank below 0.25, and those lie four apart.
         for first in [-1000, -3, 0, 77] {
             let below: Vec<i64> = (first..first + 64).filter(|n| rank(*n) < 0.25).collect();

@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn darker_tones_keep_the_strokes_of_lighter_ones() {
+    fn strokes_are_laid_where_the_tone_exceeds_the_guide_rank() {
         let hand = StrokeLayout { px: 1.0, ..StrokeLayout::default() };
         let ground = two_squares(false);
         let ends = |rank: f64| {
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_fall_short_and_run_over() {
+    fn stroke_ends_fall_short_or_overrun_by_the_given_length() {
         let ground = two_squares(true);
         let hand = StrokeLayout { px: 1.0, overrun: 2.0, ..StrokeLayout::default() };
         let strokes = hand.lay(&guide(0.0), &ground, &[0.0, 1.0, 0.0]);
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn crowded_guides_make_room() {
+    fn strokes_end_where_rank_times_crowding_exceeds_the_tone() {
         let ground = two_squares(false);
         let hand = StrokeLayout { px: 1.0, ..StrokeLayout::default() };
         let crowded = Guide { crowding: vec![1.0, 8.0], ..guide(0.2) };

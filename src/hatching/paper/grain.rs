@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn paper_has_as_many_specks_as_asked_of_the_size_told() {
+    fn grain_has_the_wanted_number_and_size_of_specks() {
         let layer = grain(&PAGE, &Grain::default()).expect("specks");
         assert_eq!(layer.marks.len(), 3);
         let all: Vec<BezPath> = layer.marks.iter().flat_map(|mark| specks(&mark.path)).collect();
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn paper_is_the_same_in_px_and_mm() {
+    fn grain_is_the_same_in_px_and_mm() {
         let scale = 25.4 / 96.0;
         let page = Page { width: 600.0 * scale, height: 400.0 * scale, unit: Unit::Mm, background: None };
         let [px, mm] = [PAGE, page].map(|page| grain(&page, &Grain::default()).expect("specks"));
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn strokes_lose_what_is_asked() {
+    fn speckle_removes_the_wanted_share_of_ink() {
         let mut stroke = BezPath::new();
         stroke.move_to((10.0, 10.0));
         stroke.curve_to((300.0, 40.0), (500.0, 250.0), (560.0, 390.0));

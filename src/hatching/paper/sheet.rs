@@ -152,13 +152,13 @@ mod tests {
     const PAGE: Page = Page { width: 100.0, height: 60.0, unit: Unit::Px, background: None };
 
     /// White, except for every third column.
-    fn laid() -> Arc<Picture> {
+    fn laid_paper() -> Arc<Picture> {
         let pixel =
             |k: usize| if (k % 9).is_multiple_of(3) { Colour::rgb(200, 190, 180) } else { Colour::WHITE };
         Arc::new(Picture { width: 9, height: 6, pixels: (0..54).map(pixel).collect() })
     }
 
-    fn images(layer: &Layer) -> Vec<&ImagePaint> {
+    fn image_paints(layer: &Layer) -> Vec<&ImagePaint> {
         let image = |mark: &'_ Mark| matches!(mark.paint, Paint::Image(_));
         let marks = layer.marks.iter().filter(|mark| image(mark));
         marks
@@ -167,16 +167,16 @@ mod tests {
     }
 
     #[test]
-    fn tiles_cover_the_page_once() {
+    fn paper_tiles_cover_the_page_once() {
         let narrow = |width: usize, height: usize| {
             let pixels = vec![Colour::WHITE; width * height];
             Arc::new(Picture { width, height, pixels })
         };
         for width in [None, Some(Length::px(31.0)), Some(Length::px(1e-9)), Some(Length::px(1e9))] {
-            for picture in [laid(), narrow(1, 9000), narrow(9000, 1)] {
+            for picture in [laid_paper(), narrow(1, 9000), narrow(9000, 1)] {
                 let sheet = Paper { picture: Some(picture), width, ..Paper::default() };
                 let layer = paper(&PAGE, &sheet, 0).unwrap_or_else(|| panic!("a picture"));
-                let image = images(&layer)[0];
+                let image = image_paints(&layer)[0];
                 let area: f64 = image.pieces.iter().map(|piece| piece.outline.area().abs()).sum();
                 assert!((area - 6000.0).abs() < 1e-6 && image.pieces.len() <= 2048, "{width:?} {area}");
             }
@@ -184,20 +184,20 @@ mod tests {
     }
 
     #[test]
-    fn what_is_over_the_drawing_is_the_paper_itself_where_it_is_dark() {
-        let sheet = Paper { picture: Some(laid()), tooth: 0.5, ..Paper::default() };
+    fn tooth_of_a_picture_shows_the_paper_where_it_is_dark() {
+        let sheet = Paper { picture: Some(laid_paper()), tooth: 0.5, ..Paper::default() };
         let layer = tooth(&PAGE, &sheet, 0).unwrap_or_else(|| panic!("a tooth"));
-        let over = &images(&layer)[0].picture;
-        for (own, paper) in over.pixels.iter().zip(&laid().pixels) {
+        let over = &image_paints(&layer)[0].picture;
+        for (own, paper) in over.pixels.iter().zip(&laid_paper().pixels) {
             assert_eq!(Colour { a: 255, ..*own }, *paper);
             assert_eq!(own.a > 60 && own.a <= 128, *paper != Colour::WHITE, "{own:?}");
         }
-        let even = Picture { pixels: vec![Colour::WHITE; 54], ..*laid() };
+        let even = Picture { pixels: vec![Colour::WHITE; 54], ..*laid_paper() };
         assert!(tooth(&PAGE, &Paper { picture: Some(Arc::new(even)), ..sheet }, 0).is_none());
     }
 
     #[test]
-    fn grain_shows_through_in_the_colour_of_the_paper() {
+    fn tooth_of_plain_paper_has_the_colour_of_the_page() {
         let page = Page { background: Some(Colour::rgb(250, 245, 230)), ..PAGE };
         let sheet = Paper { tooth: 0.4, ..Paper::default() };
         let layer = tooth(&page, &sheet, 7).unwrap_or_else(|| panic!("a tooth"));

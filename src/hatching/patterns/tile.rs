@@ -205,7 +205,7 @@ mod tests {
     use super::*;
     use crate::colour::srgb::Colour;
 
-    fn area(tile: &Tile) -> f64 {
+    fn tile_area(tile: &Tile) -> f64 {
         let ring = |ring: &Vec<Point>| {
             let next = |k: usize| ring[(k + 1) % ring.len()];
             (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_that_overlap_are_one_and_holes_belong_to_their_islands() {
+    fn tile_merges_overlapping_shapes_and_assigns_holes_to_islands() {
         let path = |text: &str| BezPath::from_svg(text).unwrap();
         // Two overlapping squares of opposite orientation, and a frame with a square in it.
         let shapes = [
@@ -226,11 +226,15 @@ mod tests {
         let mut rings: Vec<usize> = tile.shapes.iter().map(Vec::len).collect();
         rings.sort_unstable();
         assert_eq!((rings, tile.height), (vec![1, 1, 2], 2.0));
-        assert!((area(&tile) * 400.0 - (28.0 + 48.0 + 4.0)).abs() < 1e-3, "{}", area(&tile) * 400.0);
+        assert!(
+            (tile_area(&tile) * 400.0 - (28.0 + 48.0 + 4.0)).abs() < 1e-3,
+            "{}",
+            tile_area(&tile) * 400.0
+        );
     }
 
     #[test]
-    fn a_picture_is_traced_to_as_much_ink_as_it_has() {
+    fn tile_of_a_picture_has_the_ink_area_of_the_picture() {
         let size = 48;
         let shade = |k: usize| {
             let [x, y] = [k % size, k / size].map(|v| v as f64 + 0.5 - 24.0);
@@ -243,7 +247,7 @@ mod tests {
         let tile = Tile::of_picture(&picture, 0.5).unwrap();
         assert!(tile.shapes.len() == 1 && tile.shapes[0].len() == 2);
         let wanted = std::f64::consts::PI * (14.0 * 14.0 - 6.0 * 6.0) / (48.0 * 48.0);
-        assert!((area(&tile) / wanted - 1.0).abs() < 0.01, "{} {wanted}", area(&tile));
+        assert!((tile_area(&tile) / wanted - 1.0).abs() < 0.01, "{} {wanted}", tile_area(&tile));
         let white = Picture { width: 2, height: 2, pixels: vec![Colour::WHITE; 4] };
         assert!(Tile::of_picture(&white, 0.5).unwrap_err().contains("nothing darker"));
     }

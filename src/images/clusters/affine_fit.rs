@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn affine_maps_are_found_exactly() {
+    fn affine_fit_reproduces_an_affine_map() {
         let affine = |x: f64, y: f64| corner(x, y, 2.0 * x - y + 700.0, 0.5 * y + x - 3.0);
         let map =
             solved(&[affine(1.0, 2.0), affine(30.0, -4.0), affine(9.0, 50.0), affine(3.0, 3.0)]).unwrap();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_squeezed_to_a_line_are_widened() {
+    fn affine_fit_widens_images_collapsed_to_a_line() {
         let line = |x: f64, y: f64| corner(x, y, 5.0 + x, 7.0);
         let corners = [line(0.0, 0.0), line(10.0, 0.0), line(0.0, 10.0)];
         let map = solved(&corners).unwrap();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn widening_leaves_the_wide_way_alone() {
+    fn widened_keeps_the_larger_singular_value() {
         let wide = widened(DMat2::from_cols_array(&[3.0, 0.0, 0.0, 0.001]), 0.5);
         assert!((wide.x_axis - DVec2::new(3.0, 0.0)).length() < 1e-12);
         assert!((wide.y_axis - DVec2::new(0.0, 0.5)).length() < 1e-12, "{wide}");

@@ -151,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn squares_lose_points_on_their_sides_and_grow() {
+    fn straightened_drops_collinear_points_and_widened_adds_reach() {
         let at = |x: f64, y: f64| Point::new(x, y);
         let ring = [at(0.0, 0.0), at(5.0, 0.001), at(10.0, 0.0), at(10.0, 10.0), at(0.0, 10.0)];
         let ring = straightened(&ring.map(|p| (p, false)), 0.02);

@@ -90,7 +90,7 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     #[test]
-    fn what_is_surely_turned_is_so_by_unit_vectors() {
+    fn is_surely_turned_has_no_false_positives_and_few_false_negatives() {
         let mut dice = Dice::new(1);
         let (mut told, mut turned) = (0, 0);
         for k in 0..20_000 {

@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_meet_in_the_same_points() {
+    fn level_set_cut_keeps_a_closed_surface_closed() {
         let (mesh, smooth) = ball(12);
         let values: Vec<f64> = smooth
             .vertices
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn bands_of_a_plane_are_strips() {
+    fn level_set_cut_splits_a_plane_into_strips() {
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let positions = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
         let mesh = Mesh::build(Soup { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Soup::default() });
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn the_two_halves_of_a_ball_meet_in_a_circle() {
+    fn level_set_cut_through_a_ball_is_a_great_circle() {
         let (mesh, smooth) = ball(16);
         let eye = DVec3::new(2.0, -1.0, 0.7).normalize();
         let values: Vec<f64> = smooth.normals.iter().map(|normal| normal.dot(eye)).collect();
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_on_a_level_lies_above_it() {
+    fn a_value_equal_to_a_level_belongs_to_the_upper_band() {
         let (mesh, smooth) = ball(6);
         let cut = cut(&mesh, &smooth, &vec![0.0; smooth.vertices.len()], &[0.0]);
         assert!(cut.points.is_empty() && cut.pieces.iter().all(|piece| piece.band == 1));

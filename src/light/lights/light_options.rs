@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lights_of_the_contract_are_read() {
+    fn light_options_read_directional_and_point_sources() {
         let options = read(
             "sources = [{ kind = \"directional\", direction = [0, 0, 1], space = \"camera\", color = \"#f00\" }, \
              { kind = \"point\", position = [1, 2, 3], falloff = 4, brightness = 0.5 }]",
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_that_cannot_shine_are_refused() {
+    fn invalid_light_options_are_refused_with_a_reason() {
         for (source, wanted) in [
             ("kind = \"directional\"", "needs a `direction`"),
             ("kind = \"directional\", direction = [0, 0, 0]", "no length"),

@@ -20,7 +20,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     #[test]
-    fn greatest_half_way_between_light_and_eye() {
+    fn blinn_phong_peaks_halfway_between_light_and_eye() {
         let towards = |angle: f64| DVec3::new(sin(angle), 0.0, cos(angle));
         let at = |angle: f64| blinn_phong(towards(angle), towards(0.8), towards(0.0), 20.0);
         assert!((at(0.4) - 1.0).abs() < 1e-12);

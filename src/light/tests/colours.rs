@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{frame, mesh, near, point, shading};
+use super::{assert_near, empty_mesh, frame, shading_and_warnings, surface_point};
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
@@ -15,7 +15,7 @@ use crate::mesh::{MaterialId, PaintId};
 use crate::scene::material::Gloss;
 use crate::scene::{Material, MaterialPaint, Scene};
 
-const FIRST: PaintId = PaintId(0);
+const FIRST_PAINT: PaintId = PaintId(0);
 const ORANGE: Colour = Colour::rgb(200, 120, 40);
 
 fn scene(materials: &[(&str, Colour)]) -> Scene {
@@ -27,15 +27,15 @@ fn scene(materials: &[(&str, Colour)]) -> Scene {
     Scene { materials: materials.iter().map(of).collect(), ..Scene::default() }
 }
 
-fn toned(options: &ToneOptions) -> Shading {
-    shading(&scene(&[("body", ORANGE)]), &LightOptions::default(), options).0
+fn shading_of_tone_options(options: &ToneOptions) -> Shading {
+    shading_and_warnings(&scene(&[("body", ORANGE)]), &LightOptions::default(), options).0
 }
 
-fn colours(shading: &Shading, material: PaintId, count: u16) -> Vec<Colour> {
+fn tone_colours(shading: &Shading, material: PaintId, count: u16) -> Vec<Colour> {
     (0..count).map(|tone| shading.colour(material, tone)).collect()
 }
 
-fn unchanged(name: &str) -> MaterialChange {
+fn empty_material_change(name: &str) -> MaterialChange {
     MaterialChange {
         name: Glob::new(name),
         colour: None,
@@ -49,82 +49,92 @@ fn unchanged(name: &str) -> MaterialChange {
     }
 }
 
-fn grey(shadow: f64, scale: ToneScale) -> ToneOptions {
+fn grey_tone_options(shadow: f64, scale: ToneScale) -> ToneOptions {
     ToneOptions { scale, shadow: ColourFactor([shadow; 3]), ..ToneOptions::default() }
 }
 
 #[test]
-fn two_tones_are_those_of_equation_one() {
+fn two_tones_follow_the_shading_equation_of_lake() {
     let light = LightOptions { ambient: ColourFactor([0.1; 3]), ..LightOptions::default() };
-    let options = grey(0.4, ToneScale::Thresholds(vec![0.5]));
-    let (lake, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
+    let options = grey_tone_options(0.4, ToneScale::Thresholds(vec![0.5]));
+    let (lake, _) = shading_and_warnings(&scene(&[("body", ORANGE)]), &light, &options);
     // a_g a_m + a_l a_m, and the same + d_l d_m.
-    assert_eq!(lake.colour(FIRST, 0), Colour::rgb(100, 60, 20));
-    assert_eq!(lake.colour(FIRST, 1), Colour::rgb(220, 132, 44));
-    assert_eq!(lake.levels(FIRST, 0), [0.5]);
-    assert_eq!((lake.channels(), lake.levels(FIRST, 1).len()), (1, 0));
-    assert_eq!([0, 1, 7].map(|band| lake.tone(FIRST, &[band])), [0, 1, 1]);
+    assert_eq!(lake.colour(FIRST_PAINT, 0), Colour::rgb(100, 60, 20));
+    assert_eq!(lake.colour(FIRST_PAINT, 1), Colour::rgb(220, 132, 44));
+    assert_eq!(lake.levels(FIRST_PAINT, 0), [0.5]);
+    assert_eq!((lake.channels(), lake.levels(FIRST_PAINT, 1).len()), (1, 0));
+    assert_eq!([0, 1, 7].map(|band| lake.tone(FIRST_PAINT, &[band])), [0, 1, 1]);
 }
 
 #[test]
-fn n_tones_go_in_even_steps() {
-    let shading = toned(&grey(0.5, ToneScale::Thresholds(vec![0.2, 0.3, 0.9])));
+fn tones_are_evenly_spaced_between_shadow_and_material_colour() {
+    let shading =
+        shading_of_tone_options(&grey_tone_options(0.5, ToneScale::Thresholds(vec![0.2, 0.3, 0.9])));
     let wanted = [0.5, 2.0 / 3.0, 5.0 / 6.0, 1.0].map(|part: f64| (200.0 * part).round() as u8);
-    assert_eq!(colours(&shading, FIRST, 4).iter().map(|c| c.r).collect::<Vec<_>>(), wanted);
+    assert_eq!(tone_colours(&shading, FIRST_PAINT, 4).iter().map(|c| c.r).collect::<Vec<_>>(), wanted);
 
-    let steps = toned(&grey(0.0, ToneScale::Steps(128)));
-    assert_eq!(steps.levels(FIRST, 0).len(), 127);
-    assert_eq!(steps.levels(FIRST, 0)[63], 0.5);
-    assert_eq!((steps.colour(FIRST, 0), steps.colour(FIRST, 127)), (Colour::BLACK, ORANGE));
+    let steps = shading_of_tone_options(&grey_tone_options(0.0, ToneScale::Steps(128)));
+    assert_eq!(steps.levels(FIRST_PAINT, 0).len(), 127);
+    assert_eq!(steps.levels(FIRST_PAINT, 0)[63], 0.5);
+    assert_eq!((steps.colour(FIRST_PAINT, 0), steps.colour(FIRST_PAINT, 127)), (Colour::BLACK, ORANGE));
 
     // The default material, which has no name, has the most shades: 103, from 102 to 204. The others get the
     // same number of steps.
-    let shades = toned(&grey(0.5, ToneScale::Steps(256)));
-    assert_eq!(shades.levels(FIRST, 0).len(), 102);
-    let reds = colours(&shades, FIRST, 103).iter().map(|c| c.r).collect::<Vec<_>>();
+    let shades = shading_of_tone_options(&grey_tone_options(0.5, ToneScale::Steps(256)));
+    assert_eq!(shades.levels(FIRST_PAINT, 0).len(), 102);
+    let reds = tone_colours(&shades, FIRST_PAINT, 103).iter().map(|c| c.r).collect::<Vec<_>>();
     assert_eq!((reds[0], reds[102]), (100, 200));
     assert!(reds.windows(2).all(|pair| pair[1] - pair[0] <= 1), "{reds:?}");
 
     // A single tone is the material itself.
-    let flat = toned(&grey(0.5, ToneScale::Thresholds(Vec::new())));
-    assert_eq!((flat.colour(FIRST, 0), flat.tone(FIRST, &[0])), (ORANGE, 0));
+    let flat = shading_of_tone_options(&grey_tone_options(0.5, ToneScale::Thresholds(Vec::new())));
+    assert_eq!((flat.colour(FIRST_PAINT, 0), flat.tone(FIRST_PAINT, &[0])), (ORANGE, 0));
 }
 
 #[test]
-fn shares_of_light_can_be_told_tone_by_tone() {
-    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.1, 0.6]));
+fn tones_option_sets_the_share_of_light_of_each_tone() {
+    let mut options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.1, 0.6]));
     options.tones = vec![1.0, 0.0, 1.0];
-    assert_eq!(colours(&toned(&options), FIRST, 3), [ORANGE, Colour::rgb(100, 60, 20), ORANGE]);
+    assert_eq!(
+        tone_colours(&shading_of_tone_options(&options), FIRST_PAINT, 3),
+        [ORANGE, Colour::rgb(100, 60, 20), ORANGE]
+    );
     options.tones = vec![0.0, 1.0, 1.25];
-    assert_eq!(toned(&options).colour(FIRST, 2), Colour::rgb(225, 135, 45));
+    assert_eq!(shading_of_tone_options(&options).colour(FIRST_PAINT, 2), Colour::rgb(225, 135, 45));
 }
 
 #[test]
-fn palettes_are_spread_over_the_tones() {
+fn palette_colours_are_spread_over_the_tones() {
     let (a, b, c) = (Colour::rgb(0, 0, 100), Colour::rgb(0, 0, 200), Colour::rgb(100, 0, 200));
-    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.3, 0.6]));
+    let mut options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.3, 0.6]));
     options.colours = Colours::Palette(vec![a, b, c]);
-    assert_eq!(colours(&toned(&options), FIRST, 3), [a, b, c]);
+    assert_eq!(tone_colours(&shading_of_tone_options(&options), FIRST_PAINT, 3), [a, b, c]);
     options.colours = Colours::Palette(vec![a, c]);
-    assert_eq!(colours(&toned(&options), FIRST, 3), [a, Colour::rgb(50, 0, 150), c]);
+    assert_eq!(
+        tone_colours(&shading_of_tone_options(&options), FIRST_PAINT, 3),
+        [a, Colour::rgb(50, 0, 150), c]
+    );
     options.colours = Colours::Palette(vec![a]);
-    assert_eq!(colours(&toned(&options), FIRST, 3), [a, a, a]);
+    assert_eq!(tone_colours(&shading_of_tone_options(&options), FIRST_PAINT, 3), [a, a, a]);
     options.colours = Colours::Palette(vec![Colour::rgb(102, 102, 102), Colour::WHITE]);
     options.modulate = Some(1.0);
-    assert_eq!(toned(&options).colour(FIRST, 0), Colour::rgb(80, 48, 16));
+    assert_eq!(shading_of_tone_options(&options).colour(FIRST_PAINT, 0), Colour::rgb(80, 48, 16));
 }
 
 #[test]
-fn coloured_light_tints_what_is_lit() {
+fn coloured_light_tints_only_lit_tones() {
     let source = LightSource { colour: Colour::rgb(255, 0, 0), ..LightSource::default() };
     let light = LightOptions { sources: vec![source], ..LightOptions::default() };
-    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
-    let (tinted, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
-    assert_eq!(colours(&tinted, FIRST, 2), [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]);
+    let options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
+    let (tinted, _) = shading_and_warnings(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
+    assert_eq!(
+        tone_colours(&tinted, FIRST_PAINT, 2),
+        [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]
+    );
 }
 
 /// Lights from two sides in these colours.
-fn from_both_sides(colours: [Colour; 2]) -> LightOptions {
+fn lights_from_both_sides(colours: [Colour; 2]) -> LightOptions {
     let source = |x: f64, colour: Colour| LightSource {
         kind: SourceKind::Directional { direction: DVec3::new(x, -1.0, 0.0) },
         space: Space::World,
@@ -138,25 +148,25 @@ fn from_both_sides(colours: [Colour; 2]) -> LightOptions {
 }
 
 #[test]
-fn lights_of_two_colours_show_as_two_and_mix() {
-    let light = from_both_sides([Colour::rgb(255, 0, 0), Colour::rgb(0, 0, 255)]);
-    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
-    let (mixed, _) = shading(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
+fn two_coloured_lights_give_separate_and_mixed_tones() {
+    let light = lights_from_both_sides([Colour::rgb(255, 0, 0), Colour::rgb(0, 0, 255)]);
+    let options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
+    let (mixed, _) = shading_and_warnings(&scene(&[("", Colour::rgb(200, 200, 200))]), &light, &options);
     let seen = |normal: DVec3| {
-        let at = point(DVec3::ZERO, normal);
-        let value = |channel: usize| mixed.value(channel, FIRST, &at, 0);
-        let levels = |channel: usize| mixed.levels(FIRST, channel);
+        let at = surface_point(DVec3::ZERO, normal);
+        let value = |channel: usize| mixed.value(channel, FIRST_PAINT, &at, 0);
+        let levels = |channel: usize| mixed.levels(FIRST_PAINT, channel);
         let bands: Vec<u16> = (0..mixed.channels())
             .map(|channel| levels(channel).iter().filter(|level| **level <= value(channel)).count() as u16)
             .collect();
-        mixed.colour(FIRST, mixed.tone(FIRST, &bands))
+        mixed.colour(FIRST_PAINT, mixed.tone(FIRST_PAINT, &bands))
     };
     assert_eq!(seen(DVec3::X), Colour::rgb(200, 100, 100));
     assert_eq!(seen(DVec3::NEG_X), Colour::rgb(100, 100, 200));
     assert_eq!(seen(DVec3::NEG_Y), Colour::rgb(200, 100, 200));
     assert_eq!(seen(DVec3::Y), Colour::rgb(100, 100, 100));
     // The darkest tone is the first; red is lighter than blue.
-    let tones = colours(&mixed, FIRST, 4);
+    let tones = tone_colours(&mixed, FIRST_PAINT, 4);
     assert_eq!(
         tones.iter().map(|c| (c.r, c.b)).collect::<Vec<_>>(),
         [(100, 100), (100, 200), (200, 100), (200, 200)]
@@ -164,21 +174,23 @@ fn lights_of_two_colours_show_as_two_and_mix() {
 }
 
 #[test]
-fn lights_that_look_alike_are_one_light() {
+fn lights_of_similar_colour_share_one_channel() {
     let cream = Colour::rgb(255, 240, 230);
-    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
+    let options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
     let scene = scene(&[("", Colour::rgb(200, 200, 200))]);
-    let channels = |light: &LightOptions, options: &ToneOptions| shading(&scene, light, options).0.channels();
-    assert_eq!(channels(&from_both_sides([Colour::WHITE, cream]), &options), 1);
-    let red = from_both_sides([Colour::WHITE, Colour::rgb(255, 0, 0)]);
+    let channels = |light: &LightOptions, options: &ToneOptions| {
+        shading_and_warnings(&scene, light, options).0.channels()
+    };
+    assert_eq!(channels(&lights_from_both_sides([Colour::WHITE, cream]), &options), 1);
+    let red = lights_from_both_sides([Colour::WHITE, Colour::rgb(255, 0, 0)]);
     assert_eq!(channels(&red, &options), 3);
     // A gradient uses the mean of their tints.
-    let (gradient, _) = shading(&scene, &red, &grey(0.5, ToneScale::Steps(128)));
-    assert!(gradient.levels(FIRST, 1).is_empty() && gradient.levels(FIRST, 0).len() > 64);
+    let (gradient, _) = shading_and_warnings(&scene, &red, &grey_tone_options(0.5, ToneScale::Steps(128)));
+    assert!(gradient.levels(FIRST_PAINT, 1).is_empty() && gradient.levels(FIRST_PAINT, 0).len() > 64);
 }
 
 #[test]
-fn highlights_are_tones_above_the_others() {
+fn highlights_are_tones_above_the_diffuse_tones() {
     let direction = DVec3::new(0.0, -1.0, 1.0);
     let kind = SourceKind::Directional { direction };
     let source = LightSource { kind, space: Space::World, ..LightSource::default() };
@@ -186,23 +198,24 @@ fn highlights_are_tones_above_the_others() {
     let highlight =
         Highlight { enabled: true, thresholds: vec![0.4, 0.8], strength: 1.0, ..Highlight::default() };
     let options = ToneOptions { highlight, cast_shadows: true, ..ToneOptions::default() };
-    let (gloss, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
-    assert_eq!((gloss.channels(), gloss.levels(FIRST, 1)), (2, &[0.4, 0.8][..]));
+    let (gloss, _) = shading_and_warnings(&scene(&[("body", ORANGE)]), &light, &options);
+    assert_eq!((gloss.channels(), gloss.levels(FIRST_PAINT, 1)), (2, &[0.4, 0.8][..]));
 
     // Seen from −y and lit from 45 degrees above, a surface mirrors the light if its normal is halfway
     // between.
     let half = (direction.normalize() + DVec3::NEG_Y).normalize();
-    let value = |normal: DVec3, shadowed| gloss.value(1, FIRST, &point(DVec3::ZERO, normal), shadowed);
-    near(value(half, 0), 1.0);
+    let value =
+        |normal: DVec3, shadowed| gloss.value(1, FIRST_PAINT, &surface_point(DVec3::ZERO, normal), shadowed);
+    assert_near(value(half, 0), 1.0);
     assert!(value(DVec3::NEG_Y, 0) < 0.1 && value(half + DVec3::X * 0.1, 0) < 1.0);
     assert_eq!((value(half, 1), value(DVec3::new(0.0, 1.0, 1.0), 0)), (0.0, 0.0));
 
     assert_eq!(
-        [[0, 0], [1, 0], [1, 1], [1, 2], [0, 2]].map(|bands| gloss.tone(FIRST, &bands)),
+        [[0, 0], [1, 0], [1, 1], [1, 2], [0, 2]].map(|bands| gloss.tone(FIRST_PAINT, &bands)),
         [0, 1, 2, 3, 3]
     );
-    assert_eq!(gloss.colour(FIRST, 2), ORANGE.mix(Colour::WHITE, 0.5));
-    assert_eq!(gloss.colour(FIRST, 3), Colour::WHITE);
+    assert_eq!(gloss.colour(FIRST_PAINT, 2), ORANGE.mix(Colour::WHITE, 0.5));
+    assert_eq!(gloss.colour(FIRST_PAINT, 3), Colour::WHITE);
 }
 
 /// Material with this gloss.
@@ -212,47 +225,53 @@ fn glossy(name: &str, exponent: f32, strength: f32) -> Material {
 }
 
 #[test]
-fn materials_shine_as_their_file_says_or_a_rule() {
+fn highlights_use_the_gloss_of_the_material_unless_overridden() {
     let scene = Scene {
         materials: vec![glossy("steel", 100.0, 1.0), glossy("wood", 10.0, 0.5), glossy("chalk", 1.0, 0.0)],
         ..Scene::default()
     };
     let highlight = Highlight { enabled: true, strength: 1.0, material: true, ..Highlight::default() };
     let own = HighlightChange { exponent: Some(7.0), ..HighlightChange::default() };
-    let rule = MaterialChange { highlight: own, ..unchanged("st*") };
+    let rule = MaterialChange { highlight: own, ..empty_material_change("st*") };
     let plain = ToneOptions { highlight, ..ToneOptions::default() };
     let ruled = ToneOptions { materials: vec![rule], ..plain.clone() };
     let [by_file, by_rule] = [plain, ruled].map(|options| {
         let direction = DVec3::new(0.0, -1.0, 1.0);
         let kind = SourceKind::Directional { direction };
         let source = LightSource { kind, space: Space::World, ..LightSource::default() };
-        shading(&scene, &LightOptions { sources: vec![source], ..LightOptions::default() }, &options).0
+        shading_and_warnings(
+            &scene,
+            &LightOptions { sources: vec![source], ..LightOptions::default() },
+            &options,
+        )
+        .0
     });
     let normal = DVec3::new(0.3, -1.0, 0.5);
     let half = (DVec3::new(0.0, -1.0, 1.0).normalize() + DVec3::NEG_Y).normalize();
     let cosine: f64 = normal.normalize().dot(half);
-    let value = |shading: &Shading, k: u32| shading.value(1, PaintId(k), &point(DVec3::ZERO, normal), 0);
-    near(value(&by_file, 0), crate::geometry::numbers::portable_math::pow(cosine, 100.0));
-    near(value(&by_file, 1), crate::geometry::numbers::portable_math::pow(cosine, 10.0));
-    near(value(&by_rule, 0), crate::geometry::numbers::portable_math::pow(cosine, 7.0));
+    let value =
+        |shading: &Shading, k: u32| shading.value(1, PaintId(k), &surface_point(DVec3::ZERO, normal), 0);
+    assert_near(value(&by_file, 0), crate::geometry::numbers::portable_math::pow(cosine, 100.0));
+    assert_near(value(&by_file, 1), crate::geometry::numbers::portable_math::pow(cosine, 10.0));
+    assert_near(value(&by_rule, 0), crate::geometry::numbers::portable_math::pow(cosine, 7.0));
     // Without gloss there is no highlight; weaker gloss gives a weaker one.
     assert!(by_file.levels(PaintId(2), 1).is_empty() && !by_file.levels(PaintId(1), 1).is_empty());
     assert_eq!(by_file.colour(PaintId(1), 2), by_file.colour(PaintId(1), 1).mix(Colour::WHITE, 0.5));
 }
 
 #[test]
-fn a_ramp_of_highlights_adds_light() {
+fn highlight_ramp_colours_are_added_to_the_lit_tone() {
     let grey = |value: u8| Colour::rgb(value, value, value);
     let strip = Strip::of_columns(&[grey(0), grey(20), grey(60), grey(60)]).unwrap();
     let highlight = Highlight { enabled: true, ramp: Some(strip), ..Highlight::default() };
-    let gloss = toned(&ToneOptions { highlight, ..ToneOptions::default() });
-    assert_eq!(gloss.levels(FIRST, 1), [0.25, 0.5]);
+    let gloss = shading_of_tone_options(&ToneOptions { highlight, ..ToneOptions::default() });
+    assert_eq!(gloss.levels(FIRST_PAINT, 1), [0.25, 0.5]);
     let wanted = [ORANGE, Colour::rgb(220, 140, 60), Colour::rgb(255, 180, 100)];
-    assert_eq!([1, 2, 3].map(|tone| gloss.colour(FIRST, tone)), wanted);
+    assert_eq!([1, 2, 3].map(|tone| gloss.colour(FIRST_PAINT, tone)), wanted);
 }
 
 #[test]
-fn near_highlights_are_spots_on_flat_faces_within_their_bounds() {
+fn near_highlights_are_local_spots_within_their_value_range() {
     let at = |near: f64| {
         let highlight = Highlight { enabled: true, exponent: 60.0, near, ..Highlight::default() };
         let direction = DVec3::new(0.0, -1.0, 0.2);
@@ -260,17 +279,17 @@ fn near_highlights_are_spots_on_flat_faces_within_their_bounds() {
         let source = LightSource { kind, space: Space::World, ..LightSource::default() };
         let light = LightOptions { sources: vec![source], ..LightOptions::default() };
         let options = ToneOptions { highlight, ..ToneOptions::default() };
-        shading(&scene(&[("body", ORANGE)]), &light, &options).0
+        shading_and_warnings(&scene(&[("body", ORANGE)]), &light, &options).0
     };
     let (far, spot) = (at(0.0), at(0.5));
-    let on_face = |x: f64, z: f64| point(DVec3::new(x, 0.0, z), DVec3::new(0.0, -1.0, 0.1));
-    let value = |shading: &Shading, x: f64, z: f64| shading.value(1, FIRST, &on_face(x, z), 0);
-    near(value(&far, 0.0, 0.0), value(&far, 0.9, -0.9));
+    let on_face = |x: f64, z: f64| surface_point(DVec3::new(x, 0.0, z), DVec3::new(0.0, -1.0, 0.1));
+    let value = |shading: &Shading, x: f64, z: f64| shading.value(1, FIRST_PAINT, &on_face(x, z), 0);
+    assert_near(value(&far, 0.0, 0.0), value(&far, 0.9, -0.9));
     assert!(value(&spot, 0.0, 0.0) > 0.9 && value(&spot, 0.9, 0.0) < 0.1 && value(&spot, 0.0, -0.9) < 0.1);
     for k in 0..40 {
         let (x, z) = (f64::from(k) / 20.0 - 1.0, f64::from(k * 7 % 40) / 20.0 - 1.0);
         for extent in [0.01, 0.1, 0.3] {
-            let (low, high) = spot.range(1, FIRST, &on_face(x, z), 0, 0.0, extent);
+            let (low, high) = spot.range(1, FIRST_PAINT, &on_face(x, z), 0, 0.0, extent);
             for (dx, dz) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.0, 0.0)] {
                 let found = value(&spot, x + dx * extent, z + dz * extent);
                 assert!(low <= found && found <= high, "{x} {z} {extent}: {found} is not in {low} to {high}");
@@ -280,7 +299,7 @@ fn near_highlights_are_spots_on_flat_faces_within_their_bounds() {
 }
 
 #[test]
-fn a_table_is_looked_up_by_two_lights() {
+fn tone_table_is_looked_up_by_two_lights() {
     let of = |direction: DVec3, brightness: f64| LightSource {
         kind: SourceKind::Directional { direction },
         space: Space::World,
@@ -292,49 +311,50 @@ fn a_table_is_looked_up_by_two_lights() {
     let (dark, half, full) = (Colour::rgb(51, 51, 51), Colour::rgb(102, 102, 102), Colour::WHITE);
     let table = Table::of_rows(&[vec![dark, half], vec![half, full]]).unwrap();
     let options = ToneOptions { scale: ToneScale::Table(table), ..ToneOptions::default() };
-    let (shading_, warnings) = shading(&scene(&[("body", ORANGE)]), &light, &options);
+    let (shading_, warnings) = shading_and_warnings(&scene(&[("body", ORANGE)]), &light, &options);
     assert!(warnings.is_empty() && shading_.channels() == 3);
-    assert!(shading_.levels(FIRST, 0).is_empty());
-    assert_eq!((shading_.levels(FIRST, 1), shading_.levels(FIRST, 2)), (&[0.5][..], &[0.5][..]));
-    let at = point(DVec3::ZERO, DVec3::new(0.6, 0.0, 0.8));
-    near(shading_.value(1, FIRST, &at, 0), 0.6);
-    near(shading_.value(2, FIRST, &at, 0), 0.4);
-    let tones = [[0, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]].map(|bands| shading_.tone(FIRST, &bands));
+    assert!(shading_.levels(FIRST_PAINT, 0).is_empty());
+    assert_eq!((shading_.levels(FIRST_PAINT, 1), shading_.levels(FIRST_PAINT, 2)), (&[0.5][..], &[0.5][..]));
+    let at = surface_point(DVec3::ZERO, DVec3::new(0.6, 0.0, 0.8));
+    assert_near(shading_.value(1, FIRST_PAINT, &at, 0), 0.6);
+    assert_near(shading_.value(2, FIRST_PAINT, &at, 0), 0.4);
+    let tones = [[0, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]].map(|bands| shading_.tone(FIRST_PAINT, &bands));
     assert_eq!(tones, [0, 1, 1, 2]);
     // 1.5 times shade times material, cut off at 1.
     let wanted = [Colour::rgb(60, 36, 12), Colour::rgb(120, 72, 24), Colour::rgb(255, 180, 60)];
-    assert_eq!(colours(&shading_, FIRST, 3), wanted);
+    assert_eq!(tone_colours(&shading_, FIRST_PAINT, 3), wanted);
 
-    let (_, warnings) = shading(&scene(&[]), &LightOptions::default(), &options);
+    let (_, warnings) = shading_and_warnings(&scene(&[]), &LightOptions::default(), &options);
     assert_eq!(warnings, ["a table of tones is for two lights, but there is one"]);
 }
 
 #[test]
-fn a_strip_brings_levels_and_colours() {
+fn strip_ramp_sets_tone_levels_and_colours() {
     let columns = [Colour::BLACK, ORANGE, ORANGE, Colour::WHITE];
     let strip = Strip::of_columns(&columns).unwrap();
-    let shading = toned(&ToneOptions { scale: ToneScale::Ramp(strip), ..ToneOptions::default() });
-    assert_eq!(shading.levels(FIRST, 0), [0.25, 0.75]);
-    assert_eq!(colours(&shading, FIRST, 3), [Colour::BLACK, ORANGE, Colour::WHITE]);
+    let shading =
+        shading_of_tone_options(&ToneOptions { scale: ToneScale::Ramp(strip), ..ToneOptions::default() });
+    assert_eq!(shading.levels(FIRST_PAINT, 0), [0.25, 0.75]);
+    assert_eq!(tone_colours(&shading, FIRST_PAINT, 3), [Colour::BLACK, ORANGE, Colour::WHITE]);
 }
 
 #[test]
-fn materials_are_changed_by_name() {
-    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
+fn material_changes_apply_by_name_pattern() {
+    let mut options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
     options.materials = vec![
         MaterialChange {
             scale: Some(ToneScale::Steps(4)),
             highlight: HighlightChange { enabled: Some(true), ..HighlightChange::default() },
-            ..unchanged("glass*")
+            ..empty_material_change("glass*")
         },
-        MaterialChange { colour: Some(Colour::WHITE), ..unchanged("*blue") },
+        MaterialChange { colour: Some(Colour::WHITE), ..empty_material_change("*blue") },
     ];
     let scene = scene(&[("body", ORANGE), ("glass blue", ORANGE)]);
-    let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
-    assert_eq!(shading_.levels(FIRST, 0), [0.5]);
+    let (shading_, _) = shading_and_warnings(&scene, &LightOptions::default(), &options);
+    assert_eq!(shading_.levels(FIRST_PAINT, 0), [0.5]);
     assert_eq!(shading_.levels(PaintId(1), 0), [0.25, 0.5, 0.75]);
-    assert_eq!((shading_.levels(FIRST, 1).len(), shading_.levels(PaintId(1), 1).len()), (0, 1));
-    assert_eq!((shading_.colour(FIRST, 1), shading_.colour(PaintId(1), 3)), (ORANGE, Colour::WHITE));
+    assert_eq!((shading_.levels(FIRST_PAINT, 1).len(), shading_.levels(PaintId(1), 1).len()), (0, 1));
+    assert_eq!((shading_.colour(FIRST_PAINT, 1), shading_.colour(PaintId(1), 3)), (ORANGE, Colour::WHITE));
     // Surfaces without material are light grey, for any index.
     for without in [2, 77].map(PaintId) {
         assert_eq!(shading_.colour(without, 1), Colour::rgb(204, 204, 204));
@@ -342,45 +362,49 @@ fn materials_are_changed_by_name() {
 }
 
 #[test]
-fn paints_of_a_material_have_its_tones_in_their_colours() {
+fn paints_keep_the_tones_of_their_material_in_their_own_colours() {
     let scene = scene(&[("body", Colour::WHITE)]);
     let paint = |colour| MaterialPaint { material: MaterialId(0), colour };
     let paints = [paint(Colour::WHITE), paint(Colour::BLACK), paint(ORANGE)];
-    let mut options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
+    let mut options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
     let painted = |options: &ToneOptions| {
         let (light, frame) = (LightOptions::default(), frame(DVec3::X));
-        Shading::new(&scene, &paints, &mesh(), &frame, &light, options, &mut Vec::new())
+        Shading::new(&scene, &paints, &empty_mesh(), &frame, &light, options, &mut Vec::new())
     };
-    assert_eq!(colours(&painted(&options), PaintId(2), 2), [Colour::rgb(100, 60, 20), ORANGE]);
-    options.materials = vec![MaterialChange { colour: Some(Colour::WHITE), ..unchanged("body") }];
+    assert_eq!(tone_colours(&painted(&options), PaintId(2), 2), [Colour::rgb(100, 60, 20), ORANGE]);
+    options.materials = vec![MaterialChange { colour: Some(Colour::WHITE), ..empty_material_change("body") }];
     assert_eq!(painted(&options).colour(PaintId(2), 1), Colour::WHITE);
 }
 
 #[test]
-fn colours_from_cool_to_warm() {
+fn gooch_tones_run_from_cool_to_warm() {
     let gooch = Gooch { enabled: true, ..Gooch::default() };
-    let options = ToneOptions { colours: Colours::Gooch(gooch), ..grey(0.5, ToneScale::Steps(3)) };
-    let shading = toned(&options);
+    let options =
+        ToneOptions { colours: Colours::Gooch(gooch), ..grey_tone_options(0.5, ToneScale::Steps(3)) };
+    let shading = shading_of_tone_options(&options);
     let (cool, warm) = (Colour::rgb(50, 30, 150), Colour::rgb(177, 137, 20));
-    assert_eq!((shading.colour(FIRST, 0), shading.colour(FIRST, 2)), (cool, warm));
-    assert_eq!(shading.colour(FIRST, 1).b, 85);
+    assert_eq!((shading.colour(FIRST_PAINT, 0), shading.colour(FIRST_PAINT, 2)), (cool, warm));
+    assert_eq!(shading.colour(FIRST_PAINT, 1).b, 85);
 }
 
 #[test]
-fn black_and_shining_materials_keep_their_tones_apart() {
+fn black_and_emissive_materials_keep_distinct_tones() {
     let mut scene = scene(&[("tyre", Colour::BLACK), ("lamp", ORANGE)]);
     scene.materials[1].emissive = Colour::rgb(180, 20, 0);
-    let options = grey(0.5, ToneScale::Thresholds(vec![0.5]));
-    let (shading_, _) = shading(&scene, &LightOptions::default(), &options);
-    assert_eq!(colours(&shading_, FIRST, 2), [Colour::rgb(24, 24, 24), Colour::rgb(48, 48, 48)]);
+    let options = grey_tone_options(0.5, ToneScale::Thresholds(vec![0.5]));
+    let (shading_, _) = shading_and_warnings(&scene, &LightOptions::default(), &options);
+    assert_eq!(tone_colours(&shading_, FIRST_PAINT, 2), [Colour::rgb(24, 24, 24), Colour::rgb(48, 48, 48)]);
     assert_eq!(shading_.colour(PaintId(1), 0), Colour::rgb(180, 60, 20));
-    let flat = grey(0.5, ToneScale::Thresholds(Vec::new()));
-    assert_eq!(shading(&scene, &LightOptions::default(), &flat).0.colour(FIRST, 0), Colour::BLACK);
+    let flat = grey_tone_options(0.5, ToneScale::Thresholds(Vec::new()));
+    assert_eq!(
+        shading_and_warnings(&scene, &LightOptions::default(), &flat).0.colour(FIRST_PAINT, 0),
+        Colour::BLACK
+    );
 }
 
 #[test]
-fn shadows_are_cooler_and_darker() {
-    let shading = toned(&ToneOptions::default());
+fn shadow_tones_are_cooler_and_darker_than_lit_tones() {
+    let shading = shading_of_tone_options(&ToneOptions::default());
     let (shadow, lit) = (shading.colour(PaintId(9), 0), shading.colour(PaintId(9), 1));
     assert!(shadow.luma() < 0.75 * lit.luma());
     assert!(i16::from(shadow.b) - i16::from(shadow.r) > 10, "{shadow:?}");

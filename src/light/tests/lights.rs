@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::{frame, mesh, near, point, shading};
+use super::{assert_near, empty_mesh, frame, shading_and_warnings, surface_point};
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::light::{Caster, LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
 use crate::mesh::PaintId;
 use crate::scene::{Light, LightKind, Scene};
 
-const ANY: PaintId = PaintId(0);
+const ANY_PAINT: PaintId = PaintId(0);
 
 fn directional(direction: DVec3) -> LightSource {
     LightSource { kind: SourceKind::Directional { direction }, space: Space::World, ..LightSource::default() }
@@ -22,42 +22,42 @@ fn lit_by(sources: Vec<LightSource>) -> LightOptions {
     LightOptions { sources, ..LightOptions::default() }
 }
 
-fn value(light: &LightOptions, position: DVec3, normal: DVec3) -> f64 {
-    let (shading, _) = shading(&Scene::default(), light, &ToneOptions::default());
-    shading.value(0, ANY, &point(position, normal), 0)
+fn light_value(light: &LightOptions, position: DVec3, normal: DVec3) -> f64 {
+    let (shading, _) = shading_and_warnings(&Scene::default(), light, &ToneOptions::default());
+    shading.value(0, ANY_PAINT, &surface_point(position, normal), 0)
 }
 
 fn model_light(kind: LightKind, intensity: f64) -> Light {
     Light { name: String::new(), kind, colour: [1.0; 3], intensity, range: None }
 }
 
-fn value_in_model(lights: Vec<Light>, position: DVec3, normal: DVec3) -> f64 {
+fn model_light_value(lights: Vec<Light>, position: DVec3, normal: DVec3) -> f64 {
     let scene = Scene { lights, ..Scene::default() };
-    let (shading, _) = shading(&scene, &LightOptions::default(), &ToneOptions::default());
-    shading.value(0, ANY, &point(position, normal), 0)
+    let (shading, _) = shading_and_warnings(&scene, &LightOptions::default(), &ToneOptions::default());
+    shading.value(0, ANY_PAINT, &surface_point(position, normal), 0)
 }
 
 #[test]
-fn one_white_light_gives_the_cosine() {
+fn a_directional_light_gives_lambert_cosine_with_optional_wrap() {
     let light = lit_by(vec![directional(DVec3::new(0.0, 0.0, 3.0))]);
     for angle in [0.0, 0.3, 1.1, 1.6, 3.0] {
         let normal = DVec3::new(sin(angle), 0.0, cos(angle)).normalize();
         let exactly = normal.dot(DVec3::Z).max(0.0);
-        assert_eq!(value(&light, DVec3::ZERO, normal), exactly);
+        assert_eq!(light_value(&light, DVec3::ZERO, normal), exactly);
     }
-    assert_eq!(value(&LightOptions { wrap: 1.0, ..light.clone() }, DVec3::ZERO, DVec3::X), 0.5);
-    near(value(&LightOptions { wrap: 0.5, ..light }, DVec3::ZERO, DVec3::NEG_Z), 0.0);
+    assert_eq!(light_value(&LightOptions { wrap: 1.0, ..light.clone() }, DVec3::ZERO, DVec3::X), 0.5);
+    assert_near(light_value(&LightOptions { wrap: 0.5, ..light }, DVec3::ZERO, DVec3::NEG_Z), 0.0);
 }
 
 #[test]
-fn light_between_normals_lies_within_its_slope() {
+fn shading_slope_bounds_the_light_between_normals() {
     let sky = [DVec3::X, DVec3::NEG_X, DVec3::new(0.3, 0.9, 0.2), DVec3::new(-0.5, 0.1, -0.8)];
     let mut within = 0;
     for (lamps, wrap) in [(1, 0.0), (1, 0.4), (2, 0.0), (4, 0.0), (4, 0.3)] {
         let sources = sky[..lamps].iter().map(|towards| directional(*towards)).collect();
         let light = LightOptions { wrap, ..lit_by(sources) };
-        let (shading, _) = shading(&Scene::default(), &light, &ToneOptions::default());
-        let at = |normal: DVec3| shading.value(0, ANY, &point(DVec3::ZERO, normal), 0);
+        let (shading, _) = shading_and_warnings(&Scene::default(), &light, &ToneOptions::default());
+        let at = |normal: DVec3| shading.value(0, ANY_PAINT, &surface_point(DVec3::ZERO, normal), 0);
         for k in 0..400 {
             // Triangles of unit vectors, mostly small. Every other one is on the terminators of the first two
             // lights.
@@ -91,7 +91,7 @@ fn light_between_normals_lies_within_its_slope() {
 }
 
 #[test]
-fn lights_add_up_by_brightness_whatever_their_colour() {
+fn light_values_add_up_by_brightness_regardless_of_colour() {
     let red = LightSource {
         brightness: 0.5,
         colour: crate::colour::srgb::Colour::rgb(255, 0, 0),
@@ -99,23 +99,23 @@ fn lights_add_up_by_brightness_whatever_their_colour() {
     };
     let light = lit_by(vec![directional(DVec3::Z), red]);
     let normal = DVec3::new(0.6, 0.0, 0.8);
-    near(value(&light, DVec3::ZERO, normal), 0.8 + 0.5 * 0.6);
+    assert_near(light_value(&light, DVec3::ZERO, normal), 0.8 + 0.5 * 0.6);
 }
 
 #[test]
-fn half_the_light_of_a_lamp_is_left_at_its_fall_off() {
+fn point_light_falls_to_half_at_its_falloff_distance() {
     let at = DVec3::new(0.0, 0.0, 3.0);
-    near(value(&lit_by(vec![lamp(at, Some(3.0))]), DVec3::ZERO, DVec3::Z), 0.5);
-    near(value(&lit_by(vec![lamp(at, Some(1.0))]), DVec3::ZERO, DVec3::Z), 0.1);
-    near(value(&lit_by(vec![lamp(at, None)]), DVec3::ZERO, DVec3::Z), 1.0);
+    assert_near(light_value(&lit_by(vec![lamp(at, Some(3.0))]), DVec3::ZERO, DVec3::Z), 0.5);
+    assert_near(light_value(&lit_by(vec![lamp(at, Some(1.0))]), DVec3::ZERO, DVec3::Z), 0.1);
+    assert_near(light_value(&lit_by(vec![lamp(at, None)]), DVec3::ZERO, DVec3::Z), 1.0);
     let aside = DVec3::new(4.0, 0.0, 0.0);
-    near(value(&lit_by(vec![lamp(at, None)]), aside, DVec3::Z), 0.6);
+    assert_near(light_value(&lit_by(vec![lamp(at, None)]), aside, DVec3::Z), 0.6);
     // At the lamp itself there is no direction to it.
-    assert_eq!(value(&lit_by(vec![lamp(at, Some(1.0))]), at, DVec3::Z), 0.0);
+    assert_eq!(light_value(&lit_by(vec![lamp(at, Some(1.0))]), at, DVec3::Z), 0.0);
 }
 
 #[test]
-fn lights_of_the_camera_turn_with_it() {
+fn camera_space_lights_turn_with_the_camera() {
     let eyes = [DVec3::new(0.0, -9.0, 0.0), DVec3::new(5.0, 5.0, 7.0)];
     let tones = ToneOptions::default();
     for source in [LightSource::default(), lamp(DVec3::new(1.0, 2.0, -3.0), Some(2.0))] {
@@ -123,37 +123,37 @@ fn lights_of_the_camera_turn_with_it() {
         let [first, second] = eyes.map(|eye| {
             let frame = frame(eye);
             let shading =
-                Shading::new(&Scene::default(), &[], &mesh(), &frame, &light, &tones, &mut Vec::new());
+                Shading::new(&Scene::default(), &[], &empty_mesh(), &frame, &light, &tones, &mut Vec::new());
             // Point with the same position relative to either camera.
             let normal = frame.right * 0.36 + frame.up * 0.48 - frame.forward * 0.8;
             let position = frame.eye + frame.forward * 5.0 - frame.right;
-            shading.value(0, ANY, &point(position, normal), 0)
+            shading.value(0, ANY_PAINT, &surface_point(position, normal), 0)
         });
-        near(first, second);
+        assert_near(first, second);
         assert!(first > 0.1);
     }
     // Without lights, there is one to the upper left of the viewer.
     let key = DVec3::new(-0.4, 0.6, 0.7).normalize();
     let world = DVec3::new(key.x, -key.z, key.y);
-    near(value(&LightOptions::default(), DVec3::ZERO, world), 1.0);
+    assert_near(light_value(&LightOptions::default(), DVec3::ZERO, world), 1.0);
 }
 
 #[test]
-fn the_brightest_light_of_a_model_gives_one_at_the_target() {
+fn model_lights_are_scaled_so_the_brightest_gives_one_at_the_target() {
     let point_light = LightKind::Point { position: DVec3::new(0.0, 0.0, 6.0) };
     let sun = LightKind::Directional { direction: DVec3::NEG_X };
     // 3600 candela at 6 units are 100 lux.
     let both = vec![model_light(point_light, 3600.0), model_light(sun, 25.0)];
-    near(value_in_model(both.clone(), DVec3::ZERO, DVec3::Z), 1.0);
-    near(value_in_model(both.clone(), DVec3::ZERO, DVec3::X), 0.25);
-    near(value_in_model(both, DVec3::new(0.0, 0.0, 3.0), DVec3::Z), 4.0);
+    assert_near(model_light_value(both.clone(), DVec3::ZERO, DVec3::Z), 1.0);
+    assert_near(model_light_value(both.clone(), DVec3::ZERO, DVec3::X), 0.25);
+    assert_near(model_light_value(both, DVec3::new(0.0, 0.0, 3.0), DVec3::Z), 4.0);
     // A lamp near the target counts as a quarter of the frame's side of 2 away.
     let inside = vec![model_light(LightKind::Point { position: DVec3::ZERO }, 7.0)];
-    near(value_in_model(inside, DVec3::new(0.0, 0.0, -0.5), DVec3::Z), 1.0);
+    assert_near(model_light_value(inside, DVec3::new(0.0, 0.0, -0.5), DVec3::Z), 1.0);
 }
 
 #[test]
-fn spots_and_ranges_end_as_the_file_says() {
+fn spot_light_cones_and_ranges_follow_the_model_file() {
     let spot = |inner_angle: f64, outer_angle: f64| LightKind::Spot {
         position: DVec3::new(0.0, 0.0, 4.0),
         direction: DVec3::NEG_Z,
@@ -162,60 +162,62 @@ fn spots_and_ranges_end_as_the_file_says() {
     };
     let at = |x: f64| DVec3::new(x, 0.0, 0.0);
     let lights = |inner, outer| vec![model_light(spot(inner, outer), 16.0)];
-    near(value_in_model(lights(0.2, 0.5), at(0.0), DVec3::Z), 1.0);
-    assert_eq!(value_in_model(lights(0.2, 0.5), at(4.0), DVec3::Z), 0.0);
+    assert_near(model_light_value(lights(0.2, 0.5), at(0.0), DVec3::Z), 1.0);
+    assert_eq!(model_light_value(lights(0.2, 0.5), at(4.0), DVec3::Z), 0.0);
     // At 45 degrees: 16/32 cd/d², cosine 1/√2, half-way between the cosines of the cone, squared.
     let (inner, outer) = (
         crate::geometry::numbers::portable_math::acos(0.9_f64),
         crate::geometry::numbers::portable_math::acos(2.0_f64.sqrt() - 0.9),
     );
-    near(value_in_model(lights(inner, outer), at(4.0), DVec3::Z), 0.5 * 0.5_f64.sqrt() * 0.25);
+    assert_near(model_light_value(lights(inner, outer), at(4.0), DVec3::Z), 0.5 * 0.5_f64.sqrt() * 0.25);
     let ranged = Light { range: Some(5.0), ..model_light(spot(1.0, 1.2), 16.0) };
-    near(value_in_model(vec![ranged.clone()], at(0.0), DVec3::Z), 1.0 - 0.8_f64 * 0.8 * 0.8 * 0.8);
-    assert_eq!(value_in_model(vec![ranged], at(3.1), DVec3::Z), 0.0);
+    assert_near(model_light_value(vec![ranged.clone()], at(0.0), DVec3::Z), 1.0 - 0.8_f64 * 0.8 * 0.8 * 0.8);
+    assert_eq!(model_light_value(vec![ranged], at(3.1), DVec3::Z), 0.0);
 }
 
 #[test]
-fn a_model_without_light_is_lit_all_the_same() {
+fn lights_without_output_are_replaced_by_the_default_with_a_warning() {
     let dark = vec![model_light(LightKind::Point { position: DVec3::Z }, 0.0)];
     let scene = Scene { lights: dark, ..Scene::default() };
-    let (shading_, warnings) = shading(&scene, &LightOptions::default(), &ToneOptions::default());
+    let (shading_, warnings) =
+        shading_and_warnings(&scene, &LightOptions::default(), &ToneOptions::default());
     assert_eq!(warnings, ["the model's lights give no light and are left out"]);
-    assert!(shading_.value(0, ANY, &point(DVec3::ZERO, DVec3::NEG_Y), 0) > 0.5);
+    assert!(shading_.value(0, ANY_PAINT, &surface_point(DVec3::ZERO, DVec3::NEG_Y), 0) > 0.5);
     let black = LightSource { brightness: 0.0, ..LightSource::default() };
-    let (_, warnings) = shading(&Scene::default(), &lit_by(vec![black]), &ToneOptions::default());
+    let (_, warnings) =
+        shading_and_warnings(&Scene::default(), &lit_by(vec![black]), &ToneOptions::default());
     assert_eq!(warnings.len(), 1);
     let ignored = LightOptions { from_model: false, ..LightOptions::default() };
-    assert!(shading(&scene, &ignored, &ToneOptions::default()).1.is_empty());
+    assert!(shading_and_warnings(&scene, &ignored, &ToneOptions::default()).1.is_empty());
 }
 
 #[test]
-fn shadowed_lights_are_left_out() {
+fn shadowed_lights_add_nothing_and_at_most_eight_cast_shadows() {
     let mut sources = vec![directional(DVec3::Z); 10];
     sources[0].shadows = false;
     sources[2] = lamp(DVec3::new(0.0, 0.0, 5.0), None);
     let tones = ToneOptions { cast_shadows: true, ..ToneOptions::default() };
-    let (shading_, warnings) = shading(&Scene::default(), &lit_by(sources.clone()), &tones);
+    let (shading_, warnings) = shading_and_warnings(&Scene::default(), &lit_by(sources.clone()), &tones);
     assert_eq!(shading_.casters().len(), 8);
     assert_eq!(shading_.casters()[0], Caster::Directional { towards: DVec3::Z });
     assert_eq!(shading_.casters()[1], Caster::Point { position: DVec3::new(0.0, 0.0, 5.0) });
     assert_eq!(warnings, ["9 lights would cast shadows; only the first 8 do"]);
-    let at = point(DVec3::ZERO, DVec3::Z);
+    let at = surface_point(DVec3::ZERO, DVec3::Z);
     for (shadowed, left) in [(0, 10.0), (0b10, 9.0), (0xff, 2.0)] {
-        near(shading_.value(0, ANY, &at, shadowed), left);
+        assert_near(shading_.value(0, ANY_PAINT, &at, shadowed), left);
     }
-    let (without, _) = shading(&Scene::default(), &lit_by(sources), &ToneOptions::default());
+    let (without, _) = shading_and_warnings(&Scene::default(), &lit_by(sources), &ToneOptions::default());
     assert!(without.casters().is_empty());
 }
 
 #[test]
-fn nooks_are_darker_and_lost_normals_look_at_the_eye() {
+fn occlusion_darkens_points_and_invalid_normals_face_the_camera() {
     let light = LightOptions { occlusion: 0.5, ..lit_by(vec![directional(DVec3::NEG_Y)]) };
-    let (shading_, _) = shading(&Scene::default(), &light, &ToneOptions::default());
-    let mut at = point(DVec3::ZERO, DVec3::ZERO);
-    near(shading_.value(0, ANY, &at, 0), 1.0);
+    let (shading_, _) = shading_and_warnings(&Scene::default(), &light, &ToneOptions::default());
+    let mut at = surface_point(DVec3::ZERO, DVec3::ZERO);
+    assert_near(shading_.value(0, ANY_PAINT, &at, 0), 1.0);
     at.ambient_visibility = 0.5;
-    near(shading_.value(0, ANY, &at, 0), 0.75);
+    assert_near(shading_.value(0, ANY_PAINT, &at, 0), 0.75);
     at.normal = DVec3::NAN;
-    near(shading_.value(0, ANY, &at, 0), 0.75);
+    assert_near(shading_.value(0, ANY_PAINT, &at, 0), 0.75);
 }

@@ -25,21 +25,21 @@ fn frame(eye: DVec3) -> Frame {
     Frame::new(&camera, DVec3::ZERO)
 }
 
-fn mesh() -> Mesh {
+fn empty_mesh() -> Mesh {
     Mesh::default()
 }
 
 /// Shading of a scene seen from the front, and its warnings.
-fn shading(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading, Vec<String>) {
+fn shading_and_warnings(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading, Vec<String>) {
     let mut warnings = Vec::new();
     let frame = frame(DVec3::new(0.0, -9.0, 0.0));
-    (Shading::new(scene, &[], &mesh(), &frame, light, tones, &mut warnings), warnings)
+    (Shading::new(scene, &[], &empty_mesh(), &frame, light, tones, &mut warnings), warnings)
 }
 
-fn point(position: DVec3, normal: DVec3) -> SurfacePoint {
+fn surface_point(position: DVec3, normal: DVec3) -> SurfacePoint {
     SurfacePoint { position, normal: normal.normalize_or_zero(), ambient_visibility: 1.0 }
 }
 
-fn near(a: f64, b: f64) {
+fn assert_near(a: f64, b: f64) {
     assert!((a - b).abs() < 1e-12, "{a} is not {b}");
 }

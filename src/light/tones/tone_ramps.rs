@@ -123,31 +123,43 @@ impl Table {
 mod tests {
     use super::*;
 
-    const A: Colour = Colour::BLACK;
-    const B: Colour = Colour::rgb(90, 0, 90);
-    const C: Colour = Colour::WHITE;
+    const BLACK_TONE: Colour = Colour::BLACK;
+    const PURPLE_TONE: Colour = Colour::rgb(90, 0, 90);
+    const WHITE_TONE: Colour = Colour::WHITE;
 
     #[test]
-    fn equal_columns_of_a_strip_are_one_tone() {
+    fn strip_merges_neighbouring_columns_of_equal_colour() {
         // Lake's eight texels, seven of them in shadow.
-        let strip = Strip::of_columns(&[A, A, A, A, A, A, A, C]).unwrap();
-        assert_eq!((strip.levels, strip.colours), (vec![0.875], vec![A, C]));
-        let strip = Strip::of_columns(&[A, B, B, A]).unwrap();
-        assert_eq!((strip.levels, strip.colours), (vec![0.25, 0.75], vec![A, B, A]));
+        let strip = Strip::of_columns(&[
+            BLACK_TONE, BLACK_TONE, BLACK_TONE, BLACK_TONE, BLACK_TONE, BLACK_TONE, BLACK_TONE, WHITE_TONE,
+        ])
+        .unwrap();
+        assert_eq!((strip.levels, strip.colours), (vec![0.875], vec![BLACK_TONE, WHITE_TONE]));
+        let strip = Strip::of_columns(&[BLACK_TONE, PURPLE_TONE, PURPLE_TONE, BLACK_TONE]).unwrap();
+        assert_eq!(
+            (strip.levels, strip.colours),
+            (vec![0.25, 0.75], vec![BLACK_TONE, PURPLE_TONE, BLACK_TONE])
+        );
         assert!(Strip::of_columns(&[]).is_err());
-        let picture = Picture { width: 2, height: 2, pixels: vec![C, C, A, B] };
-        assert_eq!(Strip::of_picture(&picture).unwrap().colours, [A, B]);
+        let picture =
+            Picture { width: 2, height: 2, pixels: vec![WHITE_TONE, WHITE_TONE, BLACK_TONE, PURPLE_TONE] };
+        assert_eq!(Strip::of_picture(&picture).unwrap().colours, [BLACK_TONE, PURPLE_TONE]);
     }
 
     #[test]
-    fn cells_of_one_colour_are_one_tone() {
-        let table = Table::of_rows(&[vec![A, A, B, B], vec![A, A, B, B], vec![B, B, C, C]]).unwrap();
+    fn tone_table_gives_cells_of_equal_colour_one_tone() {
+        let table = Table::of_rows(&[
+            vec![BLACK_TONE, BLACK_TONE, PURPLE_TONE, PURPLE_TONE],
+            vec![BLACK_TONE, BLACK_TONE, PURPLE_TONE, PURPLE_TONE],
+            vec![PURPLE_TONE, PURPLE_TONE, WHITE_TONE, WHITE_TONE],
+        ])
+        .unwrap();
         assert_eq!((&table.columns, &table.rows), (&vec![0.5], &vec![2.0 / 3.0]));
-        assert_eq!(table.colours, [A, B, C]);
+        assert_eq!(table.colours, [BLACK_TONE, PURPLE_TONE, WHITE_TONE]);
         let tones = [(0, 0), (1, 0), (0, 1), (1, 1), (9, 9)].map(|(c, r)| table.tone(c, r));
         assert_eq!(tones, [0, 1, 1, 2, 2]);
-        assert!(Table::of_rows(&[vec![A], vec![]]).is_err());
-        let picture = Picture { width: 2, height: 1, pixels: vec![C, A] };
+        assert!(Table::of_rows(&[vec![BLACK_TONE], vec![]]).is_err());
+        let picture = Picture { width: 2, height: 1, pixels: vec![WHITE_TONE, BLACK_TONE] };
         let table = Table::of_picture(&picture).unwrap();
         assert_eq!((table.tone(0, 0), table.tone(1, 0), table.rows.len()), (1, 0, 0));
     }

@@ -161,7 +161,7 @@ mod tests {
         }
     }
 
-    fn length(curves: &IntersectionCurves) -> f64 {
+    fn total_curve_length(curves: &IntersectionCurves) -> f64 {
         let of = |s: &IntersectionSegment| {
             curves.points[s.ends[0] as usize].distance(curves.points[s.ends[1] as usize])
         };
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn tubes_that_cross_keep_their_whole_curves() {
+    fn crossing_tubes_keep_closed_intersection_curves() {
         for (strips, aside) in [(8, 0.9), (12, 0.5), (24, 0.3)] {
             let mut soup = Soup::default();
             add_tube(&mut soup, strips, 1.0, [-1.0, 1.0], 0.1);
@@ -191,7 +191,7 @@ mod tests {
             let curves = all_curves(&mesh);
             // Two closed curves at least as long as the circumference of the thin tube, or one where the tube
             // is cut open.
-            assert!(length(&curves) > 2.0, "{strips}: {}", length(&curves));
+            assert!(total_curve_length(&curves) > 2.0, "{strips}: {}", total_curve_length(&curves));
             let ends = |point: u32| curves.segments.iter().filter(|s| s.ends.contains(&point)).count();
             assert!((0..curves.points.len() as u32).all(|point| ends(point) == 2), "{strips}");
         }

@@ -75,7 +75,7 @@ mod tests {
     use crate::scene::{Camera, UpAxis};
 
     #[test]
-    fn what_is_behind_a_sheet_is_out_of_sight() {
+    fn visible_faces_of_leaves_out_faces_behind_a_sheet() {
         // Three small squares: on the sheet, under it, and under its border.
         let mut positions = Vec::new();
         let mut triangles = Vec::new();

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plane_is_as_steep_as_it_is() {
+    fn steepness_of_a_plane_is_its_gradient_length() {
         let at = [DVec2::new(1.0, 2.0), DVec2::new(7.0, 3.0), DVec2::new(2.0, 9.0)];
         let steep = steepness(at, at.map(|p| 5.0 + p.dot(DVec2::new(0.3, -0.4))));
         assert!((steep - 0.5).abs() < 1e-12);

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     /// Rays about z in degrees: where material starts, and where it ends.
-    fn around(corners: &[(u32, u32, [f64; 2])]) -> RayFan {
+    fn ray_fan_of(corners: &[(u32, u32, [f64; 2])]) -> RayFan {
         let ray = |degrees: f64, begins: bool, kind: u32, part: u32| {
             let angle = degrees.to_radians();
             let way = DVec3::new(
@@ -179,12 +179,12 @@ mod tests {
     }
 
     #[test]
-    fn only_what_leaves_a_plane_or_nothing_is_a_joint() {
+    fn is_joint_accepts_only_flush_parts_of_one_material() {
         let is_joint = |corners: &[(u32, u32, [f64; 2])]| {
             // The result does not depend on rotation.
             let found: Vec<bool> = [0.0, 45.0, 100.0, 180.0, 269.0]
                 .map(|turn| {
-                    around(
+                    ray_fan_of(
                         &corners
                             .iter()
                             .map(|(k, p, [a, b])| (*k, *p, [a + turn, b + turn]))

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     /// Palette colour nearest to the colour at a point of the triangle.
-    fn nearest(corners: [Oklab; 3], palette: &[Oklab], at: [f64; 3]) -> u8 {
+    fn nearest_palette_colour(corners: [Oklab; 3], palette: &[Oklab], at: [f64; 3]) -> u8 {
         let own: [f64; 3] = [0, 1, 2].map(|k| (0..3).map(|c| f64::from(corners[c][k]) * at[c]).sum::<f64>());
         let far = |colour: &Oklab| (0..3).map(|k| (f64::from(colour[k]) - own[k]).powi(2)).sum::<f64>();
         let best = (0..palette.len()).min_by(|a, b| far(&palette[*a]).total_cmp(&far(&palette[*b])));
@@ -113,17 +113,18 @@ mod tests {
     }
 
     /// Pseudo-random number from 0 to 1.
-    fn dice(seed: &mut u64) -> f32 {
+    fn random_unit(seed: &mut u64) -> f32 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 40) as f32 / (1u64 << 24) as f32
     }
 
     #[test]
-    fn along_any_line_colours_change_where_borders_are_crossed() {
+    fn nearest_colour_changes_exactly_at_colour_borders() {
         let mut seed = 7;
         let mut crossings = 0;
         for _ in 0..60 {
-            let mut lab = || [dice(&mut seed), dice(&mut seed) - 0.5, dice(&mut seed) - 0.5];
+            let mut lab =
+                || [random_unit(&mut seed), random_unit(&mut seed) - 0.5, random_unit(&mut seed) - 0.5];
             let palette: Vec<Oklab> = (0..9).map(|_| lab()).collect();
             let corners = [lab(), lab(), lab()];
             let found = borders(corners, &palette);
@@ -132,7 +133,8 @@ mod tests {
                 let at = |t: f64| [w, (1.0 - w) * t, (1.0 - w) * (1.0 - t)];
                 let steps = 4000;
                 let place = |k: u32| at(f64::from(k) / f64::from(steps));
-                let seen: Vec<u8> = (0..=steps).map(|k| nearest(corners, &palette, place(k))).collect();
+                let seen: Vec<u8> =
+                    (0..=steps).map(|k| nearest_palette_colour(corners, &palette, place(k))).collect();
                 let changes: Vec<[u8; 2]> = seen
                     .windows(2)
                     .filter(|p| p[0] != p[1])
@@ -156,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn borders_meet_in_one_point_and_neighbours_cut_their_side_alike() {
+    fn colour_borders_meet_in_one_point_and_match_across_shared_sides() {
         let palette = [[0.2, 0.0, 0.0], [0.6, 0.3, 0.0], [0.6, -0.3, 0.0]];
         let corners = [[0.0, 0.0, 0.0], [0.8, 0.5, 0.0], [0.8, -0.5, 0.0]];
         let found = borders(corners, &palette);

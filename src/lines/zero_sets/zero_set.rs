@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_circle_is_one_ring_with_the_positive_side_on_its_left() {
+    fn zero_set_of_a_circle_is_one_ring_with_positive_side_on_the_left() {
         let (mesh, smooth) = square(40);
         let field: Vec<f64> = mesh.positions.iter().map(|p| 0.3 - p.length()).collect();
         let set = trace(&mesh, &smooth, &field, |_| true);
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_that_vanishes_at_vertices_gives_one_line() {
+    fn zero_set_through_vertices_is_a_single_line() {
         let (mesh, smooth) = square(10);
         let field: Vec<f64> =
             mesh.positions.iter().map(|p| p.x).map(|x| if x.abs() < 1e-9 { 0.0 } else { x }).collect();
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn hard_edges_part_the_curve_and_flat_faces_have_none() {
+    fn zero_set_is_split_at_hard_edges_and_absent_on_flat_faces() {
         let (mesh, mut smooth) = square(2);
         let field: Vec<f64> = mesh.positions.iter().map(|p| p.y - 0.1).collect();
         let whole = trace(&mesh, &smooth, &field, |_| true);
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn points_do_not_depend_on_the_order_of_faces() {
+    fn zero_set_points_do_not_depend_on_the_face_order() {
         let (mesh, smooth) = square(8);
         let field: Vec<f64> = mesh.positions.iter().map(|p| p.x * p.y + 0.01).collect();
         let mut turned = smooth.clone();

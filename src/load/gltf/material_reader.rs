@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_of_both_workflows() {
+    fn colours_of_metallic_and_specular_workflows_are_read() {
         let (materials, _) = read(
             r#"{"materials":[{},
             {"pbrMetallicRoughness":{"baseColorFactor":[1,0,0.2158605,0.5]},"doubleSided":true},
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_are_only_looked_for() {
+    fn unusable_textures_are_left_out_with_a_warning() {
         let texture = |uri: &str| {
             read(&format!(
                 r#"{{"materials":[{{"name":"wood","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_unknown_is_refused() {
+    fn only_unknown_required_extensions_are_refused() {
         let names = |list: &[&str]| list.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         assert!(check(&names(&["KHR_mesh_quantization", "KHR_materials_unlit"])).is_ok());
         let error = check(&names(&["KHR_texture_basisu", "ACME_nurbs"])).unwrap_err();

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn data_uris() {
+    fn data_uris_are_decoded() {
         assert_eq!(data("data:application/octet-stream;base64,AAEC"), Some(Ok(vec![0, 1, 2])));
         assert_eq!(data("DATA:;base64,AA"), Some(Ok(vec![0])));
         assert_eq!(data("data:;base64,AA\nEC"), Some(Ok(vec![0, 1, 2])));
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_stay_in_the_folder() {
+    fn inside_folder_refuses_paths_outside_the_folder() {
         assert_eq!(inside_folder("a%20b.bin"), Ok("a b.bin".to_owned()));
         assert_eq!(inside_folder("./tex\\..//x.png"), Ok("x.png".to_owned()));
         assert_eq!(inside_folder("100%.bin"), Ok("100%.bin".to_owned()));

@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn materials_have_colour_opacity_and_light() {
+    fn mtl_materials_have_colour_opacity_and_emission() {
         let text =
             "# c\r\nnewmtl a b\r\n\tKd 1 0.5 0\r\n d 0.5\r\nTr 0.9\r\nnewmtl c\nTr 0.8\nKe 1 1 0\nKd 0.2\n";
         let (materials, _) = read(text);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn materials_shine() {
+    fn mtl_materials_have_gloss() {
         let (materials, _) =
             read("newmtl a\nNs 250\nKs 0.5 0.2 0.1\nnewmtl b\nKs 0 0 0\nnewmtl c\nKd 1 1 1\n");
         let gloss: Vec<_> = materials.iter().map(|material| material.gloss).collect();
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn libraries_may_begin_with_a_mark_of_their_encoding() {
+    fn mtl_libraries_may_begin_with_a_byte_order_mark() {
         let text = "\u{feff}newmtl é\r\nKd 1 0 0\r\n";
         let units = || text.encode_utf16();
         let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_have_options_and_blanks_in_names() {
+    fn mtl_textures_may_have_options_and_blanks_in_names() {
         for (statement, wanted) in [
             ("wood.png", "maps/wood.png"),
             ("-s 2 2 1 -o 0.25 0 0 checker board.png", "maps/checker board.png"),
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_are_placed_and_clamped() {
+    fn mtl_texture_options_set_placing_and_wrap() {
         let of = |options: &str| {
             let (materials, _) = read(&format!("newmtl m\nmap_Kd {options} a.png\n"));
             (materials[0].placing, materials[0].wrap)
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_outside_the_folder_are_left_out() {
+    fn mtl_textures_outside_the_folder_are_left_out() {
         for name in ["../../secret.png", "/etc/passwd", "C:\\secret.png", "a/../../../b.png"] {
             let (materials, warnings) = read(&format!("newmtl m\nmap_Kd {name}\n"));
             assert_eq!(materials[0].texture, None);
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn statements_before_a_material_are_passed_over() {
+    fn mtl_statements_before_a_material_are_ignored() {
         assert!(read("Kd 1 1 1\nmap_Kd a.png").0.is_empty());
     }
 }

@@ -18,7 +18,7 @@ fn error(text: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn faces_and_wires() {
+fn obj_faces_become_triangles_and_lines_become_wires() {
     let scene = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\nl 1 3 2\np 1\n");
     let geometry = &scene.geometries[0];
     assert_eq!(geometry.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
@@ -28,14 +28,14 @@ fn faces_and_wires() {
 }
 
 #[test]
-fn all_ways_to_end_and_continue_a_line() {
+fn obj_lines_may_end_and_continue_in_any_style() {
     let text =
         "\u{feff}# c\r\nv\t0 0\\\r\n 0\r\n  v 1 0 0 # c\r\nv 0 1 0\rf 1 2 \\\n3# c\n\nf -3 -2 -1 \r\nf 1 2 3";
     assert_eq!(read(text).geometries[0].triangles, [[0, 1, 2]; 3]);
 }
 
 #[test]
-fn corners_have_texture_coordinates_and_normals() {
+fn obj_corners_have_texture_coordinates_and_normals() {
     let text = format!(
         "{TRIANGLE}vt 0.5\nvt 1 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/2 3/-1\nf 1//1 2//-1 3//1\nf 1/1/1 2/2/1 3//9\nf 1 2 3\n"
     );
@@ -48,7 +48,7 @@ fn corners_have_texture_coordinates_and_normals() {
 }
 
 #[test]
-fn vertices_have_weights_or_colours() {
+fn obj_vertices_may_have_weights_or_colours() {
     let scene = read("v 0 0 0 1.0\nv 1 0 0 1 0 0.5\nv 0 1 0\nf 1 2 3\n");
     let colours = &scene.geometries[0].colours;
     assert_eq!((colours[0], colours[2]), ([1.0; 4], [1.0; 4]));
@@ -56,7 +56,7 @@ fn vertices_have_weights_or_colours() {
 }
 
 #[test]
-fn objects_are_parts_and_groups_inside_them_are_not() {
+fn obj_objects_are_parts_and_groups_inside_them_are_not() {
     let scene =
         read(format!("{TRIANGLE}f 1 2 3\no a b\ng x\nf 1 2 3\ng y\nf 1 2 3\no\nv 5 5 5\nf 2 3 4\no empty\n"));
     let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
@@ -70,7 +70,7 @@ fn objects_are_parts_and_groups_inside_them_are_not() {
 }
 
 #[test]
-fn groups_are_parts_and_may_be_taken_up_again() {
+fn obj_groups_are_parts_and_may_be_continued() {
     let scene = read(format!("g one\n{TRIANGLE}f 1 2 3\ng two\nf 3 2 1\ng one\nf 2 3 1\nl 1 2\n"));
     let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["one", "two"]);
@@ -79,7 +79,7 @@ fn groups_are_parts_and_may_be_taken_up_again() {
 }
 
 #[test]
-fn parts_keep_just_what_they_use() {
+fn obj_parts_keep_only_the_vertices_and_normals_they_use() {
     let text = format!("{TRIANGLE}v 9 9 9\nvn 0 0 1\nvn 0 1 0\no a\nf 1//2 2//2 3//7\no b\nf 4 2 3\n");
     let scene = read(text);
     let [a, b] = &scene.geometries[..] else { panic!("two") };
@@ -90,7 +90,7 @@ fn parts_keep_just_what_they_use() {
 }
 
 #[test]
-fn materials_belong_to_triangles() {
+fn obj_materials_are_assigned_per_triangle() {
     let text = format!(
         "mtllib my lib.mtl\n{TRIANGLE}f 1 2 3\nusemtl red\nf 1 2 3\nusemtl\nf 1 2 3\nusemtl red\nf 1 2 3\n"
     );
@@ -109,14 +109,14 @@ fn materials_belong_to_triangles() {
 }
 
 #[test]
-fn one_material_for_all_is_not_spelt_out() {
+fn a_single_obj_material_is_stored_once_per_geometry() {
     let scene = read(format!("{TRIANGLE}usemtl m\nf 1 2 3\nf 1 2 3\n"));
     assert_eq!((scene.geometries[0].material, scene.geometries[0].triangle_material.len()), (Some(0), 0));
     assert_eq!(scene.warnings.lines(), ["1 materials that no library defines"]);
 }
 
 #[test]
-fn missing_and_escaping_libraries_are_warned_of() {
+fn missing_and_outside_material_libraries_give_warnings() {
     let scene = read(format!(
         "mtllib none.mtl\nmtllib ../out.mtl\nmtllib a.mtl b.mtl\n{TRIANGLE}usemtl m\nf 1 2 3\n"
     ));
@@ -128,7 +128,7 @@ fn missing_and_escaping_libraries_are_warned_of() {
 }
 
 #[test]
-fn faces_may_stand_before_their_vertices() {
+fn obj_faces_may_precede_their_vertices() {
     let scene = read(format!("f 1 2 3 4\n{TRIANGLE}v 1 1 0\nf -4 -3 -2\nf 1 2 4\n"));
     assert_eq!(scene.geometries[0].triangles[2..], [[0, 1, 2], [0, 1, 3]]);
     assert!(
@@ -138,7 +138,7 @@ fn faces_may_stand_before_their_vertices() {
 }
 
 #[test]
-fn indices_that_point_nowhere_are_errors_with_a_line() {
+fn invalid_obj_indices_are_errors_with_a_line() {
     for (index, place) in
         [("0", "line 4"), ("9", "line 4"), ("-4", "line 4"), ("99999999999999999999", "line 4")]
     {
@@ -152,7 +152,7 @@ fn indices_that_point_nowhere_are_errors_with_a_line() {
 }
 
 #[test]
-fn other_notations_of_a_number_are_read() {
+fn obj_numbers_with_units_or_decimal_commas_are_read() {
     for (written, wanted) in [
         ("3cm", 3.0),
         ("1.5f", 1.5),
@@ -175,7 +175,7 @@ fn other_notations_of_a_number_are_read() {
 }
 
 #[test]
-fn what_needs_a_coordinate_that_cannot_be_read_is_left_out() {
+fn elements_with_unreadable_obj_coordinates_are_left_out() {
     for written in
         ["?", "[0]", "abc", "--1", "+e2", "1.5.2", "-2e", "1d3", "0x10", "1,2,3", "1,234.5", "1.234,5", "\\x"]
     {
@@ -199,7 +199,7 @@ fn what_needs_a_coordinate_that_cannot_be_read_is_left_out() {
 }
 
 #[test]
-fn vertices_without_a_place_are_counted_once_each() {
+fn unreadable_obj_vertices_are_counted_once_each() {
     let scene = read(format!("{TRIANGLE}v ? ? ?\nv\nv 0 nan 1\nv 1 2\nf 1 2 3\n"));
     let told = "line 4: `?` is not a number; 3 more like it; no face or line has such a corner";
     assert_eq!(scene.warnings.lines(), [told]);
@@ -211,7 +211,7 @@ fn vertices_without_a_place_are_counted_once_each() {
 }
 
 #[test]
-fn a_drawing_in_the_plane_lies_at_z_0() {
+fn obj_vertices_without_z_lie_at_z_0() {
     for text in ["v 0 0\nv 1 0 # 5\nv 0 1\nf 1 2 3\n", "f 1 2 3\nv 0 0\nv 1 0\nv 0 1"] {
         let scene = read(text);
         assert_eq!(scene.geometries[0].positions, [DVec3::ZERO, DVec3::X, DVec3::Y]);
@@ -225,7 +225,7 @@ fn a_drawing_in_the_plane_lies_at_z_0() {
 }
 
 #[test]
-fn odd_normals_texture_coordinates_and_colours_refuse_no_file() {
+fn malformed_obj_attributes_do_not_refuse_the_file() {
     let text =
         "v 0 0 0 1 0.5x 0\nv 1 0 0 made by hand\nv 0 1 0\nvt 1,5 x\nvt\nvn 0 o 1\nf 1/1/1 2/2/1 3/1/1\n";
     let scene = read(text);
@@ -236,7 +236,7 @@ fn odd_normals_texture_coordinates_and_colours_refuse_no_file() {
 }
 
 #[test]
-fn what_other_programs_write_for_no_number_is_none() {
+fn obj_nan_and_infinity_spellings_are_not_numbers() {
     for word in ["1.#QNAN", "-1.#IND", "1.#INF00", "-nan(ind)", "nan"] {
         let scene = read(format!("{TRIANGLE}v 7 {word} 9\nf 1 2 3\nf 1 2 4\n"));
         assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]], "{word}");
@@ -245,7 +245,7 @@ fn what_other_programs_write_for_no_number_is_none() {
 }
 
 #[test]
-fn text_may_be_utf16() {
+fn obj_text_may_be_utf16() {
     let text = format!("\u{feff}o é\r\n{TRIANGLE}f 1 2 3\r\n");
     let units = || text.encode_utf16();
     let (little, big) = (units().flat_map(u16::to_le_bytes), units().flat_map(u16::to_be_bytes));
@@ -260,7 +260,7 @@ fn text_may_be_utf16() {
 }
 
 #[test]
-fn what_is_no_number_is_left_out() {
+fn obj_elements_with_non_finite_vertices_are_left_out() {
     let scene = read(
         "v nan 0 0\nv 1 inf 0\nv 0 1e400 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\nf 4 5 6 1\nl 1 4\n",
     );
@@ -273,25 +273,25 @@ fn what_is_no_number_is_left_out() {
 }
 
 #[test]
-fn nothing_to_draw_is_said() {
+fn obj_files_with_nothing_to_draw_are_refused() {
     for text in ["# c\n", TRIANGLE, &format!("{TRIANGLE}f 1\n"), "garbage\n", "p 1\n", "\0\0\0"] {
         assert!(error(text).contains("nothing to draw"), "{}", error(text));
     }
 }
 
 #[test]
-fn names_may_be_latin1() {
+fn obj_names_may_be_latin1() {
     assert_eq!(read([b"o caf\xe9\n", TRIANGLE.as_bytes(), b"f 1 2 3"].concat()).parts[0].name, "café");
 }
 
 #[test]
-fn free_forms_and_unknown_statements_are_passed_over() {
+fn obj_free_forms_and_unknown_statements_are_ignored() {
     let scene = read(format!("{TRIANGLE}vp 0.5\ncurv2 ignored \\\nf 9 9 9\ns off\n\u{1}\u{2}\nf 1 2 3\n"));
     assert_eq!(scene.warnings.lines(), ["1 lines left out that are not OBJ statements"]);
 }
 
 #[test]
-fn a_huge_polygon_is_quick() {
+fn huge_obj_polygons_are_triangulated_quickly() {
     let face = "1 2 3 ".repeat(20_000);
     let scene = read(format!("{TRIANGLE}f {face}\n"));
     assert_eq!(scene.geometries[0].triangles.len(), 59_998);

@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_and_properties_are_read() {
+    fn header_elements_and_properties_are_read() {
         let text = "ply\r\nformat binary_big_endian 1.0\r\ncomment a b\r\nelement vertex 3\r\nproperty double x\r\n\
                     property list uchar short l\r\nproperty int8 y\r\nend_header\r\n\n\n";
         let header = Header::parse(text.as_bytes()).unwrap();
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn what_says_nothing_of_the_data_is_passed_over() {
+    fn unknown_header_lines_are_ignored_with_a_warning() {
         let text = "ply  \r\nMade by hand\r\nformat ascii 1.0 \r\n\r\n  obj_info number of 3\r\nelement vertex 3  # corners\r\n\
                     comment\r\nquality\r\nproperty float x [mm]\r\n\tproperty float y\t\r\nend_header now\r\n1";
         let header = Header::parse(text.as_bytes()).unwrap();
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_may_end_in_several_ways() {
+    fn header_lines_may_end_in_lf_crlf_or_cr() {
         for (text, body) in [
             ("ply\nformat ascii 1.0\r\nelement v 1\rend_header\r\n\n", 1),
             ("ply\r\nformat ascii 1.0\nelement v 1\r\nend_header\n\n", 1),
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_name_the_line() {
+    fn header_errors_name_the_line() {
         for line in [
             "elment face 2\n\nproperty int x",
             "proprety float x",

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sides_between_corners_that_do_not_follow_each_other_are_diagonals() {
+    fn triangle_sides_inside_a_polygon_are_marked_as_diagonals() {
         let mut diagonals = Diagonals::default();
         let mut marked = |points: &[(f64, f64)]| -> Vec<[u32; 2]> {
             let points: Vec<DVec3> = points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect();

@@ -113,14 +113,14 @@ mod tests {
     }
 
     #[test]
-    fn viscam_has_red_in_the_high_bits() {
+    fn viscam_colours_have_red_in_the_high_bits() {
         let plain = header(b"made by hand");
         assert_eq!(colours(&plain, &[0xfc00, 0x83e0, 0x801f, 0]).0, ["#ff0000", "#00ff00", "#0000ff", ""]);
         assert_eq!(colours(&plain, &[0x8000 | 16 << 10]).0, ["#840000"]);
     }
 
     #[test]
-    fn attributes_that_are_no_colours_are_passed_over() {
+    fn attributes_that_are_not_colours_are_ignored() {
         let plain = header(b"");
         assert_eq!(colours(&plain, &[0, 0, 0]), (vec!["none".to_owned(); 3], 0));
         assert_eq!(colours(&plain, &[1, 2, 0x7fff]), (vec!["none".to_owned(); 3], 0));
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn magics_has_red_in_the_low_bits_and_the_part_where_bit_15_is_set() {
+    fn magics_colours_use_low_bits_for_red_and_bit_15_for_the_part_colour() {
         let magics = header(b"COLOR=\xff\x20\x20\xff,MATERIAL=");
         assert_eq!(colours(&magics, &[0xffff, 0x001f, 0x7c00]).0, ["#ff2020", "#ff0000", "#0000ff"]);
         // If all attributes are zero, they are not colours.

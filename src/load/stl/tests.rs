@@ -3,7 +3,7 @@ use super::*;
 const FACET: &str =
     "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 .0\nendloop\nendfacet\n";
 
-fn binary(header: &str, triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+fn binary_stl(header: &str, triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
     let mut bytes = vec![b' '; 80];
     bytes[..header.len()].copy_from_slice(header.as_bytes());
     bytes.extend((triangles.len() as u32).to_le_bytes());
@@ -15,16 +15,16 @@ fn binary(header: &str, triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
     bytes
 }
 
-const CORNER: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
+const TRIANGLE: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
 
 fn error(bytes: &[u8]) -> String {
     read_bytes(bytes, "stem").unwrap_err().to_string()
 }
 
 #[test]
-fn binary_may_begin_with_solid() {
-    let turned = [CORNER[1], CORNER[0], [0.0, 0.0, -1.0]];
-    let scene = read_bytes(&binary("solid trap", &[CORNER, turned]), "stem").unwrap();
+fn binary_stl_may_begin_with_solid() {
+    let turned = [TRIANGLE[1], TRIANGLE[0], [0.0, 0.0, -1.0]];
+    let scene = read_bytes(&binary_stl("solid trap", &[TRIANGLE, turned]), "stem").unwrap();
     let geometry = &scene.geometries[0];
     assert_eq!(geometry.triangles, [[0, 1, 2], [1, 0, 3]]);
     assert_eq!(geometry.positions[2], DVec3::new(0.0, 1.0, 0.5));
@@ -33,8 +33,8 @@ fn binary_may_begin_with_solid() {
 }
 
 #[test]
-fn cut_off_files_are_refused() {
-    let bytes = binary("", &[CORNER; 3]);
+fn truncated_binary_stl_files_are_refused() {
+    let bytes = binary_stl("", &[TRIANGLE; 3]);
     assert!(error(&bytes[..bytes.len() - 1]).contains("says it has 3 triangles, but ends after 2"));
     assert!(error(&bytes[..50]).contains("too few"));
     let mut huge = bytes.clone();
@@ -46,7 +46,7 @@ fn cut_off_files_are_refused() {
 }
 
 #[test]
-fn text_solids_become_parts() {
+fn text_stl_solids_become_parts() {
     let text = format!("solid one a\n{FACET}endsolid one a\r\nSOLID\n{}endsolid", FACET.to_uppercase());
     let scene = read_bytes(text.as_bytes(), "stem").unwrap();
     let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
@@ -56,7 +56,7 @@ fn text_solids_become_parts() {
 }
 
 #[test]
-fn a_solid_without_an_end_is_drawn_with_a_warning() {
+fn a_solid_without_endsolid_is_read_with_a_warning() {
     for text in [format!("solid x\n{FACET}"), format!("solid x\n{FACET}{FACET}\n\n  ")] {
         let scene = read_bytes(text.as_bytes(), "stem").unwrap();
         assert_eq!(scene.geometries[0].triangles.len(), text.matches("facet normal").count());
@@ -75,10 +75,10 @@ fn a_solid_without_an_end_is_drawn_with_a_warning() {
 }
 
 #[test]
-fn triangles_keep_their_colours_beside_those_left_out() {
-    let mut bad = CORNER;
+fn stl_triangles_keep_their_colours_when_others_are_left_out() {
+    let mut bad = TRIANGLE;
     bad[2][1] = f32::INFINITY;
-    let mut bytes = binary("", &[bad, CORNER, CORNER]);
+    let mut bytes = binary_stl("", &[bad, TRIANGLE, TRIANGLE]);
     for (k, colour) in [0x83e0_u16, 0xfc00, 0x801f].into_iter().enumerate() {
         let at = HEADER_BYTES + RECORD_BYTES * (k + 1) - 2;
         bytes[at..at + 2].copy_from_slice(&colour.to_le_bytes());
@@ -89,7 +89,7 @@ fn triangles_keep_their_colours_beside_those_left_out() {
 }
 
 #[test]
-fn text_errors_name_the_line() {
+fn text_stl_errors_name_the_line() {
     assert_eq!(
         error(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 a"),
         "line 4: `a` stands where a number should"
@@ -100,13 +100,13 @@ fn text_errors_name_the_line() {
 }
 
 #[test]
-fn what_is_no_number_is_left_out() {
+fn stl_triangles_with_non_finite_vertices_are_left_out() {
     let text = format!("solid\n{FACET}{}endsolid", FACET.replace("vertex 1", "vertex nan"));
     let scene = read_bytes(text.as_bytes(), "").unwrap();
     assert_eq!((scene.geometries[0].triangles.len(), scene.warnings.lines().len()), (1, 1));
-    let mut bad = CORNER;
+    let mut bad = TRIANGLE;
     bad[2][1] = f32::INFINITY;
-    let scene = read_bytes(&binary("", &[bad, CORNER]), "").unwrap();
+    let scene = read_bytes(&binary_stl("", &[bad, TRIANGLE]), "").unwrap();
     assert_eq!((scene.geometries[0].triangles.len(), scene.warnings.lines().len()), (1, 1));
-    assert!(error(&binary("", &[bad])).contains("nothing to draw"));
+    assert!(error(&binary_stl("", &[bad])).contains("nothing to draw"));
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn number(text: &str) -> Option<f64> {
+fn parsed_number(text: &str) -> Option<f64> {
     let mut cursor = Cursor::new(text.as_bytes());
     let value = cursor.number();
     assert!(value.is_none() || cursor.at_word_end(), "{text} read to {}", cursor.at);
@@ -10,7 +10,7 @@ fn number(text: &str) -> Option<f64> {
 }
 
 #[test]
-fn numbers_are_those_of_the_standard_library() {
+fn parsed_numbers_match_the_standard_library() {
     for text in [
         "0",
         "-0",
@@ -41,29 +41,33 @@ fn numbers_are_those_of_the_standard_library() {
         "123456.7e-20",
         "8.5e00000",
     ] {
-        assert_eq!(number(text).map(f64::to_bits), Some(text.parse::<f64>().unwrap().to_bits()), "{text}");
+        assert_eq!(
+            parsed_number(text).map(f64::to_bits),
+            Some(text.parse::<f64>().unwrap().to_bits()),
+            "{text}"
+        );
     }
-    assert!(number("nan").unwrap().is_nan());
-    assert_eq!(number("+2.5"), Some(2.5));
-    assert_eq!(number("+-2.5"), None);
-    assert_eq!(number("--2.5"), None);
+    assert!(parsed_number("nan").unwrap().is_nan());
+    assert_eq!(parsed_number("+2.5"), Some(2.5));
+    assert_eq!(parsed_number("+-2.5"), None);
+    assert_eq!(parsed_number("--2.5"), None);
 }
 
 #[test]
-fn many_random_numbers_are_exact() {
+fn random_numbers_are_parsed_exactly() {
     let mut state = 1_u64;
     for i in 0..20_000 {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let value = (state >> 11) as f64 / (1_u64 << (i % 60)) as f64;
         for text in [format!("{value}"), format!("{value:.6}"), format!("{value:e}"), format!("{value:.4e}")]
         {
-            assert_eq!(number(&text), Some(text.parse().unwrap()), "{text}");
+            assert_eq!(parsed_number(&text), Some(text.parse().unwrap()), "{text}");
         }
     }
 }
 
 #[test]
-fn words_are_no_numbers() {
+fn number_rejects_words_without_moving_the_cursor() {
     for text in ["", "a", "-", ".", "#", "/", "e5", "-e", "\\"] {
         let mut cursor = Cursor::new(text.as_bytes());
         assert_eq!((cursor.number(), cursor.at), (None, 0), "{text}");
@@ -71,7 +75,7 @@ fn words_are_no_numbers() {
 }
 
 #[test]
-fn integers_stop_at_the_ends() {
+fn integers_saturate_at_the_limits_of_i64() {
     for (text, wanted) in [("12", 12), ("-3", -3), ("99999999999999999999", i64::MAX), ("+7", 7)] {
         assert_eq!(Cursor::new(text.as_bytes()).integer(), Some(wanted));
     }
@@ -79,7 +83,7 @@ fn integers_stop_at_the_ends() {
 }
 
 #[test]
-fn lines_are_counted_for_all_systems() {
+fn line_numbers_count_lf_crlf_and_cr() {
     for text in ["a\nb\nc", "a\r\nb\r\nc", "a\rb\rc"] {
         let cursor = Cursor { bytes: text.as_bytes(), at: text.len() - 1 };
         assert_eq!(cursor.line(), 3);
@@ -87,7 +91,7 @@ fn lines_are_counted_for_all_systems() {
 }
 
 #[test]
-fn utf16_is_told_by_its_mark() {
+fn utf16_is_recognized_by_its_byte_order_mark() {
     let units: Vec<u16> = "é 🦆".encode_utf16().collect();
     let little: Vec<u8> = units.iter().flat_map(|u| u.to_le_bytes()).collect();
     let big: Vec<u8> = units.iter().flat_map(|u| u.to_be_bytes()).collect();
@@ -101,7 +105,7 @@ fn utf16_is_told_by_its_mark() {
 }
 
 #[test]
-fn text_is_utf8_or_latin1() {
+fn decode_reads_utf8_or_latin1() {
     assert_eq!(decode("é".as_bytes()), "é");
     assert_eq!(decode(b"caf\xe9"), "café");
 }

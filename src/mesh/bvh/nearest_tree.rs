@@ -167,21 +167,21 @@ mod tests {
     use super::*;
     use crate::geometry::numbers::noise::{hash, unit_interval};
 
-    fn point(seed: u64, number: u64) -> DVec3 {
+    fn random_point(seed: u64, number: u64) -> DVec3 {
         DVec3::from_array([0, 1, 2].map(|axis| unit_interval(hash(seed, &[number, axis]))))
     }
 
     #[test]
-    fn the_nearest_triangle_is_that_of_asking_all() {
+    fn nearest_tree_matches_brute_force() {
         let triangles: Vec<[DVec3; 3]> = (0..500)
             .map(|number| {
-                let a = point(1, number);
-                [a, a + point(2, number) * 0.1, a + point(3, number) * 0.1]
+                let a = random_point(1, number);
+                [a, a + random_point(2, number) * 0.1, a + random_point(3, number) * 0.1]
             })
             .collect();
         let tree = NearestTree::new(&triangles);
         for number in 0..400 {
-            let asked = point(4, number) * 1.4 - 0.2;
+            let asked = random_point(4, number) * 1.4 - 0.2;
             let found = tree.nearest(asked).unwrap();
             let distance =
                 |corners: &[DVec3; 3]| (on(corners, nearest_weights(asked, corners)) - asked).length();

@@ -143,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn eight_boxes_overlap_as_their_axes_do() {
+    fn eight_boxes_overlap_exactly_where_axis_spans_do() {
         let cells = [0, 1, 2, CELL_OUTSIDE - 2, CELL_OUTSIDE - 1];
         let spans: Vec<[u16; 2]> = cells
             .iter()

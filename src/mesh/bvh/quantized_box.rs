@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn packed_boxes_overlap_as_their_axes_do() {
+    fn fine_boxes_overlap_exactly_where_axis_spans_do() {
         let cells = [0, 1, 2, u64::from(LAST_FINE_CELL) - 1, u64::from(LAST_FINE_CELL)];
         let spans: Vec<[u64; 2]> = cells
             .iter()

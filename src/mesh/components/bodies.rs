@@ -138,7 +138,7 @@ mod tests {
     use crate::mesh::Soup;
 
     /// Six sides of a box with two triangles each. Corner numbers are binary coordinates.
-    const SIDES: [[u32; 4]; 6] =
+    const BOX_SIDES: [[u32; 4]; 6] =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
     /// Adds a box. `part` maps the side number to a part.
@@ -146,7 +146,7 @@ mod tests {
         let first = soup.positions.len() as u32;
         let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
         soup.positions.extend((0..8).map(|k| low + corner(k)));
-        for (k, side) in (0..).zip(SIDES) {
+        for (k, side) in (0..).zip(BOX_SIDES) {
             let [a, b, c, d] = side.map(|v| first + v);
             soup.triangles.extend([[a, b, c], [a, c, d]]);
             soup.triangle_part.extend([PartId(part(k)); 2]);
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_of_one_box_are_one_body_and_boxes_that_touch_are_two() {
+    fn sides_of_a_box_form_one_body_and_touching_boxes_form_two() {
         let mut soup = Soup::default();
         add_box(&mut soup, DVec3::ZERO, |side| side);
         // Touches the first box without a common edge.
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_share_no_edge_are_bodies_of_their_own() {
+    fn parts_without_shared_edges_are_separate_bodies() {
         let mut soup = Soup::default();
         add_box(&mut soup, DVec3::ZERO, |_| 0);
         add_box(&mut soup, DVec3::splat(3.0), |_| 1);
@@ -178,14 +178,14 @@ mod tests {
     }
 
     #[test]
-    fn of_sides_and_a_sheet_on_one_of_them_the_sides_are_one_body() {
+    fn a_sheet_on_a_box_leaves_six_parts_in_its_body() {
         // Rotates the corners of every side, so that the order of faces at each edge varies. The sheet comes
         // before or after them.
         for sheet in [0, 1, 7] {
             for corner in 0..4 {
                 let mut soup = Soup::default();
                 add_box(&mut soup, DVec3::ZERO, |side| 1 + side + u32::from(side + 1 >= sheet && sheet > 0));
-                let [a, b, c, d] = [0, 1, 2, 3].map(|k| SIDES[2][(k + corner) % 4]);
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| BOX_SIDES[2][(k + corner) % 4]);
                 soup.triangles.extend([[a, b, c], [a, c, d]]);
                 soup.triangle_part.extend([PartId(sheet); 2]);
                 let mesh = Mesh::build(soup);

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn groups_are_known_by_their_least_face_in_whatever_order_they_are_joined() {
+    fn disjoint_sets_are_named_by_their_least_face_in_any_join_order() {
         let pairs = [[5, 6], [1, 3], [6, 3], [2, 4]];
         for turn in 0..pairs.len() {
             let groups = DisjointSets::new(8, |join| {
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn threads_may_join_at_once() {
+    fn disjoint_sets_may_be_joined_in_parallel() {
         // Pairs that connect distant numbers; multiples of seven stay alone.
         let count = 100_000_u32;
         let pairs: Vec<[u32; 2]> = (0..count)
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_root_that_several_threads_hang_at_once_is_hung_below_all() {
+    fn concurrent_joins_of_one_root_all_take_effect() {
         // Every join links the last face to a smaller root than before.
         let (threads, each) = (4, 50_000_u32);
         let last = threads * each;

@@ -36,7 +36,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn boxes_are_solid_however_they_are_wound_and_open_ones_are_not() {
+    fn solid_parts_are_closed_parts_of_either_winding() {
         let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let outward = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();

@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_without_some_faces_are_those_built_anew() {
+    fn edges_without_removed_faces_equal_a_rebuild() {
         let faces = sheet(6);
         let edges = Edges::build(50, &faces);
         for every in [1, 2, 3, 7, 100] {
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn spliced_edges_are_those_built_anew() {
+    fn spliced_edges_equal_a_rebuild() {
         let n = 6;
         let faces = sheet(n);
         let count = (n + 1) * (n + 1) + 1;

@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn borders_fins_and_flipped_neighbours_are_told_apart() {
+    fn edges_distinguish_borders_fins_and_flipped_neighbours() {
         // Two triangles with opposite windings at 0-1, then a fin there.
         let edges = Edges::build(5, &[[0, 1, 2], [0, 1, 3]]);
         assert_eq!(edges.faces(0), EdgeFaces::Two { faces: [0, 1], same_way: true });
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_and_workers_do_not_change_the_result() {
+    fn edges_do_not_depend_on_the_number_of_threads_or_blocks() {
         let n = 300u32;
         let mut triangles = Vec::new();
         for y in 0..n {

@@ -58,7 +58,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
 
     #[test]
-    fn edges_with_changed_faces_are_those_built_anew() {
+    fn edges_with_changed_faces_equal_a_rebuild() {
         const VERTICES: u64 = 40;
         let number = |n: u64, below: u64| (hash(1, &[n]) % below) as u32;
         let face = |n: u64| {

@@ -49,7 +49,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
 
     #[test]
-    fn edges_are_found_between_all_their_vertices_and_no_others() {
+    fn vertex_edges_between_matches_a_search_of_all_edges() {
         // Some vertices have no edges, including the last ones.
         let vertices = 2 * VERTICES_PER_TASK as u64 + 10;
         let corner = |n: u64| (hash(n % 3, &[n / 3]) % (vertices - 5)) as u32;

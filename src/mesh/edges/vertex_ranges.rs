@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_worker_has_the_faces_that_touch_its_vertices_and_no_others() {
+    fn each_vertex_range_lists_exactly_the_faces_that_touch_it() {
         let faces: Vec<[u32; 3]> = (0..40_000_u32)
             .map(|k| {
                 let near = k / 2 % 9_990;
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn threads_have_equally_many_shares() {
+    fn range_count_of_large_meshes_is_a_multiple_of_the_threads() {
         for threads in [1, 2, 3, 16] {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             let count = |vertices: usize| pool.install(|| range_count(vertices, 100));

@@ -219,7 +219,7 @@ mod tests {
     use crate::geometry::numbers::noise::{hash, unit_interval};
 
     /// One triangle around each point of `middles`, without common vertices.
-    fn triangles(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    fn random_triangles_around(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let number = |k: usize| unit_interval(hash(seed, &[k as u64])) - 0.5;
         let corner = |(k, middle): (usize, &DVec3)| {
             [0, 3, 6].map(|c| {
@@ -232,12 +232,12 @@ mod tests {
     }
 
     #[test]
-    fn pieces_meet_as_a_search_in_full_has_it() {
+    fn refined_curves_match_a_full_intersection_search() {
         let (mut among_own, mut among_cut, mut with_whole) = (0, 0, 0);
         for seed in 0..20 {
             // A row of triangles that each meet the next few. Two of three are cut into two to four pieces.
             let middles: Vec<DVec3> = (0..40).map(|k| DVec3::X * 0.3 * f64::from(k)).collect();
-            let (positions, triangles_before) = triangles(seed, &middles);
+            let (positions, triangles_before) = random_triangles_around(seed, &middles);
             let before = IntersectionInput {
                 positions: &positions,
                 triangles: &triangles_before,
@@ -252,7 +252,7 @@ mod tests {
             let pieces = |face: u32| std::iter::repeat_n(face, 2 + face as usize % 3);
             hosts.extend((0..40).filter(|face| !is_whole(face)).flat_map(pieces));
             let middles: Vec<DVec3> = hosts[kept..].iter().map(|host| middles[*host as usize]).collect();
-            let (more, of_pieces) = triangles(seed + 100, &middles);
+            let (more, of_pieces) = random_triangles_around(seed + 100, &middles);
             let first = positions.len() as u32;
             let positions: Vec<DVec3> = positions.iter().copied().chain(more).collect();
             let whole = hosts[..kept].iter().map(|host| triangles_before[*host as usize]);

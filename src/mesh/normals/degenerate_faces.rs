@@ -95,7 +95,7 @@ mod tests {
     use crate::mesh::{Dihedral, Soup};
 
     #[test]
-    fn faces_across_a_needle_are_neighbours() {
+    fn across_needle_finds_the_face_behind_a_degenerate_face() {
         // One long side below, two short ones above, and the needle 0 1 2 between them.
         let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]];
         let mesh = Mesh::build(Soup {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_needle_at_a_border_has_nothing_beyond() {
+    fn across_needle_finds_nothing_at_a_border() {
         let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
         let mesh = Mesh::build(Soup {
             positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
@@ -141,38 +141,39 @@ mod tests {
     }
 
     /// Intervals on the line of a roof where two walls meet, in order.
-    fn met(mesh: &Mesh) -> Vec<[f64; 2]> {
-        let on_line = |edge: &usize| mesh.edges.vertices[*edge].iter().all(|v| place(mesh, *v).z == 0.0);
+    fn meeting_intervals(mesh: &Mesh) -> Vec<[f64; 2]> {
+        let on_line =
+            |edge: &usize| mesh.edges.vertices[*edge].iter().all(|v| world_position(mesh, *v).z == 0.0);
         let turns = |edge: &usize| Dihedral::at(mesh, *edge).is_some_and(|d| (d.turn() - 90.0).abs() < 1e-3);
         let edges = (0..mesh.edges.len()).filter(on_line).filter(turns);
         let mut found: Vec<[f64; 2]> = edges
-            .map(|edge| mesh.edges.vertices[edge].map(|v| place(mesh, v).x))
+            .map(|edge| mesh.edges.vertices[edge].map(|v| world_position(mesh, v).x))
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect();
         found.sort_by(|a, b| a[0].total_cmp(&b[0]));
         found
     }
 
-    fn place(mesh: &Mesh, vertex: u32) -> DVec3 {
+    fn world_position(mesh: &Mesh, vertex: u32) -> DVec3 {
         mesh.positions[vertex as usize] + mesh.origin
     }
 
     #[test]
-    fn walls_meet_between_needles_whose_long_edges_are_of_one_wall_each() {
+    fn walls_meet_across_needles_with_long_edges_on_one_wall_each() {
         let mesh = roof(&[0.0, 1.0, 2.0, 3.0], &[[0, 2], [2, 3]], &[[0, 1], [1, 3]], &[[0, 2, 1], [1, 2, 3]]);
-        assert_eq!(met(&mesh), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0]]);
+        assert_eq!(meeting_intervals(&mesh), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0]]);
     }
 
     #[test]
-    fn walls_meet_over_needles_that_share_their_long_edge() {
+    fn walls_meet_across_needles_that_share_their_long_edge() {
         let mesh = roof(&[0.0, 1.0, 1.8, 3.0], &[[0, 2], [2, 3]], &[[0, 1], [1, 3]], &[[0, 3, 1], [0, 2, 3]]);
         // Divided like one of the walls, and covered once.
-        let found = met(&mesh);
+        let found = meeting_intervals(&mesh);
         assert!(found == [[0.0, 1.0], [1.0, 3.0]] || found == [[0.0, 1.8], [1.8, 3.0]], "{found:?}");
     }
 
     #[test]
-    fn walls_meet_over_three_needles_of_which_one_has_two_corners_in_all_but_one_place() {
+    fn walls_meet_across_needles_with_nearly_coincident_corners() {
         let (at, beside) = (2.0, 2.0 + 1e-15);
         let mesh = roof(
             &[0.0, 1.0, at, beside, 3.0],
@@ -180,7 +181,7 @@ mod tests {
             &[[0, 1], [1, 4]],
             &[[0, 2, 1], [1, 2, 3], [1, 3, 4]],
         );
-        let found = met(&mesh);
+        let found = meeting_intervals(&mesh);
         let covered = |x: f64| found.iter().any(|[a, b]| (*a..=*b).contains(&x));
         assert!([0.5, 1.5, 2.5].into_iter().all(covered), "{found:?}");
     }

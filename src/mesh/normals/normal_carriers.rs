@@ -168,7 +168,7 @@ mod tests {
     use crate::mesh::{FaceId, Mesh, Soup};
 
     /// Two wide triangles with a narrow one between them, whose middle corner is offset by `up` and `aside`.
-    fn mesh(up: f64, aside: f64) -> Mesh {
+    fn mesh_with_narrow_face(up: f64, aside: f64) -> Mesh {
         let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, aside, up], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0]];
         Mesh::build(Soup {
             positions: points.map(DVec3::from_array).to_vec(),
@@ -179,15 +179,15 @@ mod tests {
     }
 
     #[test]
-    fn a_narrow_face_takes_over_the_normal_of_its_plane() {
+    fn narrow_faces_take_the_normal_of_their_surrounding_plane() {
         // Within the rounding, the narrow face may tilt by any angle.
-        let leaning = mesh(1e-6, 1e-6);
+        let leaning = mesh_with_narrow_face(1e-6, 1e-6);
         let across = (0..4).map(FaceId).filter(|f| !leaning.is_degenerate(*f));
         assert_eq!(across.clone().count(), 4);
         assert!(across.into_iter().all(|f| leaning.face_normals[f.index()][2] > 0.999_99));
         assert_eq!(leaning.carriers.len(), 1);
         // A real fold is kept.
-        let folded = mesh(0.1, 0.1);
+        let folded = mesh_with_narrow_face(0.1, 0.1);
         assert!(folded.carriers.is_empty());
         assert!(folded.face_normals.iter().any(|n| n[2] < 0.9));
     }

@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn items_with_one_key_stay_in_order_on_any_threads() {
+    fn counting_sort_is_stable_on_any_number_of_threads() {
         let items: Vec<(u32, u32)> =
             (0..MIN_PARALLEL_ITEMS as u32 + 5_000).map(|k| (k.wrapping_mul(2_654_435_761), k)).collect();
         for keys in [1_u32, 3, 255, 256, 257, 70_000] {

@@ -87,7 +87,7 @@ mod tests {
     use crate::geometry::numbers::powers_of_two::power_of_two_above;
 
     #[test]
-    fn bits_are_spread_and_the_curve_ends_at_the_border() {
+    fn morton_codes_spread_bits_and_saturate_at_the_limits() {
         assert_eq!(spread(0b1011), 0b1_000_001_001);
         assert_eq!(spread((1 << 21) - 1), 0x1249_2492_4924_9249);
         assert_eq!(along_curve(DVec3::splat(1e300), 1.0), (1 << 63) - 1);
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn the_size_of_cells_does_not_show() {
+    fn morton_order_does_not_depend_on_the_cell_size() {
         // Numbers of very different sizes and both signs.
         let number = |k: u64| {
             let chance = |word: u64| unit_interval(hash(7, &[k, word]));

@@ -62,7 +62,7 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     #[test]
-    fn triangles_that_touch_at_a_corner_or_along_an_edge_have_no_area_in_common() {
+    fn triangles_that_touch_at_corners_or_edges_have_no_common_area() {
         let mut dice = Dice::new(5);
         for _ in 0..500 {
             // Parallelograms around one corner, rotated and moved.

@@ -11,12 +11,12 @@ fn torus(around: u32, along: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         DVec3::new(r * cos(u), r * sin(u), 0.3 * sin(v))
     };
     let vertices = (0..around * along).map(|k| point(k / along, k % along)).collect();
-    (vertices, grid(around, along, true))
+    (vertices, grid_triangles(around, along, true))
 }
 
 /// Triangles of a grid of vertices. If `closed`, the last row continues in the first, and the last column as
 /// well.
-fn grid(rows: u32, columns: u32, closed: bool) -> Vec<[u32; 3]> {
+fn grid_triangles(rows: u32, columns: u32, closed: bool) -> Vec<[u32; 3]> {
     let open = u32::from(!closed);
     let at = |i: u32, j: u32| i % rows * columns + j % columns;
     let quads = (0..rows - open).flat_map(|i| (0..columns - open).map(move |j| (i, j)));
@@ -29,7 +29,7 @@ fn grid(rows: u32, columns: u32, closed: bool) -> Vec<[u32; 3]> {
 }
 
 /// Vertices rounded as by compression, and the length of a step.
-fn rounded(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
+fn quantized(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
     let low = vertices.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let high = vertices.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
     let step = (high - low).max_element() / f64::from((1 << bits) - 1);
@@ -37,7 +37,7 @@ fn rounded(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
 }
 
 /// Number of edges that turn by more than an angle.
-fn sharp(vertices: &[DVec3], triangles: &[[u32; 3]], degrees: f64) -> usize {
+fn sharp_edge_count(vertices: &[DVec3], triangles: &[[u32; 3]], degrees: f64) -> usize {
     let soup = Soup { positions: vertices.to_vec(), triangles: triangles.to_vec(), ..Soup::default() };
     let mesh = Mesh::build(soup);
     let turns = DihedralCosines::of(&mesh);
@@ -45,21 +45,23 @@ fn sharp(vertices: &[DVec3], triangles: &[[u32; 3]], degrees: f64) -> usize {
     (0..mesh.edges.len()).filter(|edge| turn(*edge) > degrees).count()
 }
 
-fn farthest(vertices: &[DVec3], from: &[DVec3]) -> f64 {
+fn max_offset(vertices: &[DVec3], from: &[DVec3]) -> f64 {
     vertices.iter().zip(from).map(|(p, q)| (*p - *q).abs().max_element()).fold(0.0, f64::max)
 }
 
 #[test]
-fn what_rounding_made_sharp_is_smooth_again_within_half_a_step() {
+fn dequantize_smooths_rounding_creases_within_half_a_step() {
     let (truth, triangles) = torus(300, 90);
-    let (on_lattice, step) = rounded(&truth, 8);
-    assert_eq!(sharp(&truth, &triangles, 10.0), 0);
-    assert!(sharp(&on_lattice, &triangles, 40.0) > 500);
+    let (on_lattice, step) = quantized(&truth, 8);
+    assert_eq!(sharp_edge_count(&truth, &triangles, 10.0), 0);
+    assert!(sharp_edge_count(&on_lattice, &triangles, 40.0) > 500);
     let mut loose = on_lattice.clone();
     dequantize(&mut loose, &triangles, &[]);
-    assert!(farthest(&loose, &on_lattice) <= 0.5 * step * 1.000_001);
-    assert_eq!(sharp(&loose, &triangles, 30.0), 0);
-    assert!(sharp(&loose, &triangles, 10.0) * 10 < sharp(&on_lattice, &triangles, 10.0));
+    assert!(max_offset(&loose, &on_lattice) <= 0.5 * step * 1.000_001);
+    assert_eq!(sharp_edge_count(&loose, &triangles, 30.0), 0);
+    assert!(
+        sharp_edge_count(&loose, &triangles, 10.0) * 10 < sharp_edge_count(&on_lattice, &triangles, 10.0)
+    );
     // The result is nearer to the original shape than the rounded positions are.
     let off = |of: &[DVec3]| {
         let from = |p: &DVec3| {
@@ -72,9 +74,9 @@ fn what_rounding_made_sharp_is_smooth_again_within_half_a_step() {
 }
 
 #[test]
-fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
+fn dequantize_keeps_wide_faces_and_surface_borders_unchanged() {
     let (truth, triangles) = torus(12, 8);
-    let (on_lattice, _) = rounded(&truth, 12);
+    let (on_lattice, _) = quantized(&truth, 12);
     let mut loose = on_lattice.clone();
     dequantize(&mut loose, &triangles, &[]);
     assert_eq!(loose, on_lattice);
@@ -84,15 +86,15 @@ fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
         DVec3::new(x, y, 4.0 * sin(0.1 * x + 0.05 * y))
     };
     let truth: Vec<DVec3> = (0..3600).map(wave).collect();
-    let (on_lattice, _) = rounded(&truth, 7);
+    let (on_lattice, _) = quantized(&truth, 7);
     let mut loose = on_lattice.clone();
-    dequantize(&mut loose, &grid(60, 60, false), &[]);
+    dequantize(&mut loose, &grid_triangles(60, 60, false), &[]);
     let is_end = |k: usize| [k / 60, k % 60].iter().any(|i| *i == 0 || *i == 59);
     assert!((0..3600).filter(|k| is_end(*k)).all(|k| loose[k] == on_lattice[k]));
     assert!((0..3600).any(|k| loose[k] != on_lattice[k]));
     // Vertices on no lattice stay unchanged.
     let mut free = truth.clone();
-    dequantize(&mut free, &grid(60, 60, false), &[]);
+    dequantize(&mut free, &grid_triangles(60, 60, false), &[]);
     assert_eq!(free, truth);
 }
 
@@ -113,7 +115,7 @@ fn ridge() -> (Vec<DVec3>, Vec<[u32; 3]>, Vec<[f32; 3]>) {
             vertices.push(along * f64::from(k / ROWS) + away * f64::from(k % ROWS));
             normals.push(normal.as_vec3().to_array());
         }
-        triangles.extend(grid(COLUMNS, ROWS, false).into_iter().map(|[a, b, c]| {
+        triangles.extend(grid_triangles(COLUMNS, ROWS, false).into_iter().map(|[a, b, c]| {
             let [a, b, c] = [a, b, c].map(|v| v + first);
             if side > 0.0 { [a, c, b] } else { [a, b, c] }
         }));
@@ -122,13 +124,13 @@ fn ridge() -> (Vec<DVec3>, Vec<[u32; 3]>, Vec<[f32; 3]>) {
 }
 
 #[test]
-fn a_crease_that_normals_tell_stays_and_the_faces_beside_it_are_flat() {
+fn dequantize_keeps_creases_that_normals_mark() {
     let (truth, triangles, normals) = ridge();
-    let (on_lattice, _) = rounded(&truth, 7);
+    let (on_lattice, _) = quantized(&truth, 7);
     let mut loose = on_lattice.clone();
     dequantize(&mut loose, &triangles, &normals);
     // All 39 edges of the crease keep most of their turn.
-    let turned = |of: &[DVec3], least: f64| sharp(of, &triangles, least);
+    let turned = |of: &[DVec3], least: f64| sharp_edge_count(of, &triangles, least);
     assert_eq!([turned(&truth, 59.9), turned(&truth, 1.0)], [39, 39]);
     assert!(turned(&loose, 45.0) >= 37, "{}", turned(&loose, 45.0));
     assert!(turned(&on_lattice, 20.0) > 400 && turned(&loose, 20.0) < 120);
@@ -149,27 +151,31 @@ fn bevel() -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let (x, y) = profile[k as usize % 5];
         along * f64::from(k / 5 * 40) + along.cross(up) * x + up * y
     };
-    ((0..5 * 20).map(at).collect(), grid(20, 5, false))
+    ((0..5 * 20).map(at).collect(), grid_triangles(20, 5, false))
 }
 
 #[test]
-fn a_bevel_of_a_few_steps_keeps_the_edge_in_its_middle() {
+fn dequantize_keeps_the_middle_edge_of_a_narrow_bevel() {
     let (truth, triangles) = bevel();
-    let (on_lattice, step) = rounded(&truth, 10);
+    let (on_lattice, step) = quantized(&truth, 10);
     assert!((0.5..1.0).contains(&step));
     let mut loose = on_lattice.clone();
     dequantize(&mut loose, &triangles, &[]);
     let moves = |row: usize| (0..20).any(|k| loose[5 * k + row] != on_lattice[5 * k + row]);
     assert_eq!([0, 1, 2, 3, 4].map(moves), [false, false, true, false, false]);
-    assert_eq!(sharp(&truth, &triangles, 40.0), 19);
-    assert!(sharp(&loose, &triangles, 35.0) >= 17, "{}", sharp(&loose, &triangles, 35.0));
+    assert_eq!(sharp_edge_count(&truth, &triangles, 40.0), 19);
+    assert!(
+        sharp_edge_count(&loose, &triangles, 35.0) >= 17,
+        "{}",
+        sharp_edge_count(&loose, &triangles, 35.0)
+    );
 }
 
 #[test]
-fn vertices_at_one_place_stay_at_one_place() {
+fn dequantize_keeps_coincident_vertices_together() {
     let (truth, triangles) = torus(120, 40);
     // Each face has separate corners.
-    let (on_lattice, _) = rounded(&truth, 7);
+    let (on_lattice, _) = quantized(&truth, 7);
     let corners: Vec<DVec3> = triangles.as_flattened().iter().map(|v| on_lattice[*v as usize]).collect();
     let own: Vec<[u32; 3]> = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let mut apart = corners;
@@ -187,7 +193,7 @@ fn vertices_at_one_place_stay_at_one_place() {
 }
 
 /// Reference: moves one vertex after the other to its minimum, repeatedly.
-fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::DVec3> {
+fn coordinate_descent(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::DVec3> {
     let mut moved = vec![DVec3::ZERO; free.len()];
     let gap = |hinge: &super::hinges::Hinge, moved: &[DVec3]| {
         let shares = hinge.corner_coefficients().map(f64::from);
@@ -217,7 +223,7 @@ fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::D
     moved
 }
 
-fn bending(hinges: &[super::hinges::Hinge], moved: impl Fn(u32) -> DVec3) -> f64 {
+fn bending_energy(hinges: &[super::hinges::Hinge], moved: impl Fn(u32) -> DVec3) -> f64 {
     let square = |hinge: &super::hinges::Hinge| {
         let shares = hinge.corner_coefficients().map(f64::from);
         let gap = hinge.corners.iter().zip(shares);
@@ -228,21 +234,21 @@ fn bending(hinges: &[super::hinges::Hinge], moved: impl Fn(u32) -> DVec3) -> f64
 }
 
 #[test]
-fn descent_comes_near_the_least_bending_there_is() {
+fn least_bending_descent_approaches_the_minimum() {
     let (truth, triangles) = torus(16, 8);
-    let (places, step) = rounded(&truth, 5);
+    let (places, step) = quantized(&truth, 5);
     let doubts = FaceTilts::of(&places, &triangles, step / 2.0);
     let free = doubts.movable_positions(&triangles, places.len());
     assert!(free.iter().all(|free| *free));
     let edges = Edges::build(places.len(), &triangles);
     let hinges = hinges(&places, (&triangles, &edges), &doubts, (&triangles, &[]), &free);
     assert_eq!(hinges.len(), edges.len());
-    let least = by_one_and_one(&hinges, &free);
-    let least = bending(&hinges, |v| least[v as usize]);
-    let before = bending(&hinges, |_| DVec3::ZERO);
+    let least = coordinate_descent(&hinges, &free);
+    let least = bending_energy(&hinges, |v| least[v as usize]);
+    let before = bending_energy(&hinges, |_| DVec3::ZERO);
     let left = |steps: usize| {
         let found = least_bending(&hinges, &free, steps);
-        (bending(&hinges, |v| found[v as usize].as_dvec3()) - least) / (before - least)
+        (bending_energy(&hinges, |v| found[v as usize].as_dvec3()) - least) / (before - least)
     };
     assert!(
         left(1000).abs() < 1e-3 && left(MAX_DESCENT_STEPS) < 1.0 / 6.0,
@@ -253,9 +259,9 @@ fn descent_comes_near_the_least_bending_there_is() {
 }
 
 #[test]
-fn one_thread_moves_as_many_do() {
+fn dequantize_does_not_depend_on_the_number_of_threads() {
     let (truth, triangles) = torus(200, 60);
-    let on_lattice = rounded(&truth, 8).0;
+    let on_lattice = quantized(&truth, 8).0;
     let with = |threads: usize| {
         let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let mut loose = on_lattice.clone();
@@ -266,7 +272,7 @@ fn one_thread_moves_as_many_do() {
 }
 
 #[test]
-fn broken_input_is_left_as_it_is() {
+fn dequantize_leaves_invalid_input_unchanged() {
     let on = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(f64::NAN, 0.0, 0.0)];
     for count in 0..4 {
         let mut vertices = on[..count].to_vec();

@@ -139,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_keep_what_the_face_has() {
+    fn cut_faces_keeps_the_attributes_of_the_face() {
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let mut soup = Soup {
             positions: vec![
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn no_piece_turns_over_or_leans() {
+    fn cut_faces_refuses_pieces_that_flip_or_tilt() {
         // Seen from the opposite corner, the second-last vertex is outside a narrow face. The last vertex is
         // above the face.
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);

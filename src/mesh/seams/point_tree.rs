@@ -139,15 +139,15 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     /// Clusters of points in a wide field, in mixed order.
-    fn crowds(count: usize) -> Vec<DVec3> {
+    fn point_clusters(count: usize) -> Vec<DVec3> {
         let mut dice = Dice::new(5);
         let middles: Vec<DVec3> = (0..count).map(|_| dice.point(1000.0)).collect();
         (0..500).flat_map(|_| &middles).map(|middle| *middle + dice.point(0.5)).collect()
     }
 
     #[test]
-    fn what_is_near_is_what_looking_at_all_finds() {
-        let all = crowds(9);
+    fn visit_near_finds_all_points_near_a_segment() {
+        let all = point_clusters(9);
         let places = PointTree::new(all.iter().copied());
         let mut dice = Dice::new(6);
         let mut found = 0;
@@ -182,8 +182,8 @@ mod tests {
     }
 
     #[test]
-    fn in_crowds_few_are_visited() {
-        let all = crowds(40);
+    fn visit_near_visits_few_points_in_dense_clusters() {
+        let all = point_clusters(40);
         let places = PointTree::new(all.iter().copied());
         let mut visits = 0;
         for start in &all {
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_along_an_axis_meets_what_lies_on_it() {
+    fn visit_near_finds_points_on_an_axis_parallel_segment() {
         let row = || (0..100).map(|k| DVec3::new(f64::from(k), 0.0, 0.0));
         let places = PointTree::new(row());
         for (start, way) in [(DVec3::X * 20.0, DVec3::X * 10.0), (DVec3::X * 30.0, DVec3::X * -10.0)] {

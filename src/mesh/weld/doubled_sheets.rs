@@ -135,7 +135,7 @@ mod tests {
 
     /// Bent strip of squares. Those from `single` on have one face only. The order of the two faces of a pair
     /// varies along the strip.
-    fn strip(single: u32, shift: f64) -> Mesh {
+    fn strip_with_doubled_faces(single: u32, shift: f64) -> Mesh {
         let bend = |i: u32| f64::from(i * i) / 20.0;
         let positions: Vec<DVec3> =
             (0..22).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), shift + bend(k / 2))).collect();
@@ -159,7 +159,7 @@ mod tests {
     }
 
     /// Number of upward faces of a strip. Also checks that all neighbours are consistent.
-    fn upward(mesh: &Mesh) -> usize {
+    fn upward_face_count(mesh: &Mesh) -> usize {
         let turned = |e: &usize| matches!(mesh.edges.faces(*e), EdgeFaces::Two { same_way: true, .. });
         assert_eq!((0..mesh.edges.len()).filter(turned).count(), 0);
         let middle = |face: usize| mesh.corners(FaceId(face as u32)).iter().sum::<DVec3>() / 3.0;
@@ -170,20 +170,20 @@ mod tests {
 
     #[test]
     fn a_sheet_keeps_its_outer_side() {
-        let [above, below] = [40.0, -40.0].map(|shift| strip(10, shift));
+        let [above, below] = [40.0, -40.0].map(|shift| strip_with_doubled_faces(10, shift));
         assert_eq!((above.cleaning.doubled, below.cleaning.doubled), (20, 20));
-        assert_eq!((upward(&above), upward(&below)), (20, 0));
+        assert_eq!((upward_face_count(&above), upward_face_count(&below)), (20, 0));
     }
 
     #[test]
-    fn a_sheet_goes_on_as_its_single_faces_do() {
+    fn doubled_sheets_follow_the_side_of_their_single_faces() {
         for shift in [40.0, -40.0] {
-            assert_eq!(upward(&strip(7, shift)), 20);
+            assert_eq!(upward_face_count(&strip_with_doubled_faces(7, shift)), 20);
         }
     }
 
     #[test]
-    fn beyond_the_sides_of_pairs_is_what_all_faces_tell() {
+    fn face_across_pairs_matches_a_search_of_all_faces() {
         let (mut dice, mut found) = (Dice::new(5), 0);
         for round in 0..200 {
             let mut soup = Soup { positions: vec![DVec3::ZERO; 9], ..Soup::default() };

@@ -144,7 +144,7 @@ mod tests {
     use crate::mesh::PartId;
 
     /// Reference: compares all faces by part and corners.
-    fn plain(soup: &Soup, edges: &Edges) -> Vec<bool> {
+    fn unique_faces_by_search(soup: &Soup, edges: &Edges) -> Vec<bool> {
         let mut alike: BTreeMap<(u32, [u32; 3]), Vec<u32>> = BTreeMap::new();
         for (face, corners) in (0..).zip(&soup.triangles) {
             let mut corners = *corners;
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn doubles_are_those_of_looking_up_all_faces() {
+    fn unique_faces_match_a_search_of_all_faces() {
         let mut dice = Dice::new(7);
         for round in 0..400 {
             // Few vertices give many duplicates, also of three faces and more; many vertices give hardly any.
@@ -185,7 +185,7 @@ mod tests {
             }
             soup.positions = (0..vertices).map(|_| dice.point(1.0)).collect();
             let edges = Edges::build(soup.positions.len(), &soup.triangles);
-            let expected = plain(&soup, &edges);
+            let expected = unique_faces_by_search(&soup, &edges);
             let found = unique_faces(&soup, &edges);
             assert_eq!(found.is_none(), expected.iter().all(|keep| *keep), "{round}");
             assert_eq!(found.unwrap_or_else(|| vec![true; 60]), expected, "{round}");

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn near_places_become_one_across_cells() {
+    fn join_nearby_merges_vertices_across_grid_cells() {
         let places: Vec<DVec3> = (0..200).map(|i| DVec3::new(f64::from(i) * 0.37, 0.0, 0.0)).collect();
         let mut doubled = places.clone();
         doubled.extend(places.iter().map(|p| *p + DVec3::splat(5e-7)));

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns_match_names_with_and_without_model() {
+    fn name_matches_part_names_with_and_without_the_model() {
         for (glob, name) in
             [("head", "hero/head"), ("hero", "hero/head"), ("hero/h*", "hero/head"), ("head", "head")]
         {

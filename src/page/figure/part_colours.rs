@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_longest_pattern_counts() {
+    fn part_colours_use_the_longest_matching_pattern() {
         let parts = [("*", Colour::WHITE), ("leg*", Colour::BLACK), ("l*", Colour::rgb(1, 2, 3))];
         let colours = PartColours::Parts(parts.map(|(glob, colour)| (glob.to_owned(), colour)).into());
         assert_eq!(

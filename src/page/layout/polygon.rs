@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn polygons_are_clipped_and_measured() {
+    fn convex_polygons_are_cut_inset_and_measured() {
         let square = square(0.0, 4.0);
         assert_eq!(square.area(), 16.0);
         let half = HalfPlane { point: Point::new(1.0, 0.0), normal: Vec2::new(1.0, 0.0) };
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn polygons_meet() {
+    fn convex_polygons_meet_within_a_gap() {
         assert!(square(0.0, 2.0).meets(&square(1.0, 2.0), 0.0));
         assert!(!square(0.0, 2.0).meets(&square(3.0, 2.0), 0.5));
         assert!(square(0.0, 2.0).meets(&square(3.0, 2.0), 1.5));

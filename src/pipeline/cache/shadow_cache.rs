@@ -36,7 +36,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn shadows_are_made_once_for_lights_that_stay() {
+    fn shadow_cache_reuses_shadows_of_unchanged_lights() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let mesh = Mesh::build(Soup { positions, triangles: vec![[0, 1, 2]], ..Soup::default() });
         let late = ShadowCache::default();

@@ -250,7 +250,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_learns_which_side_is_its_own() {
+    fn side_values_come_from_the_nearer_side_of_a_line() {
         let mut sample = Sample::new(10.0, 1.0);
         let near = SideSample { depth: 10.0, light: 0.25 };
         set_side_values(&mut sample, Some(near), None, 1.0);
@@ -266,13 +266,13 @@ mod tests {
     }
 
     #[test]
-    fn depth_is_foreshortened() {
+    fn foreshortened_interpolates_depth_in_perspective() {
         let [near, far] = [1.0, 3.0].map(|depth| Sample::new(depth, 1.0));
         assert!((foreshortened(near, far, 0.5).depth - 1.5).abs() < 1e-12);
     }
 
     #[test]
-    fn weights_are_those_of_the_point() {
+    fn weights_are_barycentric_coordinates() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let found = weights(corners, DVec3::new(0.25, 0.5, 0.0));
         assert!((DVec3::from_array(found) - DVec3::new(0.25, 0.25, 0.5)).length() < 1e-12);

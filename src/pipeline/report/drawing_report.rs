@@ -204,7 +204,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn json_has_the_names_other_programs_read() {
+    fn report_json_has_all_keys_in_order() {
         let report = Report { warnings: vec!["3 \"odd\" faces".to_owned()], ..Report::default() };
         let json = report.to_json();
         let names = [
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn laps_add_up_to_the_whole() {
+    fn stopwatch_laps_add_up_to_the_total() {
         let mut watch = Stopwatch::start();
         let laps = watch.lap_ms() + watch.lap_ms();
         assert!(laps >= 0.0 && laps <= watch.seconds() * 1e3 + 0.002);

@@ -130,7 +130,7 @@ mod tests {
         Scene::from_triangles(corners, [[0, 1, 2]]).unwrap()
     }
 
-    fn warning(scene: &Scene, camera: &Camera, sets: &[&str]) -> String {
+    fn empty_drawing_warning(scene: &Scene, camera: &Camera, sets: &[&str]) -> String {
         let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
         let style = Style::load("ink", &sets).unwrap();
         let drawing = render(scene, camera, &style).unwrap();
@@ -138,39 +138,39 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_drawing_says_why() {
+    fn an_empty_drawing_warns_with_the_reason() {
         let flat = scene([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         let camera = Camera::three_quarter().fit(&flat);
         let needle = scene([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
-        assert!(warning(&needle, &camera, &[]).contains("no face has an area"));
+        assert!(empty_drawing_warning(&needle, &camera, &[]).contains("no face has an area"));
         let point = scene([[0.0; 3], [0.0; 3], [2.0, 0.0, 0.0]]);
-        assert!(warning(&point, &camera, &[]).contains("no face has an area"));
+        assert!(empty_drawing_warning(&point, &camera, &[]).contains("no face has an area"));
         let nothing = Scene::default();
-        assert!(warning(&nothing, &camera, &[]).contains("no parts"));
+        assert!(empty_drawing_warning(&nothing, &camera, &[]).contains("no parts"));
         let mut shrunk = flat.clone();
         shrunk.parts[0].world_from_part.matrix3 *= 0.0;
-        assert!(warning(&shrunk, &camera, &[]).contains("scaled to zero"));
+        assert!(empty_drawing_warning(&shrunk, &camera, &[]).contains("scaled to zero"));
         let mut dot = flat.clone();
         dot.geometries[0].triangles.clear();
         dot.geometries[0].wires.push([1, 1]);
-        assert!(warning(&dot, &camera, &[]).contains("no line has a length"));
+        assert!(empty_drawing_warning(&dot, &camera, &[]).contains("no line has a length"));
 
-        let off = warning(&flat, &camera, &["lines.enabled=false"]);
+        let off = empty_drawing_warning(&flat, &camera, &["lines.enabled=false"]);
         assert!(off.contains("neither lines nor surfaces"), "{off}");
         let behind = Camera { target: camera.eye * 2.0 - camera.target, ..camera };
-        assert!(warning(&flat, &behind, &[]).contains("behind the camera"));
+        assert!(empty_drawing_warning(&flat, &behind, &[]).contains("behind the camera"));
         let beside =
             Camera { eye: camera.eye + DVec3::X * 50.0, target: camera.target + DVec3::X * 50.0, ..camera };
-        assert!(warning(&flat, &beside, &[]).contains("outside the frame"));
+        assert!(empty_drawing_warning(&flat, &beside, &[]).contains("outside the frame"));
         let side = Camera::named(NamedView::Right, UpAxis::Y).fit(&flat);
-        let edge_on = warning(&flat, &side, &["lines.enabled=false", "fills.enabled=true"]);
+        let edge_on = empty_drawing_warning(&flat, &side, &["lines.enabled=false", "fills.enabled=true"]);
         assert!(edge_on.contains("edge-on"), "{edge_on}");
-        let none = warning(&flat, &camera, &["lines.kinds=[\"wire\"]"]);
+        let none = empty_drawing_warning(&flat, &camera, &["lines.kinds=[\"wire\"]"]);
         assert!(none.contains("no line of the model is visible"), "{none}");
     }
 
     #[test]
-    fn a_drawing_with_marks_says_nothing() {
+    fn a_drawing_with_marks_has_no_warning() {
         let flat = scene([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         let drawing = render(&flat, &Camera::three_quarter().fit(&flat), &Style::default()).unwrap();
         assert!(drawing.warnings.is_empty(), "{:?}", drawing.warnings);

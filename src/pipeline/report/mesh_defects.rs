@@ -58,7 +58,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn fins_are_defects_and_touching_solids_are_not() {
+    fn non_manifold_fins_are_defects_and_touching_solids_are_not() {
         let spokes = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let mut positions = vec![DVec3::ZERO, DVec3::Z];
         positions.extend(spokes.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)));

@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ways_of_hatching_differ_and_begin_with_the_usual_ones() {
+    fn section_hatchings_differ_and_begin_with_the_usual_angles() {
         assert_eq!([0, 1, 2].map(hatching_of_kind), [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7)]);
         let degrees = |kind: usize| {
             (hatching_of_kind(kind).0.round() as usize, (hatching_of_kind(kind).1 * 10.0) as usize)

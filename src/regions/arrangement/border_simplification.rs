@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn straight_lines_keep_their_ends_and_meetings() {
+    fn simplify_borders_keeps_ends_and_junctions() {
         // A line of ten segments, and another that meets its middle.
         let mut segments: Segments =
             (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn rings_stay_closed_and_near() {
+    fn simplify_borders_keeps_rings_closed_within_tolerance() {
         let at = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / 200.0;
             [

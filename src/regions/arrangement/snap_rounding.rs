@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     /// Pseudo-random points in a square.
-    fn scattered(count: usize, size: i64) -> Vec<GridPoint> {
+    fn random_points(count: usize, size: i64) -> Vec<GridPoint> {
         let mut state = 12_345_u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -275,7 +275,7 @@ mod tests {
         (0..count).map(|_| [next(), next()]).collect()
     }
 
-    fn meets_in_points_only(noded: &Noded) {
+    fn assert_meet_only_in_points(noded: &Noded) {
         for (k, first) in noded.pieces.iter().enumerate() {
             for second in &noded.pieces[k + 1..] {
                 let [a, b] = first.ends.map(|end| noded.points[end as usize]);
@@ -289,14 +289,14 @@ mod tests {
     }
 
     #[test]
-    fn a_crossing_becomes_a_point() {
+    fn snap_rounding_splits_segments_at_crossings() {
         let noded = node(&[([[0, 0], [10, 10]], Border::Soft), ([[0, 10], [10, 0]], Border::Soft)], 0.0);
         assert_eq!(noded.pieces.len(), 4);
         assert!(noded.points.contains(&[5, 5]));
     }
 
     #[test]
-    fn a_point_on_a_piece_cuts_it_and_what_lies_twice_stays_once() {
+    fn snap_rounding_splits_at_touching_points_and_merges_overlaps() {
         let noded = node(
             &[
                 ([[0, 0], [10, 0]], Border::Soft),
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_free_end_is_led_on_to_what_is_near() {
+    fn snap_rounding_extends_free_ends_to_near_segments() {
         let segments = [([[0, 0], [100, 0]], Border::Hard), ([[50, 4], [50, 90]], Border::Soft)];
         assert_eq!(node(&segments, 3.0).pieces.len(), 2);
         let noded = node(&segments, 5.0);
@@ -322,12 +322,12 @@ mod tests {
     }
 
     #[test]
-    fn crowds_meet_in_shared_points_only() {
+    fn snap_rounded_segments_meet_only_in_shared_points() {
         for (count, size) in [(60, 400), (120, 1000), (200, 100_000)] {
-            let points = scattered(count, size);
+            let points = random_points(count, size);
             let segments: Vec<([GridPoint; 2], Border)> =
                 points.chunks_exact(2).map(|pair| ([pair[0], pair[1]], Border::Soft)).collect();
-            meets_in_points_only(&node(&segments, 0.0));
+            assert_meet_only_in_points(&node(&segments, 0.0));
         }
     }
 }

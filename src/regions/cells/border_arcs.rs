@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn directions_are_ordered_backward() {
+    fn backward_orders_directions_by_angle() {
         use std::cmp::Ordering::Less;
         let back = [1, 0];
         let around = [[1, -1], [0, -1], [-1, -1], [-1, 0], [-1, 1], [0, 1], [1, 1], [1, 0]];

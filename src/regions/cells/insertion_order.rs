@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_points_come_once_in_rounds_along_a_curve() {
+    fn insertion_order_visits_each_point_once_along_a_curve() {
         let points: Vec<GridPoint> =
             (0..4096).map(|k| [k % 64 * 1_000_000_007, k / 64 * 1_000_000_007]).collect();
         let order = insertion_order(&points);
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_of_any_size() {
+    fn insertion_order_accepts_extreme_coordinates() {
         assert!(insertion_order(&[]).is_empty());
         assert_eq!(insertion_order(&[[7, 7]]), [0]);
         assert_eq!(insertion_order(&[[i64::MIN, 0], [i64::MAX, i64::MAX]]).len(), 2);

@@ -183,7 +183,7 @@ mod tests {
     use crate::regions::arrangement::snap_rounding::NodedPiece;
 
     #[test]
-    fn triangles_fill_the_page_in_the_order_of_their_corners() {
+    fn triangulation_covers_the_page_with_sorted_triangles() {
         let mut points: Vec<GridPoint> =
             (0..300).map(|k| [0, 1].map(|axis| (hash(1, &[k, axis]) % 1000 + 1) as i64)).collect();
         points.extend([[0, 0], [0, 1001], [1001, 0], [1001, 1001]]);

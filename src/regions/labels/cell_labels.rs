@@ -116,7 +116,7 @@ mod tests {
     use crate::regions::arrangement::snap_rounding::Noded;
 
     #[test]
-    fn slivers_look_like_what_is_along_them() {
+    fn slivers_take_the_label_along_their_long_sides() {
         // A sliver with its short side on a light triangle, and dark triangles along its long sides.
         let points = vec![[0, 0], [0, 20], [10, 9], [10, 11], [200, 10], [210, -200], [210, 220]];
         let cut = Triangulation::new(Noded { points, pieces: Vec::new() });
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn slivers_beyond_slivers_look_like_what_is_wide_beyond_all_of_them() {
+    fn stacked_slivers_take_the_label_of_the_wide_cell_beyond_them() {
         // Rows of slivers below two wide triangles. One of the two shares its long side with the rows.
         let rows = [0, 2, 4, 200].into_iter();
         let points: Vec<[i64; 2]> = rows.flat_map(|y| [[0, y], [200, y]]).collect();

@@ -108,7 +108,7 @@ mod tests {
     use crate::mesh::{MaterialId, PaintId, PartId};
 
     #[test]
-    fn looks_are_told_apart_and_paper_is_none() {
+    fn label_batch_numbers_distinct_labels_and_leaves_paper_unlabelled() {
         let look = |tone| SurfaceLabel {
             part: PartId(0),
             material: MaterialId(0),

@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_square_grows_on_all_sides() {
+    fn offset_outward_grows_a_square_on_all_sides() {
         // Turns from x to y, so the inside is on the right on the page.
         let square = BezPath::from_vec(vec![
             PathEl::MoveTo(Point::new(0.0, 0.0)),

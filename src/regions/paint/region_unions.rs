@@ -89,7 +89,7 @@ mod tests {
     use crate::regions::{Region, RegionBorder, SurfaceLabel};
 
     #[test]
-    fn two_halves_of_a_square_are_a_square() {
+    fn region_union_of_two_halves_is_the_whole_square() {
         let line = |points: &[[f64; 2]]| {
             let mut path = BezPath::new();
             path.move_to((points[0][0], points[0][1]));

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     /// Flat points of a page with one facet and the given normals.
-    fn page(columns: usize, rows: usize, normal: impl Fn(usize, usize) -> DVec3) -> Vec<bool> {
+    fn flat_points_of_page(columns: usize, rows: usize, normal: impl Fn(usize, usize) -> DVec3) -> Vec<bool> {
         let count = columns * rows;
         let samples = LightLattice { columns, rows, facets: vec![1; count], ..LightLattice::default() };
         let normals: Vec<DVec3> = (0..count).map(|k| normal(k % columns, k / columns)).collect();
@@ -123,19 +123,19 @@ mod tests {
     }
 
     #[test]
-    fn walls_are_flat_up_to_the_edge_between_them() {
+    fn flat_points_reach_the_edge_between_two_walls() {
         let slanted = DVec3::new(0.0, 0.3, 1.0).normalize();
-        let found = page(20, 20, |_, row| if row < 10 { DVec3::Z } else { slanted });
+        let found = flat_points_of_page(20, 20, |_, row| if row < 10 { DVec3::Z } else { slanted });
         assert!(found.iter().all(|flat| *flat));
     }
 
     #[test]
-    fn what_bends_or_is_narrow_is_not_flat() {
+    fn bent_and_narrow_surfaces_have_no_flat_points() {
         let along = |angle: f64| DVec3::new(angle, 0.0, 1.0).normalize();
-        assert!(!page(20, 20, |column, _| along(0.02 * column as f64)).contains(&true));
+        assert!(!flat_points_of_page(20, 20, |column, _| along(0.02 * column as f64)).contains(&true));
         // A bend too gentle to detect between neighbours.
-        assert!(!page(60, 20, |column, _| along(0.0008 * column as f64)).contains(&true));
+        assert!(!flat_points_of_page(60, 20, |column, _| along(0.0008 * column as f64)).contains(&true));
         // Strips of a tessellated cylinder.
-        assert!(!page(40, 40, |column, _| along(0.1 * (column / 4) as f64)).contains(&true));
+        assert!(!flat_points_of_page(40, 40, |column, _| along(0.1 * (column / 4) as f64)).contains(&true));
     }
 }

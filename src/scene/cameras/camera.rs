@@ -156,14 +156,14 @@ mod tests {
     }
 
     #[test]
-    fn axes_are_a_right_handed_frame() {
+    fn camera_axes_are_orthonormal_and_right_handed() {
         let [right, up, forward] = camera().axes();
         assert!((right.cross(up) + forward).length() < 1e-15);
         assert!(right.dot(up).abs() < 1e-15 && (right.length() - 1.0).abs() < 1e-15);
     }
 
     #[test]
-    fn refuses_what_cannot_be_drawn() {
+    fn validate_refuses_invalid_cameras() {
         let good = camera();
         assert_eq!(good.validate(), Ok(()));
         let perspective = |fov_y_deg| good.with_projection(Projection::Perspective { fov_y_deg });

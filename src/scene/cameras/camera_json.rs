@@ -151,7 +151,7 @@ mod tests {
         "fov_y_deg":35,"width_px":1000,"height_px":800}"#;
 
     #[test]
-    fn reads_the_record() -> Result<(), Error> {
+    fn from_json_reads_a_camera_record() -> Result<(), Error> {
         let camera = Camera::from_json(PERSPECTIVE)?;
         assert_eq!(camera.eye, DVec3::new(3.0, 2.0, 5.5));
         assert_eq!(camera.projection, Projection::Perspective { fov_y_deg: 35.0 });
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn round_trip_keeps_every_bit() -> Result<(), Error> {
+    fn camera_json_round_trip_keeps_every_bit() -> Result<(), Error> {
         let mut camera = Camera::from_json(PERSPECTIVE)?;
         camera.eye = DVec3::new(1.0 / 3.0, 1e-300, -123_456_789.123_456_78);
         camera.near = Some(0.1);
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn says_where_a_record_is_wrong() {
+    fn camera_json_errors_name_the_place() {
         let with = |from: &str, to: &str| PERSPECTIVE.replace(from, to);
         let bad = [
             ("line 1, column 6", "{\"a\" 1}".to_owned()),
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn names_the_file_that_cannot_be_read() {
+    fn open_names_a_camera_file_that_cannot_be_read() {
         let error = Camera::open("no/such/camera.json").expect_err("no such file");
         assert!(error.to_string().starts_with("no/such/camera.json: "), "{error}");
     }

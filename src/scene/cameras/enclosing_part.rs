@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_inside_is_told_from_what_is_beside() {
+    fn enclosing_part_is_found_only_for_points_inside() {
         let scene = tetrahedron(false);
         assert!(scene.enclosing_part(DVec3::splat(0.2)).is_some());
         assert!(scene.enclosing_part(DVec3::splat(0.4)).is_none());
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn mirrored_parts_have_the_same_inside() {
+    fn enclosing_part_works_for_mirrored_parts() {
         let mut scene = tetrahedron(false);
         scene.parts[0].world_from_part = DAffine3::from_scale(DVec3::new(-1.0, 2.0, 1.0));
         assert!(scene.enclosing_part(DVec3::new(-0.2, 0.4, 0.2)).is_some());

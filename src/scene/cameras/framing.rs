@@ -219,7 +219,7 @@ mod tests {
     use crate::scene::{Geometry, NamedView, Part, UpAxis};
 
     /// Position of a point in the frame: 0 to 1 from left to right and from top to bottom.
-    fn place(camera: &Camera, p: DVec3) -> (f64, f64) {
+    fn frame_position(camera: &Camera, p: DVec3) -> (f64, f64) {
         let [right, up, forward] = camera.axes();
         let d = p - camera.eye;
         let half = match camera.projection {
@@ -232,9 +232,9 @@ mod tests {
     }
 
     /// Free fractions of the frame: left, right, top, bottom.
-    fn free(camera: &Camera, points: &[DVec3]) -> [f64; 4] {
+    fn free_margins(camera: &Camera, points: &[DVec3]) -> [f64; 4] {
         points.iter().fold([f64::INFINITY; 4], |[l, r, t, b], &p| {
-            let (x, y) = place(camera, p);
+            let (x, y) = frame_position(camera, p);
             [l.min(x), r.min(1.0 - x), t.min(y), b.min(1.0 - y)]
         })
     }
@@ -253,7 +253,7 @@ mod tests {
     }
 
     /// An irregular, slanted point cloud.
-    fn cloud(offset: DVec3, scale: f64) -> Vec<DVec3> {
+    fn point_cloud(offset: DVec3, scale: f64) -> Vec<DVec3> {
         let mut state = 7_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -267,12 +267,12 @@ mod tests {
     }
 
     #[test]
-    fn the_model_touches_the_margin_and_is_centred() {
+    fn fit_points_centres_the_model_and_touches_the_margin() {
         for camera in cameras() {
-            let points = cloud(DVec3::ZERO, 1.0);
+            let points = point_cloud(DVec3::ZERO, 1.0);
             let fitted = camera.fit_points(&points, FRAME_MARGIN);
             assert_eq!(fitted.validate(), Ok(()));
-            let [l, r, t, b] = free(&fitted, &points);
+            let [l, r, t, b] = free_margins(&fitted, &points);
             assert!((l - r).abs() < 1e-9 && (t - b).abs() < 1e-9, "not centred: {l} {r} {t} {b} {camera:?}");
             let side = camera.width.min(camera.height);
             let (across, down) = (FRAME_MARGIN * side / camera.width, FRAME_MARGIN * side / camera.height);
@@ -282,29 +282,29 @@ mod tests {
     }
 
     #[test]
-    fn the_line_of_sight_stays() {
+    fn fit_points_keeps_the_view_direction() {
         for camera in cameras() {
-            let fitted = camera.fit_points(&cloud(DVec3::new(5.0, -3.0, 1.0), 1.0), FRAME_MARGIN);
+            let fitted = camera.fit_points(&point_cloud(DVec3::new(5.0, -3.0, 1.0), 1.0), FRAME_MARGIN);
             let turn = camera.axes().into_iter().zip(fitted.axes()).map(|(a, b)| (a - b).length());
             assert!(turn.into_iter().all(|turn| turn < 1e-9));
         }
     }
 
     #[test]
-    fn size_and_place_of_the_model_change_nothing() {
+    fn fit_points_does_not_depend_on_model_size_and_position() {
         for (offset, scale) in [(4.6e6, 10.0), (0.0, 3e-6), (1e9, 3e9)] {
             for camera in cameras() {
-                let points = cloud(DVec3::splat(offset), scale);
-                let there = free(&camera.fit_points(&points, FRAME_MARGIN), &points);
-                let points = cloud(DVec3::ZERO, 1.0);
-                let here = free(&camera.fit_points(&points, FRAME_MARGIN), &points);
+                let points = point_cloud(DVec3::splat(offset), scale);
+                let there = free_margins(&camera.fit_points(&points, FRAME_MARGIN), &points);
+                let points = point_cloud(DVec3::ZERO, 1.0);
+                let here = free_margins(&camera.fit_points(&points, FRAME_MARGIN), &points);
                 assert!(here.into_iter().zip(there).all(|(a, b)| (a - b).abs() < 1e-5), "{here:?} {there:?}");
             }
         }
     }
 
     #[test]
-    fn flat_and_empty_models_are_framed() {
+    fn fit_points_frames_flat_and_empty_models() {
         let single = [DVec3::new(3.0, 4.0, 5.0)];
         let repeated = [DVec3::ONE; 4];
         let line = [DVec3::ZERO, DVec3::X];
@@ -316,7 +316,7 @@ mod tests {
                 let fitted = camera.fit_points(points, FRAME_MARGIN);
                 assert_eq!(fitted.validate(), Ok(()), "{points:?} {camera:?}");
                 let finite: Vec<DVec3> = points.iter().copied().filter(|p| p.is_finite()).collect();
-                let inside = free(&fitted, &finite).into_iter().all(|free| free > 0.01);
+                let inside = free_margins(&fitted, &finite).into_iter().all(|free| free > 0.01);
                 assert!(inside, "{points:?} {camera:?} {fitted:?}");
             }
         }
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_drawn_is_framed() {
+    fn fit_ignores_vertices_that_are_not_drawn() {
         let geometry = Geometry {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(1e6), DVec3::Z],
             triangles: vec![[0, 1, 2]],

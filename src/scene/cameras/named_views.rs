@@ -169,44 +169,44 @@ impl Camera {
 mod tests {
     use super::*;
 
-    fn near(a: DVec3, b: DVec3) -> bool {
+    fn is_near(a: DVec3, b: DVec3) -> bool {
         (a - b).length() < 1e-14
     }
 
     #[test]
-    fn z_up_views_have_the_axes_of_technical_drawing() {
+    fn z_up_named_views_have_the_axes_of_technical_drawing() {
         let axes = |view| Camera::named(view, UpAxis::Z).axes();
         let [r, u, f] = axes(NamedView::Front);
-        assert!(near(r, DVec3::X) && near(u, DVec3::Z) && near(f, DVec3::Y));
+        assert!(is_near(r, DVec3::X) && is_near(u, DVec3::Z) && is_near(f, DVec3::Y));
         let [r, u, f] = axes(NamedView::Right);
-        assert!(near(r, DVec3::Y) && near(u, DVec3::Z) && near(f, DVec3::NEG_X));
+        assert!(is_near(r, DVec3::Y) && is_near(u, DVec3::Z) && is_near(f, DVec3::NEG_X));
         let [r, u, f] = axes(NamedView::Top);
-        assert!(near(r, DVec3::X) && near(u, DVec3::Y) && near(f, DVec3::NEG_Z));
+        assert!(is_near(r, DVec3::X) && is_near(u, DVec3::Y) && is_near(f, DVec3::NEG_Z));
         let [r, u, f] = axes(NamedView::Bottom);
-        assert!(near(r, DVec3::X) && near(u, DVec3::NEG_Y) && near(f, DVec3::Z));
+        assert!(is_near(r, DVec3::X) && is_near(u, DVec3::NEG_Y) && is_near(f, DVec3::Z));
         let [r, u, _] = axes(NamedView::Iso);
-        assert!(near(r, DVec3::new(1.0, 1.0, 0.0) / f64::sqrt(2.0)));
-        assert!(near(u, DVec3::new(-1.0, 1.0, 2.0) / f64::sqrt(6.0)));
+        assert!(is_near(r, DVec3::new(1.0, 1.0, 0.0) / f64::sqrt(2.0)));
+        assert!(is_near(u, DVec3::new(-1.0, 1.0, 2.0) / f64::sqrt(6.0)));
     }
 
     #[test]
-    fn y_up_views_show_the_same_picture() {
+    fn y_up_named_views_match_z_up_views() {
         for view in NamedView::ALL {
             let z_up = Camera::named(view, UpAxis::Z).axes();
             let y_up = Camera::named(view, UpAxis::Y).axes();
             for (z, y) in z_up.into_iter().zip(y_up) {
-                assert!(near(turned(z, UpAxis::Y), y), "{}", view.name());
+                assert!(is_near(turned(z, UpAxis::Y), y), "{}", view.name());
             }
             assert_eq!(NamedView::parse(view.name()), Some(view));
         }
         assert_eq!(NamedView::parse("Isometric"), Some(NamedView::Iso));
         assert_eq!((NamedView::parse("TOP"), NamedView::parse("tops")), (Some(NamedView::Top), None));
         let iso = Camera::named(NamedView::Iso, UpAxis::Y);
-        assert!(near(iso.eye, DVec3::ONE / f64::sqrt(3.0)) && iso.up == DVec3::Y);
+        assert!(is_near(iso.eye, DVec3::ONE / f64::sqrt(3.0)) && iso.up == DVec3::Y);
     }
 
     #[test]
-    fn dimetric_halves_the_depth() {
+    fn dimetric_view_halves_the_depth_axis() {
         let [r, u, _] = Camera::named(NamedView::Dimetric, UpAxis::Z).axes();
         let seen = |axis: DVec3| f64::sqrt(axis.dot(r).powi(2) + axis.dot(u).powi(2));
         assert!((seen(DVec3::X) - seen(DVec3::Z)).abs() < 1e-14);
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_agree_with_the_named_views() {
+    fn azimuth_and_elevation_agree_with_the_named_views() {
         let angles = [
             (NamedView::Front, 0.0, 0.0),
             (NamedView::Right, 90.0, 0.0),
@@ -227,13 +227,13 @@ mod tests {
             for up in [UpAxis::Y, UpAxis::Z] {
                 let named = Camera::named(view, up).axes();
                 let turned = Camera::azimuth_elevation(azimuth, elevation, up).axes();
-                assert!(named.into_iter().zip(turned).all(|(a, b)| near(a, b)), "{}", view.name());
+                assert!(named.into_iter().zip(turned).all(|(a, b)| is_near(a, b)), "{}", view.name());
             }
         }
     }
 
     #[test]
-    fn every_angle_is_a_valid_camera() {
+    fn azimuth_elevation_gives_valid_cameras_for_all_angles() {
         for azimuth in [-720.0, 0.0, 33.0, 359.0] {
             for elevation in [-90.0, -89.9999, -45.0, 0.0, 88.9999, 89.0, 90.0] {
                 assert_eq!(Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z).validate(), Ok(()));

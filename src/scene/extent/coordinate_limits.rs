@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_numbers_are_drawable() {
+    fn is_drawable_refuses_non_finite_and_huge_coordinates() {
         assert!(is_drawable(DVec3::new(1e60, -1e60, 0.0)));
         for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e61] {
             assert!(!is_drawable(DVec3::new(0.0, bad, 0.0)));

@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_area_and_no_length_does_not_count() {
+    fn drawn_points_leave_out_faces_and_wires_of_zero_size() {
         for far in [0.5, 1e3, -1e7] {
             let scene = scene(far);
             let drawn = DrawnPoints::of(&scene);
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn instances_count_where_they_stand() {
+    fn drawn_points_include_every_instance_at_its_position() {
         let mut scene = scene(1e4);
         let place = DAffine3::from_translation(DVec3::new(3.0, 0.0, 0.0)) * DAffine3::from_rotation_z(0.4);
         scene.parts.push(Part { name: "b".to_owned(), geometry: 0, world_from_part: place });
@@ -355,7 +355,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_without_any_area_is_framed_all_the_same() {
+    fn world_points_of_a_scene_without_area_are_not_empty() {
         let mut scene = scene(10.0);
         scene.geometries[0].triangles.drain(..4);
         assert_eq!(world_points(&scene).len(), 4);

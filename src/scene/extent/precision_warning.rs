@@ -155,7 +155,7 @@ mod tests {
     const MAP_ORIGIN: DVec3 = DVec3::new(451_234.0, 5_412_345.0, 410.0);
 
     #[test]
-    fn single_precision_far_from_the_origin_is_told() {
+    fn single_precision_far_from_the_origin_gives_a_precision_warning() {
         let single = |value: f64| f64::from(value as f32);
         let lines = house(MAP_ORIGIN, true, single).warnings.lines();
         assert_eq!(lines.len(), 1);
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn few_decimals_far_from_the_origin_are_told() {
+    fn few_decimals_far_from_the_origin_give_a_precision_warning() {
         let tenths = |value: f64| (value * 10.0).round() / 10.0;
         assert!(house(MAP_ORIGIN, false, tenths).warnings.lines()[0].contains("steps of 0.1,"));
         let single = |value: f64| f64::from(value as f32);
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nodes_move_is_as_fine_as_before() {
+    fn moved_and_large_models_give_no_precision_warning() {
         let mut scene = house(DVec3::ZERO, true, |value| f64::from(value as f32));
         scene.parts[0].world_from_part = DAffine3::from_translation(MAP_ORIGIN);
         warn_of_coarse_steps(&mut scene);

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_longest_pattern_that_fits_names_the_picture() {
+    fn artist_texture_is_chosen_by_the_longest_matching_pattern() {
         let picture = |width: usize| {
             Some(Arc::new(Picture {
                 width,

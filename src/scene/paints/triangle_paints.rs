@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn palettes_give_triangles_their_paint() {
+    fn palette_textures_give_each_triangle_its_paint() {
         let scene = scene("glTF", Colour::WHITE);
         let paints = Paints::of(&scene, &TextureOptions::default());
         assert_eq!(paints.list.len(), 5);
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_multiply_the_material_in_gltf_only() {
+    fn textures_multiply_the_material_colour_only_in_gltf() {
         let half = Colour::from_linear([0.5, 0.5, 0.5, 1.0]);
         let colour = |format| Paints::of(&scene(format, half), &TextureOptions::default()).list[4].colour;
         assert_eq!(colour("glTF"), Colour::rgb(half.r, 0, 0));
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_of_vertices_are_paint_too() {
+    fn vertex_colours_become_paints() {
         let mut scene = scene("PLY", Colour::WHITE);
         scene.materials.clear();
         scene.geometries[0].triangle_material.clear();
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_textures_leave_the_material() {
+    fn undecodable_textures_leave_the_material_colour() {
         let mut scene = scene("glTF", Colour::WHITE);
         scene.materials[0].picture = Some(Arc::from(&b"nothing"[..]));
         let paints = Paints::of(&scene, &TextureOptions::default());

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_of_a_triangle_are_all_there_and_within_it() {
+    fn piece_centres_lie_inside_the_triangle_and_average_to_its_centre() {
         let all: Vec<[f32; 3]> = piece_centres().collect();
         assert_eq!(all.len(), CUTS_PER_SIDE * CUTS_PER_SIDE);
         assert!(all.iter().flatten().all(|share| *share > 0.0));
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn light_is_painted_in_the_colour_that_looks_nearest() {
+    fn vertex_colour_palette_picks_the_perceptually_nearest_colour() {
         let tints =
             VertexColourPalette::new(Vec3::ONE, &[Colour::WHITE, Colour::rgb(255, 0, 0), Colour::BLACK]);
         assert_eq!(tints.at([0.9, 0.1, 0.1]), 1);

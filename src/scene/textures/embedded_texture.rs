@@ -131,7 +131,7 @@ mod tests {
     use super::*;
     use crate::scene::material::{Placing, Wrap};
 
-    fn imaged(base: Option<Colour>) -> EmbeddedTexture {
+    fn sample_texture(base: Option<Colour>) -> EmbeddedTexture {
         let grey = |v: u8| Colour::rgb(v, v, v);
         let picture = Picture { width: 4, height: 1, pixels: [0, 255, 9, 10].map(grey).to_vec() };
         let texels = TexelPlane {
@@ -150,23 +150,23 @@ mod tests {
     }
 
     #[test]
-    fn parts_go_on_beyond_the_border_and_are_mixed_as_light() {
+    fn texture_part_wraps_and_averages_in_linear_light() {
         let grey = |part: Picture| part.pixels.iter().map(|c| c.r).collect::<Vec<_>>();
-        let whole = imaged(None);
+        let whole = sample_texture(None);
         let from = DVec2::new(-1.5, -0.5);
         assert_eq!(grey(whole.part(from, DVec2::new(5.5, 0.5), [7, 1])), [10, 0, 255, 9, 10, 0, 255]);
         // Half black, half white: half the light.
         let half = whole.part(DVec2::new(-0.5, -0.5), DVec2::new(1.5, 0.5), [1, 1]);
         assert_eq!(grey(half), [188]);
-        let tinted = imaged(Some(Colour::from_linear([0.5, 1.0, 1.0, 1.0])));
+        let tinted = sample_texture(Some(Colour::from_linear([0.5, 1.0, 1.0, 1.0])));
         let one = DVec2::new(5.0, 7.0);
         assert_eq!(tinted.one_colour(one, one), None);
         assert_eq!(tinted.part(one - 0.5, one + 0.5, [1, 1]).at(0, 0), Colour::rgb(188, 255, 255));
     }
 
     #[test]
-    fn one_colour_is_found_where_it_is_one() {
-        let whole = imaged(None);
+    fn one_colour_is_found_only_in_uniform_areas() {
+        let whole = sample_texture(None);
         assert_eq!(whole.one_colour(DVec2::new(2.1, 0.0), DVec2::new(2.9, 0.0)), Some(Colour::rgb(9, 9, 9)));
         assert_eq!(whole.one_colour(DVec2::new(2.1, 0.0), DVec2::new(3.1, 0.0)), None);
     }

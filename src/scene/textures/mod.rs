@@ -209,7 +209,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_are_found_and_repeat() {
+    fn texture_lookup_repeats_and_respects_orientation() {
         let (a, b, c, d) =
             (Colour::rgb(1, 0, 0), Colour::rgb(2, 0, 0), Colour::rgb(3, 0, 0), Colour::rgb(4, 0, 0));
         let picture = Picture { width: 2, height: 2, pixels: vec![a, b, c, d] };

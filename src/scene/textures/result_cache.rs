@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     /// For each of some sizes, whether it has to be computed when requested after those before it.
-    fn made(kept: &ResultCache<usize, usize>, sizes: &[usize]) -> Vec<bool> {
+    fn is_computed_per_request(kept: &ResultCache<usize, usize>, sizes: &[usize]) -> Vec<bool> {
         let ask = |size: &usize| {
             let mut is_made = false;
             let value = kept.clone().get(*size, || {
@@ -86,20 +86,29 @@ mod tests {
     }
 
     #[test]
-    fn what_is_asked_for_again_is_kept() {
+    fn result_cache_stores_results_on_their_second_request() {
         let kept = ResultCache::new(10, |size: &usize| *size);
-        assert_eq!(made(&kept, &[1, 2, 1, 1, 2, 2, 1]), [true, true, true, false, true, false, false]);
+        assert_eq!(
+            is_computed_per_request(&kept, &[1, 2, 1, 1, 2, 2, 1]),
+            [true, true, true, false, true, false, false]
+        );
     }
 
     #[test]
-    fn no_more_than_so_much_is_kept() {
+    fn result_cache_stays_within_its_size_limit() {
         let kept = ResultCache::new(10, |size: &usize| *size);
-        assert_eq!(made(&kept, &[4, 4, 5, 5, 4, 5]), [true, true, true, true, false, false]);
+        assert_eq!(
+            is_computed_per_request(&kept, &[4, 4, 5, 5, 4, 5]),
+            [true, true, true, true, false, false]
+        );
         // The oldest result is dropped and computed again later.
-        assert_eq!(made(&kept, &[3, 3, 5, 3, 4, 4, 3]), [true, true, false, false, true, false, false]);
+        assert_eq!(
+            is_computed_per_request(&kept, &[3, 3, 5, 3, 4, 4, 3]),
+            [true, true, false, false, true, false, false]
+        );
         // A result larger than the limit is never stored.
-        assert_eq!(made(&kept, &[11, 11, 11, 4]), [true, true, true, false]);
-        (100..200).for_each(|size| assert_eq!(made(&kept, &[size]), [true]));
+        assert_eq!(is_computed_per_request(&kept, &[11, 11, 11, 4]), [true, true, true, false]);
+        (100..200).for_each(|size| assert_eq!(is_computed_per_request(&kept, &[size]), [true]));
         assert!(kept.asked.lock().unwrap().len() <= MAX_REMEMBERED_KEYS);
     }
 }

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_point_rests_on_the_texels_around_it() {
+    fn texel_spans_cover_the_texels_around_a_triangle() {
         let at = |x: f64, y: f64| texel_spans([DVec2::new(x, y); 3]);
         assert_eq!(at(2.3, 4.6), [(4, 2, 3), (5, 2, 3)]);
         assert_eq!(at(2.0, 4.0), [(4, 2, 2)]);

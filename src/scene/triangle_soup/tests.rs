@@ -22,7 +22,7 @@ fn scene(places: &[DAffine3]) -> Scene {
 }
 
 #[test]
-fn identity_is_a_copy() {
+fn to_soup_with_identity_copies_the_geometry() {
     let soup = scene(&[DAffine3::IDENTITY]).to_soup();
     assert_eq!(soup.triangles, [[0, 1, 2]]);
     assert_eq!(soup.normals[0], [0.0, 0.0, 1.0]);
@@ -31,7 +31,7 @@ fn identity_is_a_copy() {
 }
 
 #[test]
-fn what_is_taken_is_what_would_be_copied() {
+fn take_soup_equals_to_soup() {
     let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
     for places in [&[DAffine3::IDENTITY][..], &[mirror], &[mirror, DAffine3::IDENTITY]] {
         let mut model = scene(places);
@@ -42,7 +42,7 @@ fn what_is_taken_is_what_would_be_copied() {
 }
 
 #[test]
-fn mirrored_parts_are_turned_round() {
+fn to_soup_reverses_the_winding_of_mirrored_parts() {
     let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
     let soup = scene(&[DAffine3::from_translation(DVec3::Z), mirror]).to_soup();
     assert_eq!(soup.triangles, [[0, 1, 2], [4, 6, 5]]);
@@ -54,7 +54,7 @@ fn mirrored_parts_are_turned_round() {
 }
 
 #[test]
-fn normals_stay_at_right_angles() {
+fn to_soup_keeps_normals_perpendicular_under_scaling() {
     let mut model = scene(&[DAffine3::from_scale(DVec3::new(1.0, 3.0, 1.0))]);
     model.geometries[0].normals[0] = [1.0, 1.0, 0.0];
     let [x, y, _] = model.to_soup().normals[0];
@@ -62,7 +62,7 @@ fn normals_stay_at_right_angles() {
 }
 
 #[test]
-fn parts_that_cannot_be_placed_are_left_out() {
+fn parts_with_degenerate_transforms_are_left_out_of_the_soup() {
     let huge = DAffine3::from_scale(DVec3::splat(1e100));
     let flat = DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0));
     let model =
@@ -73,7 +73,7 @@ fn parts_that_cannot_be_placed_are_left_out() {
 }
 
 #[test]
-fn bounds_hold_what_is_drawn() {
+fn scene_bounds_contain_only_drawn_geometry() {
     let model = scene(&[DAffine3::IDENTITY, DAffine3::from_translation(DVec3::new(5.0, -1.0, 0.0))]);
     assert_eq!(model.bounds(), Some((DVec3::new(0.0, -1.0, 0.0), DVec3::new(6.0, 1.0, 0.0))));
     assert_eq!(model.triangle_count(), 2);
@@ -81,7 +81,7 @@ fn bounds_hold_what_is_drawn() {
 }
 
 #[test]
-fn what_one_part_lacks_is_filled() {
+fn to_soup_fills_in_missing_attributes_of_parts() {
     let mut model = scene(&[DAffine3::IDENTITY; 2]);
     let plain = Geometry {
         positions: vec![DVec3::ZERO; 3],

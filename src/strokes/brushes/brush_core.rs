@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_know_the_way_to_the_ink() {
+    fn brush_columns_hold_distances_to_the_nearest_ink() {
         let beside = BezPath::from_svg("M0 0.2L1 0.2L1 0.4L0 0.4Z").unwrap();
         assert!(
             columns(&beside).iter().all(|way| way.is_some_and(|[l, r]| l == 0.0 && (r - 0.3).abs() < 1e-9))

@@ -179,12 +179,12 @@ mod tests {
     use super::{Anchor, fit, fixed};
     use kurbo::{BezPath, Shape};
 
-    fn path(text: &str) -> BezPath {
+    fn svg_path(text: &str) -> BezPath {
         BezPath::from_svg(text).unwrap()
     }
 
     /// Whether the path is inked at a distance from its start.
-    fn inked(dashes: &[f64], offset: f64, at: f64) -> bool {
+    fn is_inked(dashes: &[f64], offset: f64, at: f64) -> bool {
         if dashes.is_empty() {
             return true;
         }
@@ -199,12 +199,12 @@ mod tests {
     }
 
     #[test]
-    fn a_dash_of_a_round_path_lies_where_it_is_told_to() {
+    fn fit_round_centres_a_dash_at_the_given_share() {
         let circle = kurbo::Circle::new((0.0, 0.0), 50.0).to_path(1e-6);
         let length = std::f64::consts::TAU * 50.0;
         for share in [0.0, 0.13, 0.5, 0.99] {
             let (dashes, offset) = super::fit_round(&circle, share, &[8.0, 4.0]);
-            let at = |by: f64| inked(&dashes, offset, (share * length + by).rem_euclid(length));
+            let at = |by: f64| is_inked(&dashes, offset, (share * length + by).rem_euclid(length));
             // Ink for half a dash to both sides, and no farther.
             assert!(at(0.0) && at(3.7) && at(-3.7) && !at(4.9) && !at(-4.9), "{share}: {dashes:?} {offset}");
         }
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn an_open_line_ends_with_a_whole_dash() {
         for length in [20.0, 33.3, 100.0, 127.0] {
-            let (dashes, offset) = fit(&path(&format!("M0 0L{length} 0")), false, &[6.0, 3.0]);
+            let (dashes, offset) = fit(&svg_path(&format!("M0 0L{length} 0")), false, &[6.0, 3.0]);
             let period: f64 = dashes.iter().sum();
             let rest = (length - dashes[0]) / period;
             assert!((rest - rest.round()).abs() < 1e-9, "{length}: {dashes:?}");
@@ -223,14 +223,14 @@ mod tests {
     }
 
     #[test]
-    fn a_short_line_is_solid() {
-        assert_eq!(fit(&path("M0 0L7 0"), false, &[6.0, 3.0]), (vec![], 0.0));
-        assert_eq!(fit(&path("M0 0L700 0"), false, &[]), (vec![], 0.0));
-        assert_eq!(fit(&path("M0 0L700 0"), false, &[5.0, 0.0]), (vec![], 0.0));
+    fn lines_without_room_for_dashes_are_solid() {
+        assert_eq!(fit(&svg_path("M0 0L7 0"), false, &[6.0, 3.0]), (vec![], 0.0));
+        assert_eq!(fit(&svg_path("M0 0L700 0"), false, &[]), (vec![], 0.0));
+        assert_eq!(fit(&svg_path("M0 0L700 0"), false, &[5.0, 0.0]), (vec![], 0.0));
     }
 
     #[test]
-    fn a_circle_has_whole_periods_and_starts_inside_a_dash() {
+    fn a_dashed_circle_has_whole_periods_and_starts_inside_a_dash() {
         let circle = kurbo::Circle::new((0.0, 0.0), 50.0).to_path(1e-6);
         let (dashes, offset) = fit(&circle, true, &[6.0, 3.0]);
         let turns = std::f64::consts::TAU * 50.0 / dashes.iter().sum::<f64>();
@@ -245,20 +245,20 @@ mod tests {
             ("M0 0L100 0L100 47L0 47Z", true, vec![0.0, 100.0, 147.0, 247.0, 293.999]),
             ("M0 0L100 0L100 2L0 2Z", true, vec![0.0, 100.0, 101.0, 102.0, 202.0]),
         ] {
-            let (dashes, offset) = fit(&path(text), closed, &[12.0, 3.0]);
+            let (dashes, offset) = fit(&svg_path(text), closed, &[12.0, 3.0]);
             assert_eq!(dashes.len() % 2, 0);
             assert!(dashes.len() >= 8, "{text}: {dashes:?}");
             for corner in corners {
                 for near in [corner - 1.0_f64, corner, corner + 1.0] {
                     let near = near.clamp(0.0, if closed { 1e9 } else { 226.999 });
-                    assert!(inked(&dashes, offset, near), "{text} at {near}: {dashes:?} {offset}");
+                    assert!(is_inked(&dashes, offset, near), "{text} at {near}: {dashes:?} {offset}");
                 }
             }
         }
     }
 
     /// The lengths from the start of a path to its corners.
-    fn corners_of(sides: &[f64]) -> Vec<f64> {
+    fn corner_arc_lengths(sides: &[f64]) -> Vec<f64> {
         let sums = sides.iter().scan(0.0, |sum, side| {
             *sum += side;
             Some(*sum)
@@ -272,11 +272,11 @@ mod tests {
         for round in 0..200 {
             let [width, height] = [0; 2].map(|_: i32| dice.between(20.0, 900.0));
             let text = format!("M0 0H{width}V{height}H0Z");
-            let (dashes, offset) = fit(&path(&text), true, &[11.3, 2.8]);
-            for corner in corners_of(&[width, height, width, height - 1e-6]) {
+            let (dashes, offset) = fit(&svg_path(&text), true, &[11.3, 2.8]);
+            for corner in corner_arc_lengths(&[width, height, width, height - 1e-6]) {
                 for near in [-3.0, -1.0, 0.0, 1.0, 3.0] {
                     let at = (corner + near).rem_euclid(2.0 * (width + height));
-                    assert!(inked(&dashes, offset, at), "{round}: {text} at {at}");
+                    assert!(is_inked(&dashes, offset, at), "{round}: {text} at {at}");
                 }
             }
         }
@@ -287,36 +287,36 @@ mod tests {
         // Two half circles and a quarter circle that meet at corners, and a slot without corners.
         let arc = |r: f64| std::f64::consts::PI * r;
         let text = "M0 0A60 60 0 0 1 120 0A90 90 0 0 1 300 0A45 45 0 0 1 345 45";
-        let (dashes, offset) = fit(&path(text), false, &[12.0, 3.0]);
-        for corner in corners_of(&[arc(60.0), arc(90.0)]) {
+        let (dashes, offset) = fit(&svg_path(text), false, &[12.0, 3.0]);
+        for corner in corner_arc_lengths(&[arc(60.0), arc(90.0)]) {
             for near in [-4.0, 0.0, 4.0] {
-                assert!(inked(&dashes, offset, corner + near), "at {}: {dashes:?}", corner + near);
+                assert!(is_inked(&dashes, offset, corner + near), "at {}: {dashes:?}", corner + near);
             }
         }
-        let slot = path("M0 0H100A40 40 0 0 1 100 80H0A40 40 0 0 1 0 0Z");
+        let slot = svg_path("M0 0H100A40 40 0 0 1 100 80H0A40 40 0 0 1 0 0Z");
         assert_eq!(fit(&slot, true, &[12.0, 3.0]).0.len(), 2);
     }
 
     #[test]
-    fn paths_of_very_many_dashes_have_one_pattern() {
-        let (dashes, _) = fit(&path("M0 0H100000V100000H0Z"), true, &[6.0, 3.0]);
+    fn paths_of_very_many_dashes_repeat_one_dash_pattern() {
+        let (dashes, _) = fit(&svg_path("M0 0H100000V100000H0Z"), true, &[6.0, 3.0]);
         assert_eq!(dashes.len(), 2);
     }
 
     #[test]
-    fn a_straight_corner_free_polyline_repeats_one_pattern() {
-        let (dashes, _) = fit(&path("M0 0L50 0L100 1L150 3"), false, &[6.0, 3.0]);
+    fn a_polyline_without_corners_repeats_one_dash_pattern() {
+        let (dashes, _) = fit(&svg_path("M0 0L50 0L100 1L150 3"), false, &[6.0, 3.0]);
         assert_eq!(dashes.len(), 2);
     }
 
     #[test]
-    fn an_odd_pattern_is_doubled() {
-        assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0]).0.len(), 2);
-        assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0, 2.0, 1.0]).0.len(), 6);
+    fn an_odd_dash_pattern_is_doubled() {
+        assert_eq!(fit(&svg_path("M0 0L100 0"), false, &[5.0]).0.len(), 2);
+        assert_eq!(fit(&svg_path("M0 0L100 0"), false, &[5.0, 2.0, 1.0]).0.len(), 6);
     }
 
     /// Whole dashes on a path, in hundredths.
-    fn dashes(from: f64, to: f64, all: f64) -> Vec<[i64; 2]> {
+    fn whole_dashes(from: f64, to: f64, all: f64) -> Vec<[i64; 2]> {
         let mut path = BezPath::new();
         path.move_to((from, 0.0));
         path.line_to((to, 0.0));
@@ -335,11 +335,11 @@ mod tests {
     }
 
     #[test]
-    fn dashes_lie_on_the_model_whatever_is_seen_of_a_line() {
-        let all = dashes(0.0, 200.0, 200.0);
+    fn dashes_stay_fixed_on_the_model_when_a_line_is_cut() {
+        let all = whole_dashes(0.0, 200.0, 200.0);
         assert!(all.len() >= 19);
         for (from, to) in [(3.0, 200.0), (37.5, 150.0), (200.0, 0.0), (180.0, 11.0)] {
-            let part = dashes(from, to, 200.0);
+            let part = whole_dashes(from, to, 200.0);
             let known = |dash: &[i64; 2]| all.iter().any(|own| own[0].abs_diff(dash[0]) <= 1);
             assert!(part.len() > 9 && part.iter().all(known), "{from} {to}: {part:?} of {all:?}");
         }

@@ -91,24 +91,24 @@ fn place(chance: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const BREAKS: HandGaps = HandGaps { mean: 20.0, gap: 3.0, seed: 7 };
+    const SAMPLE_GAPS: HandGaps = HandGaps { mean: 20.0, gap: 3.0, seed: 7 };
 
-    fn near(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    fn gaps_are_near(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
         a.len() == b.len() && a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-9)
     }
 
     #[test]
-    fn gaps_on_the_model_stay_where_they_are() {
+    fn hand_gaps_stay_fixed_on_the_model() {
         let moored = |arc: f64| GapOrigin { arc, backwards: false };
-        let all = BREAKS.on_model([0.0, 200.0], moored(-30.0));
+        let all = SAMPLE_GAPS.on_model([0.0, 200.0], moored(-30.0));
         assert!((9..=10).contains(&all.len()), "{all:?}");
         // The same line without its first 70 units, which are hidden.
-        let rest = BREAKS.on_model([0.0, 130.0], moored(-100.0));
+        let rest = SAMPLE_GAPS.on_model([0.0, 130.0], moored(-100.0));
         let moved: Vec<_> = rest.iter().map(|gap| gap.map(|arc| arc + 70.0)).collect();
-        assert!(near(&all[all.len() - rest.len()..], &moved), "{all:?} {moved:?}");
+        assert!(gaps_are_near(&all[all.len() - rest.len()..], &moved), "{all:?} {moved:?}");
         // The same line in the opposite direction.
-        let turned = BREAKS.on_model([0.0, 200.0], GapOrigin { arc: 230.0, backwards: true });
+        let turned = SAMPLE_GAPS.on_model([0.0, 200.0], GapOrigin { arc: 230.0, backwards: true });
         let turned: Vec<_> = turned.iter().rev().map(|[from, to]| [200.0 - to, 200.0 - from]).collect();
-        assert!(near(&all, &turned), "{all:?} {turned:?}");
+        assert!(gaps_are_near(&all, &turned), "{all:?} {turned:?}");
     }
 }

@@ -97,12 +97,12 @@ mod tests {
     use crate::chains::Sample;
     use crate::colour::srgb::Colour;
 
-    fn stretch(from: f64, to: f64, grey: u8) -> InkSpan {
+    fn ink_span(from: f64, to: f64, grey: u8) -> InkSpan {
         InkSpan { from, to, tint: SpanInk { colour: Colour::rgb(grey, grey, grey), width: 1.0 } }
     }
 
     /// Start, end and grey of each part.
-    fn found(closed: bool, inks: &[InkSpan]) -> Vec<(f64, f64, u8)> {
+    fn split_pieces(closed: bool, inks: &[InkSpan]) -> Vec<(f64, f64, u8)> {
         let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)].map(Point::from);
         let axis = StrokeAxis {
             points: corners.to_vec(),
@@ -120,11 +120,11 @@ mod tests {
     }
 
     #[test]
-    fn lines_change_their_ink_where_they_should() {
-        let inks = [stretch(0.0, 15.0, 1), stretch(15.0, 25.0, 2), stretch(25.0, 40.0, 1)];
-        assert_eq!(found(false, &inks), [(0.0, 15.0, 1), (15.0, 25.0, 2), (25.0, 40.0, 1)]);
+    fn split_by_ink_cuts_lines_at_ink_span_ends() {
+        let inks = [ink_span(0.0, 15.0, 1), ink_span(15.0, 25.0, 2), ink_span(25.0, 40.0, 1)];
+        assert_eq!(split_pieces(false, &inks), [(0.0, 15.0, 1), (15.0, 25.0, 2), (25.0, 40.0, 1)]);
         // On a closed line, equal inks at both ends of the list form one span.
-        assert_eq!(found(true, &inks), [(15.0, 25.0, 2), (25.0, 55.0, 1)]);
-        assert_eq!(found(true, &inks[..2]).len(), 2);
+        assert_eq!(split_pieces(true, &inks), [(15.0, 25.0, 2), (25.0, 55.0, 1)]);
+        assert_eq!(split_pieces(true, &inks[..2]).len(), 2);
     }
 }

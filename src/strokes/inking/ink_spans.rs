@@ -125,7 +125,7 @@ fn parts(kind: LineKind) -> bool {
 mod tests {
     use super::*;
 
-    fn list(of: &[(f64, u8)]) -> Vec<InkSpan> {
+    fn consecutive_spans(of: &[(f64, u8)]) -> Vec<InkSpan> {
         let mut from = 0.0;
         let stretch = |(to, grey): &(f64, u8)| {
             let tint = SpanInk { colour: Colour::rgb(*grey, *grey, *grey), width: 1.0 };
@@ -137,13 +137,22 @@ mod tests {
     }
 
     #[test]
-    fn short_stretches_go_to_the_longer_one_beside() {
+    fn merge_short_spans_joins_short_spans_to_the_longer_neighbour() {
         assert_eq!(
-            merge_short_spans(list(&[(10.0, 1), (12.0, 2), (40.0, 3)]), 5.0),
-            list(&[(10.0, 1), (40.0, 3)])
+            merge_short_spans(consecutive_spans(&[(10.0, 1), (12.0, 2), (40.0, 3)]), 5.0),
+            consecutive_spans(&[(10.0, 1), (40.0, 3)])
         );
-        assert_eq!(merge_short_spans(list(&[(10.0, 1), (12.0, 2), (40.0, 1)]), 5.0), list(&[(40.0, 1)]));
-        assert_eq!(merge_short_spans(list(&[(2.0, 1), (3.0, 2)]), 5.0), list(&[(3.0, 1)]));
-        assert_eq!(merge_short_spans(list(&[(6.0, 1), (12.0, 2)]), 5.0), list(&[(6.0, 1), (12.0, 2)]));
+        assert_eq!(
+            merge_short_spans(consecutive_spans(&[(10.0, 1), (12.0, 2), (40.0, 1)]), 5.0),
+            consecutive_spans(&[(40.0, 1)])
+        );
+        assert_eq!(
+            merge_short_spans(consecutive_spans(&[(2.0, 1), (3.0, 2)]), 5.0),
+            consecutive_spans(&[(3.0, 1)])
+        );
+        assert_eq!(
+            merge_short_spans(consecutive_spans(&[(6.0, 1), (12.0, 2)]), 5.0),
+            consecutive_spans(&[(6.0, 1), (12.0, 2)])
+        );
     }
 }

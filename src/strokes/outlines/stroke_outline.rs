@@ -167,7 +167,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::strokes::axes::path_samples::arcs;
 
-    const NIB: Nib = Nib { caps: [Cap::Round; 2], join: Join::Round, px: 1.0 };
+    const ROUND_NIB: Nib = Nib { caps: [Cap::Round; 2], join: Join::Round, px: 1.0 };
 
     fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> StrokeAxis {
         let samples = vec![Sample::new(1.0, 1.0); points.len()];
@@ -188,13 +188,13 @@ mod tests {
         axis(points, corners, false)
     }
 
-    fn both(axis: &StrokeAxis, widths: &[f64], nib: &Nib) -> BezPath {
+    fn symmetric_outline(axis: &StrokeAxis, widths: &[f64], nib: &Nib) -> BezPath {
         let halves: Vec<f64> = widths.iter().map(|w| w / 2.0).collect();
         outline(axis, [&halves, &halves], nib).expect("an outline")
     }
 
     /// A crossing of two sides of a flattened closed path.
-    fn crossing(path: &BezPath) -> Option<Point> {
+    fn self_crossing(path: &BezPath) -> Option<Point> {
         let mut points: Vec<Point> = Vec::new();
         kurbo::flatten(path, 0.02, |element| points.extend(element.end_point()));
         points.dedup_by(|a, b| length(*a - *b) < 1e-3);
@@ -210,29 +210,31 @@ mod tests {
         })
     }
 
-    fn whole(path: &BezPath) {
-        if let Some(at) = crossing(path) {
+    fn assert_no_self_crossing(path: &BezPath) {
+        if let Some(at) = self_crossing(path) {
             panic!("crosses itself at {at:?}: {}", path.to_svg());
         }
     }
 
     #[test]
-    fn a_straight_line_that_swells_is_a_wedge() {
+    fn stroke_outline_of_a_swelling_line_is_a_wedge() {
         let line: Vec<Point> = (0..=100).map(|i| Point::new(f64::from(i), 50.0)).collect();
         let line = axis(line, vec![], false);
         let widths: Vec<f64> = (0..=100).map(|i| 0.04 * f64::from(i)).collect();
         // The wedge, and the half circle at its thick end.
         let area = 200.0 + std::f64::consts::PI * 2.0;
-        for wedge in [both(&line, &widths, &NIB), soft_outline(&line, &widths, &NIB).unwrap()] {
+        for wedge in
+            [symmetric_outline(&line, &widths, &ROUND_NIB), soft_outline(&line, &widths, &ROUND_NIB).unwrap()]
+        {
             assert!((wedge.area().abs() - area).abs() < 4.0, "{}", wedge.area());
             assert!(wedge.elements().len() < 12, "{wedge:?}");
             assert_eq!(wedge.elements().last(), Some(&PathEl::ClosePath));
-            whole(&wedge);
+            assert_no_self_crossing(&wedge);
         }
     }
 
     #[test]
-    fn tight_bends_do_not_fold() {
+    fn stroke_outline_does_not_fold_at_tight_bends() {
         // Hairpin of radius 3 between straight legs, under a pen of width 5.
         let mut line: Vec<Point> = (0..40).map(|i| Point::new(f64::from(i), 0.0)).collect();
         line.extend((0..=8).map(|i| {
@@ -243,21 +245,23 @@ mod tests {
         let bent = axis(line, vec![], false);
         let part = |arc: f64| arc / bent.length();
         let widths: Vec<f64> = bent.arcs.iter().map(|s| 20.0 * part(*s) * (1.0 - part(*s))).collect();
-        for path in [both(&bent, &widths, &NIB), soft_outline(&bent, &widths, &NIB).unwrap()] {
-            whole(&path);
+        for path in
+            [symmetric_outline(&bent, &widths, &ROUND_NIB), soft_outline(&bent, &widths, &ROUND_NIB).unwrap()]
+        {
+            assert_no_self_crossing(&path);
             assert!(path.elements().len() < 36, "{}", path.elements().len());
         }
     }
 
     #[test]
-    fn corners_are_sharp_inside_and_joined_outside() {
+    fn stroke_outline_corners_are_sharp_inside_and_joined_outside() {
         let corner = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0, 60.0)]);
         let widths = vec![6.0; corner.len()];
-        let nib = |join| Nib { caps: [Cap::Butt; 2], join, ..NIB };
+        let nib = |join| Nib { caps: [Cap::Butt; 2], join, ..ROUND_NIB };
         let quarter = std::f64::consts::PI * 9.0 / 4.0;
         for (join, outside) in [(Join::Miter, 9.0), (Join::Bevel, 4.5), (Join::Round, quarter)] {
-            let path = both(&corner, &widths, &nib(join));
-            whole(&path);
+            let path = symmetric_outline(&corner, &widths, &nib(join));
+            assert_no_self_crossing(&path);
             // Two legs of 60 by 6 that share a square of 3 by 3, and the corner.
             let area = 2.0 * 360.0 - 9.0 + outside;
             assert!((path.area().abs() - area).abs() < 0.3, "{join:?}: {} {area}", path.area());
@@ -267,14 +271,14 @@ mod tests {
         // A corner of 150 degrees is too sharp for a mitre limit of 4.
         let needle = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0 - 51.96, 30.0)]);
         for join in [Join::Miter, Join::Bevel, Join::Round] {
-            let path = both(&needle, &vec![4.0; needle.len()], &nib(join));
-            whole(&path);
+            let path = symmetric_outline(&needle, &vec![4.0; needle.len()], &nib(join));
+            assert_no_self_crossing(&path);
             assert!(path.bounding_box().x1 < 69.0, "{:?}", path.bounding_box());
         }
     }
 
     #[test]
-    fn random_lines_with_corners_do_not_fold() {
+    fn stroke_outlines_of_random_polylines_do_not_fold() {
         for case in 0..300_u64 {
             let dice = |k: u64| chance(hash(case, &[k]));
             // Legs are longer than the pen is wide. Turns reach 150 degrees and alternate, so the line does
@@ -294,13 +298,13 @@ mod tests {
             let widths: Vec<f64> =
                 line.arcs.iter().map(|s| width * (0.7 + 0.3 * value_noise(case, s / 20.0))).collect();
             for join in [Join::Miter, Join::Bevel, Join::Round] {
-                whole(&both(&line, &widths, &Nib { join, ..NIB }));
+                assert_no_self_crossing(&symmetric_outline(&line, &widths, &Nib { join, ..ROUND_NIB }));
             }
         }
     }
 
     #[test]
-    fn random_curves_do_not_fold() {
+    fn stroke_outlines_of_random_curves_do_not_fold() {
         for case in 0..300_u64 {
             // The heading wanders, with bends down to less than half the pen's width, except at the ends.
             let (mut at, mut points) = (Point::ZERO, vec![Point::ZERO]);
@@ -313,12 +317,12 @@ mod tests {
             let line = axis(points, vec![], false);
             let widths: Vec<f64> =
                 line.arcs.iter().map(|s| 5.0 + 3.0 * value_noise(case, s / 25.0)).collect();
-            whole(&both(&line, &widths, &NIB));
+            assert_no_self_crossing(&symmetric_outline(&line, &widths, &ROUND_NIB));
         }
     }
 
     #[test]
-    fn a_closed_line_is_a_ring() {
+    fn stroke_outline_of_a_closed_line_is_a_ring() {
         let ring: Vec<Point> = (0..=250)
             .map(|i| std::f64::consts::TAU * f64::from(i % 250) / 250.0)
             .map(|angle| Point::new(100.0 + 40.0 * cos(angle), 100.0 + 40.0 * sin(angle)))
@@ -326,7 +330,9 @@ mod tests {
         let ring = axis(ring, vec![], true);
         let part = |arc: f64| std::f64::consts::TAU * arc / ring.length();
         let widths: Vec<f64> = ring.arcs.iter().map(|s| 2.4 + 1.2 * cos(part(*s))).collect();
-        for path in [both(&ring, &widths, &NIB), soft_outline(&ring, &widths, &NIB).unwrap()] {
+        for path in
+            [symmetric_outline(&ring, &widths, &ROUND_NIB), soft_outline(&ring, &widths, &ROUND_NIB).unwrap()]
+        {
             assert_eq!(path.elements().iter().filter(|e| matches!(e, PathEl::ClosePath)).count(), 2);
             assert_eq!(path.winding(Point::new(100.0, 100.0)), 0);
             assert_ne!(path.winding(Point::new(140.0, 100.0)), 0);
@@ -336,7 +342,8 @@ mod tests {
         let square = polyline(&[(0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0), (0.0, 0.0)]);
         let corners = [0].into_iter().chain(square.corners).collect();
         let square = axis(square.points, corners, true);
-        let path = both(&square, &vec![4.0; square.len()], &Nib { join: Join::Miter, ..NIB });
+        let path =
+            symmetric_outline(&square, &vec![4.0; square.len()], &Nib { join: Join::Miter, ..ROUND_NIB });
         assert!(
             (path.area().abs() - (54.0 * 54.0 - 46.0 * 46.0)).abs() < 0.1,
             "{} {}",

@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn folds_go_on_as_all_folds_tell() {
+    fn crease_extensions_near_weak_edges_match_all_candidates() {
         let mut walked = 0;
         for (seed, height) in (0..60).zip([0.2, 0.5, 0.8, 1.2, 2.0].into_iter().cycle()) {
             let mesh = rough_sheet(seed, height);

@@ -123,31 +123,31 @@ mod tests {
         })
     }
 
-    fn count(rest: f64, now: f64, before: &[f64]) -> usize {
+    fn pose_crease_count(rest: f64, now: f64, before: &[f64]) -> usize {
         let before = before.iter().map(|degrees| hinge(*degrees));
         pose_creases(&hinge(rest), &hinge(now), 40.0, |_| true, before).len()
     }
 
     #[test]
-    fn what_bends_by_more_than_a_crease_is_one() {
-        assert_eq!(count(0.0, 46.0, &[]), 1);
-        assert_eq!(count(0.0, 34.0, &[]), 0);
-        assert_eq!(count(0.0, -46.0, &[]), 1);
+    fn pose_creases_are_edges_that_bend_beyond_the_crease_angle() {
+        assert_eq!(pose_crease_count(0.0, 46.0, &[]), 1);
+        assert_eq!(pose_crease_count(0.0, 34.0, &[]), 0);
+        assert_eq!(pose_crease_count(0.0, -46.0, &[]), 1);
         // Unchanged from rest, or flatter.
-        assert_eq!(count(90.0, 90.0, &[]), 0);
-        assert_eq!(count(90.0, 30.0, &[]), 0);
+        assert_eq!(pose_crease_count(90.0, 90.0, &[]), 0);
+        assert_eq!(pose_crease_count(90.0, 30.0, &[]), 0);
         // Folded the other way.
-        assert_eq!(count(25.0, -46.0, &[]), 1);
-        assert_eq!(count(25.0, 60.0, &[]), 0);
+        assert_eq!(pose_crease_count(25.0, -46.0, &[]), 1);
+        assert_eq!(pose_crease_count(25.0, 60.0, &[]), 0);
     }
 
     #[test]
-    fn what_is_in_between_is_what_it_was() {
+    fn pose_creases_keep_their_state_near_the_threshold() {
         for now in [36.0, 44.0] {
-            assert_eq!(count(0.0, now, &[40.0, 46.0, 0.0]), 1, "{now}");
-            assert_eq!(count(0.0, now, &[40.0, 34.0, 90.0]), 0, "{now}");
+            assert_eq!(pose_crease_count(0.0, now, &[40.0, 46.0, 0.0]), 1, "{now}");
+            assert_eq!(pose_crease_count(0.0, now, &[40.0, 34.0, 90.0]), 0, "{now}");
         }
-        assert_eq!(count(0.0, 39.0, &[38.0]), 0);
-        assert_eq!(count(0.0, 41.0, &[38.0]), 1);
+        assert_eq!(pose_crease_count(0.0, 39.0, &[38.0]), 0);
+        assert_eq!(pose_crease_count(0.0, 41.0, &[38.0]), 1);
     }
 }

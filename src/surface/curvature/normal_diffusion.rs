@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_are_those_of_a_flow_of_heat() {
+    fn diffusion_weights_approximate_the_heat_kernel() {
         // Eigenvalue x = 0.5 after z = 2: exp(-1).
         let chebyshev = |x: f64| {
             let (mut before, mut now, mut sum) = (x, 1.0, 0.0);

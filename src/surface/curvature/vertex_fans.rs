@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn areas_of_corners_add_up_and_are_those_nearest() {
+    fn corner_areas_are_voronoi_areas_that_add_up() {
         let areas = |points: [[f64; 2]; 3]| {
             let points = points.map(|[x, y]| DVec3::new(x, y, 0.0));
             let sides = sides(&points);

@@ -117,7 +117,7 @@ mod tests {
 
     /// Prism along x with six vertices per ring and a tip at each end. Normals tilt outward at rings near the
     /// ends.
-    fn limb(rings: &[f64], tips: [f64; 2]) -> Mesh {
+    fn hexagonal_prism(rings: &[f64], tips: [f64; 2]) -> Mesh {
         const AROUND: u32 = 6;
         let mut soup = Soup::default();
         let mut put = |position: DVec3, normal: DVec3| {
@@ -146,15 +146,19 @@ mod tests {
         Mesh::build(soup)
     }
 
-    fn straight_edges(mesh: &Mesh) -> usize {
+    fn straight_edge_count(mesh: &Mesh) -> usize {
         let smooth = SmoothNormals::new(mesh, |_| true, |_| false);
         (0..mesh.edges.len()).filter(|edge| smooth.straight.contains(*edge)).count()
     }
 
     #[test]
-    fn a_bar_is_straight_between_its_caps_and_a_spindle_bends_over_its_tips() {
-        assert_eq!(straight_edges(&limb(&[-3.0, 3.0], [-3.0, 3.0])), 12, "long edges and diagonals of a bar");
+    fn straight_edges_are_found_on_a_bar_and_not_on_a_spindle() {
+        assert_eq!(
+            straight_edge_count(&hexagonal_prism(&[-3.0, 3.0], [-3.0, 3.0])),
+            12,
+            "long edges and diagonals of a bar"
+        );
         // As slim, but the surface after each tip is as long.
-        assert_eq!(straight_edges(&limb(&[0.0], [-6.0, 6.0])), 0);
+        assert_eq!(straight_edge_count(&hexagonal_prism(&[0.0], [-6.0, 6.0])), 0);
     }
 }

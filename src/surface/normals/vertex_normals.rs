@@ -140,7 +140,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn normals_of_an_inscribed_polyhedron_are_those_of_the_sphere() {
+    fn vertex_normals_of_an_inscribed_polyhedron_match_the_sphere() {
         // An octahedron with one corner moved along the sphere.
         let tilted = DVec3::new(0.6, 0.0, 0.8);
         let positions = vec![DVec3::X, DVec3::Y, tilted, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];

@@ -146,7 +146,7 @@ mod tests {
     use crate::mesh::Soup;
 
     #[test]
-    fn a_cube_with_hard_edges_has_a_normal_for_each_face_at_each_corner() {
+    fn hard_edges_split_the_vertex_normals_of_a_cube_by_face() {
         let positions =
             (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)));
         let quads = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];

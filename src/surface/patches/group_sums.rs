@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_item_is_added_to_its_groups_and_on_any_threads_alike() {
+    fn group_sums_match_plain_sums_on_any_number_of_threads() {
         let items = 3 * ITEMS_PER_TASK + 17;
         let adds = |k: usize| [((k / 1000 % 7) as u32, 1.0 / (k + 1) as f64), (7, 1.0)];
         let on = |threads| {

@@ -54,7 +54,7 @@ mod tests {
     use glam::{DMat3, DVec3};
 
     /// Ball without caps. Its normals are those before it was turned by an angle, degrees.
-    fn ball(rings: u32, turned: f64) -> Mesh {
+    fn ball_with_rotated_normals(rings: u32, turned: f64) -> Mesh {
         let around = 2 * rings;
         let before = DMat3::from_rotation_x(turned.to_radians());
         let mut soup = Soup::default();
@@ -79,9 +79,10 @@ mod tests {
     }
 
     #[test]
-    fn normals_of_another_place_are_not_believed() {
-        let believed =
-            |rings: u32, turned: f64| Patches::new(&ball(rings, turned), 40.0, false).trusts_file_normals;
+    fn file_normals_of_another_orientation_are_not_trusted() {
+        let believed = |rings: u32, turned: f64| {
+            Patches::new(&ball_with_rotated_normals(rings, turned), 40.0, false).trusts_file_normals
+        };
         for rings in [8, 12, 32, 64] {
             assert!(believed(rings, 0.0).iter().all(|believed| *believed), "{rings} rings");
         }

@@ -83,7 +83,7 @@ mod tests {
 
     /// Body of revolution about z: rings of 40 vertices, each turned by half a step against the last, and two
     /// tips.
-    fn turned(rings: &[[f64; 2]], tips: f64) -> Mesh {
+    fn body_of_revolution(rings: &[[f64; 2]], tips: f64) -> Mesh {
         const AROUND: u32 = 40;
         let mut soup = Soup { positions: vec![DVec3::Z * -tips, DVec3::Z * tips], ..Soup::default() };
         for (ring, [radius, z]) in (0u32..).zip(rings) {
@@ -117,11 +117,11 @@ mod tests {
             profile.push([0.8 * (1.0 - lid(k)), 2.0 + 1.4 * lid(k)]);
             profile.insert(0, [0.8 * (1.0 - lid(k)), -2.0 - 1.4 * lid(k)]);
         }
-        turned(&profile, 3.4)
+        body_of_revolution(&profile, 3.4)
     }
 
     #[test]
-    fn faces_from_end_to_end_over_a_bend_are_of_no_scan() {
+    fn sliver_bends_mark_a_hull_as_constructed_instead_of_scanned() {
         let origins = |mesh: &Mesh| Patches::new(mesh, 40.0, false).origins;
         let is = |origin: MeshSource| move |of_face: &MeshSource| *of_face == origin;
         let (hull, scan) = (barrel(1, 1), barrel(24, 8));

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn faces_are_told_by_their_pieces() {
+    fn surface_class_of_a_face_is_that_of_its_component() {
         let make = |make| ComponentClass { make, ..ComponentClass::default() };
         let numbered = |of_face: &[u32]| NumberedSets { set_of_face: of_face.to_vec(), first: Vec::new() };
         let two = ComponentClasses::new(

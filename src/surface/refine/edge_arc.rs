@@ -98,7 +98,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     #[test]
-    fn arcs_of_a_circle_stay_on_it() {
+    fn edge_arcs_of_a_circle_stay_on_the_circle() {
         for turn in [0.01, 0.3, 0.7, 1.1] {
             let at = |a: f64| DVec3::new(cos(a), sin(a), 0.0);
             let arc = EdgeArc::new([at(0.2), at(0.2 + turn)], [at(0.2), at(0.2 + turn)]);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn an_s_is_straight_in_the_middle() {
+    fn s_shaped_edge_arcs_have_no_height() {
         let n = DVec3::new(0.3, 1.0, 0.0).normalize();
         let arc = EdgeArc::new([DVec3::ZERO, DVec3::X], [n, n]);
         assert!(arc.height().length() < 1e-12);

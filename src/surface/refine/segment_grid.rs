@@ -112,7 +112,7 @@ mod tests {
     use crate::mesh::{FaceId, Soup};
 
     #[test]
-    fn no_face_that_a_segment_touches_is_left_out() {
+    fn faces_near_segments_includes_every_touched_face() {
         // A plane of unit squares, with segments that cross it, lie in it, or end before it.
         let n = 100;
         let mut soup = Soup::default();

@@ -102,7 +102,7 @@ mod tests {
 
     /// Two square sheets back to back at a distance. The normals make each bend outward, or inward if `bend`
     /// is negative.
-    fn strip(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
+    fn double_sheet(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
         let mut soup = Soup::default();
         for (sheet, bend) in bend.into_iter().enumerate() {
             let (up, first) = (1.0 - 2.0 * sheet as f64, soup.positions.len() as u32);
@@ -120,8 +120,8 @@ mod tests {
         (mesh, smooth)
     }
 
-    fn thin_edges(bend: [f64; 2], apart: f64) -> usize {
-        let (mesh, smooth) = strip(bend, apart);
+    fn thin_edge_count(bend: [f64; 2], apart: f64) -> usize {
+        let (mesh, smooth) = double_sheet(bend, apart);
         let edges: Vec<(usize, [u32; 2])> = (0..mesh.edges.len())
             .filter_map(|edge| Some((edge, smooth.across(&mesh, edge)?)))
             .filter(|(_, ends)| EdgeArc::over(&mesh, &smooth, *ends).height().length() > 1e-6)
@@ -131,17 +131,17 @@ mod tests {
     }
 
     #[test]
-    fn a_blade_does_not_swell_and_a_shell_bends() {
+    fn thin_edges_are_found_on_blades_and_not_on_shells() {
         // Both sheets rise by 0.25 over their sides.
-        assert_eq!(thin_edges([0.13, 0.13], 0.4), 6, "a blade");
-        assert_eq!(thin_edges([0.13, 0.13], 0.6), 0, "a cushion");
-        assert_eq!(thin_edges([0.13, -0.13], 0.4), 0, "a shell");
+        assert_eq!(thin_edge_count([0.13, 0.13], 0.4), 6, "a blade");
+        assert_eq!(thin_edge_count([0.13, 0.13], 0.6), 0, "a cushion");
+        assert_eq!(thin_edge_count([0.13, -0.13], 0.4), 0, "a shell");
     }
 
     #[test]
-    fn blades_are_drawn_as_thick_as_they_are() {
+    fn refinement_keeps_the_thickness_of_blades() {
         let thickness = |bend: [f64; 2], apart: f64| {
-            let (mesh, smooth) = strip(bend, apart);
+            let (mesh, smooth) = double_sheet(bend, apart);
             let want =
                 |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
             let finer = refined(&mesh, &smooth, |_, _| true, want).expect("normals turn");

@@ -89,12 +89,12 @@ mod tests {
         (mesh, view)
     }
 
-    fn faces(buffer: &FaceBuffer) -> Vec<Option<u32>> {
+    fn front_face_per_pixel(buffer: &FaceBuffer) -> Vec<Option<u32>> {
         (0..buffer.columns * buffer.rows).map(|pixel| buffer.front(pixel)).collect()
     }
 
     #[test]
-    fn a_quad_of_two_triangles_has_no_hole() {
+    fn face_buffer_fills_a_quad_of_two_triangles_without_holes() {
         let corners = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
         let (mesh, view) = from_above(&corners, &[[0, 1, 2], [0, 2, 3]]);
         let screen = PixelGrid::new(&mesh, &view);
@@ -109,11 +109,14 @@ mod tests {
                 assert_eq!(buffer.front(row * buffer.columns + column).is_some(), inside, "{column} {row}");
             }
         }
-        assert!(faces(&buffer).contains(&Some(0)) && faces(&buffer).contains(&Some(1)));
+        assert!(
+            front_face_per_pixel(&buffer).contains(&Some(0))
+                && front_face_per_pixel(&buffer).contains(&Some(1))
+        );
     }
 
     #[test]
-    fn the_nearer_triangle_wins_whatever_the_order() {
+    fn face_buffer_shows_the_nearer_triangle_in_any_order() {
         // The mesh sorts its faces by their corners, so either the nearer or the farther triangle comes
         // first.
         for (low, high, nearer) in [(0., 9., 1), (-3., 16., 0)] {
@@ -122,7 +125,7 @@ mod tests {
             let (mesh, view) = from_above(&[far, near].concat(), &[[0, 1, 2], [3, 4, 5]]);
             assert!(mesh.corners(FaceId(nearer))[0].z > 0.0);
             let buffer = FaceBuffer::new(&PixelGrid::new(&mesh, &view));
-            let shown = faces(&buffer);
+            let shown = front_face_per_pixel(&buffer);
             let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();
             assert!(count(nearer) > 1000);
             assert!(count(1 - nearer) * 20 < count(nearer), "but for what perspective leaves of it");
@@ -130,7 +133,7 @@ mod tests {
     }
 
     /// Thousands of triangles of all heights, over and through each other.
-    fn crowd() -> (Mesh, View) {
+    fn overlapping_triangles() -> (Mesh, View) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for i in 0..30_000_u32 {
@@ -144,8 +147,8 @@ mod tests {
     }
 
     #[test]
-    fn bands_of_rows_show_what_the_buffer_does() {
-        let (mesh, view) = crowd();
+    fn row_bands_draw_the_same_pixels_as_the_face_buffer() {
+        let (mesh, view) = overlapping_triangles();
         let screen = PixelGrid::new(&mesh, &view);
         let bands = RowBands::new(&screen);
         let mut cells = vec![0; screen.columns * screen.rows];
@@ -154,8 +157,8 @@ mod tests {
     }
 
     #[test]
-    fn threads_do_not_change_the_result() {
-        let (mesh, view) = crowd();
+    fn face_buffer_does_not_depend_on_the_number_of_threads() {
+        let (mesh, view) = overlapping_triangles();
         let screen = PixelGrid::new(&mesh, &view);
         let with = |threads: usize| {
             let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

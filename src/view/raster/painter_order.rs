@@ -105,14 +105,14 @@ mod tests {
     use crate::view::View;
 
     #[test]
-    fn the_farthest_of_a_circle_comes_first() {
+    fn painter_order_breaks_cycles_at_the_farthest_face() {
         assert_eq!(sorted(&[3, 2, 1], &[[0, 1], [1, 2], [2, 0]]), [2, 0, 1]);
         assert_eq!(sorted(&[3, 2, 1], &[[0, 2]]), [1, 0, 2]);
         assert_eq!(sorted(&[5, 5, 5], &[]), [0, 1, 2]);
     }
 
     #[test]
-    fn a_plate_comes_before_what_stands_on_its_far_end() {
+    fn painter_order_draws_a_plate_before_a_face_above_it() {
         // The middle of the plate is nearer to the eye than the small triangle above its far corner.
         let corners = [[0., 0., 0.], [90., 0., 40.], [0., 90., 0.], [1., 1., 5.], [6., 1., 5.], [1., 6., 5.]];
         let positions: Vec<DVec3> = corners.iter().map(|p| DVec3::from(*p)).collect();

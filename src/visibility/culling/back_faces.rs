@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_far_side_of_a_box_is_what_looks_away_however_it_is_wound() {
+    fn far_side_of_a_box_is_its_back_faces_in_either_winding() {
         for is_outward in [true, false] {
             let wound = |[a, b, c]: Triangle| if is_outward { [a, b, c] } else { [a, c, b] };
             let found = far_sides(&cuboid().into_iter().map(wound).collect::<Vec<_>>());
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_nothing_before_it_is_no_far_side() {
+    fn faces_with_nothing_in_front_are_not_far_sides() {
         let found = far_sides(&cuboid());
         let far: Vec<Triangle> =
             found.into_iter().filter(|(.., is_far)| *is_far).map(|(world, ..)| world).collect();

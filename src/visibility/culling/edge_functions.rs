@@ -87,7 +87,7 @@ mod tests {
     use crate::visibility::occlusion::triangle_occlusion::covered;
 
     #[test]
-    fn no_line_that_is_covered_is_beyond_a_side() {
+    fn edge_functions_reject_no_covered_segment() {
         let soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             triangles: vec![[0, 1, 2]],

@@ -97,7 +97,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
 
     #[test]
-    fn single_precision_is_no_nearer_however_large_the_numbers() {
+    fn nearness_bound_is_below_the_exact_value_at_any_scale() {
         let part = |n: u64, axis: u64| hash(axis, &[n]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
         let mut apart = 0;
         for n in 0..4000 {
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_covers_the_nearer_one_stays() {
+    fn raise_keeps_the_nearer_bound() {
         let raised = |mut own: f32, other: f32| {
             raise(&mut own, other);
             own

@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_are_filled_as_far_as_told() {
+    fn fused_occluder_bounds_lie_behind_the_nearest_face() {
         let (mesh, view) = scene();
         let limits = ViewTolerances::new(&view.frame);
         for across in [20, 64, 100] {

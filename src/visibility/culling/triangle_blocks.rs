@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
+    fn triangle_blocks_fill_tiles_like_a_full_scan() {
         let (mesh, view) = scene();
         let limits = ViewTolerances::new(&view.frame);
         let near = TriangleBlocks::new(&mesh, &view, &limits);

@@ -151,12 +151,12 @@ mod tests {
     }
 
     #[test]
-    fn a_union_joins_what_touches() {
+    fn sweep_joins_touching_intervals() {
         assert_eq!(swept(&[(0.5, 0.7), (0.1, 0.5), (0.8, 0.9)], false), [(0.1, 0.7, 1), (0.8, 0.9, 1)]);
     }
 
     #[test]
-    fn layers_are_counted() {
+    fn sweep_counts_overlapping_layers() {
         assert_eq!(swept(&[(0.0, 0.6), (0.4, 1.0)], true), [(0.0, 0.4, 1), (0.4, 0.6, 2), (0.6, 1.0, 1)]);
         assert_eq!(swept(&[(0.0, 0.5), (0.5 - 1e-9, 1.0)], true), [(0.0, 1.0, 1)]);
     }

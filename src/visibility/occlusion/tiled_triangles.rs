@@ -291,7 +291,7 @@ mod tests {
     use crate::scene::Camera;
 
     #[test]
-    fn boxes_by_vertices_are_those_of_each_triangle() {
+    fn tile_boxes_match_the_box_of_each_triangle() {
         let mut dice = Dice::new(3);
         let mut soup = Soup::default();
         for k in 0..3000u32 {

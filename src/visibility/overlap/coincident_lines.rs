@@ -260,7 +260,7 @@ mod tests {
         Frame::new(&camera.with_projection(Projection::Orthographic { height: 1.0 }), DVec3::ZERO)
     }
 
-    fn map(lines: &[TestLine]) -> ViewMap {
+    fn view_map_of(lines: &[TestLine]) -> ViewMap {
         let mut map = ViewMap::default();
         for (i, (a, b, kind)) in lines.iter().enumerate() {
             for p in [a, b] {
@@ -290,35 +290,35 @@ mod tests {
         map
     }
 
-    fn lengths(map: &ViewMap) -> Vec<(LineKind, f64)> {
+    fn edge_lengths(map: &ViewMap) -> Vec<(LineKind, f64)> {
         map.edges.iter().map(|e| (e.kind, EdgeLine::of(map, e).length.round())).collect()
     }
 
     #[test]
     fn the_weaker_of_two_coinciding_lines_gives_way() {
-        let mut m = map(&[
+        let mut m = view_map_of(&[
             ((0.0, 0.0), (100.0, 0.0), LineKind::Crease),
             ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
             ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
         ]);
         remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
         let (k, c) = (LineKind::Crease, LineKind::Contour);
-        assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
+        assert_eq!(edge_lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
     }
 
     #[test]
-    fn of_equal_kinds_the_first_stays_and_crossings_do_not_matter() {
-        let mut m = map(&[
+    fn remove_coincident_keeps_the_first_of_equal_kinds_and_crossings() {
+        let mut m = view_map_of(&[
             ((0.0, 0.0), (50.0, 50.0), LineKind::Crease),
             ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
             ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
         ]);
         remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
-        assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
+        assert_eq!(edge_lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
     }
 
     #[test]
-    fn of_many_lines_those_that_coincide_give_way() {
+    fn remove_coincident_removes_only_duplicates_among_many_lines() {
         // Rows of short lines; the last few occur twice.
         let row = |k: usize| {
             let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
@@ -326,7 +326,7 @@ mod tests {
         };
         let count = 2 * LINES_PER_TASK + 300;
         let lines: Vec<TestLine> = (0..count).chain(count - 50..count).map(row).collect();
-        let mut m = map(&lines);
+        let mut m = view_map_of(&lines);
         remove_coincident(&mut m, 0.005, &frame(), &MeshMetrics::default());
         assert_eq!(m.edges.len(), count);
         let left: std::collections::BTreeSet<usize> = m

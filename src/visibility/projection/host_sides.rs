@@ -102,7 +102,7 @@ mod tests {
     use crate::scene::Camera;
 
     #[test]
-    fn winding_shows_the_side_on_which_a_face_lies() {
+    fn winding_side_is_the_side_that_the_face_covers() {
         let mut dice = Dice::new(9);
         let mut found = 0;
         for _ in 0..200 {

@@ -179,7 +179,7 @@ mod tests {
     use crate::scene::{Camera, UpAxis};
 
     #[test]
-    fn the_nearest_face_is_found_at_every_point() {
+    fn front_faces_finds_the_nearest_face_of_stacked_sheets() {
         // Three stacked sheets, each smaller than the one below.
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_front_is_so_among_all_faces() {
+    fn front_faces_matches_brute_force_over_all_faces() {
         let mut dice = Dice::new(3);
         for size in [0.02, 0.3, 2.0] {
             let mut positions = Vec::new();

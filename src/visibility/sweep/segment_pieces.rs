@@ -145,12 +145,12 @@ mod tests {
         Interval { start, end, start_kind: KIND, end_kind: KIND }
     }
 
-    fn layer(start: f64, end: f64, count: u16) -> HiddenInterval {
+    fn hidden_interval(start: f64, end: f64, count: u16) -> HiddenInterval {
         HiddenInterval { interval: interval(start, end), count }
     }
 
     /// Start, end, layers in front and silhouette flag of each piece of each kept segment.
-    fn kept(
+    fn kept_pieces(
         bounds: bool,
         keeps_hidden: bool,
         hidden: &[&[HiddenInterval]],
@@ -188,10 +188,10 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_cut_where_something_hides_them_and_those_of_an_outline_where_background_ends() {
-        let hidden: [&[HiddenInterval]; 1] = [&[layer(0.2, 0.6, 2)]];
+    fn segments_are_cut_at_hidden_intervals_and_silhouette_ends() {
+        let hidden: [&[HiddenInterval]; 1] = [&[hidden_interval(0.2, 0.6, 2)]];
         let inner = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
-        assert_eq!(kept(false, false, &hidden), [inner]);
+        assert_eq!(kept_pieces(false, false, &hidden), [inner]);
         let outline = [
             (0.0, 0.2, 0, true),
             (0.2, 0.6, 2, false),
@@ -199,20 +199,20 @@ mod tests {
             (0.7, 0.8, 0, false),
             (0.8, 1.0, 0, true),
         ];
-        assert_eq!(kept(true, true, &hidden), [outline]);
+        assert_eq!(kept_pieces(true, true, &hidden), [outline]);
     }
 
     #[test]
-    fn of_what_is_hidden_all_over_nothing_is_kept_unless_it_is_asked_for() {
+    fn fully_hidden_segments_are_kept_only_on_request() {
         let hidden: [&[HiddenInterval]; 4] = [
             &segment_visibility::FULLY_HIDDEN,
             &[],
-            &[layer(0.0, 0.5, 1), layer(0.5, 1.0, 2)],
-            &[layer(0.0, 0.9995, 3)],
+            &[hidden_interval(0.0, 0.5, 1), hidden_interval(0.5, 1.0, 2)],
+            &[hidden_interval(0.0, 0.9995, 3)],
         ];
         let whole = (0.0, 1.0, 0, false);
-        assert_eq!(kept(false, false, &hidden), [[whole]]);
-        let found = kept(false, true, &hidden);
+        assert_eq!(kept_pieces(false, false, &hidden), [[whole]]);
+        let found = kept_pieces(false, true, &hidden);
         assert_eq!(found[0], [(0.0, 1.0, 1, false)]);
         assert_eq!(found[1], [whole]);
         assert_eq!(found[2], [(0.0, 0.5, 1, false), (0.5, 1.0, 2, false)]);

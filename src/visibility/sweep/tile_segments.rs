@@ -91,7 +91,7 @@ mod tests {
 
     const FRAME_SIDE: f64 = 200.0;
 
-    fn part(n: u64, axis: u64) -> f64 {
+    fn random_unit(n: u64, axis: u64) -> f64 {
         hash(axis, &[n]) as f64 / u64::MAX as f64
     }
 
@@ -120,13 +120,17 @@ mod tests {
         let (far, near) =
             (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
         let point = |n: u64| {
-            DVec3::new(part(n, 0) * FRAME_SIDE, part(n, 1) * FRAME_SIDE, far + (near - far) * part(n, 2))
+            DVec3::new(
+                random_unit(n, 0) * FRAME_SIDE,
+                random_unit(n, 1) * FRAME_SIDE,
+                far + (near - far) * random_unit(n, 2),
+            )
         };
         let segment = |n: u64| {
             let a = point(2 * n);
             ImageSegment {
                 a,
-                b: a + (point(2 * n + 1) - a) * part(n, 3).powi(3),
+                b: a + (point(2 * n + 1) - a) * random_unit(n, 3).powi(3),
                 ends: [0; 2],
                 cut: [false; 2],
                 hosts: [u32::MAX; 2],
@@ -139,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn items_part_each_line_and_what_is_buried_lies_behind_the_nearest_plate() {
+    fn tile_segments_split_each_line_by_tile_and_occlusion_buffer() {
         let (mesh, view) = plates();
         let limits = ViewTolerances::new(&view.frame);
         let nearest = view.points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);

@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_walk_covers_the_segment_tile_by_tile() {
+    fn walk_visits_the_tiles_of_a_segment_in_order() {
         let grid = grid();
         assert_eq!((grid.columns, grid.rows), (10, 6));
         for (a, b) in [

@@ -74,7 +74,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
 
     #[test]
-    fn blocks_meet_the_tiles_that_they_hold() {
+    fn tile_set_queries_match_a_plain_list_of_tiles() {
         // With 3 and with 150 columns, so rows take one word or several.
         for (size, of) in [((3.0, 50.0), 9), ((50.0, 3.0), 40), ((150.0, 20.0), 100), ((150.0, 150.0), 3)] {
             let grid = TileGrid::of_cells(DVec2::ZERO, DVec2::from(size) - 0.5, 1.0);

@@ -93,7 +93,7 @@ mod tests {
     use crate::geometry::dice::Dice;
 
     #[test]
-    fn columns_are_those_of_looking_at_each_square() {
+    fn triangle_columns_match_a_test_of_each_tile() {
         let mut dice = Dice::new(3);
         let grid = TileGrid::new(DVec2::ZERO, DVec2::splat(64.0), 64);
         let (mut filled, mut met) = (0, 0);

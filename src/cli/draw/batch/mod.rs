@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_summary_is_one_line() {
+    fn batch_summary_is_one_line() {
         let tally = BatchTally { drawn: 245, files: 1490, bytes: 1_200_000, refused: 5, failed: 0 };
         assert_eq!(
             summary(Path::new("drawings"), &tally, 3, None, 3.4),

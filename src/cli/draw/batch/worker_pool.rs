@@ -228,7 +228,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_course_tells_what_is_left() {
+    fn progress_text_reports_models_left_and_remaining_time() {
         let none = BatchTally::default();
         assert_eq!(progress_text(&none, 1000, Duration::ZERO), "0 drawn, 1,000 left, into");
         let some = BatchTally { drawn: 98, refused: 2, ..BatchTally::default() };
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_pass_goes_before_what_is_wrong() {
+    fn batch_status_gives_temporary_errors_precedence() {
         let status = |refused, failed| BatchTally { refused, failed, ..BatchTally::default() }.status();
         assert_eq!(
             [status(0, 0), status(2, 0), status(0, 1), status(2, 1)],

@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_are_ids_and_unique() {
+    fn picture_keys_are_unique_and_valid_ids() {
         let mut taken = BTreeSet::new();
         let keys = ["my/ink.toml", "my ink.toml", "ink"].map(|key| unique(key, &mut taken));
         assert_eq!(keys, ["my-ink.toml", "my-ink.toml-2", "ink"]);

@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn styles_are_named_one_by_one_in_lists_and_by_globs() {
+    fn styles_accept_single_names_lists_and_globs() {
         let of = |typed: &[&str]| styles(&typed.iter().map(|&word| word.to_owned()).collect::<Vec<_>>());
         assert_eq!(of(&[]).unwrap().len(), Style::names().count());
         assert_eq!(of(&["ink, mine.toml", "ink", "to?n"]).unwrap(), ["ink", "mine.toml", "toon"]);

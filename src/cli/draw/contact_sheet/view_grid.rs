@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn views_go_all_around_or_are_neighbours() {
+    fn angles_surround_the_model_or_the_given_view() {
         let all = angles(None, None);
         assert_eq!(all[4], [35.0, 22.0]);
         assert_eq!(all[8], [35.0, 70.0]);

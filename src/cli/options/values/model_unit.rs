@@ -103,21 +103,21 @@ pub(crate) fn implausible_size(scene: &Scene, longest: f64) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn doubted(format: &'static str, longest: f64) -> Option<String> {
+    fn size_warning(format: &'static str, longest: f64) -> Option<String> {
         implausible_size(&Scene { format, ..Scene::default() }, longest)
     }
 
     #[test]
-    fn lengths_that_nobody_means_are_doubted() {
+    fn implausible_size_warns_about_unlikely_model_lengths() {
         for (format, longest) in [("OBJ", 0.2), ("STL", 20_000.0), ("PLY", 1e-5), ("glTF", 20_000.0)] {
-            assert!(doubted(format, longest).is_some(), "{format} {longest}");
+            assert!(size_warning(format, longest).is_some(), "{format} {longest}");
         }
         for (format, longest) in
             [("OBJ", 1.0), ("STL", 300.0), ("PLY", 10_000.0), ("glTF", 0.2), ("OBJ", 0.0)]
         {
-            assert_eq!(doubted(format, longest), None, "{format} {longest}");
+            assert_eq!(size_warning(format, longest), None, "{format} {longest}");
         }
-        let text = doubted("OBJ", 0.2).unwrap();
+        let text = size_warning("OBJ", 0.2).unwrap();
         assert!(text.contains("200 mm (--unit m)") && text.contains("5.1 mm (--unit in)"), "{text}");
     }
 }

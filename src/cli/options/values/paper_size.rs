@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn reads_sizes() {
+    fn size_px_parses_sizes_and_rejects_invalid_ones() {
         assert_eq!(size_px("1000x800"), extent(1000.0, 800.0));
         assert_eq!(size_px("640"), extent(640.0, 640.0));
         assert_eq!(size_px("640px"), extent(640.0, 640.0));
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn reads_pages() {
+    fn page_mm_parses_named_and_custom_page_sizes() {
         assert_eq!(page_mm("a4"), extent(210.0, 297.0));
         assert_eq!(page_mm("Letter"), extent(215.9, 279.4));
         assert_eq!(page_mm("210x297mm"), extent(210.0, 297.0));
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn reads_scales() {
+    fn scale_parses_ratios_and_decimals() {
         assert_eq!(scale("1:2"), Ok(0.5));
         assert_eq!(scale("5 : 1"), Ok(5.0));
         assert_eq!(scale("0.25"), Ok(0.25));
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_margin_leaves_a_frame() -> Result<(), Error> {
+    fn margin_reduces_the_frame_of_a_picture_sheet() -> Result<(), Error> {
         let sheet = PaperSize { width: 210.0, height: 297.0 };
         assert_eq!(PictureSheet::new(sheet, Unit::Mm, None)?.frame(), (190.0, 277.0));
         assert_eq!(PictureSheet::new(sheet, Unit::Px, None)?.frame(), (210.0, 297.0));

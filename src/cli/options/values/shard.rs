@@ -144,14 +144,14 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
 mod tests {
     use super::*;
 
-    fn set(line: &str) -> impl Fn(&str) -> Option<String> + '_ {
+    fn parsed_variables(line: &str) -> impl Fn(&str) -> Option<String> + '_ {
         |name| {
             line.split_whitespace().find_map(|pair| pair.strip_prefix(&format!("{name}=")).map(str::to_owned))
         }
     }
 
     #[test]
-    fn shards_count_from_one() {
+    fn shard_spec_numbers_shards_from_one() {
         assert_eq!(ShardSpec::parse("1/4"), Ok(ShardSpec::Given(Shard { first: 0, count: 4 })));
         assert_eq!(ShardSpec::parse("4/4"), Ok(ShardSpec::Given(Shard { first: 3, count: 4 })));
         assert_eq!(ShardSpec::parse("/4"), Ok(ShardSpec::InJobArray(4)));
@@ -163,15 +163,15 @@ mod tests {
     }
 
     #[test]
-    fn arrays_tell_their_tasks() -> Result<(), Error> {
+    fn shard_is_read_from_the_variables_of_job_arrays() -> Result<(), Error> {
         let shard = |first, of| Some(Shard { first, count: of });
-        assert_eq!(counted(&set(""))?, None);
+        assert_eq!(counted(&parsed_variables(""))?, None);
         let slurm = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=4";
-        assert_eq!(counted(&set(slurm))?, shard(2, 4));
-        assert_eq!(counted(&set(&format!("{slurm} SLURM_ARRAY_TASK_MIN=0")))?, shard(3, 4));
+        assert_eq!(counted(&parsed_variables(slurm))?, shard(2, 4));
+        assert_eq!(counted(&parsed_variables(&format!("{slurm} SLURM_ARRAY_TASK_MIN=0")))?, shard(3, 4));
         let odd = "SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=7 SLURM_ARRAY_TASK_STEP=2";
-        assert_eq!(counted(&set(&format!("{slurm} {odd}")))?, shard(1, 4));
-        assert_eq!(counted(&set("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4"))?, shard(0, 4));
+        assert_eq!(counted(&parsed_variables(&format!("{slurm} {odd}")))?, shard(1, 4));
+        assert_eq!(counted(&parsed_variables("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4"))?, shard(0, 4));
         for wrong in [
             "SLURM_ARRAY_TASK_ID=3",
             "SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_TASK_COUNT=4",
@@ -180,14 +180,14 @@ mod tests {
             "JOB_COMPLETION_INDEX=0",
             "JOB_COMPLETION_INDEX=4 JOB_COMPLETIONS=4",
         ] {
-            assert!(counted(&set(wrong)).is_err(), "{wrong}");
+            assert!(counted(&parsed_variables(wrong)).is_err(), "{wrong}");
         }
         // A single task that is run again keeps its number.
         let again = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3";
-        assert_eq!(numbered(4, &set(again))?, shard(2, 4));
-        assert_eq!(numbered(4, &set("JOB_COMPLETION_INDEX=3"))?, shard(3, 4));
-        assert!(numbered(2, &set(again)).is_err());
-        assert_eq!(numbered(2, &set(""))?, None);
+        assert_eq!(numbered(4, &parsed_variables(again))?, shard(2, 4));
+        assert_eq!(numbered(4, &parsed_variables("JOB_COMPLETION_INDEX=3"))?, shard(3, 4));
+        assert!(numbered(2, &parsed_variables(again)).is_err());
+        assert_eq!(numbered(2, &parsed_variables(""))?, None);
         Ok(())
     }
 }

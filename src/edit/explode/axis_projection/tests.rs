@@ -5,7 +5,7 @@ use crate::geometry::dice::Dice;
 
 type Box3 = [DVec3; 2];
 
-fn body(boxes: &[Box3]) -> Body {
+fn body_of_boxes(boxes: &[Box3]) -> Body {
     let mut body = Body::default();
     for [low, high] in boxes {
         let at = |k: usize| {
@@ -21,7 +21,7 @@ fn body(boxes: &[Box3]) -> Body {
 }
 
 /// Overlap and blocked areas by columns. Between the sides of boxes, each column has constant contents.
-fn by_columns(a: &[Box3], b: &[Box3]) -> [f64; 3] {
+fn areas_by_columns(a: &[Box3], b: &[Box3]) -> [f64; 3] {
     let sides = |k: usize| {
         let mut sides: Vec<f64> = a.iter().chain(b).flatten().map(|p| p[k]).collect();
         sides.sort_by(f64::total_cmp);
@@ -47,7 +47,7 @@ fn by_columns(a: &[Box3], b: &[Box3]) -> [f64; 3] {
 }
 
 #[test]
-fn bodies_meet_as_columns_through_both_say() {
+fn contact_with_matches_vertical_columns_of_random_boxes() {
     let mut dice = Dice::new(8);
     let (mut held, mut apart) = (0, 0);
     for round in 0..200 {
@@ -61,13 +61,13 @@ fn bodies_meet_as_columns_through_both_say() {
             [box_between(0.0, 1.0), box_between(2.0, 3.0)]
         };
         let (a, b) = (random(), random());
-        let shadow = |boxes: &[Box3]| AxisProjection::new(&body(boxes), &DVec3::AXES);
+        let shadow = |boxes: &[Box3]| AxisProjection::new(&body_of_boxes(boxes), &DVec3::AXES);
         let (of_a, of_b) = (shadow(&a), shadow(&b));
         let meeting = of_a.contact_with(&of_b, 1e-9);
         assert_eq!(of_b.contact_with(&of_a, 1e-9), meeting.turned(), "round {round}");
         let graze = MAX_GRAZE_AREA_RATIO * of_a.area.min(of_b.area);
         // Columns count once even if several boxes overlap there.
-        let columns = by_columns(&a, &b);
+        let columns = areas_by_columns(&a, &b);
         let said = [meeting.meets, meeting.blocks_up, meeting.blocks_down];
         for (said, area) in said.iter().zip(columns).filter(|(_, area)| *area == 0.0 || *area > graze) {
             assert_eq!(*said, area > graze, "round {round}: {columns:?}");
@@ -79,7 +79,7 @@ fn bodies_meet_as_columns_through_both_say() {
 }
 
 #[test]
-fn what_stands_in_a_ring_is_surrounded() {
+fn contact_with_reports_a_body_inside_a_ring() {
     let block = |x: [f64; 2], y: [f64; 2]| [DVec3::new(x[0], y[0], 0.0), DVec3::new(x[1], y[1], 1.0)];
     let ring = [
         block([-3.0, -2.0], [-3.0, 3.0]),
@@ -87,7 +87,7 @@ fn what_stands_in_a_ring_is_surrounded() {
         block([-2.0, 2.0], [-3.0, -2.0]),
         block([-2.0, 2.0], [2.0, 3.0]),
     ];
-    let shadow = |boxes: &[Box3]| AxisProjection::new(&body(boxes), &DVec3::AXES);
+    let shadow = |boxes: &[Box3]| AxisProjection::new(&body_of_boxes(boxes), &DVec3::AXES);
     let within = |inner: &[Box3], outer: &[Box3]| shadow(inner).contact_with(&shadow(outer), 1e-9).is_within;
     assert!(within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring));
     assert!(within(&ring, &[block([-2.0, 2.0], [-2.0, 2.0])]));

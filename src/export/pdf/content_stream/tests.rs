@@ -18,7 +18,7 @@ fn content(marks: &[(&str, Paint)]) -> String {
     String::from_utf8(writer.out).unwrap().replace('\n', " ")
 }
 
-fn pen(width: f64, dash: &[f64]) -> Paint {
+fn stroke_of(width: f64, dash: &[f64]) -> Paint {
     Paint::Stroke(StrokePaint {
         width,
         colour: Colour::rgb(255, 0, 51),
@@ -30,8 +30,12 @@ fn pen(width: f64, dash: &[f64]) -> Paint {
 }
 
 #[test]
-fn ink_is_set_where_it_changes() {
-    let lines = [("M0 0L1 2.5", pen(1.5, &[])), ("M3 3H4", pen(1.5, &[])), ("M5 5H6", pen(2.0, &[4.0, 2.0]))];
+fn stroke_state_is_written_only_where_it_changes() {
+    let lines = [
+        ("M0 0L1 2.5", stroke_of(1.5, &[])),
+        ("M3 3H4", stroke_of(1.5, &[])),
+        ("M5 5H6", stroke_of(2.0, &[4.0, 2.0])),
+    ];
     assert_eq!(
         content(&lines),
         "/A255 gs 1.5 w 1 J 2 j 1 0 .2 RG [] 0 d 0 0 m 1 2.5 l S 3 3 m 4 3 l S 2 w [4 2 ] 0 d 5 5 m 6 5 l S "
@@ -39,7 +43,7 @@ fn ink_is_set_where_it_changes() {
 }
 
 #[test]
-fn all_elements_of_paths() {
+fn path_elements_become_pdf_operators() {
     let fill = Paint::Fill(Colour { a: 128, ..Colour::BLACK });
     let ink = "/A128 gs 0 0 0 rg ";
     for (data, operators) in [

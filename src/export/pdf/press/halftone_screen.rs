@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dots_cover_what_the_tone_asks_for() {
+    fn halftone_dots_cover_the_share_of_the_tone() {
         for share in [0.02, 0.2, 0.5, 0.7, 0.8, 0.9, 0.98] {
             let radius = diameter(share) / 2.0;
             let steps = 400;
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn no_dot_that_shows_is_missing_and_few_are_in_vain() {
+    fn halftone_dots_include_every_visible_dot_and_few_others() {
         let shapes: [BezPath; 3] = [
             Circle::new((3.3, -2.1), 7.7).to_path(1e-4),
             BezPath::from_svg("M0 0L30 1L0 2ZM5 5H20V25H5ZM8 8V20H17V8Z").unwrap(),
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn plates_are_turned_and_as_fine_as_asked() {
+    fn screen_lattice_has_the_angle_and_spacing_of_its_plate() {
         let screen = Screen { lpi: 50.8, angle_deg: 45.0 };
         let step = |plate: usize| screen.lattice(plate, 1.0) * Point::new(1.0, 0.0);
         for (plate, angle) in [(0, 15.0), (1, 75.0), (2, 0.0), (3, 45.0_f64)] {

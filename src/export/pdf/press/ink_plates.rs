@@ -205,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn black_is_black_alone() {
+    fn single_ink_plates_use_black_only() {
         let plates = Plates::new(&PdfOptions::default().with_inks(Inks::K)).unwrap();
         let k = |colour: Colour| match plates.ink(colour) {
             PressInk::Cmyk([0.0, 0.0, 0.0, k]) => k,
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn inks_stay_within_their_limit() {
+    fn limited_inks_stay_within_the_ink_limit() {
         let mut plates = Plates::new(&PdfOptions::default().with_inks(Inks::K)).unwrap();
         plates.limit = Some(2.4);
         for inks in [[1.0, 1.0, 1.0, 1.0], [0.9, 0.8, 0.7, 0.6], [1.0, 1.0, 0.0, 0.9], [0.5, 0.5, 0.5, 0.5]] {
@@ -232,14 +232,14 @@ mod tests {
     }
 
     #[test]
-    fn no_clock_is_in_the_profile_of_screens() {
+    fn srgb_profile_has_a_fixed_date_and_no_id() {
         let bytes = srgb_profile().unwrap();
         assert_eq!(bytes[24..36], PROFILE_DATE);
         assert_eq!(bytes[84..100], [0; 16], "an id would be another one with each date");
     }
 
     #[test]
-    fn what_no_printer_could_do_is_refused() {
+    fn plates_reject_unprintable_options() {
         let message = |options: PdfOptions| Plates::new(&options).err().unwrap().to_string();
         assert!(message(PdfOptions::default().with_ink_limit(50.0)).contains("50 %"));
         assert!(message(PdfOptions::default().with_spot(Colour::BLACK, "All")).contains("`All`"));

@@ -76,7 +76,7 @@ mod tests {
     use crate::scene::{Camera, Projection};
 
     /// Ball of many faces with random dents.
-    fn ball(across: u32) -> Mesh {
+    fn dented_ball(across: u32) -> Mesh {
         let mut dice = Dice::new(5);
         let mut soup = Soup::default();
         for i in 0..2 * across {
@@ -104,9 +104,9 @@ mod tests {
     }
 
     #[test]
-    fn the_field_vanishes_over_no_edge_that_is_turned() {
+    fn cannot_vanish_holds_only_for_turned_edges_and_for_most_of_them() {
         const REACH: f64 = 0.55;
-        let mesh = ball(40);
+        let mesh = dented_ball(40);
         let smooth = SmoothNormals::new(&mesh, |_| true, |edge| edge % 997 == 0);
         let mut dice = Dice::new(11);
         let (mut told, mut turned) = (0, 0);

@@ -155,7 +155,7 @@ mod tests {
     use crate::scene::{Camera, Projection};
 
     /// Torus with dents, so it has folds as well.
-    fn dented(across: u32) -> Mesh {
+    fn dented_torus(across: u32) -> Mesh {
         let mut dice = Dice::new(3);
         let mut soup = Soup::default();
         let around = |k: u32, of: u32| f64::from(k % of) / f64::from(of) * std::f64::consts::TAU;
@@ -176,8 +176,8 @@ mod tests {
     }
 
     #[test]
-    fn cuts_are_the_same_and_most_runs_are_passed() {
-        let mesh = dented(100);
+    fn normal_cones_skip_most_runs_and_keep_all_contour_cuts() {
+        let mesh = dented_torus(100);
         let smooth = SmoothNormals::new(&mesh, |_| true, |edge| edge % 97 == 0);
         let cones = NormalCones::new(&mesh, &smooth);
         let mut dice = Dice::new(7);

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_way_has_no_bend() {
+    fn shortest_path_along_a_staircase_is_almost_straight() {
         let steps: Vec<[f64; 2]> =
             (0..40).map(|i| (f64::from(i) * 0.3).floor()).map(|y| [y - 0.5, y + 0.5]).collect();
         let bends = shortest_path(DVec2::new(-1.0, -0.3), &gates(&steps), DVec2::new(40.0, 11.7));
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn it_bends_round_what_is_in_the_way_and_nowhere_else() {
+    fn shortest_path_bends_only_at_obstacles() {
         let bends =
             shortest_path(DVec2::ZERO, &gates(&[[-1.0, 1.0], [1.0, 2.0], [-1.0, 1.0]]), DVec2::new(3.0, 0.0));
         let at: Vec<[f64; 2]> = bends.iter().map(|bend| bend.at.to_array()).collect();
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn no_shorter_line_goes_through_all_gates() {
+    fn shortest_path_is_as_short_as_a_relaxed_path() {
         // Reference by relaxation: each crossing moves repeatedly to the midpoint of its neighbours.
         let mut state = 7_u64;
         let mut chance = || {

@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn negative_indices_point_nowhere_and_are_shown_as_written() {
+    fn negative_indices_are_out_of_range_and_displayed_as_written() {
         for number in [-1_i64, 0, 7, i64::MIN, i64::MAX] {
             let Index(index) = serde_json::from_str(&number.to_string()).unwrap();
             assert_eq!(DisplayIndex(index).to_string(), number.to_string());

@@ -86,7 +86,7 @@ mod tests {
     use EdgeMark::{Contour, Hard, Hidden};
 
     #[test]
-    fn bits_are_read_as_the_draft_shows() {
+    fn edge_visibility_bits_match_the_extension_draft() {
         assert_eq!(stored(&[18, 2], 2).unwrap(), [[Hard, Hidden, Contour], [Hidden, Hard, Hidden]]);
         assert_eq!(stored(&[226, 2], 2).unwrap(), [[Hard, Hidden, Hard], [Hard, Hard, Hidden]]);
         assert!(stored(&[18], 2).is_err());

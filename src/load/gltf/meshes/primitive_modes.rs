@@ -93,31 +93,37 @@ impl PrimitiveElements {
 mod tests {
     use super::*;
 
-    fn shape(mode: u32, run: &[u32]) -> (PrimitiveElements, Warnings) {
+    fn elements_and_warnings(mode: u32, run: &[u32]) -> (PrimitiveElements, Warnings) {
         let (mut shape, mut warnings) = (PrimitiveElements::default(), Warnings::default());
         shape.add(PrimitiveMode::new(Some(mode)).unwrap(), run, &mut warnings);
         (shape, warnings)
     }
 
     #[test]
-    fn all_modes() {
-        assert_eq!(shape(0, &[0, 1]).0, PrimitiveElements::default());
-        assert_eq!(shape(1, &[0, 1, 2, 3]).0.wires, [[0, 1], [2, 3]]);
-        assert_eq!(shape(2, &[0, 1, 2]).0.wires, [[0, 1], [1, 2], [2, 0]]);
-        assert_eq!(shape(3, &[0, 1, 2]).0.wires, [[0, 1], [1, 2]]);
-        assert_eq!(shape(4, &[0, 1, 2]).0.triangles, [[0, 1, 2]]);
-        assert_eq!(shape(5, &[0, 1, 2, 3]).0.triangles, [[0, 1, 2], [1, 3, 2]]);
-        assert_eq!(shape(6, &[0, 1, 2, 3]).0.triangles, [[1, 2, 0], [2, 3, 0]]);
+    fn primitive_modes_give_the_specified_triangles_and_wires() {
+        assert_eq!(elements_and_warnings(0, &[0, 1]).0, PrimitiveElements::default());
+        assert_eq!(elements_and_warnings(1, &[0, 1, 2, 3]).0.wires, [[0, 1], [2, 3]]);
+        assert_eq!(elements_and_warnings(2, &[0, 1, 2]).0.wires, [[0, 1], [1, 2], [2, 0]]);
+        assert_eq!(elements_and_warnings(3, &[0, 1, 2]).0.wires, [[0, 1], [1, 2]]);
+        assert_eq!(elements_and_warnings(4, &[0, 1, 2]).0.triangles, [[0, 1, 2]]);
+        assert_eq!(elements_and_warnings(5, &[0, 1, 2, 3]).0.triangles, [[0, 1, 2], [1, 3, 2]]);
+        assert_eq!(elements_and_warnings(6, &[0, 1, 2, 3]).0.triangles, [[1, 2, 0], [2, 3, 0]]);
         assert!(PrimitiveMode::new(Some(7)).is_err());
     }
 
     #[test]
-    fn left_overs_are_counted() {
-        assert_eq!(shape(4, &[0, 1, 2, 3, 4]).1.lines(), ["2 indices left over at the end of a primitive"]);
-        assert_eq!(shape(1, &[0]).1.lines(), ["1 indices left over at the end of a primitive"]);
+    fn leftover_primitive_indices_are_counted_in_a_warning() {
+        assert_eq!(
+            elements_and_warnings(4, &[0, 1, 2, 3, 4]).1.lines(),
+            ["2 indices left over at the end of a primitive"]
+        );
+        assert_eq!(
+            elements_and_warnings(1, &[0]).1.lines(),
+            ["1 indices left over at the end of a primitive"]
+        );
         for mode in [2, 3, 5, 6] {
-            assert_eq!(shape(mode, &[0]).0, PrimitiveElements::default());
-            assert_eq!(shape(mode, &[]).0, PrimitiveElements::default());
+            assert_eq!(elements_and_warnings(mode, &[0]).0, PrimitiveElements::default());
+            assert_eq!(elements_and_warnings(mode, &[]).0, PrimitiveElements::default());
         }
     }
 }

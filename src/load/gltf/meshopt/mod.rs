@@ -104,7 +104,7 @@ mod tests {
 
     use super::*;
 
-    fn packed(mode: &str, count: usize, byte_stride: usize) -> Meshopt {
+    fn meshopt_extension(mode: &str, count: usize, byte_stride: usize) -> Meshopt {
         let json = format!(
             r#"{{"buffer":0,"byteLength":0,"byteStride":{byte_stride},"count":{count},"mode":"{mode}"}}"#
         );
@@ -112,7 +112,7 @@ mod tests {
     }
 
     /// Elements of four words that vary like positions, noise, flags and floats.
-    fn elements(count: u32) -> Vec<[u32; 4]> {
+    fn sample_elements(count: u32) -> Vec<[u32; 4]> {
         let element = |i: u32| {
             let noise = i.wrapping_mul(2_654_435_761) >> (i % 3 * 8);
             [((i * 300) & 0xffff) | ((i * 700) << 16), noise, i % 2, 0x3f80_0000 + i * i * 0x1000]
@@ -120,14 +120,14 @@ mod tests {
         (0..count).map(element).collect()
     }
 
-    fn bytes(words: &[u32]) -> Vec<u8> {
+    fn little_endian_bytes(words: &[u32]) -> Vec<u8> {
         words.iter().flat_map(|word| word.to_le_bytes()).collect()
     }
 
     #[test]
-    fn vertex_codec_0_comes_back() {
+    fn vertex_codec_0_round_trips() {
         for count in [1, 15, 16, 17, 40, 90] {
-            let elements = elements(count);
+            let elements = sample_elements(count);
             let mut stream = vec![0; 20_000];
             let length = meshopt_rs::vertex::buffer::encode_vertex_buffer(
                 &mut stream,
@@ -135,22 +135,23 @@ mod tests {
                 VertexEncodingVersion::V0,
             );
             let decoded =
-                decode(&packed("ATTRIBUTES", count as usize, 16), &stream[..length.unwrap()]).unwrap();
-            assert_eq!(decoded, bytes(elements.as_flattened()), "{count}");
+                decode(&meshopt_extension("ATTRIBUTES", count as usize, 16), &stream[..length.unwrap()])
+                    .unwrap();
+            assert_eq!(decoded, little_endian_bytes(elements.as_flattened()), "{count}");
         }
     }
 
     #[test]
-    fn vertex_codec_1_comes_back() {
-        for stream in [LEVEL_2, LEVEL_3] {
+    fn vertex_codec_1_is_decoded() {
+        for stream in [STREAM_OF_LEVEL_2, STREAM_OF_LEVEL_3] {
             let stream = base64::engine::general_purpose::STANDARD.decode(stream).unwrap();
-            let decoded = decode(&packed("ATTRIBUTES", 40, 16), &stream).unwrap();
-            assert_eq!(decoded, bytes(elements(40).as_flattened()));
+            let decoded = decode(&meshopt_extension("ATTRIBUTES", 40, 16), &stream).unwrap();
+            assert_eq!(decoded, little_endian_bytes(sample_elements(40).as_flattened()));
         }
     }
 
     #[test]
-    fn indices_come_back() {
+    fn triangle_index_codec_round_trips() {
         let grid = |i: u32| [i, i + 1, i + 9, i + 1, i + 10, i + 9];
         let mut indices: Vec<u32> = (0..60).flat_map(grid).collect();
         indices.extend([500, 3, 77, 12, 500, 4]);
@@ -158,32 +159,32 @@ mod tests {
         let version = IndexEncodingVersion::V0;
         let length = meshopt_rs::index::buffer::encode_index_buffer(&mut stream, &indices, version).unwrap();
         let stream = &stream[..length];
-        let decoded = decode(&packed("TRIANGLES", indices.len(), 4), stream).unwrap();
+        let decoded = decode(&meshopt_extension("TRIANGLES", indices.len(), 4), stream).unwrap();
         let read: Vec<u32> = decoded.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect();
         // The codec may rotate the corners of a triangle, but not reverse them.
         for (was, is) in indices.as_chunks::<3>().0.iter().zip(read.as_chunks::<3>().0) {
             assert!((0..3).any(|turn| (0..3).all(|i| was[i] == is[(i + turn) % 3])), "{was:?} {is:?}");
         }
-        let short = decode(&packed("TRIANGLES", indices.len(), 2), stream).unwrap();
+        let short = decode(&meshopt_extension("TRIANGLES", indices.len(), 2), stream).unwrap();
         assert_eq!(short.len() * 2, decoded.len());
-        assert!(decode(&packed("TRIANGLES", indices.len() + 3, 4), stream).is_err());
+        assert!(decode(&meshopt_extension("TRIANGLES", indices.len() + 3, 4), stream).is_err());
     }
 
     #[test]
-    fn sequences_run_on_two_values() {
+    fn index_sequences_are_decoded_from_two_running_values() {
         // 1000, 1001 and 999 from the first running value, 4 from the second, in LEB128.
         let stream = [0xd1, 0xa0, 0x1f, 4, 17, 6, 0, 0, 0, 0];
-        let decoded = decode(&packed("INDICES", 4, 4), &stream).unwrap();
-        assert_eq!(decoded, bytes(&[1000, 1001, 4, 999]));
+        let decoded = decode(&meshopt_extension("INDICES", 4, 4), &stream).unwrap();
+        assert_eq!(decoded, little_endian_bytes(&[1000, 1001, 4, 999]));
     }
 
     #[test]
-    fn damaged_streams_are_refused_without_a_panic() {
-        let stream = base64::engine::general_purpose::STANDARD.decode(LEVEL_3).unwrap();
+    fn damaged_meshopt_streams_do_not_panic_and_truncated_ones_fail() {
+        let stream = base64::engine::general_purpose::STANDARD.decode(STREAM_OF_LEVEL_3).unwrap();
         for mode in ["ATTRIBUTES", "TRIANGLES", "INDICES"] {
             let stride = if mode == "ATTRIBUTES" { 16 } else { 4 };
             for end in 0..stream.len() {
-                assert!(decode(&packed(mode, 39, stride), &stream[..end]).is_err());
+                assert!(decode(&meshopt_extension(mode, 39, stride), &stream[..end]).is_err());
             }
             for (at, head) in
                 (0..stream.len() * 8).flat_map(|at| [0xa0, 0xa1, 0xe0, 0xe1, 0xd1].map(|h| (at, h)))
@@ -191,28 +192,28 @@ mod tests {
                 let mut damaged = stream.clone();
                 damaged[0] = head;
                 damaged[at / 8] ^= 1 << (at % 8);
-                let _ = decode(&packed(mode, 39, stride), &damaged);
-                let _ = decode(&packed(mode, usize::MAX / 16 / 3 * 3, stride), &damaged);
+                let _ = decode(&meshopt_extension(mode, 39, stride), &damaged);
+                let _ = decode(&meshopt_extension(mode, usize::MAX / 16 / 3 * 3, stride), &damaged);
             }
         }
     }
 
     #[test]
-    fn odd_requests_are_refused() {
+    fn invalid_meshopt_modes_counts_and_strides_are_refused() {
         for (mode, count, stride) in
             [("ATTRIBUTES", 1, 3), ("ATTRIBUTES", 1, 260), ("TRIANGLES", 4, 4), ("X", 3, 4)]
         {
-            assert!(decode(&packed(mode, count, stride), &[]).is_err());
+            assert!(decode(&meshopt_extension(mode, count, stride), &[]).is_err());
         }
     }
 
-    const LEVEL_2: &str = "oXd/qZ4AWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYFSqqqqqqqqqqqqoAAAB4eHh4eHh4eH\
+    const STREAM_OF_LEVEL_2: &str = "oXd/qZ4AWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYFSqqqqqqqqqqqqoAAAB4eHh4eHh4eH\
          h4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHgqBVVVVVVVVVVVVVVVVVVVVVVVVVUAAAAAAPIVtVleIlrQ/PG7\
          Kz1JrngoedOaYB/zxZR/ErcN7ANmO7DYnpuziQBuCmLgdHmr2qw5uy86U/SsFBrffMFt5GQEsXd4SazqHi2hhvYv8B\
          oAw8SzW++YDqUZdlvN3g+AuTozT4TnGNBmgOVN6pv/r09MRQVlIkTmANi2S0yVluHi1NOKbduJPj0LDFVWoaLr7LYA\
          ysl+fTQVJmZmZmZmZmZmZgAAACBgoODfn18fIGCg4N+fXx8gYKDg359fHyBgoODfn18fIGCg4N+fXykAiqrvBAQERE\
          RkZmZmhoiIiKiqAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AQAAAA==";
-    const LEVEL_3: &str = "oXd/qToAWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYFSqqqqqqqqqqqqoAAAB4eHh4eHh4eH\
+    const STREAM_OF_LEVEL_3: &str = "oXd/qToAWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYWFhYFSqqqqqqqqqqqqoAAAB4eHh4eHh4eH\
          h4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHh4eHgqBVVVVVVVVVVVVVVVVVVVVVVVVVUAAAAAAPIVtVleIlrQ/PG7\
          Kz1JrngoedOaYB/zxZR/ErcN7ANmO7DYnpuziQBuCmLgdHmr2qw5uy86U/SsFBrffMFt5GQEsXd4SazqHi2hhvYv8B\
          oAw8SzW++YDqUZdlvN3g+AuTozT4TnGNBmgOVN6pv/r09MRQVlIkTmANi2S0yVluHi1NOKbduJPj0LDFVWoaLr7LYA\

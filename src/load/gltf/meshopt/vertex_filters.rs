@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn unit_vectors_of_both_hemispheres() {
+    fn octahedral_filter_decodes_both_hemispheres() {
         let mut bytes = [0, 0, 127, 9, 127, 0, 127, 9, 100, 100, 127, 9];
         octahedral_8(&mut bytes);
         assert_eq!(bytes, [0, 0, 127, 9, 127, 0, 0, 9, 42, 42, (-113_i8) as u8, 9]);
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn quaternions_get_their_largest_component_back() {
+    fn quaternion_filter_restores_the_largest_component() {
         // 1023 represents 1; x = 0.6, and the largest component, number 2, is 0.8.
         let x = (0.6 * std::f32::consts::SQRT_2 * 1023.0).round() as u16;
         let mut bytes = bytes_of([x, 0, 0, 1020 | 2]);
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn floats_and_colours() {
+    fn exponential_and_colour_filters_decode_values() {
         let mut bytes = (0xff00_0003_u32).to_le_bytes();
         exponential(&mut bytes);
         assert_eq!(f32::from_le_bytes(bytes), 1.5);

@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn transforms_multiply_down_the_tree() {
+    fn node_transforms_multiply_down_the_hierarchy() {
         let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[
             {"children":[1],"scale":[2,2,2],"translation":[1,0,0]},
             {"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 0,3,0,1]}, {}]}"#;
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn cycles_are_refused_wherever_they_are() {
+    fn node_cycles_are_refused() {
         let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[{},{"children":[2]},{"children":[1]}]}"#;
         assert!(hierarchy(json).unwrap_err().to_string().contains("cycle"));
         let json = r#"{"nodes":[{"children":[0]}]}"#;
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn scenes_are_chosen() {
+    fn the_default_or_first_scene_is_shown() {
         let nodes = r#""nodes":[{"children":[2]},{},{}]"#;
         let shown = |head: &str| hierarchy(&format!("{{{head}{nodes}}}")).unwrap().0.shown;
         assert_eq!(shown(""), [0, 2, 1]);
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_nodes_are_drawn_with_a_warning() {
+    fn malformed_nodes_are_shown_with_a_warning_and_invisible_ones_hidden() {
         let json = r#"{"nodes":[{"rotation":[0,0,0,0]},{"children":[3]},{"children":[3,3]},{}]}"#;
         let (hierarchy, warnings) = hierarchy(json).unwrap();
         assert_eq!(hierarchy.shown, [0, 1, 3, 2]);

@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn references_and_numbers_become_products() {
+    fn node_references_and_numbers_become_product_names() {
         let named = names("Open CASCADE Technology 8.0 [dev.opencascade.org]");
         let wanted = [
             "frame", "lid", "lid", "bolt M6", "12", "lid", "lid", "bolt M6", "=>[a]", "=>[0:1]", "=>[0:2]",
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_other_programs_keep_their_names() {
+    fn node_names_of_other_programs_are_kept() {
         assert_eq!(names("Blender")[2], "=>[0:1:1:3]");
         assert_eq!(names("Blender")[3], "NAUO7");
     }

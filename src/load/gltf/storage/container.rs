@@ -113,21 +113,21 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
 mod tests {
     use super::*;
 
-    fn refused(bytes: &[u8]) -> String {
+    fn split_error(bytes: &[u8]) -> String {
         split(bytes, &mut Warnings::default()).map(|_| ()).unwrap_err().to_string()
     }
 
     #[test]
-    fn strangers_are_named() {
-        assert!(refused(b"").contains("nothing to draw"));
-        assert!(refused(b"version https://git-lfs.github.com/spec/v1").contains("Git LFS"));
-        assert!(refused(b" <!DOCTYPE html>").contains("HTML"));
-        assert!(refused(b"PK\x03\x04....").contains("archive"));
-        assert!(refused(b"\x89PNG").contains("neither GLB"));
+    fn files_that_are_not_glb_are_named_in_the_error() {
+        assert!(split_error(b"").contains("nothing to draw"));
+        assert!(split_error(b"version https://git-lfs.github.com/spec/v1").contains("Git LFS"));
+        assert!(split_error(b" <!DOCTYPE html>").contains("HTML"));
+        assert!(split_error(b"PK\x03\x04....").contains("archive"));
+        assert!(split_error(b"\x89PNG").contains("neither GLB"));
     }
 
     #[test]
-    fn chunks_are_found_and_checked() {
+    fn glb_chunks_are_found_and_checked() {
         let mut glb = b"glTF\x02\0\0\0\x1e\0\0\0\x02\0\0\0JSON{}\0\0\0\0BIN\0".to_vec();
         let mut warnings = Warnings::default();
         let parts = split(&glb, &mut warnings).unwrap();
@@ -136,8 +136,8 @@ mod tests {
         glb.push(0);
         assert!(split(&glb, &mut warnings).is_ok());
         assert_eq!(warnings.lines(), ["1 bytes after the end of the GLB data"]);
-        assert!(refused(&glb[..20]).contains("promises"));
+        assert!(split_error(&glb[..20]).contains("promises"));
         glb[4] = 1;
-        assert!(refused(&glb).contains("version 1"));
+        assert!(split_error(&glb).contains("version 1"));
     }
 }

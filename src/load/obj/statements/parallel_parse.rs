@@ -253,7 +253,7 @@ mod tests {
     }
 
     /// Debug text of everything in a text, or the error.
-    fn said(text: &[u8], block: usize) -> String {
+    fn parsed_debug_text(text: &[u8], block: usize) -> String {
         parsed(text, block).map_or_else(
             |error| error,
             |s| {
@@ -264,7 +264,7 @@ mod tests {
         )
     }
 
-    fn lines(odd: &[&str]) -> String {
+    fn sample_text(odd: &[&str]) -> String {
         let mut text = String::new();
         for k in 0..600_i32 {
             let _ = writeln!(text, "v {} {}.5 -{}", k % 13, k % 7, k);
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_ahead_is_what_is_read_in_turn() {
+    fn parallel_parse_matches_sequential_parsing() {
         let odd = [
             "# v 1 2 3\n",
             "o one\n",
@@ -301,7 +301,7 @@ mod tests {
             "v 1 2 3\rf 1 2 3\r",
             "mtllib a.mtl\n",
         ];
-        let plain = lines(&[]);
+        let plain = sample_text(&[]);
         let mut faces = plain.clone();
         for k in 1..300 {
             let _ = writeln!(faces, "vn 0 {k} 1\nvn 1 0 {k}\nvt 0.{k} 1\nvt {k} 1 0\nvt 1  2");
@@ -311,20 +311,20 @@ mod tests {
             let _ = writeln!(faces, "f {k}/{k}/1 {}/1/2 9/2/ 8/0/2 \nf 1/1/1 2// 3/-1/1\nf 1 2 3 4", k + 1);
             let _ = writeln!(faces, "f 9 8\nf 1 2 3 4 5\nf {k} 2 3\r\nf  4  {k}  6 ");
         }
-        let mixed = lines(&odd);
+        let mixed = sample_text(&odd);
         let odd_ends = ["f 1/1 2/2 /3", "f 1 2 0 4", "f 1/1 2/2 9999/1", "f 1 2 9999", "f 1 2 x", "f 1 2 3"];
         let ended = odd_ends.map(|line| format!("{faces}{line}"));
         let going_on = odd_ends.map(|line| format!("{plain}{line}\n{plain}"));
         for text in [&plain, &mixed, &faces].into_iter().chain(&ended).chain(&going_on) {
-            let wanted = said(text.as_bytes(), 0);
+            let wanted = parsed_debug_text(text.as_bytes(), 0);
             for block in [1, 40, 300, 5000, 1 << 20] {
-                assert_eq!(said(text.as_bytes(), block), wanted, "blocks of {block}");
+                assert_eq!(parsed_debug_text(text.as_bytes(), block), wanted, "blocks of {block}");
             }
         }
     }
 
     #[test]
-    fn runs_are_whole_and_others_are_left() {
+    fn parallel_parse_finds_whole_runs_of_vertices_and_faces() {
         let text = b"v 1 2 3\nv 4 5 6\n\nf 1 2 3\n# f 1 2 3\nf 3 2 1\nf 0 1 2\nf 1 2 3\n";
         let found = runs(text, 0, text.len());
         let ends: Vec<[usize; 2]> = found.iter().map(|run| [run.start, run.end]).collect();

@@ -3,13 +3,13 @@
 
 use super::*;
 
-fn cut(points: &[DVec3]) -> Vec<[u32; 3]> {
+fn sound_triangulation(points: &[DVec3]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::new();
     assert_eq!(triangulate(points, &mut triangles), CutOutcome::Sound);
     triangles
 }
 
-fn flat(points: &[(f64, f64)]) -> Vec<DVec3> {
+fn points_in_plane(points: &[(f64, f64)]) -> Vec<DVec3> {
     points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()
 }
 
@@ -23,42 +23,42 @@ fn areas(points: &[DVec3], triangles: &[[u32; 3]]) -> (f64, f64) {
 }
 
 #[test]
-fn quads_are_cut_where_they_are_convex() {
-    let square = flat(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
-    assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
-    let dart = flat(&[(0.0, 0.0), (2.0, -1.0), (0.5, 0.0), (2.0, 1.0)]);
-    assert_eq!(cut(&dart), [[0, 1, 2], [0, 2, 3]]);
-    let turned = flat(&[(2.0, -1.0), (0.5, 0.0), (2.0, 1.0), (0.0, 0.0)]);
-    assert_eq!(cut(&turned), [[0, 1, 3], [1, 2, 3]]);
+fn triangulate_splits_quads_along_an_inner_diagonal() {
+    let square = points_in_plane(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+    assert_eq!(sound_triangulation(&square), [[0, 1, 2], [0, 2, 3]]);
+    let dart = points_in_plane(&[(0.0, 0.0), (2.0, -1.0), (0.5, 0.0), (2.0, 1.0)]);
+    assert_eq!(sound_triangulation(&dart), [[0, 1, 2], [0, 2, 3]]);
+    let turned = points_in_plane(&[(2.0, -1.0), (0.5, 0.0), (2.0, 1.0), (0.0, 0.0)]);
+    assert_eq!(sound_triangulation(&turned), [[0, 1, 3], [1, 2, 3]]);
 }
 
 #[test]
-fn convex_polygons_are_fanned() {
-    let pentagon = flat(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (1.0, 2.0), (-1.0, 1.0)]);
-    assert_eq!(cut(&pentagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+fn triangulate_fans_convex_polygons() {
+    let pentagon = points_in_plane(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (1.0, 2.0), (-1.0, 1.0)]);
+    assert_eq!(sound_triangulation(&pentagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
 }
 
 #[test]
-fn concave_polygons_lose_their_first_ears() {
-    let ell = flat(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]);
-    assert_eq!(cut(&ell), [[0, 1, 2], [0, 2, 3], [5, 0, 3], [3, 4, 5]]);
-    let (sum, least) = areas(&ell, &cut(&ell));
+fn triangulate_clips_the_first_ears_of_concave_polygons() {
+    let ell = points_in_plane(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]);
+    assert_eq!(sound_triangulation(&ell), [[0, 1, 2], [0, 2, 3], [5, 0, 3], [3, 4, 5]]);
+    let (sum, least) = areas(&ell, &sound_triangulation(&ell));
     assert!((sum - 3.0).abs() < 1e-12 && least >= 0.0);
 }
 
 #[test]
-fn a_bridged_hole_stays_open() {
+fn triangulate_leaves_a_bridged_hole_open() {
     let outer = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0)];
     let inner = [(1.0, 1.0), (1.0, 3.0), (3.0, 3.0), (3.0, 1.0), (1.0, 1.0)];
-    let ring = flat(&[outer, inner].concat());
-    let (sum, least) = areas(&ring, &cut(&ring));
+    let ring = points_in_plane(&[outer, inner].concat());
+    let (sum, least) = areas(&ring, &sound_triangulation(&ring));
     assert!((sum - 12.0).abs() < 1e-12 && least >= 0.0);
 }
 
 #[test]
-fn any_side_and_any_plane_serve() {
+fn triangulate_works_in_any_plane_and_orientation() {
     let ell = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
-    let wanted = cut(&flat(&ell));
+    let wanted = sound_triangulation(&points_in_plane(&ell));
     for place in [
         |x: f64, y: f64| DVec3::new(5.0, x, y),
         |x: f64, y: f64| DVec3::new(y, 5.0, x),
@@ -66,7 +66,7 @@ fn any_side_and_any_plane_serve() {
         |x: f64, y: f64| DVec3::new(x, y, x + y),
     ] {
         let points: Vec<_> = ell.iter().map(|&(x, y)| place(x, y)).collect();
-        assert_eq!(cut(&points), wanted);
+        assert_eq!(sound_triangulation(&points), wanted);
     }
 }
 
@@ -99,7 +99,7 @@ fn slow_ears(p: &[DVec2]) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn the_quick_way_gives_the_ears_of_the_slow_way() {
+fn ear_clipping_matches_a_slow_reference() {
     let mut state = 7_u64;
     for round in 0..300 {
         let n = 5 + round % 40;
@@ -123,7 +123,7 @@ fn the_quick_way_gives_the_ears_of_the_slow_way() {
 }
 
 #[test]
-fn huge_polygons_take_no_time() {
+fn triangulate_handles_huge_polygons_quickly() {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let points: Vec<_> = (0..60_000).map(|i| corners[i % 3]).collect();
     let mut triangles = Vec::new();
@@ -135,21 +135,22 @@ fn huge_polygons_take_no_time() {
     assert_eq!(triangles.len(), jagged.len() - 2);
     // Repeated corners do not count.
     let ell = [(2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0)];
-    let repeated: Vec<_> = flat(&ell).into_iter().flat_map(|p| std::iter::repeat_n(p, 9_000)).collect();
-    assert_eq!(cut(&repeated).len(), 4);
+    let repeated: Vec<_> =
+        points_in_plane(&ell).into_iter().flat_map(|p| std::iter::repeat_n(p, 9_000)).collect();
+    assert_eq!(sound_triangulation(&repeated).len(), 4);
     // A comb has few ears at a time, all of them late in the order.
     let comb = |n: usize| -> Vec<DVec3> {
         let teeth = (0..n).map(|i| DVec3::new(i as f64, if i % 2 == 0 { 0.0 } else { 9.0 }, 0.0));
         teeth.rev().chain([DVec3::new(0.0, -1.0, 0.0), DVec3::new(n as f64, -1.0, 0.0)]).collect()
     };
     let points = comb(4000);
-    let triangles = cut(&points);
+    let triangles = sound_triangulation(&points);
     assert_eq!(triangles.len(), points.len() - 2);
     assert!(areas(&points, &triangles).1 >= 0.0);
 }
 
 #[test]
-fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
+fn collinear_corners_give_no_degenerate_triangles() {
     // Triangles, quads and a concave polygon, with corners in the middle of their sides.
     let shapes: [&[(f64, f64)]; 3] = [
         &[(0.0, 0.0), (3.0, 0.1), (1.0, 2.0)],
@@ -184,7 +185,7 @@ fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
         let points: Vec<DVec3> = (0..12)
             .map(|k| DVec3::new(at(k).0 * cos - at(k).1 * sin, at(k).0 * sin + at(k).1 * cos, 0.0))
             .collect();
-        let triangles = cut(&points);
+        let triangles = sound_triangulation(&points);
         let least = triangles.iter().map(|t| {
             let [a, b, c] = t.map(|k| points[k as usize]);
             (b - a).cross(c - a).z
@@ -203,7 +204,7 @@ fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
                 }
             }
             let points: Vec<DVec3> = points.iter().map(|p| p.extend(0.0)).collect();
-            let triangles = cut(&points);
+            let triangles = sound_triangulation(&points);
             assert_eq!(triangles.len(), points.len() - 2);
             let least = triangles.iter().map(|t| {
                 let [a, b, c] = t.map(|k| points[k as usize]);
@@ -216,7 +217,7 @@ fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
 }
 
 #[test]
-fn polygons_without_area_are_fanned() {
+fn triangulate_fans_polygons_without_area() {
     let line: Vec<_> = (0..5).map(|i| DVec3::splat(f64::from(i))).collect();
-    assert_eq!(cut(&line), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+    assert_eq!(sound_triangulation(&line), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
 }

@@ -245,7 +245,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn morton_numbers_take_bits_in_turn() {
+    fn morton_codes_interleave_the_bits_of_four_axes() {
         assert_eq!(spread(0xffff), 0x1111_1111_1111_1111);
         for bit in 0..16 {
             assert_eq!(spread(1 << bit), 1 << (4 * bit));
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn finds_what_asking_every_box_finds_and_little_more() {
+    fn dual_boxes_find_all_items_near_a_plane_but_not_everything() {
         // Points on a lattice, some extended to boxes across the borders of cubes.
         let mut items = Vec::new();
         for id in 0..4000_u32 {
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn no_items_no_cubes() {
+    fn empty_dual_boxes_have_no_cubes() {
         let tree = DualBoxes::new(Vec::new());
         assert_eq!((tree.cubes(), tree.find(DVec4::ONE, -1.0, 1.0)), (0, DualCandidates::default()));
     }

@@ -133,14 +133,14 @@ mod tests {
     use crate::mesh::Soup;
 
     /// Point in the cube from -1 to 1.
-    fn point(n: u32) -> DVec3 {
+    fn random_point(n: u32) -> DVec3 {
         let part = |axis: u64| hash(axis, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
         DVec3::new(part(0), part(1), part(2))
     }
 
     /// Triangles of a size in a cube, and one that covers all of it.
     fn mesh(count: u32, size: f64) -> Mesh {
-        let corner = |k: u32| point(k / 3 + 1000) + size * point(k + 5000);
+        let corner = |k: u32| random_point(k / 3 + 1000) + size * random_point(k + 5000);
         let mut positions: Vec<DVec3> = (0..3 * count).map(corner).collect();
         positions.extend([
             DVec3::new(-9.0, -9.0, 0.9),
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_are_blocked_as_when_every_triangle_is_asked() {
+    fn parallel_rays_match_brute_force_over_all_triangles() {
         // Many small triangles; few; needles; and large ones that force the use of the tree.
         for (count, size, rays) in
             [(600, 0.1, 800), (7, 0.5, 90), (300, 0.02, 800), (2500, 3.0, 1500), (3, 0.1, 1), (3, 0.1, 0)]
@@ -161,13 +161,13 @@ mod tests {
             let (parallel, tree) = (ParallelRays::new(&mesh), RayTree::new(&mesh));
             let starts: Vec<RayStart> = (0..rays)
                 .map(|n| RayStart {
-                    point: point(n + 20_000),
+                    point: random_point(n + 20_000),
                     reach: [0.3, 9.0, f64::INFINITY][n as usize % 3],
                 })
                 .collect();
             let mut met = 0;
             for n in 0..12 {
-                let direction = if n == 0 { DVec3::Z } else { point(n + 30_000).normalize() };
+                let direction = if n == 0 { DVec3::Z } else { random_point(n + 30_000).normalize() };
                 let found = parallel.blocked(&starts, direction, Some(&tree)).expect("an answer");
                 for (ray, found) in starts.iter().zip(found) {
                     let wanted = (0..mesh.triangles.len() as u32).any(|face| {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_in_a_line_and_at_one_place_are_asked() {
+    fn parallel_rays_with_collinear_or_equal_starts_match_the_ray_tree() {
         let mesh = mesh(200, 0.3);
         let parallel = ParallelRays::new(&mesh);
         for step in [DVec3::ZERO, DVec3::X * 0.01, DVec3::Z * 0.01] {

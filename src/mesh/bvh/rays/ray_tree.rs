@@ -232,28 +232,28 @@ mod tests {
     use crate::mesh::Soup;
 
     /// Pseudo-random number from -1 to 1.
-    fn chance(n: u32) -> f64 {
+    fn random_signed_unit(n: u32) -> f64 {
         let mut x = n.wrapping_mul(0x9e37_79b9) ^ 0x85eb_ca6b;
         x = (x ^ x >> 15).wrapping_mul(0x2c1b_3c6d);
         x = (x ^ x >> 12).wrapping_mul(0x297a_2d39);
         f64::from(x ^ x >> 15) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 
-    fn point(n: u32) -> DVec3 {
-        DVec3::new(chance(3 * n), chance(3 * n + 1), chance(3 * n + 2))
+    fn random_point(n: u32) -> DVec3 {
+        DVec3::new(random_signed_unit(3 * n), random_signed_unit(3 * n + 1), random_signed_unit(3 * n + 2))
     }
 
     #[test]
-    fn rays_meet_what_they_meet_when_every_triangle_is_asked() {
+    fn ray_tree_matches_brute_force_over_all_triangles() {
         for count in [0, 1, 7, 9, 64, 65, 700] {
             let positions: Vec<DVec3> =
-                (0..3 * count).map(|k| point(k / 3 + 1000) + 0.2 * point(k + 5000)).collect();
+                (0..3 * count).map(|k| random_point(k / 3 + 1000) + 0.2 * random_point(k + 5000)).collect();
             let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
             let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
             let tree = RayTree::new(&mesh);
             let mut blocked = 0;
             for n in 0..600 {
-                let (start, direction) = (point(n + 20_000), point(n + 30_000));
+                let (start, direction) = (random_point(n + 20_000), random_point(n + 30_000));
                 let direction = if n % 50 == 0 { DVec3::X } else { direction };
                 for reach in [0.3, 9.0, f64::INFINITY] {
                     let all = (0..mesh.triangles.len() as u32)

@@ -28,14 +28,14 @@ fn ball(soup: &mut Soup, middle: DVec3, radius: f64) {
     }
 }
 
-fn turned(mut soup: Soup, mut turns: impl FnMut(usize) -> bool) -> Soup {
+fn with_turned_faces(mut soup: Soup, mut turns: impl FnMut(usize) -> bool) -> Soup {
     let turned: Vec<bool> = (0..soup.triangles.len()).map(&mut turns).collect();
     turn_faces(&mut soup, &turned);
     soup
 }
 
 /// All contents of a mesh that affect a drawing.
-fn bits(mesh: &Mesh) -> String {
+fn mesh_contents(mesh: &Mesh) -> String {
     let Mesh { positions, triangles, face_normals, corner_uvs, corner_colours, edge_marks, edges, .. } = mesh;
     let edges: Vec<_> = (0..edges.len()).map(|e| (edges.vertices[e], edges.faces(e))).collect();
     let normals: Vec<_> = face_normals.iter().map(|n| n.map(|x| x + 0.0)).collect();
@@ -45,7 +45,7 @@ fn bits(mesh: &Mesh) -> String {
 }
 
 #[test]
-fn closed_surfaces_are_the_same_mesh_however_they_are_wound() {
+fn orientation_of_closed_surfaces_does_not_depend_on_the_winding() {
     let mut dice = Dice::new(11);
     let mut soup = Soup::default();
     for (k, radius) in [(0.0, 1.0), (3.0, 1.2), (3.1, 0.4)] {
@@ -59,27 +59,27 @@ fn closed_surfaces_are_the_same_mesh_however_they_are_wound() {
     soup.edge_marks = vec![[EdgeMark::Unmarked, EdgeMark::Hidden, EdgeMark::Hard]; count];
     let right = Mesh::build(soup.clone());
     assert!(right.turned.is_empty());
-    let all = Mesh::build(turned(soup.clone(), |_| true));
-    assert_eq!(bits(&all), bits(&right));
+    let all = Mesh::build(with_turned_faces(soup.clone(), |_| true));
+    assert_eq!(mesh_contents(&all), mesh_contents(&right));
     let counts = |mesh: &Mesh| -> Vec<(u32, u64, u64)> {
         mesh.turned.iter().map(|own| (own.part.0, own.faces, own.surfaces)).collect()
     };
     let each = count as u64 / 3;
     assert_eq!(counts(&all), [(0, each, 1), (1, each, 1), (2, each, 1)]);
-    let one = Mesh::build(turned(soup.clone(), |face| 3 * face / count == 1));
-    assert_eq!(bits(&one), bits(&right));
+    let one = Mesh::build(with_turned_faces(soup.clone(), |face| 3 * face / count == 1));
+    assert_eq!(mesh_contents(&one), mesh_contents(&right));
     assert_eq!(counts(&one), [(1, each, 1)]);
     for _ in 0..20 {
         let flags: Vec<bool> = (0..count).map(|_| dice.below(2) == 1).collect();
-        let some = Mesh::build(turned(soup.clone(), |face| flags[face]));
-        assert_eq!(bits(&some), bits(&right));
+        let some = Mesh::build(with_turned_faces(soup.clone(), |face| flags[face]));
+        assert_eq!(mesh_contents(&some), mesh_contents(&right));
         let number = flags.iter().filter(|flag| **flag).count() as u64;
         assert_eq!(some.turned.iter().map(|own| own.faces).sum::<u64>(), number);
     }
 }
 
 /// Cosines between the face normals and the directions from the middle.
-fn outward(mesh: &Mesh) -> Vec<f64> {
+fn outward_cosines(mesh: &Mesh) -> Vec<f64> {
     let faces = (0..mesh.triangles.len() as u32).map(FaceId);
     let of = |face: FaceId| {
         let [a, b, c] = mesh.corners(face);
@@ -89,7 +89,7 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
 }
 
 #[test]
-fn open_surfaces_that_enclose_a_volume_show_their_outside() {
+fn open_surfaces_around_a_volume_are_oriented_outward() {
     let mut soup = Soup::default();
     ball(&mut soup, DVec3::ZERO, 1.0);
     // Three quarters of a sphere, and half of one.
@@ -97,15 +97,15 @@ fn open_surfaces_that_enclose_a_volume_show_their_outside() {
         let mut open = soup.clone();
         open.triangles.retain(|t| t.iter().all(|v| soup.positions[*v as usize].z > least - 1e-9));
         for flip in [false, true] {
-            let mesh = Mesh::build(turned(open.clone(), |_| flip));
-            assert!(outward(&mesh).iter().all(|cosine| *cosine > 0.0));
+            let mesh = Mesh::build(with_turned_faces(open.clone(), |_| flip));
+            assert!(outward_cosines(&mesh).iter().all(|cosine| *cosine > 0.0));
             assert_eq!(!mesh.turned.is_empty(), flip);
         }
     }
 }
 
 #[test]
-fn sheets_without_an_outside_keep_the_winding_of_most() {
+fn sheets_are_oriented_by_the_majority_of_their_faces() {
     let positions = (0..24).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), 0.0)).collect();
     let mut soup = Soup { positions, ..Soup::default() };
     for k in 0..11 {
@@ -113,14 +113,14 @@ fn sheets_without_an_outside_keep_the_winding_of_most() {
         soup.triangles.extend([[a, a + 2, a + 1], [a + 1, a + 2, a + 3]]);
     }
     for flip in [false, true] {
-        let mesh = Mesh::build(turned(soup.clone(), |face| (face == 7) != flip));
+        let mesh = Mesh::build(with_turned_faces(soup.clone(), |face| (face == 7) != flip));
         assert!(mesh.face_normals.iter().all(|n| (n[2] > 0.0) != flip));
         assert_eq!(mesh.turned.iter().map(|own| own.faces).collect::<Vec<_>>(), [1]);
     }
 }
 
 #[test]
-fn strips_with_one_side_stay_as_they_are() {
+fn moebius_strips_keep_their_winding() {
     let point = |k: u32| {
         let turn = f64::from(k / 2 % 9) / 9.0 * std::f64::consts::TAU;
         let half = turn / 2.0 + if k >= 18 { std::f64::consts::PI } else { 0.0 };
@@ -141,7 +141,7 @@ fn strips_with_one_side_stay_as_they_are() {
 }
 
 #[test]
-fn solids_that_share_an_edge_are_closed_each_on_its_own() {
+fn solids_that_share_an_edge_are_oriented_separately() {
     let mut soup = Soup::default();
     for shift in [0.0, 1.0] {
         let first = soup.positions.len() as u32;
@@ -155,6 +155,6 @@ fn solids_that_share_an_edge_are_closed_each_on_its_own() {
     }
     let right = Mesh::build(soup.clone());
     assert!(right.turned.is_empty() && right.cleaning.non_manifold == 1);
-    let other = Mesh::build(turned(soup.clone(), |face| face < 12));
-    assert_eq!((bits(&other), other.turned[0].faces), (bits(&right), 12));
+    let other = Mesh::build(with_turned_faces(soup.clone(), |face| face < 12));
+    assert_eq!((mesh_contents(&other), other.turned[0].faces), (mesh_contents(&right), 12));
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::geometry::dice::Dice;
 
 #[test]
-fn what_is_told_before_exact_signs_is_what_they_say() {
+fn early_rejections_of_triangle_pairs_agree_with_exact_signs() {
     let mut dice = Dice::new(1);
     let (mut early, mut exact) = (0, 0);
     for k in 0..20_000 {

@@ -30,7 +30,7 @@ fn soup() -> Soup {
 }
 
 /// All contents of a soup, with ids replaced by values.
-fn values(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
+fn soup_contents(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
     let normals = soup.corner_normals.iter().map(|t| t.map(|id| soup.normals.get(id as usize).copied()));
     let uvs = soup.corner_uvs.iter().map(|t| t.map(|id| soup.uvs.get(id as usize).copied()));
     (
@@ -44,7 +44,7 @@ fn values(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
 }
 
 #[test]
-fn runs_are_changed_whole_in_pieces_of_many() {
+fn for_each_run_processes_whole_runs_in_parallel() {
     // Runs shorter and longer than a task.
     let mut items: Vec<(usize, usize)> = (0..5 * MIN_ITEMS_PER_TASK)
         .map(|k| (k * k / (3 * MIN_ITEMS_PER_TASK * MIN_ITEMS_PER_TASK), (k * 7919) % 10_007))
@@ -56,7 +56,7 @@ fn runs_are_changed_whole_in_pieces_of_many() {
 }
 
 #[test]
-fn faces_go_by_material_and_begin_with_their_first_corner() {
+fn canonical_order_sorts_faces_by_material_and_first_corner() {
     let mut soup = soup();
     assert_eq!(sort_by_position(&mut soup, 1.0), 0);
     // Order along the curve: 0 0, then 1 0, then 0 1, then 1 1.
@@ -68,7 +68,7 @@ fn faces_go_by_material_and_begin_with_their_first_corner() {
 }
 
 #[test]
-fn numbering_leaves_no_trace() {
+fn canonical_order_does_not_depend_on_the_file_numbering() {
     let mut first = soup();
     sort_by_position(&mut first, 1.0);
     // Other ids, rotated faces, zeros of other sign, a duplicate vertex, and an unused one at an existing
@@ -88,11 +88,11 @@ fn numbering_leaves_no_trace() {
     second.wires[0].vertices = [0, 1];
     second.wires[1].vertices = [3, 2];
     assert_eq!(sort_by_position(&mut second, 1.0), 1);
-    assert_eq!(values(&first), values(&second));
+    assert_eq!(soup_contents(&first), soup_contents(&second));
 }
 
 #[test]
-fn equal_places_become_one() {
+fn sort_by_position_merges_vertices_at_equal_positions() {
     let near = DVec3::new(0.5, 0.5, 0.5 + 1e-15);
     let mut soup = Soup {
         positions: vec![near, DVec3::splat(0.5), DVec3::X, near, DVec3::splat(0.5)],
@@ -106,7 +106,7 @@ fn equal_places_become_one() {
 }
 
 #[test]
-fn faces_with_the_same_corners_go_by_what_else_they_have() {
+fn coincident_faces_are_ordered_by_their_attributes() {
     let twins = |paints: [u32; 2]| {
         let mut soup = Soup {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
@@ -121,7 +121,7 @@ fn faces_with_the_same_corners_go_by_what_else_they_have() {
 }
 
 #[test]
-fn what_is_added_leaves_the_rest_in_order() {
+fn added_vertices_do_not_change_the_order_of_the_others() {
     let order = |far: &[DVec3]| {
         let mut positions: Vec<DVec3> = (0..40)
             .map(|k| DVec3::new(f64::from(k % 7) - 3.0, f64::from(k % 5), f64::from(k)) / 7.0)

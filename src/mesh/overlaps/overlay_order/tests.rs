@@ -17,7 +17,7 @@ fn squares(some: &[([f64; 3], f64, u32, u32)]) -> Soup {
 }
 
 /// For each material the rank of its faces plus one, or 0 where they overlap nothing.
-fn ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
+fn overlay_ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
     let rank = |material: u32| {
         let own = (0..mesh.triangles.len() as u32)
             .filter(|face| mesh.face_material[*face as usize] == MaterialId(material));
@@ -30,10 +30,10 @@ fn ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
 }
 
 #[test]
-fn the_smaller_surface_is_on_top_and_of_equal_ones_the_later() {
+fn overlay_order_puts_smaller_and_later_surfaces_on_top() {
     let wall = ([0.0; 3], 10.0, 0, 0);
     let label = |at: [f64; 3], size, material| (at, size, material, 0);
-    let of = |some: &[_], count| ranks(&Mesh::build(squares(some)), count);
+    let of = |some: &[_], count| overlay_ranks(&Mesh::build(squares(some)), count);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1)], 2), [1, 2]);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1), label([3.0, 4.0, 0.0], 1.0, 2)], 3), [1, 2, 3]);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 10.0, 1)], 2), [1, 2]);
@@ -44,7 +44,7 @@ fn the_smaller_surface_is_on_top_and_of_equal_ones_the_later() {
 }
 
 #[test]
-fn turned_and_rounded_surfaces_overlap_as_they_did() {
+fn overlay_order_survives_rotation_and_rounding() {
     let turn = glam::DMat3::from_axis_angle(DVec3::new(0.3, -0.5, 0.81).normalize(), 0.7);
     for far in [0.0, 700.0] {
         let mut soup = squares(&[
@@ -56,7 +56,7 @@ fn turned_and_rounded_surfaces_overlap_as_they_did() {
             *p = (turn * *p + DVec3::splat(far)).as_vec3().as_dvec3();
         }
         soup.single_precision = true;
-        assert_eq!(ranks(&Mesh::build(soup), 3), [1, 2, 0], "{far}");
+        assert_eq!(overlay_ranks(&Mesh::build(soup), 3), [1, 2, 0], "{far}");
     }
 }
 
@@ -89,10 +89,10 @@ fn pin_in_plate(turn: f64, radius: f64) -> Soup {
 }
 
 #[test]
-fn a_flush_pin_does_not_overlap_its_plate_by_the_slivers_between_their_facets() {
+fn a_flush_pin_does_not_overlap_its_plate() {
     for turn in [0.0, 0.25, 0.5, 0.9] {
-        assert_eq!(ranks(&Mesh::build(pin_in_plate(turn, 4.0)), 2), [0, 0], "{turn}");
+        assert_eq!(overlay_ranks(&Mesh::build(pin_in_plate(turn, 4.0)), 2), [0, 0], "{turn}");
         // A head wider than the hole overlaps the plate.
-        assert_eq!(ranks(&Mesh::build(pin_in_plate(turn, 4.4)), 2), [1, 2], "{turn}");
+        assert_eq!(overlay_ranks(&Mesh::build(pin_in_plate(turn, 4.4)), 2), [1, 2], "{turn}");
     }
 }

@@ -304,7 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_move_along_their_line_and_then_outside() {
+    fn dimension_values_move_along_their_line_and_then_outside() {
         let line = DimensionLine::new(
             [Point::new(0.0, 0.0), Point::new(30.0, 0.0)],
             Vec2::new(1.0, 0.0),

@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shapes_closer_than_their_margins_touch() {
+    fn convex_shapes_touch_within_their_margins() {
         let p = Point::new;
         let text = ConvexShape::rect(Rect::new(0.0, 0.0, 10.0, 4.0));
         for (shape, touches) in [

@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ties_round_away_from_zero() {
+    fn format_decimal_rounds_ties_away_from_zero() {
         for (value, decimals, wanted) in [
             (53.975, 2, "53.98"),
             (9.525, 2, "9.53"),
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_length_that_is_not_0_keeps_a_digit() {
+    fn format_decimal_keeps_a_digit_of_nonzero_lengths() {
         for (value, decimals, wanted) in [
             (0.004, 2, "0.004"),
             (0.004_6, 2, "0.005"),

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn only_rounding_noise_becomes_0() {
+    fn length_precision_rounds_only_noise_to_zero() {
         assert_eq!(rounded(1e-17, 0.3, 0.0), 0.0);
         assert_eq!(rounded(0.004, 0.0, 0.0), 0.004);
         assert_eq!(rounded(1e-6, 900.0, 1e-6), 1e-6);
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn powers_of_ten_are_found() {
+    fn power_above_finds_the_next_power_of_ten() {
         for (number, wanted) in
             [(1e-6, -6), (1.1e-6, -5), (0.1 + 0.2 - 0.2, -1), (1.0, 0), (9.0, 1), (5e-324, -323)]
         {

@@ -287,7 +287,13 @@ mod tests {
 
     /// A stepped wedge with moved corners, rounded to a number of decimals. `flipped` splits its faces along
     /// the other diagonals.
-    fn part(scene: &mut Scene, size: [f64; 3], place: DAffine3, decimals: i32, flipped: bool) -> PartShape {
+    fn wedge_shape(
+        scene: &mut Scene,
+        size: [f64; 3],
+        place: DAffine3,
+        decimals: i32,
+        flipped: bool,
+    ) -> PartShape {
         let [x, y, z] = size;
         let round = |p: f64| {
             let scale = 10.0_f64.powi(decimals);
@@ -319,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_equal_up_to_a_rigid_motion_in_the_precision_of_the_file() {
+    fn part_shapes_are_equal_up_to_rigid_motion_and_file_precision() {
         let mut scene = Scene::default();
         let turn = DAffine3::from_rotation_translation(
             DQuat::from_euler(glam::EulerRot::XYZ, 0.7, 1.9, -2.2),
@@ -329,9 +335,9 @@ mod tests {
         let skew = DAffine3::from_scale(DVec3::new(1.0, 1.002, 1.0));
         let size = [30.0, 20.0, 11.0];
         for decimals in [3, 5, 8] {
-            let own = part(&mut scene, size, DAffine3::IDENTITY, decimals, false);
+            let own = wedge_shape(&mut scene, size, DAffine3::IDENTITY, decimals, false);
             let mut equals = |size, place, flipped| {
-                let other = part(&mut scene, size, place, decimals, flipped);
+                let other = wedge_shape(&mut scene, size, place, decimals, flipped);
                 assert_eq!(own.equals(&other), other.equals(&own));
                 own.equals(&other)
             };
@@ -346,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mirror_image_is_another_shape() {
+    fn mirror_images_are_different_part_shapes() {
         let mut scene = Scene::default();
         let hand = [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 2.0]];
         let mut shape = |sign: f64| {

@@ -25,20 +25,20 @@ mod tests {
     use crate::scene::material::Wrap;
     use crate::scene::textures::texel_plane::texel_borders::BorderIndex;
 
-    fn outline(mask: &OpacityMask, tolerance: f64) -> BorderIndex {
+    fn border_index(mask: &OpacityMask, tolerance: f64) -> BorderIndex {
         BorderIndex::new(&trace_mask_borders(mask).unwrap(), tolerance)
     }
 
-    fn disc(size: usize, radius: f64) -> Vec<u8> {
+    fn round_hole_opacity(size: usize, radius: f64) -> Vec<u8> {
         let middle = (size as f64 - 1.0) / 2.0;
         let at = |k: usize| DVec2::new((k % size) as f64 - middle, (k / size) as f64 - middle).length();
         (0..size * size).map(|k| (127.5 + 255.0 * (at(k) - radius)).clamp(0.0, 255.0) as u8).collect()
     }
 
     #[test]
-    fn a_round_hole_is_round() {
-        let mask = OpacityMask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
-        let outline = outline(&mask, 0.02);
+    fn mask_borders_of_a_round_hole_are_a_circle() {
+        let mask = OpacityMask::of_opacities(64, round_hole_opacity(64, 20.3), Wrap::Repeat);
+        let outline = border_index(&mask, 0.02);
         let middle = DVec2::splat(31.5);
         assert!(outline.segments.len() > 40 && outline.segments.len() < 240, "{}", outline.segments.len());
         for [a, b] in &outline.segments {
@@ -53,28 +53,29 @@ mod tests {
     }
 
     #[test]
-    fn borders_go_on_over_the_seam_or_beyond() {
+    fn mask_borders_follow_the_wrap_mode_across_the_seam() {
         // The left half is opaque.
         let half = |wrap| OpacityMask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
-        let repeated = outline(&half(Wrap::Repeat), 0.1);
+        let repeated = border_index(&half(Wrap::Repeat), 0.1);
         assert_eq!(repeated.segments.len(), 2);
         assert!(repeated.segments.iter().all(|[a, b]| (a.y - b.y).abs() == 4.0));
-        let clamped = outline(&half(Wrap::Clamp), 0.1);
+        let clamped = border_index(&half(Wrap::Clamp), 0.1);
         let far = clamped.near(DVec2::new(0.0, 500.0), DVec2::new(3.0, 600.0)).unwrap();
         assert!(far.iter().all(|[a, b]| a.x == 1.5 && b.x == 1.5) && !far.is_empty());
-        assert_eq!(outline(&half(Wrap::Mirror), 0.1).segments.len(), 2);
+        assert_eq!(border_index(&half(Wrap::Mirror), 0.1).segments.len(), 2);
     }
 
     #[test]
-    fn a_picture_of_one_column_has_borders_along_it() {
+    fn mask_borders_exist_for_a_picture_of_one_column() {
         let mask = OpacityMask::of_opacities(1, vec![0, 0, 255, 255], Wrap::Clamp);
-        let near = outline(&mask, 0.1).near(DVec2::new(-0.3, 0.0), DVec2::new(0.2, 3.0)).unwrap();
+        let near = border_index(&mask, 0.1).near(DVec2::new(-0.3, 0.0), DVec2::new(0.2, 3.0)).unwrap();
         assert!(!near.is_empty() && near.iter().flatten().all(|p| p.y == 1.5));
     }
 
     #[test]
-    fn texture_coordinates_that_run_on_for_ever_are_too_many() {
-        let outline = outline(&OpacityMask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
+    fn mask_borders_over_too_many_repeats_are_refused() {
+        let outline =
+            border_index(&OpacityMask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
         assert!(outline.near(DVec2::new(0.0, 0.0), DVec2::new(9e8, 1e-3)).is_none());
     }
 }

@@ -112,7 +112,7 @@ mod tests {
     use crate::scene::material::Wrap;
 
     #[test]
-    fn pictures_go_on_as_they_are_told() {
+    fn opacity_mask_follows_its_wrap_mode() {
         let texels = |wrap| {
             let mask = OpacityMask::of_opacities(3, vec![0, 100, 200], wrap);
             (-3..6).map(|k| (mask.texel(k, 0) + 127.5) as u8).collect::<Vec<_>>()

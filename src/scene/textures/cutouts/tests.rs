@@ -17,7 +17,7 @@ impl Dice {
 }
 
 /// PNG of white pixels with given opacities.
-fn png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
+fn opacity_png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, (opacity.len() / width) as u32);
     encoder.set_color(png::ColorType::GrayscaleAlpha);
@@ -27,10 +27,10 @@ fn png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
 }
 
 /// Corners of a triangle, their texture coordinates, and its material.
-type Shown = ([u32; 3], [[f32; 2]; 3], u32);
+type TexturedTriangle = ([u32; 3], [[f32; 2]; 3], u32);
 
 /// Scene of triangles in the plane z = 0, with a cut-out material (0) and an opaque one (1).
-fn scene(positions: &[[f64; 2]], triangles: &[Shown], material: Material) -> Scene {
+fn scene(positions: &[[f64; 2]], triangles: &[TexturedTriangle], material: Material) -> Scene {
     let geometry = Geometry {
         positions: positions.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect(),
         triangles: triangles.iter().map(|t| t.0).collect(),
@@ -44,7 +44,7 @@ fn scene(positions: &[[f64; 2]], triangles: &[Shown], material: Material) -> Sce
     Scene { format: "glTF", materials, geometries: vec![geometry], parts: vec![part], ..Scene::default() }
 }
 
-fn masked(picture: Arc<[u8]>, wrap: Wrap) -> Material {
+fn masked_material(picture: Arc<[u8]>, wrap: Wrap) -> Material {
     let alpha = Alpha::Mask { cutoff: 0.5 };
     Material {
         name: "leaf".to_owned(),
@@ -58,19 +58,19 @@ fn masked(picture: Arc<[u8]>, wrap: Wrap) -> Material {
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
 /// Square that shows the whole picture once.
-fn square(material: Material) -> Scene {
+fn square_scene(material: Material) -> Scene {
     let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     scene(&SQUARE, &[([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)], material)
 }
 
-fn disc(size: usize, radius: f64) -> Vec<u8> {
+fn round_hole_opacity(size: usize, radius: f64) -> Vec<u8> {
     let middle = (size as f64 - 1.0) / 2.0;
     let off = |k: usize| DVec2::new((k % size) as f64 - middle, (k / size) as f64 - middle).length() - radius;
     (0..size * size).map(|k| (127.5 + 255.0 * off(k)).clamp(0.0, 255.0) as u8).collect()
 }
 
 /// Ends of the border edges of a scene, and the area of its faces.
-fn borders(scene: &Scene) -> (Vec<[DVec2; 2]>, f64) {
+fn border_edges_and_area(scene: &Scene) -> (Vec<[DVec2; 2]>, f64) {
     let mesh = Mesh::build(scene.to_soup());
     let at = |v: u32| (mesh.origin + mesh.positions[v as usize]).truncate();
     let is_border = |edge: &usize| matches!(mesh.edges.faces(*edge), crate::mesh::EdgeFaces::One { .. });
@@ -84,11 +84,11 @@ fn borders(scene: &Scene) -> (Vec<[DVec2; 2]>, f64) {
 }
 
 #[test]
-fn a_round_hole_in_a_plate_is_a_circle() {
-    let scene = square(masked(png(256, &disc(256, 90.0)), Wrap::Repeat));
+fn cut_out_of_a_round_mask_is_a_circle() {
+    let scene = square_scene(masked_material(opacity_png(256, &round_hole_opacity(256, 90.0)), Wrap::Repeat));
     let CutScene { scene: cut, warnings, .. } = cut_out(&scene);
     assert!(warnings.is_empty());
-    let (edges, area) = borders(&cut);
+    let (edges, area) = border_edges_and_area(&cut);
     let radius = 90.0 / 256.0;
     assert!((area - (1.0 - std::f64::consts::PI * radius * radius)).abs() < 2e-4, "{area}");
     let mut round = 0.0;
@@ -107,7 +107,7 @@ fn a_round_hole_in_a_plate_is_a_circle() {
 }
 
 #[test]
-fn what_is_left_is_what_the_mask_says_point_by_point() {
+fn cut_out_matches_the_opacity_mask_at_sampled_points() {
     let mut dice = Dice(3);
     for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
         for _ in 0..12 {
@@ -117,7 +117,7 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
             let uvs = [uv(), uv(), uv(), uv()];
             let triangles =
                 [([0, 1, 2], [uvs[0], uvs[1], uvs[2]], 0), ([0, 2, 3], [uvs[0], uvs[2], uvs[3]], 0)];
-            let material = masked(png(width, &opacity), wrap);
+            let material = masked_material(opacity_png(width, &opacity), wrap);
             let scene = scene(&SQUARE, &triangles, material);
             let Ok(CutExtent::Where(mask)) = CutExtent::of(&scene, &scene.materials[0]) else {
                 panic!("a mask")
@@ -152,8 +152,8 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
 }
 
 #[test]
-fn neighbours_meet_whatever_they_show() {
-    let opacity = disc(64, 30.0);
+fn cut_out_leaves_no_seam_between_neighbours() {
+    let opacity = round_hole_opacity(64, 30.0);
     // The second triangle shows the picture rotated, is opaque, or shows nothing of it.
     for (uvs, material) in [
         ([[1.0, 1.0], [0.0, 0.0], [1.0, 0.0]], 0),
@@ -162,11 +162,11 @@ fn neighbours_meet_whatever_they_show() {
     ] {
         let first = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
         let triangles = [([0, 1, 2], first, 0), ([0, 2, 3], uvs, material)];
-        let scene = scene(&SQUARE, &triangles, masked(png(64, &opacity), Wrap::Repeat));
+        let scene = scene(&SQUARE, &triangles, masked_material(opacity_png(64, &opacity), Wrap::Repeat));
         let CutScene { scene: cut, .. } = cut_out(&scene);
         // The diagonal is a border where one side is transparent; there the other side is complete.
         let on_diagonal = |[a, b]: &[DVec2; 2]| a.x == a.y && b.x == b.y;
-        let (edges, _) = borders(&cut);
+        let (edges, _) = border_edges_and_area(&cut);
         let length: f64 = edges.iter().filter(|e| on_diagonal(e)).map(|[a, b]| a.distance(*b)).sum();
         let clear = if material == 0 && uvs[0] == [1.0, 1.0] { 0.0 } else { 60.0 / 64.0 };
         assert!((length - clear).abs() < 0.01, "{length} of {clear}");
@@ -174,8 +174,8 @@ fn neighbours_meet_whatever_they_show() {
 }
 
 #[test]
-fn what_corners_have_is_blended() {
-    let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
+fn cut_out_interpolates_corner_attributes() {
+    let mut scene = square_scene(masked_material(opacity_png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
     let geometry = &mut scene.geometries[0];
     geometry.colours = vec![[0.0; 4], [1.0; 4], [1.0; 4], [0.0; 4]];
     geometry.normals = vec![[0.0, 0.0, 1.0]];
@@ -194,59 +194,61 @@ fn what_corners_have_is_blended() {
     );
     assert!(cut.corner_normals.as_flattened().iter().all(|n| cut.normals[*n as usize] == [0.0, 0.0, 1.0]));
     assert!(
-        borders(&scene).1 == 1.0
-            && (borders(&Scene { geometries: vec![cut.clone()], ..scene.clone() }).1 - 0.5).abs() < 1e-9
+        border_edges_and_area(&scene).1 == 1.0
+            && (border_edges_and_area(&Scene { geometries: vec![cut.clone()], ..scene.clone() }).1 - 0.5)
+                .abs()
+                < 1e-9
     );
 }
 
 #[test]
-fn materials_say_what_is_cut() {
+fn cut_out_depends_on_alpha_mode_and_cutoff() {
     let faces = |material: Material| {
-        let scene = square(material);
+        let scene = square_scene(material);
         let CutScene { scene: cut, warnings, .. } = cut_out(&scene);
         (cut.geometries[0].triangles.len(), warnings.lines().len())
     };
-    let half = || png(2, &[120, 60]);
+    let half = || opacity_png(2, &[120, 60]);
     let of = |alpha, picture| Material { alpha, picture, ..Material::default() };
     assert_eq!(faces(of(Alpha::Opaque, Some(half()))), (2, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.9 }, Some(half()))), (0, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.1 }, Some(half()))), (2, 0));
     // Dirty glass, and a leaf.
-    assert_eq!(faces(of(Alpha::Blend, Some(png(2, &[120, 20])))), (2, 0));
-    assert!(faces(of(Alpha::Blend, Some(png(2, &[120, 0])))).0 > 2);
+    assert_eq!(faces(of(Alpha::Blend, Some(opacity_png(2, &[120, 20])))), (2, 0));
+    assert!(faces(of(Alpha::Blend, Some(opacity_png(2, &[120, 0])))).0 > 2);
     let clear = crate::colour::srgb::Colour { a: 0, ..Material::default().colour };
     assert_eq!(faces(Material { colour: clear, ..of(Alpha::Blend, None) }), (0, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.5 }, Some(Arc::from(&b"no picture"[..])))), (2, 1));
 }
 
 #[test]
-fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
+fn cut_out_leaves_noisy_masks_and_invalid_indices_uncut() {
     let noise: Vec<u8> = (0..128 * 128).map(|k| if (k + k / 128) % 2 == 0 { 255 } else { 0 }).collect();
     // Each triangle shows the picture eight hundred times.
     let [a, b, c] = [[0.0, 0.0], [40.0, 0.0], [40.0, 40.0]];
     let triangles = vec![([0, 1, 2], [a, b, c], 0); 4];
-    let noisy = scene(&SQUARE, &triangles, masked(png(128, &noise), Wrap::Repeat));
+    let noisy = scene(&SQUARE, &triangles, masked_material(opacity_png(128, &noise), Wrap::Repeat));
     let CutScene { scene: whole, warnings, .. } = cut_out(&noisy);
     assert_eq!(whole.geometries[0].triangles.len(), 4);
     assert!(warnings.lines()[0].contains("too much"), "{:?}", warnings.lines());
     // A hand-made scene may have indices that are out of range.
-    let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
+    let mut scene = square_scene(masked_material(opacity_png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
     scene.geometries[0].triangles[1][2] = 99;
     assert_eq!(cut_out(&scene).scene.geometries[0].triangles.len(), 2);
 }
 
 #[test]
-fn where_there_is_much_borders_lie_a_px_off_at_most() {
+fn cut_out_borders_of_dense_masks_are_within_about_a_pixel() {
     // Sixteen round holes.
     const RADIUS: f64 = 20.3;
-    let hole = disc(64, RADIUS);
+    let hole = round_hole_opacity(64, RADIUS);
     let holes: Vec<u8> = (0..256 * 256).map(|k| hole[k / 256 % 64 * 64 + k % 64]).collect();
     // Number of border segments and their error, for a square that shows the picture `times` times along each
     // side.
     let found = |times: f32| {
         let [a, b, c, d] = SQUARE.map(|at| at.map(|x| x as f32 * times));
         let triangles = [([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)];
-        let scene = scene(&SQUARE, &triangles, masked(png(256, &holes), Wrap::Repeat));
+        let scene = scene(&SQUARE, &triangles, masked_material(opacity_png(256, &holes), Wrap::Repeat));
         let Ok(CutExtent::Where(mask)) = CutExtent::of(&scene, &scene.materials[0]) else {
             panic!("no mask")
         };
@@ -268,8 +270,8 @@ fn where_there_is_much_borders_lie_a_px_off_at_most() {
 }
 
 #[test]
-fn pieces_have_the_paint_of_their_triangle() {
-    let scene = square(masked(png(64, &disc(64, 20.0)), Wrap::Repeat));
+fn cut_out_origins_name_the_triangle_of_each_piece() {
+    let scene = square_scene(masked_material(opacity_png(64, &round_hole_opacity(64, 20.0)), Wrap::Repeat));
     let CutScene { scene: cut, origins, .. } = cut_out(&scene);
     let origins = origins[0].as_ref().unwrap();
     let (was, is) = (&scene.geometries[0], &cut.geometries[0]);

@@ -81,7 +81,7 @@ mod tests {
     use crate::scene::material::Wrap;
 
     #[test]
-    fn a_rim_between_black_and_white_is_not_grey() {
+    fn remove_blends_clears_a_grey_rim_between_black_and_white() {
         let palette = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.0, 0.0]];
         let texels = TexelPlane {
             size: [7, 4],

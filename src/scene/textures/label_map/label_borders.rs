@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_is_one_ring_where_its_border_is() {
+    fn label_border_of_a_disc_is_one_ring_at_its_edge() {
         for blur in [0.0, 0.8] {
             let traced = trace_label_borders(&labels([48, 48], Wrap::Repeat, blur, disc)).unwrap();
             assert_eq!(traced.lines.len(), 1);
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn three_colours_meet_in_a_point() {
+    fn label_borders_of_three_colours_meet_in_one_point() {
         let third = |p: DVec2| match (p.x < 4.0, p.y < 4.0) {
             (true, _) => (0, 0, 0.0),
             (false, true) => (1, 1, 0.0),
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_differ_on_both_sides_of_borders_and_nowhere_else() {
+    fn labels_differ_across_label_borders_and_nowhere_else() {
         // Irregular patches of three colours, also across the seams.
         let patch = |p: DVec2| {
             let dice =

@@ -114,7 +114,7 @@ mod tests {
     use crate::scene::textures::texel_plane::TexelPlane;
 
     #[test]
-    fn specks_take_the_colour_around_them_over_seams_too() {
+    fn merge_specks_recolours_specks_across_wrapped_seams() {
         // A speck of four texels across the corners of the picture, one of two, and a patch of nine.
         let colour = |k: usize| match (k % 12, k / 12) {
             (0 | 11, 0 | 11) => 1,
@@ -142,7 +142,7 @@ mod tests {
     }
 
     /// Reference: follows every region completely.
-    fn small_by_all(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
+    fn small_by_flood_fill(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
         let count = labels.texels.size[0] * labels.texels.size[1];
         let mut is_known = vec![false; count];
         let mut small = Vec::new();
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn specks_are_those_that_following_everything_finds() {
+    fn small_components_match_a_full_flood_fill() {
         let dice = |k: usize| {
             (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31).wrapping_mul(0x94d0_49bb)
         };
@@ -185,7 +185,7 @@ mod tests {
                 let labels = ColourLabels::of(&guesses, 0.0, 3);
                 let mut found = small_components(&labels, least as f64);
                 found.sort_unstable_by_key(|speck| speck[0]);
-                assert_eq!(found, small_by_all(&labels, least as f64), "{wrap:?}, {patch}, {least}");
+                assert_eq!(found, small_by_flood_fill(&labels, least as f64), "{wrap:?}, {patch}, {least}");
             }
         }
     }

@@ -57,7 +57,7 @@ mod tests {
     use crate::scene::material::{Placing, Wrap};
 
     #[test]
-    fn texels_are_mixed_as_far_from_borders_as_a_blur_reaches() {
+    fn mixed_texels_are_those_within_the_blur_of_a_border() {
         // Patches of three colours over 23 x 17 texels; some texels are mixed already.
         let guess = |k: usize| {
             let dice = (k % 23 / 6 * 7919 + k / 23 / 5 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;

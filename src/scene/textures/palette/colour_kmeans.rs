@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_colours_stay_what_they_are_and_small_ones_count() {
+    fn kmeans_keeps_few_colours_including_rare_ones() {
         let (red, blue, white) = (Colour::rgb(200, 0, 0), Colour::rgb(0, 0, 200), Colour::WHITE);
         let mut colours = vec![red; 5000];
         colours.extend(vec![blue; 4000]);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ramp_is_cut_into_even_steps() {
+    fn kmeans_divides_a_ramp_into_even_steps() {
         let ramp: Vec<Colour> = (0..=255).map(|v| Colour::rgb(v, v, v)).collect();
         let steps = kmeans_colours(&ramp, &[1.0; 256], 4);
         assert_eq!(steps.len(), 4);

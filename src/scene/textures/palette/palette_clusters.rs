@@ -81,30 +81,30 @@ pub(crate) fn channel_difference(a: Colour, b: Colour) -> u32 {
 mod tests {
     use super::*;
 
-    fn flat(colours: &[Colour]) -> Vec<(Colour, bool)> {
+    fn flat_colours(colours: &[Colour]) -> Vec<(Colour, bool)> {
         colours.iter().map(|colour| (*colour, true)).collect()
     }
 
     #[test]
-    fn a_palette_keeps_its_colours() {
+    fn cluster_palette_keeps_few_colours_and_merges_similar_ones() {
         let (red, nearly, blue) = (Colour::rgb(200, 0, 0), Colour::rgb(205, 8, 0), Colour::rgb(0, 0, 200));
-        assert_eq!(cluster_palette(&flat(&[nearly, red, blue, red])).unwrap(), [red, red, blue, red]);
+        assert_eq!(cluster_palette(&flat_colours(&[nearly, red, blue, red])).unwrap(), [red, red, blue, red]);
         assert_eq!(cluster_colours(&[(red, true), (blue, true)]), [red, blue]);
         assert_eq!(cluster_colours(&[(red, false), (blue, true)]), [Colour::rgb(100, 0, 100); 2]);
         assert!(cluster_colours(&[]).is_empty());
     }
 
     #[test]
-    fn a_photograph_is_no_palette() {
+    fn cluster_palette_refuses_a_photograph() {
         let shades = |greens: std::ops::Range<u8>| -> Vec<Colour> {
             (0..=255).flat_map(|r| greens.clone().map(move |g| Colour::rgb(r, g * 36, 100))).collect()
         };
-        let photograph = flat(&shades(0..8));
+        let photograph = flat_colours(&shades(0..8));
         assert_eq!(cluster_palette(&photograph), None);
         assert_eq!(mean(&photograph), Colour::rgb(128, 126, 100));
         // A smooth gradient of one hue gives a few colours, each near those that it represents.
         let run = shades(0..1);
-        let kept = cluster_palette(&flat(&run)).unwrap();
+        let kept = cluster_palette(&flat_colours(&run)).unwrap();
         assert!(kept.iter().zip(&run).all(|(a, b)| channel_difference(*a, *b) < MIN_CHANNEL_DIFFERENCE));
         assert!(kept.iter().any(|colour| *colour != kept[0]));
     }

@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn middles_of_texels_are_whole_numbers() {
+    fn texel_plane_puts_texel_centres_at_whole_numbers() {
         let texels =
             TexelPlane { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false, placing: Placing::default() };
         assert_eq!(texels.place([0.25, 0.75]), Some(DVec2::new(0.0, 1.0)));

@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_side_is_crossed_at_the_same_place_from_both_of_its_triangles() {
+    fn texel_side_crossings_are_equal_from_both_triangles() {
         let (from, to) = (DVec2::new(1.0, 2.0), DVec2::new(4.0, 8.0));
         let border = [DVec2::new(0.0, 5.0), DVec2::new(5.0, 5.1)];
         let parts = [true, false].map(|inside| TexelSide { from, to, inside }.crossing(border));
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn crossings_are_ordered_and_ends_are_none() {
+    fn sort_crossings_orders_and_drops_ends_and_duplicates() {
         let mut parts = vec![1.0, 0.7, 0.2, 0.2 + 1e-12, 0.0];
         sort_crossings(&mut parts);
         assert_eq!(parts, [0.2, 0.7]);

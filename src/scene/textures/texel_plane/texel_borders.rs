@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn specks_thinner_than_the_tolerance_are_gone_and_long_lines_keep_their_shape() {
+    fn simplified_borders_drop_thin_specks_and_keep_long_shapes() {
         let speck: Vec<DVec2> =
             [[0.0, 0.0], [3.0, 0.1], [6.0, 0.0], [3.0, -0.1], [0.0, 0.0]].map(DVec2::from).to_vec();
         assert!(simplified(&speck, 0.2).is_empty() && simplified(&speck, 0.05).len() == 5);

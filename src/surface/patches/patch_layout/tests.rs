@@ -45,7 +45,7 @@ fn lens(angle_deg: f64, split: bool) -> Mesh {
 }
 
 /// Extruded eight-pointed star, twisted except over its first `straight` rings.
-fn screw(straight: u32) -> Mesh {
+fn twisted_star(straight: u32) -> Mesh {
     star((0..=60u32).map(|ring| 0.04 * f64::from(ring.saturating_sub(straight))))
 }
 
@@ -71,8 +71,8 @@ fn star(turns: impl Iterator<Item = f64>) -> Mesh {
 }
 
 #[test]
-fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
-    let origins = |straight: u32| Patches::new(&screw(straight), 40.0, false).origins;
+fn sharp_edges_with_some_flat_ones_mark_a_machined_part() {
+    let origins = |straight: u32| Patches::new(&twisted_star(straight), 40.0, false).origins;
     assert!(origins(5).iter().all(|origin| *origin == MeshSource::Constructed));
     // Sharp edges without flat ones are those of a decimated scan.
     assert!(origins(0).iter().all(|origin| *origin == MeshSource::Scanned));
@@ -80,7 +80,7 @@ fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
 
 /// Rough ground of 20 by 20 squares with heights up to `height`. It is level for `level` squares from one
 /// corner. A plate, one square wide and `plate` long, is attached to one side.
-fn ground(height: f64, level: u32, plate: f64) -> Mesh {
+fn rough_ground(height: f64, level: u32, plate: f64) -> Mesh {
     const SIDE: u32 = 20;
     let mut soup = Soup::default();
     for i in 0..=SIDE {
@@ -108,7 +108,7 @@ fn ground(height: f64, level: u32, plate: f64) -> Mesh {
 
 /// Eight-pointed star that is twisted from ring to ring, except at `level` separate rings, so that no
 /// planar region is larger than a quad.
-fn notched(level: u32) -> Mesh {
+fn notched_star(level: u32) -> Mesh {
     star((0..=30).scan(0.0, |turned, ring| {
         *turned += if ring % 2 == 0 && ring < 2 * level { 0.0 } else { 0.06 };
         Some(*turned)
@@ -116,7 +116,7 @@ fn notched(level: u32) -> Mesh {
 }
 
 /// Meshes side by side in one part.
-fn beside(meshes: &[(&Mesh, f64)]) -> Mesh {
+fn side_by_side(meshes: &[(&Mesh, f64)]) -> Mesh {
     let mut soup = Soup::default();
     for (k, (mesh, scale)) in meshes.iter().enumerate() {
         let first = soup.positions.len() as u32;
@@ -128,23 +128,23 @@ fn beside(meshes: &[(&Mesh, f64)]) -> Mesh {
 }
 
 #[test]
-fn flats_of_one_quad_tell_a_sharp_part_where_most_that_is_nearly_flat_is_flat() {
-    assert!(constructed(&notched(4)), "bars that lie askew, each with a quad or two");
-    assert!(!constructed(&notched(0)));
+fn flats_of_single_quads_mark_a_sharp_part_as_machined() {
+    assert!(is_constructed(&notched_star(4)), "bars that lie askew, each with a quad or two");
+    assert!(!is_constructed(&notched_star(0)));
 }
 
 #[test]
-fn with_flats_a_part_is_machined_though_one_edge_in_twenty_alone_is_sharp() {
+fn a_planar_region_with_sharp_edges_marks_a_machined_part() {
     // A planar region of 1/25 of the surface. Without it, or with lower heights, the ground is a scan.
-    let found =
-        [(1.0, 4), (1.0, 0), (0.6, 4)].map(|(height, level)| constructed(&ground(height, level, 0.0)));
+    let found = [(1.0, 4), (1.0, 0), (0.6, 4)]
+        .map(|(height, level)| is_constructed(&rough_ground(height, level, 0.0)));
     assert_eq!(found, [true, false, false]);
 }
 
 #[test]
-fn small_pieces_follow_the_largest_of_their_part_unless_they_are_round_for_sure() {
+fn small_components_follow_the_largest_unless_clearly_scanned() {
     let origins = |large: &Mesh, scale: f64, small: &Mesh| {
-        let mesh = beside(&[(large, scale), (small, 1.0)]);
+        let mesh = side_by_side(&[(large, scale), (small, 1.0)]);
         let origins = Patches::new(&mesh, 40.0, false).origins;
         [false, true].map(|is_small| {
             let at = |face: &usize| (mesh.corners(FaceId(*face as u32))[0] + mesh.origin).x;
@@ -155,7 +155,7 @@ fn small_pieces_follow_the_largest_of_their_part_unless_they_are_round_for_sure(
             first
         })
     };
-    let (machined, rough, scan) = (ground(0.6, 6, 0.0), ground(0.8, 0, 0.0), screw(0));
+    let (machined, rough, scan) = (rough_ground(0.6, 6, 0.0), rough_ground(0.8, 0, 0.0), twisted_star(0));
     assert_eq!(origins(&machined, 2.0, &rough), [MeshSource::Constructed; 2]);
     assert_eq!(
         origins(&rough, 2.0, &machined),
@@ -164,29 +164,32 @@ fn small_pieces_follow_the_largest_of_their_part_unless_they_are_round_for_sure(
     );
     assert_eq!(origins(&machined, 2.0, &scan), [MeshSource::Constructed, MeshSource::Scanned], "dense");
     // One edge in 200 is sharp.
-    let gentle = ground(0.6, 0, 0.0);
+    let gentle = rough_ground(0.6, 0, 0.0);
     assert_eq!(origins(&machined, 2.0, &gentle), [MeshSource::Constructed, MeshSource::Scanned], "gentle");
 }
 
 #[test]
-fn creases_of_a_scan_are_the_same_beside_a_machined_part() {
+fn creases_of_a_scan_do_not_depend_on_a_machined_neighbour() {
     let hard = |mesh: &Mesh| Patches::new(mesh, 40.0, false).hard.count();
-    let (scan, machined) = (screw(0), screw(5));
+    let (scan, machined) = (twisted_star(0), twisted_star(5));
     let alone = [&scan, &machined].map(hard);
     assert!(alone.iter().all(|count| *count > 0), "{alone:?}");
-    assert_eq!(hard(&beside(&[(&scan, 1.0), (&machined, 1.0)])), alone[0] + alone[1]);
+    assert_eq!(hard(&side_by_side(&[(&scan, 1.0), (&machined, 1.0)])), alone[0] + alone[1]);
 }
 
-fn constructed(mesh: &Mesh) -> bool {
+fn is_constructed(mesh: &Mesh) -> bool {
     let origins = Patches::new(mesh, 40.0, false).origins;
     assert!(origins.iter().all(|origin| *origin == origins[0]));
     origins[0] == MeshSource::Constructed
 }
 
 #[test]
-fn rough_ground_is_a_scan_until_flats_levels_or_corners_say_otherwise() {
+fn rough_ground_is_a_scan_unless_flats_or_sharp_edges_are_common() {
     let found = |parts: &[(f64, u32, f64)]| -> Vec<bool> {
-        parts.iter().map(|(height, level, plate)| constructed(&ground(*height, *level, *plate))).collect()
+        parts
+            .iter()
+            .map(|(height, level, plate)| is_constructed(&rough_ground(*height, *level, *plate)))
+            .collect()
     };
     // A planar region of 1/12 of the surface; most of the surface coplanar with a neighbour; most edges
     // sharp.
@@ -196,14 +199,14 @@ fn rough_ground_is_a_scan_until_flats_levels_or_corners_say_otherwise() {
 }
 
 #[test]
-fn sharp_parts_are_machined_where_more_of_their_edges_are_flat_than_by_chance() {
+fn sharp_parts_with_more_flat_edges_than_noise_are_machined() {
     // One edge in 60 is flat, and no more are nearly flat.
-    assert!(constructed(&screw(2)));
-    assert!(!constructed(&screw(0)));
+    assert!(is_constructed(&twisted_star(2)));
+    assert!(!is_constructed(&twisted_star(0)));
 }
 
 #[test]
-fn a_crease_of_a_round_piece_is_where_its_file_shades_one() {
+fn creases_of_round_components_follow_file_normals_and_angle() {
     let hard = |angle_deg: f64, split: bool| {
         let mesh = lens(angle_deg, split);
         let patches = Patches::new(&mesh, 40.0, false);

@@ -72,7 +72,7 @@ fn bar(length: f64) -> Mesh {
 }
 
 #[test]
-fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
+fn subdivision_does_not_swell_a_bar_at_its_short_sides() {
     // A long prism made of slivers, and one whose faces are wider than the rise of the arcs over its long
     // edges.
     for length in [40.0, 6.0] {
@@ -95,7 +95,7 @@ fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
 }
 
 #[test]
-fn what_nobody_wants_is_left() {
+fn refined_is_none_if_no_edge_is_split() {
     let mesh = icosahedron();
     assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| 0.0).is_none());
     assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| 2.0).is_none());

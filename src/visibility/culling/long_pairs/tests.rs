@@ -31,7 +31,7 @@ fn fans() -> Mesh {
 }
 
 #[test]
-fn needles_along_needles_are_compared_once() {
+fn long_pairs_of_needles_are_tested_once() {
     let mesh = fans();
     let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
     let camera = Camera::azimuth_elevation(0.0, 25.0, UpAxis::Z).fit_points(&points, 0.1);
