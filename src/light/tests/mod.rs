@@ -1,6 +1,7 @@
 //! Light, tones and colours in closed form.
 
 mod colours;
+mod highlights;
 mod lights;
 
 use glam::DVec3;

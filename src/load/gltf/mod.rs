@@ -13,9 +13,6 @@
 //! lacks.
 
 mod animations;
-#[cfg(not(feature = "draco"))]
-#[path = "meshes/no_draco.rs"]
-mod draco;
 mod json;
 mod material_reader;
 mod meshes;

@@ -175,7 +175,7 @@ impl ClockReading {
 /// Reading of a clock on platforms without one.
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 #[derive(Debug, Clone, Copy)]
-struct Moment;
+struct ClockReading;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 impl ClockReading {

@@ -10,6 +10,9 @@
 
 #[cfg(feature = "draco")]
 mod draco;
+#[cfg(not(feature = "draco"))]
+#[path = "no_draco.rs"]
+mod draco;
 mod edge_visibility;
 pub(crate) mod mesh_geometry;
 mod primitive_modes;
