@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::LineOptions;
 use super::line_options::{Contours, Normals};
 use crate::light::{self, NormalCones};
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::surface::creases::pose_creases::pose_creases;

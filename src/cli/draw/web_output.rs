@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::export::SvgOptions;
 use crate::pipeline;
 use crate::scene::{Camera, Scene};
-use crate::strokes::pens::pen::Ink;
+use crate::strokes::Ink;
 use crate::style::Style;
 
 /// Adds title and hotspots to a drawing. Returns a warning if there is nothing to add. Hotspots need the

@@ -7,7 +7,7 @@ use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::{DxfLength, DxfOptions, DxfVersion};
 use crate::scene::Camera;
-use crate::scene::cameras::camera::Projection;
+use crate::scene::Projection;
 
 /// Options of DXF output.
 #[derive(Debug, Clone, Copy, Args)]

@@ -13,7 +13,7 @@
 use crate::parallel::prelude::*;
 
 use crate::lines::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::normals::degenerate_faces::{OppositeFace, opposite_face};
 use crate::mesh::normals::dihedral::mark;
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::json;
 use super::uri;
-use crate::animation::material_factors::{AlphaMode, MaterialFactors};
+use crate::animation::MaterialFactors;
+use crate::animation::material_factors::AlphaMode;
 use crate::load::gltf::json::lenient_index::DisplayIndex;
 use crate::load::gltf::storage::buffers::{Buffers, Fetch};
 use crate::scene::model_folder::ModelFolder;

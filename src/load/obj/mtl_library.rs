@@ -3,10 +3,10 @@
 use crate::colour::srgb::Colour;
 use crate::load::text_cursor::{Cursor, decode, utf8};
 use crate::scene::Material;
+use crate::scene::Warnings;
 use crate::scene::Wrap;
 use crate::scene::material::{Gloss, Placing};
 use crate::scene::model_folder::{ModelFolder, stays_inside};
-use crate::scene::warnings::Warnings;
 
 /// Gloss exponent of a material that has `Ks` but no `Ns`.
 const DEFAULT_GLOSS_EXPONENT: f32 = 40.0;

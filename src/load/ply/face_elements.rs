@@ -11,8 +11,8 @@ use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
 use crate::load::polygons::triangulation::{self, CutOutcome};
 use crate::mesh::EdgeMark;
+use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
-use crate::scene::warnings::Warnings;
 
 /// Minimum rows per parallel task.
 const MIN_TASK_ROWS: usize = 1 << 13;

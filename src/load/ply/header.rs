@@ -3,7 +3,8 @@
 use crate::error::Error;
 use crate::load::quoted_start;
 use crate::load::text_cursor::{Cursor, decode};
-use crate::scene::warnings::{WarningExamples, Warnings};
+use crate::scene::Warnings;
+use crate::scene::warnings::WarningExamples;
 
 /// Maximum words of a statement that are read; further words are ignored.
 const MAX_STATEMENT_WORDS: usize = 6;

@@ -4,7 +4,8 @@
 use crate::parallel::prelude::*;
 
 use crate::error::Error;
-use crate::lines::image::{self, ImageOptions};
+use crate::lines::ImageOptions;
+use crate::lines::image;
 use crate::mesh::Mesh;
 use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 

@@ -8,7 +8,7 @@ use crate::drawing::{Layer, LayerKind, Page};
 use crate::lines::{FeatureLines, Surface};
 use crate::pipeline::report::drawing_report::Stopwatch;
 use crate::regions::{HatchRegions, PageBorders};
-use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::Paints;
 use crate::scene::{Camera, Scene};
 use crate::strokes::{self, MarkOrder};
 use crate::style::Style;

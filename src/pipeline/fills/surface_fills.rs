@@ -8,7 +8,7 @@ use kurbo::{BezPath, Vec2};
 use super::surface_requirements::{darkened, tones};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, Page, Provenance};
-use crate::light::ambient_occlusion::ambient_visibility;
+use crate::light::ambient_visibility;
 use crate::light::{Shading, ShadingNormals};
 use crate::lines::isophotes::isophote_lines;
 use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorderRanges};
@@ -22,7 +22,7 @@ use crate::regions::paint::region_paint::PaintContext;
 use crate::regions::{
     self, LabelledPage, PageBorders, Region, RegionOptions, Regions, ShadowDarkening, StepsAs, SurfaceLabel,
 };
-use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::Paints;
 use crate::scene::{Camera, MaterialPaint, Scene};
 use crate::shadows::Shadows;
 use crate::style::Style;

@@ -8,8 +8,9 @@ use rustc_hash::FxHashMap;
 use crate::colour::srgb::Colour;
 use crate::lines::{FeatureLines, joints};
 use crate::mesh::Mesh;
+use crate::scene::MaterialPaint;
+use crate::scene::Paints;
 use crate::scene::Scene;
-use crate::scene::paints::triangle_paints::{MaterialPaint, Paints};
 use crate::style::Style;
 
 /// Removes the joints from the lines of a view, unless the style draws them. With `has_regions` they stay

@@ -3,7 +3,8 @@
 use crate::chains::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
-use crate::mesh::part_metrics::{MeshMetrics, PartMetrics};
+use crate::mesh::MeshMetrics;
+use crate::mesh::PartMetrics;
 use crate::pipeline::tolerances;
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};

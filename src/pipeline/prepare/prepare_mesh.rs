@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::mesh::Mesh;
 use crate::pipeline::fills::{glass_pass, surface_requirements};
 use crate::pipeline::lines::chain_colours;
-use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::Paints;
 use crate::scene::textures::cutouts;
 use crate::scene::{Scene, Warnings};
 use crate::style::Style;

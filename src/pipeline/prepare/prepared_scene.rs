@@ -12,7 +12,7 @@ use crate::pipeline::fills::surface_fills::ToneInputs;
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::rest::chain_anchors::Anchors;
 use crate::pipeline::thread_pool::run_on_pool;
-use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::Paints;
 use crate::scene::{Camera, Scene, Warnings};
 use crate::style::Style;
 use crate::surface::Patches;

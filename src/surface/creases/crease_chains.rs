@@ -13,7 +13,8 @@ use glam::DVec3;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::normals::dihedral::{Dihedral, turn_degrees};
+use crate::mesh::Dihedral;
+use crate::mesh::normals::dihedral::turn_degrees;
 use crate::mesh::{DihedralCosines, FaceId, Mesh};
 use crate::parallel::concatenation::concatenate;
 

@@ -7,7 +7,7 @@
 
 use super::crease_chains::CreaseChain;
 use crate::geometry::numbers::portable_math::{acos, cos};
-use crate::mesh::normals::dihedral::Dihedral;
+use crate::mesh::Dihedral;
 use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 
 /// Standard deviation of a normal distribution, in medians of its absolute values.

@@ -17,8 +17,9 @@ use super::crease_chains::{CreaseCandidate, CreaseCandidates, CreaseChain, folds
 use super::edge_noise::EdgeNoise;
 use super::sliver_creases::wrinkles;
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::edges::edge_set::EdgeSet;
-use crate::mesh::normals::dihedral::{Dihedral, is_unfolded_diagonal, mark};
+use crate::mesh::Dihedral;
+use crate::mesh::EdgeSet;
+use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark};
 use crate::mesh::{DihedralCosines, EdgeMark, Mesh};
 
 /// Low threshold as a share of the high one: a crease continues where it turns by more than this.

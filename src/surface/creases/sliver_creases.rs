@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::components::disjoint_sets::DisjointSets;
+use crate::mesh::DisjointSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 

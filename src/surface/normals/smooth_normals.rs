@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 
 /// In [`SmoothNormals::corners`]: the face is flat.

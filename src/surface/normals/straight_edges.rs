@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::surface::SmoothNormals;
 

@@ -8,7 +8,7 @@ use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use super::straight_edges;
 use super::vertex_split;
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, VertexRange, range_count, vertex_ranges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 

@@ -18,7 +18,7 @@ use super::group_sums::sums;
 use super::planar_regions::{PlanarRegions, area};
 use super::surface_class::SurfaceClass;
 use crate::geometry::numbers::portable_math::acos;
-use crate::mesh::components::disjoint_sets::DisjointSets;
+use crate::mesh::DisjointSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexRange, vertex_ranges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances;

@@ -9,7 +9,7 @@ use super::curved_patches::add_curved_patches;
 use super::planar_regions::{PlanarRegions, area};
 use super::surface_class::{ComponentClasses, MeshSource, SurfaceClass};
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{DihedralCosines, EdgeFaces, Mesh};
 use crate::surface::HardEdges;
 use crate::surface::creases::hard_edges::LOW_THRESHOLD_OF_HIGH;

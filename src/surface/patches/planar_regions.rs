@@ -9,8 +9,9 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel::prelude::*;
 
 use super::group_sums::sums;
-use crate::mesh::components::disjoint_sets::{DisjointSets, NumberedSets};
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::DisjointSets;
+use crate::mesh::EdgeSet;
+use crate::mesh::NumberedSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 

@@ -2,7 +2,7 @@
 
 use crate::parallel::prelude::*;
 
-use crate::mesh::components::disjoint_sets::NumberedSets;
+use crate::mesh::NumberedSets;
 
 /// Minimum number of faces per task.
 const MIN_FACES_PER_TASK: usize = 1 << 16;

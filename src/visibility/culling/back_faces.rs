@@ -10,8 +10,8 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use crate::parallel::prelude::*;
 
-use crate::mesh::components::disjoint_sets::DisjointSets;
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::DisjointSets;
+use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;

@@ -9,7 +9,7 @@ use kurbo::Point;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{Page, Unit};
 use ligne::export::PngOptions;
-use ligne::export::raster::png_drawing::Resolution;
+use ligne::export::Resolution;
 use ligne::hatching::{self, HatchContext, HatchOptions, HatchStroke, ToneCoverage};
 use ligne::mesh::{MaterialId, PaintId, PartId};
 use ligne::regions::hatch_regions::border_piece::BorderPiece;

@@ -9,8 +9,8 @@ use glam::{DMat3, DVec3};
 use ligne::Scene;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::mesh::Mesh;
-use ligne::surface::cylinders::cylinder::Cylinder;
-use ligne::surface::cylinders::strip_cylinders::cylinders;
+use ligne::surface::Cylinder;
+use ligne::surface::cylinders;
 
 use crate::support::readers::shared_folder;
 use crate::support::scenes::random_dice::Dice;

@@ -3,7 +3,8 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::vertex_streams::VertexStreams;
-use crate::animation::deformable_mesh::{DeformableMesh, Influences, MorphTarget};
+use crate::animation::DeformableMesh;
+use crate::animation::deformable_mesh::{Influences, MorphTarget};
 use crate::animation::rig::Skin;
 use crate::error::Error;
 use crate::load::gltf::json::Primitive;

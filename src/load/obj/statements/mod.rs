@@ -22,8 +22,9 @@ use crate::load::polygons::added_diagonals::Diagonals;
 use crate::load::quoted_start;
 use crate::load::text_cursor::Cursor;
 use crate::mesh::EdgeMark;
+use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
-use crate::scene::warnings::{WarningExamples, Warnings};
+use crate::scene::warnings::WarningExamples;
 
 /// Consecutive triangles and wires of one part and one material.
 #[derive(Debug, Clone)]

@@ -11,7 +11,7 @@ use crate::parallel::prelude::*;
 
 use super::surface_trace::SurfaceTracer;
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::normals::dihedral::mark;
 use crate::mesh::{DihedralCosines, EdgeFaces, EdgeMark, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;

@@ -9,7 +9,7 @@ use std::iter::Take;
 use glam::{DVec3, Vec3};
 
 use crate::geometry::numbers::portable_math::{acos, cos};
-use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::EdgeSet;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::surface::HardEdges;
 
