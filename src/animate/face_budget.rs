@@ -34,7 +34,7 @@ pub struct Budget {
     /// Permitted time of a frame, milliseconds.
     ms: f64,
     /// Faces of the whole scene.
-    all: u64,
+    total_faces: u64,
     /// Level, in steps below all faces.
     level: u32,
     /// Consecutive frames with room for more faces.
@@ -42,10 +42,10 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// A budget for frames of `ms` milliseconds and a scene of `all` faces.
+    /// A budget for frames of `ms` milliseconds and a scene of `total_faces` faces.
     #[must_use]
     pub fn new(ms: f64, all: u64) -> Self {
-        let mut budget = Self { ms, all, level: 0, patient: 0 };
+        let mut budget = Self { ms, total_faces: all, level: 0, patient: 0 };
         budget.level = budget.level_of(ms * INITIAL_FACES_PER_MS);
         budget
     }
@@ -53,9 +53,9 @@ impl Budget {
     /// Number of faces of the next frame.
     #[must_use]
     pub fn faces(&self) -> u64 {
-        let faces = self.all as f64
+        let faces = self.total_faces as f64
             / crate::geometry::numbers::portable_math::pow(LEVEL_FACE_RATIO, f64::from(self.level));
-        (faces.max(MIN_FACES).ceil() as u64).min(self.all.max(1))
+        (faces.max(MIN_FACES).ceil() as u64).min(self.total_faces.max(1))
     }
 
     /// Records the time of a frame drawn with that number of faces.

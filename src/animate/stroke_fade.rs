@@ -23,7 +23,7 @@ const AXIS_FLATNESS: f64 = 0.05;
 #[derive(Debug, Clone, Default)]
 pub struct StrokeTrace {
     names: FxHashSet<u64>,
-    places: FxHashSet<u64>,
+    cells: FxHashSet<u64>,
 }
 
 impl StrokeTrace {
@@ -34,14 +34,14 @@ impl StrokeTrace {
         for mark in drawing.layers.iter().flat_map(|layer| &layer.marks) {
             if mark.provenance.identity != 0 {
                 trace.names.insert(mark.provenance.identity);
-                trace.places.extend(mark.provenance.places.iter());
+                trace.cells.extend(mark.provenance.places.iter());
             }
         }
         trace
     }
 
     fn has(&self, name: u64, places: &[u64]) -> bool {
-        let held = || places.iter().filter(|place| self.places.contains(place)).count();
+        let held = || places.iter().filter(|place| self.cells.contains(place)).count();
         self.names.contains(&name)
             || (!places.is_empty() && held() as f64 >= MIN_PRESENT_CELL_SHARE * places.len() as f64)
     }

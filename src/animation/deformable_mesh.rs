@@ -75,18 +75,18 @@ impl DeformableMesh {
     /// Joint with the greatest weight for a vertex, the first of equal ones; `None` if no joint moves it.
     #[must_use]
     pub fn first_joint(&self, vertex: usize) -> Option<usize> {
-        let mut most: Option<(u32, f64)> = None;
+        let mut heaviest: Option<(u32, f64)> = None;
         for set in &self.sets {
-            let (Some(four), Some(share)) = (set.joints.get(vertex), set.weights.get(vertex)) else {
+            let (Some(four), Some(joint_weights)) = (set.joints.get(vertex), set.weights.get(vertex)) else {
                 continue;
             };
-            for (joint, weight) in four.iter().zip(share) {
-                if *weight > most.map_or(0.0, |(_, most)| most) {
-                    most = Some((*joint, *weight));
+            for (joint, weight) in four.iter().zip(joint_weights) {
+                if *weight > heaviest.map_or(0.0, |(_, most)| most) {
+                    heaviest = Some((*joint, *weight));
                 }
             }
         }
-        most.map(|(joint, _)| joint as usize)
+        heaviest.map(|(joint, _)| joint as usize)
     }
 
     /// Blended transform of the joints of a vertex.

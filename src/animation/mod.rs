@@ -87,19 +87,19 @@ impl Rigged {
         let stance = self.stance(playing)?;
         self.move_vertices(&stance, &mut scene)?;
         let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
-        for (part, (node, place)) in scene.parts.iter_mut().zip(&rig.parts) {
+        for (part, (node, node_from_part)) in scene.parts.iter_mut().zip(&rig.parts) {
             // The joints already transform a skinned mesh to world space.
             let is_skinned = skinned.get(part.geometry).copied().unwrap_or(false);
             let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
-            part.world_from_part = world * *place;
+            part.world_from_part = world * *node_from_part;
         }
         let values = AnimatedValues::new(&rig.clips, playing);
-        for (named, held) in scene.cameras.iter_mut().zip(&rig.cameras) {
-            named.camera = now_camera(&named.camera, *held, &stance, &values);
+        for (named_camera, rigged_camera) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            named_camera.camera = now_camera(&named_camera.camera, *rigged_camera, &stance, &values);
         }
-        for (light, held) in scene.lights.iter_mut().zip(&rig.lights) {
-            values.light(held.number, light);
-            light.kind = moved_light(light.kind, stance.world[held.node]);
+        for (light, rigged_light) in scene.lights.iter_mut().zip(&rig.lights) {
+            values.light(rigged_light.number, light);
+            light.kind = moved_light(light.kind, stance.world[rigged_light.node]);
         }
         for (number, (material, rest)) in scene.materials.iter_mut().zip(&rig.materials).enumerate() {
             if let Some(now) = values.material(number, rest) {
@@ -231,10 +231,10 @@ fn now_camera(camera: &Camera, held: NodeAttachment, stance: &NodePoses, values:
 
 /// Camera at the present pose of its node: at the origin, looking along -z with y up.
 fn moved_camera(camera: &Camera, world: DAffine3) -> Camera {
-    let ways = [DVec3::NEG_Z, DVec3::Y].map(|way| world.transform_vector3(way).try_normalize());
-    match ways {
-        [Some(ahead), Some(up)] => {
-            Camera { eye: world.translation, target: world.translation + ahead, up, ..*camera }
+    let directions = [DVec3::NEG_Z, DVec3::Y].map(|axis| world.transform_vector3(axis).try_normalize());
+    match directions {
+        [Some(forward), Some(up)] => {
+            Camera { eye: world.translation, target: world.translation + forward, up, ..*camera }
         }
         _ => *camera,
     }

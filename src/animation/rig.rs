@@ -146,7 +146,9 @@ impl Rig {
         let mut local: Vec<DAffine3> = self.nodes.iter().map(|node| node.rest.transform()).collect();
         for (number, moved) in self.moved(playing) {
             let node = &self.nodes[number];
-            let of = |property: NodeProperty| moved.iter().filter(move |(own, ..)| *own == property);
+            let of = |property: NodeProperty| {
+                moved.iter().filter(move |(moved_property, ..)| *moved_property == property)
+            };
             let (translation, rotation, scale) = node.rest.parts();
             let vector = |property, rest: DVec3| {
                 let values = of(property).filter_map(|(_, track, time, weight)| {
@@ -157,20 +159,20 @@ impl Rig {
             let moves = |property| of(property).next().is_some();
             if [NodeProperty::Translation, NodeProperty::Rotation, NodeProperty::Scale].into_iter().any(moves)
             {
-                let turns = of(NodeProperty::Rotation)
+                let rotations = of(NodeProperty::Rotation)
                     .filter_map(|(_, track, time, weight)| Some((track.rotation_at(*time)?, *weight)));
                 local[number] = DAffine3::from_scale_rotation_translation(
                     vector(NodeProperty::Scale, scale),
-                    blend_rotations(rotation, turns),
+                    blend_rotations(rotation, rotations),
                     vector(NodeProperty::Translation, translation),
                 );
             }
             if moves(NodeProperty::Weights) {
-                for (target, own) in weights[number].iter_mut().enumerate() {
+                for (target, target_weight) in weights[number].iter_mut().enumerate() {
                     let values = of(NodeProperty::Weights).filter_map(|(_, track, time, weight)| {
                         Some((*track.at(*time).get(target)?, *weight))
                     });
-                    *own = blend_values(*own, values);
+                    *target_weight = blend_values(*target_weight, values);
                 }
             }
             if let Some((_, track, time, _)) = of(NodeProperty::Visible).max_by(|a, b| a.3.total_cmp(&b.3)) {

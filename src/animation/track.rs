@@ -174,20 +174,21 @@ mod tests {
 
     #[test]
     fn track_rotations_take_the_shorter_arc_at_constant_speed() {
-        let turn = |degrees: f64| {
+        let rotation_about_y = |degrees: f64| {
             let half = degrees.to_radians() / 2.0;
             [0.0, sin(half), 0.0, crate::geometry::numbers::portable_math::cos(half)]
         };
-        let keys = |b: [f64; 4]| [turn(20.0), b].concat();
-        for to in [turn(80.0), turn(80.0).map(|v| -v)] {
+        let keys = |b: [f64; 4]| [rotation_about_y(20.0), b].concat();
+        for to in [rotation_about_y(80.0), rotation_about_y(80.0).map(|v| -v)] {
             let track = Track::new(vec![0.0, 1.0], keys(to), Interpolation::Linear).unwrap();
-            for share in [0.0, 0.25, 0.5, 0.9, 1.0] {
-                let (own, right) = (track.rotation_at(share).unwrap(), turn(20.0 + 60.0 * share));
-                assert!(own.dot(DQuat::from_array(right)).abs() > 1.0 - 1e-12, "{share}");
+            for fraction in [0.0, 0.25, 0.5, 0.9, 1.0] {
+                let (interpolated, right) =
+                    (track.rotation_at(fraction).unwrap(), rotation_about_y(20.0 + 60.0 * fraction));
+                assert!(interpolated.dot(DQuat::from_array(right)).abs() > 1.0 - 1e-12, "{fraction}");
             }
         }
-        let same = Track::new(vec![0.0, 1.0], keys(turn(20.0)), Interpolation::Linear).unwrap();
-        assert!(same.rotation_at(0.5).unwrap().dot(DQuat::from_array(turn(20.0))) > 1.0 - 1e-12);
+        let same = Track::new(vec![0.0, 1.0], keys(rotation_about_y(20.0)), Interpolation::Linear).unwrap();
+        assert!(same.rotation_at(0.5).unwrap().dot(DQuat::from_array(rotation_about_y(20.0))) > 1.0 - 1e-12);
         let none = Track::new(vec![0.0], vec![0.0; 4], Interpolation::Linear).unwrap();
         assert!(none.rotation_at(0.0).is_none());
     }

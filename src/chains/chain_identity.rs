@@ -45,16 +45,16 @@ pub(crate) fn assign_identities(chains: &mut [Chain], parts: &[u64]) {
     let mut open: Vec<usize> =
         (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
     for level in 0..CONTOUR_CELLS_PER_DIAGONAL.len() {
-        let mut wishes: Vec<(f64, u64, usize)> = Vec::new();
+        let mut claims: Vec<(f64, u64, usize)> = Vec::new();
         for number in &open {
             let lots = chains.get(*number).map(|chain| lots(chain, parts, level)).unwrap_or_default();
-            wishes.extend(lots.into_iter().map(|(lot, name)| (lot, name, *number)));
+            claims.extend(lots.into_iter().map(|(lot, name)| (lot, name, *number)));
         }
-        wishes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-        let mut given: FxHashSet<u64> = FxHashSet::default();
-        for (_, name, number) in wishes {
+        claims.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let mut assigned: FxHashSet<u64> = FxHashSet::default();
+        for (_, name, number) in claims {
             if let Some(chain) = chains.get_mut(number).filter(|chain| chain.identity == 0)
-                && given.insert(name)
+                && assigned.insert(name)
             {
                 chain.identity = name;
             }
@@ -107,17 +107,17 @@ fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
         });
     }
     weights.sort_by_key(|(cell, _)| *cell);
-    weights.dedup_by(|next, kept| {
-        let same = next.0 == kept.0;
+    weights.dedup_by(|next, previous| {
+        let same = next.0 == previous.0;
         if same {
-            kept.1 += next.1;
+            previous.1 += next.1;
         }
         same
     });
     let lot = |(cell, weight): &([i64; 3], f64)| {
         let words = cell.map(i64::cast_unsigned);
-        let own = hash(part, &[u64::from(slides), level as u64, words[0], words[1], words[2]]);
-        (-ln(unit_interval(hash(own, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), own)
+        let name = hash(part, &[u64::from(slides), level as u64, words[0], words[1], words[2]]);
+        (-ln(unit_interval(hash(name, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), name)
     };
     weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
 }
@@ -129,28 +129,29 @@ fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
     (0..sides).filter_map(move |side| {
         let ends = [side, (side + 1) % count].map(|at| chain.samples.get(at).map(|sample| sample.anchor));
         let [Some(from), Some(to)] = ends else { return None };
-        let place = |anchor: Anchor| anchor.rest_position.map(f64::from);
-        (from.is_known() && to.is_known()).then(|| [place(from), place(to)])
+        let rest_point = |anchor: Anchor| anchor.rest_position.map(f64::from);
+        (from.is_known() && to.is_known()).then(|| [rest_point(from), rest_point(to)])
     })
 }
 
 /// Visits the cells that a segment passes, in order, with its length in each. Lengths are those of the rest
 /// pose, so that a line keeps its name when it turns.
-fn visit_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
-    let [from, to] = [from, to].map(|place| place.map(|x| (x + CELL_SHIFT) * cells));
-    let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
-    let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
+fn visit_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut visit: impl FnMut([i64; 3], f64)) {
+    let [from, to] = [from, to].map(|point| point.map(|x| (x + CELL_SHIFT) * cells));
+    let direction = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+    let length =
+        (direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]).sqrt();
     let mut walls: Vec<f64> = vec![0.0, 1.0];
     for axis in 0..3 {
         let (low, high) = (from[axis].min(to[axis]).floor() as i64, from[axis].max(to[axis]).floor() as i64);
         let crossed = (low.saturating_add(1)..=high).take(MAX_WALLS_PER_AXIS);
-        walls.extend(crossed.map(|wall| ((wall as f64 - from[axis]) / way[axis]).clamp(0.0, 1.0)));
+        walls.extend(crossed.map(|wall| ((wall as f64 - from[axis]) / direction[axis]).clamp(0.0, 1.0)));
     }
     walls.sort_by(f64::total_cmp);
     for pair in walls.windows(2) {
         let middle = (pair[0] + pair[1]) / 2.0;
-        let cell = [0, 1, 2].map(|axis| (from[axis] + way[axis] * middle).floor() as i64);
-        told(cell, (pair[1] - pair[0]) * length);
+        let cell = [0, 1, 2].map(|axis| (from[axis] + direction[axis] * middle).floor() as i64);
+        visit(cell, (pair[1] - pair[0]) * length);
     }
 }
 
@@ -166,9 +167,9 @@ mod tests {
     /// A chain along a straight line in the rest pose.
     fn straight_chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
         let at = |k: usize| k as f64 / (points - 1) as f64;
-        let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
+        let rest_point = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
         let sample = |k| Sample {
-            anchor: Anchor { rest_position: place(at(k)), scale: 500.0 },
+            anchor: Anchor { rest_position: rest_point(at(k)), scale: 500.0 },
             ..Sample::new(1.0, 1.0)
         };
         Chain {
@@ -206,12 +207,12 @@ mod tests {
 
     #[test]
     fn identity_survives_loss_of_a_tenth_of_the_line_in_most_cases() {
-        let kept = line_ends().filter(|(from, to)| {
+        let unchanged = line_ends().filter(|(from, to)| {
             let shorter = [0, 1, 2].map(|axis| from[axis] + 0.9 * (to[axis] - from[axis]));
             assigned_identities(vec![straight_chain(*from, *to, 9)])
                 == assigned_identities(vec![straight_chain(*from, shorter, 9)])
         });
-        let kept = kept.count();
+        let kept = unchanged.count();
         assert!((255..300).contains(&kept), "{kept} of 300");
     }
 
@@ -227,12 +228,12 @@ mod tests {
 
     #[test]
     fn lines_through_the_same_cells_have_different_identities() {
-        let beside =
+        let nearby_chain =
             |k: i32| straight_chain([0.0, f64::from(k) * 1e-5, 0.0], [0.3, f64::from(k) * 1e-5, 0.1], 4);
-        let mut given = assigned_identities((0..40).map(beside).collect());
-        assert!(given.iter().all(|name| *name != 0));
-        given.sort_unstable();
-        given.dedup();
-        assert_eq!(given.len(), 40);
+        let mut identities = assigned_identities((0..40).map(nearby_chain).collect());
+        assert!(identities.iter().all(|name| *name != 0));
+        identities.sort_unstable();
+        identities.dedup();
+        assert_eq!(identities.len(), 40);
     }
 }

@@ -91,9 +91,10 @@ impl Rounding<'_> {
     /// Tolerances of arcs for the parts of a line.
     fn nearness(self, line: &SampledLine, unit: Unit) -> Option<CircleTolerance> {
         let of_part = self.0?;
-        let own = line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
+        let part_roundings =
+            line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
         let radius = Length { value: MAX_RADIUS_ERROR_MM, unit: Unit::Mm }.in_unit(unit);
-        Some(CircleTolerance { rounding: own.fold(0.0, f64::max).min(radius), radius })
+        Some(CircleTolerance { rounding: part_roundings.fold(0.0, f64::max).min(radius), radius })
     }
 }
 
@@ -119,40 +120,40 @@ pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLin
 /// thin.
 #[must_use]
 pub fn link_with_occlusion(
-    ahead: &GapOcclusion,
+    occlusion: &GapOcclusion,
     map: &ViewMap,
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
 ) -> Vec<Chain> {
-    link_with_arcs(ahead, map, (options, Rounding::default()), unit, hidden)
+    link_with_arcs(occlusion, map, (options, Rounding::default()), unit, hidden)
 }
 
 /// Joins chains as [`link_with_occlusion`] does, with circular arcs where the options and the rounding of corners
 /// allow.
 #[must_use]
 pub fn link_with_arcs(
-    ahead: &GapOcclusion,
+    occlusion: &GapOcclusion,
     map: &ViewMap,
     (options, rounding): (&ChainOptions, Rounding),
     unit: Unit,
     hidden: HiddenLines,
 ) -> Vec<Chain> {
-    link_with(map, (options, rounding), unit, hidden, Some(ahead), &mut RemovalLog::default())
+    link_with(map, (options, rounding), unit, hidden, Some(occlusion), &mut RemovalLog::default())
 }
 
 /// Joins chains as [`link_with_occlusion`] does, and returns the lines that tidying dropped, in that order.
 #[must_use]
 pub fn link_with_removed(
-    ahead: Option<&GapOcclusion>,
+    occlusion: Option<&GapOcclusion>,
     map: &ViewMap,
     options: &ChainOptions,
     unit: Unit,
     hidden: HiddenLines,
 ) -> (Vec<Chain>, Vec<RemovedLine>) {
-    let mut bin = RemovalLog::recording();
-    let chains = link_with(map, (options, Rounding::default()), unit, hidden, ahead, &mut bin);
-    (chains, bin.into_removed())
+    let mut removal_log = RemovalLog::recording();
+    let chains = link_with(map, (options, Rounding::default()), unit, hidden, occlusion, &mut removal_log);
+    (chains, removal_log.into_removed())
 }
 
 fn link_with(
@@ -160,8 +161,8 @@ fn link_with(
     (options, rounding): (&ChainOptions, Rounding),
     unit: Unit,
     hidden: HiddenLines,
-    ahead: Option<&GapOcclusion>,
-    bin: &mut RemovalLog,
+    occlusion: Option<&GapOcclusion>,
+    removal_log: &mut RemovalLog,
 ) -> Vec<Chain> {
     let px = Length::px(1.0).in_unit(unit);
     let t = FinishTolerances {
@@ -174,7 +175,7 @@ fn link_with(
         fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
         points: true,
     };
-    let raws = tidied(map, hidden, t.tidy, DIRECTION_WINDOW_PX * px, ahead, bin);
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_WINDOW_PX * px, occlusion, removal_log);
     let circle = |line: &SampledLine| if options.circles { rounding.nearness(line, unit) } else { None };
     raws.into_par_iter()
         .with_max_len(8)

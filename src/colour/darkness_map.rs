@@ -107,22 +107,26 @@ impl DarknessMap {
             let (i, j) = (i - 2, j - 2);
             let (column, row) = (inner(i, width), inner(j, height));
             let [x, y] = [column as f64, row as f64];
-            let own = self.mean([x, y], [x + 1.0, y + 1.0]) - tracing.level;
+            let signed_darkness = self.mean([x, y], [x + 1.0, y + 1.0]) - tracing.level;
             // No value is exactly on the level.
-            let own = if own == 0.0 { f64::MIN_POSITIVE } else { own };
-            if (-1..=width).contains(&i) && (-1..=height).contains(&j) { own } else { -own.abs() }
+            let nonzero_darkness = if signed_darkness == 0.0 { f64::MIN_POSITIVE } else { signed_darkness };
+            if (-1..=width).contains(&i) && (-1..=height).contains(&j) {
+                nonzero_darkness
+            } else {
+                -nonzero_darkness.abs()
+            }
         };
         let lines =
             marching_squares(&value, [self.width + 3, self.height + 3], MAX_CURVE_ERROR_PX, MAX_CROSSINGS)?;
         let frame = [self.width as f64, self.height as f64];
-        let own = |line: &Vec<DVec2>| {
+        let ring_of = |line: &Vec<DVec2>| {
             let ring: Vec<Point> = line.iter().map(|p| Point::new(p.x - 1.5, p.y - 1.5)).collect();
             let ring = simplified(&clip_to_frame(&ring, frame), frame, tracing);
             let [x, y] = tracing.scale;
             (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
                 .then_some(ring)
         };
-        Some(lines.iter().filter_map(own).collect())
+        Some(lines.iter().filter_map(ring_of).collect())
     }
 }
 
@@ -145,13 +149,14 @@ fn clip_to_frame(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
     for pair in line.windows(2) {
         let (a, b) = (pair[0], pair[1]);
         push(a);
-        let mut ways: Vec<f64> = [(a.x, b.x, 0.0), (a.x, b.x, width), (a.y, b.y, 0.0), (a.y, b.y, height)]
-            .into_iter()
-            .filter(|(a, b, at)| (a < at) != (b < at))
-            .map(|(a, b, at)| (at - a) / (b - a))
-            .collect();
-        ways.sort_by(f64::total_cmp);
-        ways.into_iter().for_each(|way| push(a.lerp(b, way)));
+        let mut crossings: Vec<f64> =
+            [(a.x, b.x, 0.0), (a.x, b.x, width), (a.y, b.y, 0.0), (a.y, b.y, height)]
+                .into_iter()
+                .filter(|(a, b, at)| (a < at) != (b < at))
+                .map(|(a, b, at)| (at - a) / (b - a))
+                .collect();
+        crossings.sort_by(f64::total_cmp);
+        crossings.into_iter().for_each(|parameter| push(a.lerp(b, parameter)));
     }
     while ring.len() > 1 && ring.first() == ring.last() {
         ring.pop();
@@ -162,22 +167,30 @@ fn clip_to_frame(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
         let [a, b, c] = [a, b, c].map(sides);
         (0..4).any(|side| a[side] && b[side] && c[side])
     };
-    let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
+    let mut simplified_ring: Vec<Point> = Vec::with_capacity(ring.len());
     for p in ring {
-        while let [.., a, b] = &kept[..]
+        while let [.., a, b] = &simplified_ring[..]
             && is_between(a, b, &p)
         {
-            kept.pop();
+            simplified_ring.pop();
         }
-        kept.push(p);
+        simplified_ring.push(p);
     }
-    while kept.len() > 2 && is_between(&kept[kept.len() - 2], &kept[kept.len() - 1], &kept[0]) {
-        kept.pop();
+    while simplified_ring.len() > 2
+        && is_between(
+            &simplified_ring[simplified_ring.len() - 2],
+            &simplified_ring[simplified_ring.len() - 1],
+            &simplified_ring[0],
+        )
+    {
+        simplified_ring.pop();
     }
-    while kept.len() > 2 && is_between(&kept[kept.len() - 1], &kept[0], &kept[1]) {
-        kept.remove(0);
+    while simplified_ring.len() > 2
+        && is_between(&simplified_ring[simplified_ring.len() - 1], &simplified_ring[0], &simplified_ring[1])
+    {
+        simplified_ring.remove(0);
     }
-    kept
+    simplified_ring
 }
 
 /// Simplifies a ring (Douglas-Peucker). Points where it reaches or leaves the frame are kept.
@@ -189,10 +202,11 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &OutlineTracin
     let [x, y] = tracing.scale;
     let scaled: Vec<Point> = ring.iter().map(|p| Point::new(p.x * x, p.y * y)).collect();
     let on = |p: &Point| [p.x == 0.0, p.x == width, p.y == 0.0, p.y == height];
-    let alike = |a: &Point, b: &Point| (0..4).any(|side| on(a)[side] && on(b)[side]);
+    let share_side = |a: &Point, b: &Point| (0..4).any(|side| on(a)[side] && on(b)[side]);
     let is_fixed = |k: usize| {
-        let (before, own, after) = (&ring[(k + n - 1) % n], &ring[k], &ring[(k + 1) % n]);
-        on(own).contains(&true) && !(alike(before, own) && alike(own, after) && alike(before, after))
+        let (before, current, after) = (&ring[(k + n - 1) % n], &ring[k], &ring[(k + 1) % n]);
+        on(current).contains(&true)
+            && !(share_side(before, current) && share_side(current, after) && share_side(before, after))
     };
     let mut fixed: Vec<usize> = (0..n).filter(|k| is_fixed(*k)).collect();
     if fixed.len() < 2 {
@@ -202,10 +216,10 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &OutlineTracin
         let far = (0..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
         fixed = vec![first.min(far), first.max(far)];
     }
-    let mut stays = vec![false; n];
+    let mut is_kept = vec![false; n];
     for (k, from) in fixed.iter().enumerate() {
         let to = fixed.get(k + 1).copied().unwrap_or(fixed[0] + n);
-        stays[*from] = true;
+        is_kept[*from] = true;
         let mut open = vec![(*from, to)];
         while let Some((a, b)) = open.pop() {
             let off = |i: &usize| segment_distance_squared(scaled[i % n], scaled[a % n], scaled[b % n]);
@@ -213,12 +227,12 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &OutlineTracin
                 continue;
             };
             if off(&worst) > tracing.tolerance * tracing.tolerance {
-                stays[worst % n] = true;
+                is_kept[worst % n] = true;
                 open.extend([(a, worst), (worst, b)]);
             }
         }
     }
-    (0..n).filter(|k| stays[*k]).map(|k| ring[k]).collect()
+    (0..n).filter(|k| is_kept[*k]).map(|k| ring[k]).collect()
 }
 
 #[cfg(test)]

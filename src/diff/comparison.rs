@@ -63,9 +63,9 @@ pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
         diff.same_at = Some(Stage::Bytes);
         return diff;
     }
-    let (left_before, left_after) =
+    let (kept_before, kept_after) =
         (without_ignored(before, options.ignore), without_ignored(after, options.ignore));
-    find_changes(&mut diff, [&left_before, &left_after], options);
+    find_changes(&mut diff, [&kept_before, &kept_after], options);
     if options.pixels {
         diff.pixels = pixel_count::compare(before, after);
         if diff.pixels.as_ref().is_some_and(|pixels| !pixels.is_same()) {
@@ -90,13 +90,13 @@ fn without_ignored(picture: &Picture, ignore: Ignore) -> Picture {
 fn find_changes(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let [before, after] = pictures;
     // If one drawing lost all labels, labels cannot identify marks.
-    let lost = missing_labels::labelled_side(pictures).filter(|_| !options.ignore.labels);
+    let unlabelled_side = missing_labels::labelled_side(pictures).filter(|_| !options.ignore.labels);
     let mut ignore = options.ignore;
-    ignore.labels |= lost.is_some();
-    if options.brief && lost.is_none() && report_camera_change(diff, pictures, options) {
+    ignore.labels |= unlabelled_side.is_some();
+    if options.brief && unlabelled_side.is_none() && report_camera_change(diff, pictures, options) {
         return;
     }
-    let page = page(before, after);
+    let page_finding = page(before, after);
     let mut compared = compare_marks(pictures, &options.tolerances, ignore);
     let renamed = (!ignore.labels).then(|| changes::renamed(pictures, &compared.findings)).flatten();
     let (pictures, names) = match &renamed {
@@ -108,60 +108,67 @@ fn find_changes(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions)
         compared = compare_marks(pictures, &options.tolerances, ignore);
         diff.totals = Totals::of(before, after);
     }
-    let looked = compare_rasters(pictures, &compared.findings, options, ignore);
-    diff.pictures_unknown = matches!(looked, RasterVerdict::Unknown);
-    let seen = match looked {
+    let raster_verdict = compare_rasters(pictures, &compared.findings, options, ignore);
+    diff.pictures_unknown = matches!(raster_verdict, RasterVerdict::Unknown);
+    let pixel_findings = match raster_verdict {
         RasterVerdict::Same => {
-            let found = std::mem::take(&mut compared.findings);
-            let before = found.len();
-            compared.findings = raster_check::without_picture(found, pictures, ignore);
-            compared.is_one_picture = compared.findings.len() < before;
+            let mark_findings = std::mem::take(&mut compared.findings);
+            let count_before = mark_findings.len();
+            compared.findings = raster_check::without_picture(mark_findings, pictures, ignore);
+            compared.is_one_picture = compared.findings.len() < count_before;
             if compared.is_one_picture {
                 compared.moved_parts.clear();
             }
             Vec::new()
         }
-        RasterVerdict::Differs(more) => more,
+        RasterVerdict::Differs(raster_findings) => raster_findings,
         RasterVerdict::Unknown => Vec::new(),
     };
     // All marks moved alike: report one motion of the whole drawing.
-    let together = whole_motion::common_shift(
+    let common_motion = whole_motion::common_shift(
         &mut compared.findings,
         before,
         &compared.unequal_shapes[0],
         diff.tolerance_px,
     );
-    if let Some(motion) = together {
+    if let Some(motion) = common_motion {
         let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
         return assemble_result(
             diff,
             pictures,
-            [page.into_iter().chain(names).collect(), seen],
+            [page_finding.into_iter().chain(names).collect(), pixel_findings],
             compared,
             vec![cause],
-            lost,
+            unlabelled_side,
         );
     }
-    let whole = (compared.findings.len() > 2)
+    let whole_drawing_motion = (compared.findings.len() > 2)
         .then(|| whole_motion::whole(pictures, &compared.unequal_shapes, default_px(before, after)))
         .flatten();
     let mut causes = Vec::new();
-    if let Some(whole) = whole
-        && let Some((found, cause)) =
-            whole_motion_findings(diff, &whole, pictures, &compared, &options.tolerances, ignore)
+    if let Some(drawing_motion) = whole_drawing_motion
+        && let Some((remaining_findings, cause)) =
+            whole_motion_findings(diff, &drawing_motion, pictures, &compared, &options.tolerances, ignore)
     {
-        compared.findings = found;
+        compared.findings = remaining_findings;
         compared.moved_parts.clear();
         causes.push(cause);
     }
-    assemble_result(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
+    assemble_result(
+        diff,
+        pictures,
+        [page_finding.into_iter().chain(names).collect(), pixel_findings],
+        compared,
+        causes,
+        unlabelled_side,
+    );
 }
 
 /// Reports a change of camera in one finding; returns `false` for all other changes.
 fn report_camera_change(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
     let groups = MarkGroups::new(pictures, &options.tolerances, options.ignore);
-    let parted = equal_shapes::part(pictures[0], pictures[1], &groups);
-    let Some((finding, cause)) = camera_change::find(pictures, &parted, diff.tolerance_px) else {
+    let shape_matching = equal_shapes::part(pictures[0], pictures[1], &groups);
+    let Some((finding, cause)) = camera_change::find(pictures, &shape_matching, diff.tolerance_px) else {
         return false;
     };
     if page(pictures[0], pictures[1]).is_some()
@@ -192,15 +199,15 @@ fn compare_rasters(
 fn assemble_result(
     diff: &mut Diff,
     pictures: [&Picture; 2],
-    more: [Vec<Finding>; 2],
+    additional_findings: [Vec<Finding>; 2],
     mut compared: MarkComparison,
     mut causes: Vec<Cause>,
-    lost: Option<usize>,
+    unlabelled_side: Option<usize>,
 ) {
-    let structure = compared.unequal_shapes.iter().all(Vec::is_empty) && lost.is_none();
-    diff.findings.extend(more.into_iter().flatten());
+    let is_same_structure = compared.unequal_shapes.iter().all(Vec::is_empty) && unlabelled_side.is_none();
+    diff.findings.extend(additional_findings.into_iter().flatten());
     diff.findings.append(&mut compared.findings);
-    if let Some(side) = lost {
+    if let Some(side) = unlabelled_side {
         let findings = missing_labels::findings(pictures[side], &diff.findings, side);
         causes.extend(missing_labels::cause(&findings, side));
         diff.findings.extend(findings);
@@ -212,14 +219,14 @@ fn assemble_result(
             Verdict::Relabelled => finding.verdict == Verdict::Relabelled,
             _ => finding.verdict == Verdict::Page || whole_motion::is_carried(finding),
         };
-        let places = diff.findings.iter().enumerate().filter(|(_, finding)| follows(finding));
-        cause.findings = places.map(|(index, _)| index).collect();
+        let matching_findings = diff.findings.iter().enumerate().filter(|(_, finding)| follows(finding));
+        cause.findings = matching_findings.map(|(index, _)| index).collect();
     }
     diff.causes = causes;
-    let more = cause_sentences::causes(diff, &compared.moved_parts);
-    diff.causes.extend(more);
+    let further_causes = cause_sentences::causes(diff, &compared.moved_parts);
+    diff.causes.extend(further_causes);
     if diff.findings.is_empty() {
-        diff.same_at = Some(match (compared.is_one_picture, structure) {
+        diff.same_at = Some(match (compared.is_one_picture, is_same_structure) {
             (true, _) => Stage::Picture,
             (_, true) => Stage::Structure,
             _ => Stage::Geometry,
@@ -249,44 +256,46 @@ fn whole_motion_findings(
     ignore: Ignore,
 ) -> Option<(Vec<Finding>, Cause)> {
     let mut tolerances = tolerances.clone();
-    let reach = Length::px(whole.reach);
-    let own = tolerances.all.map_or(0.0, |all| all.in_unit(Unit::Px));
-    if own < whole.reach {
-        tolerances.all = Some(reach);
+    let motion_tolerance = Length::px(whole.reach);
+    let requested_px = tolerances.all.map_or(0.0, |all| all.in_unit(Unit::Px));
+    if requested_px < whole.reach {
+        tolerances.all = Some(motion_tolerance);
     }
-    let tried = whole
+    let candidate_findings = whole
         .carried
         .iter()
         .map(|carried| compare_marks([carried, pictures[1]], &tolerances, ignore).findings);
-    let left = tried.min_by_key(Vec::len)?;
-    if left.len() * 4 > compared.findings.len() {
+    let fewest_findings = candidate_findings.min_by_key(Vec::len)?;
+    if fewest_findings.len() * 4 > compared.findings.len() {
         return None;
     }
-    let carried = whole_motion::findings(pictures[0], &compared.unequal_shapes[0], &whole.motion, &left);
-    if carried.is_empty() {
+    let carried_findings =
+        whole_motion::findings(pictures[0], &compared.unequal_shapes[0], &whole.motion, &fewest_findings);
+    if carried_findings.is_empty() {
         return None;
     }
-    let cause = sentence(diff, &whole.motion, pictures, carried.len(), whole.reach);
-    Some((left.into_iter().chain(carried).collect(), cause))
+    let cause = sentence(diff, &whole.motion, pictures, carried_findings.len(), whole.reach);
+    Some((fewest_findings.into_iter().chain(carried_findings).collect(), cause))
 }
 
 /// The motion of the whole drawing as a cause, without its findings.
-fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
+fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, tolerance: f64) -> Cause {
     let unit = diff.unit();
-    let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
-    let mut words = cause_sentences::motion(motion, place, unit);
+    let page_rect = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
+    let mut description = cause_sentences::motion(motion, page_rect, unit);
     // A drawing scaled from the page's corner does not move.
-    if motion.displacement(Point::ORIGIN).hypot() <= reach
-        && let Some((grown, _)) = words.split_once(", its middle")
+    if motion.displacement(Point::ORIGIN).hypot() <= tolerance
+        && let Some((growth_text, _)) = description.split_once(", its middle")
     {
-        words.truncate(grown.len());
+        description.truncate(growth_text.len());
     }
     let page = match page(pictures[0], pictures[1]) {
         Some(page) => format!(" ({})", text_report::changed(&page.changes)),
         None => String::new(),
     };
-    let exact = unit.length(reach);
-    let sentence = format!("the whole drawing {words}{page}: {count} marks, as they were within {exact}");
+    let tolerance_text = unit.length(tolerance);
+    let sentence =
+        format!("the whole drawing {description}{page}: {count} marks, as they were within {tolerance_text}");
     Cause { verdict: Verdict::Moved, sentence, findings: Vec::new() }
 }
 
@@ -305,36 +314,39 @@ struct MarkComparison {
 fn compare_marks(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> MarkComparison {
     let [before, after] = pictures;
     let groups = MarkGroups::new(pictures, tolerances, ignore);
-    let equal_shapes::ShapeMatching { equal: mut stayed, unequal_shapes: rest } =
+    let equal_shapes::ShapeMatching { equal: mut equal_pairs, unequal_shapes: unmatched } =
         equal_shapes::part(before, after, &groups);
     let mut findings = Vec::new();
     let mut movers = Vec::new();
-    if !rest.iter().all(Vec::is_empty) {
-        (findings, movers) = compare_unequal(pictures, &rest, &groups, ignore, &mut stayed);
+    if !unmatched.iter().all(Vec::is_empty) {
+        (findings, movers) = compare_unequal(pictures, &unmatched, &groups, ignore, &mut equal_pairs);
     }
-    findings.extend(stacking_order::findings(before, after, stayed));
-    MarkComparison { findings, unequal_shapes: rest, moved_parts: movers, is_one_picture: false }
+    findings.extend(stacking_order::findings(before, after, equal_pairs));
+    MarkComparison { findings, unequal_shapes: unmatched, moved_parts: movers, is_one_picture: false }
 }
 
 /// Changes of the shapes without an equal. Shapes that did not move are added to `stayed`.
 fn compare_unequal(
     [before, after]: [&Picture; 2],
-    rest: &[Vec<usize>; 2],
+    unequal_shapes: &[Vec<usize>; 2],
     groups: &MarkGroups,
     ignore: Ignore,
     stayed: &mut Vec<(usize, usize)>,
 ) -> (Vec<Finding>, Vec<MovedPart>) {
     let chains = [
-        chain::chains_of_shapes(before, &rest[0], &groups.of_shape[0], groups),
-        chain::chains_of_shapes(after, &rest[1], &groups.of_shape[1], groups),
+        chain::chains_of_shapes(before, &unequal_shapes[0], &groups.of_shape[0], groups),
+        chain::chains_of_shapes(after, &unequal_shapes[1], &groups.of_shape[1], groups),
     ];
     let firsts = [chain::first_copies(&chains[0]), chain::first_copies(&chains[1])];
     let grid = |side: usize| {
         let chains = chains[side].iter().enumerate();
         SegmentGrid::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
     };
-    let all = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
-    let covers = [cover(all(0), all(1), &grid(1), groups), cover(all(1), all(0), &grid(0), groups)];
+    let chains_and_firsts = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
+    let covers = [
+        cover(chains_and_firsts(0), chains_and_firsts(1), &grid(1), groups),
+        cover(chains_and_firsts(1), chains_and_firsts(0), &grid(0), groups),
+    ];
     let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
     let sides = [
         CoveredChains { chains: a, firsts: firsts_a, covers: cover_a },
@@ -343,13 +355,17 @@ fn compare_unequal(
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
         let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
         stayed.extend(
-            chain.shapes.first().copied().zip(partner.and_then(|other| other.shapes.first().copied())),
+            chain
+                .shapes
+                .first()
+                .copied()
+                .zip(partner.and_then(|partner_chain| partner_chain.shapes.first().copied())),
         );
     }
     let page = before.width.max(before.height).max(after.width.max(after.height));
     let events = events(&sides, groups, page);
-    let teller = FindingWriter { pictures: [before, after], sides: &sides, ignore };
-    let (events_of_lines, borders): (Vec<ChainEvent>, Vec<ChainEvent>) =
+    let finding_writer = FindingWriter { pictures: [before, after], sides: &sides, ignore };
+    let (events_of_lines, region_events): (Vec<ChainEvent>, Vec<ChainEvent>) =
         events.into_iter().partition(|event| {
             let chain =
                 event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
@@ -357,12 +373,12 @@ fn compare_unequal(
                 .and_then(|chain| groups.groups.get(chain.group))
                 .is_none_or(|group| group.kind == ShapeKind::Line)
         });
-    let mut findings = line_findings::findings(&teller, events_of_lines);
-    findings.extend(region_findings::findings(&teller, borders));
+    let mut findings = line_findings::findings(&finding_writer, events_of_lines);
+    findings.extend(region_findings::findings(&finding_writer, region_events));
     if !ignore.widths {
-        findings.extend(outline_findings::findings(&teller, groups));
+        findings.extend(outline_findings::findings(&finding_writer, groups));
     }
-    let movers = moved_parts::find_moved_parts([before, after], rest, &findings);
+    let movers = moved_parts::find_moved_parts([before, after], unequal_shapes, &findings);
     (findings, movers)
 }
 

@@ -26,52 +26,55 @@ pub(crate) enum Mistake {
 /// Rewrites a parser message in plain words.
 pub(crate) fn explain(message: &str) -> Explained {
     let message = message.trim().replace('\n', ", ");
-    let other =
+    let other_mistake =
         |message: String, advice: Option<String>| Explained { message, advice, mistake: Mistake::Other };
     if let Some(words) = quoted(&message, "unknown field ") {
-        let Some((word, known)) = words.split_first() else { return other(message, None) };
-        let known = without_american(known);
-        let advice = did_you_mean(word, &known, "known keys");
-        let known = known.into_iter().map(ToOwned::to_owned).collect();
+        let Some((word, listed)) = words.split_first() else { return other_mistake(message, None) };
+        let british_keys = without_american(listed);
+        let advice = did_you_mean(word, &british_keys, "known keys");
+        let key_names = british_keys.into_iter().map(ToOwned::to_owned).collect();
         return Explained {
             message: format!("unknown key `{word}`"),
             advice: Some(advice),
-            mistake: Mistake::UnknownKey((*word).to_owned(), known),
+            mistake: Mistake::UnknownKey((*word).to_owned(), key_names),
         };
     }
     if let Some(words) = quoted(&message, "unknown variant ") {
-        let Some((word, known)) = words.split_first() else { return other(message, None) };
-        return other(format!("unknown value `{word}`"), Some(did_you_mean(word, known, "known values")));
+        let Some((word, known_values)) = words.split_first() else { return other_mistake(message, None) };
+        return other_mistake(
+            format!("unknown value `{word}`"),
+            Some(did_you_mean(word, known_values, "known values")),
+        );
     }
     if let Some(words) = quoted(&message, "missing field ") {
         let word = words.first().copied().unwrap_or_default();
-        return other(format!("`{word}` is missing"), Some(format!("add {word} = …")));
+        return other_mistake(format!("`{word}` is missing"), Some(format!("add {word} = …")));
     }
     if let Some(words) = quoted(&message, "duplicate field ") {
         let word = words.first().copied().unwrap_or_default();
-        return other(format!("`{word}` is given twice"), Some("leave one out".to_owned()));
+        return other_mistake(format!("`{word}` is given twice"), Some("leave one out".to_owned()));
     }
     if message == "duplicate key" {
-        return other("this key is given twice".to_owned(), Some("leave one out".to_owned()));
+        return other_mistake("this key is given twice".to_owned(), Some("leave one out".to_owned()));
     }
     for start in ["invalid type: ", "invalid value: "] {
         let parts = message.strip_prefix(start).and_then(|rest| rest.split_once(", expected "));
-        if let Some((found, wanted)) = parts {
+        if let Some((actual_value, expected_type)) = parts {
             return Explained {
-                message: format!("{} does not fit here", plain_value(found)),
-                advice: Some(format!("write {}", plain_type(wanted))),
+                message: format!("{} does not fit here", plain_value(actual_value)),
+                advice: Some(format!("write {}", plain_type(expected_type))),
                 mistake: Mistake::WrongType,
             };
         }
     }
     let counted = message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "));
-    if let Some((found, wanted)) = counted {
-        let wanted: String = wanted.chars().filter(char::is_ascii_digit).collect();
-        let message = match found {
+    if let Some((actual_count, expected_length)) = counted {
+        let digits: String = expected_length.chars().filter(char::is_ascii_digit).collect();
+        let message = match actual_count {
             "1" => "one value does not fit here".to_owned(),
-            _ => format!("{found} values do not fit here"),
+            _ => format!("{actual_count} values do not fit here"),
         };
-        let advice = format!("write {wanted} values");
+        let advice = format!("write {digits} values");
         return Explained { message, advice: Some(advice), mistake: Mistake::WrongType };
     }
     let is_word = message.starts_with("wanted string or table");
@@ -84,8 +87,8 @@ pub(crate) fn explain(message: &str) -> Explained {
         };
     }
     match message.split_once("; ") {
-        Some((what, advice)) => other(what.to_owned(), Some(advice.to_owned())),
-        None => other(message, None),
+        Some((what, advice)) => other_mistake(what.to_owned(), Some(advice.to_owned())),
+        None => other_mistake(message, None),
     }
 }
 
@@ -153,7 +156,7 @@ mod tests {
 
     #[test]
     fn explain_hides_rust_type_names() {
-        for (theirs, message, advice) in [
+        for (serde_message, message, advice) in [
             (
                 "invalid type: integer `-3`, expected usize",
                 "`-3` does not fit here",
@@ -175,10 +178,14 @@ mod tests {
             ("duplicate field `colour`", "`colour` is given twice", "leave one out"),
             ("unknown field `x`, expected one of `color`, `colour`", "unknown key `x`", "known keys: colour"),
         ] {
-            let found = explain(theirs);
-            assert_eq!((&*found.message, found.advice.as_deref()), (message, Some(advice)), "{theirs}");
+            let explained = explain(serde_message);
+            assert_eq!(
+                (&*explained.message, explained.advice.as_deref()),
+                (message, Some(advice)),
+                "{serde_message}"
+            );
         }
-        let found = explain("data did not match any variant of untagged enum Spots");
-        assert_eq!((&*found.message, found.advice), ("this does not fit here", None));
+        let explained = explain("data did not match any variant of untagged enum Spots");
+        assert_eq!((&*explained.message, explained.advice), ("this does not fit here", None));
     }
 }

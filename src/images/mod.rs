@@ -88,8 +88,8 @@ pub(crate) fn pictures(
     if too_many > 0 {
         let mut areas: Vec<f64> = clusters.iter().map(|cluster| cluster.area(&facets)).collect();
         areas.sort_by(|a, b| b.total_cmp(a));
-        let least = areas[MAX_PIECES];
-        clusters.retain(|cluster| cluster.area(&facets) > least);
+        let min_area = areas[MAX_PIECES];
+        clusters.retain(|cluster| cluster.area(&facets) > min_area);
     }
 
     let mut mapped = Vec::new();
@@ -100,30 +100,30 @@ pub(crate) fn pictures(
         else {
             continue;
         };
-        let made = match cluster.shows {
+        let piece_fill = match cluster.shows {
             ClusterPaint::Colour(colour) => PieceFill::Flat(outline, colour),
             ClusterPaint::Picture(map) => {
                 mapped.push(MappedPiece::new(outline, map, offset, periods));
                 PieceFill::Mapped(mapped.len() - 1)
             }
         };
-        shown.push((cluster.part, made));
+        shown.push((cluster.part, piece_fill));
     }
     let part = ImagePart::of(imaged, &mapped, scale, periods);
-    let one = |colour| {
+    let toned_colour = |colour| {
         let mut picture = Picture { width: 1, height: 1, pixels: vec![colour] };
         toned(&mut picture);
         picture.at(0, 0)
     };
     // Where all pieces have one colour, the drawing holds one white pixel as their picture.
-    let nothing = Picture { width: 1, height: 1, pixels: vec![Colour::WHITE] };
+    let blank = Picture { width: 1, height: 1, pixels: vec![Colour::WHITE] };
     let transform = |piece: &MappedPiece| part.as_ref().map(|part| part.transform(piece, offset));
     shown.sort_by_key(|(part, _)| *part);
     let mut of_part: Vec<(PartId, Vec<ImagePiece>)> = Vec::new();
-    for (owner, made) in shown {
-        let piece = match made {
+    for (owner, content) in shown {
+        let piece = match content {
             PieceFill::Flat(outline, colour) => {
-                ImagePiece { outline, shows: PieceContent::Colour(one(colour)) }
+                ImagePiece { outline, shows: PieceContent::Colour(toned_colour(colour)) }
             }
             PieceFill::Mapped(number) => match transform(&mapped[number]) {
                 Some(affine) => ImagePiece {
@@ -138,7 +138,7 @@ pub(crate) fn pictures(
             None => of_part.push((owner, vec![piece])),
         }
     }
-    let mut picture = part.map_or(nothing, |part| part.picture);
+    let mut picture = part.map_or(blank, |part| part.picture);
     toned(&mut picture);
     let picture = Arc::new(picture);
     let with = |(part, pieces)| (part, ImagePaint { picture: Arc::clone(&picture), pieces });
@@ -155,9 +155,9 @@ enum PieceFill {
 
 /// Longer side of the bounding box of a cluster.
 fn length(cluster: &FacetCluster, facets: &[Facet]) -> f64 {
-    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let empty_box = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let corners = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].corners);
-    let (low, high) = corners.fold(none, |(low, high), corner| {
+    let (low, high) = corners.fold(empty_box, |(low, high), corner| {
         let at = corner.image.truncate();
         (low.min(at), high.max(at))
     });
@@ -166,9 +166,9 @@ fn length(cluster: &FacetCluster, facets: &[Facet]) -> f64 {
 
 /// Mean colour of a small cluster: that of the bounding box of its places.
 fn mean(imaged: &EmbeddedTexture, cluster: &FacetCluster, facets: &[Facet]) -> Colour {
-    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let places = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].places());
-    let (low, high) = places.fold(none, |(low, high), p| (low.min(p), high.max(p)));
+    let empty_box = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let texel_points = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].places());
+    let (low, high) = texel_points.fold(empty_box, |(low, high), p| (low.min(p), high.max(p)));
     // At least a texel, and at most an area that is cheap to average.
     let (middle, half) =
         ((low + high) / 2.0, ((high - low) / 2.0).clamp(DVec2::splat(0.5), DVec2::splat(32.0)));
@@ -180,23 +180,23 @@ fn stretch(facets: &[Facet], px: f64) -> Option<f64> {
     let of = |facet: &Facet| {
         let [a, b, c] = facet.corners;
         let (p, q) = (b.place - a.place, c.place - a.place);
-        let whole = p.perp_dot(q);
+        let determinant = p.perp_dot(q);
         let (x, y) = ((b.image - a.image).truncate(), (c.image - a.image).truncate());
-        let (u, v): (DVec2, DVec2) = ((x * q.y - y * p.y) / whole, (y * p.x - x * q.x) / whole);
+        let (u, v): (DVec2, DVec2) = ((x * q.y - y * p.y) / determinant, (y * p.x - x * q.x) / determinant);
         // The greater singular value of the matrix with these columns.
         let (sum, turn) = (u.length_squared() + v.length_squared(), u.perp_dot(v));
-        let most = f64::midpoint(sum, (sum * sum - 4.0 * turn * turn).max(0.0).sqrt()).sqrt() / px;
-        most.is_finite().then_some((most, facet.area2().abs()))
+        let max_stretch = f64::midpoint(sum, (sum * sum - 4.0 * turn * turn).max(0.0).sqrt()).sqrt() / px;
+        max_stretch.is_finite().then_some((max_stretch, facet.area2().abs()))
     };
     if facets.is_empty() {
         return None;
     }
     let mut stretches: Vec<(f64, f64)> = facets.iter().filter_map(of).collect();
     stretches.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut left = stretches.iter().map(|(_, area)| area).sum::<f64>() * MAX_COARSE_SHARE;
+    let mut remaining_area = stretches.iter().map(|(_, area)| area).sum::<f64>() * MAX_COARSE_SHARE;
     let reaches = |(_, area): &&(f64, f64)| {
-        left -= area;
-        left <= 0.0
+        remaining_area -= area;
+        remaining_area <= 0.0
     };
-    Some(stretches.iter().find(reaches).or(stretches.last()).map_or(1.0, |(most, _)| *most))
+    Some(stretches.iter().find(reaches).or(stretches.last()).map_or(1.0, |(factor, _)| *factor))
 }

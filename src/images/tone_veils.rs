@@ -58,47 +58,52 @@ impl ToneVeils {
     }
 
     fn over(tones: &[ToneResponse], mean: [f64; 3]) -> Option<Self> {
-        let least = |made: &ToneResponse| made.slope.into_iter().fold(f64::INFINITY, f64::min);
-        let (lightest, lit) = tones.iter().enumerate().max_by(|a, b| least(a.1).total_cmp(&least(b.1)))?;
-        if least(lit) < MIN_TONE_SLOPE {
+        let min_slope = |response: &ToneResponse| response.slope.into_iter().fold(f64::INFINITY, f64::min);
+        let (lightest, lit) =
+            tones.iter().enumerate().max_by(|a, b| min_slope(a.1).total_cmp(&min_slope(b.1)))?;
+        if min_slope(lit) < MIN_TONE_SLOPE {
             return None;
         }
         let tone = [0, 1, 2].map(|c| [lit.slope[c], lit.mean[c] - lit.slope[c] * mean[c]]);
         // Share of the picture that a tone leaves, and its addend.
-        let left = |made: &ToneResponse| {
-            let parts = [0, 1, 2].map(|c| made.slope[c] / lit.slope[c].max(MIN_TONE_SLOPE));
+        let remainder = |tone_response: &ToneResponse| {
+            let parts = [0, 1, 2].map(|c| tone_response.slope[c] / lit.slope[c].max(MIN_TONE_SLOPE));
             let part = parts.into_iter().fold(1.0, f64::min);
-            let added = [0, 1, 2].map(|c| (made.mean[c] - part * lit.mean[c]).clamp(0.0, 1.0 - part));
+            let added =
+                [0, 1, 2].map(|c| (tone_response.mean[c] - part * lit.mean[c]).clamp(0.0, 1.0 - part));
             (part, added)
         };
-        let mut others: Vec<(u16, f64, [f64; 3])> = tones
+        let mut other_tones: Vec<(u16, f64, [f64; 3])> = tones
             .iter()
             .enumerate()
             .filter(|(tone, _)| *tone != lightest)
-            .map(|(tone, made)| (tone as u16, left(made).0, left(made).1))
+            .map(|(tone, made)| (tone as u16, remainder(made).0, remainder(made).1))
             .collect();
-        others.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
+        other_tones.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
         let mut veils: Vec<(Colour, Vec<u16>)> = Vec::new();
-        let mut alone: Vec<(Colour, Vec<u16>)> = Vec::new();
+        let mut separate_veils: Vec<(Colour, Vec<u16>)> = Vec::new();
         // Share that the veils up to here leave, and their addend.
         let (mut part, mut added) = (1.0, [0.0; 3]);
-        for (tone, own_part, own_added) in others {
-            let more = own_part / part;
-            let rest = [0, 1, 2].map(|c| own_added[c] - added[c] * more);
-            if rest.into_iter().any(|rest| rest < -MAX_COLOUR_ERROR || rest > 1.0 - more + MAX_COLOUR_ERROR) {
-                alone.extend(veil(own_part, own_added).map(|(veil, _, _)| (veil, vec![tone])));
+        for (tone, own_part, own_added) in other_tones {
+            let relative_part = own_part / part;
+            let relative_added = [0, 1, 2].map(|c| own_added[c] - added[c] * relative_part);
+            if relative_added
+                .into_iter()
+                .any(|rest| rest < -MAX_COLOUR_ERROR || rest > 1.0 - relative_part + MAX_COLOUR_ERROR)
+            {
+                separate_veils.extend(veil(own_part, own_added).map(|(veil, _, _)| (veil, vec![tone])));
                 continue;
             }
             // The opacity is used as written, so errors do not accumulate.
-            if let Some((veil, more, rest)) = veil(more, rest) {
-                part *= more;
-                added = [0, 1, 2].map(|c| added[c] * more + rest[c]);
+            if let Some((veil, written_part, written_added)) = veil(relative_part, relative_added) {
+                part *= written_part;
+                added = [0, 1, 2].map(|c| added[c] * written_part + written_added[c]);
                 veils.push((veil, Vec::new()));
             }
             let reached = veils.len();
             veils.iter_mut().take(reached).for_each(|(_, tones)| tones.push(tone));
         }
-        veils.extend(alone);
+        veils.extend(separate_veils);
         Some(Self { tone, veils })
     }
 
@@ -144,11 +149,11 @@ mod tests {
     const MEAN_COLOUR: [f64; 3] = [0.6, 0.5, 0.3];
 
     fn multiplying_tones(factors: &[[f64; 3]]) -> Vec<ToneResponse> {
-        let made = |slope: &[f64; 3]| ToneResponse {
+        let response = |slope: &[f64; 3]| ToneResponse {
             slope: *slope,
             mean: [0, 1, 2].map(|c| slope[c] * MEAN_COLOUR[c]),
         };
-        factors.iter().map(made).collect()
+        factors.iter().map(response).collect()
     }
 
     fn max_channel_error(a: [f64; 3], b: [f64; 3]) -> f64 {

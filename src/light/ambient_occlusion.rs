@@ -43,36 +43,36 @@ pub fn ambient_visibility(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> 
         RayStart { point: at + normals[v] * lifts[v], reach: reach(at) }
     };
     let starts: Vec<RayStart> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
-    let ask = |direction: DVec3, tree: Option<&RayTree>| {
+    let blocked_bits = |direction: DVec3, tree: Option<&RayTree>| {
         let above = |v: &usize| direction.dot(normals[*v]) > MIN_RAY_COSINE;
-        let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
-        let of: Vec<RayStart> = looking.iter().map(|v| starts[*v]).collect();
+        let facing_vertices: Vec<usize> = (0..starts.len()).filter(above).collect();
+        let of: Vec<RayStart> = facing_vertices.iter().map(|v| starts[*v]).collect();
         let mut bits = vec![0u64; starts.len().div_ceil(64)];
-        for (v, blocked) in looking.iter().zip(rays.blocked(&of, direction, tree)?) {
+        for (v, blocked) in facing_vertices.iter().zip(rays.blocked(&of, direction, tree)?) {
             bits[v / 64] |= u64::from(blocked) << (v % 64);
         }
         Some(bits)
     };
     let mut blocked: Vec<Option<Vec<u64>>> =
-        directions.par_iter().with_max_len(1).map(|d| ask(*d, None)).collect();
+        directions.par_iter().with_max_len(1).map(|d| blocked_bits(*d, None)).collect();
     if blocked.iter().any(Option::is_none) {
         let tree = RayTree::new(mesh);
         let left = blocked.par_iter_mut().zip(&directions).filter(|(blocked, _)| blocked.is_none());
-        left.for_each(|(blocked, direction)| *blocked = ask(*direction, Some(&tree)));
+        left.for_each(|(blocked, direction)| *blocked = blocked_bits(*direction, Some(&tree)));
     }
     let blocked: Vec<Vec<u64>> = blocked.into_iter().flatten().collect();
     let share = |v: usize| {
-        let (mut seen, mut all) = (0.0, 0.0);
+        let (mut open_weight, mut total_weight) = (0.0, 0.0);
         for (direction, blocked) in directions.iter().zip(&blocked) {
             let cosine = direction.dot(normals[v]);
             if cosine > MIN_RAY_COSINE {
-                all += cosine;
+                total_weight += cosine;
                 if blocked[v / 64] >> (v % 64) & 1 == 0 {
-                    seen += cosine;
+                    open_weight += cosine;
                 }
             }
         }
-        if all > 0.0 { seen / all } else { 1.0 }
+        if total_weight > 0.0 { open_weight / total_weight } else { 1.0 }
     };
     (0..starts.len()).into_par_iter().map(share).collect()
 }

@@ -46,8 +46,8 @@ impl ShadingNormals {
         let first = self.normals.len() as u32;
         self.normals.extend(&smooth.normals);
         for (face, corners) in self.corners.iter_mut().enumerate() {
-            if let Some(own) = smooth.corners_of(face as u32) {
-                *corners = own.map(|id| first + id);
+            if let Some(rounded_ids) = smooth.corners_of(face as u32) {
+                *corners = rounded_ids.map(|id| first + id);
             }
         }
     }
@@ -77,18 +77,21 @@ impl ShadingNormals {
             let mut sums = vec![DVec3::ZERO; share.vertices.len()];
             for face in share.faces.iter().flat_map(Clone::clone) {
                 let ids = self.corners[face];
-                let own = |id: u32| share.vertices.contains(&(id as usize)) && is_asked[id as usize];
-                if !ids.iter().any(|id| own(*id)) {
+                let is_in_share = |id: u32| share.vertices.contains(&(id as usize)) && is_asked[id as usize];
+                if !ids.iter().any(|id| is_in_share(*id)) {
                     continue;
                 }
                 let [a, b, c] = mesh.corners(FaceId(face as u32));
                 let cross = (b - a).cross(c - a);
-                for id in ids.into_iter().filter(|id| own(*id)) {
+                for id in ids.into_iter().filter(|id| is_in_share(*id)) {
                     sums[id as usize - share.vertices.start] += cross;
                 }
             }
             let normals = &self.normals[share.vertices.clone()];
-            sums.iter().zip(normals).map(|(sum, own)| sum.try_normalize().unwrap_or(*own)).collect::<Vec<_>>()
+            sums.iter()
+                .zip(normals)
+                .map(|(sum, original)| sum.try_normalize().unwrap_or(*original))
+                .collect::<Vec<_>>()
         };
         let weighed: Vec<Vec<DVec3>> = shares.par_iter().with_max_len(1).map(of_share).collect();
         self.normals = weighed.concat();
@@ -106,30 +109,32 @@ impl ShadingNormals {
             if ids.iter().any(|id| *id >= count || unit[*id as usize] == DVec3::ZERO) {
                 continue;
             }
-            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            let face_normal = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
             let sum: DVec3 = ids.iter().map(|id| unit[*id as usize]).sum();
-            let turned = if sum.dot(own) < 0.0 { count } else { 0 };
+            let turned = if sum.dot(face_normal) < 0.0 { count } else { 0 };
             self.corners[face] = ids.map(|id| first + turned + id);
         }
     }
 
     /// Replaces corner normals that are zero or turned away from the face by the normal of the face.
     fn mend(&mut self, mesh: &Mesh) {
-        let own = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
-        let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < MIN_FACE_COSINE;
+        let normal_of_face = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+        let bad = |normal: DVec3, face_normal: DVec3| {
+            normal == DVec3::ZERO || normal.dot(face_normal) < MIN_FACE_COSINE
+        };
         let is_bad = |face: &u32| {
-            let own = own(*face as usize);
-            own != DVec3::ZERO && self.of(*face).iter().any(|normal| bad(*normal, own))
+            let outward = normal_of_face(*face as usize);
+            outward != DVec3::ZERO && self.of(*face).iter().any(|normal| bad(*normal, outward))
         };
         let faces = (0..self.corners.len() as u32).into_par_iter().with_min_len(FACES_PER_TASK);
         let faces: Vec<u32> = faces.filter(is_bad).collect();
         for face in faces {
-            let (face, own) = (face as usize, own(face as usize));
+            let (face, outer_normal) = (face as usize, normal_of_face(face as usize));
             let id = self.normals.len() as u32;
-            self.normals.push(own);
+            self.normals.push(outer_normal);
             let normals = &self.normals;
             self.corners[face] =
-                self.corners[face].map(|k| if bad(normals[k as usize], own) { id } else { k });
+                self.corners[face].map(|k| if bad(normals[k as usize], outer_normal) { id } else { k });
         }
     }
 }
@@ -165,8 +170,8 @@ mod tests {
         };
         let (mesh, steep) = sheet(2.0);
         for face in 0..4 {
-            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
-            assert!(steep.of(face as u32).iter().all(|n| n.distance(own) < 1e-6));
+            let face_normal = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            assert!(steep.of(face as u32).iter().all(|n| n.distance(face_normal) < 1e-6));
         }
         let (_, shallow) = sheet(0.3);
         let ends: Vec<[DVec3; 3]> = (0..4).map(|face| shallow.of(face)).collect();

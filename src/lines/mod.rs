@@ -73,7 +73,7 @@ pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> Feature
 #[must_use]
 pub fn extract_with(
     surface: &Surface,
-    known: SharedSearches,
+    shared: SharedSearches,
     view: &View,
     options: &LineOptions,
 ) -> FeatureLines {
@@ -82,7 +82,7 @@ pub fn extract_with(
         return lines;
     }
     let Surface { mesh, smooth, .. } = surface;
-    let (asked, overlap) = (options, edges::coplanar_overlaps::has_overlaps(mesh));
+    let (requested_options, overlap) = (options, edges::coplanar_overlaps::has_overlaps(mesh));
     let with_borders = || {
         let more =
             [LineKind::Border, LineKind::Material].into_iter().filter(|kind| !options.kinds.contains(kind));
@@ -90,7 +90,7 @@ pub fn extract_with(
     };
     let with_borders = overlap.then(with_borders);
     let options = with_borders.as_ref().unwrap_or(options);
-    let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
+    let along_edges = || match shared.search.filter(|search| search.fits(mesh)) {
         None => edges::edge_lines::find(surface, view, options),
         Some(search) => {
             let among = search.candidates(mesh, view).items;
@@ -104,8 +104,11 @@ pub fn extract_with(
             (zero_sets::smooth_contours::find(mesh, view, smooth, &facing), facing)
         })
     };
-    let sought = options.kinds.contains(&LineKind::Intersection) && known.intersections.is_none();
-    let curves = || sought.then(|| intersections::intersection_lines::find(mesh, view, options.hidden));
+    let searches_intersections =
+        options.kinds.contains(&LineKind::Intersection) && shared.intersections.is_none();
+    let curves = || {
+        searches_intersections.then(|| intersections::intersection_lines::find(mesh, view, options.hidden))
+    };
     // These three are independent of each other.
     let ((segments, contours), curves) =
         crate::parallel::join(|| crate::parallel::join(along_edges, contours), curves);
@@ -115,7 +118,7 @@ pub fn extract_with(
     } else {
         Vec::new()
     };
-    let options = asked;
+    let options = requested_options;
     let overlaid = overlap
         .then(|| edges::coplanar_overlaps::classify_overlaps(mesh, view, &mut lines.segments, options));
     if let Some((contours, facing)) = contours {
@@ -123,16 +126,16 @@ pub fn extract_with(
         edges::ripple_edges::mark_ripples(mesh, view, smooth, &facing, &mut lines.segments);
     }
     if options.kinds.contains(&LineKind::Intersection)
-        && let Some(curves) = known.intersections.or(curves.as_ref())
+        && let Some(curves) = shared.intersections.or(curves.as_ref())
     {
         intersections::intersection_lines::add(curves, mesh, view, &mut lines);
     }
     if zero_sets::interior::has_interior_lines(options) {
         // Interior lines always need normals, contours along mesh edges do not.
-        let own = smooth
+        let computed_normals = smooth
             .is_empty()
             .then(|| prepared_surface::normals(mesh, &Patches::new(mesh, options.crease_deg, false), &[]));
-        let smooth = own.as_ref().unwrap_or(smooth);
+        let smooth = computed_normals.as_ref().unwrap_or(smooth);
         let curvature = zero_sets::interior::curvature(mesh, smooth, &options.inside);
         zero_sets::interior::find(mesh, view, smooth, &curvature, options, &mut lines);
     }

@@ -136,20 +136,20 @@ mod tests {
             Precision::Decimals(step) => step,
             other => panic!("{other:?}"),
         };
-        for (places, unit) in [(4, 1e-4), (5, 1e-5), (9, 1e-9)] {
-            let found = step(precision_of_written(20.0, round_to_decimals(places)));
-            assert!((found / unit - 1.0).abs() < 1e-9, "{places}: {found}");
+        for (decimals, unit) in [(4, 1e-4), (5, 1e-5), (9, 1e-9)] {
+            let measured_step = step(precision_of_written(20.0, round_to_decimals(decimals)));
+            assert!((measured_step / unit - 1.0).abs() < 1e-9, "{decimals}: {measured_step}");
         }
-        let found = step(precision_of_written(9.0, round_to_decimals(6)));
-        assert!((found / 1e-6 - 1.0).abs() < 1e-9, "{found}");
+        let measured_step = step(precision_of_written(9.0, round_to_decimals(6)));
+        assert!((measured_step / 1e-6 - 1.0).abs() < 1e-9, "{measured_step}");
         // Eight digits have the precision of an `f32`, so both results are valid.
         assert!(matches!(
             precision_of_written(20.0, round_to_decimals(6)),
             Precision::Single | Precision::Decimals(_)
         ));
         // Six digits, C's %g, of numbers up to 20.
-        let found = step(precision_of_written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
-        assert!((found / 1e-4 - 1.0).abs() < 1e-9, "{found}");
+        let measured_step = step(precision_of_written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
+        assert!((measured_step / 1e-4 - 1.0).abs() < 1e-9, "{measured_step}");
         assert_eq!(precision_of_written(20.0, |x| x), Precision::Exact);
         // Quarters are exact, and so are whole numbers of a small range.
         assert_eq!(precision_of_written(20.0, |x| (4.0 * x).round() / 4.0), Precision::Exact);

@@ -58,7 +58,7 @@ impl LineStarts {
             .collect();
         let shuffled = shuffled(geometry, body, hash(seed, &[body.identity]));
         let count = rules.len().max(options.lines as usize);
-        let mut spread = VertexSpread { geometry, left: shuffled.clone(), taken: Vec::new() };
+        let mut spread = VertexSpread { geometry, remaining: shuffled.clone(), taken: Vec::new() };
         for number in 0..count {
             let rule = rules.get(number).copied();
             let change = rule.map(|rule| options.line[rule].clone()).unwrap_or_default();
@@ -112,26 +112,26 @@ fn shuffled(geometry: &Geometry, body: &MovingBody, seed: u64) -> Vec<usize> {
 /// Takes vertices one by one, each far from the earlier ones.
 struct VertexSpread<'a> {
     geometry: &'a Geometry,
-    left: Vec<usize>,
+    remaining: Vec<usize>,
     taken: Vec<DVec3>,
 }
 
 impl VertexSpread<'_> {
     fn next(&mut self) -> Option<usize> {
-        let place = |vertex: usize| self.geometry.positions[vertex];
+        let position_of = |vertex: usize| self.geometry.positions[vertex];
         let gap = |vertex: usize| {
-            let ways = self.taken.iter().map(|other| other.distance_squared(place(vertex)));
-            ways.fold(f64::INFINITY, f64::min)
+            let distances = self.taken.iter().map(|other| other.distance_squared(position_of(vertex)));
+            distances.fold(f64::INFINITY, f64::min)
         };
         let mut best: Option<(usize, f64)> = None;
-        for (k, vertex) in self.left.iter().take(CANDIDATES_PER_LINE).enumerate() {
+        for (k, vertex) in self.remaining.iter().take(CANDIDATES_PER_LINE).enumerate() {
             let gap = gap(*vertex);
             if best.is_none_or(|(_, most)| gap > most) {
                 best = Some((k, gap));
             }
         }
         // A position with a line needs no second one.
-        best.filter(|(_, gap)| *gap > 0.0).map(|(k, _)| self.left.remove(k))
+        best.filter(|(_, gap)| *gap > 0.0).map(|(k, _)| self.remaining.remove(k))
     }
 }
 

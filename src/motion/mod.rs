@@ -73,22 +73,24 @@ fn movers(
     let (choice, step) = (BodySelection::new(rigged, options), 1.0 / options.rate);
     let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
     // Index of each part of the file among the visible parts.
-    let mut places = 0..;
-    let places: Vec<Option<usize>> = (0..rigged.scene.parts.len())
-        .map(|part| now.is_shown(part).then(|| places.next()).flatten())
+    let mut visible_numbers = 0..;
+    let visible_index: Vec<Option<usize>> = (0..rigged.scene.parts.len())
+        .map(|part| now.is_shown(part).then(|| visible_numbers.next()).flatten())
         .collect();
-    let found: Vec<(usize, MovingBody, LineStarts, bool)> = bodies(rigged, |part| now.differs(&before, part))
-        .into_par_iter()
-        .filter_map(|body| {
-            let place = places.get(body.part).copied().flatten()?;
-            let starts = LineStarts::new(rigged, &body, options, seed);
-            let speed = starts.speed(body.part, [&now, &before], step);
-            let chosen = choice.selects(&body, speed);
-            let leaves = speed > 0.0 && (chosen || choice.by_page_speed) && has_extent(scene, place, &body);
-            leaves.then_some((place, body, starts, chosen))
-        })
-        .collect();
-    for (_, body, starts, _) in &found {
+    let moving: Vec<(usize, MovingBody, LineStarts, bool)> =
+        bodies(rigged, |part| now.differs(&before, part))
+            .into_par_iter()
+            .filter_map(|body| {
+                let part_index = visible_index.get(body.part).copied().flatten()?;
+                let starts = LineStarts::new(rigged, &body, options, seed);
+                let speed = starts.speed(body.part, [&now, &before], step);
+                let chosen = choice.selects(&body, speed);
+                let leaves =
+                    speed > 0.0 && (chosen || choice.by_page_speed) && has_extent(scene, part_index, &body);
+                leaves.then_some((part_index, body, starts, chosen))
+            })
+            .collect();
+    for (_, body, starts, _) in &moving {
         for number in &starts.missing {
             let part = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
             scene
@@ -96,28 +98,28 @@ fn movers(
                 .note(format!("a motion line begins at vertex {number}, which part '{part}' lacks"));
         }
     }
-    if found.is_empty() {
+    if moving.is_empty() {
         return Vec::new();
     }
-    let longest = found.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
+    let longest = moving.iter().flat_map(|(_, _, starts, _)| &starts.lines).map(|line| line.segments).max();
     let interval = step / POINTS_PER_SEGMENT as f64;
     let buffer: Vec<PosedVertices> = (0..longest.unwrap_or(0) * POINTS_PER_SEGMENT + 1)
         .into_par_iter()
         .map(|k| rigged.at(&earlier(playing, interval * k as f64)))
         .collect();
-    let above: Vec<Option<usize>> = found.iter().map(|(_, body, ..)| above(rigged, body, &found)).collect();
-    found
+    let above: Vec<Option<usize>> = moving.iter().map(|(_, body, ..)| above(rigged, body, &moving)).collect();
+    moving
         .into_par_iter()
         .zip(above)
-        .map(|((place, body, starts, chosen), above)| Mover {
-            part: place,
+        .map(|((moving_part, body, starts, chosen), above)| Mover {
+            part: moving_part,
             material: starts.material,
             identity: body.identity,
             above,
             chosen,
             interval,
             trails: trails(body.part, &starts, options, &buffer),
-            body: if options.over { Vec::new() } else { triangles(scene, place, &body) },
+            body: if options.over { Vec::new() } else { triangles(scene, moving_part, &body) },
         })
         .collect()
 }
@@ -144,31 +146,33 @@ pub(crate) fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
 /// The trails of the vertices where lines start.
 fn trails(part: usize, starts: &LineStarts, options: &MotionOptions, buffer: &[PosedVertices]) -> Vec<Trail> {
     let middle = |moment: &PosedVertices| {
-        let places: Vec<DVec3> =
+        let anchor_positions: Vec<DVec3> =
             starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex)).collect();
-        places.iter().sum::<DVec3>() / places.len().max(1) as f64
+        anchor_positions.iter().sum::<DVec3>() / anchor_positions.len().max(1) as f64
     };
-    let way: Vec<DVec3> = match options.path {
+    let centre_path: Vec<DVec3> = match options.path {
         TrailPath::Vertex => Vec::new(),
         TrailPath::Body => buffer.iter().map(middle).collect(),
     };
     // A body scaled to zero appears from nothing. Its trail starts where it has a size.
-    let places = |moment: &PosedVertices| {
+    let positions_at = |moment: &PosedVertices| {
         let places = starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex));
         places.collect::<Vec<DVec3>>()
     };
-    let sized = buffer.iter().position(|moment| is_point(places(moment).into_iter())).unwrap_or(buffer.len());
+    let sized =
+        buffer.iter().position(|moment| is_point(positions_at(moment).into_iter())).unwrap_or(buffer.len());
     let lines = starts.lines.iter().filter(|line| line.visible);
     lines
         .map(|line| {
             let count = (line.segments * POINTS_PER_SEGMENT + 1).min(sized);
-            let own = |moment: &PosedVertices| moment.place(part, line.vertex);
-            let mut points: Vec<DVec3> = match (options.path, buffer.first().and_then(own), way.first()) {
-                (TrailPath::Body, Some(here), Some(now)) => {
-                    way.iter().take(count).map(|then| here + (*then - *now)).collect()
-                }
-                _ => buffer.iter().take(count).map_while(own).collect(),
-            };
+            let vertex_position = |moment: &PosedVertices| moment.place(part, line.vertex);
+            let mut points: Vec<DVec3> =
+                match (options.path, buffer.first().and_then(vertex_position), centre_path.first()) {
+                    (TrailPath::Body, Some(here), Some(now)) => {
+                        centre_path.iter().take(count).map(|then| here + (*then - *now)).collect()
+                    }
+                    _ => buffer.iter().take(count).map_while(vertex_position).collect(),
+                };
             end_at_turn(&mut points, options.turn);
             Trail { line: line.number, named: line.named, rule: line.rule, points }
         })

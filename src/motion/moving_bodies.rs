@@ -17,18 +17,18 @@ pub(crate) struct MovingBody {
     /// Stable identity at all times.
     pub identity: u64,
     /// For a skinned part, whether each vertex belongs to this body. `None` for other parts, where all do.
-    own: Option<Vec<bool>>,
+    owned_vertices: Option<Vec<bool>>,
 }
 
 impl MovingBody {
     /// Whether it is moved by a joint of a skin.
     pub fn is_joint(&self) -> bool {
-        self.own.is_some()
+        self.owned_vertices.is_some()
     }
 
     /// Whether a vertex of the part belongs to it.
     pub fn holds(&self, vertex: u32) -> bool {
-        self.own.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
+        self.owned_vertices.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
     }
 }
 
@@ -43,7 +43,7 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Movi
         let identity = parts.get(part).copied().unwrap_or_default();
         let is_skinned = rig.forms.get(shown.geometry).is_some_and(|form| form.skin.is_some());
         if !is_skinned {
-            bodies.push(MovingBody { part, node: *node, identity, own: None });
+            bodies.push(MovingBody { part, node: *node, identity, owned_vertices: None });
             continue;
         }
         let count = scene.geometries.get(shown.geometry).map_or(0, |geometry| geometry.positions.len());
@@ -56,7 +56,7 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Movi
             part,
             node: joint,
             identity: hash(identity, &[joint as u64]),
-            own: Some(carriers.iter().map(|carrier| *carrier == joint).collect()),
+            owned_vertices: Some(carriers.iter().map(|carrier| *carrier == joint).collect()),
         }));
     }
     bodies

@@ -81,44 +81,57 @@ pub struct Regions {
 /// Collects the regions of a labelled page: connected areas of equal label. Neighbours that differ in
 /// hatching bin only are one region. `unit` is the user unit of the page.
 #[must_use]
-pub fn gather(seen: &LabelledPage, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
-    let (mut patches, table) = patches(seen, |look| SurfaceLabel { bin: 0, ..*look }, options, unit);
-    let drawn = BorderDrawing { step: seen.step, leaks: seen.leaks, options, chain, unit };
+pub fn gather(
+    labelled_page: &LabelledPage,
+    options: &RegionOptions,
+    chain: &ChainOptions,
+    unit: Unit,
+) -> Regions {
+    let (mut patches, table) = patches(labelled_page, |look| SurfaceLabel { bin: 0, ..*look }, options, unit);
+    let drawn = BorderDrawing { step: labelled_page.step, leaks: labelled_page.leaks, options, chain, unit };
     let ramps = match options.steps_as {
         StepsAs::Bands => Vec::new(),
         StepsAs::Gradients => {
-            let borders = cells::border_arcs::trace(&seen.cut, &owners(&patches), patches.labels.len());
+            let borders =
+                cells::border_arcs::trace(&labelled_page.cut, &owners(&patches), patches.labels.len());
             let tolerance = Length::px(tolerances::MAX_GRADIENT_BORDER_ERROR_PX).in_unit(unit);
-            paint::gradient_regions::join(&seen.cut, &mut patches, &table, &borders, seen.step, tolerance)
+            paint::gradient_regions::join(
+                &labelled_page.cut,
+                &mut patches,
+                &table,
+                &borders,
+                labelled_page.step,
+                tolerance,
+            )
         }
     };
-    regions(&seen.cut, &patches, &table, ramps, &drawn)
+    regions(&labelled_page.cut, &patches, &table, ramps, &drawn)
 }
 
 /// Collects regions after mapping each label by `coarser`, which may make labels equal.
 pub(crate) fn gather_relabelled(
-    seen: &LabelledPage,
+    labelled_page: &LabelledPage,
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     chain: &ChainOptions,
     unit: Unit,
 ) -> Regions {
-    let (patches, table) = patches(seen, coarser, options, unit);
-    let drawn = BorderDrawing { step: seen.step, leaks: seen.leaks, options, chain, unit };
-    regions(&seen.cut, &patches, &table, Vec::new(), &drawn)
+    let (patches, table) = patches(labelled_page, coarser, options, unit);
+    let drawn = BorderDrawing { step: labelled_page.step, leaks: labelled_page.leaks, options, chain, unit };
+    regions(&labelled_page.cut, &patches, &table, Vec::new(), &drawn)
 }
 
 /// Groups triangles into patches of equal label, and merges patches smaller than a crumb into a neighbour.
 /// Also returns the table of labels.
 fn patches(
-    seen: &LabelledPage,
+    labelled_page: &LabelledPage,
     coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
     options: &RegionOptions,
     unit: Unit,
 ) -> (cells::label_components::LabelComponents, Vec<SurfaceLabel>) {
-    let (looks, table) = seen.relabelled(coarser);
-    let crumb = options.crumb.in_unit(unit).max(0.0) / seen.step;
-    (cells::label_components::gather(&seen.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
+    let (looks, table) = labelled_page.relabelled(coarser);
+    let crumb = options.crumb.in_unit(unit).max(0.0) / labelled_page.step;
+    (cells::label_components::gather(&labelled_page.cut, &looks, NO_LABEL, 2.0 * crumb * crumb), table)
 }
 
 /// Index of the patch that each triangle is painted with.

@@ -122,29 +122,29 @@ impl Scene {
     }
 }
 
-fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
+fn append(soup: &mut Soup, from: &Geometry, to_world: &DAffine3, part: PartId, default_material: u32) {
     let first = soup.positions.len();
     // Ids have 32 bits; a part that does not fit is left out.
     if first + from.positions.len() >= NO_INDEX as usize {
         return;
     }
-    let is_identity = *place == DAffine3::IDENTITY;
+    let is_identity = *to_world == DAffine3::IDENTITY;
     if is_identity {
         soup.positions.extend_from_slice(&from.positions);
     } else {
         let placed = from.positions.par_iter().with_min_len(MIN_TASK_ITEMS);
-        soup.positions.par_extend(placed.map(|&p| place.transform_point3(p)));
+        soup.positions.par_extend(placed.map(|&p| to_world.transform_point3(p)));
         let own = soup.positions.get(first..).unwrap_or_default();
         if !own.par_iter().with_min_len(MIN_TASK_ITEMS).all(|&p| is_drawable(p)) {
             soup.positions.truncate(first);
             return;
         }
     }
-    let turned = place.matrix3.determinant() < 0.0;
+    let turned = to_world.matrix3.determinant() < 0.0;
     let first_triangle = soup.triangles.len();
     append_corners(&mut soup.triangles, &from.triangles, first as u32, turned);
     let appended = AppendedRange { part, vertex: first, triangle: first_triangle };
-    append_attributes(soup, from, place, appended, default_material);
+    append_attributes(soup, from, to_world, appended, default_material);
 }
 
 /// Part, first vertex and first triangle of the geometry that was appended last.
@@ -158,12 +158,12 @@ struct AppendedRange {
 fn append_attributes(
     soup: &mut Soup,
     from: &Geometry,
-    place: &DAffine3,
+    to_world: &DAffine3,
     appended: AppendedRange,
     default_material: u32,
 ) {
     let AppendedRange { part, vertex: first, triangle: first_triangle } = appended;
-    let turned = place.matrix3.determinant() < 0.0;
+    let turned = to_world.matrix3.determinant() < 0.0;
     let count = soup.triangles.len();
 
     extend_to(&mut soup.triangle_part, count, part);
@@ -174,7 +174,7 @@ fn append_attributes(
         soup.triangle_material.extend(from.triangle_material.iter().map(|&m| MaterialId(m)));
         soup.triangle_material.resize(count, MaterialId(material));
     }
-    append_normals(soup, from, place, first_triangle, turned);
+    append_normals(soup, from, to_world, first_triangle, turned);
 
     let first_uv = soup.uvs.len() as u32;
     soup.uvs.extend_from_slice(&from.uvs);
@@ -196,7 +196,7 @@ fn append_attributes(
         material: MaterialId(material),
     }));
     soup.single_precision |= from.single_precision;
-    let step = from.step() * longest_axis(place);
+    let step = from.step() * longest_axis(to_world);
     if step > 0.0 {
         let part = part.index();
         soup.steps.resize(soup.steps.len().max(part + 1), 0.0);
@@ -205,8 +205,8 @@ fn append_attributes(
 }
 
 /// Maximum scale of a transform along the local axes.
-pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
-    let axes = place.matrix3;
+pub(crate) fn longest_axis(to_world: &DAffine3) -> f64 {
+    let axes = to_world.matrix3;
     axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
 }
 
@@ -264,11 +264,17 @@ fn append_optional(
 }
 
 /// Appends normals, transformed by the inverse transpose so that they stay perpendicular to the surface.
-fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_triangle: usize, turned: bool) {
+fn append_normals(
+    soup: &mut Soup,
+    from: &Geometry,
+    to_world: &DAffine3,
+    first_triangle: usize,
+    turned: bool,
+) {
     let first = soup.normals.len();
     let count = soup.triangles.len();
-    let is_identity = place.matrix3 == DMat3::IDENTITY;
-    let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
+    let is_identity = to_world.matrix3 == DMat3::IDENTITY;
+    let turn = if is_identity { DMat3::IDENTITY } else { to_world.matrix3.inverse().transpose() };
     soup.normals.par_extend(from.normals.par_iter().with_min_len(MIN_TASK_ITEMS).map(|&[x, y, z]| {
         let normal = DVec3::new(x.into(), y.into(), z.into());
         let normal = if is_identity { normal } else { turn * normal }.try_normalize();

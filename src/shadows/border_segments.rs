@@ -47,12 +47,12 @@ pub(crate) fn join_borders(mesh: &Mesh, views: Vec<ShadowBorders>) -> JoinedBord
                     _ => None,
                 };
                 let start = start.unwrap_or_else(|| all.add(p, reach, &mut reaches));
-                let known = if run.end == 1.0 {
+                let existing = if run.end == 1.0 {
                     all.near(at_node.get(&edge.nodes[1]).map_or(&[], Vec::as_slice), q, reach)
                 } else {
                     None
                 };
-                let end = known.unwrap_or_else(|| all.add(q, reach, &mut reaches));
+                let end = existing.unwrap_or_else(|| all.add(q, reach, &mut reaches));
                 for (t, node, point) in [(run.start, edge.nodes[0], start), (run.end, edge.nodes[1], end)] {
                     if t == 0.0 || t == 1.0 {
                         at_node.entry(node).or_default().push(point);
@@ -77,8 +77,8 @@ impl JoinedBorders {
     }
 
     /// First of some points that is near a place.
-    fn near(&self, points: &[u32], place: DVec3, reach: f64) -> Option<u32> {
-        points.iter().copied().find(|point| self.points[*point as usize].distance(place) <= reach)
+    fn near(&self, points: &[u32], target: DVec3, reach: f64) -> Option<u32> {
+        points.iter().copied().find(|point| self.points[*point as usize].distance(target) <= reach)
     }
 
     /// Joins points that end one segment each and are near each other, and drops segments of zero length.
@@ -89,19 +89,19 @@ impl JoinedBorders {
             ends.iter().for_each(|end| uses[*end as usize] += 1);
         }
         let mut loose: Vec<u32> = (0..uses.len() as u32).filter(|k| uses[*k as usize] == 1).collect();
-        let place = |k: u32| self.points[k as usize];
-        loose.sort_by(|a, b| place(*a).x.total_cmp(&place(*b).x).then(a.cmp(b)));
+        let position = |k: u32| self.points[k as usize];
+        loose.sort_by(|a, b| position(*a).x.total_cmp(&position(*b).x).then(a.cmp(b)));
         let mut joined_to: Vec<u32> = (0..uses.len() as u32).collect();
         for (i, a) in loose.iter().enumerate() {
             if joined_to[*a as usize] != *a {
                 continue;
             }
             for b in &loose[i + 1..] {
-                if place(*b).x - place(*a).x > greatest {
+                if position(*b).x - position(*a).x > greatest {
                     break;
                 }
                 let reach = reaches[*a as usize].max(reaches[*b as usize]);
-                if joined_to[*b as usize] == *b && place(*a).distance(place(*b)) <= reach {
+                if joined_to[*b as usize] == *b && position(*a).distance(position(*b)) <= reach {
                     joined_to[*b as usize] = *a;
                 }
             }
@@ -114,18 +114,18 @@ impl JoinedBorders {
     }
 
     fn drop_unused(&mut self) {
-        let mut place = vec![u32::MAX; self.points.len()];
+        let mut new_index = vec![u32::MAX; self.points.len()];
         for (_, ends) in &self.segments {
-            ends.iter().for_each(|end| place[*end as usize] = 0);
+            ends.iter().for_each(|end| new_index[*end as usize] = 0);
         }
-        let mut kept = Vec::new();
-        for (point, place) in self.points.iter().zip(&mut place).filter(|(_, place)| **place == 0) {
-            *place = kept.len() as u32;
-            kept.push(*point);
+        let mut used_points = Vec::new();
+        for (point, place) in self.points.iter().zip(&mut new_index).filter(|(_, place)| **place == 0) {
+            *place = used_points.len() as u32;
+            used_points.push(*point);
         }
-        self.points = kept;
+        self.points = used_points;
         for (_, ends) in &mut self.segments {
-            *ends = ends.map(|end| place[end as usize]);
+            *ends = ends.map(|end| new_index[end as usize]);
         }
     }
 }

@@ -89,22 +89,22 @@ fn merged_table(source: SheetSource, sets: &[String]) -> Result<Table, Error> {
 /// A sheet and the sheets it extends in turn, with their keys.
 fn sheet_chain(source: SheetSource) -> Result<Vec<(SheetSource, Table)>, Error> {
     let mut sheets: Vec<(SheetSource, Table)> = Vec::new();
-    let mut seen: Vec<PathBuf> = Vec::new();
+    let mut visited: Vec<PathBuf> = Vec::new();
     let mut next = Some(source);
     while let Some(source) = next.take() {
         let (sheet, mut table) = read(&source.text)
             .map_err(|error| sheet_errors::in_style_sheet(&source.text, &error).in_file(&source.shown))?;
-        seen.push(source.identity.clone());
+        visited.push(source.identity.clone());
         if let Some(parent) = &sheet.extends {
-            let place = || sheet_errors::place_of_value(&source.text, "extends");
+            let extends_position = || sheet_errors::place_of_value(&source.text, "extends");
             let found = find(parent, source.folder.as_deref())
-                .map_err(|error| error_in_sheet(error, &source.shown, &place()))?;
-            if seen.contains(&found.identity) {
+                .map_err(|error| error_in_sheet(error, &source.shown, &extends_position()))?;
+            if visited.contains(&found.identity) {
                 return Err(Error::new(format!(
                     "`extends = \"{parent}\"` leads back to a sheet it comes from"
                 ))
                 .in_file(&source.shown)
-                .at(place())
+                .at(extends_position())
                 .remedy("let one of the sheets extend another one, or none"));
             }
             next = Some(found);

@@ -104,13 +104,12 @@ pub fn check(
     approval: &Approval,
 ) -> Result<(), String> {
     let approved = folder.join(format!("{name}.svg"));
-    let drawn = drawing.to_svg(&SvgOptions::default());
-    let known = std::fs::read_to_string(&approved);
-    let difference = match &known {
-        Ok(known) if *known == drawn => return Ok(()),
-        Ok(known) => {
-            compare(known, &drawn, tolerance).map_err(|error| error.in_file(&approved).to_string())?
-        }
+    let actual_svg = drawing.to_svg(&SvgOptions::default());
+    let approved_text = std::fs::read_to_string(&approved);
+    let difference = match &approved_text {
+        Ok(approved_text) if *approved_text == actual_svg => return Ok(()),
+        Ok(approved_text) => compare(approved_text, &actual_svg, tolerance)
+            .map_err(|error| error.in_file(&approved).to_string())?,
         Err(_) => None,
     };
     if difference.as_ref().is_some_and(Diff::is_same) && *approval != Approval::Bless {
@@ -118,14 +117,14 @@ pub fn check(
     }
     if *approval == Approval::Bless {
         let written = std::fs::create_dir_all(approved.parent().unwrap_or(folder))
-            .and_then(|()| std::fs::write(&approved, drawn));
+            .and_then(|()| std::fs::write(&approved, actual_svg));
         return written.map_err(|error| format!("{}: cannot write: {error}", approved.display()));
     }
     let advice = match approval {
         Approval::Refused => format!("{BLESS} has no effect while CI is set"),
         _ => format!("check the drawing; if the change is intended, approve it with {BLESS}=1"),
     };
-    let mut told = match &difference {
+    let mut failure_text = match &difference {
         None => format!("`{name}` has no approved drawing {}\n", approved.display()),
         Some(diff) => {
             let lines = diff.lines();
@@ -139,18 +138,18 @@ pub fn check(
         }
     };
     let picture = difference.map(|diff| diff.picture(View::Over).to_svg(&SvgOptions::default()));
-    for (what, text) in [("actual", Some(drawn)), ("diff", picture)] {
+    for (what, text) in [("actual", Some(actual_svg)), ("diff", picture)] {
         if let Some(text) = text {
             let path = review_path(&approved, name, what);
             match std::fs::write(&path, text) {
-                Ok(()) => told += &format!("{what:<10} {}\n", path.display()),
+                Ok(()) => failure_text += &format!("{what:<10} {}\n", path.display()),
                 Err(error) => {
-                    told += &format!("{what:<10} cannot be written to {}: {error}\n", path.display())
+                    failure_text += &format!("{what:<10} cannot be written to {}: {error}\n", path.display())
                 }
             }
         }
     }
-    Err(told + &advice)
+    Err(failure_text + &advice)
 }
 
 /// Compares two files with a tolerance as text.

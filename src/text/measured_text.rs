@@ -51,18 +51,18 @@ impl<'a> MeasuredText<'a> {
         let language = setting.language.as_deref().map(language).transpose()?;
         let breaks = line_breaks(text, language);
         let mut pieces = ShapedPieces::new(text, setting);
-        let whole: Vec<usize> = (0..breaks.len()).filter(|number| !breaks[*number].hyphen).collect();
+        let unhyphenated: Vec<usize> = (0..breaks.len()).filter(|number| !breaks[*number].hyphen).collect();
         let mut widths = vec![0.0];
         let mut reach = [setting.font.file().cap_height, 0.0];
-        for pair in whole.windows(2) {
+        for pair in unhyphenated.windows(2) {
             let piece = pieces.piece(breaks[pair[0]].at, breaks[pair[1]].at, false)?;
             widths.push(widths.last().unwrap_or(&0.0) + piece.width + piece.blank_width);
             reach = [reach[0].max(piece.reach[0]), reach[1].max(piece.reach[1])];
         }
         let mut stretches = Vec::with_capacity(breaks.len());
         let mut count: usize = 0;
-        for place in &breaks {
-            count += usize::from(!place.hyphen);
+        for line_break in &breaks {
+            count += usize::from(!line_break.hyphen);
             stretches.push(count - 1);
         }
         Ok(Self {
@@ -72,7 +72,7 @@ impl<'a> MeasuredText<'a> {
             pieces,
             pieces_before: stretches,
             widths,
-            piece_breaks: whole,
+            piece_breaks: unhyphenated,
             reach,
             fault: None,
         })

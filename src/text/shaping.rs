@@ -30,28 +30,28 @@ pub(crate) fn shape_glyphs(
     starts.dedup();
     let ems = |units: i32| f64::from(units) / font.units_per_em();
     let (mut x, mut y) = (0_i32, 0_i32);
-    let mut whole = true;
+    let mut is_complete = true;
     let mut glyphs = Vec::with_capacity(infos.len());
     let mut shown = None;
-    for (info, place) in infos.iter().zip(buffer.glyph_positions()) {
+    for (info, glyph_position) in infos.iter().zip(buffer.glyph_positions()) {
         let start = info.cluster as usize;
         let end = starts.iter().copied().find(|end| *end > start).unwrap_or(text.len());
         let shows = if shown == Some(start) { start..start } else { start..end };
         shown = Some(start);
         let id = u16::try_from(info.glyph_id).unwrap_or(0);
-        whole &= id != 0;
+        is_complete &= id != 0;
         let own = font.face().glyph_metrics().h_advance(harfrust::GlyphId::from(id));
         glyphs.push(SetGlyph {
             id,
-            x: ems(x.saturating_add(place.x_offset)),
-            y: ems(y.saturating_add(place.y_offset)),
+            x: ems(x.saturating_add(glyph_position.x_offset)),
+            y: ems(y.saturating_add(glyph_position.y_offset)),
             advance: f64::from(own) / font.units_per_em(),
             shows,
         });
-        x = x.saturating_add(place.x_advance);
-        y = y.saturating_add(place.y_advance);
+        x = x.saturating_add(glyph_position.x_advance);
+        y = y.saturating_add(glyph_position.y_advance);
     }
     // The position of the next glyph is the end of the text.
     glyphs.push(SetGlyph { id: 0, x: ems(x), y: 0.0, advance: 0.0, shows: text.len()..text.len() });
-    Ok((glyphs, whole))
+    Ok((glyphs, is_complete))
 }

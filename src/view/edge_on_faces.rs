@@ -26,14 +26,14 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 /// from their own angle.
 pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     let is_rounded = mesh.extents.is_rounded();
-    let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
+    let piece_start = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
     let mut facing = vec![false; mesh.triangles.len()];
     let of_chunk = |(chunk, facing): (usize, &mut [bool])| {
         let mut unsure = Vec::new();
         for (face, facing) in ((chunk * MIN_TASK_ITEMS) as u32..).zip(facing) {
             let corners = mesh.corners(FaceId(face));
             *facing = frame.faces_eye(corners[0], corners[1], corners[2]);
-            if is_rounded && face < whole {
+            if is_rounded && face < piece_start {
                 let rounding = mesh.extent(FaceId(face)).rounding;
                 unsure.extend((rounding > 0.0 && is_unsure(frame, &corners, rounding)).then_some(face));
             }
@@ -49,18 +49,18 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
         return (facing, Vec::new());
     }
     let decided = decide(&CoplanarSearch::of(mesh), &unsure, &mut facing);
-    let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(decided).collect();
-    others.sort_unstable();
-    others.dedup();
-    (facing, others)
+    let mut dependent_faces: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(decided).collect();
+    dependent_faces.sort_unstable();
+    dependent_faces.dedup();
+    (facing, dependent_faces)
 }
 
 /// Decides each connected set of unsure faces (ascending) in one plane. Returns the faces that do not keep
 /// their own angle.
 fn decide(faces: &CoplanarSearch, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
-    let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
+    let neighbours: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
     let mut is_seen = vec![false; unsure.len()];
-    let mut others = Vec::new();
+    let mut dependent_faces = Vec::new();
     for first in 0..unsure.len() {
         let (mut plane, mut open) = (Vec::new(), vec![first]);
         let mut widest: Option<(f64, u32)> = None;
@@ -69,15 +69,17 @@ fn decide(faces: &CoplanarSearch, unsure: &[u32], facing: &mut [bool]) -> Vec<u3
                 continue;
             }
             plane.push(unsure[at]);
-            for other in &near[at] {
-                if let Ok(place) = unsure.binary_search(other) {
-                    open.push(place);
+            for neighbour in &neighbours[at] {
+                if let Ok(unsure_index) = unsure.binary_search(neighbour) {
+                    open.push(unsure_index);
                     continue;
                 }
-                let height = faces.height_of(*other);
-                let is_wider = |(most, face): &(f64, u32)| height > *most || height == *most && other < face;
+                let height = faces.height_of(*neighbour);
+                let is_wider = |(max_height, face): &(f64, u32)| {
+                    height > *max_height || height == *max_height && neighbour < face
+                };
                 if widest.as_ref().is_none_or(is_wider) {
-                    widest = Some((height, *other));
+                    widest = Some((height, *neighbour));
                 }
             }
         }
@@ -86,9 +88,9 @@ fn decide(faces: &CoplanarSearch, unsure: &[u32], facing: &mut [bool]) -> Vec<u3
         }
         let decided = widest.is_some_and(|(_, sure)| facing[sure as usize]);
         plane.iter().for_each(|face| facing[*face as usize] = decided);
-        others.append(&mut plane);
+        dependent_faces.append(&mut plane);
     }
-    others
+    dependent_faces
 }
 
 /// Whether rounding may have turned a triangle through the line of sight.
@@ -96,12 +98,12 @@ fn is_unsure(frame: &Frame, &[a, b, c]: &[DVec3; 3], rounding: f64) -> bool {
     let (u, v, w) = (b - a, c - a, c - b);
     let normal = u.cross(v);
     let to_eye = if frame.perspective { frame.eye - a } else { -frame.forward };
-    let (area, away) = (normal.length_squared(), normal.dot(to_eye));
-    let far = to_eye.length_squared();
-    if away * away > tolerances::MAX_UNSURE_SINE * tolerances::MAX_UNSURE_SINE * area * far {
+    let (area, eye_dot) = (normal.length_squared(), normal.dot(to_eye));
+    let eye_distance2 = to_eye.length_squared();
+    if eye_dot * eye_dot > tolerances::MAX_UNSURE_SINE * tolerances::MAX_UNSURE_SINE * area * eye_distance2 {
         return false;
     }
     let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
-    let least = EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
-    away * away <= least * least * far
+    let threshold = EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
+    eye_dot * eye_dot <= threshold * threshold * eye_distance2
 }

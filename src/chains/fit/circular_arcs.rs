@@ -89,28 +89,28 @@ impl CircularArc {
 }
 
 /// Arcs of a polyline, in its order. A closed line has to start at the first corner of the first arc.
-pub(crate) fn arcs(points: &[Point], closed: bool, near: CircleTolerance) -> Vec<CircularArc> {
+pub(crate) fn arcs(points: &[Point], closed: bool, tolerance: CircleTolerance) -> Vec<CircularArc> {
     let n = points.len();
     if n < MIN_ARC_CORNERS || !points.iter().all(|p| p.is_finite()) {
         return Vec::new();
     }
     if !closed {
-        return stretches(points, near);
+        return stretches(points, tolerance);
     }
-    if let Some(circle) = fit_whole_circle(points, near) {
+    if let Some(circle) = fit_whole_circle(points, tolerance) {
         return vec![circle];
     }
     // The points twice: the first stretch that ends before the last point ends where a stretch of the closed
     // line does.
     let twice: Vec<Point> = points.iter().chain(points).copied().collect();
-    let Some(begin) = longest_arcs(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
+    let Some(begin) = longest_arcs(&twice, tolerance).map(|arc| arc.last).find(|last| last + 1 < twice.len())
     else {
         return Vec::new();
     };
     let begin = begin % n;
-    let once: Vec<Point> = (0..=n).map(|k| points[(begin + k) % n]).collect();
-    let found = stretches(&once, near);
-    found
+    let opened: Vec<Point> = (0..=n).map(|k| points[(begin + k) % n]).collect();
+    let open_arcs = stretches(&opened, tolerance);
+    open_arcs
         .into_iter()
         .map(|arc| CircularArc { first: arc.first + begin, last: arc.last + begin, ..arc })
         .collect()
@@ -118,16 +118,16 @@ pub(crate) fn arcs(points: &[Point], closed: bool, near: CircleTolerance) -> Vec
 
 /// Extends the first and last arc of an open line to its ends, if these lie inside a chord. Such an end moves
 /// onto the arc.
-pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [CircularArc], near: CircleTolerance) {
+pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [CircularArc], tolerance: CircleTolerance) {
     let n = points.len();
     if let Some(arc) = arcs.last_mut().filter(|arc| arc.last + 2 == n)
-        && let Some((end, step)) = onto_arc(arc, [points[n - 2], points[n - 1]], arc.turn, near)
+        && let Some((end, step)) = onto_arc(arc, [points[n - 2], points[n - 1]], arc.turn, tolerance)
     {
         points[n - 1] = end;
         (arc.last, arc.turn) = (n - 1, arc.turn + step);
     }
     if let Some(arc) = arcs.first_mut().filter(|arc| arc.first == 1)
-        && let Some((end, step)) = onto_arc(arc, [points[1], points[0]], -arc.turn, near)
+        && let Some((end, step)) = onto_arc(arc, [points[1], points[0]], -arc.turn, tolerance)
     {
         points[0] = end;
         (arc.first, arc.turn) = (0, arc.turn - step);
@@ -139,7 +139,7 @@ fn onto_arc(
     arc: &CircularArc,
     [corner, end]: [Point; 2],
     turn: f64,
-    near: CircleTolerance,
+    tolerance: CircleTolerance,
 ) -> Option<(Point, f64)> {
     let (a, b) = (corner - arc.centre, end - arc.centre);
     let step = atan2(a.cross(b), a.dot(b));
@@ -147,41 +147,42 @@ fn onto_arc(
     let is_on = step * turn > 0.0
         && step.abs() <= MAX_STEP_RAD
         && (turn + step).abs() < TAU
-        && inside >= -near.rounding
-        && inside <= near.radius;
+        && inside >= -tolerance.rounding
+        && inside <= tolerance.radius;
     is_on.then(|| (arc.centre + b * (arc.radius / length(b)), step))
 }
 
 /// The circle through all corners of a closed line, if they lie on one.
-fn fit_whole_circle(points: &[Point], near: CircleTolerance) -> Option<CircularArc> {
+fn fit_whole_circle(points: &[Point], tolerance: CircleTolerance) -> Option<CircularArc> {
     if points.len() < MIN_CIRCLE_CORNERS {
         return None;
     }
-    let mut round: Vec<Point> = points.to_vec();
-    round.push(*points.first()?);
-    let (centre, radius, turn) = circle(&round, near.rounding)?;
+    let mut ring: Vec<Point> = points.to_vec();
+    ring.push(*points.first()?);
+    let (centre, radius, turn) = circle(&ring, tolerance.rounding)?;
     let is_round = (turn.abs() - TAU).abs() < tolerances::TURN_ROUNDING_RAD;
     is_round.then(|| CircularArc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
 }
 
 /// Certain arcs among the longest stretches of an open line, in order.
-fn stretches(points: &[Point], near: CircleTolerance) -> Vec<CircularArc> {
+fn stretches(points: &[Point], tolerance: CircleTolerance) -> Vec<CircularArc> {
     let is_certain = |arc: &CircularArc| {
         let turn = arc.turn.abs();
-        turn >= MIN_CERTAIN_TURN_RAD || RADIUS_ERROR_FACTOR * near.rounding <= near.radius * turn * turn
+        turn >= MIN_CERTAIN_TURN_RAD
+            || RADIUS_ERROR_FACTOR * tolerance.rounding <= tolerance.radius * turn * turn
     };
-    longest_arcs(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
+    longest_arcs(points, tolerance).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
 }
 
 /// Longest stretches of an open line, in order.
-fn longest_arcs(points: &[Point], near: CircleTolerance) -> impl Iterator<Item = CircularArc> {
+fn longest_arcs(points: &[Point], tolerance: CircleTolerance) -> impl Iterator<Item = CircularArc> {
     let mut from = 0;
     std::iter::from_fn(move || {
         while from + MIN_ARC_CORNERS <= points.len() {
-            if let Some(arc) = longest_arc(points, from, near) {
+            if let Some(arc) = longest_arc(points, from, tolerance) {
                 // Starting one point later may reach farther: a line's end inside a chord is nearly on the
                 // arc, but not part of it.
-                let next = longest_arc(points, from + 1, near).filter(|next| next.last > arc.last);
+                let next = longest_arc(points, from + 1, tolerance).filter(|next| next.last > arc.last);
                 let arc = next.unwrap_or(arc);
                 from = arc.last;
                 return Some(arc);
@@ -193,26 +194,26 @@ fn longest_arcs(points: &[Point], near: CircleTolerance) -> impl Iterator<Item =
 }
 
 /// Longest stretch that starts at a corner.
-fn longest_arc(points: &[Point], first: usize, near: CircleTolerance) -> Option<CircularArc> {
+fn longest_arc(points: &[Point], first: usize, tolerance: CircleTolerance) -> Option<CircularArc> {
     let attempt = |last: usize| {
-        let (centre, radius, turn) = circle(points.get(first..=last)?, near.rounding)?;
+        let (centre, radius, turn) = circle(points.get(first..=last)?, tolerance.rounding)?;
         (turn.abs() < TAU).then_some(CircularArc { first, last, centre, radius, turn })
     };
     let end = points.len().checked_sub(1)?;
     let mut best = attempt(first + MIN_ARC_CORNERS - 1)?;
-    let mut bad = end + 1;
-    while bad > end && best.last < end {
+    let mut failed_last = end + 1;
+    while failed_last > end && best.last < end {
         let next = (first + 2 * (best.last - first)).min(end);
         match attempt(next) {
             Some(arc) => best = arc,
-            None => bad = next,
+            None => failed_last = next,
         }
     }
-    while best.last + 1 < bad {
-        let middle = best.last.midpoint(bad);
+    while best.last + 1 < failed_last {
+        let middle = best.last.midpoint(failed_last);
         match attempt(middle) {
             Some(arc) => best = arc,
-            None => bad = middle,
+            None => failed_last = middle,
         }
     }
     Some(best)
@@ -226,12 +227,13 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
     if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
         return None;
     }
-    let most = MAX_STEP_RAD + tolerances::TURN_ROUNDING_RAD + (2.0 * rounding / radius).min(MAX_ROUNDING_RAD);
+    let max_step =
+        MAX_STEP_RAD + tolerances::TURN_ROUNDING_RAD + (2.0 * rounding / radius).min(MAX_ROUNDING_RAD);
     let mut turn = 0.0;
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - centre, pair[1] - centre);
         let step = atan2(a.cross(b), a.dot(b));
-        if step == 0.0 || step.abs() > most || step * turn < 0.0 {
+        if step == 0.0 || step.abs() > max_step || step * turn < 0.0 {
             return None;
         }
         turn += step;
@@ -243,11 +245,11 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
 fn through_ends(arc: CircularArc, points: &[Point]) -> CircularArc {
     let (start, end) = (points[arc.first], points[arc.last]);
     let (middle, chord) = (start.midpoint(end), end - start);
-    let far = length(chord);
-    if far <= 0.0 {
+    let chord_length = length(chord);
+    if chord_length <= 0.0 {
         return arc;
     }
-    let across = Vec2::new(-chord.y, chord.x) / far;
+    let across = Vec2::new(-chord.y, chord.x) / chord_length;
     let centre = middle + across * (arc.centre - middle).dot(across);
     let (a, b) = (start - centre, end - centre);
     let turn = atan2(a.cross(b), a.dot(b));

@@ -25,36 +25,42 @@ pub(crate) fn straighten(line: SampledLine) -> SampledLine {
     }
     let between = |a: usize, b: usize, c: usize| {
         let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
-        let whole = line.points[c] - line.points[a];
+        let chord = line.points[c] - line.points[a];
         to.dot(on) > 0.0
-            && to.cross(whole).powi(2)
+            && to.cross(chord).powi(2)
                 <= tolerances::MAX_COLLINEAR_DISTANCE_UNITS
                     * tolerances::MAX_COLLINEAR_DISTANCE_UNITS
-                    * whole.hypot2()
+                    * chord.hypot2()
     };
-    let mut kept: Vec<usize> = Vec::with_capacity(line.len());
+    let mut kept_indices: Vec<usize> = Vec::with_capacity(line.len());
     for c in 0..line.len() {
-        if let &[.., a, b] = &kept[..]
+        if let &[.., a, b] = &kept_indices[..]
             && line.soft[a] == line.soft[b]
             && between(a, b, c)
             && SimplifiedChord::new(&line, a, c).off(b).1 <= MAX_STRENGTH_ERROR
         {
-            kept.pop();
+            kept_indices.pop();
         }
-        kept.push(c);
+        kept_indices.push(c);
     }
-    if line.closed && kept.len() > 3 {
-        if between(kept[kept.len() - 2], kept[kept.len() - 1], kept[0]) {
-            kept.pop();
+    if line.closed && kept_indices.len() > 3 {
+        if between(
+            kept_indices[kept_indices.len() - 2],
+            kept_indices[kept_indices.len() - 1],
+            kept_indices[0],
+        ) {
+            kept_indices.pop();
         }
-        if kept.len() > 3 && between(kept[kept.len() - 1], kept[0], kept[1]) {
-            kept.remove(0);
+        if kept_indices.len() > 3
+            && between(kept_indices[kept_indices.len() - 1], kept_indices[0], kept_indices[1])
+        {
+            kept_indices.remove(0);
         }
     }
-    if kept.len() == line.len() {
+    if kept_indices.len() == line.len() {
         return line;
     }
-    line.pick(&kept)
+    line.pick(&kept_indices)
 }
 
 /// Simplifies a line within `tolerance`, and keeps the ends of an open line. A closed line keeps its first
@@ -69,25 +75,25 @@ pub(crate) fn simplify(line: &SampledLine, tolerance: f64) -> SampledLine {
         let kept = keep(line, tolerance2);
         return line.pick(&kept);
     }
-    let away = |i: &usize| (line.points[*i] - line.points[0]).hypot2();
-    let far = (1..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(1);
-    let whole = line.opened_at(0);
-    let mut kept = keep(&whole.slice(0, far), tolerance2);
-    kept.pop();
-    kept.extend(keep(&whole.slice(far, n), tolerance2).into_iter().map(|i| i + far));
-    kept.pop();
-    line.pick(&kept)
+    let distance2 = |i: &usize| (line.points[*i] - line.points[0]).hypot2();
+    let farthest = (1..n).max_by(|a, b| distance2(a).total_cmp(&distance2(b)).then(b.cmp(a))).unwrap_or(1);
+    let opened = line.opened_at(0);
+    let mut kept_indices = keep(&opened.slice(0, farthest), tolerance2);
+    kept_indices.pop();
+    kept_indices.extend(keep(&opened.slice(farthest, n), tolerance2).into_iter().map(|i| i + farthest));
+    kept_indices.pop();
+    line.pick(&kept_indices)
 }
 
 /// Indices of the kept points of an open line.
 fn keep(line: &SampledLine, tolerance2: f64) -> Vec<usize> {
     let n = line.len();
-    let mut stays = vec![true; n];
-    if let [_, between @ .., _] = &mut stays[..] {
+    let mut is_kept = vec![true; n];
+    if let [_, between @ .., _] = &mut is_kept[..] {
         between.fill(false);
         split(line, tolerance2, [0, n - 1], between);
     }
-    (0..n).filter(|i| stays[*i]).collect()
+    (0..n).filter(|i| is_kept[*i]).collect()
 }
 
 /// Marks the kept points between two kept points.
@@ -134,7 +140,7 @@ fn farthest_point(line: &SampledLine, a: usize, b: usize, tolerance2: f64) -> Op
 struct SimplifiedChord<'a> {
     line: &'a SampledLine,
     from: Point,
-    way: Vec2,
+    direction: Vec2,
     length2: f64,
     strength: f64,
     /// Change of strength along it.
@@ -145,7 +151,7 @@ impl<'a> SimplifiedChord<'a> {
     fn new(line: &'a SampledLine, a: usize, b: usize) -> Self {
         let (from, strength) = (line.points[a], line.samples[a].strength);
         let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
-        Self { line, from, way, length2: way.hypot2(), strength, change }
+        Self { line, from, direction: way, length2: way.hypot2(), strength, change }
     }
 
     /// Squared distance of a point from the segment, and the error of the interpolated strength.
@@ -153,12 +159,12 @@ impl<'a> SimplifiedChord<'a> {
     fn off(&self, i: usize) -> (f64, f64) {
         let p = self.line.points[i];
         let t = if self.length2 > 0.0 {
-            ((p - self.from).dot(self.way) / self.length2).clamp(0.0, 1.0)
+            ((p - self.from).dot(self.direction) / self.length2).clamp(0.0, 1.0)
         } else {
             0.0
         };
         let strength = self.line.samples[i].strength - (self.strength + self.change * t);
-        ((p - (self.from + self.way * t)).hypot2(), strength.abs())
+        ((p - (self.from + self.direction * t)).hypot2(), strength.abs())
     }
 }
 
@@ -170,20 +176,27 @@ mod tests {
     use crate::geometry::plane::planar_distance::segment_distance_squared;
 
     /// Reference: the same recursion without parallel tasks.
-    fn sequential_keep(line: &SampledLine, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
+    fn sequential_keep(
+        line: &SampledLine,
+        [a, b]: [usize; 2],
+        tolerance2: f64,
+        kept_indices: &mut Vec<usize>,
+    ) {
         let off = |i: usize| {
             let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
-            let (p, way) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
-            let t = if way.hypot2() > 0.0 { (p.dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+            let (p, chord) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
+            let t = if chord.hypot2() > 0.0 { (p.dot(chord) / chord.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
             let strength = (at - (from + (to - from) * t)).abs() / MAX_STRENGTH_ERROR;
             segment_distance_squared(line.points[i], line.points[a], line.points[b])
                 .max(strength * strength * tolerance2)
         };
-        let far = (a + 1..b).filter(|i| off(*i) > tolerance2);
-        let Some(worst) = far.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else { return };
-        sequential_keep(line, [a, worst], tolerance2, stays);
-        stays.push(worst);
-        sequential_keep(line, [worst, b], tolerance2, stays);
+        let candidates = (a + 1..b).filter(|i| off(*i) > tolerance2);
+        let Some(worst) = candidates.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else {
+            return;
+        };
+        sequential_keep(line, [a, worst], tolerance2, kept_indices);
+        kept_indices.push(worst);
+        sequential_keep(line, [worst, b], tolerance2, kept_indices);
     }
 
     #[test]

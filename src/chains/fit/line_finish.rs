@@ -52,31 +52,32 @@ const MAX_SHARP_COSINE: f64 = 0.82;
 /// Finishes a line: its points and its path. The line has no points if a curve is fitted and no points are
 /// needed.
 pub(crate) fn finish(raw: SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
-    let Some(near) = t.circle else { return finish_between(raw, t) };
+    let Some(circle_tolerance) = t.circle else { return finish_between(raw, t) };
     let mut raw = straighten(raw);
-    let mut found = arcs(&raw.points, raw.closed, near);
+    let mut found_arcs = arcs(&raw.points, raw.closed, circle_tolerance);
     if !raw.closed {
-        extend_to_ends(&mut raw.points, &mut found, near);
+        extend_to_ends(&mut raw.points, &mut found_arcs, circle_tolerance);
     }
-    match found.as_slice() {
+    match found_arcs.as_slice() {
         [] => finish_between(raw, t),
         [circle] if circle.is_circle() => {
             let path = circle_path(circle, raw.points[0]);
             (raw, path)
         }
         [first, ..] if raw.closed => {
-            let begun = raw.opened_at(first.first % raw.len());
+            let opened = raw.opened_at(first.first % raw.len());
             let moved = |arc: &CircularArc| CircularArc {
                 first: arc.first - first.first,
                 last: arc.last - first.first,
                 ..*arc
             };
-            let (mut line, mut path) = with_arcs(&begun, &found.iter().map(moved).collect::<Vec<_>>(), t);
+            let (mut line, mut path) =
+                with_arcs(&opened, &found_arcs.iter().map(moved).collect::<Vec<_>>(), t);
             close(&mut line);
             path.close_path();
             (line, path)
         }
-        _ => with_arcs(&raw, &found, t),
+        _ => with_arcs(&raw, &found_arcs, t),
     }
 }
 
@@ -235,8 +236,9 @@ fn is_sharp(raw: &SampledLine, i: usize, t: FinishTolerances) -> bool {
     let chord = |step: usize| {
         let ends_at = |k: usize| !raw.closed && (if step == 1 { i + k == n - 1 } else { i == k });
         let at = |k: usize| raw.points[(i + k * step) % n];
-        let far = (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_WINDOW_PX * t.px || ends_at(*k))?;
-        let (before, behind) = (at(far - 1), at(far));
+        let index =
+            (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_WINDOW_PX * t.px || ends_at(*k))?;
+        let (before, behind) = (at(index - 1), at(index));
         let (short, long) = (length(before - raw.points[i]), length(behind - raw.points[i]));
         let share =
             ((SHARP_WINDOW_PX * t.px - short) / (long - short).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -245,8 +247,8 @@ fn is_sharp(raw: &SampledLine, i: usize, t: FinishTolerances) -> bool {
     if !raw.closed && (i == 0 || i + 1 >= n) {
         return false;
     }
-    let (Some(ahead), Some(back)) = (chord(1), chord(n - 1)) else { return false };
-    -ahead.dot(back) < MAX_SHARP_COSINE * length(ahead) * length(back)
+    let (Some(forward), Some(back)) = (chord(1), chord(n - 1)) else { return false };
+    -forward.dot(back) < MAX_SHARP_COSINE * length(forward) * length(back)
 }
 
 /// Finishes a smooth open stretch: cut at its corners, and each part smoothed.

@@ -84,7 +84,8 @@ impl PartRuns {
         };
         let count = self.runs.len();
         let piece = |k: usize| {
-            let next = |places: &[CurvePosition]| if k + 1 < count { Some(places[k + 1]) } else { None };
+            let next =
+                |positions: &[CurvePosition]| if k + 1 < count { Some(positions[k + 1]) } else { None };
             let curve = between(&curve, on_curve[k], next(&on_curve), self.closed.then_some(on_curve[0]));
             let mut path = BezPath::new();
             for (i, segment) in curve.iter().enumerate() {
@@ -93,8 +94,13 @@ impl PartRuns {
                 }
                 path.push(segment.as_path_el());
             }
-            let line = on_line.as_ref().map_or_else(SampledLine::default, |places| {
-                line_between(line, places[k], next(places), self.closed.then_some(places[0]))
+            let line = on_line.as_ref().map_or_else(SampledLine::default, |line_positions| {
+                line_between(
+                    line,
+                    line_positions[k],
+                    next(line_positions),
+                    self.closed.then_some(line_positions[0]),
+                )
             });
             let is_end = [!self.closed && k == 0, !self.closed && k + 1 == count];
             PartPiece { line, path, part: self.runs[k].2, is_end }
@@ -108,13 +114,14 @@ impl PartRuns {
         let (mut at, mut nearest) = (0.0, (f64::INFINITY, 0.0));
         for side in 0..n {
             let (a, b) = (self.points[side], self.points[(side + 1) % n]);
-            let way = b - a;
-            let share = ((start - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            let apart = length(start - a.lerp(b, share));
-            if apart < nearest.0 {
-                nearest = (apart, at + share * length(way));
+            let side_vector = b - a;
+            let share =
+                ((start - a).dot(side_vector) / side_vector.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let distance = length(start - a.lerp(b, share));
+            if distance < nearest.0 {
+                nearest = (distance, at + share * length(side_vector));
             }
-            at += length(way);
+            at += length(side_vector);
         }
         for run in &mut self.runs {
             run.0 = (run.0 - nearest.1).rem_euclid(self.length);
@@ -125,40 +132,41 @@ impl PartRuns {
     /// Start positions of the runs on the finished line, ascending; `None` if the line has no length.
     fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<CurvePosition>> {
         // Arc length at the end of each segment.
-        let mut whole = 0.0;
+        let mut total_length = 0.0;
         let ends: Vec<f64> = segments
             .iter()
             .map(|segment| {
-                whole += segment.arclen(MAX_LENGTH_ERROR_PX * px);
-                whole
+                total_length += segment.arclen(MAX_LENGTH_ERROR_PX * px);
+                total_length
             })
             .collect();
-        if whole <= 0.0 {
+        if total_length <= 0.0 {
             return None;
         }
         let start = |i: usize| if i == 0 { 0.0 } else { ends[i - 1] };
         // Last position found, and its arc lengths on the finished and on the raw line.
         let mut last: (CurvePosition, f64, f64) = ((0, 0.0), 0.0, 0.0);
-        let mut places = Vec::with_capacity(self.runs.len());
+        let mut positions = Vec::with_capacity(self.runs.len());
         for (k, (at, point, _)) in self.runs.iter().enumerate() {
             if k > 0 || self.closed {
-                let step = (at - last.2) / self.length * whole;
+                let step = (at - last.2) / self.length * total_length;
                 let (wanted, window) = (last.1 + step, MAX_SHIFT_PX * px + MAX_SHIFT_SHARE * step);
                 let first = ends.partition_point(|end| *end < wanted - window).max(last.0.0);
-                let near = (first..segments.len()).take_while(|i| start(*i) <= wanted + window);
+                let nearby_segments = (first..segments.len()).take_while(|i| start(*i) <= wanted + window);
                 let nearest = |i: usize| {
                     let found = segments[i].nearest(*point, MAX_LENGTH_ERROR_PX * px).t;
                     let share = if i == last.0.0 { found.max(last.0.1) } else { found };
                     ((segments[i].eval(share) - *point).hypot2(), (i, share))
                 };
-                let found = near.map(nearest).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
+                let found =
+                    nearby_segments.map(nearest).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
                 if let Some((_, (i, share))) = found {
                     last = ((i, share), start(i) + (ends[i] - start(i)) * share, *at);
                 }
             }
-            places.push(last.0);
+            positions.push(last.0);
         }
-        Some(places)
+        Some(positions)
     }
 }
 
@@ -279,8 +287,9 @@ mod tests {
                 for piece in &pieces {
                     // The middle of each piece lies near a side of its part.
                     let middle = piece.line.points[piece.line.len() / 2];
-                    let near = |i: &usize| length(line.points[*i] - middle);
-                    let at = (0..60).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();
+                    let middle_distance = |i: &usize| length(line.points[*i] - middle);
+                    let at =
+                        (0..60).min_by(|a, b| middle_distance(a).total_cmp(&middle_distance(b))).unwrap();
                     assert_eq!(line.part[at], piece.part);
                     let start = piece.path.segments().next().unwrap().start();
                     assert!(length(piece.line.points[0] - start) < 1e-9);

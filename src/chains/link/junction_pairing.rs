@@ -60,42 +60,42 @@ impl VertexPairs {
         ends: &VertexEnds,
         classes: &[Option<EdgeClass>],
     ) -> Self {
-        let mut met = Self::default();
-        let mut rest: Vec<u32> = Vec::new();
+        let mut result = Self::default();
+        let mut remaining: Vec<u32> = Vec::new();
         for vertex in vertices {
             match *ends.at(vertex) {
                 [] | [_] => {}
                 [a, b] => {
                     if class(classes, a) == class(classes, b) {
-                        met.pairs.push([a, b]);
+                        result.pairs.push([a, b]);
                     }
                 }
-                ref around => {
-                    rest.clear();
-                    rest.extend_from_slice(around);
-                    while let Some(first) = rest.first() {
-                        let own = class(classes, *first);
-                        let begin = met.crowds.len();
-                        rest.retain(|end| {
-                            let is_own = class(classes, *end) == own;
-                            if is_own {
-                                met.crowds.push(*end);
+                ref vertex_ends => {
+                    remaining.clear();
+                    remaining.extend_from_slice(vertex_ends);
+                    while let Some(first) = remaining.first() {
+                        let first_class = class(classes, *first);
+                        let begin = result.crowds.len();
+                        remaining.retain(|end| {
+                            let is_same_class = class(classes, *end) == first_class;
+                            if is_same_class {
+                                result.crowds.push(*end);
                             }
-                            !is_own
+                            !is_same_class
                         });
-                        if let [a, b] = met.crowds[begin..] {
-                            met.pairs.push([a, b]);
+                        if let [a, b] = result.crowds[begin..] {
+                            result.pairs.push([a, b]);
                         }
-                        if met.crowds.len() <= begin + 2 {
-                            met.crowds.truncate(begin);
+                        if result.crowds.len() <= begin + 2 {
+                            result.crowds.truncate(begin);
                         } else {
-                            met.crowd_ends.push(met.crowds.len());
+                            result.crowd_ends.push(result.crowds.len());
                         }
                     }
                 }
             }
         }
-        met
+        result
     }
 
     /// Pairs within the groups. `partner` must hold all simple pairs.
@@ -128,16 +128,19 @@ pub(crate) fn pair_ends(map: &ViewMap, classes: &[Option<EdgeClass>], window: f6
             classes,
         )
     };
-    let met: Vec<VertexPairs> =
+    let task_pairs: Vec<VertexPairs> =
         (0..count.div_ceil(VERTICES_PER_TASK)).into_par_iter().with_max_len(1).map(chunk).collect();
     let mut join = |[a, b]: [u32; 2]| {
         partner[a as usize] = b;
         partner[b as usize] = a;
     };
-    met.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
+    task_pairs.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
     // All directions are measured before any junction is paired, so the result does not depend on the order.
-    let matched: Vec<Vec<[u32; 2]>> =
-        met.into_par_iter().with_max_len(1).map(|met| met.pair_crowds(map, &partner, window)).collect();
+    let matched: Vec<Vec<[u32; 2]>> = task_pairs
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|met| met.pair_crowds(map, &partner, window))
+        .collect();
     for [a, b] in matched.into_iter().flatten() {
         partner[a as usize] = b;
         partner[b as usize] = a;
@@ -176,13 +179,13 @@ impl JunctionScratch {
         pairs.clear();
         for i in 0..crowd.len() {
             for j in i + 1..crowd.len() {
-                let one = segment(crowd[i]) == segment(crowd[j]) && crowd[i] / 2 != crowd[j] / 2;
+                let is_same_segment = segment(crowd[i]) == segment(crowd[j]) && crowd[i] / 2 != crowd[j] / 2;
                 let cosine = match (directions.get(i), directions.get(j)) {
                     (Some(a), Some(b)) => -a.dot(*b),
                     _ => -1.0,
                 };
-                if one || cosine > MIN_JUNCTION_COSINE {
-                    pairs.push((one, cosine, i, j));
+                if is_same_segment || cosine > MIN_JUNCTION_COSINE {
+                    pairs.push((is_same_segment, cosine, i, j));
                 }
             }
         }
@@ -220,9 +223,9 @@ fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
             next => at = next,
         }
     }
-    let way = to - from;
-    let length = way.hypot2().sqrt();
-    if length > 0.0 { way / length } else { Vec2::ZERO }
+    let chord = to - from;
+    let length = chord.hypot2().sqrt();
+    if length > 0.0 { chord / length } else { Vec2::ZERO }
 }
 
 #[cfg(test)]
@@ -276,8 +279,8 @@ mod tests {
         let mut groups: Vec<Vec<u32>> = Vec::new();
         for vertex in 0..map.vertices.len() {
             for first in all().filter(|end| step(*end).from(map).index() == vertex) {
-                let alike = |end: &u32| class(classes, *end) == class(classes, first);
-                let group = all().filter(|end| step(*end).from(map).index() == vertex).filter(alike);
+                let is_same_class = |end: &u32| class(classes, *end) == class(classes, first);
+                let group = all().filter(|end| step(*end).from(map).index() == vertex).filter(is_same_class);
                 groups.push(group.collect());
             }
         }

@@ -49,20 +49,20 @@ impl Routes {
 
     /// Changes every route in place. The routes must still be stored one after another.
     fn each(&mut self, change: impl Fn(&mut [DirectedEdge], &mut Span) + Sync) {
-        let mut rest = &mut self.steps[..];
+        let mut remaining = &mut self.steps[..];
         let mut tasks = Vec::with_capacity(self.spans.len().div_ceil(ROUTES_PER_TASK));
         for spans in self.spans.chunks_mut(ROUTES_PER_TASK) {
             let (Some(first), Some(last)) = (spans.first(), spans.last()) else { continue };
             let count = (last.end - first.first) as usize;
-            let (steps, after) = std::mem::take(&mut rest).split_at_mut(count);
-            rest = after;
+            let (steps, following) = std::mem::take(&mut remaining).split_at_mut(count);
+            remaining = following;
             tasks.push((steps, spans));
         }
         tasks.into_par_iter().with_max_len(1).for_each(|(mut steps, spans)| {
             for span in spans {
-                let (own, after) = steps.split_at_mut((span.end - span.first) as usize);
-                change(own, span);
-                steps = after;
+                let (route_steps, later_steps) = steps.split_at_mut((span.end - span.first) as usize);
+                change(route_steps, span);
+                steps = later_steps;
             }
         });
     }
@@ -122,8 +122,8 @@ fn make_canonical(map: &ViewMap, steps: &mut [DirectedEdge], closed: bool) {
     };
     if closed {
         let lower = |s: DirectedEdge| if order(map, s, s.turned()).is_le() { s } else { s.turned() };
-        let least = |a: &usize, b: &usize| order(map, lower(steps[*a]), lower(steps[*b]));
-        let Some(start) = (0..steps.len()).min_by(least) else { return };
+        let canonical_order = |a: &usize, b: &usize| order(map, lower(steps[*a]), lower(steps[*b]));
+        let Some(start) = (0..steps.len()).min_by(canonical_order) else { return };
         if order(map, steps[start], steps[start].turned()).is_le() {
             steps.rotate_left(start);
         } else {

@@ -46,7 +46,7 @@ pub(crate) fn drop_doubles(
     raws: &mut Vec<RawLine>,
     degrees: &mut VertexDegrees,
     tidy: f64,
-    bin: &mut RemovalLog,
+    removal_log: &mut RemovalLog,
 ) {
     let distance = MAX_DISTANCE_TIDY_LENGTHS * tidy;
     if !raws.par_iter().any(is_suspect) {
@@ -76,28 +76,28 @@ pub(crate) fn drop_doubles(
     let roundings: Vec<bool> = raws.iter().map(is_rounding).collect();
     // For each side of a double, whether it is uncovered; none for other lines. Only longer lines cover a
     // line, so it does not matter whether these are doubles: the longest of several parallel lines is kept.
-    let alone = |i: usize| -> Option<Vec<bool>> {
+    let uncovered_sides = |i: usize| -> Option<Vec<bool>> {
         if !is_suspect(&raws[i]) {
             return None;
         }
-        let own = &pieces[spans[i]..spans[i + 1]];
+        let line_pieces = &pieces[spans[i]..spans[i + 1]];
         let total = lengths[i];
         // A short line is more likely an artefact, but a gap in the silhouette would be worse.
-        let whole = rims.length(&raws[i], total);
-        let flake =
-            whole < MAX_FLAKE_DISTANCES * distance && raws[i].silhouette_part() < MAX_FLAKE_SILHOUETTE_SHARE;
-        let distance = if flake { FLAKE_DISTANCE_RATIO * distance } else { distance };
+        let rim_length = rims.length(&raws[i], total);
+        let is_flake = rim_length < MAX_FLAKE_DISTANCES * distance
+            && raws[i].silhouette_part() < MAX_FLAKE_SILHOUETTE_SHARE;
+        let distance = if is_flake { FLAKE_DISTANCE_RATIO * distance } else { distance };
         let allowed = (1.0 - MIN_COVERED_SHARE) * total;
-        let mut bare = 0.0;
-        let mut alone = Vec::with_capacity(own.len());
-        for piece in own {
+        let mut uncovered_length = 0.0;
+        let mut is_uncovered = Vec::with_capacity(line_pieces.len());
+        for piece in line_pieces {
             let side = length(piece.b - piece.a);
             let parts = (side / distance).ceil().clamp(1.0, 256.0);
-            let before = bare;
+            let length_before = uncovered_length;
             for k in 0..parts as usize {
                 let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
-                let stands = |other: u32| {
-                    let other = other as usize;
+                let is_cover = |line_id: u32| {
+                    let other = line_id as usize;
                     let goes_before = match [roundings[i], roundings[other]] {
                         [true, false] => true,
                         [false, true] => false,
@@ -105,40 +105,40 @@ pub(crate) fn drop_doubles(
                     };
                     goes_before && !may_go[other]
                 };
-                if !buckets.has_parallel_near(&pieces, point, piece.direction, distance, stands) {
-                    bare += side / parts;
+                if !buckets.has_parallel_near(&pieces, point, piece.direction, distance, is_cover) {
+                    uncovered_length += side / parts;
                 }
-                if bare > allowed {
+                if uncovered_length > allowed {
                     return None;
                 }
             }
-            alone.push(bare > before);
+            is_uncovered.push(uncovered_length > length_before);
         }
-        (total > 0.0).then_some(alone)
+        (total > 0.0).then_some(is_uncovered)
     };
-    let gone: Vec<Option<Vec<bool>>> = (0..raws.len())
+    let uncovered_parts: Vec<Option<Vec<bool>>> = (0..raws.len())
         .into_par_iter()
         .with_min_len(MIN_LINES_PER_TASK)
         .with_max_len(2 * MIN_LINES_PER_TASK)
-        .map(alone)
+        .map(uncovered_sides)
         .collect();
-    if gone.iter().all(Option::is_none) {
+    if uncovered_parts.iter().all(Option::is_none) {
         return;
     }
-    let mut kept = Vec::with_capacity(raws.len());
-    for (raw, alone) in std::mem::take(raws).into_iter().zip(gone) {
-        let Some(alone) = alone else {
-            kept.push(raw);
+    let mut remaining = Vec::with_capacity(raws.len());
+    for (raw, maybe_uncovered) in std::mem::take(raws).into_iter().zip(uncovered_parts) {
+        let Some(uncovered_flags) = maybe_uncovered else {
+            remaining.push(raw);
             continue;
         };
-        let parts = parts_alone(&raw, &alone, distance);
-        bin.record(&raw, || RemovalReason::Double);
+        let parts = parts_alone(&raw, &uncovered_flags, distance);
+        removal_log.record(&raw, || RemovalReason::Double);
         if parts.is_empty() {
             degrees.remove_line(&raw);
         }
-        kept.extend(parts);
+        remaining.extend(parts);
     }
-    *raws = kept;
+    *raws = remaining;
 }
 
 /// Total lengths of lines with the same two end vertices, such as the near and the far side of a hole's rim.
@@ -159,21 +159,21 @@ impl RimLengths {
     }
 
     /// Length of the rim that a line is a side of, or its own length.
-    fn length(&self, raw: &RawLine, own: f64) -> f64 {
-        if raw.is_ring() { own } else { self.0.get(&Self::key(raw)).copied().unwrap_or(own) }
+    fn length(&self, raw: &RawLine, line_length: f64) -> f64 {
+        if raw.is_ring() { line_length } else { self.0.get(&Self::key(raw)).copied().unwrap_or(line_length) }
     }
 }
 
 /// Stretches of a double that are drawn: long uncovered runs, and runs with silhouette longer than
 /// `distance`.
-fn parts_alone(raw: &RawLine, alone: &[bool], distance: f64) -> Vec<RawLine> {
-    if !alone.contains(&true) {
+fn parts_alone(raw: &RawLine, uncovered: &[bool], distance: f64) -> Vec<RawLine> {
+    if !uncovered.contains(&true) {
         return Vec::new();
     }
     // A closed line is opened at a covered side.
-    let start = if raw.line.closed { alone.iter().position(|alone| !alone).unwrap_or(0) } else { 0 };
+    let start = if raw.line.closed { uncovered.iter().position(|alone| !alone).unwrap_or(0) } else { 0 };
     let open = if raw.line.closed { raw.line.opened_at(start) } else { raw.line.clone() };
-    let is_alone = |side: usize| alone.get((side + start) % alone.len()).copied().unwrap_or(false);
+    let is_alone = |side: usize| uncovered.get((side + start) % uncovered.len()).copied().unwrap_or(false);
     let sides = open.len() - 1;
     let mut parts = Vec::new();
     let mut first = 0;

@@ -28,19 +28,20 @@ struct VisibilityRun {
 /// Makes short hidden stretches of smooth contours visible.
 ///
 /// A stretch must be shorter than `gap`, lie between visible stretches, and be hidden by its own surface
-/// only. `routes` must join edges regardless of visibility. Without `ahead`, other surfaces are not tested.
+/// only. `routes` must join edges regardless of visibility. Without `occlusion`, other surfaces are not tested.
 /// `classes` has one entry per view edge; `None` marks a dropped edge.
 pub(crate) fn bridge_gaps(
     map: &ViewMap,
     routes: &Routes,
     gap: f64,
-    ahead: Option<&GapOcclusion>,
+    occlusion: Option<&GapOcclusion>,
     classes: &mut [Option<EdgeClass>],
 ) {
     let gaps: Vec<HiddenGap> =
         routes.iter().flat_map_iter(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
-    let ways: Vec<GapSegment> = gaps.iter().map(|gap| gap.segment).collect();
-    let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.occluded_gaps(&ways));
+    let gap_segments: Vec<GapSegment> = gaps.iter().map(|gap| gap.segment).collect();
+    let hidden =
+        occlusion.map_or_else(|| vec![false; gap_segments.len()], |ahead| ahead.occluded_gaps(&gap_segments));
     for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
         for step in &gap.steps {
             if let Some(class) = &mut classes[step.edge as usize] {
@@ -78,17 +79,17 @@ fn gaps(
     let mut gaps = Vec::new();
     for (i, run) in runs.iter().enumerate() {
         let inner = closed && count > 1 || (i > 0 && i + 1 < count);
-        let beside = |j: usize| runs[j % count].length;
+        let run_length = |j: usize| runs[j % count].length;
         if !run.is_hidden || !inner || run.length >= gap {
             continue;
         }
         // A gap longer than both visible runs next to it does not join them.
-        if beside(i + count - 1).max(beside(i + 1)) < run.length {
+        if run_length(i + count - 1).max(run_length(i + 1)) < run.length {
             continue;
         }
-        let own: Vec<DirectedEdge> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
-        if own.iter().all(smooth) {
-            gaps.extend(HiddenGap::new(map, own));
+        let gap_steps: Vec<DirectedEdge> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
+        if gap_steps.iter().all(smooth) {
+            gaps.extend(HiddenGap::new(map, gap_steps));
         }
     }
     gaps
@@ -98,12 +99,12 @@ impl HiddenGap {
     fn new(map: &ViewMap, steps: Vec<DirectedEdge>) -> Option<Self> {
         let (first, last) = (*steps.first()?, *steps.last()?);
         let ends = [first.from(map), last.to(map)].map(|v| map.vertices[v.index()]);
-        let way = GapSegment {
+        let gap_segment = GapSegment {
             ends: ends.map(|vertex| vertex.position),
             depths: ends.map(|vertex| vertex.depth),
             segments: [first, last].map(|step| map.edges[step.edge as usize].segment),
         };
-        Some(Self { steps, segment: way })
+        Some(Self { steps, segment: gap_segment })
     }
 }
 
@@ -121,13 +122,13 @@ fn runs(
     let mut runs: Vec<VisibilityRun> = Vec::new();
     for k in start..start + n {
         let step = &steps[k % n];
-        let (now, length) = (value(step), step.length(map));
+        let (step_value, length) = (value(step), step.length(map));
         match runs.last_mut() {
-            Some(run) if run.is_hidden == now => {
+            Some(run) if run.is_hidden == step_value => {
                 run.end = k + 1;
                 run.length += length;
             }
-            _ => runs.push(VisibilityRun { first: k, end: k + 1, length, is_hidden: now }),
+            _ => runs.push(VisibilityRun { first: k, end: k + 1, length, is_hidden: step_value }),
         }
     }
     runs

@@ -44,13 +44,13 @@ impl<'a> OrientedLine<'a> {
         self.line.points[self.index(k)]
     }
 
-    /// Arc length, but at most `most`.
-    pub(crate) fn arc(&self, most: f64) -> f64 {
+    /// Arc length, but at most `max_length`.
+    pub(crate) fn arc(&self, max_length: f64) -> f64 {
         let mut arc = 0.0;
         for k in 1..self.line.len() {
             arc += length(self.point(k) - self.point(k - 1));
-            if arc >= most {
-                return most;
+            if arc >= max_length {
+                return max_length;
             }
         }
         arc
@@ -67,7 +67,7 @@ impl<'a> OrientedLine<'a> {
     /// Cut nearest to `p` within the first `reach` of the line, the far end excluded.
     pub(crate) fn nearest(&self, p: Point, reach: f64) -> Option<StitchEnd> {
         let mut arc = 0.0;
-        let mut least: Option<(f64, StitchEnd)> = None;
+        let mut closest: Option<(f64, StitchEnd)> = None;
         for k in 0..self.line.len() - 1 {
             let (a, b) = (self.point(k), self.point(k + 1));
             let side = length(b - a);
@@ -75,21 +75,22 @@ impl<'a> OrientedLine<'a> {
                 break;
             }
             let t = if side > 0.0 { ((p - a).dot(b - a) / (side * side)).clamp(0.0, 1.0) } else { 0.0 };
-            let away = (a.lerp(b, t) - p).hypot2();
+            let distance2 = (a.lerp(b, t) - p).hypot2();
             let trimmed = arc + t * side;
             let last = k + 2 == self.line.len() && t >= 1.0;
-            if trimmed > 0.0 && trimmed <= reach && !last && least.as_ref().is_none_or(|l| away < l.0) {
-                least = Some((away, self.cut(k, t, trimmed)));
+            if trimmed > 0.0 && trimmed <= reach && !last && closest.as_ref().is_none_or(|l| distance2 < l.0)
+            {
+                closest = Some((distance2, self.cut(k, t, trimmed)));
             }
             arc += side;
         }
-        least.map(|l| l.1)
+        closest.map(|l| l.1)
     }
 
     /// Unit direction of the line at a cut.
     pub(crate) fn direction(&self, cut: &StitchEnd, window: f64) -> Vec2 {
-        let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
-        crate::chains::fit::bezier_fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
+        let end_index = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
+        crate::chains::fit::bezier_fit::unit(self.point(end_index.unwrap_or(self.line.len() - 1)) - cut.point)
     }
 
     /// Whether any point that is cut off lies too far from the start of the other line.
@@ -97,13 +98,13 @@ impl<'a> OrientedLine<'a> {
         if cut.trimmed <= 0.0 {
             return false;
         }
-        let near = tidy
+        let max_distance = tidy
             * if cut.trimmed > MIN_LONG_STUB_TIDY_LENGTHS * tidy {
                 MAX_LONG_STUB_DISTANCE_TIDY_LENGTHS
             } else {
                 MAX_TRIMMED_JUMP_TIDY_LENGTHS
             };
-        let near = near * near;
+        let max_distance2 = max_distance * max_distance;
         (0..cut.next).any(|k| {
             let p = self.point(k);
             let mut arc = 0.0;
@@ -113,14 +114,14 @@ impl<'a> OrientedLine<'a> {
                     arc += length(other.point(*j) - other.point(j - 1));
                     before < (MAX_STUB_TIDY_LENGTHS + 1.0) * tidy
                 })
-                .all(|j| segment_distance_squared(p, other.point(j - 1), other.point(j)) > near)
+                .all(|j| segment_distance_squared(p, other.point(j - 1), other.point(j)) > max_distance2)
         })
     }
 }
 
 /// Appends a line in either direction, without the parts cut off at its start and end.
 pub(crate) fn append_trimmed(
-    whole: &mut SampledLine,
+    target: &mut SampledLine,
     line: &SampledLine,
     backwards: bool,
     begin: Option<StitchEnd>,
@@ -134,16 +135,16 @@ pub(crate) fn append_trimmed(
     let side_before = |k: usize| index(k.saturating_sub(1)).min(index(k.min(n - 1)));
     if let Some(cut) = begin {
         let side = side_before(first);
-        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+        target.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
     }
     for k in first..last.max(first) {
         // In reverse, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
         let (soft, silhouette) = (line.soft[side], line.silhouette[side]);
-        whole.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);
+        target.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);
     }
     if let Some(cut) = end {
         let side = side_before(last);
-        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+        target.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
     }
 }

@@ -76,10 +76,10 @@ pub(crate) fn stitch(
     mut raws: Vec<RawLine>,
     degrees: &mut VertexDegrees,
     tidy: f64,
-    ahead: Option<&GapOcclusion>,
-    bin: &mut RemovalLog,
+    occlusion: Option<&GapOcclusion>,
+    removal_log: &mut RemovalLog,
 ) -> Vec<RawLine> {
-    let stitches = cheapest_stitches(&raws, degrees, tidy, ahead);
+    let stitches = cheapest_stitches(&raws, degrees, tidy, occlusion);
     if stitches.is_empty() {
         return raws;
     }
@@ -89,7 +89,7 @@ pub(crate) fn stitch(
             if cut.trimmed > 0.0 {
                 let walk = OrientedLine::new(&raws[end / 2].line, end % 2);
                 let stub = || (0..cut.next).map(|k| walk.point(k)).chain([cut.point]).collect();
-                bin.record_part(&raws[end / 2], RemovalReason::Stub, stub);
+                removal_log.record_part(&raws[end / 2], RemovalReason::Stub, stub);
                 degrees.cut_off(raws[end / 2].ends[end % 2]);
             }
         }
@@ -113,10 +113,10 @@ pub(crate) fn stitch(
         let closed = link[start].is_some();
         let first = std::mem::take(&mut raws[i].line);
         let vertices = std::mem::take(&mut raws[i].vertices);
-        let mut whole = RawLine { line: SampledLine::default(), vertices, ..raws[i] };
+        let mut sewn_line = RawLine { line: SampledLine::default(), vertices, ..raws[i] };
         if !closed && link[start ^ 1].is_none() {
             used[i] = true;
-            sewn.push(RawLine { line: first, ..whole });
+            sewn.push(RawLine { line: first, ..sewn_line });
             continue;
         }
         raws[i].line = first;
@@ -125,13 +125,13 @@ pub(crate) fn stitch(
         let last = loop {
             used[at / 2] = true;
             if at / 2 != i {
-                whole.pronounced += raws[at / 2].pronounced;
-                whole.segment = whole.segment.min(raws[at / 2].segment);
-                whole.vertices.extend(&raws[at / 2].vertices);
+                sewn_line.pronounced += raws[at / 2].pronounced;
+                sewn_line.segment = sewn_line.segment.min(raws[at / 2].segment);
+                sewn_line.vertices.extend(&raws[at / 2].vertices);
             }
             let line = &raws[at / 2].line;
             append_trimmed(
-                &mut whole.line,
+                &mut sewn_line.line,
                 line,
                 at % 2 == 1,
                 link[at].map(|l| l.1),
@@ -143,13 +143,13 @@ pub(crate) fn stitch(
             }
         };
         let ((from, covered_from), (to, covered_to)) = (end(start), end(last));
-        whole.ends = [from, to];
-        whole.covered = [covered_from, covered_to];
-        if closed && whole.line.points.first() == whole.line.points.last() {
-            whole.line.pop();
+        sewn_line.ends = [from, to];
+        sewn_line.covered = [covered_from, covered_to];
+        if closed && sewn_line.line.points.first() == sewn_line.line.points.last() {
+            sewn_line.line.pop();
         }
-        whole.line.closed = closed && whole.line.len() > 2;
-        sewn.push(whole);
+        sewn_line.line.closed = closed && sewn_line.line.len() > 2;
+        sewn.push(sewn_line);
     }
     sewn
 }
@@ -159,7 +159,7 @@ fn cheapest_stitches(
     raws: &[RawLine],
     degrees: &VertexDegrees,
     tidy: f64,
-    ahead: Option<&GapOcclusion>,
+    gap_occlusion: Option<&GapOcclusion>,
 ) -> Vec<Stitch> {
     let mut ends: Vec<(Point, usize)> = Vec::new();
     for (i, raw) in raws.iter().enumerate() {
@@ -176,26 +176,26 @@ fn cheapest_stitches(
     let reach = MAX_STUB_TIDY_LENGTHS * tidy;
     let of_end = |(k, (p, a)): (usize, &(Point, usize))| {
         let (p, a) = (*p, *a);
-        let near = ends[k + 1..].iter().take_while(move |(q, _)| q.x - p.x <= reach);
-        near.filter_map(move |(q, b)| {
-            let may = (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class;
-            if may { best_stitch(raws, a, *b, tidy) } else { None }
+        let close_ends = ends[k + 1..].iter().take_while(move |(q, _)| q.x - p.x <= reach);
+        close_ends.filter_map(move |(q, b)| {
+            let is_candidate = (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class;
+            if is_candidate { best_stitch(raws, a, *b, tidy) } else { None }
         })
     };
     let all = ends.par_iter().enumerate().with_min_len(MIN_ENDS_PER_TASK);
     let mut found: Vec<Stitch> = all.flat_map_iter(of_end).collect();
-    if let Some(ahead) = ahead {
-        let ways: Vec<GapSegment> = found.iter().map(|stitch| stitch.way(raws)).collect();
-        let mut hidden = ahead.occluded_gaps(&ways).into_iter();
+    if let Some(occlusion) = gap_occlusion {
+        let gaps: Vec<GapSegment> = found.iter().map(|stitch| stitch.way(raws)).collect();
+        let mut hidden = occlusion.occluded_gaps(&gaps).into_iter();
         found.retain(|_| !hidden.next().unwrap_or(false));
     }
     found.sort_by(|s, u| s.cost.total_cmp(&u.cost).then((s.a, s.b).cmp(&(u.a, u.b))));
-    let mut taken = vec![false; 2 * raws.len()];
+    let mut is_used = vec![false; 2 * raws.len()];
     found.retain(|s| {
-        let free = !taken[s.a] && !taken[s.b];
+        let free = !is_used[s.a] && !is_used[s.b];
         if free {
-            taken[s.a] = true;
-            taken[s.b] = true;
+            is_used[s.a] = true;
+            is_used[s.b] = true;
         }
         free
     });
@@ -210,30 +210,31 @@ fn best_stitch(raws: &[RawLine], a: usize, b: usize, tidy: f64) -> Option<Stitch
     if same && total(&from) < 6.0 * tidy {
         return None;
     }
-    let whole = |walk: &OrientedLine| walk.cut(0, 0.0, 0.0);
-    let ways = [
-        Some((whole(&from), whole(&to))),
-        to.nearest(from.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (whole(&from), cut)),
-        from.nearest(to.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (cut, whole(&to))),
+    let untrimmed = |walk: &OrientedLine| walk.cut(0, 0.0, 0.0);
+    let cut_pairs = [
+        Some((untrimmed(&from), untrimmed(&to))),
+        to.nearest(from.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (untrimmed(&from), cut)),
+        from.nearest(to.point(0), MAX_STUB_TIDY_LENGTHS * tidy).map(|cut| (cut, untrimmed(&to))),
     ];
-    let stitches = ways.into_iter().flatten().filter_map(|(cut_a, cut_b)| {
+    let stitches = cut_pairs.into_iter().flatten().filter_map(|(cut_a, cut_b)| {
         let jump = cut_b.point - cut_a.point;
         let trimmed = cut_a.trimmed + cut_b.trimmed;
-        let most = if trimmed > 0.0 { MAX_TRIMMED_JUMP_TIDY_LENGTHS } else { MAX_JUMP_TIDY_LENGTHS };
-        if length(jump) > most * tidy {
+        let max_jump = if trimmed > 0.0 { MAX_TRIMMED_JUMP_TIDY_LENGTHS } else { MAX_JUMP_TIDY_LENGTHS };
+        if length(jump) > max_jump * tidy {
             return None;
         }
         let back = from.direction(&cut_a, DIRECTION_TIDY_LENGTHS * tidy);
-        let ahead = to.direction(&cut_b, DIRECTION_TIDY_LENGTHS * tidy);
-        let bent = -back.dot(ahead) < MIN_STITCH_COSINE;
-        let way = crate::chains::fit::bezier_fit::unit(jump);
-        let least = match length(jump) / tidy {
+        let forward = to.direction(&cut_b, DIRECTION_TIDY_LENGTHS * tidy);
+        let bent = -back.dot(forward) < MIN_STITCH_COSINE;
+        let jump_direction = crate::chains::fit::bezier_fit::unit(jump);
+        let min_cosine = match length(jump) / tidy {
             far if far > GAP_LARGE_TIDY_LENGTHS => MIN_LARGE_GAP_COSINE,
             far if far > GAP_MEDIUM_TIDY_LENGTHS => MIN_MEDIUM_GAP_COSINE,
             far if far > GAP_SMALL_TIDY_LENGTHS => MIN_SMALL_GAP_COSINE,
             _ => -1.0,
         };
-        let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
+        let is_askew =
+            trimmed <= 0.0 && jump_direction.dot(forward).min(-jump_direction.dot(back)) < min_cosine;
         // A line that is mostly overhang is a separate line.
         let eaten = |walk: &OrientedLine, cut: &StitchEnd| {
             cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed
@@ -241,13 +242,13 @@ fn best_stitch(raws: &[RawLine], a: usize, b: usize, tidy: f64) -> Option<Stitch
         let consumed =
             trimmed > MIN_LONG_STUB_TIDY_LENGTHS * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
         // Two short lines are not joined by a longer gap.
-        let far = length(jump);
-        let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
-        let thin = arcs[0].max(arcs[1]) < far
-            || (far > GAP_LARGE_TIDY_LENGTHS * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
+        let jump_length = length(jump);
+        let arcs = [from.arc(1.5 * jump_length), to.arc(1.5 * jump_length)];
+        let thin = arcs[0].max(arcs[1]) < jump_length
+            || (jump_length > GAP_LARGE_TIDY_LENGTHS * tidy && arcs[0].min(arcs[1]) < 1.5 * jump_length);
         // An overhang is cut off only if it runs next to the other line.
         let apart = from.stub_leaves(&cut_a, &to, tidy) || to.stub_leaves(&cut_b, &from, tidy);
-        (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
+        (!bent && !is_askew && !thin && !consumed && !apart).then(|| Stitch {
             cost: length(jump) + 0.25 * trimmed,
             a,
             b,

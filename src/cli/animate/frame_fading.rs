@@ -34,17 +34,17 @@ impl<'a> FadeWindow<'a> {
         frames: &[usize],
         draw: impl Fn(usize) -> Result<TimedDrawing, Error> + Sync,
     ) -> Result<(), Error> {
-        let beside = |frame: usize| self.pairs(frame).flatten().flatten().chain([frame]);
-        let wanted: BTreeSet<usize> = frames.iter().copied().flat_map(beside).collect();
+        let needed_frames = |frame: usize| self.pairs(frame).flatten().flatten().chain([frame]);
+        let required_frames: BTreeSet<usize> = frames.iter().copied().flat_map(needed_frames).collect();
         let missing: Vec<usize> =
-            wanted.iter().copied().filter(|frame| !self.drawings.contains_key(frame)).collect();
-        self.drawings.retain(|frame, _| wanted.contains(frame));
-        let draw = |frame: &usize| draw(*frame).map(|drawn| (*frame, drawn));
-        let drawn: Vec<_> = missing.par_iter().with_max_len(1).map(draw).collect();
-        for drawn in drawn {
-            let (frame, drawn) = drawn?;
-            let trace = StrokeTrace::of(&drawn.0);
-            self.drawings.insert(frame, (drawn, trace));
+            required_frames.iter().copied().filter(|frame| !self.drawings.contains_key(frame)).collect();
+        self.drawings.retain(|frame, _| required_frames.contains(frame));
+        let draw = |frame: &usize| draw(*frame).map(|timed| (*frame, timed));
+        let results: Vec<_> = missing.par_iter().with_max_len(1).map(draw).collect();
+        for result in results {
+            let (frame, timed_drawing) = result?;
+            let trace = StrokeTrace::of(&timed_drawing.0);
+            self.drawings.insert(frame, (timed_drawing, trace));
         }
         Ok(())
     }

@@ -59,41 +59,41 @@ impl FramePlan {
     pub(crate) fn new(args: &AnimateArgs, request: &DrawRequest, rigged: &Rigged) -> Result<Self, Error> {
         let clips = &rigged.rig.clips;
         let moves = args.turntable.is_some() || args.path.is_some();
-        let still = clips.is_empty() && request.animation.is_empty();
-        if still && !moves {
+        let has_no_clips = clips.is_empty() && request.animation.is_empty();
+        if has_no_clips && !moves {
             return Err(Error::new("the model has no animation")
                 .in_file(&request.model)
                 .remedy("give --turntable 36, or a camera path with --path FILE.json"));
         }
-        let own = if moves && request.animation.is_empty() {
+        let clip_blend = if moves && request.animation.is_empty() {
             None
         } else {
             let blend = ClipBlend::new(clips, &request.animation, request.repeat);
             Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
         };
-        let notes = own.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
-        let [begins, ends] = own.as_ref().map_or([0.0, 0.0], ClipBlend::span);
+        let notes = clip_blend.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
+        let [start_time, end_time] = clip_blend.as_ref().map_or([0.0, 0.0], ClipBlend::span);
         let cameras = args.path.as_deref().map(open_path).transpose()?;
-        let from = args.from.unwrap_or(begins);
+        let from = args.from.unwrap_or(start_time);
         let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
         let timeline = match frames {
             Some(frames) => Timeline::of_frames(frames, from, args.fps),
-            None if args.contact.contact_sheet => moments(from, args.to.unwrap_or(ends)),
-            None => Timeline::between(from, args.to.unwrap_or(ends), args.fps),
+            None if args.contact.contact_sheet => moments(from, args.to.unwrap_or(end_time)),
+            None => Timeline::between(from, args.to.unwrap_or(end_time), args.fps),
         };
         let timeline = timeline?.holding(usize::from(args.hold));
         let mut warnings = Vec::new();
         let last = timeline.time(timeline.frames() - 1);
-        let stands_still = own.as_ref().is_some_and(|own| !own.repeats());
-        if stands_still && (from < begins - TIME_ROUNDING_S || last > ends + TIME_ROUNDING_S) {
+        let stands_still = clip_blend.as_ref().is_some_and(|own| !own.repeats());
+        if stands_still && (from < start_time - TIME_ROUNDING_S || last > end_time + TIME_ROUNDING_S) {
             warnings.push(format!(
-                "the animation lasts from {begins} s to {ends} s; outside that time nothing moves"
+                "the animation lasts from {start_time} s to {end_time} s; outside that time nothing moves"
             ));
         }
         let rest = rigged.posed(&[])?;
         let turntable = args.turntable.map(|steps| Turntable::round(&rest, steps as usize));
         let over = [from, timeline.time(timeline.frames())];
-        let course = FrameSchedule { timeline, clips: own.map(|own| own.over(over)), turntable };
+        let course = FrameSchedule { timeline, clips: clip_blend.map(|own| own.over(over)), turntable };
         let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
             Some(first) => on_sheet(&request.sheet, *first)?,
             None => viewpoint(&request.view, &request.sheet, &rigged.scene, || {
@@ -101,10 +101,11 @@ impl FramePlan {
             })?,
         };
         warnings.extend(warning);
-        let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);
+        let has_camera =
+            |name: &str| rigged.scene.cameras.iter().any(|scene_camera| scene_camera.name == name);
         let eye = match (cameras, &request.view) {
             (Some(cameras), _) => CameraMotion::Path(cameras),
-            (None, ViewRequest::Recorded(name)) if named(name) => CameraMotion::OfModel(name.clone()),
+            (None, ViewRequest::Recorded(name)) if has_camera(name) => CameraMotion::OfModel(name.clone()),
             (None, _) => CameraMotion::Still(camera),
         };
         Ok(Self { schedule: course, eye, paper, warnings, notes })
@@ -129,8 +130,8 @@ impl FramePlan {
                 .ok_or_else(|| Error::new(format!("frame {frame} has no camera on the path")))?,
             CameraMotion::OfModel(name) => {
                 let cameras = rigged.cameras(&playing)?;
-                let own = cameras.iter().find(|own| own.name == *name).map(|own| own.camera);
-                own.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
+                let named_camera = cameras.iter().find(|own| own.name == *name).map(|own| own.camera);
+                named_camera.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
             }
         };
         let camera = self.schedule.turntable.map_or(camera, |table| table.camera(&camera, frame));

@@ -64,34 +64,37 @@ impl FrameRenderer<'_> {
         }
         let timeline = self.plan.schedule.timeline;
         let shard = self.args.shard.map(ShardSpec::shard).transpose()?;
-        let mine = |drawn: &usize| shard.is_none_or(|shard| shard.has(drawn / timeline.hold()));
-        let missing = |drawn: &usize| {
+        let is_in_shard =
+            |frame_index: &usize| shard.is_none_or(|shard| shard.has(frame_index / timeline.hold()));
+        let missing = |frame_index: &usize| {
             !self.args.resume
-                || (0..timeline.repeat_count(*drawn)).any(|held| !numbered.path(drawn + held).exists())
+                || (0..timeline.repeat_count(*frame_index))
+                    .any(|repeat_offset| !numbered.path(frame_index + repeat_offset).exists())
         };
-        let frames: Vec<usize> = timeline.drawn_frames().filter(mine).collect();
-        total.frames = frames.iter().map(|drawn| timeline.repeat_count(*drawn) as u64).sum();
+        let frames: Vec<usize> = timeline.drawn_frames().filter(is_in_shard).collect();
+        total.frames = frames.iter().map(|frame_index| timeline.repeat_count(*frame_index) as u64).sum();
         let frames: Vec<usize> = frames.into_iter().filter(missing).collect();
-        let one = |drawn: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
-            let mut watch = Stopwatch::start();
-            let bytes = match numbered.format {
-                Format::Png => library_calls::png(&drawing, self.dpi(&drawing))?,
-                #[cfg(feature = "pdf")]
-                Format::Pdf => drawing.to_pdf(),
-                Format::Svg | Format::SvgToStdout => library_calls::svg(&drawing, &self.request.svg),
-                Format::Dxf => drawing.to_dxf(&DxfOptions::default()),
-                Format::Svgz => gzip::packed(&library_calls::svg(&drawing, &self.request.svg)),
+        let encode_frame =
+            |frame_index: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
+                let mut watch = Stopwatch::start();
+                let bytes = match numbered.format {
+                    Format::Png => library_calls::png(&drawing, self.dpi(&drawing))?,
+                    #[cfg(feature = "pdf")]
+                    Format::Pdf => drawing.to_pdf(),
+                    Format::Svg | Format::SvgToStdout => library_calls::svg(&drawing, &self.request.svg),
+                    Format::Dxf => drawing.to_dxf(&DxfOptions::default()),
+                    Format::Svgz => gzip::packed(&library_calls::svg(&drawing, &self.request.svg)),
+                };
+                for repeat_offset in 0..timeline.repeat_count(frame_index) {
+                    let mut staging = Staging::default();
+                    staging.add(&numbered.path(frame_index + repeat_offset), &bytes)?;
+                    staging.commit()?;
+                    report.counts.bytes_out += bytes.len() as u64;
+                }
+                report.stages_ms.write = watch.lap_ms();
+                Ok(FinishedFrame { frame: None, report, ms })
             };
-            for held in 0..timeline.repeat_count(drawn) {
-                let mut staging = Staging::default();
-                staging.add(&numbered.path(drawn + held), &bytes)?;
-                staging.commit()?;
-                report.counts.bytes_out += bytes.len() as u64;
-            }
-            report.stages_ms.write = watch.lap_ms();
-            Ok(FinishedFrame { frame: None, report, ms })
-        };
-        self.draw_in_order(&frames, one, |_, _| Ok(0.0), total)
+        self.draw_in_order(&frames, encode_frame, |_, _| Ok(0.0), total)
     }
 
     /// Draws all frames into one film.
@@ -167,14 +170,14 @@ impl FrameRenderer<'_> {
         &self,
         frames: &[usize],
         make: impl Fn(usize, TimedDrawing) -> Result<FinishedFrame, Error> + Sync,
-        mut put: impl FnMut(usize, &FilmFrame) -> Result<f64, Error>,
+        mut write_frame: impl FnMut(usize, &FilmFrame) -> Result<f64, Error>,
         total: &mut AnimationTotals,
     ) -> Result<(), Error> {
-        let mut take = |drawn: usize, made: &FinishedFrame, total: &mut AnimationTotals| {
-            if let Some(frame) = &made.frame {
-                total.stages_ms.write += put(drawn, frame)?;
+        let mut take = |frame_index: usize, finished_frame: &FinishedFrame, total: &mut AnimationTotals| {
+            if let Some(frame) = &finished_frame.frame {
+                total.stages_ms.write += write_frame(frame_index, frame)?;
             }
-            total.add(&made.report, made.ms);
+            total.add(&finished_frame.report, finished_frame.ms);
             Ok(())
         };
         let Some(detail) = self.detail else {
@@ -182,14 +185,14 @@ impl FrameRenderer<'_> {
             return self.draw_in_parallel(&animator, frames, &make, &mut take, total);
         };
         let level = |faces: u64| DetailLevel::of(detail, &self.rigged.scene, faces);
-        let faces_of = |drawn: usize| match &self.faces {
-            FaceLimit::Listed(list) => list.get(drawn / self.plan.schedule.timeline.hold()).copied(),
-            FaceLimit::AtMost(most) => Some(*most),
+        let faces_of = |frame_index: usize| match &self.faces {
+            FaceLimit::Listed(list) => list.get(frame_index / self.plan.schedule.timeline.hold()).copied(),
+            FaceLimit::AtMost(max_faces) => Some(*max_faces),
             FaceLimit::All | FaceLimit::Budget(_) => None,
         };
         let FaceLimit::Budget(ms) = self.faces else {
             for frames in frames.chunk_by(|a, b| faces_of(*a) == faces_of(*b)) {
-                let faces = frames.first().and_then(|drawn| faces_of(*drawn)).unwrap_or(u64::MAX);
+                let faces = frames.first().and_then(|frame_index| faces_of(*frame_index)).unwrap_or(u64::MAX);
                 let level = level(faces)?;
                 let animator = Animator::at_level(self.rigged, &level, self.style).ready();
                 total.faces.extend(frames.iter().map(|_| faces));
@@ -199,18 +202,20 @@ impl FrameRenderer<'_> {
         };
         // Drawn one by one, because frames drawn at the same time would distort the measured times.
         let mut budget = Budget::new(ms, model_drawing::triangles(&self.rigged.scene));
-        let mut left = frames;
-        while !left.is_empty() {
+        let mut remaining_frames = frames;
+        while !remaining_frames.is_empty() {
             let faces = budget.faces();
             let level = level(faces)?;
             let animator = Animator::at_level(self.rigged, &level, self.style).ready();
-            while let Some((drawn, rest)) = left.split_first().filter(|_| budget.faces() == faces) {
-                self.step(frames.len() - left.len(), frames.len());
-                let made = make(*drawn, self.draw(&animator, *drawn)?)?;
-                budget.record_frame(made.ms);
+            while let Some((frame_index, rest)) =
+                remaining_frames.split_first().filter(|_| budget.faces() == faces)
+            {
+                self.step(frames.len() - remaining_frames.len(), frames.len());
+                let finished_frame = make(*frame_index, self.draw(&animator, *frame_index)?)?;
+                budget.record_frame(finished_frame.ms);
                 total.faces.push(faces);
-                take(*drawn, &made, total)?;
-                left = rest;
+                take(*frame_index, &finished_frame, total)?;
+                remaining_frames = rest;
             }
         }
         Ok(())
@@ -227,19 +232,23 @@ impl FrameRenderer<'_> {
     ) -> Result<(), Error> {
         let at_once = rayon_core::current_num_threads().max(1);
         let motion = &self.style.motion;
-        let mut around = FadeWindow::new(&self.plan.schedule, motion.fade, motion.fade_by);
-        let draw = |drawn: usize| self.draw(animator, drawn);
+        let mut fade_window = FadeWindow::new(&self.plan.schedule, motion.fade, motion.fade_by);
+        let draw = |frame_index: usize| self.draw(animator, frame_index);
         for (number, window) in frames.chunks(at_once).enumerate() {
             self.step(number * at_once, frames.len());
             if motion.fade > 0 {
-                around.prepare_frames(window, draw)?;
+                fade_window.prepare_frames(window, draw)?;
             }
-            let make =
-                |drawn: &usize| make(*drawn, around.faded_drawing(*drawn).map_or_else(|| draw(*drawn), Ok)?);
-            let made: Vec<Result<FinishedFrame, Error>> =
+            let make = |frame_index: &usize| {
+                make(
+                    *frame_index,
+                    fade_window.faded_drawing(*frame_index).map_or_else(|| draw(*frame_index), Ok)?,
+                )
+            };
+            let finished_frames: Vec<Result<FinishedFrame, Error>> =
                 window.par_iter().with_max_len(1).map(make).collect();
-            for (drawn, made) in window.iter().zip(made) {
-                take(*drawn, &made?, total)?;
+            for (frame_index, finished_frame) in window.iter().zip(finished_frames) {
+                take(*frame_index, &finished_frame?, total)?;
             }
         }
         Ok(())

@@ -278,25 +278,25 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 /// Summary line: `48 frames, 24 drawings, 91.2 kB, 1.30 s, 18.5 drawings a second`
 fn summary(total: &AnimationTotals, seconds: f64) -> String {
     let AnimationTotals { frames, drawings, counts, faces, drawing_ms, .. } = total;
-    let held = if frames == drawings {
+    let drawings_text = if frames == drawings {
         String::new()
     } else {
         format!("{}, ", number_text::counted(*drawings, "drawing"))
     };
     let mut line = format!(
-        "{}, {held}{}, {seconds:.2} s, {:.1} drawings a second",
+        "{}, {drawings_text}{}, {seconds:.2} s, {:.1} drawings a second",
         number_text::counted(*frames, "frame"),
         number_text::bytes(counts.bytes_out),
         *drawings as f64 / seconds.max(tolerances::MIN_DURATION_S),
     );
-    if let (Some(least), Some(most)) = (faces.iter().min(), faces.iter().max()) {
+    if let (Some(min_faces), Some(max_faces)) = (faces.iter().min(), faces.iter().max()) {
         let mut times = drawing_ms.clone();
         times.sort_unstable_by(f64::total_cmp);
         let late = times.get((times.len() * 99 / 100).min(times.len().saturating_sub(1))).copied();
         line += &format!(
             ", {} to {} faces, 99 % within {:.1} ms",
-            number_text::grouped(*least),
-            number_text::grouped(*most),
+            number_text::grouped(*min_faces),
+            number_text::grouped(*max_faces),
             late.unwrap_or_default()
         );
     }

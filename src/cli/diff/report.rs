@@ -10,33 +10,33 @@ use super::input_pairs::InputPairs;
 use crate::diff::Verdict;
 
 /// Text for a terminal: the findings of one drawing, or a heading and findings for each drawing of a folder.
-pub(crate) fn text(told: &[(String, FileComparison)], pairing: &InputPairs, all: bool) -> String {
+pub(crate) fn text(comparisons: &[(String, FileComparison)], pairing: &InputPairs, all: bool) -> String {
     let coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let mut out = String::new();
-    let mut put = |line: &str| {
+    let mut push_line = |line: &str| {
         out.push_str(&if coloured { paint(line) } else { line.to_owned() });
         out.push('\n');
     };
-    for (name, told) in told {
-        match told {
+    for (name, comparison) in comparisons {
+        match comparison {
             FileComparison::Only(side) => {
-                put(&format!("{:<10} {name}", if *side == 0 { "removed" } else { "added" }));
+                push_line(&format!("{:<10} {name}", if *side == 0 { "removed" } else { "added" }));
             }
             FileComparison::Both(diff) => {
                 if pairing.folders {
-                    put(&format!("{name}: {}", diff.summary()));
+                    push_line(&format!("{name}: {}", diff.summary()));
                 }
                 let lines = if all { diff.all_lines() } else { diff.lines() };
-                lines.iter().for_each(|line| put(line));
+                lines.iter().for_each(|line| push_line(line));
                 if !pairing.folders {
-                    put(&diff.summary());
+                    push_line(&diff.summary());
                 }
             }
         }
     }
     if pairing.folders {
-        let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
-        put(&format!("{differ} of {} drawings differ", told.len()));
+        let differ = comparisons.iter().filter(|(_, told)| !told.is_same()).count();
+        push_line(&format!("{differ} of {} drawings differ", comparisons.len()));
     }
     out
 }
@@ -57,8 +57,8 @@ fn paint(line: &str) -> String {
 }
 
 /// JSON: one object for a single drawing, a list for folders.
-pub(crate) fn json(told: &[(String, FileComparison)], pairing: &InputPairs) -> String {
-    let value = |told: &FileComparison| match told {
+pub(crate) fn json(comparisons: &[(String, FileComparison)], pairing: &InputPairs) -> String {
+    let value = |comparison: &FileComparison| match comparison {
         FileComparison::Only(side) => {
             json!({ "same": false, "only": if *side == 0 { "before" } else { "after" } })
         }
@@ -66,28 +66,28 @@ pub(crate) fn json(told: &[(String, FileComparison)], pairing: &InputPairs) -> S
         FileComparison::Both(diff) => serde_json::from_str(&diff.to_json()).unwrap_or(Value::Null),
     };
     let document = if pairing.folders {
-        let named = |(name, told): &(String, FileComparison)| json!({ "name": name, "diff": value(told) });
-        let same = told.iter().all(|(_, told)| told.is_same());
-        json!({ "same": same, "drawings": told.iter().map(named).collect::<Vec<_>>() })
+        let entry = |(name, comparison): &(String, FileComparison)| json!({ "name": name, "diff": value(comparison) });
+        let same = comparisons.iter().all(|(_, told)| told.is_same());
+        json!({ "same": same, "drawings": comparisons.iter().map(entry).collect::<Vec<_>>() })
     } else {
-        told.first().map_or(Value::Null, |(_, told)| value(told))
+        comparisons.first().map_or(Value::Null, |(_, told)| value(told))
     };
     // Serialising values cannot fail.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
 }
 
 /// Markdown with a section for each drawing that differs.
-pub(crate) fn markdown(told: &[(String, FileComparison)], args: &DiffArgs) -> String {
-    let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
+pub(crate) fn markdown(comparisons: &[(String, FileComparison)], args: &DiffArgs) -> String {
+    let differ = comparisons.iter().filter(|(_, told)| !told.is_same()).count();
     let (before, after) = (args.before.display(), args.after.display());
     let mut out = format!("## {before} → {after}\n\n");
-    out += &match (told.len(), differ) {
+    out += &match (comparisons.len(), differ) {
         (_, 0) => "Nothing differs.\n".to_owned(),
         (1, _) => String::new(),
         (all, differ) => format!("{differ} of {all} drawings differ.\n\n"),
     };
-    for (name, told) in told.iter().filter(|(_, told)| !told.is_same()) {
-        match told {
+    for (name, comparison) in comparisons.iter().filter(|(_, told)| !told.is_same()) {
+        match comparison {
             FileComparison::Only(side) => {
                 out += &format!(
                     "### {name}\n\nThe drawing is {}.\n\n",

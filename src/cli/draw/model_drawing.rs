@@ -141,17 +141,17 @@ pub(crate) fn draw_model(
     if request.section.section.is_some() {
         // The section plane and its hatching depend on the view of the uncut model. The frame fits the
         // remaining parts, or the whole model under `--frame all`.
-        let whole = framed.take().unwrap_or_else(|| world_points(&scene));
-        let seen = |request: &&DrawRequest| {
-            viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*whole)))
+        let uncut_points = framed.take().unwrap_or_else(|| world_points(&scene));
+        let viewpoint_of = |request: &&DrawRequest| {
+            viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*uncut_points)))
         };
-        let cameras = requests.iter().map(seen).map(|eye| Ok(eye?.camera));
+        let cameras = requests.iter().map(viewpoint_of).map(|eye| Ok(eye?.camera));
         let cameras: Vec<Camera> = cameras.collect::<Result<_, Error>>()?;
         let forward = cameras.first().map_or(DVec3::NEG_Z, |camera| camera.axes()[2]);
         if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
             style = with_cut_hatching_for(&style, &mut scene, &mut section.faces, &cameras);
         }
-        framed = (request.frame == FramedParts::All).then_some(whole);
+        framed = (request.frame == FramedParts::All).then_some(uncut_points);
     }
     if request.section.explode(&mut scene)? {
         framed = None;
@@ -160,11 +160,11 @@ pub(crate) fn draw_model(
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
-    let told = scene.warnings.lines().into_iter().chain(warnings).collect();
+    let all_warnings = scene.warnings.lines().into_iter().chain(warnings).collect();
     let hidden = usage_warnings::remaining_parts(request, &scene);
     let mut of_scene =
-        SceneReport { triangles: triangles(&scene), warnings: told, hidden, notes, scene: None };
-    let mut kept = None;
+        SceneReport { triangles: triangles(&scene), warnings: all_warnings, hidden, notes, scene: None };
+    let mut retained_scene = None;
     let enclosed: Vec<_> =
         eyes.iter().map(|eye| usage_warnings::camera_inside_part(&scene, &eye.camera)).collect();
     watch.lap_ms();
@@ -172,7 +172,7 @@ pub(crate) fn draw_model(
     let prepared = match eyes.as_slice() {
         [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
         eyes => {
-            let scene = &*of_scene.scene.insert(kept.insert(scene));
+            let scene = &*of_scene.scene.insert(retained_scene.insert(scene));
             match eyes {
                 [eye] => Prepared::for_camera(scene, &style, &eye.camera),
                 _ => Prepared::new(scene, &style),
@@ -183,10 +183,11 @@ pub(crate) fn draw_model(
     for ((request, eye), enclosed) in requests.iter().zip(eyes).zip(enclosed) {
         let page = Page { background: style.background, ..eye.paper.page() };
         let of_view = (eye, page, enclosed);
-        let mut drawn = draw_view(request, of_view, &of_scene, (&style, &prepared), watch, progress)?;
-        drawn.report.stages_ms.load = load_ms;
-        drawn.report.stages_ms.topology += preparing_ms;
-        take(request, drawn)?;
+        let mut encoded_drawing =
+            draw_view(request, of_view, &of_scene, (&style, &prepared), watch, progress)?;
+        encoded_drawing.report.stages_ms.load = load_ms;
+        encoded_drawing.report.stages_ms.topology += preparing_ms;
+        take(request, encoded_drawing)?;
     }
     Ok(())
 }

@@ -61,13 +61,15 @@ impl ModelInfo {
     /// Collects contents and defects of a scene.
     pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
-        let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
+        let unused = |geometry: &Geometry| (geometry.positions.len() - used_points(geometry).len()) as u64;
         let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
         let left_out = degenerate_elements::by_part(scene, &drawn);
         let mut boxes = vec![None; scene.parts.len()];
-        for own in &drawn {
-            if let (Some(slot), Some(own)) = (boxes.get_mut(own.part), points.get(own.points.clone())) {
-                *slot = bounds(own);
+        for drawn_part in &drawn {
+            if let (Some(slot), Some(part_points)) =
+                (boxes.get_mut(drawn_part.part), points.get(drawn_part.points.clone()))
+            {
+                *slot = bounds(part_points);
             }
         }
         let (of_mesh, mesh) = library_calls::mesh_findings(scene);

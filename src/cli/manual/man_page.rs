@@ -147,14 +147,15 @@ fn examples(roff: &mut Roff, text: &str) {
 }
 
 fn see_also(roff: &mut Roff, program: &Command, command: &Command, is_program: bool) {
-    let others = program.get_subcommands().filter(|other| other.get_name() != "help");
+    let subcommands = program.get_subcommands().filter(|subcommand| subcommand.get_name() != "help");
     let pages: Vec<String> = if is_program {
-        others.map(|other| format!("ligne-{}(1)", other.get_name())).collect()
+        subcommands.map(|subcommand| format!("ligne-{}(1)", subcommand.get_name())).collect()
     } else {
-        let related = others
-            .filter(|other| CONFIGURED.contains(&other.get_name()) && other.get_name() != command.get_name());
+        let related = subcommands.filter(|subcommand| {
+            CONFIGURED.contains(&subcommand.get_name()) && subcommand.get_name() != command.get_name()
+        });
         std::iter::once("ligne(1)".to_owned())
-            .chain(related.map(|other| format!("ligne-{}(1)", other.get_name())))
+            .chain(related.map(|subcommand| format!("ligne-{}(1)", subcommand.get_name())))
             .collect()
     };
     roff.control("SH", ["SEE ALSO"]);

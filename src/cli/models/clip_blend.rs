@@ -50,23 +50,23 @@ impl ClipBlend {
             return Err(Error::new("the model has no animations").remedy("leave out --animation and --time"));
         }
         let mut notes = Vec::new();
-        if let ([], [first, others @ ..]) = (texts, clips)
-            && !others.is_empty()
+        if let ([], [first, other_clips @ ..]) = (texts, clips)
+            && !other_clips.is_empty()
         {
-            let (count, name, others) = (clips.len(), &first.name, names(others));
+            let (count, name, other_names) = (clips.len(), &first.name, names(other_clips));
             notes.push(format!(
-                "uses the first of {count} animations, `{name}`; --animation selects others: {others}"
+                "uses the first of {count} animations, `{name}`; --animation selects others: {other_names}"
             ));
         }
         let find = |name: &str| clips.iter().position(|clip| clip.name == name);
-        let mut asked = Vec::new();
+        let mut blended_clips = Vec::new();
         let mut add = |name: &str, weight: Option<ClipWeight>| {
             let clip = match find(name) {
                 Some(clip) => clip,
                 None => matching(clips, name, &mut notes)?,
             };
             let span = clips.get(clip).map_or([0.0; 2], Clip::span);
-            asked.push(BlendedClip { clip, span, weight });
+            blended_clips.push(BlendedClip { clip, span, weight });
             Ok(())
         };
         for text in texts {
@@ -83,15 +83,17 @@ impl ClipBlend {
             }
         }
         if texts.is_empty() {
-            asked.push(BlendedClip {
+            blended_clips.push(BlendedClip {
                 clip: 0,
                 span: clips.first().map_or([0.0; 2], Clip::span),
                 weight: None,
             });
         }
         let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
-        Ok(Self { asked, span, time_span: span, repeats, notes })
+        let span = blended_clips.iter().fold(none, |[from, to], blended_clip| {
+            [from.min(blended_clip.span[0]), to.max(blended_clip.span[1])]
+        });
+        Ok(Self { asked: blended_clips, span, time_span: span, repeats, notes })
     }
 
     /// Notes on choices made for the user, such as the first of several clips.
@@ -117,18 +119,18 @@ impl ClipBlend {
     /// Clips with their local times and weights at a time in seconds.
     pub(crate) fn playing(&self, time: f64) -> Vec<Playing> {
         let weights: Vec<Option<f64>> = (self.asked.iter())
-            .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.time_span)))
+            .map(|blended_clip| blended_clip.weight.as_ref().map(|weight| weight.at(time, self.time_span)))
             .collect();
-        let told: f64 = weights.iter().flatten().sum();
+        let explicit_sum: f64 = weights.iter().flatten().sum();
         let equal = weights.iter().filter(|weight| weight.is_none()).count();
-        let left = (1.0 - told).max(0.0) / equal.max(1) as f64;
-        let own = |(own, weight): (&BlendedClip, Option<f64>)| {
+        let remaining_weight = (1.0 - explicit_sum).max(0.0) / equal.max(1) as f64;
+        let to_playing = |(own, weight): (&BlendedClip, Option<f64>)| {
             let [from, to] = own.span;
             let time =
                 if self.repeats && to > from { from + (time - from).rem_euclid(to - from) } else { time };
-            Playing { clip: own.clip, time, weight: weight.unwrap_or(left) }
+            Playing { clip: own.clip, time, weight: weight.unwrap_or(remaining_weight) }
         };
-        self.asked.iter().zip(weights).map(own).collect()
+        self.asked.iter().zip(weights).map(to_playing).collect()
     }
 }
 

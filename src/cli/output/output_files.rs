@@ -114,7 +114,7 @@ struct StagedFile {
     /// The path as it was typed, for messages.
     typed: PathBuf,
     /// Final path with symbolic links resolved.
-    place: PathBuf,
+    final_path: PathBuf,
     /// Path that is written: a temporary name, or the final path of a device or pipe.
     written: PathBuf,
 }
@@ -138,7 +138,11 @@ impl Staging {
         }
         let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, error))?;
         // Registered before it is filled, so it is removed if the disc is full.
-        self.files.push(StagedFile { typed: path.to_path_buf(), place, written: written.clone() });
+        self.files.push(StagedFile {
+            typed: path.to_path_buf(),
+            final_path: place,
+            written: written.clone(),
+        });
         file.write_all(bytes).map_err(|error| cannot_write(path, error))?;
         if let Some(existing) = existing {
             fs::set_permissions(&written, existing.permissions()).map_err(|e| cannot_write(path, e))?;
@@ -171,7 +175,7 @@ impl Staging {
     /// Renames all files to their final paths.
     pub(crate) fn commit(mut self) -> Result<(), Error> {
         while let Some(file) = self.files.first() {
-            fs::rename(&file.written, &file.place).map_err(|error| cannot_write(&file.typed, error))?;
+            fs::rename(&file.written, &file.final_path).map_err(|error| cannot_write(&file.typed, error))?;
             self.files.remove(0);
         }
         Ok(())
@@ -191,7 +195,7 @@ impl Drop for Staging {
     }
 }
 
-/// Creates a file with an unused temporary name in the folder of `place`.
+/// Creates a file with an unused temporary name in the folder of `final_path`.
 fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
     let name = place.file_name().unwrap_or(place.as_os_str()).to_string_lossy();
     for attempt in 0_u32.. {

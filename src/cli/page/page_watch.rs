@@ -19,7 +19,7 @@ type Stamps = BTreeMap<PathBuf, FileStamp>;
 pub(crate) struct PageWatch<'a> {
     page: &'a Path,
     files: Vec<PathBuf>,
-    seen: Stamps,
+    last_stamps: Stamps,
 }
 
 impl<'a> PageWatch<'a> {
@@ -27,7 +27,7 @@ impl<'a> PageWatch<'a> {
     pub(crate) fn new(page: &'a Path) -> Self {
         let files = files(page).unwrap_or_else(|| vec![page.to_path_buf()]);
         let seen = stamps(&files);
-        Self { page, files, seen }
+        Self { page, files, last_stamps: seen }
     }
 
     /// Waits for a change.
@@ -35,7 +35,7 @@ impl<'a> PageWatch<'a> {
         loop {
             std::thread::sleep(POLL_INTERVAL);
             let mut now = stamps(&self.files);
-            if now == self.seen {
+            if now == self.last_stamps {
                 continue;
             }
             loop {
@@ -48,13 +48,14 @@ impl<'a> PageWatch<'a> {
                 }
             }
             // A missing file may come back: programs often save by replacing a file.
-            let is_there = now.values().all(Option::is_some) || self.seen.values().any(Option::is_none);
+            let is_there =
+                now.values().all(Option::is_some) || self.last_stamps.values().any(Option::is_none);
             if !is_there {
                 continue;
             }
             // An unreadable page file keeps its previous inputs.
             self.files = files(self.page).unwrap_or_else(|| self.files.clone());
-            self.seen = stamps(&self.files);
+            self.last_stamps = stamps(&self.files);
             return;
         }
     }

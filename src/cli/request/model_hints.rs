@@ -96,18 +96,18 @@ fn lies_on_its_back(scene: &Scene, boxes: &[Option<PartBox>]) -> bool {
 /// Hint about a flat part that shrinks all others.
 fn ground(scene: &Scene, boxes: &[Option<PartBox>]) -> Option<String> {
     let diagonal = |(low, high): &PartBox| (*high - *low).length();
-    let drawn = || boxes.iter().enumerate().filter_map(|(part, own)| Some((part, (*own)?)));
-    let (largest, _) = drawn().max_by(|(_, a), (_, b)| diagonal(a).total_cmp(&diagonal(b)))?;
+    let drawn_boxes = || boxes.iter().enumerate().filter_map(|(part, part_box)| Some((part, (*part_box)?)));
+    let (largest, _) = drawn_boxes().max_by(|(_, a), (_, b)| diagonal(a).total_cmp(&diagonal(b)))?;
     let name = scene.parts.get(largest).map(|part| part.name.as_str()).filter(|name| !name.is_empty())?;
     let glob = Glob::new(name);
     let is_hidden = |part: usize| scene.parts.get(part).is_some_and(|part| glob.matches(&part.name));
-    let ground = union(drawn().filter(|(part, _)| is_hidden(*part)).map(|(_, own)| own))?;
-    let rest = union(drawn().filter(|(part, _)| !is_hidden(*part)).map(|(_, own)| own))?;
+    let ground = union(drawn_boxes().filter(|(part, _)| is_hidden(*part)).map(|(_, part_box)| part_box))?;
+    let rest = union(drawn_boxes().filter(|(part, _)| !is_hidden(*part)).map(|(_, part_box)| part_box))?;
     let size = ground.1 - ground.0;
     let is_flat = size.min_element() <= MAX_GROUND_THICKNESS_RATIO * size.max_element();
-    let share = diagonal(&rest) / diagonal(&union([ground, rest].into_iter())?);
-    (is_flat && share <= MAX_REST_RATIO).then(|| {
-        let percent = (100.0 * share).ceil().max(1.0);
+    let size_ratio = diagonal(&rest) / diagonal(&union([ground, rest].into_iter())?);
+    (is_flat && size_ratio <= MAX_REST_RATIO).then(|| {
+        let percent = (100.0 * size_ratio).ceil().max(1.0);
         let name = name.replace(char::is_control, " ");
         format!("the part `{name}` shrinks everything else to {percent} % of the drawing; --hide '{name}' leaves it out")
     })

@@ -89,14 +89,14 @@ pub(crate) fn remaining_parts(request: &DrawRequest, scene: &Scene) -> Option<St
 /// Warning if the drawing is tiny.
 pub(crate) fn tiny_drawing(drawing: &Drawing) -> Option<String> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
-    let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
+    let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|mark_box| mark_box.is_finite());
     let page = &drawing.page;
-    let most = MAX_SPECK_RATIO * page.width.min(page.height);
+    let max_size = MAX_SPECK_RATIO * page.width.min(page.height);
     let mut all: Option<Rect> = None;
-    for own in boxes {
-        let union = all.map_or(own, |all| all.union(own));
+    for mark_box in boxes {
+        let union = all.map_or(mark_box, |all| all.union(mark_box));
         // Most drawings are large enough after their first path.
-        if union.width().max(union.height()) >= most {
+        if union.width().max(union.height()) >= max_size {
             return None;
         }
         all = Some(union);

@@ -161,19 +161,23 @@ fn apply_sheet(
 }
 
 /// Warning with the scale that would fit, if the model is larger than the page.
-fn too_large(found: &Viewpoint, sheet: &SheetRequest, points: &[DVec3]) -> Option<String> {
+fn too_large(chosen_view: &Viewpoint, sheet: &SheetRequest, points: &[DVec3]) -> Option<String> {
     let scale = sheet.scale?;
     let (Projection::Orthographic { height }, Projection::Orthographic { height: needed }) =
-        (found.camera.projection, found.camera.fit_points(points, 0.0).projection)
+        (chosen_view.camera.projection, chosen_view.camera.fit_points(points, 0.0).projection)
     else {
         return None;
     };
     if sheet.centre.is_some() || needed <= height * (1.0 + tolerances::FRAME_ROUNDING_OF_HEIGHT) {
         return None;
     }
-    let fits = scale * height / needed;
-    let fits = if fits < 1.0 { format!("1:{:.2}", 1.0 / fits) } else { format!("{fits:.2}:1") };
-    Some(format!("the model is larger than the page at this scale; {fits} would fit"))
+    let fitting_scale = scale * height / needed;
+    let scale_text = if fitting_scale < 1.0 {
+        format!("1:{:.2}", 1.0 / fitting_scale)
+    } else {
+        format!("{fitting_scale:.2}:1")
+    };
+    Some(format!("the model is larger than the page at this scale; {scale_text} would fit"))
 }
 
 /// Warning if the model is outside the frame, behind the camera, or tiny.

@@ -85,10 +85,13 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
             .remedy("export it again as STEP (AP214 or AP242)"));
     }
     let cache = ConversionCache::open()?;
-    let named = args.converter().is_some();
+    let is_converter_chosen = args.converter().is_some();
     let candidates = candidates(args)?;
-    let identity: Vec<u8> =
-        if named { candidates.iter().flat_map(|one| one.identity()).collect() } else { Vec::new() };
+    let identity: Vec<u8> = if is_converter_chosen {
+        candidates.iter().flat_map(|one| one.identity()).collect()
+    } else {
+        Vec::new()
+    };
     let quality = format!("{} mm, {} rad", args.tolerance_mm(), args.angle());
     let key = ConversionKey::of(&[RESULT_VERSION, &bytes, quality.as_bytes(), &identity]);
     if let Some(scene) = cache.get(key).and_then(|(glb, up)| read(model, &glb, up).ok()) {
@@ -96,19 +99,19 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     }
     let mut missing = None;
     for candidate in candidates {
-        let place = cache.unfinished("glb");
-        let made = candidate.convert(model, &place, args).and_then(|made| match made {
-            ConversionResult::NotInstalled(said) => Ok(Err(said)),
+        let glb_path = cache.unfinished("glb");
+        let outcome = candidate.convert(model, &glb_path, args).and_then(|made| match made {
+            ConversionResult::NotInstalled(reason) => Ok(Err(reason)),
             ConversionResult::Done(up) => {
-                let glb =
-                    fs::read(&place).map_err(|error| Error::io("cannot read the converted model", error))?;
+                let glb = fs::read(&glb_path)
+                    .map_err(|error| Error::io("cannot read the converted model", error))?;
                 Ok(Ok((glb, up)))
             }
         });
         // Files that cannot be removed are pruned later.
-        let _ = fs::remove_file(&place);
-        match made? {
-            Err(said) => missing = missing.or(Some((candidate, said))),
+        let _ = fs::remove_file(&glb_path);
+        match outcome? {
+            Err(reason) => missing = missing.or(Some((candidate, reason))),
             Ok((glb, up)) => {
                 let scene = read(model, &glb, up).map_err(|error| {
                     Error::new(format!("{} wrote a GLB that cannot be read: {error}", candidate.name()))
@@ -122,8 +125,8 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
             }
         }
     }
-    let error = match missing.filter(|_| named) {
-        Some((candidate, said)) => Error::new(format!("{} is not installed: {said}", candidate.name())),
+    let error = match missing.filter(|_| is_converter_chosen) {
+        Some((candidate, reason)) => Error::new(format!("{} is not installed: {reason}", candidate.name())),
         None => Error::new("STEP is read through a converter, and none was found"),
     };
     Err(error.of_kind(ErrorKind::Unsupported).remedy(converter::INSTALL_REMEDY))

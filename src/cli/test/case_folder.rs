@@ -56,10 +56,12 @@ impl CaseFolder {
     fn refuse_shared(&mut self) {
         let shared = |i: usize| {
             let case = self.cases.get(i)?;
-            let others = self.cases.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other);
-            let other = others.into_iter().find(|other| same_place(&other.drawing, &case.drawing))?;
+            let other_cases =
+                self.cases.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other_case)| other_case);
+            let other_case =
+                other_cases.into_iter().find(|other| same_place(&other.drawing, &case.drawing))?;
             Some(
-                Error::new(format!("the case `{}` uses the same drawing", other.name))
+                Error::new(format!("the case `{}` uses the same drawing", other_case.name))
                     .in_file(&case.drawing)
                     .remedy("give each case its own drawing"),
             )

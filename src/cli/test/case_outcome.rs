@@ -75,7 +75,7 @@ impl<'a> CaseOutcome<'a> {
     }
 
     fn draw(&mut self, order: &CaseSettings, tolerances: &Tolerances) -> Result<CaseVerdict, Error> {
-        let svg = match &order.made {
+        let svg = match &order.subject {
             CaseSubject::Drawing(request) => model_drawing::encode_first_output(request)?,
             CaseSubject::Page(file) => page(file)?,
         };

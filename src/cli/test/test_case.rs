@@ -32,7 +32,7 @@ pub(crate) struct TestCase {
 /// Settings of a case.
 #[derive(Debug)]
 pub(crate) struct CaseSettings {
-    pub(crate) made: CaseSubject,
+    pub(crate) subject: CaseSubject,
     /// Tolerances that override those of the project.
     pub(crate) tolerances: Tolerances,
 }
@@ -100,7 +100,7 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, CaseSettings), Error> {
     let drawing = drawing.map(|(drawing, _)| drawing);
     let Some((model, _)) = model else {
         let made = CaseSubject::Page(page.map(|(page, _)| page).unwrap_or_default());
-        return Ok((drawing, CaseSettings { made, tolerances }));
+        return Ok((drawing, CaseSettings { subject: made, tolerances }));
     };
     let words = std::iter::once("draw".to_owned()).chain(given.into_iter().flat_map(|given| given.words));
     let how = command.try_get_matches_from(words).and_then(|matches| HowArgs::from_arg_matches(&matches));
@@ -111,5 +111,5 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, CaseSettings), Error> {
     })?;
     let mut request = DrawRequest::of_model(model, how).map_err(|error| error.in_file(path))?;
     request.quiet = true;
-    Ok((drawing, CaseSettings { made: CaseSubject::Drawing(Box::new(request)), tolerances }))
+    Ok((drawing, CaseSettings { subject: CaseSubject::Drawing(Box::new(request)), tolerances }))
 }

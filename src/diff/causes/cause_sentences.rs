@@ -41,38 +41,44 @@ pub(crate) struct MovedPart {
 
 /// Causes of the findings that are not explained by a motion of the whole drawing or by missing labels.
 pub(crate) fn causes(diff: &Diff, movers: &[MovedPart]) -> Vec<Cause> {
-    let mut free: Vec<bool> = vec![true; diff.findings.len()];
+    let mut is_unexplained: Vec<bool> = vec![true; diff.findings.len()];
     let mut causes = Vec::new();
-    match camera_cause(diff, movers, &mut free) {
-        Some(eye) => causes.push(eye),
+    match camera_cause(diff, movers, &mut is_unexplained) {
+        Some(camera) => causes.push(camera),
         None => {
-            causes.extend(gone(diff, &mut free));
-            causes.extend(moved(diff, movers, &mut free));
+            causes.extend(gone(diff, &mut is_unexplained));
+            causes.extend(moved(diff, movers, &mut is_unexplained));
         }
     }
-    causes.extend(recoloured(diff, &mut free));
-    causes.extend(pen_causes(diff, &mut free));
+    causes.extend(recoloured(diff, &mut is_unexplained));
+    causes.extend(pen_causes(diff, &mut is_unexplained));
     causes
 }
 
 /// Claims the unclaimed findings that satisfy a condition.
-fn take(diff: &Diff, free: &mut [bool], is_such: impl Fn(&Finding) -> bool) -> Vec<usize> {
-    let found: Vec<usize> =
-        (0..free.len()).filter(|index| free[*index] && is_such(&diff.findings[*index])).collect();
-    found.iter().for_each(|index| free[*index] = false);
-    found
+fn take(diff: &Diff, is_unexplained: &mut [bool], is_such: impl Fn(&Finding) -> bool) -> Vec<usize> {
+    let matching_findings: Vec<usize> = (0..is_unexplained.len())
+        .filter(|index| is_unexplained[*index] && is_such(&diff.findings[*index]))
+        .collect();
+    matching_findings.iter().for_each(|index| is_unexplained[*index] = false);
+    matching_findings
 }
 
 /// The box of a finding as a rectangle.
 fn rect(finding: &Finding) -> Rect {
-    let place = &finding.place;
-    Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
+    let bounding_box = &finding.place;
+    Rect::new(
+        bounding_box.x,
+        bounding_box.y,
+        bounding_box.x + bounding_box.width,
+        bounding_box.y + bounding_box.height,
+    )
 }
 
 /// Whether at least `MIN_OVERLAP_SHARE` of a box is inside the margin around a part.
 fn holds(outer: &Rect, inner: Rect) -> bool {
-    let round = PART_MARGIN_PX + PART_MARGIN_SHARE * (outer.width() + outer.height());
-    let outer = outer.inflate(round, round);
+    let margin = PART_MARGIN_PX + PART_MARGIN_SHARE * (outer.width() + outer.height());
+    let outer = outer.inflate(margin, margin);
     let inner = inner.inflate(0.5, 0.5);
     outer.intersect(inner).area() >= MIN_OVERLAP_SHARE * inner.area() && outer.overlaps(inner)
 }
@@ -103,9 +109,9 @@ fn is_of_hidden_lines(finding: &Finding) -> bool {
 }
 
 /// The parts that findings belong to, such as ``3 marks of `base` ``.
-fn whose(diff: &Diff, list: &[usize]) -> String {
+fn whose(diff: &Diff, finding_indices: &[usize]) -> String {
     let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
-    for finding in list.iter().filter_map(|index| diff.findings.get(*index)) {
+    for finding in finding_indices.iter().filter_map(|index| diff.findings.get(*index)) {
         *parts.entry(finding.label.part.as_deref().unwrap_or("")).or_default() += 1;
     }
     let mut parts: Vec<(&str, usize)> = parts.into_iter().collect();
@@ -114,39 +120,44 @@ fn whose(diff: &Diff, list: &[usize]) -> String {
     match parts.as_slice() {
         [("", count)] => marks(*count),
         [(part, count)] => format!("{} of `{part}`", marks(*count)),
-        many => format!("{} of {} parts", marks(list.len()), many.len()),
+        several_parts => format!("{} of {} parts", marks(finding_indices.len()), several_parts.len()),
     }
 }
 
 /// Parts that were completely removed or added, with the changes around them.
-fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
+fn gone(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
     let mut causes = Vec::new();
     for (verdict, side) in [(Verdict::Removed, 1), (Verdict::Added, 0)] {
         for (part, measure) in &diff.totals.parts {
             if part.is_empty() || measure.marks[side] > 0 || measure.marks[1 - side] == 0 {
                 continue;
             }
-            let own = take(diff, free, |f| f.verdict == verdict && f.label.part.as_deref() == Some(part));
-            let Some(place) = own.iter().map(|index| rect(&diff.findings[*index])).reduce(|a, b| a.union(b))
+            let part_findings =
+                take(diff, is_unexplained, |f| f.verdict == verdict && f.label.part.as_deref() == Some(part));
+            let Some(part_rect) =
+                part_findings.iter().map(|index| rect(&diff.findings[*index])).reduce(|a, b| a.union(b))
             else {
                 continue;
             };
-            let behind = take(diff, free, |f| may_follow(f) && holds(&place, rect(f)));
+            let following_findings =
+                take(diff, is_unexplained, |f| may_follow(f) && holds(&part_rect, rect(f)));
             let unit = diff.unit();
-            let at = unit.place(&FindingBox::of(place));
-            let all = if own.len() == 1 {
+            let place_text = unit.place(&FindingBox::of(part_rect));
+            let marks_text = if part_findings.len() == 1 {
                 "its only mark".to_owned()
             } else {
-                format!("all its {} marks", own.len())
+                format!("all its {} marks", part_findings.len())
             };
-            let follows = match (behind.is_empty(), verdict) {
+            let following_text = match (following_findings.is_empty(), verdict) {
                 (true, _) => String::new(),
-                (_, Verdict::Removed) => format!("; now visible behind it: {}", whose(diff, &behind)),
-                _ => format!("; now hidden or cut by it: {}", whose(diff, &behind)),
+                (_, Verdict::Removed) => {
+                    format!("; now visible behind it: {}", whose(diff, &following_findings))
+                }
+                _ => format!("; now hidden or cut by it: {}", whose(diff, &following_findings)),
             };
-            let ink = ink(diff, &own, unit);
-            let sentence = format!("part `{part}`: {all} {at}: {ink}{follows}");
-            causes.push(Cause { verdict, sentence, findings: [own, behind].concat() });
+            let ink = ink(diff, &part_findings, unit);
+            let sentence = format!("part `{part}`: {marks_text} {place_text}: {ink}{following_text}");
+            causes.push(Cause { verdict, sentence, findings: [part_findings, following_findings].concat() });
         }
     }
     causes
@@ -165,47 +176,52 @@ fn ink(diff: &Diff, list: &[usize], unit: UnitFormat) -> String {
 
 /// The cause "another camera": parts move in more directions than an edit of the model explains. It claims
 /// all other changes of geometry.
-fn camera_cause(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Option<Cause> {
-    let mut ways: Vec<Vec<&MovedPart>> = Vec::new();
+fn camera_cause(diff: &Diff, movers: &[MovedPart], is_unexplained: &mut [bool]) -> Option<Cause> {
+    let mut directions: Vec<Vec<&MovedPart>> = Vec::new();
     for mover in movers {
-        match ways.iter_mut().find(|others| others.iter().all(|other| same_way(other, mover))) {
-            Some(others) => others.push(mover),
-            None => ways.push(vec![mover]),
+        match directions
+            .iter_mut()
+            .find(|group_members| group_members.iter().all(|other| same_way(other, mover)))
+        {
+            Some(direction_group) => direction_group.push(mover),
+            None => directions.push(vec![mover]),
         }
     }
-    if ways.len() <= MAX_DIRECTIONS {
+    if directions.len() <= MAX_DIRECTIONS {
         return None;
     }
-    let findings = take(diff, free, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
+    let findings = take(diff, is_unexplained, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
     let sentence = format!("the drawing is seen from another side: {}", whose(diff, &findings));
     Some(Cause { verdict: Verdict::Moved, sentence, findings })
 }
 
 /// Moved parts, grouped by common motion, with the changes around their old and new places.
-fn moved(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Vec<Cause> {
+fn moved(diff: &Diff, movers: &[MovedPart], is_unexplained: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
-    let mut own: Vec<(&MovedPart, Vec<usize>)> = Vec::new();
+    let mut findings_of_movers: Vec<(&MovedPart, Vec<usize>)> = Vec::new();
     for mover in movers {
-        let findings = take(diff, free, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
+        let findings =
+            take(diff, is_unexplained, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
         if !findings.is_empty() {
-            own.push((mover, findings));
+            findings_of_movers.push((mover, findings));
         }
     }
     let mut causes: Vec<(Vec<&MovedPart>, Vec<usize>)> = Vec::new();
-    for (mover, findings) in &own {
-        let alike = |others: &Vec<&MovedPart>| others.iter().all(|other| same_way(other, mover));
-        match causes.iter_mut().find(|(others, _)| alike(others)) {
-            Some((others, all)) => {
+    for (mover, findings) in &findings_of_movers {
+        let is_same_motion = |others: &Vec<&MovedPart>| others.iter().all(|other| same_way(other, mover));
+        match causes.iter_mut().find(|(others, _)| is_same_motion(others)) {
+            Some((others, cause_findings)) => {
                 others.push(mover);
-                all.extend(findings);
+                cause_findings.extend(findings);
             }
             None => causes.push((vec![mover], findings.clone())),
         }
     }
-    let tell = |(movers, mut findings): (Vec<&MovedPart>, Vec<usize>)| {
-        let places: Vec<Rect> = movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
-        let is_round = |f: &Finding| places.iter().any(|place| holds(place, rect(f)));
-        let behind = take(diff, free, |f| may_follow(f) && is_round(f));
+    let cause_of_group = |(movers, mut findings): (Vec<&MovedPart>, Vec<usize>)| {
+        let swept_rects: Vec<Rect> =
+            movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
+        let is_round = |f: &Finding| swept_rects.iter().any(|place| holds(place, rect(f)));
+        let nearby_findings = take(diff, is_unexplained, |f| may_follow(f) && is_round(f));
         let names: Vec<String> =
             movers.iter().take(MAX_NAMED_PARTS).map(|mover| format!("`{}`", mover.part)).collect();
         let more = movers.len().saturating_sub(MAX_NAMED_PARTS);
@@ -214,57 +230,62 @@ fn moved(diff: &Diff, movers: &[MovedPart], free: &mut [bool]) -> Vec<Cause> {
             (0, _) => names.join(""),
             _ => format!("{} and {more} more parts", names.join(", ")),
         };
-        let place = movers.iter().map(|mover| mover.places[0]).reduce(|a, b| a.union(b)).unwrap_or_default();
-        let way = movers.first().map(|mover| motion(&mover.motion, place, unit)).unwrap_or_default();
-        let follows = match behind.is_empty() {
+        let rect_before =
+            movers.iter().map(|mover| mover.places[0]).reduce(|a, b| a.union(b)).unwrap_or_default();
+        let motion_text =
+            movers.first().map(|mover| motion(&mover.motion, rect_before, unit)).unwrap_or_default();
+        let following_text = match nearby_findings.is_empty() {
             true => String::new(),
-            false => format!("; also changed around it: {}", whose(diff, &behind)),
+            false => format!("; also changed around it: {}", whose(diff, &nearby_findings)),
         };
-        findings.extend(behind);
-        let sentence = format!("{names} {way}{follows}");
+        findings.extend(nearby_findings);
+        let sentence = format!("{names} {motion_text}{following_text}");
         Cause { verdict: Verdict::Moved, sentence, findings }
     };
-    causes.into_iter().map(tell).collect()
+    causes.into_iter().map(cause_of_group).collect()
 }
 
 /// Whether two parts moved alike: at the corners of both boxes, within a fiftieth of the shift plus 0.05 px.
 fn same_way(a: &MovedPart, b: &MovedPart) -> bool {
-    let corners = [a, b].into_iter().flat_map(|mover| mover.motion.corner_displacements(mover.places[0]));
-    let others = [(a, b), (b, a)]
+    let shifts_by_own_motion =
+        [a, b].into_iter().flat_map(|mover| mover.motion.corner_displacements(mover.places[0]));
+    let shifts_by_other_motion = [(a, b), (b, a)]
         .into_iter()
         .flat_map(|(from, other)| other.motion.corner_displacements(from.places[0]));
-    corners.zip(others).all(|(one, other)| (one - other).hypot() <= 0.05 + 0.02 * one.hypot())
+    shifts_by_own_motion
+        .zip(shifts_by_other_motion)
+        .all(|(one, other)| (one - other).hypot() <= 0.05 + 0.02 * one.hypot())
 }
 
 /// A motion in words: `1.4 px right`, `turned by 3°`.
-pub(crate) fn motion(motion: &Motion, place: Rect, unit: UnitFormat) -> String {
+pub(crate) fn motion(motion: &Motion, rect: Rect, unit: UnitFormat) -> String {
     let (scale, turn) = (motion.scale(), motion.turn());
-    let reach = place.width().max(place.height()) / 2.0;
-    let grown =
-        (scale - 1.0).abs() * reach > 0.05 && (scale - 1.0).abs() > tolerances::MIN_STATED_GROWTH_SHARE;
-    let turned = turn.abs().to_radians() * reach > 0.05 && turn.abs() > 0.05;
-    let way = unit.sides(motion.displacement(place.center()));
-    let mut words = Vec::new();
-    if grown {
-        words.push(format!("{} times as large", crate::diff::shapes::ink::trimmed(scale)));
+    let half_size = rect.width().max(rect.height()) / 2.0;
+    let is_scaled =
+        (scale - 1.0).abs() * half_size > 0.05 && (scale - 1.0).abs() > tolerances::MIN_STATED_GROWTH_SHARE;
+    let is_turned = turn.abs().to_radians() * half_size > 0.05 && turn.abs() > 0.05;
+    let shift_text = unit.sides(motion.displacement(rect.center()));
+    let mut clauses = Vec::new();
+    if is_scaled {
+        clauses.push(format!("{} times as large", crate::diff::shapes::ink::trimmed(scale)));
     }
-    if turned {
+    if is_turned {
         let side = if turn > 0.0 { "clockwise" } else { "counter-clockwise" };
-        words.push(format!(
+        clauses.push(format!(
             "turned by {}° {side}",
             crate::diff::shapes::ink::trimmed((turn.abs() * 100.0).round() / 100.0)
         ));
     }
-    if !way.is_empty() {
-        words.push(if words.is_empty() { way } else { format!("its middle {way}") });
+    if !shift_text.is_empty() {
+        clauses.push(if clauses.is_empty() { shift_text } else { format!("its middle {shift_text}") });
     }
-    words.join(", ")
+    clauses.join(", ")
 }
 
 /// Materials that changed their colour; marks without a material form one group.
-fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
+fn recoloured(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
+    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| is_unexplained[*index]) {
         let [change] = finding.changes.as_slice() else { continue };
         if finding.verdict != Verdict::Restyled || change.what != "colour" {
             continue;
@@ -288,15 +309,15 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         }
         let mut changes: Vec<((&str, &str), usize)> = changes.into_iter().collect();
         changes.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
-        let told: Vec<String> =
+        let colour_changes: Vec<String> =
             changes.iter().take(MAX_NAMED_COLOURS).map(|((old, new), _)| format!("{old} → {new}")).collect();
         let more = match changes.len().saturating_sub(MAX_NAMED_COLOURS) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        findings.iter().for_each(|index| free[*index] = false);
+        findings.iter().for_each(|index| is_unexplained[*index] = false);
         let whose = whose(diff, &findings);
-        let sentence = format!("{name}: colour {}{more} ({whose})", told.join(", "));
+        let sentence = format!("{name}: colour {}{more} ({whose})", colour_changes.join(", "));
         causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
     }
     causes
@@ -304,9 +325,9 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 
 /// Pen changes shared by lines of several parts: width, dash, ends, corners or colour. One sentence for each
 /// change.
-fn pen_causes(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
+fn pen_causes(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
-    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
+    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| is_unexplained[*index]) {
         let is_pen = |change: &Change| {
             matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour")
         };
@@ -324,7 +345,7 @@ fn pen_causes(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
         if findings.len() <= MAX_UNGROUPED_FINDINGS || parts.len() < 2 {
             continue;
         }
-        findings.iter().for_each(|index| free[*index] = false);
+        findings.iter().for_each(|index| is_unexplained[*index] = false);
         let sentence = format!("the pen: {} ({})", changed(changes), whose(diff, &findings));
         causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
     }
@@ -333,15 +354,17 @@ fn pen_causes(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 
 impl UnitFormat {
     /// A shift in words: `3 px right, 4 px down`.
-    fn sides(self, way: Vec2) -> String {
+    fn sides(self, displacement: Vec2) -> String {
         let side = |value: f64, plus: &str, minus: &str| {
-            let told = self.length(value.abs());
+            let length_text = self.length(value.abs());
             // A length that rounds to 0 is left out.
-            let nothing = told.starts_with("0 ");
-            (!nothing).then(|| format!("{told} {}", if value > 0.0 { plus } else { minus }))
+            let is_zero = length_text.starts_with("0 ");
+            (!is_zero).then(|| format!("{length_text} {}", if value > 0.0 { plus } else { minus }))
         };
-        let parts: Vec<String> =
-            side(way.x, "right", "left").into_iter().chain(side(way.y, "down", "up")).collect();
+        let parts: Vec<String> = side(displacement.x, "right", "left")
+            .into_iter()
+            .chain(side(displacement.y, "down", "up"))
+            .collect();
         parts.join(", ")
     }
 }

@@ -29,43 +29,51 @@ pub(crate) struct WholeMotion {
 }
 
 /// Motion that carries the shapes without an equal, if most shapes have none.
-pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: f64) -> Option<WholeMotion> {
-    let counted = |side: usize| pictures[side].shapes.len();
-    let many = |side: usize| {
-        rest[side].len() >= MIN_MARKS
-            && rest[side].len() as f64 >= MIN_CHANGED_SHARE * (counted(side) as f64 - 1.0)
+pub(crate) fn whole(
+    pictures: [&Picture; 2],
+    unequal_shapes: &[Vec<usize>; 2],
+    tolerance: f64,
+) -> Option<WholeMotion> {
+    let shape_count = |side: usize| pictures[side].shapes.len();
+    let has_many_changes = |side: usize| {
+        unequal_shapes[side].len() >= MIN_MARKS
+            && unequal_shapes[side].len() as f64 >= MIN_CHANGED_SHARE * (shape_count(side) as f64 - 1.0)
     };
-    if !(many(0) && many(1)) {
+    if !(has_many_changes(0) && has_many_changes(1)) {
         return None;
     }
     let [before, after] = pictures;
-    let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
-        let drawn = rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index));
+    let changed_shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
+        let unequal_on_side =
+            unequal_shapes[side].iter().filter_map(|index| pictures[side].shapes.get(*index));
         // The paper has the size of the page, independent of the marks.
-        drawn.filter(|shape| shape.kind != ShapeKind::Clip && shape.label.layer.as_ref() != "paper").collect()
+        unequal_on_side
+            .filter(|shape| shape.kind != ShapeKind::Clip && shape.label.layer.as_ref() != "paper")
+            .collect()
     });
-    let marks = marks([&shapes[0], &shapes[1]], tolerance);
-    let page = after.width.max(after.height);
-    let grown = page / before.width.max(before.height);
+    let marks = marks([&changed_shapes[0], &changed_shapes[1]], tolerance);
+    let page_size = after.width.max(after.height);
+    let page_growth = page_size / before.width.max(before.height);
     let boxes = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
-    let larger = boxes[1].width().max(boxes[1].height()) / boxes[0].width().max(boxes[0].height());
-    let boxed = Affine::translate(boxes[1].center().to_vec2())
-        * Affine::scale(larger)
+    let box_growth = boxes[1].width().max(boxes[1].height()) / boxes[0].width().max(boxes[0].height());
+    let box_motion = Affine::translate(boxes[1].center().to_vec2())
+        * Affine::scale(box_growth)
         * Affine::translate(-boxes[0].center().to_vec2());
     let reach = tolerance * 2.0;
-    let mut found = motion::find(&marks, &[Affine::scale(grown), boxed], reach, true);
-    let mut told = reach;
-    if found.is_none_or(|found| found.share < MIN_CARRIED_SHARE) {
-        told = reach.max(tolerances::MAX_REDRAW_OFFSET_OF_PAGE * page);
-        found = motion::find(&marks, &[Affine::scale(grown), boxed], told, true);
+    let mut best_motion = motion::find(&marks, &[Affine::scale(page_growth), box_motion], reach, true);
+    let mut used_tolerance = reach;
+    if best_motion.is_none_or(|found| found.share < MIN_CARRIED_SHARE) {
+        used_tolerance = reach.max(tolerances::MAX_REDRAW_OFFSET_OF_PAGE * page_size);
+        best_motion = motion::find(&marks, &[Affine::scale(page_growth), box_motion], used_tolerance, true);
     }
-    let motion = found.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
-    let ends = motion.corner_displacements(boxes[0]);
-    if ends.iter().all(|way| way.hypot() <= 2.0 * told) {
+    let motion = best_motion.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
+    let corner_shifts = motion.corner_displacements(boxes[0]);
+    if corner_shifts.iter().all(|displacement| displacement.hypot() <= 2.0 * used_tolerance) {
         return None;
     }
-    let carried = [1.0, motion.scale()].map(|wider| carried(before, &rest[0], &motion, wider, after));
-    Some(WholeMotion { motion, carried, reach: told * motion.scale().max(1.0) })
+    let carried = [1.0, motion.scale()]
+        .map(|width_factor| carried(before, &unequal_shapes[0], &motion, width_factor, after));
+    Some(WholeMotion { motion, carried, reach: used_tolerance * motion.scale().max(1.0) })
 }
 
 /// Common shift of all findings, if every one is a shift by the same amount and they make up most of the
@@ -73,10 +81,10 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
 pub(crate) fn common_shift(
     findings: &mut [Finding],
     before: &Picture,
-    rest: &[usize],
+    unequal_indices: &[usize],
     tolerance: f64,
 ) -> Option<Motion> {
-    if (rest.len() as f64) < MIN_CHANGED_SHARE * (before.shapes.len() as f64 - 1.0) {
+    if (unequal_indices.len() as f64) < MIN_CHANGED_SHARE * (before.shapes.len() as f64 - 1.0) {
         return None;
     }
     let shifts: Option<Vec<Vec2>> = findings
@@ -87,11 +95,13 @@ pub(crate) fn common_shift(
                 .map(|[x, y]| Vec2::new(x, y))
         })
         .collect();
-    let shifts = shifts.filter(|shifts| shifts.len() >= MIN_MARKS && shifts.len() * 2 >= rest.len())?;
+    let shifts =
+        shifts.filter(|shifts| shifts.len() >= MIN_MARKS && shifts.len() * 2 >= unequal_indices.len())?;
     let parts = findings.iter().map(|f| &f.label.part).collect::<FxHashSet<_>>().len();
     let mean = shifts.iter().fold(Vec2::ZERO, |sum, shift| sum + *shift) / shifts.len() as f64;
-    let near = shifts.iter().all(|shift| (*shift - mean).hypot() <= 2.0 * tolerance + 0.02 * mean.hypot());
-    if !near || parts < 2 {
+    let is_uniform =
+        shifts.iter().all(|shift| (*shift - mean).hypot() <= 2.0 * tolerance + 0.02 * mean.hypot());
+    if !is_uniform || parts < 2 {
         return None;
     }
     findings.iter_mut().for_each(|finding| finding.follows_motion = true);
@@ -101,9 +111,9 @@ pub(crate) fn common_shift(
 /// Input for fitting motions to these shapes.
 pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> MotionInput<'a> {
     let lines = shapes.map(|shapes| {
-        let flat =
+        let polylines =
             shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
-        flat.map(|(points, _)| points).collect()
+        polylines.map(|(points, _)| points).collect()
     });
     // Corresponding paths have the same label and kind and the same number of elements, in file order.
     type Key<'k> = (ShapeKind, &'k Label, usize);
@@ -112,22 +122,28 @@ pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> MotionInpu
     for shape in shapes[1].iter().rev() {
         waiting.entry(key(shape)).or_default().push(&shape.path);
     }
-    let like = |shape: &&'a Shape| Some([&shape.path, waiting.get_mut(&key(shape))?.pop()?]);
-    let mut likes: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(like).collect();
+    let take_equal_path = |shape: &&'a Shape| Some([&shape.path, waiting.get_mut(&key(shape))?.pop()?]);
+    let mut equal_paths: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(take_equal_path).collect();
     // Long paths first, because they determine a motion better.
-    likes.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
-    MotionInput { path_pairs: likes, lines }
+    equal_paths.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
+    MotionInput { path_pairs: equal_paths, lines }
 }
 
-/// A picture whose unequal shapes are moved, with line widths scaled by `wider`.
-fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after: &Picture) -> Picture {
+/// A picture whose unequal shapes are moved, with line widths scaled by `width_factor`.
+fn carried(
+    picture: &Picture,
+    unequal_indices: &[usize],
+    motion: &Motion,
+    width_factor: f64,
+    after: &Picture,
+) -> Picture {
     let mut shapes = picture.shapes.to_vec();
-    for index in rest {
+    for index in unequal_indices {
         let Some(shape) = shapes.get_mut(*index) else { continue };
         shape.path = motion.affine * &shape.path;
         shape.outline = shape.outline.as_ref().map(|outline| motion.affine * outline);
-        shape.ink.width *= wider;
-        shape.ink.dash.iter_mut().for_each(|length| *length *= wider);
+        shape.ink.width *= width_factor;
+        shape.ink.dash.iter_mut().for_each(|length| *length *= width_factor);
     }
     Picture {
         width: after.width,
@@ -139,40 +155,48 @@ fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after
 }
 
 /// A finding for each carried shape that was not removed.
-pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
-    let shifts = (motion.scale() - 1.0).abs() < tolerances::MAX_SHIFT_GROWTH_SHARE
+pub(crate) fn findings(
+    before: &Picture,
+    unequal_indices: &[usize],
+    motion: &Motion,
+    remaining_findings: &[Finding],
+) -> Vec<Finding> {
+    let is_translation = (motion.scale() - 1.0).abs() < tolerances::MAX_SHIFT_GROWTH_SHARE
         && motion.turn().abs() < tolerances::MAX_SHIFT_TURN_DEG;
-    let gone: FxHashSet<(FindingBoxKey, &Label)> =
-        gone.iter().filter(|f| f.verdict == Verdict::Removed).map(|f| (f.place.key(), &f.label)).collect();
-    let mut found = Vec::new();
-    for shape in rest.iter().filter_map(|index| before.shapes.get(*index)) {
-        let new = motion.affine * &shape.path;
-        let place = FindingBox::of(new.control_box());
-        if shape.kind == ShapeKind::Clip || gone.contains(&(place.key(), &*shape.label)) {
+    let removed_boxes: FxHashSet<(FindingBoxKey, &Label)> = remaining_findings
+        .iter()
+        .filter(|f| f.verdict == Verdict::Removed)
+        .map(|f| (f.place.key(), &f.label))
+        .collect();
+    let mut motion_findings = Vec::new();
+    for shape in unequal_indices.iter().filter_map(|index| before.shapes.get(*index)) {
+        let moved_path = motion.affine * &shape.path;
+        let bounding_box = FindingBox::of(moved_path.control_box());
+        if shape.kind == ShapeKind::Clip || removed_boxes.contains(&(bounding_box.key(), &*shape.label)) {
             continue;
         }
-        let mut ways: Vec<f64> =
+        let mut distances: Vec<f64> =
             ends(&shape.path).into_iter().map(|p| motion.displacement(p).hypot()).collect();
-        ways.sort_by(f64::total_cmp);
-        let largest = ways.last().copied().unwrap_or_default();
-        let way = motion.displacement(shape.path.control_box().center());
-        found.push(Finding {
+        distances.sort_by(f64::total_cmp);
+        let largest = distances.last().copied().unwrap_or_default();
+        let displacement_of_centre = motion.displacement(shape.path.control_box().center());
+        motion_findings.push(Finding {
             size: size(shape),
             largest,
-            p95: ways
-                .get((ways.len() * 95 / 100).min(ways.len().saturating_sub(1)))
+            p95: distances
+                .get((distances.len() * 95 / 100).min(distances.len().saturating_sub(1)))
                 .copied()
                 .unwrap_or(largest),
-            shift: shifts.then_some([way.x, way.y]),
-            place: FindingBox::of(new.control_box().union(shape.path.control_box())),
+            shift: is_translation.then_some([displacement_of_centre.x, displacement_of_centre.y]),
+            place: FindingBox::of(moved_path.control_box().union(shape.path.control_box())),
             removed_path: shape.path.clone(),
             follows_motion: true,
             material: shape.material.clone(),
-            added_path: new,
-            ..Finding::in_place(Verdict::Moved, shape.kind, (*shape.label).clone(), Vec::new(), place)
+            added_path: moved_path,
+            ..Finding::in_place(Verdict::Moved, shape.kind, (*shape.label).clone(), Vec::new(), bounding_box)
         });
     }
-    found
+    motion_findings
 }
 
 /// Whether a finding follows from the motion of the whole drawing.
@@ -189,9 +213,9 @@ fn size(shape: &Shape) -> f64 {
 
 /// All points of a path except control points.
 fn ends(path: &BezPath) -> Vec<Point> {
-    let of = |element: &PathEl| match *element {
+    let end_point = |element: &PathEl| match *element {
         PathEl::MoveTo(p) | PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p) => Some(p),
         PathEl::ClosePath => None,
     };
-    path.elements().iter().filter_map(of).collect()
+    path.elements().iter().filter_map(end_point).collect()
 }

@@ -211,62 +211,65 @@ impl OutlineChainEnd {
     }
 }
 
-/// Joins open chains of one group where exactly two ends meet within `reach` px.
-fn join(chains: Vec<OutlineChain>, reach: f64) -> Vec<OutlineChain> {
-    let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
-    let place = |end: OutlineChainEnd| {
+/// Joins open chains of one group where exactly two ends meet within `max_gap` px.
+fn join(chains: Vec<OutlineChain>, max_gap: f64) -> Vec<OutlineChain> {
+    let cell = |p: Point| ((p.x / max_gap).floor() as i64, (p.y / max_gap).floor() as i64);
+    let position = |end: OutlineChainEnd| {
         let points = &chains[end.chain].points;
         if end.last { points[points.len() - 1] } else { points[0] }
     };
     let is_dot: Vec<bool> = chains.iter().map(|chain| is_dot(&chain.points)).collect();
     let ends = || {
-        let of = |chain| [OutlineChainEnd { chain, last: false }, OutlineChainEnd { chain, last: true }];
-        (0..chains.len()).filter(|chain| !is_dot[*chain]).flat_map(of)
+        let both_ends =
+            |chain| [OutlineChainEnd { chain, last: false }, OutlineChainEnd { chain, last: true }];
+        (0..chains.len()).filter(|chain| !is_dot[*chain]).flat_map(both_ends)
     };
     let mut cells: FxHashMap<(i64, i64), Vec<OutlineChainEnd>> = FxHashMap::default();
     for end in ends() {
-        cells.entry(cell(place(end))).or_default().push(end);
+        cells.entry(cell(position(end))).or_default().push(end);
     }
-    let only = |end: OutlineChainEnd| {
-        let (x, y) = cell(place(end));
-        let mut near = (x - 1..=x + 1)
+    let single_neighbour = |end: OutlineChainEnd| {
+        let (x, y) = cell(position(end));
+        let mut nearby_ends = (x - 1..=x + 1)
             .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
             .filter_map(|cell| cells.get(&cell))
             .flatten()
-            .filter(|other| **other != end && place(**other).distance(place(end)) <= reach);
-        let first = near.next().copied();
-        if near.next().is_some() { None } else { first }
+            .filter(|nearby_end| {
+                **nearby_end != end && position(**nearby_end).distance(position(end)) <= max_gap
+            });
+        let first = nearby_ends.next().copied();
+        if nearby_ends.next().is_some() { None } else { first }
     };
-    let mut next: FxHashMap<OutlineChainEnd, OutlineChainEnd> = FxHashMap::default();
+    let mut partner_of_end: FxHashMap<OutlineChainEnd, OutlineChainEnd> = FxHashMap::default();
     for end in ends() {
-        if let Some(other) = only(end).filter(|other| only(*other) == Some(end)) {
-            next.insert(end, other);
+        if let Some(partner) = single_neighbour(end).filter(|other| single_neighbour(*other) == Some(end)) {
+            partner_of_end.insert(end, partner);
         }
     }
     let mut used = vec![false; chains.len()];
     let mut joined = Vec::new();
     // Start open chains at free ends; the remaining chains are closed.
-    let starts = ends().filter(|end| !next.contains_key(end)).chain(ends());
+    let starts = ends().filter(|end| !partner_of_end.contains_key(end)).chain(ends());
     for start in starts.collect::<Vec<_>>() {
         if used[start.chain] {
             continue;
         }
         let mut points: Vec<Point> = Vec::new();
         let mut shapes = Vec::new();
-        let mut at = start;
+        let mut current_end = start;
         let closed = loop {
-            used[at.chain] = true;
-            let chain = &chains[at.chain];
-            let way: Vec<Point> = match at.last {
+            used[current_end.chain] = true;
+            let chain = &chains[current_end.chain];
+            let points_in_order: Vec<Point> = match current_end.last {
                 false => chain.points.clone(),
                 true => chain.points.iter().rev().copied().collect(),
             };
             // Both ends of a joint become one point.
-            points.extend(way.into_iter().skip(usize::from(!points.is_empty())));
+            points.extend(points_in_order.into_iter().skip(usize::from(!points.is_empty())));
             shapes.extend_from_slice(&chain.shapes);
-            match next.get(&at.other()) {
+            match partner_of_end.get(&current_end.other()) {
                 Some(other) if *other == start => break true,
-                Some(other) if !used[other.chain] => at = *other,
+                Some(other) if !used[other.chain] => current_end = *other,
                 _ => break false,
             }
         };

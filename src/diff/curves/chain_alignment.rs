@@ -31,10 +31,11 @@ pub(crate) fn align(a: &OutlineChain, b: &OutlineChain) -> Alignment {
     let on_a: Vec<Point> = evenly_spaced_points(a, count).collect();
     let on_b: Vec<Point> = evenly_spaced_points(b, count).collect();
     let mut best: Option<Alignment> = None;
-    let mut offer = |a: &[Point], b: &[Point]| {
-        let found = measure(a, b);
-        if best.is_none_or(|best| found.largest + found.after_shift < best.largest + best.after_shift) {
-            best = Some(found);
+    let mut try_alignment = |a: &[Point], b: &[Point]| {
+        let candidate = measure(a, b);
+        if best.is_none_or(|best| candidate.largest + candidate.after_shift < best.largest + best.after_shift)
+        {
+            best = Some(candidate);
         }
     };
     if a.closed && b.closed {
@@ -43,12 +44,12 @@ pub(crate) fn align(a: &OutlineChain, b: &OutlineChain) -> Alignment {
         let turned_b = on_a.first().map_or_else(|| on_b.clone(), |start| from_nearest(b, *start, count));
         let turned_a = on_b.first().map_or_else(|| on_a.clone(), |start| from_nearest(a, *start, count));
         for (a, b) in [(&on_a, &on_b), (&on_a, &turned_b), (&turned_a, &on_b)] {
-            offer(a, b);
-            offer(a, &reversed(b));
+            try_alignment(a, b);
+            try_alignment(a, &reversed(b));
         }
     } else {
-        offer(&on_a, &on_b);
-        offer(&on_a, &reversed(&on_b));
+        try_alignment(&on_a, &on_b);
+        try_alignment(&on_a, &reversed(&on_b));
     }
     best.unwrap_or(Alignment { largest: 0.0, shift: Vec2::ZERO, after_shift: 0.0, after_similarity: 0.0 })
 }
@@ -82,23 +83,26 @@ fn measure(a: &[Point], b: &[Point]) -> Alignment {
     let (mean_a, mean_b) = (mean(a), mean(b));
     let shift = mean_b - mean_a;
     // Points as complex numbers: b - mean_b = turn (a - mean_a), with `turn` by least squares.
-    let (mut turn, mut size) = (Vec2::ZERO, 0.0);
+    let (mut turn, mut squared_size) = (Vec2::ZERO, 0.0);
     for (p, q) in a.iter().zip(b) {
         let (p, q) = (p.to_vec2() - mean_a, q.to_vec2() - mean_b);
         turn += Vec2::new(p.dot(q), p.cross(q));
-        size += p.hypot2();
+        squared_size += p.hypot2();
     }
-    let turn = if size > 0.0 { turn / size } else { Vec2::new(1.0, 0.0) };
-    let mut found = Alignment { largest: 0.0, shift, after_shift: 0.0, after_similarity: 0.0 };
+    let turn = if squared_size > 0.0 { turn / squared_size } else { Vec2::new(1.0, 0.0) };
+    let mut alignment = Alignment { largest: 0.0, shift, after_shift: 0.0, after_similarity: 0.0 };
     for (p, q) in a.iter().zip(b) {
-        let moved = *q - *p;
-        let own = p.to_vec2() - mean_a;
-        let turned = Vec2::new(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
-        found.largest = found.largest.max(moved.hypot());
-        found.after_shift = found.after_shift.max((moved - shift).hypot());
-        found.after_similarity = found.after_similarity.max((q.to_vec2() - mean_b - turned).hypot());
+        let displacement = *q - *p;
+        let offset_from_mean = p.to_vec2() - mean_a;
+        let turned = Vec2::new(
+            offset_from_mean.x * turn.x - offset_from_mean.y * turn.y,
+            offset_from_mean.x * turn.y + offset_from_mean.y * turn.x,
+        );
+        alignment.largest = alignment.largest.max(displacement.hypot());
+        alignment.after_shift = alignment.after_shift.max((displacement - shift).hypot());
+        alignment.after_similarity = alignment.after_similarity.max((q.to_vec2() - mean_b - turned).hypot());
     }
-    found
+    alignment
 }
 
 #[cfg(test)]

@@ -49,10 +49,12 @@ impl SegmentClusters {
 
     /// Adds the node of a range of `items` and its descendants.
     fn split(&mut self, segments: &[Segment], first: usize, last: usize) {
-        let of = |item: u32| segments[item as usize];
+        let segment_of = |item: u32| segments[item as usize];
         let bounds = |end: fn(&Segment) -> Point, items: &[u32]| {
-            let at = items.first().map(|item| end(&of(*item))).unwrap_or_default();
-            items.iter().fold(Rect::from_points(at, at), |all, item| all.union_pt(end(&of(*item))))
+            let first_end = items.first().map(|item| end(&segment_of(*item))).unwrap_or_default();
+            items.iter().fold(Rect::from_points(first_end, first_end), |enclosing_rect, item| {
+                enclosing_rect.union_pt(end(&segment_of(*item)))
+            })
         };
         let (starts, ends) =
             (bounds(|s| s.from, &self.items[first..last]), bounds(|s| s.to, &self.items[first..last]));
@@ -64,7 +66,7 @@ impl SegmentClusters {
         let widths = [starts.width(), starts.height(), ends.width(), ends.height()];
         let widest = (0..4).max_by(|a, b| widths[*a].total_cmp(&widths[*b])).unwrap_or(0);
         let key = |item: u32| {
-            let segment = of(item);
+            let segment = segment_of(item);
             [segment.from.x, segment.from.y, segment.to.x, segment.to.y][widest]
         };
         let middle = first + (last - first) / 2;
@@ -77,9 +79,9 @@ impl SegmentClusters {
 
     /// Visits clusters and descends where the visitor returns `true`, until one segment stops the search.
     /// Returns whether one did.
-    pub(crate) fn search(&self, mut meet: impl FnMut(ClusterVisit) -> bool) -> bool {
-        let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
-        while let Some(index) = open.pop() {
+    pub(crate) fn search(&self, mut visit: impl FnMut(ClusterVisit) -> bool) -> bool {
+        let mut pending_nodes = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(index) = pending_nodes.pop() {
             let node = self.nodes[index];
             let radius = [node.starts, node.ends].map(|ends| ends.size().to_vec2().hypot() / 2.0);
             let bundle = ClusterVisit::Bundle {
@@ -87,15 +89,15 @@ impl SegmentClusters {
                 to: node.ends.center(),
                 radius: radius[0].max(radius[1]),
             };
-            if !meet(bundle) {
+            if !visit(bundle) {
                 continue;
             }
             match node.second {
-                Some(second) => open.extend([second, index + 1]),
+                Some(second) => pending_nodes.extend([second, index + 1]),
                 None => {
                     if self.items[node.items.0..node.items.1]
                         .iter()
-                        .any(|item| meet(ClusterVisit::One(*item)))
+                        .any(|item| visit(ClusterVisit::One(*item)))
                     {
                         return true;
                     }
@@ -105,17 +107,17 @@ impl SegmentClusters {
         false
     }
 
-    /// Whether any segment is within `reach` of a point. `segments` must be those of [`Self::new`].
-    pub(crate) fn any(&self, segments: &[Segment], p: Point, reach: f64) -> bool {
+    /// Whether any segment is within `max_distance` of a point. `segments` must be those of [`Self::new`].
+    pub(crate) fn any(&self, segments: &[Segment], p: Point, max_distance: f64) -> bool {
         let within = |from: Point, to: Point, reach: f64| p.distance(nearest_on(from, to, p)) <= reach;
-        self.search(|met| match met {
+        self.search(|visited| match visited {
             // A small margin for rounding.
             ClusterVisit::Bundle { from, to, radius } => {
-                within(from, to, (reach + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE))
+                within(from, to, (max_distance + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE))
             }
-            ClusterVisit::One(item) => {
-                segments.get(item as usize).is_some_and(|segment| within(segment.from, segment.to, reach))
-            }
+            ClusterVisit::One(item) => segments
+                .get(item as usize)
+                .is_some_and(|segment| within(segment.from, segment.to, max_distance)),
         })
     }
 }

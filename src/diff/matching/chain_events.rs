@@ -67,39 +67,45 @@ fn recoloured(events: Vec<ChainEvent>, sides: &[CoveredChains; 2], groups: &Mark
         _ => None,
     };
     let key = |side: usize, index: usize| {
-        let place = bounds(&sides[side].chains[index].points);
-        [place.x0, place.y0, place.x1, place.y1].map(|value| value.round() as i64)
+        let bounding_box = bounds(&sides[side].chains[index].points);
+        [bounding_box.x0, bounding_box.y0, bounding_box.x1, bounding_box.y1].map(|value| value.round() as i64)
     };
     let mut waiting: BTreeMap<[i64; 4], Vec<usize>> = BTreeMap::new();
-    for (event, index) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(0, event)?))) {
+    for (event, index) in
+        events.iter().enumerate().filter_map(|(event_index, event)| Some((event_index, chain(0, event)?)))
+    {
         waiting.entry(key(0, index)).or_default().push(event);
     }
     let mut joined: BTreeMap<usize, usize> = BTreeMap::new();
-    for (at, new) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(1, event)?))) {
+    for (added_event, new) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(1, event)?)))
+    {
         let b = &sides[1].chains[new];
-        let is_one = |other: &usize| {
-            let Some(a) = chain(0, &events[*other]).map(|old| &sides[0].chains[old]) else { return false };
+        let is_one = |removed_event: &usize| {
+            let Some(a) = chain(0, &events[*removed_event]).map(|old| &sides[0].chains[old]) else {
+                return false;
+            };
             let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
             groups.likeness(a.group, b.group) == Some(Likeness::Ink)
                 && (a.length() - b.length()).abs() <= 4.0 * tolerance
                 && align(a, b).largest <= tolerance
         };
-        let list = waiting.get_mut(&key(1, new));
-        if let Some(other) =
-            list.and_then(|list| list.iter().position(is_one).map(|place| list.remove(place)))
-        {
-            joined.insert(at, other);
+        let candidates = waiting.get_mut(&key(1, new));
+        if let Some(matching_event) = candidates.and_then(|list| {
+            list.iter().position(is_one).map(|position_in_list| list.remove(position_in_list))
+        }) {
+            joined.insert(added_event, matching_event);
         }
     }
-    let gone: FxHashSet<usize> = joined.values().copied().collect();
+    let absorbed_events: FxHashSet<usize> = joined.values().copied().collect();
     let old_of: BTreeMap<usize, Option<usize>> =
         joined.iter().map(|(at, other)| (*at, events[*other].old)).collect();
-    let all = events.into_iter().enumerate().filter(|(at, _)| !gone.contains(at));
-    all.map(|(at, event)| match old_of.get(&at) {
-        Some(old) => ChainEvent { verdict: Verdict::Restyled, old: *old, ..event },
-        None => event,
-    })
-    .collect()
+    let remaining_events = events.into_iter().enumerate().filter(|(at, _)| !absorbed_events.contains(at));
+    remaining_events
+        .map(|(at, event)| match old_of.get(&at) {
+            Some(old) => ChainEvent { verdict: Verdict::Restyled, old: *old, ..event },
+            None => event,
+        })
+        .collect()
 }
 
 /// Change of a pair of chains: moved or reshaped.
@@ -107,23 +113,23 @@ fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroup
     let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
     let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
     let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
-    let apart = chain_distance(a, b);
+    let distance = chain_distance(a, b);
     let alignment = &pair.alignment;
     // A mean shift near zero means noise, not a motion.
-    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID_RESIDUAL_SHARE * alignment.largest)
+    let is_rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID_RESIDUAL_SHARE * alignment.largest)
         && alignment.shift.hypot() >= 0.5 * alignment.largest;
-    let grown = (cover_a.length - cover_b.length).abs();
-    let similar = alignment.after_similarity
+    let length_difference = (cover_a.length - cover_b.length).abs();
+    let is_similar = alignment.after_similarity
         <= (2.0 * tolerance).max(SIMILARITY_RESIDUAL_SHARE * alignment.largest)
-        && grown <= (4.0 * tolerance).max(alignment.largest)
+        && length_difference <= (4.0 * tolerance).max(alignment.largest)
         && cover_a.share().max(cover_b.share()) < 0.5;
     let mut event = ChainEvent {
-        verdict: if rigid || similar { Verdict::Moved } else { Verdict::Reshaped },
+        verdict: if is_rigid || is_similar { Verdict::Moved } else { Verdict::Reshaped },
         old: Some(pair.old),
         new: Some(pair.new),
         size: cover_a.length,
-        largest: apart.largest,
-        p95: apart.p95,
+        largest: distance.largest,
+        p95: distance.p95,
         shift: None,
         removed: bare(a, cover_a),
         added: bare(b, cover_b),
@@ -132,7 +138,7 @@ fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroup
         event.largest = off(a, cover_a, b, tolerance).max(off(b, cover_b, a, tolerance));
         event.p95 = event.p95.min(event.largest);
     }
-    if rigid {
+    if is_rigid {
         // Lines may slide along themselves unseen. If all measured points moved alike, so did the rest.
         event.shift = Some([alignment.shift.x, alignment.shift.y]);
         event.p95 = event.largest;
@@ -143,14 +149,18 @@ fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroup
 /// Change of a chain with uncovered runs and without a pair: reshaped, removed or added.
 fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups: &MarkGroups) -> ChainEvent {
     let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
-    let own = |partner: &&(u32, Likeness, f64)| {
-        let other = sides[1 - side].chains.get(partner.0 as usize);
-        other.is_some_and(|other| groups.same_part(chain.group, other.group))
+    let is_same_part = |partner: &&(u32, Likeness, f64)| {
+        let partner_chain = sides[1 - side].chains.get(partner.0 as usize);
+        partner_chain.is_some_and(|other| groups.same_part(chain.group, other.group))
     };
-    let rest =
-        cover.partners.iter().find(own).filter(|partner| partner.2 > MIN_REMAINING_SHARE * cover.length);
-    let rest = rest.map(|(partner, ..)| *partner as usize);
-    let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
+    let best_partner = cover
+        .partners
+        .iter()
+        .find(is_same_part)
+        .filter(|partner| partner.2 > MIN_REMAINING_SHARE * cover.length);
+    let partner_index = best_partner.map(|(partner, ..)| *partner as usize);
+    let (mut old, mut new) =
+        if side == 0 { (Some(index), partner_index) } else { (partner_index, Some(index)) };
     let mut event = ChainEvent {
         verdict: Verdict::Reshaped,
         old,
@@ -163,16 +173,16 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
         added: BezPath::new(),
     };
     if let Some((a, b)) = old.zip(new) {
-        let other = if side == 0 { &sides[1].chains[b] } else { &sides[0].chains[a] };
+        let opposite_chain = if side == 0 { &sides[1].chains[b] } else { &sides[0].chains[a] };
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        event.largest = off(chain, cover, other, tolerance);
+        event.largest = off(chain, cover, opposite_chain, tolerance);
         event.p95 = event.largest;
     } else {
         event.verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
         (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
         (event.old, event.new) = (old, new);
     }
-    let path = if rest.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
+    let path = if partner_index.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
     match side {
         0 => event.removed = path,
         _ => event.added = path,
@@ -183,11 +193,12 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
 /// Largest distance of the uncovered runs of a chain from the other drawing. It is limited by the arc length
 /// to the nearest covered run, so that a line linked to another one counts only its difference.
 fn off(chain: &OutlineChain, cover: &ChainCover, other: &OutlineChain, tolerance: f64) -> f64 {
-    let near = NearestPointQuery::new(other);
-    let is_covered =
-        |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
+    let nearest_point_query = NearestPointQuery::new(other);
+    let is_covered = |run_index: Option<usize>| {
+        run_index.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some())
+    };
     let last = cover.runs.len().saturating_sub(1);
-    let mut most = 0.0f64;
+    let mut max_distance = 0.0f64;
     for (index, run) in cover.runs.iter().enumerate().filter(|(_, run)| run.likeness.is_none()) {
         let before = if index == 0 { chain.closed.then_some(last) } else { Some(index - 1) };
         let after = if index == last { chain.closed.then_some(0) } else { Some(index + 1) };
@@ -199,55 +210,56 @@ fn off(chain: &OutlineChain, cover: &ChainCover, other: &OutlineChain, tolerance
             (false, false) => f64::INFINITY,
             _ => run.length() + tolerance,
         };
-        most = most.max(near.farthest(&piece, 0.0).min(limit));
+        max_distance = max_distance.max(nearest_point_query.farthest(&piece, 0.0).min(limit));
     }
-    most
+    max_distance
 }
 
 /// Changes of chains that are covered by other ink or by another part.
 fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainEvent> {
     // `None` if the chain is unchanged; otherwise the marks that replaced it, if single marks did.
-    let other = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
+    let repainting_partners = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
         let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
         if !cover.is_whole() || cover.is_same() {
             return None;
         }
         let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        let crumb = (MIN_REPAINT_TOLERANCES * tolerance)
+        let min_length = (MIN_REPAINT_TOLERANCES * tolerance)
             .max(MIN_REPAINT_SHARE * cover.length)
             .min(0.5 * cover.length);
-        let strange = || {
+        let unlike_partners = || {
             let partners = cover.partners.iter().copied();
-            partners.filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
+            partners.filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= min_length)
         };
-        strange().next()?;
-        let kept: f64 = cover.partners.iter().filter(|p| p.1 == Likeness::Same).map(|p| p.2).sum();
+        unlike_partners().next()?;
+        let unchanged_length: f64 =
+            cover.partners.iter().filter(|p| p.1 == Likeness::Same).map(|p| p.2).sum();
         // Short runs of lines of several other parts do not add up to a replacement.
-        let took = |partner: u32, length: f64| {
+        let is_repainted_by = |partner: u32, length: f64| {
             let same_part = groups.same_part(chain.group, sides[1 - side].chains[partner as usize].group);
-            same_part || length.max(kept) >= 0.5 * cover.length
+            same_part || length.max(unchanged_length) >= 0.5 * cover.length
         };
         Some(
-            strange()
-                .filter(|(partner, _, length)| took(*partner, *length))
+            unlike_partners()
+                .filter(|(partner, _, length)| is_repainted_by(*partner, *length))
                 .map(|(partner, likeness, length)| (partner as usize, likeness, length))
                 .collect(),
         )
     };
     let of_new: Vec<Option<Vec<(usize, Likeness, f64)>>> =
-        (0..sides[1].chains.len()).map(|index| other(1, index)).collect();
+        (0..sides[1].chains.len()).map(|index| repainting_partners(1, index)).collect();
     let mut events = Vec::new();
-    let mut told: FxHashSet<usize> = FxHashSet::default();
+    let mut reported_chains: FxHashSet<usize> = FxHashSet::default();
     for index in 0..sides[0].chains.len() {
-        let Some(list) = other(0, index) else { continue };
+        let Some(list) = repainting_partners(0, index) else { continue };
         let mut drawn_over = true;
         for (partner, likeness, length) in list {
             // If the coverage is not mutual, the chain was drawn twice and is now drawn once.
-            let mutual = of_new[partner].iter().flatten().any(|(back, ..)| *back == index)
+            let is_mutual = of_new[partner].iter().flatten().any(|(back, ..)| *back == index)
                 || !sides[1].covers[partner].is_whole();
-            if mutual {
+            if is_mutual {
                 drawn_over = false;
-                told.insert(partner);
+                reported_chains.insert(partner);
                 events.push(ChainEvent {
                     verdict: match likeness {
                         Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
@@ -271,7 +283,7 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
         }
     }
     for (index, list) in of_new.iter().enumerate() {
-        if list.is_some() && !told.contains(&index) {
+        if list.is_some() && !reported_chains.contains(&index) {
             events.push(one_sided_event(sides, 1, index));
         }
     }
@@ -282,10 +294,10 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
 fn one_sided_event(sides: &[CoveredChains; 2], side: usize, index: usize) -> ChainEvent {
     let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
     let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
-    let (gone, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
+    let (removed_path, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
     let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
     let size = sides[side].covers[index].length;
-    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, removed: gone, added }
+    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, removed: removed_path, added }
 }
 
 /// Uncovered runs of a chain as a path.
@@ -294,26 +306,26 @@ fn bare(chain: &OutlineChain, cover: &ChainCover) -> BezPath {
 }
 
 /// The runs of a chain that satisfy a condition, as a path.
-fn stretches(chain: &OutlineChain, cover: &ChainCover, wanted: impl Fn(&CoverRun) -> bool) -> BezPath {
-    let runs = cover.runs.iter().filter(|run| wanted(run));
+fn stretches(chain: &OutlineChain, cover: &ChainCover, is_selected: impl Fn(&CoverRun) -> bool) -> BezPath {
+    let runs = cover.runs.iter().filter(|run| is_selected(run));
     runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
 }
 
 /// Part of a chain between two arc lengths.
 fn stretch(chain: &OutlineChain, from: f64, to: f64) -> BezPath {
     let mut path = BezPath::new();
-    let mut at = 0.0;
+    let mut length_so_far = 0.0;
     for (p, q) in chain.segments() {
         let length = p.distance(q);
-        let (start, end) = (from.max(at), to.min(at + length));
+        let (start, end) = (from.max(length_so_far), to.min(length_so_far + length));
         if start <= end {
-            let point = |s: f64| if length > 0.0 { p.lerp(q, (s - at) / length) } else { p };
+            let point = |s: f64| if length > 0.0 { p.lerp(q, (s - length_so_far) / length) } else { p };
             if path.elements().is_empty() {
                 path.move_to(point(start));
             }
             path.line_to(point(end));
         }
-        at += length;
+        length_so_far += length;
     }
     path
 }

@@ -68,87 +68,100 @@ pub(crate) struct ChainPair {
 
 /// Pairs chains with uncovered runs one to one, lowest cost first. `page` is the page's longer side in px.
 pub(crate) fn pairs(sides: &[CoveredChains; 2], groups: &MarkGroups, page: f64) -> Vec<ChainPair> {
-    let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
+    let uncovered: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
         (0..covers.len())
             .filter(|index| !covers[*index].is_whole() && sides[side].firsts[*index] == *index)
             .collect()
     });
-    if bare.iter().any(Vec::is_empty) {
+    if uncovered.iter().any(Vec::is_empty) {
         return Vec::new();
     }
-    let mut near: Vec<(usize, usize)> = Vec::new();
+    let mut candidate_pairs: Vec<(usize, usize)> = Vec::new();
     for side in 0..2 {
-        let other = 1 - side;
+        let other_side = 1 - side;
         let targets: Vec<OutlineChain> =
-            bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
+            uncovered[other_side].iter().map(|index| sides[other_side].chains[*index].clone()).collect();
         let grid = SegmentGrid::new(&targets);
-        let of = |index: &usize| {
-            let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * MAX_SHIFT_PAGE_SHARE);
+        let pairs_of_chain = |index: &usize| {
+            let mut partner_indices =
+                candidates(&sides[side], *index, &uncovered[other_side], &grid, page * MAX_SHIFT_PAGE_SHARE);
             let chain = &sides[side].chains[*index];
-            near.sort_by_cached_key(|there| {
-                squared_end_distance(chain, &sides[other].chains[*there]).to_bits()
+            partner_indices.sort_by_cached_key(|partner| {
+                squared_end_distance(chain, &sides[other_side].chains[*partner]).to_bits()
             });
-            near.truncate(MAX_CANDIDATES);
+            partner_indices.truncate(MAX_CANDIDATES);
             let index = *index;
-            near.into_iter().map(move |there| if side == 0 { (index, there) } else { (there, index) })
+            partner_indices.into_iter().map(move |partner_index| {
+                if side == 0 { (index, partner_index) } else { (partner_index, index) }
+            })
         };
-        near.par_extend(bare[side].par_iter().flat_map_iter(of));
+        candidate_pairs.par_extend(uncovered[side].par_iter().flat_map_iter(pairs_of_chain));
     }
-    near.par_sort_unstable();
-    near.dedup();
-    let mut found: Vec<ChainPair> =
-        near.into_par_iter().filter_map(|(old, new)| score_pair(sides, old, new, groups, page)).collect();
-    found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
-    let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
-    found.retain(|pair| {
-        let both = free[0][pair.old] && free[1][pair.new];
-        if both {
-            (free[0][pair.old], free[1][pair.new]) = (false, false);
+    candidate_pairs.par_sort_unstable();
+    candidate_pairs.dedup();
+    let mut chosen_pairs: Vec<ChainPair> = candidate_pairs
+        .into_par_iter()
+        .filter_map(|(old, new)| score_pair(sides, old, new, groups, page))
+        .collect();
+    chosen_pairs.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
+    let mut is_unpaired = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
+    chosen_pairs.retain(|pair| {
+        let are_both_unpaired = is_unpaired[0][pair.old] && is_unpaired[1][pair.new];
+        if are_both_unpaired {
+            (is_unpaired[0][pair.old], is_unpaired[1][pair.new]) = (false, false);
         }
-        both
+        are_both_unpaired
     });
-    found.extend(congruent(sides, groups, &bare, &mut free));
+    chosen_pairs.extend(congruent(sides, groups, &uncovered, &mut is_unpaired));
     let copies = |pair: &ChainPair| {
-        let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
+        let is_copy =
+            |side: usize, original: usize, copy: usize| sides[side].firsts.get(copy) == Some(&original);
         let (old, new, pair) = (pair.old, pair.new, *pair);
         (1..)
             .take_while(move |rank| is_copy(0, old, old + rank) && is_copy(1, new, new + rank))
             .map(move |rank| ChainPair { old: old + rank, new: new + rank, ..pair })
     };
-    let more: Vec<ChainPair> = found.iter().flat_map(copies).collect();
-    found.extend(more);
-    found
+    let copied_pairs: Vec<ChainPair> = chosen_pairs.iter().flat_map(copies).collect();
+    chosen_pairs.extend(copied_pairs);
+    chosen_pairs
 }
 
 /// Pairs remaining closed chains with the only congruent one in the other drawing, at any distance.
 fn congruent(
     sides: &[CoveredChains; 2],
     groups: &MarkGroups,
-    bare: &[Vec<usize>; 2],
-    free: &mut [Vec<bool>; 2],
+    uncovered: &[Vec<usize>; 2],
+    is_unpaired: &mut [Vec<bool>; 2],
 ) -> Vec<ChainPair> {
-    let left = [0, 1].map(|side: usize| -> Vec<(f64, usize)> {
+    let chains_by_length = [0, 1].map(|side: usize| -> Vec<(f64, usize)> {
         let chains = &sides[side].chains;
-        let whole = |index: &&usize| {
-            let closed = chains[**index].points.first() == chains[**index].points.last();
-            closed && free[side][**index] && sides[side].covers[**index].partners.is_empty()
+        let is_candidate = |index: &&usize| {
+            let is_closed = chains[**index].points.first() == chains[**index].points.last();
+            is_closed && is_unpaired[side][**index] && sides[side].covers[**index].partners.is_empty()
         };
-        let mut left: Vec<(f64, usize)> =
-            bare[side].iter().filter(whole).map(|index| (chains[*index].length(), *index)).collect();
-        left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        left
+        let mut lengths_and_indices: Vec<(f64, usize)> = uncovered[side]
+            .iter()
+            .filter(is_candidate)
+            .map(|index| (chains[*index].length(), *index))
+            .collect();
+        lengths_and_indices.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        lengths_and_indices
     });
     let tolerance =
         |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
-    let mut of: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
+    let mut partners_by_chain: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
     let mut pairs = Vec::new();
-    for (length, old) in &left[0] {
+    for (length, old) in &chains_by_length[0] {
         // If every point moves by up to the tolerance, the length changes little.
-        let off = 4.0 * tolerance(*old) + tolerances::MAX_CONGRUENT_OFFSET_OF_LENGTH * length;
-        let from = left[1].partition_point(|(other, _)| *other < length - off);
-        for (_, new) in
-            left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off)
+        let max_difference = 4.0 * tolerance(*old) + tolerances::MAX_CONGRUENT_OFFSET_OF_LENGTH * length;
+        let first_candidate = chains_by_length[1]
+            .partition_point(|(candidate_length, _)| *candidate_length < length - max_difference);
+        for (_, new) in chains_by_length[1]
+            .iter()
+            .skip(first_candidate)
+            .take(MAX_CONGRUENT)
+            .take_while(|(next_length, _)| *next_length <= length + max_difference)
         {
             let (a, b) = (&sides[0].chains[*old], &sides[1].chains[*new]);
             if groups.likeness(a.group, b.group) != Some(Likeness::Same) {
@@ -158,16 +171,17 @@ fn congruent(
             if alignment.after_shift
                 <= 2.0 * tolerance(*old) + tolerances::MAX_CONGRUENT_OFFSET_OF_LENGTH * length
             {
-                of[0].entry(*old).or_default().push(*new);
-                of[1].entry(*new).or_default().push(*old);
+                partners_by_chain[0].entry(*old).or_default().push(*new);
+                partners_by_chain[1].entry(*new).or_default().push(*old);
                 pairs.push(ChainPair { old: *old, new: *new, alignment, cost: alignment.largest });
             }
         }
     }
-    let only = |side: usize, index: usize| of[side].get(&index).is_some_and(|list| list.len() == 1);
-    pairs.retain(|pair| only(0, pair.old) && only(1, pair.new));
+    let has_single_partner =
+        |side: usize, index: usize| partners_by_chain[side].get(&index).is_some_and(|list| list.len() == 1);
+    pairs.retain(|pair| has_single_partner(0, pair.old) && has_single_partner(1, pair.new));
     for pair in &pairs {
-        (free[0][pair.old], free[1][pair.new]) = (false, false);
+        (is_unpaired[0][pair.old], is_unpaired[1][pair.new]) = (false, false);
     }
     pairs
 }
@@ -187,50 +201,58 @@ fn tie(sides: &[CoveredChains; 2], a: &ChainPair, b: &ChainPair) -> Ordering {
 }
 
 /// Indices of the chains of the other drawing that are near a chain or cover a part of it, among the
-/// uncovered ones in `bare`. `reach` is the largest distance in px.
+/// uncovered ones in `uncovered`. `max_distance` is the largest distance in px.
 fn candidates(
     side: &CoveredChains,
     index: usize,
-    bare: &[usize],
+    uncovered: &[usize],
     grid: &SegmentGrid,
-    reach: f64,
+    max_distance: f64,
 ) -> Vec<usize> {
     let chain = &side.chains[index];
     let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
-    let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
-    let known: RefCell<FxHashMap<u32, usize>> = RefCell::default();
-    for place in evenly_spaced_points(chain, (chain.points.len() + 1).min(SAMPLES_PER_CHAIN)) {
+    let mut candidate_indices: Vec<usize> =
+        partners.filter(|partner| uncovered.binary_search(partner).is_ok()).collect();
+    let index_by_chain: RefCell<FxHashMap<u32, usize>> = RefCell::default();
+    for sample_point in evenly_spaced_points(chain, (chain.points.len() + 1).min(SAMPLES_PER_CHAIN)) {
         // Nearby chains with their distances.
-        let near: RefCell<Vec<(f64, u32)>> = RefCell::default();
-        known.borrow_mut().clear();
-        let see = |item: u32| {
+        let neighbours: RefCell<Vec<(f64, u32)>> = RefCell::default();
+        index_by_chain.borrow_mut().clear();
+        let visit_segment = |item: u32| {
             let segment = grid.segments[item as usize];
-            let distance = place.distance(nearest_on(segment.from, segment.to, place));
-            if distance > reach {
+            let distance = sample_point.distance(nearest_on(segment.from, segment.to, sample_point));
+            if distance > max_distance {
                 return;
             }
-            let mut near = near.borrow_mut();
-            let at = *known.borrow_mut().entry(segment.chain).or_insert(near.len());
-            match near.get_mut(at) {
+            let mut neighbour_list = neighbours.borrow_mut();
+            let neighbour_index =
+                *index_by_chain.borrow_mut().entry(segment.chain).or_insert(neighbour_list.len());
+            match neighbour_list.get_mut(neighbour_index) {
                 Some(entry) => entry.0 = entry.0.min(distance),
-                None => near.push((distance, segment.chain)),
+                None => neighbour_list.push((distance, segment.chain)),
             }
         };
-        let enough = |seen: f64| {
-            near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= NEIGHBOURS_PER_SAMPLE
+        let has_enough_neighbours = |searched_radius: f64| {
+            neighbours.borrow().iter().filter(|(distance, _)| *distance <= searched_radius).count()
+                >= NEIGHBOURS_PER_SAMPLE
         };
-        grid.visit_rings(place, (reach, MAX_SEGMENTS_PER_SAMPLE), see, enough);
-        let mut near = near.into_inner();
+        grid.visit_rings(
+            sample_point,
+            (max_distance, MAX_SEGMENTS_PER_SAMPLE),
+            visit_segment,
+            has_enough_neighbours,
+        );
+        let mut nearest_chains = neighbours.into_inner();
         let nearest = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        if near.len() > 2 * NEIGHBOURS_PER_SAMPLE {
-            near.select_nth_unstable_by(2 * NEIGHBOURS_PER_SAMPLE, nearest);
-            near.truncate(2 * NEIGHBOURS_PER_SAMPLE);
+        if nearest_chains.len() > 2 * NEIGHBOURS_PER_SAMPLE {
+            nearest_chains.select_nth_unstable_by(2 * NEIGHBOURS_PER_SAMPLE, nearest);
+            nearest_chains.truncate(2 * NEIGHBOURS_PER_SAMPLE);
         }
-        found.extend(near.iter().map(|(_, chain)| bare[*chain as usize]));
+        candidate_indices.extend(nearest_chains.iter().map(|(_, chain)| uncovered[*chain as usize]));
     }
-    found.sort_unstable();
-    found.dedup();
-    found
+    candidate_indices.sort_unstable();
+    candidate_indices.dedup();
+    candidate_indices
 }
 
 /// Sum of the squared distances between the ends of two chains: a cheap estimate for ranking candidates. The
@@ -242,8 +264,8 @@ fn squared_end_distance(a: &OutlineChain, b: &OutlineChain) -> f64 {
         (start, end.copied().unwrap_or(start))
     };
     let ((a0, a1), (b0, b1)) = (ends(a), ends(b));
-    let forth = a0.distance_squared(b0) + a1.distance_squared(b1);
-    forth.min(a0.distance_squared(b1) + a1.distance_squared(b0))
+    let same_direction_distance = a0.distance_squared(b0) + a1.distance_squared(b1);
+    same_direction_distance.min(a0.distance_squared(b1) + a1.distance_squared(b0))
 }
 
 /// Aligns two chains and computes the cost of the pair; `None` if they cannot be the same mark.
@@ -257,31 +279,37 @@ fn score_pair(
     let (a, b) = (&sides[0].chains[old], &sides[1].chains[new]);
     let likeness = groups.likeness(a.group, b.group)?;
     let (cover_a, cover_b) = (&sides[0].covers[old], &sides[1].covers[new]);
-    let of = |cover: &ChainCover, partner: usize| {
+    let covered_length = |cover: &ChainCover, partner: usize| {
         cover.partners.iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
     };
-    let both = cover_a.length + cover_b.length;
-    let common = if both > 0.0 { (of(cover_a, new) + of(cover_b, old)) / both } else { 0.0 };
+    let total_length = cover_a.length + cover_b.length;
+    let common_share = if total_length > 0.0 {
+        (covered_length(cover_a, new) + covered_length(cover_b, old)) / total_length
+    } else {
+        0.0
+    };
     let alignment = align(a, b);
     let size = |chain: &OutlineChain| {
         let bounds = bounds(&chain.points);
         bounds.size().to_vec2().hypot()
     };
-    let limit = (MAX_SHIFT_MARK_SHARE * size(a).max(size(b)))
+    let max_offset = (MAX_SHIFT_MARK_SHARE * size(a).max(size(b)))
         .max(MIN_SHIFT_PAGE_SHARE * page)
         .min(MAX_SHIFT_PAGE_SHARE * page);
     // A mark of another part in another place is another mark: a removed bolt did not become the washer below
     // it.
-    if common < MIN_COMMON_SHARE && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
+    if common_share < MIN_COMMON_SHARE
+        && (alignment.largest > max_offset || !groups.same_part(a.group, b.group))
+    {
         return None;
     }
-    let strangeness = match likeness {
+    let unlikeness_factor = match likeness {
         Likeness::Same => 1.0,
         Likeness::Ink => 1.5,
         Likeness::Label => 2.0,
         Likeness::Both => 4.0,
     };
-    let cost = alignment.largest * strangeness * (1.0 - 0.9 * common);
+    let cost = alignment.largest * unlikeness_factor * (1.0 - 0.9 * common_share);
     Some(ChainPair { old, new, alignment, cost })
 }
 

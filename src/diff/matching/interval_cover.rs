@@ -112,49 +112,49 @@ impl ChainCover {
     }
 }
 
-/// Covers each chain of `here` by the chains of `there`, whose segments are in `grid`.
+/// Covers each chain of `own_chains` by the chains of `other_chains`, whose segments are in `grid`.
 ///
 /// Each list of chains comes with the index of the first identical copy of each chain. Copies follow their
 /// first copy directly. The grid contains first copies only; the n-th copy of a chain is covered by the n-th
 /// copy of its partner.
 pub(crate) fn cover(
-    here: (&[OutlineChain], &[usize]),
-    there: (&[OutlineChain], &[usize]),
+    own_chains: (&[OutlineChain], &[usize]),
+    other_chains: (&[OutlineChain], &[usize]),
     grid: &SegmentGrid,
     groups: &MarkGroups,
 ) -> Vec<ChainCover> {
-    let first = |index: usize| here.1.get(index).copied().unwrap_or(index);
-    let of_firsts: Vec<Option<ChainCover>> = here
+    let first_copy = |index: usize| own_chains.1.get(index).copied().unwrap_or(index);
+    let of_firsts: Vec<Option<ChainCover>> = own_chains
         .0
         .par_iter()
         .enumerate()
         .map_init(CoverScratch::default, |scratch, (index, chain)| {
-            (first(index) == index).then(|| cover_chain(chain, there.0, grid, groups, scratch))
+            (first_copy(index) == index).then(|| cover_chain(chain, other_chains.0, grid, groups, scratch))
         })
         .collect();
     // A line crossed by thousands of others has many runs; storing them for thousands of copies would take
     // too much memory.
-    let mut copies = vec![0usize; here.0.len()];
-    (0..copies.len()).for_each(|index| copies[first(index)] += 1);
-    let plainer = |(index, cover): (usize, Option<ChainCover>)| {
-        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MAX_COPIED_RUNS {
+    let mut copy_counts = vec![0usize; own_chains.0.len()];
+    (0..copy_counts.len()).for_each(|index| copy_counts[first_copy(index)] += 1);
+    let limit_runs = |(index, cover): (usize, Option<ChainCover>)| {
+        cover.map(|cover| match cover.runs.len().saturating_mul(copy_counts[index] - 1) > MAX_COPIED_RUNS {
             true => cover.without_crossings(),
             false => cover,
         })
     };
-    let of_firsts: Vec<Option<ChainCover>> = of_firsts.into_iter().enumerate().map(plainer).collect();
-    let copy = |index: usize| {
-        let mut cover = of_firsts.get(first(index)).cloned().flatten().unwrap_or_default();
-        let rank = index - first(index);
-        let like = |partner: u32| {
+    let of_firsts: Vec<Option<ChainCover>> = of_firsts.into_iter().enumerate().map(limit_runs).collect();
+    let cover_of_copy = |index: usize| {
+        let mut cover = of_firsts.get(first_copy(index)).cloned().flatten().unwrap_or_default();
+        let rank = index - first_copy(index);
+        let partner_of_copy = |partner: u32| {
             let copy = partner as usize + rank;
-            if there.1.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
+            if other_chains.1.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
         };
-        cover.runs.iter_mut().for_each(|run| run.partner = like(run.partner));
-        cover.partners.iter_mut().for_each(|(partner, ..)| *partner = like(*partner));
+        cover.runs.iter_mut().for_each(|run| run.partner = partner_of_copy(run.partner));
+        cover.partners.iter_mut().for_each(|(partner, ..)| *partner = partner_of_copy(*partner));
         cover
     };
-    (0..here.0.len()).map(copy).collect()
+    (0..own_chains.0.len()).map(cover_of_copy).collect()
 }
 
 /// Buffers reused from chain to chain.
@@ -180,7 +180,7 @@ impl CoverScratch {
     /// segment.
     fn add_segment(
         &mut self,
-        here: &ChainSegment,
+        own_segment: &ChainSegment,
         chain: &OutlineChain,
         others: &[OutlineChain],
         grid: &SegmentGrid,
@@ -188,17 +188,19 @@ impl CoverScratch {
         item: u32,
     ) -> Option<(Likeness, (f64, f64))> {
         let segment = grid.segments.get(item as usize)?;
-        let other = others.get(segment.chain as usize)?;
-        let known = self.likeness.iter().find(|(group, _)| *group == other.group);
-        let likeness = known.map_or_else(|| groups.likeness(chain.group, other.group), |(_, known)| *known);
-        if known.is_none() {
-            self.likeness.push((other.group, likeness));
+        let other_chain = others.get(segment.chain as usize)?;
+        let cached_likeness = self.likeness.iter().find(|(group, _)| *group == other_chain.group);
+        let likeness = cached_likeness
+            .map_or_else(|| groups.likeness(chain.group, other_chain.group), |(_, known)| *known);
+        if cached_likeness.is_none() {
+            self.likeness.push((other_chain.group, likeness));
         }
         let likeness = likeness?;
-        let (start, end) = within(here.from, here.to, segment.from, segment.to, here.tolerance)?;
+        let (start, end) =
+            within(own_segment.from, own_segment.to, segment.from, segment.to, own_segment.tolerance)?;
         self.intervals.push(CoverInterval {
-            from: here.at + start * here.length,
-            to: here.at + end * here.length,
+            from: own_segment.at + start * own_segment.length,
+            to: own_segment.at + end * own_segment.length,
             likeness,
             partner: segment.chain,
         });
@@ -217,9 +219,9 @@ struct DenseCover {
 impl DenseCover {
     /// Adds a covered range. Only identical marks count until `MAX_SEGMENT_QUERIES` tests; after that, any
     /// mark does.
-    fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
+    fn add(&mut self, match_range: Option<(Likeness, (f64, f64))>) {
         self.seen += 1;
-        let Some((likeness, (mut from, mut to))) = found else { return };
+        let Some((likeness, (mut from, mut to))) = match_range else { return };
         if likeness != Likeness::Same && self.seen < MAX_SEGMENT_QUERIES {
             return;
         }
@@ -233,8 +235,8 @@ impl DenseCover {
 
     /// Whether a range is covered completely.
     fn covers(&self, (from, to): (f64, f64)) -> bool {
-        let at = self.ranges.partition_point(|share| share.1 < to);
-        self.ranges.get(at).is_some_and(|share| share.0 <= from)
+        let range_index = self.ranges.partition_point(|share| share.1 < to);
+        self.ranges.get(range_index).is_some_and(|share| share.0 <= from)
     }
 }
 
@@ -250,7 +252,7 @@ struct CoverInterval {
 /// Covers one chain by the chains of the other drawing.
 fn cover_chain(
     chain: &OutlineChain,
-    others: &[OutlineChain],
+    other_chains: &[OutlineChain],
     grid: &SegmentGrid,
     groups: &MarkGroups,
     scratch: &mut CoverScratch,
@@ -258,57 +260,65 @@ fn cover_chain(
     let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
     let mut cover = ChainCover { length: chain.length(), ..ChainCover::default() };
     cover.is_point = cover.length == 0.0;
-    let mut at = 0.0;
+    let mut start_offset = 0.0;
     scratch.likeness.clear();
     for (from, to) in chain.segments() {
         let length = from.distance(to);
         scratch.intervals.clear();
-        let here = ChainSegment { from, to, at, length, tolerance };
-        let crowd = !grid.near(from, to, tolerance, &mut scratch.near);
-        let near = std::mem::take(&mut scratch.near);
-        if crowd {
-            let mut all = DenseCover::default();
-            grid.bundles().search(|met| match met {
+        let own_segment = ChainSegment { from, to, at: start_offset, length, tolerance };
+        let is_crowded = !grid.near(from, to, tolerance, &mut scratch.near);
+        let nearby_segments = std::mem::take(&mut scratch.near);
+        if is_crowded {
+            let mut dense_cover = DenseCover::default();
+            grid.bundles().search(|cluster_visit| match cluster_visit {
                 ClusterVisit::Bundle { from, to, radius } => {
                     // A small margin for rounding.
-                    let reach = (tolerance + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE);
-                    within(here.from, here.to, from, to, reach).is_some_and(|share| !all.covers(share))
+                    let max_distance = (tolerance + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE);
+                    within(own_segment.from, own_segment.to, from, to, max_distance)
+                        .is_some_and(|share| !dense_cover.covers(share))
                 }
                 ClusterVisit::One(item) => {
-                    let found = scratch.add_segment(&here, chain, others, grid, groups, item);
-                    all.add(found);
-                    all.covers((0.0, 1.0))
+                    let item_match =
+                        scratch.add_segment(&own_segment, chain, other_chains, grid, groups, item);
+                    dense_cover.add(item_match);
+                    dense_cover.covers((0.0, 1.0))
                 }
             });
         }
-        for item in near.iter().filter(|_| !crowd) {
-            let found = scratch.add_segment(&here, chain, others, grid, groups, *item);
+        for item in nearby_segments.iter().filter(|_| !is_crowded) {
+            let segment_match = scratch.add_segment(&own_segment, chain, other_chains, grid, groups, *item);
             // An identical mark that covers the whole segment cannot be improved on.
-            if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
+            if segment_match
+                .is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0))
+            {
                 break;
             }
         }
-        scratch.near = near;
-        runs(at, at + length, &mut scratch.intervals, &mut cover.runs);
-        at += length;
+        scratch.near = nearby_segments;
+        runs(start_offset, start_offset + length, &mut scratch.intervals, &mut cover.runs);
+        start_offset += length;
     }
     merge(&mut cover.runs);
-    let most = MAX_CROSSING_TOLERANCES * tolerance;
+    let max_crossing_length = MAX_CROSSING_TOLERANCES * tolerance;
     // Crossings of uncovered stretches go first, because they may separate runs of equal likeness.
-    absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
-    absorb(&mut cover.runs, most, |run, around| {
-        run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
+    absorb(&mut cover.runs, max_crossing_length, |run, neighbour| {
+        neighbour.likeness.is_none() && run.likeness.is_some()
+    });
+    absorb(&mut cover.runs, max_crossing_length, |run, neighbouring_run| {
+        run.likeness.is_some()
+            && neighbouring_run.likeness.is_some()
+            && run.likeness != neighbouring_run.likeness
     });
     cover.collect_partners();
     cover
 }
 
 /// Partitions the arc lengths `start`–`end` into runs, each with the best interval that covers it.
-fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], out: &mut Vec<CoverRun>) {
+fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], cover_runs: &mut Vec<CoverRun>) {
     if start == end {
         // A point is covered or not.
         let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
-        out.push(CoverRun {
+        cover_runs.push(CoverRun {
             from: start,
             to: end,
             likeness: best.map(|best| best.likeness),
@@ -319,55 +329,61 @@ fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], out: &mut Vec<Cov
     intervals.sort_by(|a, b| {
         (a.likeness, a.partner).cmp(&(b.likeness, b.partner)).then(a.from.total_cmp(&b.from))
     });
-    let mut free = vec![(start, end)];
-    let first = out.len();
+    let mut uncovered_gaps = vec![(start, end)];
+    let first = cover_runs.len();
     for interval in intervals.iter() {
-        if free.is_empty() {
+        if uncovered_gaps.is_empty() {
             break;
         }
-        let mut rest = Vec::with_capacity(free.len() + 1);
-        for (from, to) in free.drain(..) {
+        let mut remaining_gaps = Vec::with_capacity(uncovered_gaps.len() + 1);
+        for (from, to) in uncovered_gaps.drain(..) {
             let (low, high) = (interval.from.max(from), interval.to.min(to));
             if high - low <= 0.0 {
-                rest.push((from, to));
+                remaining_gaps.push((from, to));
                 continue;
             }
-            out.push(CoverRun {
+            cover_runs.push(CoverRun {
                 from: low,
                 to: high,
                 likeness: Some(interval.likeness),
                 partner: interval.partner,
             });
-            rest.extend(
+            remaining_gaps.extend(
                 [(from, low), (high, to)]
                     .into_iter()
                     .filter(|(a, b)| b - a > tolerances::MIN_UNCOVERED_GAP_PX),
             );
         }
-        free = rest;
+        uncovered_gaps = remaining_gaps;
     }
-    out.extend(free.into_iter().map(|(from, to)| CoverRun { from, to, likeness: None, partner: 0 }));
-    out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
+    cover_runs.extend(uncovered_gaps.into_iter().map(|(from, to)| CoverRun {
+        from,
+        to,
+        likeness: None,
+        partner: 0,
+    }));
+    cover_runs[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
 }
 
 /// Merges neighbours of equal likeness and partner.
 fn merge(runs: &mut Vec<CoverRun>) {
     runs.dedup_by(|next, run| {
-        let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
-        if alike {
+        let is_mergeable =
+            next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
+        if is_mergeable {
             run.to = next.to;
         }
-        alike
+        is_mergeable
     });
 }
 
-/// Absorbs runs of at most `most` px between two runs of equal likeness. `gives` receives the short run and
+/// Absorbs runs of at most `max_length` px between two runs of equal likeness. `is_absorbable` receives the short run and
 /// the run before it, and returns whether it may be absorbed.
-fn absorb(runs: &mut Vec<CoverRun>, most: f64, gives: impl Fn(&CoverRun, &CoverRun) -> bool) {
+fn absorb(runs: &mut Vec<CoverRun>, max_length: f64, is_absorbable: impl Fn(&CoverRun, &CoverRun) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {
         let (before, run, after) = (runs[index - 1], runs[index], runs[index + 1]);
-        if before.likeness == after.likeness && run.length() <= most && gives(&run, &before) {
+        if before.likeness == after.likeness && run.length() <= max_length && is_absorbable(&run, &before) {
             runs[index].likeness = before.likeness;
             runs[index].partner = before.partner;
         }

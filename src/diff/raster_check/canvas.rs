@@ -83,7 +83,7 @@ impl<'a> Canvas<'a> {
             None if colours || widths => PaintOverride::Plain { black: colours, thin: widths },
             None => PaintOverride::Own,
         };
-        let painter = TreePainter { look: Some(&look), plain: colours, ..painter };
+        let painter = TreePainter { override_of_path: Some(&look), plain: colours, ..painter };
         painter.nodes(tree.root(), to, &mut pixmap.as_mut());
     }
 }

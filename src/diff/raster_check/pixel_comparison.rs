@@ -46,26 +46,30 @@ impl CoarseComparison {
     }
 }
 
-/// Compares two pictures; `reach` is the tolerance in pixels.
-pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> CoarseComparison {
-    let of = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
-    let differences: Vec<u8> = a.iter().zip(b).map(of).collect();
+/// Compares two pictures; `tolerance_pixels` is the tolerance in pixels.
+pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, tolerance_pixels: f64) -> CoarseComparison {
+    let pixel_difference = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
+    let differences: Vec<u8> = a.iter().zip(b).map(pixel_difference).collect();
     let mut excess = vec![0u8; differences.len()];
     if differences.iter().all(|difference| *difference <= MAX_CHANNEL_DIFFERENCE) {
         return CoarseComparison { difference: differences, excess };
     }
     // From one pixel on, any colour between those nearby counts as equal.
-    let radius = (reach.ceil() as usize).max(1);
-    let share = if EDGE_COVERAGE_PER_PIXEL * reach < 1.0 { EDGE_COVERAGE_PER_PIXEL * reach } else { 1.0 };
-    let beyond = |value: u8, there: u8, least: u8, most: u8| {
-        if value.abs_diff(there) <= MAX_CHANNEL_DIFFERENCE {
+    let radius = (tolerance_pixels.ceil() as usize).max(1);
+    let edge_share = if EDGE_COVERAGE_PER_PIXEL * tolerance_pixels < 1.0 {
+        EDGE_COVERAGE_PER_PIXEL * tolerance_pixels
+    } else {
+        1.0
+    };
+    let channel_excess = |value: u8, other_value: u8, min_value: u8, max_value: u8| {
+        if value.abs_diff(other_value) <= MAX_CHANNEL_DIFFERENCE {
             return 0;
         }
-        let beyond = match share < 1.0 {
-            true => f64::from(value.abs_diff(there)) - share * f64::from(most - least),
-            false => f64::from(value.saturating_sub(most).max(least.saturating_sub(value))),
+        let unclamped_excess = match edge_share < 1.0 {
+            true => f64::from(value.abs_diff(other_value)) - edge_share * f64::from(max_value - min_value),
+            false => f64::from(value.saturating_sub(max_value).max(min_value.saturating_sub(value))),
         };
-        (beyond - f64::from(MAX_CHANNEL_DIFFERENCE)).clamp(0.0, 255.0).ceil() as u8
+        (unclamped_excess - f64::from(MAX_CHANNEL_DIFFERENCE)).clamp(0.0, 255.0).ceil() as u8
     };
     if radius <= MAX_DIRECT_RADIUS_PIXELS {
         // Small radius: test only the pixels that differ.
@@ -75,18 +79,20 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
             let xs = column.saturating_sub(radius)..=(column + radius).min(columns - 1);
             let ys = row.saturating_sub(radius)..=(row + radius).min(rows - 1);
             for (own, other) in [(a, b), (b, a)] {
-                let (mut least, mut most) = ([255u8; 4], [0u8; 4]);
+                let (mut min_channels, mut max_channels) = ([255u8; 4], [0u8; 4]);
                 for y in ys.clone() {
                     for pixel in &other[y * columns + xs.start()..=y * columns + xs.end()] {
                         for (k, value) in channels(*pixel).into_iter().enumerate() {
-                            least[k] = least[k].min(value);
-                            most[k] = most[k].max(value);
+                            min_channels[k] = min_channels[k].min(value);
+                            max_channels[k] = max_channels[k].max(value);
                         }
                     }
                 }
-                let (values, there) = (channels(own[index]), channels(other[index]));
-                let own = (0..4).map(|k| beyond(values[k], there[k], least[k], most[k])).max();
-                excess[index] = excess[index].max(own.unwrap_or(0));
+                let (values, other_values) = (channels(own[index]), channels(other[index]));
+                let pixel_excess = (0..4)
+                    .map(|k| channel_excess(values[k], other_values[k], min_channels[k], max_channels[k]))
+                    .max();
+                excess[index] = excess[index].max(pixel_excess.unwrap_or(0));
             }
         }
     } else {
@@ -94,23 +100,31 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
             let [a, b] =
                 [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
             for (own, other) in [(&a, &b), (&b, &a)] {
-                let least = square_extremes(other, columns, radius, u8::min);
-                let most = square_extremes(other, columns, radius, u8::max);
+                let square_minima = square_extremes(other, columns, radius, u8::min);
+                let square_maxima = square_extremes(other, columns, radius, u8::max);
                 for (index, excess) in excess.iter_mut().enumerate() {
-                    *excess = (*excess).max(beyond(own[index], other[index], least[index], most[index]));
+                    *excess = (*excess).max(channel_excess(
+                        own[index],
+                        other[index],
+                        square_minima[index],
+                        square_maxima[index],
+                    ));
                 }
             }
         }
     }
     // A gap or an overlap between fills that is narrower than the tolerance is a thin line with equal pixels
     // around it.
-    let gap = (255.0 * std::f64::consts::SQRT_2 * reach.min(1.0)).min(255.0) as u8;
+    let gap = (255.0 * std::f64::consts::SQRT_2 * tolerance_pixels.min(1.0)).min(255.0) as u8;
     let is_alone = |index: usize| {
-        let row = |at: usize| differences.get(at.saturating_sub(1)..=at + 1).unwrap_or_default();
-        [index.checked_sub(columns), Some(index), Some(index + columns)]
-            .into_iter()
-            .flatten()
-            .any(|at| row(at).iter().any(|difference| *difference <= MAX_CHANNEL_DIFFERENCE))
+        let row = |centre_index: usize| {
+            differences.get(centre_index.saturating_sub(1)..=centre_index + 1).unwrap_or_default()
+        };
+        [index.checked_sub(columns), Some(index), Some(index + columns)].into_iter().flatten().any(
+            |neighbour_index| {
+                row(neighbour_index).iter().any(|difference| *difference <= MAX_CHANNEL_DIFFERENCE)
+            },
+        )
     };
     for index in 0..excess.len() {
         if excess[index] > 0 && differences[index] <= gap && is_alone(index) {
@@ -141,8 +155,8 @@ impl FineComparison {
         Self { scale, core: (scale / coarse).ceil() as usize, reach }
     }
 
-    /// Whether the core differs: in any pixel, or with `spots` in a square as wide as the tolerance.
-    pub fn differs(self, pictures: [&[Pixel]; 2], spots: bool) -> bool {
+    /// Whether the core differs: in any pixel, or with `needs_square` in a square as wide as the tolerance.
+    pub fn differs(self, pictures: [&[Pixel]; 2], needs_square: bool) -> bool {
         let size = self.core + 2 * self.reach;
         let [a, b] = pictures;
         if a.len() != size * size || b.len() != a.len() {
@@ -151,16 +165,16 @@ impl FineComparison {
         if a == b {
             return false;
         }
-        let unlike = match self.reach <= MAX_DISC_RADIUS_PIXELS {
+        let is_unlike = match self.reach <= MAX_DISC_RADIUS_PIXELS {
             true => self.by_disc(pictures, size),
             false => self.by_extremes(pictures, size),
         };
-        if !spots {
-            return unlike.iter().any(|unlike| *unlike);
+        if !needs_square {
+            return is_unlike.iter().any(|unlike| *unlike);
         }
         // Side of the largest square of differing pixels that ends at each pixel (dynamic programming).
         let mut above = vec![0usize; self.core];
-        for row in unlike.chunks(self.core) {
+        for row in is_unlike.chunks(self.core) {
             let (mut left, mut corner) = (0, 0);
             for (unlike, above) in row.iter().zip(&mut above) {
                 let side = if *unlike { 1 + left.min(corner).min(*above) } else { 0 };
@@ -182,40 +196,43 @@ impl FineComparison {
             .filter(|[x, y]| x * x + y * y <= reach * reach)
             .collect();
         disc.sort_by_key(|[x, y]| x * x + y * y);
-        let lacks = |own: Pixel, other: &[Pixel], x: usize, y: usize| {
+        let has_no_match = |pixel: Pixel, other: &[Pixel], x: usize, y: usize| {
             !disc.iter().any(|[dx, dy]| {
                 let (x, y) = (x.wrapping_add_signed(*dx), y.wrapping_add_signed(*dy));
-                other.get(y * size + x).is_some_and(|other| difference(own, *other) <= MAX_CHANNEL_DIFFERENCE)
+                other
+                    .get(y * size + x)
+                    .is_some_and(|other| difference(pixel, *other) <= MAX_CHANNEL_DIFFERENCE)
             })
         };
         self.core_pixels(size, |x, y| {
             let (p, q) = (a[y * size + x], b[y * size + x]);
-            difference(p, q) > MAX_CHANNEL_DIFFERENCE && (lacks(p, b, x, y) || lacks(q, a, x, y))
+            difference(p, q) > MAX_CHANNEL_DIFFERENCE
+                && (has_no_match(p, b, x, y) || has_no_match(q, a, x, y))
         })
     }
 
     /// Pixels of the core outside the range of colours within the tolerance in the other picture.
     fn by_extremes(self, pictures: [&[Pixel]; 2], size: usize) -> Vec<bool> {
-        let mut lacks = vec![false; size * size];
+        let mut is_unmatched = vec![false; size * size];
         for channel in 0..4 {
             let [a, b] =
                 pictures.map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
             for (own, other) in [(&a, &b), (&b, &a)] {
-                let least = square_extremes(other, size, self.reach, u8::min);
-                let most = square_extremes(other, size, self.reach, u8::max);
-                for (index, lacks) in lacks.iter_mut().enumerate() {
+                let minima = square_extremes(other, size, self.reach, u8::min);
+                let maxima = square_extremes(other, size, self.reach, u8::max);
+                for (index, lacks) in is_unmatched.iter_mut().enumerate() {
                     let value = own[index];
-                    *lacks |= value > most[index].saturating_add(MAX_CHANNEL_DIFFERENCE)
-                        || value < least[index].saturating_sub(MAX_CHANNEL_DIFFERENCE);
+                    *lacks |= value > maxima[index].saturating_add(MAX_CHANNEL_DIFFERENCE)
+                        || value < minima[index].saturating_sub(MAX_CHANNEL_DIFFERENCE);
                 }
             }
         }
-        self.core_pixels(size, |x, y| lacks[y * size + x])
+        self.core_pixels(size, |x, y| is_unmatched[y * size + x])
     }
 
     /// Evaluates a condition for each pixel of the core.
-    fn core_pixels(self, size: usize, is: impl Fn(usize, usize) -> bool) -> Vec<bool> {
+    fn core_pixels(self, size: usize, predicate: impl Fn(usize, usize) -> bool) -> Vec<bool> {
         let inner = self.reach..size - self.reach;
-        inner.clone().flat_map(|y| inner.clone().map(move |x| (x, y))).map(|(x, y)| is(x, y)).collect()
+        inner.clone().flat_map(|y| inner.clone().map(move |x| (x, y))).map(|(x, y)| predicate(x, y)).collect()
     }
 }

@@ -24,23 +24,23 @@ const MAX_DISTINCT_AXES: usize = 256;
 impl Assembly<'_> {
     /// Axes that at least two of the bodies share, most common first.
     pub fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
-        let mut found: Vec<(DVec3, usize)> = Vec::new();
+        let mut counted_axes: Vec<(DVec3, usize)> = Vec::new();
         for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
-            match found.iter().position(|(known, _)| is_parallel(*known, *axis)) {
-                Some(known) => found[known].1 += 1,
-                None if found.len() < MAX_DISTINCT_AXES => found.push((*axis, 1)),
+            match counted_axes.iter().position(|(known_axis, _)| is_parallel(*known_axis, *axis)) {
+                Some(index) => counted_axes[index].1 += 1,
+                None if counted_axes.len() < MAX_DISTINCT_AXES => counted_axes.push((*axis, 1)),
                 None => {}
             }
         }
-        found.retain(|(_, count)| *count > 1);
-        found.sort_by_key(|(_, count)| usize::MAX - count);
-        found.into_iter().map(|(axis, _)| axis).collect()
+        counted_axes.retain(|(_, count)| *count > 1);
+        counted_axes.sort_by_key(|(_, count)| usize::MAX - count);
+        counted_axes.into_iter().map(|(axis, _)| axis).collect()
     }
 }
 
 /// Displacement of each body, world units.
 pub(crate) struct Moves {
-    pub whole: Vec<DVec3>,
+    pub total_offsets: Vec<DVec3>,
     /// Final part of the displacement, without the common movement with interlocking bodies.
     pub alone: Vec<DVec3>,
 }

@@ -57,16 +57,16 @@ impl AxisBlocking {
 
     /// The same relations for a subset of the bodies.
     pub fn of_some(&self, of: &[usize]) -> Self {
-        let place: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
-        let kept = |(pair, meeting): (&[usize; 2], &PairContact)| {
-            Some(([place[pair[0]]?, place[pair[1]]?], *meeting))
+        let new_index: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
+        let renumbered_pair = |(pair, meeting): (&[usize; 2], &PairContact)| {
+            Some(([new_index[pair[0]]?, new_index[pair[1]]?], *meeting))
         };
-        let stretches = self.stretches.iter().zip(&place).filter(|(_, place)| place.is_some());
+        let stretches = self.stretches.iter().zip(&new_index).filter(|(_, place)| place.is_some());
         Self {
             axis: self.axis,
             of: of.to_vec(),
             stretches: stretches.map(|(stretch, _)| *stretch).collect(),
-            meetings: self.meetings.iter().filter_map(kept).collect(),
+            meetings: self.meetings.iter().filter_map(renumbered_pair).collect(),
         }
     }
 
@@ -133,22 +133,25 @@ impl AxisBlocking {
 
     /// Displacement of each group along the axis.
     pub fn offsets(&self, assembly: &Assembly, groups: &[Vec<usize>]) -> Vec<f64> {
-        let place = |unit: &usize| self.of.binary_search(unit).ok();
+        let index_of = |unit: &usize| self.of.binary_search(unit).ok();
         let mut group_of = vec![0; self.of.len()];
         for (number, group) in groups.iter().enumerate() {
-            group.iter().filter_map(place).for_each(|k| group_of[k] = number);
+            group.iter().filter_map(index_of).for_each(|k| group_of[k] = number);
         }
         let mut meetings = PairContacts::new();
         for (&[a, b], meeting) in &self.meetings {
-            let [one, other] = [group_of[a], group_of[b]];
-            let (pair, meeting) =
-                if one > other { ([one, other], *meeting) } else { ([other, one], meeting.turned()) };
-            if one != other {
-                meetings.entry(pair).and_modify(|known| *known = known.or(meeting)).or_insert(meeting);
+            let [first_group, second_group] = [group_of[a], group_of[b]];
+            let (pair, meeting) = if first_group > second_group {
+                ([first_group, second_group], *meeting)
+            } else {
+                ([second_group, first_group], meeting.turned())
+            };
+            if first_group != second_group {
+                meetings.entry(pair).and_modify(|merged| *merged = merged.or(meeting)).or_insert(meeting);
             }
         }
         let joined = |group: &Vec<usize>| {
-            AxisExtent::joined(group.iter().filter_map(place).map(|k| self.stretches[k]))
+            AxisExtent::joined(group.iter().filter_map(index_of).map(|k| self.stretches[k]))
         };
         let stretches: Vec<AxisExtent> = groups.iter().map(joined).collect();
         offsets(&stretches, &meetings, assembly.gap)

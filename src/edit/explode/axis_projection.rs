@@ -186,8 +186,8 @@ impl AxisProjection {
         }
         let middle = polygon.iter().sum::<DVec2>() / polygon.len() as f64;
         let [own_top, its_top] = tops.map(|top| top.height_at(middle));
-        let (own, its) = (self.floor(middle, own_top), other.floor(middle, its_top));
-        let begins_inside = own.zip(its).is_some_and(|(own, its)| own < its && its < own_top);
+        let (own_floor, its_floor) = (self.floor(middle, own_top), other.floor(middle, its_top));
+        let begins_inside = own_floor.zip(its_floor).is_some_and(|(own, its)| own < its && its < own_top);
         if begins_inside { area(polygon) } else { 0.0 }
     }
 
@@ -226,14 +226,16 @@ impl AxisProjection {
             if triangle.holds(point) {
                 return true;
             }
-            let ways = triangle.at.map(|p| p - point);
+            let corner_offsets = triangle.at.map(|p| p - point);
             // A triangle covers less than half a turn, counted from the corner with all others to its left.
-            let angle = |way: DVec2| atan2(way.y, way.x);
-            let first = (0..3).find(|k| ways.iter().all(|way| ways[*k].perp_dot(*way) >= 0.0));
+            let angle = |direction: DVec2| atan2(direction.y, direction.x);
+            let first = (0..3).find(|k| {
+                corner_offsets.iter().all(|direction| corner_offsets[*k].perp_dot(*direction) >= 0.0)
+            });
             let Some(first) = first else { continue };
-            let from = angle(ways[first]);
-            let wide = |way: DVec2| (angle(way) - from).rem_euclid(full);
-            let widest = ways.map(wide).into_iter().filter(|w| *w < full / 2.0).fold(0.0, f64::max);
+            let from = angle(corner_offsets[first]);
+            let wide = |direction: DVec2| (angle(direction) - from).rem_euclid(full);
+            let widest = corner_offsets.map(wide).into_iter().filter(|w| *w < full / 2.0).fold(0.0, f64::max);
             covered.push([from, from + widest]);
             covered.push([from + full, from + full + widest]);
         }

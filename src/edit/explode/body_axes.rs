@@ -29,8 +29,8 @@ pub(crate) fn body_axes(body: &Body) -> Vec<DVec3> {
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     for normal in normals {
         let Some(direction) = normal.try_normalize() else { continue };
-        match planes.iter().position(|(known, _)| is_parallel(*known, direction)) {
-            Some(known) => planes[known].1 += normal.length(),
+        match planes.iter().position(|(plane_normal, _)| is_parallel(*plane_normal, direction)) {
+            Some(index) => planes[index].1 += normal.length(),
             None if planes.len() < MAX_PLANE_DIRECTIONS => planes.push((upward(direction), normal.length())),
             None => {}
         }
@@ -41,8 +41,7 @@ pub(crate) fn body_axes(body: &Body) -> Vec<DVec3> {
     for (k, (a, _)) in planes.iter().enumerate() {
         for (b, _) in &planes[..k] {
             let across = a.cross(*b).try_normalize().map(upward);
-            if let Some(across) =
-                across.filter(|across| !axes.iter().any(|known| is_parallel(*known, *across)))
+            if let Some(across) = across.filter(|across| !axes.iter().any(|axis| is_parallel(*axis, *across)))
             {
                 axes.push(across);
             }

@@ -72,40 +72,41 @@ pub struct PartOffsets {
 #[must_use]
 pub fn explode(scene: &Scene, explosion: &Explosion) -> PartOffsets {
     let count = scene.parts.len();
-    let mut ways = PartOffsets { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
+    let mut part_offsets = PartOffsets { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
     let bodies = bodies::bodies(scene);
-    let Some((low, high)) = scene.bounds() else { return ways };
+    let Some((low, high)) = scene.bounds() else { return part_offsets };
     let diagonal = (high - low).length();
     let units = part_rules::units(scene, &bodies, &explosion.parts);
     if diagonal <= 0.0 {
-        return ways;
+        return part_offsets;
     }
     let unit_bodies: Vec<Body> =
         units.iter().map(|unit| joined(unit.parts.iter().map(|part| &bodies[*part]))).collect();
     let assembly = Assembly {
-        orders: units.iter().map(|unit| unit.told.order).collect(),
+        orders: units.iter().map(|unit| unit.combined_rule.order).collect(),
         axes: unit_bodies.iter().map(body_axes::body_axes).collect(),
         bodies: &unit_bodies,
         gap: PART_GAP_RATIO * diagonal * explosion.factor.max(0.0),
         touch: tolerances::TOUCH_DISTANCE_OF_DIAGONAL * diagonal,
     };
-    let mut moves = Moves { whole: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
-    let own_way = |unit: &part_rules::PartUnit| unit.told.direction.is_some();
-    let others: Vec<usize> = (0..units.len()).filter(|k| !own_way(&units[*k])).collect();
+    let mut moves =
+        Moves { total_offsets: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
+    let own_way = |unit: &part_rules::PartUnit| unit.combined_rule.direction.is_some();
+    let free_units: Vec<usize> = (0..units.len()).filter(|k| !own_way(&units[*k])).collect();
     let first = explosion.axis.and_then(DVec3::try_normalize);
-    let main = assembly.all(&others, first, &mut moves);
+    let main = assembly.all(&free_units, first, &mut moves);
     part_rules::apply_part_rules(&assembly, &units, main.or(first), &mut moves);
-    for (unit, (whole, alone)) in units.iter().zip(moves.whole.iter().zip(&moves.alone)) {
+    for (unit, (total_offset, alone)) in units.iter().zip(moves.total_offsets.iter().zip(&moves.alone)) {
         for part in &unit.parts {
-            ways.offsets[*part] = *whole;
-            ways.alone[*part] = *alone;
+            part_offsets.offsets[*part] = *total_offset;
+            part_offsets.alone[*part] = *alone;
         }
     }
-    ways
+    part_offsets
 }
 
 impl Assembly<'_> {
-    /// Separates bodies along `told`, or along the best axis. Returns the axis.
+    /// Separates bodies along `combined_rule`, or along the best axis. Returns the axis.
     fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
         let mut known = Vec::new();
         let level = match told {
@@ -122,21 +123,21 @@ impl Assembly<'_> {
     }
 
     /// Separates groups along the axis of a level, then separates the bodies of each group. The whole could
-    /// not be separated along the axes `tried`. `known` holds the relations along axes that were already
+    /// not be separated along the axes `tried`. `known_levels` holds the relations along axes that were already
     /// computed.
     fn along(
         &self,
         level: &AxisBlocking,
         groups: &[Vec<usize>],
-        (tried, known): (&[DVec3], &[AxisBlocking]),
+        (tried, known_levels): (&[DVec3], &[AxisBlocking]),
         moves: &mut Moves,
     ) {
         for (group, offset) in groups.iter().zip(level.offsets(self, groups)) {
-            let way = level.axis * offset;
+            let displacement = level.axis * offset;
             for unit in group {
-                moves.whole[*unit] += way;
+                moves.total_offsets[*unit] += displacement;
                 if offset != 0.0 {
-                    moves.alone[*unit] = way;
+                    moves.alone[*unit] = displacement;
                 }
             }
             if group.len() < 2 {
@@ -144,11 +145,12 @@ impl Assembly<'_> {
             }
             group.iter().for_each(|unit| moves.alone[*unit] = DVec3::ZERO);
             let tried = if groups.len() > 1 { &[level.axis] } else { tried };
-            let mut known: Vec<AxisBlocking> = known.iter().map(|level| level.of_some(group)).collect();
+            let mut known: Vec<AxisBlocking> =
+                known_levels.iter().map(|level| level.of_some(group)).collect();
             if let Some(next) = self.best_axis(group, tried, &mut known) {
                 let all: Vec<DVec3> = tried.iter().copied().chain([next.axis]).collect();
-                let held = next.held();
-                self.along(&next, &held, (&all, &known), moves);
+                let held_groups = next.held();
+                self.along(&next, &held_groups, (&all, &known), moves);
             }
         }
     }
@@ -157,12 +159,17 @@ impl Assembly<'_> {
     /// the first. None if nothing can be separated.
     ///
     /// Axes of bodies are tried only if pairs interlock along all world axes. New relations are added to
-    /// `known`.
-    fn best_axis(&self, of: &[usize], but: &[DVec3], known: &mut Vec<AxisBlocking>) -> Option<AxisBlocking> {
+    /// `known_levels`.
+    fn best_axis(
+        &self,
+        of: &[usize],
+        but: &[DVec3],
+        known_levels: &mut Vec<AxisBlocking>,
+    ) -> Option<AxisBlocking> {
         let mut axes: Vec<DVec3> = vec![DVec3::X, DVec3::Y, DVec3::Z];
         let mut best: Option<((usize, usize), AxisBlocking)> = None;
-        for own in [false, true] {
-            if own {
+        for try_shared_axes in [false, true] {
+            if try_shared_axes {
                 axes = self.shared_axes(of);
                 axes.retain(|axis| !DVec3::AXES.iter().any(|known| body_axes::is_parallel(*known, *axis)));
                 axes.truncate(MAX_TRIED_AXES);
@@ -170,21 +177,21 @@ impl Assembly<'_> {
             for axis in
                 axes.iter().filter(|axis| !but.iter().any(|tried| body_axes::is_parallel(*tried, **axis)))
             {
-                let found = known.iter().find(|level| level.axis == *axis).cloned();
-                let most_held = best.as_ref().map_or(usize::MAX, |((held, _), _)| *held);
+                let known_level = known_levels.iter().find(|level| level.axis == *axis).cloned();
+                let most_held = best.as_ref().map_or(usize::MAX, |((held_count, _), _)| *held_count);
                 let search = || {
                     let level = AxisBlocking::with_held_limit(self, of, *axis, most_held)?;
-                    known.push(level.clone());
+                    known_levels.push(level.clone());
                     Some(level)
                 };
-                let Some(level) = found.or_else(search) else { continue };
+                let Some(level) = known_level.or_else(search) else { continue };
                 let rank = (level.held_pairs(), usize::MAX - level.separable_pairs());
-                let is_better = best.as_ref().is_none_or(|(least, _)| rank < *least);
+                let is_better = best.as_ref().is_none_or(|(best_rank, _)| rank < *best_rank);
                 if is_better && level.separable_pairs() > 0 && level.held().len() > 1 {
                     best = Some((rank, level));
                 }
             }
-            if best.as_ref().is_some_and(|((held, _), _)| *held == 0) {
+            if best.as_ref().is_some_and(|((held_count, _), _)| *held_count == 0) {
                 break;
             }
         }

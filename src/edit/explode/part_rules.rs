@@ -58,29 +58,31 @@ pub fn direction(text: &str) -> Option<DVec3> {
 /// Parts that move as one, with their combined rule.
 pub(crate) struct PartUnit {
     pub parts: Vec<usize>,
-    pub told: PartExplosion,
+    pub combined_rule: PartExplosion,
 }
 
 /// Units of a scene, in the order of their first parts. Parts without faces belong to none.
-pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> Vec<PartUnit> {
+pub(crate) fn units(scene: &Scene, bodies: &[Body], rules: &[PartExplosion]) -> Vec<PartUnit> {
     let mut units: Vec<PartUnit> = Vec::new();
     for (number, part) in scene.parts.iter().enumerate().filter(|(k, _)| !bodies[*k].triangles.is_empty()) {
-        let mut own = PartExplosion::new(part.name.as_str());
-        for rule in told.iter().filter(|rule| rule.name.matches(&part.name)) {
-            own.direction = rule.direction.or(own.direction);
-            own.distance = rule.distance.or(own.distance);
-            own.order = rule.order.or(own.order);
-            own.group = rule.group.clone().or(own.group);
+        let mut part_rule = PartExplosion::new(part.name.as_str());
+        for rule in rules.iter().filter(|rule| rule.name.matches(&part.name)) {
+            part_rule.direction = rule.direction.or(part_rule.direction);
+            part_rule.distance = rule.distance.or(part_rule.distance);
+            part_rule.order = rule.order.or(part_rule.order);
+            part_rule.group = rule.group.clone().or(part_rule.group);
         }
-        let group = units.iter_mut().find(|unit| own.group.is_some() && unit.told.group == own.group);
+        let group = units
+            .iter_mut()
+            .find(|unit| part_rule.group.is_some() && unit.combined_rule.group == part_rule.group);
         match group {
-            Some(PartUnit { parts, told }) => {
+            Some(PartUnit { parts, combined_rule: told }) => {
                 parts.push(number);
-                told.direction = told.direction.or(own.direction);
-                told.distance = told.distance.or(own.distance);
-                told.order = told.order.or(own.order);
+                told.direction = told.direction.or(part_rule.direction);
+                told.distance = told.distance.or(part_rule.distance);
+                told.order = told.order.or(part_rule.order);
             }
-            None => units.push(PartUnit { parts: vec![number], told: own }),
+            None => units.push(PartUnit { parts: vec![number], combined_rule: part_rule }),
         }
     }
     units
@@ -93,23 +95,24 @@ pub(crate) fn apply_part_rules(
     main: Option<DVec3>,
     moves: &mut Moves,
 ) {
-    let direction = |k: usize| units[k].told.direction.and_then(DVec3::try_normalize);
-    let mut left: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
-    while let Some(way) = left.first().and_then(|k| direction(*k)) {
-        let (own, others): (Vec<usize>, Vec<usize>) = left
-            .into_iter()
-            .partition(|k| direction(*k).is_some_and(|own| own.dot(way) > MIN_PARALLEL_COSINE));
-        left = others;
-        for (unit, offset) in own.iter().zip(offsets_along(assembly, &own, way)) {
-            moves.whole[*unit] = way * offset;
-            moves.alone[*unit] = moves.whole[*unit];
+    let direction = |k: usize| units[k].combined_rule.direction.and_then(DVec3::try_normalize);
+    let mut remaining: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
+    while let Some(axis) = remaining.first().and_then(|k| direction(*k)) {
+        let (parallel_units, other_units): (Vec<usize>, Vec<usize>) = remaining.into_iter().partition(|k| {
+            direction(*k).is_some_and(|unit_direction| unit_direction.dot(axis) > MIN_PARALLEL_COSINE)
+        });
+        remaining = other_units;
+        for (unit, offset) in parallel_units.iter().zip(offsets_along(assembly, &parallel_units, axis)) {
+            moves.total_offsets[*unit] = axis * offset;
+            moves.alone[*unit] = moves.total_offsets[*unit];
         }
     }
     for (k, unit) in units.iter().enumerate() {
-        if let Some(distance) = unit.told.distance {
-            let way = direction(k).or(moves.whole[k].try_normalize()).or(main).unwrap_or_default();
-            moves.whole[k] = way * distance;
-            moves.alone[k] = moves.whole[k];
+        if let Some(distance) = unit.combined_rule.distance {
+            let move_direction =
+                direction(k).or(moves.total_offsets[k].try_normalize()).or(main).unwrap_or_default();
+            moves.total_offsets[k] = move_direction * distance;
+            moves.alone[k] = moves.total_offsets[k];
         }
     }
 }
@@ -119,29 +122,33 @@ const MIN_PARALLEL_COSINE: f64 = 0.999_998_5;
 
 /// Displacements of some units along a direction that move them past all others, in an order that allows
 /// disassembly.
-fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
-    let axes = frame(way);
-    let others = (0..assembly.bodies.len()).filter(|k| !own.contains(k)).map(|k| &assembly.bodies[k]);
-    let others = AxisProjection::new(&joined(others), &axes);
+fn offsets_along(assembly: &Assembly, moved_units: &[usize], move_direction: DVec3) -> Vec<f64> {
+    let axes = frame(move_direction);
+    let other_bodies =
+        (0..assembly.bodies.len()).filter(|k| !moved_units.contains(k)).map(|k| &assembly.bodies[k]);
+    let fixed_shadow = AxisProjection::new(&joined(other_bodies), &axes);
     let shadows: Vec<AxisProjection> =
-        own.iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
+        moved_units.iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
     // The other bodies form the last entry, and stay.
-    let last = own.len();
+    let last = moved_units.len();
     let stretch = |shadow: &AxisProjection, size: f64, order| AxisExtent {
         low: shadow.low,
         high: shadow.high,
         size,
         order,
     };
-    let mut stretches: Vec<AxisExtent> =
-        shadows.iter().zip(own).map(|(shadow, k)| stretch(shadow, 0.0, assembly.orders[*k])).collect();
-    stretches.push(stretch(&others, f64::INFINITY, None));
+    let mut stretches: Vec<AxisExtent> = shadows
+        .iter()
+        .zip(moved_units)
+        .map(|(shadow, k)| stretch(shadow, 0.0, assembly.orders[*k]))
+        .collect();
+    stretches.push(stretch(&fixed_shadow, f64::INFINITY, None));
     let mut meetings = PairContacts::new();
     for a in 0..last {
         for b in 0..a {
             meetings.insert([a, b], shadows[a].contact_with(&shadows[b], assembly.touch));
         }
-        let past = others.contact_with(&shadows[a], assembly.touch);
+        let past = fixed_shadow.contact_with(&shadows[a], assembly.touch);
         if past.meets || past.is_within {
             // The others block the unit downward, and the unit blocks them upward.
             meetings.insert(
@@ -150,8 +157,8 @@ fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
             );
         }
     }
-    let mut found = offsets(&stretches, &meetings, assembly.gap);
-    found.truncate(last);
+    let mut unit_offsets = offsets(&stretches, &meetings, assembly.gap);
+    unit_offsets.truncate(last);
     // A unit that nothing blocks moves by the gap, because a direction was given.
-    found.iter().map(|offset| offset.max(assembly.gap)).collect()
+    unit_offsets.iter().map(|offset| offset.max(assembly.gap)).collect()
 }

@@ -33,17 +33,17 @@ impl RectTree {
     }
 
     fn grow(&mut self, first: usize, last: usize) {
-        let own = &mut self.boxes[first..last];
-        let bounds = own.iter().fold(EMPTY_RECT, |sum, (own, _)| union(sum, *own));
+        let entries = &mut self.boxes[first..last];
+        let bounds = entries.iter().fold(EMPTY_RECT, |sum, (own, _)| union(sum, *own));
         let node = self.nodes.len();
         self.nodes.push(RectTreeNode { bounds, range: [first as u32, last as u32], second: None });
-        if own.len() <= MAX_LEAF_BOXES {
+        if entries.len() <= MAX_LEAF_BOXES {
             return;
         }
         let along = usize::from(bounds[3] - bounds[1] > bounds[2] - bounds[0]);
-        let middle = |(own, _): &(Rect, u32)| own[along] + own[along + 2];
-        let half = own.len() / 2;
-        own.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.1.cmp(&b.1)));
+        let middle = |(entry_box, _): &(Rect, u32)| entry_box[along] + entry_box[along + 2];
+        let half = entries.len() / 2;
+        entries.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.1.cmp(&b.1)));
         self.grow(first, first + half);
         self.nodes[node].second = Some(self.nodes.len() as u32);
         self.grow(first + half, last);

@@ -13,18 +13,18 @@ pub const TRAIL: &str = "trail";
 /// Moves the parts of a scene and adds trail lines. A line starts at the centre of a part after the common
 /// movement with interlocking parts, and ends at its final centre.
 #[must_use]
-pub fn with_trails(scene: Scene, ways: &PartOffsets) -> Scene {
+pub fn with_trails(scene: Scene, part_offsets: &PartOffsets) -> Scene {
     let mut wires = Geometry::default();
     let bodies = bodies(&scene);
-    let both = ways.offsets.iter().zip(&ways.alone).enumerate();
-    for (part, (whole, way)) in both.filter(|(_, (_, alone))| **alone != DVec3::ZERO) {
+    let both = part_offsets.offsets.iter().zip(&part_offsets.alone).enumerate();
+    for (part, (total_offset, last_move)) in both.filter(|(_, (_, alone))| **alone != DVec3::ZERO) {
         let Some([low, high]) = bodies[part].bounds() else { continue };
         let from = (low + high) / 2.0;
         let first = wires.positions.len() as u32;
-        wires.positions.extend([from + (*whole - *way), from + *whole]);
+        wires.positions.extend([from + (*total_offset - *last_move), from + *total_offset]);
         wires.wires.push([first, first + 1]);
     }
-    let mut scene = super::moved(scene, ways);
+    let mut scene = super::moved(scene, part_offsets);
     if wires.wires.is_empty() {
         return scene;
     }

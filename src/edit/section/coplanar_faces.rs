@@ -69,7 +69,8 @@ impl RemainingFaces {
         flats: &[CoplanarFaces],
     ) -> Self {
         let mut of = vec![None; owner.len()];
-        let mut whole: Vec<Vec<Option<bool>>> = flats.iter().map(|own| vec![None; own.list.len()]).collect();
+        let mut whole_flats: Vec<Vec<Option<bool>>> =
+            flats.iter().map(|solid_flats| vec![None; solid_flats.list.len()]).collect();
         for face in faces.inner_faces() {
             let index = face.fix().index();
             let [a, b, c] = face.vertices().map(|corner| outlines.at(corner.fix().index() as u32));
@@ -84,12 +85,12 @@ impl RemainingFaces {
                     if is_first {
                         of[index] = Some([solid, flat]);
                     }
-                    let whole = &mut whole[solid][flat];
-                    *whole = Some(whole.unwrap_or(true) && is_first);
+                    let is_whole = &mut whole_flats[solid][flat];
+                    *is_whole = Some(is_whole.unwrap_or(true) && is_first);
                 }
             }
         }
-        Self { of, whole }
+        Self { of, whole: whole_flats }
     }
 
     /// Solid and face that a triangle is a piece of.

@@ -40,9 +40,9 @@ pub(crate) struct OutlineEdge {
 pub(crate) struct CutOutlines {
     points: Vec<DVec2>,
     /// World position of each point.
-    places: Vec<DVec3>,
+    world_positions: Vec<DVec3>,
     /// Points by grid cell.
-    known: FxHashMap<[i64; 2], Vec<u32>>,
+    points_by_cell: FxHashMap<[i64; 2], Vec<u32>>,
     /// Distance within which points coincide, and lie on an edge.
     reach: f64,
     pub edges: Vec<OutlineEdge>,
@@ -62,7 +62,7 @@ impl CutOutlines {
     pub fn point(&mut self, p: DVec2, place: DVec3) -> u32 {
         let field = (p / (2.0 * self.reach)).to_array().map(|x| x.floor() as i64);
         for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
-            let near = self.known.get(&[field[0].saturating_add(i), field[1].saturating_add(j)]);
+            let near = self.points_by_cell.get(&[field[0].saturating_add(i), field[1].saturating_add(j)]);
             let is_it = |v: &u32| self.at(*v).distance_squared(p) <= self.reach * self.reach;
             if let Some(known) = near.into_iter().flatten().copied().find(is_it) {
                 return known;
@@ -70,8 +70,8 @@ impl CutOutlines {
         }
         let number = self.points.len() as u32;
         self.points.push(p);
-        self.places.push(place);
-        self.known.entry(field).or_default().push(number);
+        self.world_positions.push(place);
+        self.points_by_cell.entry(field).or_default().push(number);
         number
     }
 
@@ -80,7 +80,7 @@ impl CutOutlines {
     }
 
     pub fn place(&self, v: u32) -> DVec3 {
-        self.places[v as usize]
+        self.world_positions[v as usize]
     }
 
     /// Side of a point along an edge from `a` to `b`, exact: positive on the left.
@@ -100,7 +100,7 @@ impl CutOutlines {
 
     /// Splits an edge and all edges that cross it at their crossings.
     fn part(&mut self, [a, b]: [u32; 2], plane: &Plane) {
-        let is_it = |ends: [u32; 2]| ends == [a, b] || ends == [b, a];
+        let is_it = |edge_ends: [u32; 2]| edge_ends == [a, b] || edge_ends == [b, a];
         let mut cuts: Vec<(f64, u32)> = Vec::new();
         for k in 0..self.edges.len() {
             let OutlineEdge { ends, .. } = self.edges[k];
@@ -108,20 +108,20 @@ impl CutOutlines {
                 continue;
             }
             let ([p, q], [c, d]) = ([a, b].map(|v| self.at(v)), ends.map(|v| self.at(v)));
-            let share = (c - p).perp_dot(d - c) / (q - p).perp_dot(d - c);
-            let at = p + (q - p) * share;
+            let fraction = (c - p).perp_dot(d - c) / (q - p).perp_dot(d - c);
+            let at = p + (q - p) * fraction;
             let cut = self.point(at, plane.raised(at));
-            cuts.push((share, cut));
+            cuts.push((fraction, cut));
             self.divide(k, [cut]);
         }
         cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
         for k in 0..self.edges.len() {
             let ends = self.edges[k].ends;
-            let way = cuts.iter().map(|(_, cut)| *cut);
+            let cut_points = cuts.iter().map(|(_, cut)| *cut);
             if ends == [a, b] {
-                self.divide(k, way);
+                self.divide(k, cut_points);
             } else if ends == [b, a] {
-                self.divide(k, way.rev());
+                self.divide(k, cut_points.rev());
             }
         }
         self.edges.retain(|edge| edge.ends[0] != edge.ends[1]);
@@ -149,22 +149,24 @@ impl CutOutlines {
         for k in 0..self.edges.len() {
             let ends = self.edges[k].ends;
             let [a, b] = ends.map(|v| self.at(v));
-            let way = b - a;
+            let direction = b - a;
             let (low, high) = (a.min(b) - self.reach, a.max(b) + self.reach);
             let first = order.partition_point(|v| self.at(*v).x < low.x);
-            let near = order[first..].iter().copied().take_while(|v| self.at(*v).x <= high.x);
+            let candidates = order[first..].iter().copied().take_while(|v| self.at(*v).x <= high.x);
             let is_between = |v: &u32| {
                 let p = self.at(*v);
-                let share = (p - a).dot(way) / way.length_squared();
+                let fraction = (p - a).dot(direction) / direction.length_squared();
                 !ends.contains(v)
                     && (low.y..=high.y).contains(&p.y)
-                    && (0.0..=1.0).contains(&share)
+                    && (0.0..=1.0).contains(&fraction)
                     && (self.side(ends, *v) == 0.0
-                        || (p - a).perp_dot(way).abs() <= self.reach * way.length())
+                        || (p - a).perp_dot(direction).abs() <= self.reach * direction.length())
             };
-            let mut on: Vec<u32> = near.filter(is_between).collect();
-            on.sort_by(|p, q| (self.at(*p) - a).dot(way).total_cmp(&(self.at(*q) - a).dot(way)));
-            self.divide(k, on);
+            let mut points_on_edge: Vec<u32> = candidates.filter(is_between).collect();
+            points_on_edge.sort_by(|p, q| {
+                (self.at(*p) - a).dot(direction).total_cmp(&(self.at(*q) - a).dot(direction))
+            });
+            self.divide(k, points_on_edge);
         }
         self.edges.retain(|edge| edge.ends[0] != edge.ends[1]);
     }

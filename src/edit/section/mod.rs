@@ -109,39 +109,43 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let part = &scene.parts[number];
         let stays = uncut.iter().any(|glob| glob.matches(&part.name));
         let Some(shape) = scene.geometry_of(part) else { continue };
-        let place = part.world_from_part;
-        let reach = CutTolerances::of(shape, &place);
-        let (behind, before) = plane_sides::sides_reached(shape, &place, plane, reach.plane);
+        let to_world = part.world_from_part;
+        let reach = CutTolerances::of(shape, &to_world);
+        let (behind, before) = plane_sides::sides_reached(shape, &to_world, plane, reach.plane);
         *keep = behind || !before;
         // A solid with a face in the plane may lie inside a solid that is cut.
-        if behind && !stays && (before || plane_sides::has_flat(shape, &place, plane, reach.plane)) {
+        if behind && !stays && (before || plane_sides::has_flat(shape, &to_world, plane, reach.plane)) {
             let shape =
                 void_winding::orient_surfaces(shape, &plane_clip::first_at_position(&shape.positions));
-            let cut = clip_part(&shape, &place, (plane, reach));
+            let cut = clip_part(&shape, &to_world, (plane, reach));
             if before {
                 unclosed += outline_gaps::closed_outlines(&cut).1;
             }
             only_ends.push(!before);
             numbers.push(number);
-            opened.push(CutSolid { cut, volume: volume(&shape, &place), reach });
+            opened.push(CutSolid { cut, volume: volume(&shape, &to_world), reach });
         }
     }
-    let made = cap_solids(&mut opened, plane);
+    let caps = cap_solids(&mut opened, plane);
     let mut faces_of = Vec::new();
     for (((number, CutSolid { cut, .. }), cap), only_ends) in
-        numbers.into_iter().zip(opened).zip(made).zip(only_ends)
+        numbers.into_iter().zip(opened).zip(caps).zip(only_ends)
     {
         let Clipped { mut geometry, flat, .. } = cut;
-        if only_ends && cap.triangles.is_empty() && cap.pieces.is_empty() && cap.whole.len() == flat.len() {
+        if only_ends
+            && cap.triangles.is_empty()
+            && cap.pieces.is_empty()
+            && cap.whole_triangles.len() == flat.len()
+        {
             continue;
         }
         let part = &scene.parts[number];
-        let looks = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
+        let base_material = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
         let count = geometry.triangles.len();
         seam_division::split_at_seams(&mut geometry, count, &cap.seams);
         if let Some(shape) = scene.geometry_of(part) {
             let turned = part.world_from_part.matrix3.determinant() < 0.0;
-            for triangle in &cap.whole {
+            for triangle in &cap.whole_triangles {
                 plane_clip::add_flat(&mut geometry, shape, *triangle, None, turned);
             }
             for (triangle, corners, marks) in &cap.pieces {
@@ -152,8 +156,8 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
             !(geometry.triangles.is_empty() && geometry.wires.is_empty() && cap.triangles.is_empty());
         if let Some(bounds) = cap.bounds {
             let material = scene.materials.len() as u32;
-            scene.materials.push(cut_material(scene.materials.get(looks as usize)));
-            append_cap(&mut geometry, &cap, material, looks);
+            scene.materials.push(cut_material(scene.materials.get(base_material as usize)));
+            append_cap(&mut geometry, &cap, material, base_material);
             faces_of.push(CutFaces { part: number, material, area: cap.area, bounds, kind: 0 });
         }
         let Part { geometry: of, world_from_part, .. } = &mut scene.parts[number];
@@ -183,18 +187,18 @@ fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
 
 /// Caps of all solids, one entry per solid. Solids whose outlines may overlap are capped together.
 fn cap_solids(opened: &mut [CutSolid], plane: &Plane) -> Vec<SectionCap> {
-    let bounds: Vec<_> = opened.iter().map(|own| own.bounds(plane)).collect();
+    let bounds: Vec<_> = opened.iter().map(|solid| solid.bounds(plane)).collect();
     let groups = DisjointSets::new(opened.len(), |join| {
-        for (a, own) in bounds.iter().enumerate() {
-            for (b, other) in bounds[..a].iter().enumerate() {
-                let (Some([low, high]), Some([from, to])) = (own, other) else { continue };
+        for (a, first_box) in bounds.iter().enumerate() {
+            for (b, second_box) in bounds[..a].iter().enumerate() {
+                let (Some([low, high]), Some([from, to])) = (first_box, second_box) else { continue };
                 if low.cmple(*to).all() && from.cmple(*high).all() {
                     join(a as u32, b as u32);
                 }
             }
         }
     });
-    let mut made: Vec<SectionCap> = opened.iter().map(|_| SectionCap::default()).collect();
+    let mut results: Vec<SectionCap> = opened.iter().map(|_| SectionCap::default()).collect();
     for first in 0..opened.len() as u32 {
         let is_in = |k: usize| groups.representative(k as u32) == groups.representative(first);
         if (0..first as usize).any(is_in) {
@@ -202,12 +206,12 @@ fn cap_solids(opened: &mut [CutSolid], plane: &Plane) -> Vec<SectionCap> {
         }
         let together: Vec<usize> = (0..opened.len()).filter(|k| is_in(*k)).collect();
         let mut solids: Vec<&mut CutSolid> =
-            opened.iter_mut().enumerate().filter(|(k, _)| is_in(*k)).map(|(_, own)| own).collect();
+            opened.iter_mut().enumerate().filter(|(k, _)| is_in(*k)).map(|(_, solid)| solid).collect();
         for (k, cap) in together.into_iter().zip(section_caps::caps(&mut solids, plane)) {
-            made[k] = cap;
+            results[k] = cap;
         }
     }
-    made
+    results
 }
 
 /// Clips a shape. If its outlines do not close, nearly coincident vertices are joined as in the mesh, and

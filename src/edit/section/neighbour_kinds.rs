@@ -14,14 +14,14 @@ pub(crate) fn assign_kinds(faces: &mut [CutFaces]) {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
     let mut done: Vec<usize> = Vec::new();
-    for own in order {
-        let taken: Vec<usize> = done
+    for face in order {
+        let used_kinds: Vec<usize> = done
             .iter()
-            .filter(|other| are_neighbours(&faces[own], &faces[**other]))
+            .filter(|neighbour| are_neighbours(&faces[face], &faces[**neighbour]))
             .map(|k| faces[*k].kind)
             .collect();
-        faces[own].kind = (0..).find(|kind| !taken.contains(kind)).unwrap_or_default();
-        done.push(own);
+        faces[face].kind = (0..).find(|kind| !used_kinds.contains(kind)).unwrap_or_default();
+        done.push(face);
     }
 }
 

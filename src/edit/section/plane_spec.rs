@@ -109,17 +109,17 @@ impl CutPlane {
             let pick = |bit: usize| if k >> bit & 1 == 0 { low } else { high };
             DVec3::new(pick(0).x, pick(1).y, pick(2).z).dot(self.normal)
         };
-        let places: [f64; 8] = std::array::from_fn(corner);
-        let least = places.into_iter().fold(f64::INFINITY, f64::min);
-        let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let corner_offsets: [f64; 8] = std::array::from_fn(corner);
+        let min_offset = corner_offsets.into_iter().fold(f64::INFINITY, f64::min);
+        let max_offset = corner_offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let at = match self.at {
             PlaneOffset::Units(at) => at,
             PlaneOffset::Mm(mm) => mm / unit_mm,
-            PlaneOffset::Share(share) => least + (most - least) * share,
+            PlaneOffset::Share(share) => min_offset + (max_offset - min_offset) * share,
         };
-        if !(least..=most).contains(&at) {
+        if !(min_offset..=max_offset).contains(&at) {
             return Err(Error::new(format!(
-                "the plane misses the model, which extends from {least} to {most} there"
+                "the plane misses the model, which extends from {min_offset} to {max_offset} there"
             ))
             .remedy("move the plane, or give a share of the extent such as x=50%"));
         }

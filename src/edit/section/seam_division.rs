@@ -53,34 +53,37 @@ fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &SeamPieces)
     let corners = shape.triangles[triangle];
     let marks = shape.edge_marks.get(triangle).copied().unwrap_or_default();
     let [from, to] = [corners[a], corners[b]].map(|v| shape.positions[v as usize]);
-    let share = |p: DVec3| ((p - from).dot(to - from) / (to - from).length_squared()) as f32;
+    let fraction_along = |p: DVec3| ((p - from).dot(to - from) / (to - from).length_squared()) as f32;
     let mut chain = vec![corners[a]];
-    let mut normals = vec![shape.corner_normals.get(triangle).map(|own| own[a])];
-    let mut uvs = vec![shape.corner_uvs.get(triangle).map(|own| own[a])];
+    let mut normals = vec![shape.corner_normals.get(triangle).map(|triangle_normals| triangle_normals[a])];
+    let mut uvs = vec![shape.corner_uvs.get(triangle).map(|triangle_uvs| triangle_uvs[a])];
     for p in &seam.through {
         chain.push(shape.positions.len() as u32);
         shape.positions.push(*p);
-        let t = share(*p);
+        let t = fraction_along(*p);
         if !shape.colours.is_empty() {
             shape.colours.resize(shape.positions.len() - 1, [1.0; 4]);
-            let [one, other] = [corners[a], corners[b]].map(|v| shape.colours[v as usize]);
-            shape.colours.push(std::array::from_fn(|k| one[k] + (other[k] - one[k]) * t));
-        }
-        normals.push(
+            let [start_colour, end_colour] = [corners[a], corners[b]].map(|v| shape.colours[v as usize]);
             shape
-                .corner_normals
-                .get(triangle)
-                .map(|own| push_interpolated(&mut shape.normals, own[a], own[b], t)),
-        );
+                .colours
+                .push(std::array::from_fn(|k| start_colour[k] + (end_colour[k] - start_colour[k]) * t));
+        }
+        normals.push(shape.corner_normals.get(triangle).map(|triangle_normals| {
+            push_interpolated(&mut shape.normals, triangle_normals[a], triangle_normals[b], t)
+        }));
         uvs.push(
-            shape.corner_uvs.get(triangle).map(|own| push_interpolated(&mut shape.uvs, own[a], own[b], t)),
+            shape
+                .corner_uvs
+                .get(triangle)
+                .map(|triangle_uvs| push_interpolated(&mut shape.uvs, triangle_uvs[a], triangle_uvs[b], t)),
         );
     }
     chain.push(corners[b]);
-    normals.push(shape.corner_normals.get(triangle).map(|own| own[b]));
-    uvs.push(shape.corner_uvs.get(triangle).map(|own| own[b]));
+    normals.push(shape.corner_normals.get(triangle).map(|triangle_normals| triangle_normals[b]));
+    uvs.push(shape.corner_uvs.get(triangle).map(|triangle_uvs| triangle_uvs[b]));
     let last = seam.marks.len() - 1;
-    let apex = [&shape.corner_normals, &shape.corner_uvs].map(|own| own.get(triangle).map(|own| own[c]));
+    let apex = [&shape.corner_normals, &shape.corner_uvs]
+        .map(|corner_lists| corner_lists.get(triangle).map(|own| own[c]));
     for (k, mark) in seam.marks.iter().enumerate() {
         let new = if k == 0 { triangle } else { shape.triangles.len() };
         put(&mut shape.triangles, new, [chain[k], chain[k + 1], corners[c]]);

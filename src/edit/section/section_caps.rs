@@ -37,7 +37,7 @@ pub(crate) struct SectionCap {
     /// Pieces of the open edges, by their end points.
     pub seams: Seams,
     /// Triangles of the original geometry that lie in the plane and stay unchanged.
-    pub whole: Vec<usize>,
+    pub whole_triangles: Vec<usize>,
     /// Pieces of such triangles: the index of the triangle, the vertices, and the marks of the sides.
     pub pieces: Vec<(usize, [u32; 3], [EdgeMark; 3])>,
 }
@@ -78,17 +78,18 @@ impl CutSolid {
 /// Caps of solids that may overlap, one entry per solid. Vertices at crossings of outlines are added to their
 /// geometry.
 pub(crate) fn caps(solids: &mut [&mut CutSolid], plane: &Plane) -> Vec<SectionCap> {
-    let mut outlines = CutOutlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
+    let mut outlines =
+        CutOutlines::new(solids.iter().map(|cut_solid| cut_solid.reach.points).fold(0.0, f64::max));
     let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
     let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
     for (number, solid) in solids.iter().enumerate() {
-        let (cut, own) = (&solid.cut, &mut vertices[number]);
+        let (cut, vertex_of_point) = (&solid.cut, &mut vertices[number]);
         let mut point = |node: u32| {
             let vertex = cut.nodes[node as usize];
-            let place = cut.geometry.positions[vertex as usize];
+            let world_point = cut.geometry.positions[vertex as usize];
             // Nodes at the same position become one point.
-            let point = outlines.point(plane.flat(place), place);
-            own.entry(point).or_insert(vertex);
+            let point = outlines.point(plane.flat(world_point), world_point);
+            vertex_of_point.entry(point).or_insert(vertex);
             point
         };
         let (edges, _) = closed_outlines(cut);
@@ -120,17 +121,18 @@ pub(crate) fn caps(solids: &mut [&mut CutSolid], plane: &Plane) -> Vec<SectionCa
         }
         open.push(edges.iter().map(|(ends, _)| ends.map(|node| cut.nodes[node as usize])).collect());
     }
-    let mut made: Vec<SectionCap> = solids.iter().map(|_| SectionCap::default()).collect();
-    let Some(faces) = outlines.triangulate(plane) else { return made };
+    let mut section_caps: Vec<SectionCap> = solids.iter().map(|_| SectionCap::default()).collect();
+    let Some(faces) = outlines.triangulate(plane) else { return section_caps };
     let mut ranked: Vec<usize> = (0..solids.len()).collect();
     ranked.sort_by(|a, b| solids[*a].precedence(solids[*b], plane).then(a.cmp(b)));
     let mut rank = vec![0; solids.len()];
     ranked.iter().enumerate().for_each(|(k, solid)| rank[*solid] = k);
     let owner = owners(&faces, &outlines, &rank);
-    let flats: Vec<CoplanarFaces> = solids.iter().map(|own| CoplanarFaces::new(&own.cut, plane)).collect();
-    let kept = RemainingFaces::new(&faces, &outlines, &owner, &flats);
-    for (own, flats) in made.iter_mut().zip(kept.whole(&flats)) {
-        own.whole = flats;
+    let flats: Vec<CoplanarFaces> =
+        solids.iter().map(|cut_solid| CoplanarFaces::new(&cut_solid.cut, plane)).collect();
+    let remaining = RemainingFaces::new(&faces, &outlines, &owner, &flats);
+    for (section_cap, flats) in section_caps.iter_mut().zip(remaining.whole(&flats)) {
+        section_cap.whole_triangles = flats;
     }
 
     let mut vertex = |solid: usize, point: u32| {
@@ -146,44 +148,45 @@ pub(crate) fn caps(solids: &mut [&mut CutSolid], plane: &Plane) -> Vec<SectionCa
     for face in faces.inner_faces() {
         let index = face.fix().index();
         let corners = face.vertices().map(|corner| corner.fix().index() as u32);
-        let beyond = face.adjacent_edges().map(|edge| edge.rev().face().fix().index());
-        if let Some(piece) = kept.of(index) {
-            if !kept.is_whole(piece) {
+        let neighbours = face.adjacent_edges().map(|edge| edge.rev().face().fix().index());
+        if let Some(piece) = remaining.of(index) {
+            if !remaining.is_whole(piece) {
                 let [solid, flat] = piece;
-                let is_same = |beyond: usize| kept.of(beyond) == Some(piece);
+                let is_same = |neighbour: usize| remaining.of(neighbour) == Some(piece);
                 let mark =
-                    |beyond: usize| if is_same(beyond) { EdgeMark::Hidden } else { EdgeMark::Unmarked };
+                    |neighbour: usize| if is_same(neighbour) { EdgeMark::Hidden } else { EdgeMark::Unmarked };
                 let corners = corners.map(|corner| vertex(solid, corner));
-                made[solid].pieces.push((flats[solid].triangle(flat), corners, beyond.map(mark)));
+                section_caps[solid].pieces.push((flats[solid].triangle(flat), corners, neighbours.map(mark)));
             }
             continue;
         }
         let Some(TriangleOwner { solid, .. }) = owner[index] else { continue };
-        let own = &mut made[solid as usize];
-        let is_own = |beyond: usize| {
-            owner[beyond].is_some_and(|owner| owner.solid == solid) && kept.of(beyond).is_none()
+        let cap = &mut section_caps[solid as usize];
+        let is_own = |neighbour: usize| {
+            owner[neighbour].is_some_and(|owner| owner.solid == solid) && remaining.of(neighbour).is_none()
         };
-        let mark = |beyond: usize| if is_own(beyond) { EdgeMark::Hidden } else { EdgeMark::Cut };
-        own.marks.push(beyond.map(mark));
-        own.triangles.push(corners.map(|corner| vertex(solid as usize, corner)));
+        let mark = |neighbour: usize| if is_own(neighbour) { EdgeMark::Hidden } else { EdgeMark::Cut };
+        cap.marks.push(neighbours.map(mark));
+        cap.triangles.push(corners.map(|corner| vertex(solid as usize, corner)));
         let [a, b, c] = corners.map(|corner| outlines.at(corner));
-        own.area += (b - a).perp_dot(c - a) / 2.0;
-        let [low, high] = own.bounds.unwrap_or([a, a]);
-        own.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
+        cap.area += (b - a).perp_dot(c - a) / 2.0;
+        let [low, high] = cap.bounds.unwrap_or([a, a]);
+        cap.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
     }
     // Marks the pieces of each open edge. A piece is covered if the solid owns both sides of it or neither.
     let corners: Vec<_> = faces.fixed_vertices().collect();
     let mut pieces: Vec<&OutlineEdge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
     pieces.sort_by_key(|edge| (edge.solid, edge.of));
-    for own in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
-        let (solid, of) = (own[0].solid, own[0].of as usize);
-        let place = |point: u32| outlines.place(point);
+    for edge_pieces in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
+        let (solid, of) = (edge_pieces[0].solid, edge_pieces[0].of as usize);
+        let position_of = |point: u32| outlines.place(point);
         let [from, to] =
             open[solid as usize][of].map(|v| solids[solid as usize].cut.geometry.positions[v as usize]);
-        let along = |point: u32| (place(point) - from).dot(to - from);
+        let along = |point: u32| (position_of(point) - from).dot(to - from);
         // Outlines run against the open edges.
-        let mut own: Vec<[u32; 2]> = own.iter().map(|edge| [edge.ends[1], edge.ends[0]]).collect();
-        own.sort_by(|a, b| along(a[0]).total_cmp(&along(b[0])));
+        let mut segments: Vec<[u32; 2]> =
+            edge_pieces.iter().map(|edge| [edge.ends[1], edge.ends[0]]).collect();
+        segments.sort_by(|a, b| along(a[0]).total_cmp(&along(b[0])));
         let mark = |[a, b]: &[u32; 2]| {
             let Some(edge) = faces.get_edge_from_neighbors(corners[*a as usize], corners[*b as usize]) else {
                 return EdgeMark::Unmarked;
@@ -193,14 +196,14 @@ pub(crate) fn caps(solids: &mut [&mut CutSolid], plane: &Plane) -> Vec<SectionCa
             if is_own(left) == is_own(right) { EdgeMark::Covered } else { EdgeMark::Unmarked }
         };
         let seam = SeamPieces {
-            marks: own.iter().map(mark).collect(),
-            through: own.iter().skip(1).map(|[a, _]| place(*a)).collect(),
+            marks: segments.iter().map(mark).collect(),
+            through: segments.iter().skip(1).map(|[a, _]| position_of(*a)).collect(),
         };
         if seam.marks.as_slice() != [EdgeMark::Unmarked] {
-            made[solid as usize].seams.insert([bits(from), bits(to)], seam);
+            section_caps[solid as usize].seams.insert([bits(from), bits(to)], seam);
         }
     }
-    made
+    section_caps
 }
 
 /// Winding number of a solid's outlines around a triangle just behind the plane, and the decrease to the
@@ -224,36 +227,40 @@ fn owners(faces: &PlaneTriangles, outlines: &CutOutlines, rank: &[usize]) -> Vec
             WindingNumbers { solid: edge.solid, behind, flat },
         );
     }
-    let mut turns: Vec<Option<Vec<WindingNumbers>>> = vec![None; faces.num_all_faces()];
+    let mut windings_of: Vec<Option<Vec<WindingNumbers>>> = vec![None; faces.num_all_faces()];
     let outer = faces.outer_face();
-    turns[outer.fix().index()] = Some(Vec::new());
+    windings_of[outer.fix().index()] = Some(Vec::new());
     let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
     // Flood fill from the outside. Crossing an edge changes the winding number by the number of faces along
     // it.
-    while let Some((edge, own)) = waiting.pop() {
-        let beyond = edge.rev();
-        let Some(next) = beyond.face().as_inner() else { continue };
-        if turns[next.fix().index()].is_some() {
+    while let Some((edge, edge_windings)) = waiting.pop() {
+        let reverse_edge = edge.rev();
+        let Some(next) = reverse_edge.face().as_inner() else { continue };
+        if windings_of[next.fix().index()].is_some() {
             continue;
         }
-        let [from, to] = [beyond.from(), beyond.to()].map(|corner| corner.fix().index() as u32);
-        let mut found = own;
-        for turns in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
-            let way = if from < to { 1 } else { -1 };
+        let [from, to] = [reverse_edge.from(), reverse_edge.to()].map(|corner| corner.fix().index() as u32);
+        let mut face_windings = edge_windings;
+        for edge_winding in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
+            let sign = if from < to { 1 } else { -1 };
             add(
-                &mut found,
-                WindingNumbers { solid: turns.solid, behind: turns.behind * way, flat: turns.flat * way },
+                &mut face_windings,
+                WindingNumbers {
+                    solid: edge_winding.solid,
+                    behind: edge_winding.behind * sign,
+                    flat: edge_winding.flat * sign,
+                },
             );
         }
-        waiting.extend(next.adjacent_edges().map(|edge| (edge, found.clone())));
-        turns[next.fix().index()] = Some(found);
+        waiting.extend(next.adjacent_edges().map(|edge| (edge, face_windings.clone())));
+        windings_of[next.fix().index()] = Some(face_windings);
     }
-    let first = |turns: Vec<WindingNumbers>| {
-        let is_cut = turns.iter().any(|turns| turns.behind != turns.flat);
-        let within = turns.into_iter().filter(|turns| turns.behind != 0).map(|turns| turns.solid);
+    let first = |numbers: Vec<WindingNumbers>| {
+        let is_cut = numbers.iter().any(|turns| turns.behind != turns.flat);
+        let within = numbers.into_iter().filter(|turns| turns.behind != 0).map(|turns| turns.solid);
         within.min_by_key(|solid| rank[*solid as usize]).map(|solid| TriangleOwner { solid, is_cut })
     };
-    turns.into_iter().map(|turns| turns.and_then(first)).collect()
+    windings_of.into_iter().map(|turns| turns.and_then(first)).collect()
 }
 
 /// Adds winding numbers of a solid, and drops zeros.

@@ -69,7 +69,7 @@ fn turn_voids(mesh: &ConnectedTriangles, surfaces: &mut OrientedSurfaces, inset:
     rays.cross(mesh, surfaces, &ways, budget)?;
     for ray in &rays.starts {
         let surface = ray.surface as usize;
-        is_void[surface] &= ray.turns * ways[surface] < 0;
+        is_void[surface] &= ray.winding * ways[surface] < 0;
     }
     surfaces.is_turned.resize(mesh.triangles.len(), false);
     for (turned, surface) in surfaces.is_turned.iter_mut().zip(&surfaces.surface_of_face.set_of_face) {
@@ -142,7 +142,7 @@ fn closed_in_boxes(
 struct VertexRay {
     from: DVec3,
     surface: u32,
-    turns: i32,
+    winding: i32,
 }
 
 /// Rays in rows of equal height along y. Each row is sorted by the z of the starts.
@@ -167,21 +167,23 @@ impl VertexRays {
             if !wanted[*surface as usize] {
                 continue;
             }
-            let place = |k: usize| mesh.positions[t[k % 3] as usize];
-            let normal = (place(1) - place(0)).cross(place(2) - place(0)).normalize_or_zero();
+            let corner_position = |k: usize| mesh.positions[t[k % 3] as usize];
+            let normal = (corner_position(1) - corner_position(0))
+                .cross(corner_position(2) - corner_position(0))
+                .normalize_or_zero();
             let outward = if is_turned(surfaces, face) { -normal } else { normal };
             for (k, v) in t.iter().enumerate() {
-                let sides = [1, 2].map(|n| (place(k + n) - place(k)).normalize_or_zero());
+                let sides = [1, 2].map(|n| (corner_position(k + n) - corner_position(k)).normalize_or_zero());
                 let angle = acos(sides[0].dot(sides[1]).clamp(-1.0, 1.0));
                 corners.push(((*v, *surface), outward * angle));
             }
         }
         // Stable, so that sums are taken in the order of faces.
         corners.sort_by_key(|corner| corner.0);
-        let ray = |own: &[((u32, u32), DVec3)]| {
-            let ((v, surface), _) = own[0];
-            let outward = own.iter().map(|corner| corner.1).sum::<DVec3>().normalize_or_zero();
-            VertexRay { from: mesh.positions[v as usize] - outward * inset, surface, turns: 0 }
+        let ray = |vertex_corners: &[((u32, u32), DVec3)]| {
+            let ((v, surface), _) = vertex_corners[0];
+            let outward = vertex_corners.iter().map(|corner| corner.1).sum::<DVec3>().normalize_or_zero();
+            VertexRay { from: mesh.positions[v as usize] - outward * inset, surface, winding: 0 }
         };
         let mut starts: Vec<VertexRay> = corners.chunk_by(|a, b| a.0 == b.0).map(ray).collect();
         let y = |ray: &VertexRay| ray.from.y;
@@ -210,7 +212,7 @@ impl VertexRays {
         &mut self,
         mesh: &ConnectedTriangles,
         surfaces: &OrientedSurfaces,
-        ways: &[i32],
+        surface_signs: &[i32],
         mut budget: usize,
     ) -> Option<()> {
         for (face, (corners, surface)) in
@@ -220,17 +222,17 @@ impl VertexRays {
                 continue;
             }
             let corners = corners.map(|v| mesh.positions[v as usize]);
-            let way = ways[*surface as usize] * if is_turned(surfaces, face) { -1 } else { 1 };
+            let sign = surface_signs[*surface as usize] * if is_turned(surfaces, face) { -1 } else { 1 };
             let [a, b, c] = corners;
             let (low, high) = (a.min(b).min(c), a.max(b).max(c));
             for row in self.row(low.y)..=self.row(high.y) {
                 budget = budget.checked_sub(1)?;
-                let own = &mut self.starts[self.rows[row]..self.rows[row + 1]];
-                let first = own.partition_point(|ray| ray.from.z < low.z);
-                for ray in own[first..].iter_mut().take_while(|ray| ray.from.z <= high.z) {
+                let row_rays = &mut self.starts[self.rows[row]..self.rows[row + 1]];
+                let first = row_rays.partition_point(|ray| ray.from.z < low.z);
+                for ray in row_rays[first..].iter_mut().take_while(|ray| ray.from.z <= high.z) {
                     budget = budget.checked_sub(1)?;
                     if ray.surface != *surface && ray.from.x < high.x {
-                        ray.turns += way * ray_crossing(corners, ray.from);
+                        ray.winding += sign * ray_crossing(corners, ray.from);
                     }
                 }
             }

@@ -58,12 +58,12 @@ pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<CollapseRecord, Error>
     let points = surface.sites.len() as u64;
     for step in 0..take(&mut rest)? {
         let from = take(&mut rest)?;
-        let far = take(&mut rest)?;
-        let far = (far >> 1).cast_signed() ^ -(far & 1).cast_signed();
-        let to = from.checked_add_signed(far).filter(|to| from.max(*to) < points && *to != from);
+        let zigzag = take(&mut rest)?;
+        let difference = (zigzag >> 1).cast_signed() ^ -(zigzag & 1).cast_signed();
+        let to = from.checked_add_signed(difference).filter(|to| from.max(*to) < points && *to != from);
         // Point numbers fit in 32 bits.
-        let fits = to.is_some_and(|to| surface.replay(from as u32, to as u32));
-        if !fits {
+        let is_replayed = to.is_some_and(|to| surface.replay(from as u32, to as u32));
+        if !is_replayed {
             return Err(Error::new("a collapse of two points without an edge").at(format!("collapse {step}")));
         }
     }

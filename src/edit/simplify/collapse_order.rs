@@ -21,7 +21,7 @@ pub(crate) struct FaceBudget<'a> {
     /// Number of instances of each geometry.
     pub shown: &'a [u64],
     /// Maximum number of faces in all.
-    pub most: u64,
+    pub max_faces: u64,
 }
 
 /// Finds the collapses of a surface in their order, until the budget is met or none is possible.
@@ -31,7 +31,7 @@ pub(crate) fn record_collapses(flat: IndexedSurface, budget: &FaceBudget) -> Col
     for _ in 0..MAX_RETRY_ROUNDS {
         let before = queue.surface.record.steps.len();
         queue.run();
-        if queue.faces <= budget.most || queue.surface.record.steps.len() == before {
+        if queue.faces <= budget.max_faces || queue.surface.record.steps.len() == before {
             break;
         }
         queue.start();
@@ -72,7 +72,7 @@ impl<'a> CollapseQueue<'a> {
     }
 
     fn run(&mut self) {
-        while self.faces > self.budget.most {
+        while self.faces > self.budget.max_faces {
             let Some((cost, point)) = self.heap.pop() else { return };
             let target = std::mem::replace(&mut self.targets[point as usize], NO_INDEX);
             if !self.surface.can_collapse(point, target) {

@@ -11,7 +11,7 @@ const CHILDREN_PER_NODE: usize = 4;
 pub(crate) struct CostHeap {
     nodes: Vec<(f64, u32)>,
     /// Position of each point in `nodes`.
-    places: Vec<u32>,
+    node_of_point: Vec<u32>,
 }
 
 fn before(a: (f64, u32), b: (f64, u32)) -> bool {
@@ -29,12 +29,12 @@ impl CostHeap {
             .enumerate()
             .filter_map(|(point, cost)| cost.map(|cost| (cost, point as u32)))
             .collect();
-        let mut heap = Self { nodes, places: vec![NOT_QUEUED; costs.len()] };
-        for (place, &(_, point)) in heap.nodes.iter().enumerate() {
-            heap.places[point as usize] = place as u32;
+        let mut heap = Self { nodes, node_of_point: vec![NOT_QUEUED; costs.len()] };
+        for (node_index, &(_, point)) in heap.nodes.iter().enumerate() {
+            heap.node_of_point[point as usize] = node_index as u32;
         }
-        for place in (0..heap.nodes.len().div_ceil(CHILDREN_PER_NODE)).rev() {
-            heap.sink(place);
+        for node_index in (0..heap.nodes.len().div_ceil(CHILDREN_PER_NODE)).rev() {
+            heap.sink(node_index);
         }
         heap
     }
@@ -48,16 +48,16 @@ impl CostHeap {
 
     /// Cost of a point in the heap.
     pub fn cost(&self, point: u32) -> Option<f64> {
-        self.nodes.get(self.places[point as usize] as usize).map(|node| node.0)
+        self.nodes.get(self.node_of_point[point as usize] as usize).map(|node| node.0)
     }
 
     /// Inserts a point, or changes its cost.
     pub fn set(&mut self, point: u32, cost: f64) {
-        let mut place = self.places[point as usize] as usize;
+        let mut place = self.node_of_point[point as usize] as usize;
         if place == NOT_QUEUED as usize {
             place = self.nodes.len();
             self.nodes.push((cost, point));
-            self.places[point as usize] = place as u32;
+            self.node_of_point[point as usize] = place as u32;
         } else {
             self.nodes[place].0 = cost;
         }
@@ -67,18 +67,18 @@ impl CostHeap {
 
     /// Removes a point if it is in the heap.
     pub fn remove(&mut self, point: u32) {
-        let place = self.places[point as usize];
-        if place == NOT_QUEUED {
+        let old_index = self.node_of_point[point as usize];
+        if old_index == NOT_QUEUED {
             return;
         }
-        self.places[point as usize] = NOT_QUEUED;
+        self.node_of_point[point as usize] = NOT_QUEUED;
         let Some(last) = self.nodes.pop() else { return };
         if last.1 != point {
-            let place = place as usize;
-            self.nodes[place] = last;
-            self.places[last.1 as usize] = place as u32;
-            let place = self.rise(place);
-            self.sink(place);
+            let node_index = old_index as usize;
+            self.nodes[node_index] = last;
+            self.node_of_point[last.1 as usize] = node_index as u32;
+            let raised_index = self.rise(node_index);
+            self.sink(raised_index);
         }
     }
 
@@ -117,7 +117,7 @@ impl CostHeap {
 
     fn put(&mut self, place: usize, node: (f64, u32)) {
         self.nodes[place] = node;
-        self.places[node.1 as usize] = place as u32;
+        self.node_of_point[node.1 as usize] = place as u32;
     }
 }
 

@@ -107,8 +107,8 @@ impl Collapser {
             }
             let with_both = corners.contains(&to);
             stays |= !with_both;
-            for other in opposite_points(corners, from).into_iter().filter(|other| *other != to) {
-                let mark = &mut self.marks[other as usize];
+            for opposite_point in opposite_points(corners, from).into_iter().filter(|other| *other != to) {
+                let mark = &mut self.marks[opposite_point as usize];
                 opposites += u32::from(with_both && *mark != opposite);
                 *mark = if with_both { opposite } else { common.max(*mark) };
             }
@@ -123,8 +123,8 @@ impl Collapser {
             let marks = [self.marks[b as usize], self.marks[c as usize]];
             // A common neighbour without such a face would create an edge with four faces, unless the three
             // points surround a hole, which then closes.
-            let mut ends = [b, c].into_iter().zip(marks).filter(|(_, mark)| *mark == common);
-            if ends.any(|(end, _)| !self.is_hole([from, to, end])) {
+            let mut shared_ends = [b, c].into_iter().zip(marks).filter(|(_, mark)| *mark == common);
+            if shared_ends.any(|(end, _)| !self.is_hole([from, to, end])) {
                 return false;
             }
             // A face whose other corners are neighbours of both points could become the back of another face.
@@ -204,7 +204,7 @@ impl Collapser {
     /// wedge, then the most similar wedge at `to`.
     fn wedge_for(&self, face: u32, wedge: u32, to: u32) -> Option<u32> {
         let geometry = self.flat.geometry[face as usize];
-        let carried = self.carried.iter().filter(|[.., own]| *own == geometry);
+        let carried = self.carried.iter().filter(|[.., carried_geometry]| *carried_geometry == geometry);
         if let Some([_, at_to, _]) = carried.clone().find(|[at_from, ..]| *at_from == wedge) {
             return Some(*at_to);
         }
@@ -212,12 +212,17 @@ impl Collapser {
         if let Some((_, wedge)) = best_match(like.filter(|(likeness, _)| *likeness >= 0.0)) {
             return Some(wedge);
         }
-        let own = self.fans.about(to).iter().filter(|other| self.flat.geometry[**other as usize] == geometry);
-        let wedges = own.filter_map(|other| {
-            let k = self.corners[*other as usize].iter().position(|point| *point == to)?;
-            Some(self.flat.faces[*other as usize][k])
+        let faces_at_point = self
+            .fans
+            .about(to)
+            .iter()
+            .filter(|other_face| self.flat.geometry[**other_face as usize] == geometry);
+        let wedges = faces_at_point.filter_map(|other_face| {
+            let k = self.corners[*other_face as usize].iter().position(|point| *point == to)?;
+            Some(self.flat.faces[*other_face as usize][k])
         });
-        best_match(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
+        best_match(wedges.map(|candidate| (self.likeness(wedge, candidate), candidate)))
+            .map(|(_, wedge)| wedge)
     }
 
     /// Similarity of two wedges: 0 to 2 by their normals, negative if an attribute that must be continuous

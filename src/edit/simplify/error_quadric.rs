@@ -31,8 +31,8 @@ impl Quadric {
     /// Adds the planes of another quadric.
     #[inline]
     pub fn add(&mut self, other: &Self) {
-        for (own, other) in self.a.iter_mut().zip(other.a) {
-            *own += other;
+        for (coefficient, addend) in self.a.iter_mut().zip(other.a) {
+            *coefficient += addend;
         }
         self.b += other.b;
         self.c += other.c;

@@ -65,9 +65,10 @@ impl IndexedSurface {
                     // Only the first of several instances has this position, so it must not be welded with
                     // other geometries.
                     let group = if shown.count == 1 { 0 } else { number as u32 + 1 };
-                    let places =
+                    let framed_points =
                         geometry.positions.iter().map(|p| frame.place(shown.place.transform_point3(*p)));
-                    let points: Vec<u32> = places.map(|place| weld.point(group, place)).collect();
+                    let points: Vec<u32> =
+                        framed_points.map(|framed_point| weld.point(group, framed_point)).collect();
                     let reach = reach(geometry) * cbrt(shown.place.matrix3.determinant().abs()) * frame.scale;
                     reaches.resize(weld.len(), 0.0);
                     points.iter().for_each(|point| reaches[*point as usize] = reach);
@@ -80,9 +81,9 @@ impl IndexedSurface {
                 }
             }
             let count = flat.faces.len();
-            let own = geometry.material.unwrap_or(NO_INDEX);
+            let default_material = geometry.material.unwrap_or(NO_INDEX);
             flat.material.extend(geometry.triangle_material.iter().take(count - first));
-            flat.material.resize(count, own);
+            flat.material.resize(count, default_material);
             flat.geometry.resize(count, number as u32);
             if !geometry.edge_marks.is_empty() {
                 flat.marked.resize(first, [false; 3]);

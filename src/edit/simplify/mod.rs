@@ -66,7 +66,7 @@ impl Detail {
     /// Finds collapses until at most `faces` remain: a prefix of those of [`Self::of`].
     #[must_use]
     pub fn down_to(scene: &Scene, faces: u64) -> Self {
-        let budget = FaceBudget { shown: &shown(scene), most: faces };
+        let budget = FaceBudget { shown: &shown(scene), max_faces: faces };
         Self { record: record_collapses(IndexedSurface::of(scene), &budget) }
     }
 

@@ -66,28 +66,28 @@ pub(crate) fn fit_curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<F
 }
 
 /// Fits a subpath in which arcs were recovered. The parts between the arcs are fitted separately.
-fn with_arcs(own: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
-    if !own.points().iter().all(|point| point.is_finite()) {
+fn with_arcs(path: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
+    if !path.points().iter().all(|point| point.is_finite()) {
         return None;
     }
-    if let Some((centre, radius)) = own.circle() {
+    if let Some((centre, radius)) = path.circle() {
         return Some(FittedCurve::Circle { centre, radius });
     }
-    let mut found: Vec<FittedPiece> = Vec::new();
-    let mut between = vec![own.start];
-    for step in &own.steps {
+    let mut fitted_pieces: Vec<FittedPiece> = Vec::new();
+    let mut run_points = vec![path.start];
+    for step in &path.steps {
         let Some(arc) = step.arc else {
-            between.push(step.end);
+            run_points.push(step.end);
             continue;
         };
-        found.extend(pieces(&between, tolerance));
-        let start = between.last().copied().unwrap_or(own.start);
-        let ends = PathSteps::bulges(start, step.end, arc).into_iter();
-        found.extend(ends.map(|(end, bulge)| FittedPiece { end, bulge }));
-        between = vec![step.end];
+        fitted_pieces.extend(pieces(&run_points, tolerance));
+        let start = run_points.last().copied().unwrap_or(path.start);
+        let bulge_ends = PathSteps::bulges(start, step.end, arc).into_iter();
+        fitted_pieces.extend(bulge_ends.map(|(end, bulge)| FittedPiece { end, bulge }));
+        run_points = vec![step.end];
     }
-    found.extend(pieces(&between, tolerance));
-    Some(FittedCurve::Run { start: own.start, pieces: found, closed: own.closed })
+    fitted_pieces.extend(pieces(&run_points, tolerance));
+    Some(FittedCurve::Run { start: path.start, pieces: fitted_pieces, closed: path.closed })
 }
 
 /// Fits a flattened subpath without repeated neighbours. `None` if it has fewer than two points, or points

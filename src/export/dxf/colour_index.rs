@@ -52,14 +52,14 @@ fn colour(number: u8) -> [u8; 3] {
 }
 
 /// Number of the nearest colour; the first of several.
-pub(crate) fn nearest(wanted: Colour) -> u8 {
-    let wanted = [wanted.r, wanted.g, wanted.b];
+pub(crate) fn nearest(target: Colour) -> u8 {
+    let channels = [target.r, target.g, target.b];
     let distance = |number: &u8| -> i32 {
-        colour(*number).iter().zip(wanted).map(|(a, b)| (i32::from(*a) - i32::from(b)).pow(2)).sum()
+        colour(*number).iter().zip(channels).map(|(a, b)| (i32::from(*a) - i32::from(b)).pow(2)).sum()
     };
     // Black comes first, so that nearly black colours are visible on black screens.
-    let others = (1..=255).filter(|number| *number != BLACK);
-    std::iter::once(BLACK).chain(others).min_by_key(distance).unwrap_or(BLACK)
+    let other_numbers = (1..=255).filter(|number| *number != BLACK);
+    std::iter::once(BLACK).chain(other_numbers).min_by_key(distance).unwrap_or(BLACK)
 }
 
 #[cfg(test)]

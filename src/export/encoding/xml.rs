@@ -50,13 +50,13 @@ pub(crate) struct UniqueIds {
     base: String,
     /// Prefix of the ids generated now.
     prefix: String,
-    taken: FxHashSet<String>,
+    used_ids: FxHashSet<String>,
 }
 
 impl UniqueIds {
     /// Creates a generator with a prefix, which may be empty.
     pub fn new(prefix: &str) -> Self {
-        Self { base: safe(prefix), prefix: safe(prefix), taken: FxHashSet::default() }
+        Self { base: safe(prefix), prefix: safe(prefix), used_ids: FxHashSet::default() }
     }
 
     /// Adds a name to the prefix of the following ids, or removes it if the name is empty.
@@ -76,7 +76,7 @@ impl UniqueIds {
         };
         let mut id = wished.clone();
         let mut number = 1;
-        while !self.taken.insert(id.clone()) {
+        while !self.used_ids.insert(id.clone()) {
             number += 1;
             id = format!("{wished}-{number}");
         }

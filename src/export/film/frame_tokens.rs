@@ -31,7 +31,7 @@ pub(crate) struct TokenPath {
 #[derive(Debug, Default)]
 pub(crate) struct FrameTokens {
     pub shapes: Vec<TokenPath>,
-    pub others: Vec<Box<str>>,
+    pub other_lines: Vec<Box<str>>,
     known_shapes: FxHashMap<(Box<str>, Box<str>), usize>,
     known_others: FxHashMap<Box<str>, usize>,
 }
@@ -45,10 +45,10 @@ impl FrameTokens {
     /// Numbers a line of a frame.
     fn token(&mut self, line: &str) -> FrameToken {
         let Some([before, place, after]) = parts(line) else {
-            let next = self.others.len();
+            let next = self.other_lines.len();
             let number = *self.known_others.entry(line.into()).or_insert(next);
             if number == next {
-                self.others.push(line.into());
+                self.other_lines.push(line.into());
             }
             return FrameToken::Other(number);
         };

@@ -37,13 +37,19 @@ impl Palette {
     /// Number of the nearest colour.
     pub fn number(&mut self, colour: [u8; 3]) -> u8 {
         let nearest = || {
-            let apart = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
-            let distance = |own: &[u8; 3]| own.iter().zip(colour).map(|(a, b)| apart(*a, b)).sum::<u32>();
-            let best = self.colours.iter().zip(0_u8..).min_by_key(|(own, number)| (distance(own), *number));
+            let squared_difference = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
+            let distance = |palette_colour: &[u8; 3]| {
+                palette_colour.iter().zip(colour).map(|(a, b)| squared_difference(*a, b)).sum::<u32>()
+            };
+            let best = self
+                .colours
+                .iter()
+                .zip(0_u8..)
+                .min_by_key(|(palette_colour, number)| (distance(palette_colour), *number));
             best.map_or(0, |(_, number)| number)
         };
-        if let Some(known) = self.numbers.get(&colour) {
-            return *known;
+        if let Some(cached) = self.numbers.get(&colour) {
+            return *cached;
         }
         let number = nearest();
         self.numbers.insert(colour, number);
@@ -61,39 +67,40 @@ impl Palette {
     }
 }
 
-/// Mean colours of at most `most` groups, by median cut: the bounding box of the colours is repeatedly cut at
+/// Mean colours of at most `max_count` groups, by median cut: the bounding box of the colours is repeatedly cut at
 /// its median along its longest side.
 ///
 /// Source: Heckbert, *Color image quantization for frame buffer display*, SIGGRAPH 1982.
-fn means(colours: Vec<([u8; 3], u64)>, most: usize) -> Vec<[u8; 3]> {
+fn means(colours: Vec<([u8; 3], u64)>, max_count: usize) -> Vec<[u8; 3]> {
     let mut boxes = vec![colours];
-    boxes.retain(|own| !own.is_empty());
-    while boxes.len() < most {
+    boxes.retain(|colour_box| !colour_box.is_empty());
+    while boxes.len() < max_count {
         // Cut next a long box, preferably one with many pixels.
-        let worth = |own: &Vec<([u8; 3], u64)>| {
-            let count = own.iter().map(|(_, count)| count).sum::<u64>() as f64;
-            f64::from(longest(own).0) * count.sqrt().sqrt()
+        let priority = |colour_box: &Vec<([u8; 3], u64)>| {
+            let count = colour_box.iter().map(|(_, count)| count).sum::<u64>() as f64;
+            f64::from(longest(colour_box).0) * count.sqrt().sqrt()
         };
-        let next =
-            (0..boxes.len()).max_by(|a, b| worth(&boxes[*a]).total_cmp(&worth(&boxes[*b])).then(b.cmp(a)));
+        let next = (0..boxes.len())
+            .max_by(|a, b| priority(&boxes[*a]).total_cmp(&priority(&boxes[*b])).then(b.cmp(a)));
         let Some(next) = next.filter(|next| longest(&boxes[*next]).0 > 0) else { break };
-        let mut own = boxes.swap_remove(next);
-        let (_, channel) = longest(&own);
-        own.sort_unstable_by_key(|(colour, _)| (colour[channel], *colour));
-        let half = own.iter().map(|(_, count)| count).sum::<u64>() / 2;
+        let mut colour_box = boxes.swap_remove(next);
+        let (_, channel) = longest(&colour_box);
+        colour_box.sort_unstable_by_key(|(colour, _)| (colour[channel], *colour));
+        let half = colour_box.iter().map(|(_, count)| count).sum::<u64>() / 2;
         let mut sum = 0;
-        let mut before = |(_, count): &([u8; 3], u64)| {
+        let mut is_lower_half = |(_, count): &([u8; 3], u64)| {
             sum += count;
             sum <= half
         };
-        let at = own.iter().take_while(|entry| before(entry)).count().clamp(1, own.len() - 1);
-        let rest = own.split_off(at);
-        boxes.extend([own, rest]);
+        let split_index =
+            colour_box.iter().take_while(|entry| is_lower_half(entry)).count().clamp(1, colour_box.len() - 1);
+        let rest = colour_box.split_off(split_index);
+        boxes.extend([colour_box, rest]);
     }
-    let mean = |own: &Vec<([u8; 3], u64)>| {
-        let count = own.iter().map(|(_, count)| count).sum::<u64>().max(1);
+    let mean = |colour_box: &Vec<([u8; 3], u64)>| {
+        let count = colour_box.iter().map(|(_, count)| count).sum::<u64>().max(1);
         let sum = |channel: usize| {
-            own.iter().map(|(colour, count)| u64::from(colour[channel]) * count).sum::<u64>()
+            colour_box.iter().map(|(colour, count)| u64::from(colour[channel]) * count).sum::<u64>()
         };
         [0, 1, 2].map(|channel| ((sum(channel) + count / 2) / count) as u8)
     };

@@ -30,17 +30,17 @@ pub(crate) fn runs(frames: &[Vec<FrameToken>], shapes: &[TokenPath]) -> Vec<Vec<
     let joins = |token: Option<&FrameToken>| match token {
         Some(FrameToken::Path(shape, _)) => shapes
             .get(*shape)
-            .filter(|own| own.stays && own.count > 1 && own.count <= frames.len())
+            .filter(|token_path| token_path.stays && token_path.count > 1 && token_path.count <= frames.len())
             .map(|_| *shape),
         _ => None,
     };
     for frame in frames {
-        for (place, token) in frame.iter().enumerate() {
+        for (token_index, token) in frame.iter().enumerate() {
             let Some(shape) = joins(Some(token)) else { continue };
-            let previous = place.checked_sub(1).and_then(|place| joins(frame.get(place)));
+            let previous = token_index.checked_sub(1).and_then(|place| joins(frame.get(place)));
             if let (Some(before), Some(after)) = (before.get_mut(shape), after.get_mut(shape)) {
                 before.observe(previous);
-                after.observe(joins(frame.get(place + 1)));
+                after.observe(joins(frame.get(token_index + 1)));
             }
         }
     }

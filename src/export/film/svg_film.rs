@@ -71,12 +71,13 @@ impl SvgFilm {
             self.head = body.lines().take_while(is_head).fold(String::new(), |head, line| head + line + "\n");
         }
         // Groups must be equal in all frames, so only ids that are referenced are kept.
-        let own = format!(" id=\"{id_prefix}");
-        let lines: Vec<String> = body.lines().skip_while(is_head).map(|line| plain(line, &own)).collect();
+        let id_attribute = format!(" id=\"{id_prefix}");
+        let lines: Vec<String> =
+            body.lines().skip_while(is_head).map(|line| plain(line, &id_attribute)).collect();
         let frame = self.tokens.of(lines.iter().map(String::as_str));
-        let known = self.frames.iter().position(|known| *known == frame);
-        let number = known.unwrap_or(self.frames.len());
-        if known.is_none() {
+        let earlier_frame = self.frames.iter().position(|known| *known == frame);
+        let number = earlier_frame.unwrap_or(self.frames.len());
+        if earlier_frame.is_none() {
             self.frames.push(frame);
         }
         self.pace.next(ticks, self.fps);
@@ -229,7 +230,7 @@ impl<'a> SharedPaths<'a> {
         for token in frame {
             let (number, place) = match token {
                 FrameToken::Other(number) => {
-                    out.push_str(tokens.others.get(*number).map_or("", |text| text));
+                    out.push_str(tokens.other_lines.get(*number).map_or("", |text| text));
                     out.push('\n');
                     continue;
                 }

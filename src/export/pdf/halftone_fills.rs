@@ -60,7 +60,7 @@ impl ContentWriter<'_> {
         }
         self.clipped(mark.path.elements(), |writer| {
             writer.choose((255, true));
-            let mut before = Affine::IDENTITY;
+            let mut previous_lattice = Affine::IDENTITY;
             // Solid plates first, so that viewers without overprint also show the dots of the other plates.
             let is_solid = |ink: &f64| is_flat && tone(*ink) == InkTone::Solid;
             let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
@@ -76,7 +76,7 @@ impl ContentWriter<'_> {
                 // Transform from the lattice to drawing units.
                 let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
                 let outline = lattice.inverse() * &mark.path;
-                let share = |at: Point| match gradient {
+                let ink_at = |at: Point| match gradient {
                     None => *ink,
                     Some(gradient) => {
                         let (line, at) = (gradient.end - gradient.start, lattice * at - gradient.start);
@@ -86,12 +86,12 @@ impl ContentWriter<'_> {
                             .unwrap_or(0.0)
                     }
                 };
-                let laid = if is_solid(ink) { None } else { screen_dots(&outline, share) };
-                let change = before.inverse() * lattice;
-                before = lattice;
+                let halftone_dots = if is_solid(ink) { None } else { screen_dots(&outline, ink_at) };
+                let change = previous_lattice.inverse() * lattice;
+                previous_lattice = lattice;
                 writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
-                match laid {
-                    Some(laid) => writer.lay(&laid, solid),
+                match halftone_dots {
+                    Some(halftone_dots) => writer.lay(&halftone_dots, solid),
                     None => {
                         let tint = solid.map(|one| one * ink);
                         tint.into_iter().for_each(|ink| writer.value(Decimals::new(INK_DECIMALS), ink));

@@ -66,16 +66,16 @@ impl<'a> Crops<'a> {
         for ((picture, mut pieces), ink) in pictures.list.iter().copied().zip(shown).zip(&pictures.inks) {
             let is_mask = ink.is_some();
             if picture.width * picture.height <= MAX_WHOLE_PIXELS {
-                let whole = Rect::new(0.0, 0.0, picture.width as f64, picture.height as f64);
-                crops.add((picture, is_mask), whole, &pieces);
+                let full_rect = Rect::new(0.0, 0.0, picture.width as f64, picture.height as f64);
+                crops.add((picture, is_mask), full_rect, &pieces);
                 continue;
             }
             // Nearby parts of the picture follow each other. The sort is stable.
             pieces.sort_by_key(|(_, rect)| along_curve(rect));
             let mut rest = &pieces[..];
-            while let Some(((_, first), others)) = rest.split_first() {
+            while let Some(((_, first), later_pieces)) = rest.split_first() {
                 let mut part = *first;
-                let fits = |(_, rect): &&(usize, Rect)| {
+                let joins_crop = |(_, rect): &&(usize, Rect)| {
                     let wider = part.union(*rect);
                     let is_small =
                         wider.width() <= MAX_CROP_SIDE_PIXELS && wider.height() <= MAX_CROP_SIDE_PIXELS;
@@ -84,10 +84,10 @@ impl<'a> Crops<'a> {
                     }
                     is_small
                 };
-                let count = 1 + others.iter().take_while(fits).count();
-                let (own, left) = rest.split_at(count);
-                crops.add((picture, is_mask), part, own);
-                rest = left;
+                let count = 1 + later_pieces.iter().take_while(joins_crop).count();
+                let (crop_pieces, remaining) = rest.split_at(count);
+                crops.add((picture, is_mask), part, crop_pieces);
+                rest = remaining;
             }
         }
         crops

@@ -142,28 +142,28 @@ impl PictureCopies {
 }
 
 /// A smaller copy by area averages: first along rows, then along columns.
-fn averaged(whole: &Pixmap, [width, height]: [u32; 2]) -> Option<Pixmap> {
+fn averaged(source: &Pixmap, [width, height]: [u32; 2]) -> Option<Pixmap> {
     let channels = |pixel: &PremultipliedColorU8| {
         [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()].map(f32::from)
     };
-    let columns = shares(whole.width(), width);
-    let rows = shares(whole.height(), height);
-    let long = whole.width() as usize;
+    let columns = shares(source.width(), width);
+    let rows = shares(source.height(), height);
+    let long = source.width() as usize;
     let mut copy = Pixmap::new(width, height)?;
     let mut sums = vec![[0.0_f32; 4]; long];
-    for (line, share) in copy.pixels_mut().chunks_exact_mut(width as usize).zip(&rows) {
+    for (line, row_weights) in copy.pixels_mut().chunks_exact_mut(width as usize).zip(&rows) {
         sums.fill([0.0; 4]);
-        for (row, weight) in share {
-            let from = whole.pixels().get(row * long..(row + 1) * long).unwrap_or_default();
+        for (row, weight) in row_weights {
+            let from = source.pixels().get(row * long..(row + 1) * long).unwrap_or_default();
             for (sum, pixel) in sums.iter_mut().zip(from) {
-                sum.iter_mut().zip(channels(pixel)).for_each(|(sum, own)| *sum += own * weight);
+                sum.iter_mut().zip(channels(pixel)).for_each(|(sum, channel)| *sum += channel * weight);
             }
         }
-        for (to, share) in line.iter_mut().zip(&columns) {
+        for (to, column_weights) in line.iter_mut().zip(&columns) {
             let mut mean = [0.0_f32; 4];
-            for (column, weight) in share {
+            for (column, weight) in column_weights {
                 let from = sums.get(*column).copied().unwrap_or_default();
-                mean.iter_mut().zip(from).for_each(|(mean, own)| *mean += own * weight);
+                mean.iter_mut().zip(from).for_each(|(mean, channel)| *mean += channel * weight);
             }
             let [r, g, b, a] = mean.map(|value| value.round() as u8);
             if let Some(pixel) = PremultipliedColorU8::from_rgba(r.min(a), g.min(a), b.min(a), a) {
@@ -180,11 +180,11 @@ fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f32)>> {
     let of = |k: u32| {
         let (start, end) = (f64::from(k) * long, f64::from(k + 1) * long);
         let (first, last) = (start.floor() as u32, (end.ceil() as u32).min(from));
-        let share = |place: u32| {
-            let own = end.min(f64::from(place + 1)) - start.max(f64::from(place));
-            (place as usize, (own.max(0.0) / long) as f32)
+        let weight_of = |pixel_index: u32| {
+            let overlap = end.min(f64::from(pixel_index + 1)) - start.max(f64::from(pixel_index));
+            (pixel_index as usize, (overlap.max(0.0) / long) as f32)
         };
-        (first..last).map(share).collect()
+        (first..last).map(weight_of).collect()
     };
     (0..to).map(of).collect()
 }

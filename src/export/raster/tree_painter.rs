@@ -39,7 +39,7 @@ pub(crate) struct TreePainter<'a> {
     /// Whether each pixel is covered completely or not at all.
     pub crisp: bool,
     /// Override for each path.
-    pub look: Option<&'a dyn Fn(&usvg::Path) -> PaintOverride>,
+    pub override_of_path: Option<&'a dyn Fn(&usvg::Path) -> PaintOverride>,
     /// Whether opacities, masks and filters of groups are ignored.
     pub plain: bool,
     /// Whether lines are outlined with eight times the usual precision.
@@ -150,7 +150,7 @@ impl TreePainter<'_> {
 
     /// Paints a path; `None` if it has paints other than colours, or no anti-aliasing.
     fn path(self, path: &usvg::Path, to: Transform, pixmap: &mut PixmapMut) -> Option<()> {
-        let look = self.look.map_or(PaintOverride::Own, |look| look(path));
+        let look = self.override_of_path.map_or(PaintOverride::Own, |look| look(path));
         if !path.is_visible() || look == PaintOverride::Absent {
             return Some(());
         }

@@ -36,7 +36,7 @@ pub(crate) struct MarkPaths {
     /// Text of each chunk of marks.
     texts: Vec<Vec<u8>>,
     /// Ranges of each mark.
-    places: Vec<PathRange>,
+    ranges_by_mark: Vec<PathRange>,
 }
 
 /// Ranges of a mark's data in its chunk: first its axis, then its own path.
@@ -54,7 +54,7 @@ impl MarkPaths {
         let write = |chunk: &[&Mark]| {
             let mut text = Vec::with_capacity(chunk.len() * 64);
             let mut canonical = CanonicalWriter::new(decimals);
-            let mut places = Vec::with_capacity(chunk.len());
+            let mut ranges = Vec::with_capacity(chunk.len());
             for mark in chunk {
                 let begin = text.len();
                 if let Paint::Outline(outline) = &mark.paint {
@@ -63,16 +63,16 @@ impl MarkPaths {
                 }
                 let axis_end = text.len();
                 let start = canonical.write(&mut text, &mark.path, form(mark, ordered));
-                places.push(PathRange { begin, axis_end, end: text.len(), start });
+                ranges.push(PathRange { begin, axis_end, end: text.len(), start });
             }
-            (text, places)
+            (text, ranges)
         };
         let chunks: Vec<(Vec<u8>, Vec<PathRange>)> =
             marks.par_chunks(MARKS_PER_CHUNK).with_max_len(1).map(write).collect();
-        let mut paths = Self { texts: Vec::new(), places: Vec::with_capacity(marks.len()) };
-        for (text, places) in chunks {
+        let mut paths = Self { texts: Vec::new(), ranges_by_mark: Vec::with_capacity(marks.len()) };
+        for (text, ranges) in chunks {
             paths.texts.push(text);
-            paths.places.extend(places);
+            paths.ranges_by_mark.extend(ranges);
         }
         paths
     }
@@ -88,7 +88,7 @@ impl MarkPaths {
     }
 
     fn text(&self, mark: usize, range: impl Fn(&PathRange) -> Range<usize>) -> &[u8] {
-        let place = self.places.get(mark).map(range);
+        let place = self.ranges_by_mark.get(mark).map(range);
         place
             .zip(self.texts.get(mark / MARKS_PER_CHUNK))
             .and_then(|(range, text)| text.get(range))
@@ -135,7 +135,7 @@ struct SortKey {
 pub(crate) fn sorted(marks: &[&Mark], runs: &[PaintRun], paths: &MarkPaths) -> Vec<usize> {
     let ranks = ranks(marks);
     let key = |mark: usize| {
-        let start = paths.places.get(mark).and_then(|place| place.start);
+        let start = paths.ranges_by_mark.get(mark).and_then(|place| place.start);
         (SortKey { rank: ranks.get(mark).copied(), start }, mark)
     };
     // Keys are stored next to the mark numbers to avoid cache misses.

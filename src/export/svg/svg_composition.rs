@@ -28,24 +28,24 @@ impl Composition {
     #[must_use]
     pub fn to_svg(&self, options: &SvgOptions) -> String {
         let mut ids = UniqueIds::new(&options.id_prefix);
-        let named = |item: &PlacedDrawing, ids: &mut UniqueIds| {
+        let take_ids = |item: &PlacedDrawing, ids: &mut UniqueIds| {
             let id = ids.take(&item.name);
             let clip = item.clip.as_ref().map(|_| ids.take(&format!("{}-frame", item.name)));
             (id, clip)
         };
         let ids_of: Vec<(String, Option<String>)> =
-            self.items.iter().map(|item| named(item, &mut ids)).collect();
+            self.items.iter().map(|item| take_ids(item, &mut ids)).collect();
         let mut pictures: Vec<PictureIds> = Vec::with_capacity(self.items.len());
         for PlacedDrawing { name, drawing, .. } in &self.items {
             ids.within(name);
             pictures.push(PictureIds::of(drawing, &mut ids));
         }
-        let uses = pictures.iter().any(|named| !named.is_empty());
+        let uses = pictures.iter().any(|picture_ids| !picture_ids.is_empty());
         ids.within("");
         let mut out = Vec::new();
         open(&mut out, (&self.title, &self.page), (uses, false), options, &mut ids);
         Drawing::new("", self.page, Vec::new()).paper(&mut out, &mut ids);
-        for ((item, (id, clip)), named) in self.items.iter().zip(&ids_of).zip(&pictures) {
+        for ((item, (id, clip)), picture_ids) in self.items.iter().zip(&ids_of).zip(&pictures) {
             ids.within("");
             if let (Some(id), Some(path)) = (clip, &item.clip) {
                 // The clip path is in the units of the clipped drawing.
@@ -54,7 +54,7 @@ impl Composition {
             }
             open_item(&mut out, (id, &item.name), clip.as_deref(), item.place);
             ids.within(&item.name);
-            item.drawing.write_content(&mut out, named, options, &mut ids);
+            item.drawing.write_content(&mut out, picture_ids, options, &mut ids);
             out.extend_from_slice(b"</g>\n");
         }
         finished(out)

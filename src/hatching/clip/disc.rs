@@ -32,17 +32,17 @@ impl Disc {
         let step = sweep / count;
         let handle = 4.0 / 3.0 * tan(step / 4.0) * self.radius;
         let at = |angle: f64| Vec2::new(cos(angle), sin(angle));
-        let mut here = at(from);
+        let mut start_point = at(from);
         for k in 1..=count as usize {
-            let there = at(from + step * k as f64);
-            let to = if k == count as usize { end } else { there * self.radius };
+            let end_point = at(from + step * k as f64);
+            let to = if k == count as usize { end } else { end_point * self.radius };
             let along = |unit: Vec2| Vec2::new(-unit.y, unit.x) * handle;
             path.curve_to(
-                self.centre + here * self.radius + along(here),
-                self.centre + to - along(there),
+                self.centre + start_point * self.radius + along(start_point),
+                self.centre + to - along(end_point),
                 self.centre + to,
             );
-            here = there;
+            start_point = end_point;
         }
     }
 }

@@ -25,13 +25,17 @@ pub struct LineSpan {
 
 /// The spans of a polyline in wanted cells. No span crosses the border of a surface.
 #[must_use]
-pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<LineSpan> {
+pub fn clip_to_cells(
+    ground: &HatchRegions,
+    line: &[Point],
+    is_wanted: impl Fn(u32) -> bool,
+) -> Vec<LineSpan> {
     let mut crossings: Vec<(f64, u32, bool)> = Vec::new();
-    let mut places: Vec<(LinePosition, u32, bool)> = Vec::new();
+    let mut positions: Vec<(LinePosition, u32, bool)> = Vec::new();
     for (k, pair) in line.windows(2).enumerate() {
         crossings.clear();
         ground.crossings(pair[0], pair[1], &mut crossings);
-        places.extend(crossings.iter().map(|(t, piece, along)| (k as f64 + t, *piece, *along)));
+        positions.extend(crossings.iter().map(|(t, piece, along)| (k as f64 + t, *piece, *along)));
     }
     let last = line.len().saturating_sub(1) as f64;
     let sides = |number: u32, along: bool| {
@@ -42,27 +46,27 @@ pub fn clip_to_cells(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32)
     // Where borders meet in a corner, several pieces are crossed at one position and their order is
     // unreliable. There the cell is looked up at a point of the span.
     let is_corner = |k: usize| {
-        let near = |other: Option<&(LinePosition, u32, bool)>| {
-            other.is_some_and(|(place, ..)| {
-                (place - places[k].0).abs() < tolerances::MIN_POSITION_DIFFERENCE_SIDES
+        let is_close = |neighbour: Option<&(LinePosition, u32, bool)>| {
+            neighbour.is_some_and(|(other_position, ..)| {
+                (other_position - positions[k].0).abs() < tolerances::MIN_POSITION_DIFFERENCE_SIDES
             })
         };
-        near(places.get(k + 1)) || near(k.checked_sub(1).and_then(|before| places.get(before)))
+        is_close(positions.get(k + 1)) || is_close(k.checked_sub(1).and_then(|before| positions.get(before)))
     };
     let mut out: Vec<LineSpan> = Vec::new();
     let (mut from, mut behind): (LinePosition, Option<u32>) = (0.0, None);
     let mut parts = true;
-    for k in 0..=places.len() {
-        let next = places.get(k);
+    for k in 0..=positions.len() {
+        let next = positions.get(k);
         let to = next.map_or(last, |(place, ..)| *place);
-        let ahead = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
+        let next_cell = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
         if to - from > tolerances::MIN_POSITION_DIFFERENCE_SIDES {
-            let cell = match (behind, ahead) {
+            let cell = match (behind, next_cell) {
                 (Some(a), Some(b)) if a == b => a,
                 (Some(a), None) | (None, Some(a)) => a,
                 _ => ground.cell_at(point_at(line, f64::midpoint(from, to))),
             };
-            if wanted(cell) {
+            if is_wanted(cell) {
                 match out.last_mut() {
                     Some(before)
                         if from - before.to < tolerances::MIN_POSITION_DIFFERENCE_SIDES

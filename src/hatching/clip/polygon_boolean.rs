@@ -177,9 +177,9 @@ fn add_crossings(
         return;
     }
     let mut touches = false;
-    for (is_first, own, other) in [(true, first, second), (false, second, first)] {
-        for p in other {
-            if p != own[0] && p != own[1] && is_on(p, own) {
+    for (is_first, segment, end_points) in [(true, first, second), (false, second, first)] {
+        for p in end_points {
+            if p != segment[0] && p != segment[1] && is_on(p, segment) {
                 cut(is_first, p);
                 touches = true;
             }
@@ -189,12 +189,12 @@ fn add_crossings(
     if touches || a == c || a == d || b == c || b == d {
         return;
     }
-    let (way, other) = (minus(b, a), minus(d, c));
-    let [sc, sd] = [c, d].map(|p| cross(way, minus(p, a)).signum());
-    let [sa, sb] = [a, b].map(|p| cross(other, minus(p, c)).signum());
+    let (first_vector, second_vector) = (minus(b, a), minus(d, c));
+    let [sc, sd] = [c, d].map(|p| cross(first_vector, minus(p, a)).signum());
+    let [sa, sb] = [a, b].map(|p| cross(second_vector, minus(p, c)).signum());
     if sc * sd < 0 && sa * sb < 0 {
-        let part = cross(minus(c, a), other) as f64 / cross(way, other) as f64;
-        let p = [0, 1].map(|k| a[k] + (way[k] as f64 * part).round() as i64);
+        let part = cross(minus(c, a), second_vector) as f64 / cross(first_vector, second_vector) as f64;
+        let p = [0, 1].map(|k| a[k] + (first_vector[k] as f64 * part).round() as i64);
         if p != a && p != b {
             cut(true, p);
         }

@@ -66,7 +66,7 @@ pub enum WindingRule {
 pub(crate) fn unite_shapes(shapes: &[(Vec<Vec<Point>>, WindingRule)]) -> Option<Vec<Vec<Point>>> {
     let whole: Vec<Vec<Point>> = shapes.iter().flat_map(|(rings, _)| rings).cloned().collect();
     let grid = ClipGrid::around(rings_bounds(&whole)?, BOX_MARGINS_OF_SIZE[0])?;
-    let [right, bottom] = grid.far;
+    let [right, bottom] = grid.far_corner;
     let frame = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
     let mut all = BoundaryEdges::default();
     for (rings, filling) in shapes {
@@ -115,7 +115,7 @@ struct ClipGrid {
     origin: Point,
     step: f64,
     /// Far corner of the box. The near corner is 0.
-    far: ClipGridPoint,
+    far_corner: ClipGridPoint,
 }
 
 impl ClipGrid {
@@ -127,7 +127,7 @@ impl ClipGrid {
         (step > 0.0 && step.is_finite()).then(|| Self {
             origin: bounds.origin(),
             step,
-            far: [bounds.width(), bounds.height()].map(|side| (side / step).round() as i64),
+            far_corner: [bounds.width(), bounds.height()].map(|side| (side / step).round() as i64),
         })
     }
 
@@ -147,7 +147,7 @@ impl ClipGrid {
         is_in: &impl Fn(Point) -> bool,
         edges: &mut BoundaryEdges,
     ) -> Option<()> {
-        let [right, bottom] = self.far;
+        let [right, bottom] = self.far_corner;
         // Crossings with the box, as distances around its border, clockwise.
         let mut gates: Vec<i64> = Vec::new();
         for [a, b] in border {
@@ -172,16 +172,16 @@ impl ClipGrid {
         // The middle of the widest stretch of the box between crossings is tested. Stretches alternate from
         // there.
         let round = corners[4];
-        let around = |way: i64| -> ClipGridPoint {
-            let way = way.rem_euclid(round);
-            if way < right {
-                [way, 0]
-            } else if way < right + bottom {
-                [right, way - right]
-            } else if way < 2 * right + bottom {
-                [2 * right + bottom - way, bottom]
+        let around = |position: i64| -> ClipGridPoint {
+            let wrapped = position.rem_euclid(round);
+            if wrapped < right {
+                [wrapped, 0]
+            } else if wrapped < right + bottom {
+                [right, wrapped - right]
+            } else if wrapped < 2 * right + bottom {
+                [2 * right + bottom - wrapped, bottom]
             } else {
-                [0, round - way]
+                [0, round - wrapped]
             }
         };
         let count = gates.len();
@@ -192,17 +192,17 @@ impl ClipGrid {
             }
             return Some(());
         };
-        let there = is_in(self.point(around(gates[widest].midpoint(next(widest)))));
-        for k in (0..count).filter(|k| there == ((*k % 2) == (widest % 2))) {
-            let mut way = gates[k];
+        let starts_inside = is_in(self.point(around(gates[widest].midpoint(next(widest)))));
+        for k in (0..count).filter(|k| starts_inside == ((*k % 2) == (widest % 2))) {
+            let mut stretch_start = gates[k];
             let turns = corners.iter().flat_map(|corner| [*corner, corner + round]);
             let mut stops: Vec<i64> =
-                turns.filter(|at| way < *at && *at < next(k)).chain([next(k)]).collect();
+                turns.filter(|at| stretch_start < *at && *at < next(k)).chain([next(k)]).collect();
             stops.sort_unstable();
             stops.dedup();
             for stop in stops {
-                edges.add([way, stop].map(around), 0, true);
-                way = stop;
+                edges.add([stretch_start, stop].map(around), 0, true);
+                stretch_start = stop;
             }
         }
         Some(())
@@ -211,37 +211,39 @@ impl ClipGrid {
     /// The part of a segment inside the box, and whether each end was cut off.
     fn within(&self, [a, b]: [Point; 2]) -> Option<[(ClipGridPoint, bool); 2]> {
         let [a, b] = [a, b].map(|p| (p - self.origin) / self.step);
-        let way = b - a;
+        let segment = b - a;
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
-        for (start, way, far) in [(a.x, way.x, self.far[0]), (a.y, way.y, self.far[1])] {
-            let far = far as f64;
-            if way == 0.0 {
-                if !(0.0..=far).contains(&start) {
+        for (start, component, limit) in
+            [(a.x, segment.x, self.far_corner[0]), (a.y, segment.y, self.far_corner[1])]
+        {
+            let axis_limit = limit as f64;
+            if component == 0.0 {
+                if !(0.0..=axis_limit).contains(&start) {
                     return None;
                 }
                 continue;
             }
-            let (s, t) = (-start / way, (far - start) / way);
+            let (s, t) = (-start / component, (axis_limit - start) / component);
             from = from.max(s.min(t));
             to = to.min(s.max(t));
         }
-        let place = |t: f64, is_cut: bool| {
-            let p = a + way * t;
+        let grid_end = |t: f64, is_cut: bool| {
+            let p = a + segment * t;
             let [mut x, mut y] = [p.x.round() as i64, p.y.round() as i64].map(|v| v.max(0));
-            (x, y) = (x.min(self.far[0]), y.min(self.far[1]));
+            (x, y) = (x.min(self.far_corner[0]), y.min(self.far_corner[1]));
             if is_cut {
                 // Snap a cut end to the nearest side of the box, against rounding.
-                let off = [(0, x), (1, self.far[0] - x), (2, y), (3, self.far[1] - y)];
+                let off = [(0, x), (1, self.far_corner[0] - x), (2, y), (3, self.far_corner[1] - y)];
                 match off.into_iter().min_by_key(|(_, off)| *off) {
                     Some((0, _)) => x = 0,
-                    Some((1, _)) => x = self.far[0],
+                    Some((1, _)) => x = self.far_corner[0],
                     Some((2, _)) => y = 0,
-                    _ => y = self.far[1],
+                    _ => y = self.far_corner[1],
                 }
             }
             ([x, y], is_cut)
         };
-        (from < to).then(|| [place(from, from > 0.0), place(to, to < 1.0)])
+        (from < to).then(|| [grid_end(from, from > 0.0), grid_end(to, to < 1.0)])
     }
 }
 

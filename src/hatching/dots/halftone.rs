@@ -69,7 +69,7 @@ pub fn dots(
     let grid = Lattice::new(screen.origin, screen.angle, pitch);
     let scan = LatticeScan::new(ground, &grid);
     let least = tolerances::MAX_DOT_OUTLINE_ERROR_PX * screen.px / pitch;
-    let size = DotSizes { coverage, least };
+    let size = DotSizes { coverage, min_radius: least };
 
     // The size at each lattice point in its own cell, row by row.
     let rows: Vec<Vec<LatticeDot>> =
@@ -130,14 +130,14 @@ fn spots(scan: &LatticeScan, row: usize, grid: &Lattice, size: &DotSizes) -> Vec
 /// Dot sizes by coverage.
 struct DotSizes<'a> {
     coverage: &'a (dyn Fn(u32, Point) -> f64 + Sync),
-    least: f64,
+    min_radius: f64,
 }
 
 impl DotSizes<'_> {
     /// Radius in lattice steps; 0 for no dot.
     fn radius(&self, cell: u32, p: Point) -> f64 {
         let radius = radius((self.coverage)(cell, p));
-        if radius < self.least { 0.0 } else { radius }
+        if radius < self.min_radius { 0.0 } else { radius }
     }
 }
 
@@ -181,14 +181,14 @@ fn border_contacts(ground: &HatchRegions, grid: &Lattice, domains: &Domains) -> 
     let of_piece = |(piece, parted): (usize, [u32; 2])| {
         let [a, b] = ground.pieces[piece].ends.map(|p| grid.place(p));
         let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
-        let way = high - low;
+        let delta = high - low;
         let mut found = Vec::new();
         for row in (low.y - FULL_COVER_RADIUS_STEPS).ceil() as i64
             ..=(high.y + FULL_COVER_RADIUS_STEPS).floor() as i64
         {
             // The stretch of the piece within reach of this row.
-            let at = |y: f64| low.x + way.x * ((y - low.y) / way.y).clamp(0.0, 1.0);
-            let (from, to) = if way.y > 0.0 {
+            let at = |y: f64| low.x + delta.x * ((y - low.y) / delta.y).clamp(0.0, 1.0);
+            let (from, to) = if delta.y > 0.0 {
                 (at(row as f64 - FULL_COVER_RADIUS_STEPS), at(row as f64 + FULL_COVER_RADIUS_STEPS))
             } else {
                 (low.x, high.x)

@@ -125,17 +125,17 @@ struct FacetStipple<'a> {
 
 impl<'a> FacetStipple<'a> {
     fn new(runs: &'a [RowSpan], grid: &Lattice, coverage: &(dyn Fn(u32, Point) -> f64 + Sync)) -> Self {
-        let left = runs.iter().map(|run| run.from).min().unwrap_or_default();
+        let first_column = runs.iter().map(|run| run.from).min().unwrap_or_default();
         let right = runs.iter().map(|run| run.to).max().unwrap_or_default();
         let top = runs.first().map_or(0, |run| run.row);
         let bottom = runs.last().map_or(0, |run| run.row + 1);
-        let [width, height] = [right - left, bottom - top].map(|size| size as usize);
+        let [width, height] = [right - first_column, bottom - top].map(|size| size as usize);
         let mut ink = vec![0u16; width * height];
         let mut inked: Vec<u32> = Vec::new();
         // The tone is sampled once per block of squares and cell, at the first square met.
         let band = |run: &RowSpan| run.row.div_euclid(TONE_BLOCK_SQUARES);
         let bands: Vec<&[RowSpan]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
-        let asked: Vec<Vec<(usize, u16)>> = bands
+        let wanted_inks: Vec<Vec<(usize, u16)>> = bands
             .into_par_iter()
             .map(|runs| {
                 let mut known: FxHashMap<(i64, u32), u16> = FxHashMap::default();
@@ -145,26 +145,27 @@ impl<'a> FacetStipple<'a> {
                         let ink = known
                             .entry((column.div_euclid(TONE_BLOCK_SQUARES), run.cell))
                             .or_insert_with(|| {
-                                let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
-                                (wanted.clamp(0.0, 1.0) * f64::from(FULL_INK)).round() as u16
+                                let wanted_coverage =
+                                    coverage(run.cell, grid.point(column as f64, run.row as f64));
+                                (wanted_coverage.clamp(0.0, 1.0) * f64::from(FULL_INK)).round() as u16
                             });
-                        ((run.row - top) as usize * width + (column - left) as usize, *ink)
+                        ((run.row - top) as usize * width + (column - first_column) as usize, *ink)
                     })
                     .collect()
             })
             .collect();
-        for (square, wanted) in asked.into_iter().flatten() {
-            ink[square] = wanted;
+        for (square, square_ink) in wanted_inks.into_iter().flatten() {
+            ink[square] = square_ink;
         }
         for run in runs {
-            let first = (run.row - top) as usize * width + (run.from - left) as usize;
+            let first = (run.row - top) as usize * width + (run.from - first_column) as usize;
             if ink[first..first + (run.to - run.from) as usize].iter().any(|ink| *ink > 0) {
                 inked.push(run.cell);
             }
         }
         inked.sort_unstable();
         inked.dedup();
-        Self { runs, corner: [left, top], patch: InkGrid { width, height, ink }, inked }
+        Self { runs, corner: [first_column, top], patch: InkGrid { width, height, ink }, inked }
     }
 
     /// The dots: cell, disc and clipped shape of each.

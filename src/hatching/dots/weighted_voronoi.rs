@@ -56,14 +56,14 @@ impl InkGrid {
             .collect();
         squares.par_sort_unstable();
         let total: u64 = squares.iter().map(|(_, k)| u64::from(self.ink[*k as usize])).sum();
-        let mut places = Vec::with_capacity(count);
+        let mut sites = Vec::with_capacity(count);
         let (mut passed, mut square) = (0u64, 0);
         for k in 0..count {
             let [along, x, y] = chance(k);
-            let wanted = (k as f64 + along) / count as f64 * total as f64;
+            let target = (k as f64 + along) / count as f64 * total as f64;
             while square + 1 < squares.len() {
                 let own = u64::from(self.ink[squares[square].1 as usize]);
-                if (passed + own) as f64 > wanted {
+                if (passed + own) as f64 > target {
                     break;
                 }
                 passed += own;
@@ -71,10 +71,10 @@ impl InkGrid {
             }
             if let Some((_, square)) = squares.get(square) {
                 let at = *square as usize;
-                places.push([(at % self.width) as f64 + x, (at / self.width) as f64 + y]);
+                sites.push([(at % self.width) as f64 + x, (at / self.width) as f64 + y]);
             }
         }
-        places
+        sites
     }
 
     /// Moves sites towards the weighted centroids of their Voronoi cells, `rounds` times. Sites without ink

@@ -30,18 +30,18 @@ impl<'a> GuideDirections<'a> {
     /// The field that smooths the axes given at the points of a lattice.
     #[must_use]
     pub fn new(samples: &'a LightLattice, axes: &DirectionField) -> Self {
-        let given = &axes.directions;
-        let axes = samples.spread(given.clone(), SPREAD_ROUNDS, |k, own, around| {
+        let initial = &axes.directions;
+        let axes = samples.spread(initial.clone(), SPREAD_ROUNDS, |k, own, around| {
             if samples.facets[k] == 0 || axes.is_independent[k] {
                 return own;
             }
-            let sure = (given[k][0] * given[k][0] + given[k][1] * given[k][1]).sqrt();
-            let (mut sum, mut whole) = (given[k], sure);
+            let sure = (initial[k][0] * initial[k][0] + initial[k][1] * initial[k][1]).sqrt();
+            let (mut sum, mut weight_sum) = (initial[k], sure);
             for axis in around.into_iter().flatten() {
                 sum = [sum[0] + NEIGHBOUR_WEIGHT * axis[0], sum[1] + NEIGHBOUR_WEIGHT * axis[1]];
-                whole += NEIGHBOUR_WEIGHT;
+                weight_sum += NEIGHBOUR_WEIGHT;
             }
-            if whole > 0.0 { sum.map(|x| x / whole) } else { sum }
+            if weight_sum > 0.0 { sum.map(|x| x / weight_sum) } else { sum }
         });
         Self { samples, axes }
     }

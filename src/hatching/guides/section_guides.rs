@@ -46,14 +46,17 @@ pub fn guides_along_curves(
         .iter()
         .map(|(curve, from, to, _)| {
             let curve = &curves[*curve as usize];
-            let place = f64::midpoint(*from, *to);
-            (crate::hatching::clip::line_clip::point_at(&curve.line, place), value_at(&curve.nearness, place))
+            let middle_position = f64::midpoint(*from, *to);
+            (
+                crate::hatching::clip::line_clip::point_at(&curve.line, middle_position),
+                value_at(&curve.nearness, middle_position),
+            )
         })
         .collect();
-    let seen = are_seen(&middles);
+    let is_visible = are_seen(&middles);
     let mut counts: FxHashMap<u64, u64> = FxHashMap::default();
     let mut guides = Vec::new();
-    for ((number, from, to, facet), _) in pieces.into_iter().zip(seen).filter(|(_, seen)| *seen) {
+    for ((number, from, to, facet), _) in pieces.into_iter().zip(is_visible).filter(|(_, seen)| *seen) {
         let curve = &curves[number as usize];
         let line = sub_polyline(&curve.line, from, to);
         if line.len() < 2 {

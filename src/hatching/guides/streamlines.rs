@@ -212,34 +212,37 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
     }
 
     /// One half of a line: the points after its seed. `behind` is the other half.
-    fn half(&self, seed: Point, way: Vec2, distance: f64, behind: &[Point]) -> Vec<Point> {
+    fn half(&self, seed: Point, start_direction: Vec2, distance: f64, behind: &[Point]) -> Vec<Point> {
         let step = GROWTH_STEP_PX * self.spacing.px;
         let nearest = distance * MIN_GAP_OF_SPACING;
-        let (mut p, mut way) = (seed, way);
+        let (mut p, mut direction) = (seed, start_direction);
         let mut line: Vec<Point> = Vec::new();
         // A line must not run into itself. Points nearby along the line are exempt from the test.
-        let far = (distance * 2.0 / step).ceil() as usize;
+        let exempt_points = (distance * 2.0 / step).ceil() as usize;
         while line.len() < MAX_LINE_POINTS {
-            let Some(middle) = self.flow.at(self.facet, p + way * (step / 2.0)) else { break };
-            let middle = if middle.dot(way) < 0.0 { -middle } else { middle };
-            if middle.dot(way) < MIN_TURN_COSINE {
+            let Some(middle) = self.flow.at(self.facet, p + direction * (step / 2.0)) else { break };
+            let middle = if middle.dot(direction) < 0.0 { -middle } else { middle };
+            if middle.dot(direction) < MIN_TURN_COSINE {
                 break;
             }
             let next = p + middle * step;
             if !self.is_ground(next) || !self.is_free(next, nearest) {
                 break;
             }
-            let own = &line[..line.len().saturating_sub(far)];
-            let other = if line.len() >= far {
+            let checked_points = &line[..line.len().saturating_sub(exempt_points)];
+            let checked_behind = if line.len() >= exempt_points {
                 behind
             } else {
-                &behind[..behind.len().saturating_sub(far - line.len())]
+                &behind[..behind.len().saturating_sub(exempt_points - line.len())]
             };
-            if [own, other].iter().any(|part| part.iter().any(|q| (*q - next).hypot2() < nearest * nearest)) {
+            if [checked_points, checked_behind]
+                .iter()
+                .any(|part| part.iter().any(|q| (*q - next).hypot2() < nearest * nearest))
+            {
                 break;
             }
             p = next;
-            way = middle;
+            direction = middle;
             line.push(p);
         }
         line

@@ -85,14 +85,14 @@ impl StrokeLayout {
     pub fn lay(&self, guide: &Guide, ground: &HatchRegions, density: &[f64]) -> Vec<HatchStroke> {
         let in_scope = |cell: u32| match guide.scope {
             GuideScope::Part(part) => {
-                let own = &ground.cells[cell as usize];
-                own.facet != 0 && own.look.part == part
+                let hatch_cell = &ground.cells[cell as usize];
+                hatch_cell.facet != 0 && hatch_cell.look.part == part
             }
             GuideScope::Facet(facet) => ground.cells[cell as usize].facet == facet,
         };
-        let asked = |cell: u32| if in_scope(cell) { density[cell as usize] } else { 0.0 };
-        let wanted = |cell: u32| asked(cell) > guide.rank;
-        let on_guide = clip_to_cells(ground, &guide.line, wanted);
+        let wanted_density = |cell: u32| if in_scope(cell) { density[cell as usize] } else { 0.0 };
+        let is_wanted = |cell: u32| wanted_density(cell) > guide.rank;
+        let on_guide = clip_to_cells(ground, &guide.line, is_wanted);
         if on_guide.is_empty() {
             return Vec::new();
         }
@@ -106,13 +106,13 @@ impl StrokeLayout {
             return out;
         }
         let arcs = arcs(&guide.line);
-        let at_arc = |place: f64| {
-            let k = (place as usize).min(arcs.len() - 2);
-            arcs[k] + (arcs[k + 1] - arcs[k]) * (place - k as f64)
+        let at_arc = |line_position: f64| {
+            let k = (line_position as usize).min(arcs.len() - 2);
+            arcs[k] + (arcs[k + 1] - arcs[k]) * (line_position - k as f64)
         };
-        let reach = self.reach();
+        let margin = self.reach();
         let spans: Vec<(f64, f64)> =
-            on_guide.iter().map(|s| (at_arc(s.from) - reach, at_arc(s.to) + reach)).collect();
+            on_guide.iter().map(|s| (at_arc(s.from) - margin, at_arc(s.to) + margin)).collect();
         for (number, (start, end)) in self.strokes(guide, *arcs.last().unwrap_or(&0.0), &spans) {
             let id = hash(guide.id, &[number.cast_unsigned()]);
             let points = self.drawn(guide, &arcs, start, end, id);
@@ -120,16 +120,16 @@ impl StrokeLayout {
                 continue;
             }
             let mut piece = 0;
-            for stretch in clip_to_cells(ground, &points, wanted) {
+            for stretch in clip_to_cells(ground, &points, is_wanted) {
                 for (from, to) in
                     uncrowded_spans(guide, &arcs, &points, (start, end), stretch.from, stretch.to, |c| {
-                        asked(stretch.cell) > guide.rank * c
+                        wanted_density(stretch.cell) > guide.rank * c
                     })
                 {
                     let cut = [stretch.cut[0] && from == stretch.from, stretch.cut[1] && to == stretch.to];
-                    let own = HatchStroke { id: hash(id, &[piece]), ..blank(guide, stretch.cell) };
+                    let stroke = HatchStroke { id: hash(id, &[piece]), ..blank(guide, stretch.cell) };
                     piece += 1;
-                    out.extend(self.ended(sub_polyline(&points, from, to), cut, own));
+                    out.extend(self.ended(sub_polyline(&points, from, to), cut, stroke));
                 }
             }
         }
@@ -296,19 +296,19 @@ fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
     }
     let n = points.len();
     if by > 0.0 {
-        let way = points[n - 1] - points[n - 2];
-        let long = norm(way);
+        let last_segment = points[n - 1] - points[n - 2];
+        let long = norm(last_segment);
         if long > 0.0 {
-            points[n - 1] += way / long * by;
+            points[n - 1] += last_segment / long * by;
         }
     } else {
         let mut left = -by;
         while points.len() >= 2 {
             let n = points.len();
-            let way = points[n - 2] - points[n - 1];
-            let long = norm(way);
+            let final_segment = points[n - 2] - points[n - 1];
+            let long = norm(final_segment);
             if long > left {
-                points[n - 1] += way / long * left;
+                points[n - 1] += final_segment / long * left;
                 break;
             }
             left -= long;

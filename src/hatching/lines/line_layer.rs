@@ -38,7 +38,7 @@ pub(crate) fn lines(
     sets.par_iter()
         .map(|((_, degree, ink), strokes)| {
             let cell = strokes[0].cell;
-            let look = ground.cells[cell as usize].look;
+            let label = ground.cells[cell as usize].look;
             let swollen = |cell: u32, p: Point| {
                 let covered = covered_at(ground, context, layer, cell, p);
                 tone::coverage_per_layer(covered, &fullest).get(number).copied().unwrap_or_default() * pitch
@@ -74,9 +74,9 @@ pub(crate) fn lines(
                 };
                 (axis, Paint::Stroke(stroke))
             };
-            let drawn = Mark { path, paint, provenance: provenance(look, context) };
+            let drawn = Mark { path, paint, provenance: provenance(label, context) };
             std::iter::once(drawn)
-                .chain(tooth(layer, context, number, strokes, nib.width, look))
+                .chain(tooth(layer, context, number, strokes, nib.width, label))
                 .collect::<Vec<_>>()
         })
         .flatten_iter()

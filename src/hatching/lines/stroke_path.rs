@@ -97,21 +97,21 @@ pub fn add_outline(
     let count = tapers.iter().filter(|tapers| **tapers).count();
     let taper = (TAPER_LENGTH_WIDTHS * nib.width).min(total / count.max(1) as f64);
     let from_end = |arc: f64| {
-        let ways = [arc, total - arc].into_iter().zip(tapers).filter(|(_, tapers)| *tapers);
-        ways.map(|(way, _)| way).fold(f64::INFINITY, f64::min)
+        let distances = [arc, total - arc].into_iter().zip(tapers).filter(|(_, tapers)| *tapers);
+        distances.map(|(distance, _)| distance).fold(f64::INFINITY, f64::min)
     };
     let half = |i: usize| {
-        let own = width.map_or(nib.width, |width| width(points[i]));
-        let way = if taper > 0.0 { (from_end(arcs[i]) / taper).min(1.0) } else { 1.0 };
-        let kept = 1.0 - nib.taper * (1.0 - way * (2.0 - way));
-        own * kept / 2.0
+        let full_width = width.map_or(nib.width, |width| width(points[i]));
+        let taper_share = if taper > 0.0 { (from_end(arcs[i]) / taper).min(1.0) } else { 1.0 };
+        let width_factor = 1.0 - nib.taper * (1.0 - taper_share * (2.0 - taper_share));
+        full_width * width_factor / 2.0
     };
     let side = |sign: f64| -> Vec<Point> {
         (0..n)
             .map(|i| {
-                let way = points[(i + 1).min(n - 1)] - points[i.saturating_sub(1)];
-                let long = norm(way);
-                let across = if long > 0.0 { Vec2::new(way.y, -way.x) / long } else { Vec2::ZERO };
+                let chord = points[(i + 1).min(n - 1)] - points[i.saturating_sub(1)];
+                let long = norm(chord);
+                let across = if long > 0.0 { Vec2::new(chord.y, -chord.x) / long } else { Vec2::ZERO };
                 points[i] + across * (half(i) * sign)
             })
             .collect()

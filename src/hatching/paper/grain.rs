@@ -101,8 +101,8 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     }
     // Larger amounts use wider specks.
     let mean = SPECK_WIDTH_OF_SQUARE + SPECK_WIDTH_PER_AMOUNT * tooth.amount;
-    let wanted = tooth.amount / (SPECK_AREA_OF_WIDTH_SQUARED * mean * mean);
-    let mut places: Vec<[i64; 2]> = Vec::new();
+    let speck_density = tooth.amount / (SPECK_AREA_OF_WIDTH_SQUARED * mean * mean);
+    let mut squares: Vec<[i64; 2]> = Vec::new();
     for (stroke, width) in strokes {
         let reach = width / 2.0;
         along(stroke, side / 2.0, |at| {
@@ -110,17 +110,17 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
             for row in low.y.floor() as i64..=high.y.floor() as i64 {
                 for column in low.x.floor() as i64..=high.x.floor() as i64 {
                     let chance = SquareNoise::new(tooth.seed, column, row);
-                    let is_wanted = chance.of(0) < wanted * chance.rough(tooth.seed);
+                    let is_wanted = chance.of(0) < speck_density * chance.rough(tooth.seed);
                     if is_wanted && (chance.place(side) - at).hypot2() <= reach * reach {
-                        places.push([row, column]);
+                        squares.push([row, column]);
                     }
                 }
             }
         });
     }
-    places.sort_unstable();
-    places.dedup();
-    for [row, column] in places {
+    squares.sort_unstable();
+    squares.dedup();
+    for [row, column] in squares {
         let chance = SquareNoise::new(tooth.seed, column, row);
         let size = mean * side * (0.75 + 0.5 * chance.of(2));
         speck(&mut path, chance.place(side), size / 2.0, 3 + (chance.of(5) * 2.0) as u64, &chance);

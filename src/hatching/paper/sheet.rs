@@ -92,11 +92,11 @@ fn whole(page: &Page) -> BezPath {
 
 /// A picture tiled from the upper left corner of the page.
 fn tiled(picture: Arc<Picture>, page: &Page, width: Option<Length>) -> ImagePaint {
-    let asked = width.unwrap_or(Length::px(picture.width as f64)).in_unit(page.unit);
+    let wanted_width = width.unwrap_or(Length::px(picture.width as f64)).in_unit(page.unit);
     let shape = picture.height as f64 / picture.width as f64;
     let least = (page.width * page.height / (MAX_TILES * shape)).sqrt();
     let least = least.max(page.width / MAX_TILES).max(page.height / (MAX_TILES * shape));
-    let width = if asked > least { asked } else { least };
+    let width = if wanted_width > least { wanted_width } else { least };
     let (scale, height) = (width / picture.width as f64, width * shape);
     let [columns, rows] =
         [page.width / width, page.height / height].map(|count| count.ceil().clamp(1.0, MAX_TILES) as u32);

@@ -46,27 +46,27 @@ pub enum SurfacePattern {
 pub fn pattern(
     ground: &HatchRegions,
     context: &HatchContext,
-    own: &Pattern,
+    settings: &Pattern,
     tones: impl Fn(&SurfaceLabel) -> u16,
     fixed: Option<&SurfacePattern>,
 ) -> Vec<Mark> {
-    let wanted: Vec<bool> = ground
+    let is_wanted_cell: Vec<bool> = ground
         .cells
         .iter()
         .map(|cell| {
             let name = context.materials.get(cell.look.material.index()).map_or("", |(name, _)| name);
-            cell.facet != 0 && own.is_for(name, cell.look.tone, tones(&cell.look))
+            cell.facet != 0 && settings.is_for(name, cell.look.tone, tones(&cell.look))
         })
         .collect();
-    let Some([low, high]) = extent(ground, &wanted) else { return Vec::new() };
+    let Some([low, high]) = extent(ground, &is_wanted_cell) else { return Vec::new() };
     let long = |length: Length| length.in_unit(context.unit);
-    let size = long(own.size).max(((high.x - low.x) * (high.y - low.y) / MAX_PATTERN_SQUARES).sqrt());
-    let angle = own.angle.to_radians();
+    let size = long(settings.size).max(((high.x - low.x) * (high.y - low.y) / MAX_PATTERN_SQUARES).sqrt());
+    let angle = settings.angle.to_radians();
     if let Some(SurfacePattern::Decals(decals, filled)) = fixed {
-        return surface_marks(ground, context, own, &wanted, decals, filled);
+        return surface_marks(ground, context, settings, &is_wanted_cell, decals, filled);
     }
-    if own.kind == PatternKind::Dots {
-        let radius = long(own.width) / 2.0 / size;
+    if settings.kind == PatternKind::Dots {
+        let radius = long(settings.width) / 2.0 / size;
         let covered = (PI * radius * radius).min(1.0);
         let screen = DotScreen {
             pitch: size,
@@ -75,25 +75,33 @@ pub fn pattern(
             tone_borders: ToneBorders::Cut,
             px: long(Length::px(1.0)),
         };
-        let coverage = |cell: u32, _: Point| if wanted[cell as usize] { covered } else { 0.0 };
-        let found = dots(ground, &screen, &coverage).into_iter();
-        return marks_by_look(found.map(|dots| (dots.cell, dots.path)), ground, context, own, None);
+        let coverage = |cell: u32, _: Point| if is_wanted_cell[cell as usize] { covered } else { 0.0 };
+        let placed_dots = dots(ground, &screen, &coverage).into_iter();
+        return marks_by_look(
+            placed_dots.map(|dots| (dots.cell, dots.path)),
+            ground,
+            context,
+            settings,
+            None,
+        );
     }
     let lines: Vec<Vec<Point>> = match fixed {
         Some(SurfacePattern::Guides(guides)) => guides.iter().map(|guide| guide.line.clone()).collect(),
-        _ => page_lines(own, size, angle, [low, high]),
+        _ => page_lines(settings, size, angle, [low, high]),
     };
-    let cut = |line: &Vec<Point>| cut_line(ground, line, |cell| wanted[cell as usize]);
-    let cut: Vec<Vec<(u32, BezPath)>> = lines.par_iter().with_min_len(16).map(cut).collect();
-    let mut marks = marks_by_look(cut.into_iter().flatten(), ground, context, own, Some(long(own.width)));
-    if own.kind == PatternKind::Tile && !own.tile.shapes.is_empty() {
-        let domains = Domains::by_label(ground, &wanted);
-        let shapes = TilePlacement::new(size, angle, own.tile.height, [low, high]).shapes(&own.tile);
-        let cut = |rings: Vec<Vec<Point>>| {
+    let clip_line = |line: &Vec<Point>| cut_line(ground, line, |cell| is_wanted_cell[cell as usize]);
+    let cut: Vec<Vec<(u32, BezPath)>> = lines.par_iter().with_min_len(16).map(clip_line).collect();
+    let mut marks =
+        marks_by_look(cut.into_iter().flatten(), ground, context, settings, Some(long(settings.width)));
+    if settings.kind == PatternKind::Tile && !settings.tile.shapes.is_empty() {
+        let domains = Domains::by_label(ground, &is_wanted_cell);
+        let shapes =
+            TilePlacement::new(size, angle, settings.tile.height, [low, high]).shapes(&settings.tile);
+        let clip_shape = |rings: Vec<Vec<Point>>| {
             clip_to_domains(ground, &domains, |_| true, FilledShape { rings, whole: None })
         };
-        let cut: Vec<Vec<(u32, BezPath)>> = shapes.into_par_iter().with_min_len(16).map(cut).collect();
-        marks.extend(marks_by_look(cut.into_iter().flatten(), ground, context, own, None));
+        let cut: Vec<Vec<(u32, BezPath)>> = shapes.into_par_iter().with_min_len(16).map(clip_shape).collect();
+        marks.extend(marks_by_look(cut.into_iter().flatten(), ground, context, settings, None));
     }
     marks
 }
@@ -108,12 +116,12 @@ fn cut_line(ground: &HatchRegions, line: &[Point], wanted: impl Fn(u32) -> bool)
 fn surface_marks(
     ground: &HatchRegions,
     context: &HatchContext,
-    own: &Pattern,
-    wanted: &[bool],
+    pattern: &Pattern,
+    is_patterned: &[bool],
     decals: &[Decal],
     filled: &[bool],
 ) -> Vec<Mark> {
-    let domains = Domains::of_facets(ground, wanted);
+    let domains = Domains::of_facets(ground, is_patterned);
     let mut first = vec![0; ground.facets as usize];
     for (cell, known) in ground.cells.iter().enumerate().rev() {
         first[known.facet as usize] = cell as u32;
@@ -124,10 +132,10 @@ fn surface_marks(
         .with_min_len(16)
         .filter(is_filled)
         .map(|decal| {
-            let whole = (own.kind == PatternKind::Dots).then(|| closed_curve(decal)).flatten();
-            let shape = FilledShape { rings: decal.lines.clone(), whole };
-            let seen = |facet: u32| decal.facets.binary_search(&facet).is_ok();
-            let shown = clip_to_domains(ground, &domains, seen, shape);
+            let dot_outline = (pattern.kind == PatternKind::Dots).then(|| closed_curve(decal)).flatten();
+            let shape = FilledShape { rings: decal.lines.clone(), whole: dot_outline };
+            let is_visible_facet = |facet: u32| decal.facets.binary_search(&facet).is_ok();
+            let shown = clip_to_domains(ground, &domains, is_visible_facet, shape);
             shown.into_iter().map(|(facet, path)| (first[facet as usize], path)).collect()
         })
         .collect();
@@ -136,16 +144,16 @@ fn surface_marks(
         .with_min_len(16)
         .filter(|decal| !is_filled(decal))
         .map(|decal| {
-            let seen = |cell: u32| {
+            let is_visible_cell = |cell: u32| {
                 let facet = ground.cells[cell as usize].facet;
-                wanted[cell as usize] && decal.facets.binary_search(&facet).is_ok()
+                is_patterned[cell as usize] && decal.facets.binary_search(&facet).is_ok()
             };
-            decal.lines.iter().flat_map(|line| cut_line(ground, line, seen)).collect()
+            decal.lines.iter().flat_map(|line| cut_line(ground, line, is_visible_cell)).collect()
         })
         .collect();
-    let width = own.width.in_unit(context.unit);
-    let mut marks = marks_by_look(lines.into_iter().flatten(), ground, context, own, Some(width));
-    marks.extend(marks_by_look(shapes.into_iter().flatten(), ground, context, own, None));
+    let width = pattern.width.in_unit(context.unit);
+    let mut marks = marks_by_look(lines.into_iter().flatten(), ground, context, pattern, Some(width));
+    marks.extend(marks_by_look(shapes.into_iter().flatten(), ground, context, pattern, None));
     marks
 }
 
@@ -274,12 +282,13 @@ fn marks_by_look(
 ) -> Vec<Mark> {
     let mut sets: BTreeMap<(PartId, MaterialId, u16), (SurfaceLabel, BezPath)> = BTreeMap::new();
     for (cell, path) in paths {
-        let look = ground.cells[cell as usize].look;
-        let set = sets.entry((look.part, look.material, look.tone)).or_insert_with(|| (look, BezPath::new()));
+        let label = ground.cells[cell as usize].look;
+        let set =
+            sets.entry((label.part, label.material, label.tone)).or_insert_with(|| (label, BezPath::new()));
         set.1.extend(path);
     }
-    let mark = |(look, path): (SurfaceLabel, BezPath)| {
-        let mut ink = colour(own.colour, look, context);
+    let mark = |(surface_label, path): (SurfaceLabel, BezPath)| {
+        let mut ink = colour(own.colour, surface_label, context);
         ink.a = (f64::from(ink.a) * own.opacity).round() as u8;
         let paint = match width {
             None => Paint::Fill(ink),
@@ -292,7 +301,7 @@ fn marks_by_look(
                 dash_offset: 0.0,
             }),
         };
-        let provenance = Provenance { classes: vec!["pattern"], ..provenance(look, context) };
+        let provenance = Provenance { classes: vec!["pattern"], ..provenance(surface_label, context) };
         Mark { path, paint, provenance }
     };
     sets.into_values().map(mark).collect()

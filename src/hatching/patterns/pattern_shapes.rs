@@ -34,19 +34,20 @@ impl FilledShape {
 pub(crate) fn clip_to_domains(
     ground: &HatchRegions,
     domains: &Domains,
-    wanted: impl Fn(u32) -> bool,
+    is_wanted: impl Fn(u32) -> bool,
     shape: FilledShape,
 ) -> Vec<(u32, BezPath)> {
     let Some(bounds) = rings_bounds(&shape.rings) else { return Vec::new() };
     let around = clip_reach(bounds);
-    let own = |cell: u32| Some(domains.domain(cell)).filter(|domain| *domain != NO_DOMAIN && wanted(*domain));
-    let near: Vec<u32> = ground
+    let wanted_domain =
+        |cell: u32| Some(domains.domain(cell)).filter(|domain| *domain != NO_DOMAIN && is_wanted(*domain));
+    let nearby_pieces: Vec<u32> = ground
         .pieces_near(around.center(), around.width().max(around.height()) / 2.0)
         .into_iter()
         .filter(|number| {
             let piece = &ground.pieces[*number as usize];
             let [a, b] = piece.ends;
-            let [left, right] = piece.sides.map(own);
+            let [left, right] = piece.sides.map(wanted_domain);
             let apart = a.x.max(b.x) < around.x0
                 || a.x.min(b.x) > around.x1
                 || a.y.max(b.y) < around.y0
@@ -54,25 +55,28 @@ pub(crate) fn clip_to_domains(
             left != right && !apart
         })
         .collect();
-    if near.is_empty() {
+    if nearby_pieces.is_empty() {
         let cell = shape.rings.first().and_then(|ring| ring.first()).map(|p| ground.cell_at(*p));
-        return cell.and_then(own).map(|domain| (domain, shape.uncut())).into_iter().collect();
+        return cell.and_then(wanted_domain).map(|domain| (domain, shape.uncut())).into_iter().collect();
     }
-    let mut found: Vec<u32> =
-        near.iter().flat_map(|number| ground.pieces[*number as usize].sides).filter_map(own).collect();
-    found.sort_unstable();
-    found.dedup();
-    let turn = shape.clone().uncut().area();
+    let mut domain_numbers: Vec<u32> = nearby_pieces
+        .iter()
+        .flat_map(|number| ground.pieces[*number as usize].sides)
+        .filter_map(wanted_domain)
+        .collect();
+    domain_numbers.sort_unstable();
+    domain_numbers.dedup();
+    let signed_area = shape.clone().uncut().area();
     let of = |domain: u32| {
-        let is_own = |cell: u32| own(cell) == Some(domain);
-        let edges: Vec<[Point; 2]> = near
+        let is_own = |cell: u32| wanted_domain(cell) == Some(domain);
+        let edges: Vec<[Point; 2]> = nearby_pieces
             .iter()
             .filter_map(|number| Some(directed_border(&ground.pieces[*number as usize], is_own)?.0))
             .collect();
         let path = clip_polygon(&shape.rings, &edges, |p| is_own(ground.cell_at(p)))?;
         // Overlapping shapes of opposite orientation would cancel under the nonzero rule.
-        let is_turned = path.area() * turn < 0.0;
+        let is_turned = path.area() * signed_area < 0.0;
         Some((domain, if is_turned { path.reverse_subpaths() } else { path }))
     };
-    found.into_iter().filter_map(of).collect()
+    domain_numbers.into_iter().filter_map(of).collect()
 }

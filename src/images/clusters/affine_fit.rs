@@ -67,8 +67,8 @@ impl AffineSums {
         self.count += 1.0;
         self.page += p;
         self.place += t;
-        self.squares.iter_mut().zip([p.x * p.x, p.x * p.y, p.y * p.y]).for_each(|(sum, own)| *sum += own);
-        self.products.iter_mut().zip([t * p.x, t * p.y]).for_each(|(sum, own)| *sum += own);
+        self.squares.iter_mut().zip([p.x * p.x, p.x * p.y, p.y * p.y]).for_each(|(sum, term)| *sum += term);
+        self.products.iter_mut().zip([t * p.x, t * p.y]).for_each(|(sum, value)| *sum += value);
     }
 
     /// Solves for the map; `None` if the corners are collinear on the page.
@@ -80,12 +80,13 @@ impl AffineSums {
             self.squares[1] - n * page.x * page.y,
             self.squares[2] - n * page.y * page.y,
         );
-        let whole = xx * yy - xy * xy;
-        if whole.is_nan() || whole <= (xx + yy).powi(2) * tolerances::MIN_SPREAD_DETERMINANT_SHARE {
+        let determinant = xx * yy - xy * xy;
+        if determinant.is_nan() || determinant <= (xx + yy).powi(2) * tolerances::MIN_SPREAD_DETERMINANT_SHARE
+        {
             return None;
         }
         let [x, y] = [self.products[0] - place * (n * page.x), self.products[1] - place * (n * page.y)];
-        let found = DMat2::from_cols((x * yy - y * xy) / whole, (y * xx - x * xy) / whole);
+        let found = DMat2::from_cols((x * yy - y * xy) / determinant, (y * xx - x * xy) / determinant);
         let extent = ((xx + yy) / n).sqrt() * 2.0;
         let place_from_page = widened(found, MIN_SPAN_TEXELS / extent);
         let inverse = place_from_page.inverse();
@@ -94,18 +95,18 @@ impl AffineSums {
     }
 }
 
-/// Raises the smaller singular value of a matrix to at least `least`.
-fn widened(matrix: DMat2, least: f64) -> DMat2 {
+/// Raises the smaller singular value of a matrix to at least `min_value`.
+fn widened(matrix: DMat2, min_value: f64) -> DMat2 {
     // The matrix is the sum of a scaled rotation and a scaled reflection. Their sizes are half the sum and
     // half the difference of the two singular values.
     let [[a, b], [c, d]] = matrix.transpose().to_cols_array_2d();
     let (e, h, f, g) = ((a + d) / 2.0, (c - b) / 2.0, (a - d) / 2.0, (c + b) / 2.0);
     let (turned, mirrored) = ((e * e + h * h).sqrt(), (f * f + g * g).sqrt());
     let (large, small) = (turned + mirrored, turned - mirrored);
-    if small.abs() >= least {
+    if small.abs() >= min_value {
         return matrix;
     }
-    let (large, small) = (large.max(least), least.copysign(small));
+    let (large, small) = (large.max(min_value), min_value.copysign(small));
     let (new_turned, new_mirrored) = (f64::midpoint(large, small), (large - small) / 2.0);
     let (e, h) =
         if turned > 0.0 { (e * new_turned / turned, h * new_turned / turned) } else { (new_turned, 0.0) };

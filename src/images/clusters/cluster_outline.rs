@@ -41,30 +41,30 @@ pub(crate) fn outline(
 
 /// Loops around a cluster and around its holes, with the inside on the side of a turn from x to y.
 fn rings(cluster: &FacetCluster, facets: &[Facet], neighbours: &FacetNeighbours) -> Vec<OutlineRing> {
-    let mut own = cluster.facets.clone();
-    own.sort_unstable();
+    let mut members = cluster.facets.clone();
+    members.sort_unstable();
     // Sides between the cluster and others, by their start.
     let mut sides: Vec<([u32; 2], [Point; 2], bool)> = Vec::new();
-    for facet in &own {
-        let there = &facets[*facet as usize];
+    for facet in &members {
+        let member = &facets[*facet as usize];
         let numbers = neighbours.corners[*facet as usize];
-        let turns = there.area2() >= 0.0;
+        let turns = member.area2() >= 0.0;
         for side in 0..3 {
-            if neighbours.beyond(*facet, side).is_some_and(|other| own.binary_search(&other).is_ok()) {
+            if neighbours.beyond(*facet, side).is_some_and(|other| members.binary_search(&other).is_ok()) {
                 continue;
             }
             let next = (side + 1) % 3;
             let [from, to] = if turns { [side, next] } else { [next, side] };
             let at = |k: usize| {
-                let p = there.corners[k].image;
+                let p = member.corners[k].image;
                 Point::new(p.x, p.y)
             };
-            sides.push(([numbers[from], numbers[to]], [at(from), at(to)], there.is_wall(side)));
+            sides.push(([numbers[from], numbers[to]], [at(from), at(to)], member.is_wall(side)));
         }
     }
-    let mut begin: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+    let mut sides_by_start: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     for (k, ([from, _], ..)) in sides.iter().enumerate() {
-        begin.entry(*from).or_default().push(k);
+        sides_by_start.entry(*from).or_default().push(k);
     }
     let mut done = vec![false; sides.len()];
     let mut rings = Vec::new();
@@ -76,7 +76,7 @@ fn rings(cluster: &FacetCluster, facets: &[Facet], neighbours: &FacetNeighbours)
             ring.push((sides[k].1[0], sides[k].2));
             let back = sides[k].1[0] - sides[k].1[1];
             // Where several sides begin, the one is taken that has the cluster between it and the last side.
-            let starts = begin.get(&sides[k].0[1]).into_iter().flatten().copied();
+            let starts = sides_by_start.get(&sides[k].0[1]).into_iter().flatten().copied();
             next = starts.filter(|k| !done[*k]).min_by(|a, b| {
                 let turn = |k: &usize| turned(back, sides[*k].1[1] - sides[*k].1[0]);
                 turn(a).total_cmp(&turn(b)).then(a.cmp(b))
@@ -97,51 +97,51 @@ fn turned(from: Vec2, to: Vec2) -> f64 {
 
 /// Loop without the points that lie on the straight line past them.
 fn straightened(ring: &[(Point, bool)], tolerance: f64) -> OutlineRing {
-    let mut kept: OutlineRing = Vec::with_capacity(ring.len());
+    let mut remaining: OutlineRing = Vec::with_capacity(ring.len());
     for k in 0..ring.len() {
         let (before, (at, wall), after) =
-            (*kept.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()].0);
-        let way = after - before.0;
-        let beside = (at - before.0).cross(way).abs();
-        let along = (at - before.0).dot(way);
-        let is_between = along >= 0.0 && along <= way.hypot2() && before.1 == wall;
-        if !(is_between && beside <= tolerance * way.hypot2().sqrt()) {
-            kept.push((at, wall));
+            (*remaining.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()].0);
+        let chord = after - before.0;
+        let cross_product = (at - before.0).cross(chord).abs();
+        let along = (at - before.0).dot(chord);
+        let is_between = along >= 0.0 && along <= chord.hypot2() && before.1 == wall;
+        if !(is_between && cross_product <= tolerance * chord.hypot2().sqrt()) {
+            remaining.push((at, wall));
         }
     }
-    kept
+    remaining
 }
 
 /// Loop with its sides moved outward by `reach`, except those where another face passes through.
 fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
     let count = ring.len();
-    let unit = |way: Vec2| {
-        let length = way.hypot2().sqrt();
-        if length > 0.0 { way / length } else { Vec2::ZERO }
+    let unit = |vector: Vec2| {
+        let length = vector.hypot2().sqrt();
+        if length > 0.0 { vector / length } else { Vec2::ZERO }
     };
     // The inside is to the left in coordinates with y up, so outward is to the right.
-    let out = |k: usize| {
-        let way = unit(ring[(k + 1) % count].0 - ring[k].0);
-        Vec2::new(way.y, -way.x)
+    let normal_of = |k: usize| {
+        let direction = unit(ring[(k + 1) % count].0 - ring[k].0);
+        Vec2::new(direction.y, -direction.x)
     };
-    let mut wide = Vec::with_capacity(count);
+    let mut outline_points = Vec::with_capacity(count);
     for k in 0..count {
         let (before, after) = ((k + count - 1) % count, k);
-        let (at, [first, second]) = (ring[k].0, [before, after].map(out));
+        let (at, [first, second]) = (ring[k].0, [before, after].map(normal_of));
         match [ring[before].1, ring[after].1] {
             [false, false] => {
                 let middle = unit(first + second);
                 let cosine = middle.dot(second);
-                let far = if cosine > 1.0 / MAX_MITRE { 1.0 / cosine } else { MAX_MITRE };
-                wide.push(at + if middle == Vec2::ZERO { second } else { middle * far } * reach);
+                let mitre = if cosine > 1.0 / MAX_MITRE { 1.0 / cosine } else { MAX_MITRE };
+                outline_points.push(at + if middle == Vec2::ZERO { second } else { middle * mitre } * reach);
             }
             // Outward from the end of the wall and not along it, so nothing crosses the wall.
-            [true, false] => wide.extend([at, at + second * reach]),
-            [false, true] => wide.extend([at + first * reach, at]),
-            [true, true] => wide.push(at),
+            [true, false] => outline_points.extend([at, at + second * reach]),
+            [false, true] => outline_points.extend([at + first * reach, at]),
+            [true, true] => outline_points.push(at),
         }
     }
-    wide
+    outline_points
 }
 
 #[cfg(test)]

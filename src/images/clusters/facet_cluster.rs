@@ -73,15 +73,15 @@ impl FacetNeighbours {
             facets.iter().map(|facet| facet.corners.map(|corner| point(corner.image))).collect();
         let mut across = vec![[NO_FACET; 3]; facets.len()];
         let mut open: FxHashMap<(PartId, [u32; 2]), (u32, usize)> = FxHashMap::default();
-        for (number, own) in corners.iter().enumerate() {
+        for (number, corner_ids) in corners.iter().enumerate() {
             for side in (0..3).filter(|side| !facets[number].is_wall(*side)) {
-                let mut ends = [own[side], own[(side + 1) % 3]];
+                let mut ends = [corner_ids[side], corner_ids[(side + 1) % 3]];
                 ends.sort_unstable();
                 let key = (facets[number].part, ends);
                 match open.remove(&key) {
-                    Some((other, beyond)) => {
-                        across[number][side] = other;
-                        across[other as usize][beyond] = number as u32;
+                    Some((neighbour, neighbour_side)) => {
+                        across[number][side] = neighbour;
+                        across[neighbour as usize][neighbour_side] = number as u32;
                     }
                     None => {
                         open.insert(key, (number as u32, side));
@@ -94,7 +94,7 @@ impl FacetNeighbours {
 
     /// The facet across a side.
     pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
-        Some(self.across[facet as usize][side]).filter(|other| *other != NO_FACET)
+        Some(self.across[facet as usize][side]).filter(|neighbour| *neighbour != NO_FACET)
     }
 
     /// Neighbours that a facet may be gathered with.
@@ -102,14 +102,14 @@ impl FacetNeighbours {
         &'a self,
         facet: u32,
         facets: &'a [Facet],
-        company: &'a [MergeRule],
+        merge_rules: &'a [MergeRule],
     ) -> impl Iterator<Item = u32> + 'a {
-        let own = company[facet as usize];
+        let rule = merge_rules[facet as usize];
         (0..3).filter_map(move |side| {
-            let other = self.beyond(facet, side)?;
-            match own.max(company[other as usize]) {
-                MergeRule::All => Some(other),
-                MergeRule::Unparted => Some(other).filter(|_| !facets[facet as usize].is_parted(side)),
+            let neighbour = self.beyond(facet, side)?;
+            match rule.max(merge_rules[neighbour as usize]) {
+                MergeRule::All => Some(neighbour),
+                MergeRule::Unparted => Some(neighbour).filter(|_| !facets[facet as usize].is_parted(side)),
                 MergeRule::Alone => None,
             }
         })
@@ -134,11 +134,11 @@ pub(crate) struct ClusterFit {
 pub(crate) fn clusters(
     facets: &[Facet],
     neighbours: &FacetNeighbours,
-    company: &[MergeRule],
+    merge_rules: &[MergeRule],
     fit: &ClusterFit,
 ) -> Vec<FacetCluster> {
-    let beside = |facet: u32| neighbours.company(facet, facets, company);
-    let mut taken = vec![false; facets.len()];
+    let neighbours_of = |facet: u32| neighbours.company(facet, facets, merge_rules);
+    let mut is_assigned = vec![false; facets.len()];
     let mut found = Vec::new();
     let mut seeds: Vec<u32> = (0..facets.len() as u32).collect();
     seeds.sort_by(|a, b| {
@@ -146,15 +146,15 @@ pub(crate) fn clusters(
         area(b).total_cmp(&area(a)).then(a.cmp(b))
     });
     for seed in seeds {
-        if taken[seed as usize] {
+        if is_assigned[seed as usize] {
             continue;
         }
         let facet = &facets[seed as usize];
-        let grown = match facet.colour {
-            Some(colour) => of_colour(facets, beside, seed, colour, &mut taken),
-            None => of_picture(facets, (neighbours, &beside), seed, fit, &mut taken),
+        let cluster = match facet.colour {
+            Some(colour) => of_colour(facets, neighbours_of, seed, colour, &mut is_assigned),
+            None => of_picture(facets, (neighbours, &neighbours_of), seed, fit, &mut is_assigned),
         };
-        found.extend(grown);
+        found.extend(cluster);
     }
     found
 }
@@ -162,27 +162,27 @@ pub(crate) fn clusters(
 /// Cluster of one colour around a facet.
 fn of_colour<I: Iterator<Item = u32>>(
     facets: &[Facet],
-    beside: impl Fn(u32) -> I,
+    neighbours_of: impl Fn(u32) -> I,
     seed: u32,
     colour: Colour,
-    taken: &mut [bool],
+    is_assigned: &mut [bool],
 ) -> Option<FacetCluster> {
     let turn = facets[seed as usize].area2() > 0.0;
     let part = facets[seed as usize].part;
-    taken[seed as usize] = true;
-    let mut own = vec![seed];
+    is_assigned[seed as usize] = true;
+    let mut members = vec![seed];
     let mut next = 0;
-    while let Some(facet) = own.get(next).copied().filter(|_| own.len() < MAX_COLOUR_FACETS) {
+    while let Some(facet) = members.get(next).copied().filter(|_| members.len() < MAX_COLOUR_FACETS) {
         next += 1;
-        for other in beside(facet) {
-            let there = &facets[other as usize];
-            let fits = there.colour == Some(colour) && (there.area2() > 0.0) == turn;
-            if fits && !std::mem::replace(&mut taken[other as usize], true) {
-                own.push(other);
+        for neighbour in neighbours_of(facet) {
+            let neighbour_facet = &facets[neighbour as usize];
+            let fits = neighbour_facet.colour == Some(colour) && (neighbour_facet.area2() > 0.0) == turn;
+            if fits && !std::mem::replace(&mut is_assigned[neighbour as usize], true) {
+                members.push(neighbour);
             }
         }
     }
-    Some(FacetCluster { facets: own, shows: ClusterPaint::Colour(colour), part })
+    Some(FacetCluster { facets: members, shows: ClusterPaint::Colour(colour), part })
 }
 
 /// Largest number of facets in a cluster of one colour, so that clusters can be sorted by depth.
@@ -191,36 +191,38 @@ const MAX_COLOUR_FACETS: usize = 2000;
 /// Cluster of one affine map around a facet; `None` if it cannot be seen.
 fn of_picture<I: Iterator<Item = u32>>(
     facets: &[Facet],
-    (neighbours, beside): (&FacetNeighbours, &impl Fn(u32) -> I),
+    (neighbours, neighbours_of): (&FacetNeighbours, &impl Fn(u32) -> I),
     seed: u32,
     fit: &ClusterFit,
-    taken: &mut [bool],
+    is_assigned: &mut [bool],
 ) -> Option<FacetCluster> {
-    taken[seed as usize] = true;
+    is_assigned[seed as usize] = true;
     let first = &facets[seed as usize];
     let turn = first.area2() > 0.0;
     let mut grown = ClusterGrowth::new(first, neighbours.corners[seed as usize], fit);
     let mut map = grown.sums.solved()?;
-    let mut own = vec![seed];
-    let mut asked: FxHashSet<u32> = FxHashSet::default();
+    let mut members = vec![seed];
+    let mut tried: FxHashSet<u32> = FxHashSet::default();
     let mut next = 0;
-    while let Some(facet) = own.get(next).copied() {
+    while let Some(facet) = members.get(next).copied() {
         next += 1;
-        for other in beside(facet) {
-            let there = &facets[other as usize];
-            let fits = !taken[other as usize] && there.colour.is_none() && (there.area2() > 0.0) == turn;
-            if !fits || grown.corners.len() >= MAX_CORNERS || !asked.insert(other) {
+        for candidate in neighbours_of(facet) {
+            let candidate_facet = &facets[candidate as usize];
+            let fits = !is_assigned[candidate as usize]
+                && candidate_facet.colour.is_none()
+                && (candidate_facet.area2() > 0.0) == turn;
+            if !fits || grown.corners.len() >= MAX_CORNERS || !tried.insert(candidate) {
                 continue;
             }
-            let numbers = neighbours.corners[other as usize];
-            if let Some((wider, found)) = grown.with(there, numbers, fit) {
+            let numbers = neighbours.corners[candidate as usize];
+            if let Some((wider, found)) = grown.with(candidate_facet, numbers, fit) {
                 (grown, map) = (wider, found);
-                taken[other as usize] = true;
-                own.push(other);
+                is_assigned[candidate as usize] = true;
+                members.push(candidate);
             }
         }
     }
-    Some(FacetCluster { facets: own, shows: ClusterPaint::Picture(map), part: first.part })
+    Some(FacetCluster { facets: members, shows: ClusterPaint::Picture(map), part: first.part })
 }
 
 /// Corners of a growing cluster.

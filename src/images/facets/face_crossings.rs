@@ -54,15 +54,16 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
     let length = (to - from).length();
     let way = (to - from) / length;
     // Position of the corners along the line (x) and across it (y).
-    let line = CrossingLine { from, way, length, px };
+    let line = CrossingLine { from, direction: way, length, px };
     let at = facet.corners.map(|corner| line.at(corner.image.truncate()));
     if length.is_nan() || length <= 0.0 || !line.passes(at) {
         return vec![facet];
     }
-    let [before, behind] = [1.0, -1.0].map(|side| at.iter().filter(|at| at.y * side > 0.0).count());
-    let side = if before == 1 { 1.0 } else { -1.0 };
+    let [positive_count, negative_count] =
+        [1.0, -1.0].map(|side| at.iter().filter(|at| at.y * side > 0.0).count());
+    let side = if positive_count == 1 { 1.0 } else { -1.0 };
     let alone = at.iter().position(|at| at.y * side > 0.0);
-    let Some(alone) = alone.filter(|_| before > 0 && behind > 0) else {
+    let Some(alone) = alone.filter(|_| positive_count > 0 && negative_count > 0) else {
         let along = (0..3).find(|k| at[*k].y == 0.0 && at[(k + 1) % 3].y == 0.0);
         return along.map_or_else(|| vec![facet], |side| line.walled(&facet, side, frame));
     };
@@ -78,9 +79,9 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
         (Vec::new(), [(tip, 1), (rest, 2)])
     } else {
         // From (a, b, c): first (a, m, c) and (m, b, c), then the former is cut on its side from c to a.
-        let [near, far] = turned.cut_on_page(0, share(1), frame);
-        let [rest, tip] = near.cut_on_page(2, 1.0 - share(2), frame);
-        (vec![far], [(rest, 1), (tip, 2)])
+        let [first_part, second_part] = turned.cut_on_page(0, share(1), frame);
+        let [rest, tip] = first_part.cut_on_page(2, 1.0 - share(2), frame);
+        (vec![second_part], [(rest, 1), (tip, 2)])
     };
     pieces.extend(sided.into_iter().flat_map(|(piece, side)| line.walled(&piece, side, frame)));
     pieces
@@ -91,7 +92,7 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
 struct CrossingLine {
     from: DVec2,
     /// Unit vector along the line.
-    way: DVec2,
+    direction: DVec2,
     /// Length of the segment.
     length: f64,
     px: f64,
@@ -100,9 +101,10 @@ struct CrossingLine {
 impl CrossingLine {
     /// Position of a point along the line (x) and across it (y).
     fn at(&self, p: DVec2) -> DVec2 {
-        let beside = self.way.perp_dot(p - self.from);
-        let beside = if beside.abs() <= tolerances::MAX_LINE_DISTANCE_PX * self.px { 0.0 } else { beside };
-        DVec2::new(self.way.dot(p - self.from), beside)
+        let offset = self.direction.perp_dot(p - self.from);
+        let snapped_offset =
+            if offset.abs() <= tolerances::MAX_LINE_DISTANCE_PX * self.px { 0.0 } else { offset };
+        DVec2::new(self.direction.dot(p - self.from), snapped_offset)
     }
 
     /// Whether the segment passes through a facet with these corners, or along one of its sides.
@@ -126,11 +128,11 @@ impl CrossingLine {
     /// the segment or off it.
     fn walled(&self, facet: &Facet, side: usize, frame: &Frame) -> Vec<Facet> {
         let [a, b] =
-            [side, (side + 1) % 3].map(|k| self.way.dot(facet.corners[k].image.truncate() - self.from));
-        let least = MIN_CUT_PX * self.px;
+            [side, (side + 1) % 3].map(|k| self.direction.dot(facet.corners[k].image.truncate() - self.from));
+        let min_cut = MIN_CUT_PX * self.px;
         let mut cuts: Vec<f64> = [0.0, self.length]
             .into_iter()
-            .filter(|end| end - a.min(b) > least && a.max(b) - end > least)
+            .filter(|end| end - a.min(b) > min_cut && a.max(b) - end > min_cut)
             .map(|end| (end - a) / (b - a))
             .collect();
         cuts.sort_by(f64::total_cmp);
@@ -138,13 +140,13 @@ impl CrossingLine {
             let middle = a + (b - a) * f64::midpoint(from, to);
             middle > 0.0 && middle < self.length
         };
-        let (mut pieces, mut rest, mut begin) = (Vec::new(), facet.turned(side), 0.0);
+        let (mut pieces, mut remaining, mut begin) = (Vec::new(), facet.turned(side), 0.0);
         for cut in cuts {
-            let [piece, next] = rest.cut_on_page(0, (cut - begin) / (1.0 - begin), frame);
+            let [piece, next] = remaining.cut_on_page(0, (cut - begin) / (1.0 - begin), frame);
             pieces.push(piece.with_parted(0, is_on_way(begin, cut)));
-            (rest, begin) = (next, cut);
+            (remaining, begin) = (next, cut);
         }
-        pieces.push(rest.with_parted(0, is_on_way(begin, 1.0)));
+        pieces.push(remaining.with_parted(0, is_on_way(begin, 1.0)));
         pieces
     }
 }

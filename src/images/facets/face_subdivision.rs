@@ -25,8 +25,8 @@ pub(crate) fn visible_facets(stage: &ImageContext, imaged: &EmbeddedTexture) -> 
         let [a, b, c] = uvs.map(|uv| texels.place(*mesh.uvs.get(uv as usize)?));
         Some([a?, b?, c?])
     };
-    let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
-        let corners = [0, 1, 2].map(|k| FacetCorner { image: image[k], place: places[k] });
+    let mut add = |face: u32, image: [DVec3; 3], texel_corners: [DVec2; 3]| {
+        let corners = [0, 1, 2].map(|k| FacetCorner { image: image[k], place: texel_corners[k] });
         let part = mesh.face_part[face as usize];
         let facet = Facet::new(corners, part);
         let pieces = crossings.cut(face, facet, frame, px);
@@ -43,18 +43,18 @@ pub(crate) fn visible_facets(stage: &ImageContext, imaged: &EmbeddedTexture) -> 
     };
     for face in (0..mesh.triangles.len() as u32).filter(|face| shows(*face)) {
         let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
-        if let Some(places) = corners(face).filter(|_| image.iter().all(|p| p.is_finite())) {
-            add(face, image, places);
+        if let Some(corner_places) = corners(face).filter(|_| image.iter().all(|p| p.is_finite())) {
+            add(face, image, corner_places);
         }
     }
     for clipped in view.clipped.iter().filter(|clipped| shows(clipped.face.0)) {
-        let Some(places) = corners(clipped.face.0) else { continue };
-        let place = |p: DVec3| {
+        let Some(clipped_places) = corners(clipped.face.0) else { continue };
+        let texel_at = |p: DVec3| {
             let weights = mesh.weights(clipped.face, frame.local_from_image(p));
-            places[0] * weights[0] + places[1] * weights[1] + places[2] * weights[2]
+            clipped_places[0] * weights[0] + clipped_places[1] * weights[1] + clipped_places[2] * weights[2]
         };
         if clipped.points.iter().all(|p| p.is_finite()) {
-            add(clipped.face.0, clipped.points, clipped.points.map(place));
+            add(clipped.face.0, clipped.points, clipped.points.map(texel_at));
         }
     }
     facets

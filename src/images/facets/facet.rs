@@ -53,18 +53,18 @@ impl Facet {
         // The place is a quotient of two functions that are linear on the page.
         let (nb, nc) = ((b.place - a.place) * qb, (c.place - a.place) * qc);
         let [u, v] = [b, c].map(|corner| (corner.image - a.image).truncate());
-        let whole = u.perp_dot(v);
-        let (along_x, along_y) = (DVec2::new(v.y, -u.y) / whole, DVec2::new(-v.x, u.x) / whole);
+        let double_area = u.perp_dot(v);
+        let (along_x, along_y) = (DVec2::new(v.y, -u.y) / double_area, DVec2::new(-v.x, u.x) / double_area);
         let middle = (u + v) / 3.0;
-        let seen = |at: DVec2| {
+        let corner_at = |at: DVec2| {
             let share = [along_x.x * at.x + along_y.x * at.y, along_x.y * at.x + along_y.y * at.y];
             let q = qa + (qb - qa) * share[0] + (qc - qa) * share[1];
             let n = nb * share[0] + nc * share[1];
             let image = (a.image.truncate() + at).extend(q);
             FacetCorner { image, place: a.place + n / q }
         };
-        let beside = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| seen(middle + way * reach));
-        beside.iter().all(|corner| corner.place.is_finite()).then_some(beside)
+        let probes = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|axis| corner_at(middle + axis * reach));
+        probes.iter().all(|corner| corner.place.is_finite()).then_some(probes)
     }
 
     /// Smallest and largest place that it shows.
@@ -111,12 +111,12 @@ impl Facet {
     /// Both parts of the facet after a cut at a point of a side. The first keeps the first corner of the
     /// side, the second its second corner.
     pub fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
-        let whole = self.turned(side);
-        let [a, b, c] = whole.corners;
+        let rotated = self.turned(side);
+        let [a, b, c] = rotated.corners;
         let middle = between(a, b, share, frame);
         let of = |corners, sides: u8| {
-            let (parted, walls) = (whole.parted & sides, whole.walls & sides);
-            Self { corners, parted, walls, ..whole }
+            let (parted, walls) = (rotated.parted & sides, rotated.walls & sides);
+            Self { corners, parted, walls, ..rotated }
         };
         [of([a, middle, c], 0b101), of([middle, b, c], 0b011)]
     }
@@ -139,10 +139,10 @@ impl Facet {
         let (side, longest) = [0, 1, 2]
             .map(|side| (side, length(side).length()))
             .into_iter()
-            .fold((0, 0.0), |longest, own| if own.1 > longest.1 { own } else { longest });
+            .fold((0, 0.0), |longest, candidate| if candidate.1 > longest.1 { candidate } else { longest });
         let [a, b, c] = self.corners.map(|corner| corner.image.z);
-        let (far, near) = (a.min(b).min(c), a.max(b).max(c));
-        (side, longest * (near - far) / (2.0 * (near + far)).abs())
+        let (farthest, nearest) = (a.min(b).min(c), a.max(b).max(c));
+        (side, longest * (nearest - farthest) / (2.0 * (nearest + farthest)).abs())
     }
 }
 
@@ -163,13 +163,13 @@ fn between(a: FacetCorner, b: FacetCorner, share: f64, frame: &Frame) -> FacetCo
 
 /// Cuts facets so that none shows more than `spans` texels along x or y.
 ///
-/// Facets that show a repetition narrower than `least` user units are left out, because the whole picture is
+/// Facets that show a repetition narrower than `min_period` user units are left out, because the whole picture is
 /// visible there at once.
 pub(crate) fn cut_to_spans(
     facets: Vec<Facet>,
     spans: [Option<f64>; 2],
     periods: [Option<f64>; 2],
-    least: f64,
+    min_period: f64,
     frame: &Frame,
 ) -> Vec<Facet> {
     let mut open = facets;
@@ -185,7 +185,7 @@ pub(crate) fn cut_to_spans(
             done.push(facet);
             continue;
         };
-        if !facet.is_on(frame) || shrinks(&facet, periods, least) {
+        if !facet.is_on(frame) || shrinks(&facet, periods, min_period) {
             continue;
         }
         let at = (f64::midpoint(low[axis], high[axis]) / span).round() * span;
@@ -215,17 +215,17 @@ pub(crate) fn cut_to_spans(
 /// Largest number of facets of a picture.
 const MAX_FACETS: usize = 1 << 19;
 
-/// Whether a repetition of the picture is narrower than `least` on a facet.
-fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {
+/// Whether a repetition of the picture is narrower than `min_period` on a facet.
+fn shrinks(facet: &Facet, periods: [Option<f64>; 2], min_period: f64) -> bool {
     let [a, b, c] = facet.corners;
     let (p, q) = (b.place - a.place, c.place - a.place);
-    let whole = p.perp_dot(q);
+    let double_area = p.perp_dot(q);
     let [on_page, along] = [b, c].map(|corner| (corner.image - a.image).truncate());
     (0..2).any(|axis| {
         let Some(period) = periods[axis] else { return false };
         // Length on the page of a step of one texel.
         let step = if axis == 0 { (q.y, -p.y) } else { (-q.x, p.x) };
-        let way = (on_page * step.0 + along * step.1) / whole;
-        way.length() * period < least
+        let texel_step = (on_page * step.0 + along * step.1) / double_area;
+        texel_step.length() * period < min_period
     })
 }

@@ -68,12 +68,12 @@ fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
             firsts.push(lamp.colour);
             sums.push(([0.0; 3], 0.0));
         }
-        let (sum, all) = &mut sums[lamp.hue];
+        let (sum, weight_sum) = &mut sums[lamp.hue];
         sum.iter_mut().zip(lamp.colour).for_each(|(sum, c)| *sum += c * lamp.weight);
-        *all += lamp.weight;
+        *weight_sum += lamp.weight;
     }
-    let mean = |(first, (sum, all)): ([f64; 3], ([f64; 3], f64))| {
-        if all > 0.0 { sum.map(|c| c / all) } else { first }
+    let mean = |(first, (sum, total_weight)): ([f64; 3], ([f64; 3], f64))| {
+        if total_weight > 0.0 { sum.map(|c| c / total_weight) } else { first }
     };
     firsts.into_iter().zip(sums).map(mean).collect()
 }
@@ -90,7 +90,7 @@ pub struct Lighting {
     occlusion: f64,
     /// Distance of the eye and of parallel lights from the camera's target for highlights, world units, if it
     /// is changed.
-    near: Option<f64>,
+    highlight_distance: Option<f64>,
 }
 
 impl Lighting {
@@ -137,15 +137,16 @@ impl Lighting {
         }
         let hues = part_by_hue(&mut lamps);
         let (wrap, occlusion) = (options.wrap, options.occlusion);
-        Self { lamps, hues, casters, frame: Some(*frame), wrap, occlusion, near: None }
+        Self { lamps, hues, casters, frame: Some(*frame), wrap, occlusion, highlight_distance: None }
     }
 
     /// Moves the eye and parallel lights to `sides` frame sides from the camera's target, for highlights
     /// only; 0 leaves them in place.
     #[must_use]
     pub fn near_for_highlights(self, sides: f64) -> Self {
-        let far = self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
-        Self { near: far, ..self }
+        let near_distance =
+            self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
+        Self { highlight_distance: near_distance, ..self }
     }
 
     /// One parallel white light, with shadows and without highlights.
@@ -161,7 +162,7 @@ impl Lighting {
             frame: None,
             wrap: 0.0,
             occlusion: 0.0,
-            near: None,
+            highlight_distance: None,
         }
     }
 
@@ -224,7 +225,7 @@ impl Lighting {
     fn chosen(&self, of: LampFilter, shadowed: u32) -> impl Iterator<Item = &Lamp> {
         let is_chosen = move |(k, lamp): &(usize, &Lamp)| match of {
             LampFilter::All => true,
-            LampFilter::Lamp(own) => own == *k,
+            LampFilter::Lamp(lamp_index) => lamp_index == *k,
             LampFilter::Hue(hue) => hue == lamp.hue,
         };
         let chosen = self.lamps.iter().enumerate().filter(is_chosen).map(|(_, lamp)| lamp);
@@ -260,12 +261,12 @@ impl Lighting {
         let normal = self.normal(point);
         let lambert = |angle: f64| ((cos(angle) + self.wrap) / (1.0 + self.wrap)).max(0.0);
         let (mut low, mut high) = (0.0, 0.0);
-        for own in self.chosen(of, shadowed) {
-            let Some(near) = own.near(point.position, extent) else { return UNBOUNDED };
-            let angle = acos(near.towards.dot(normal).clamp(-1.0, 1.0));
-            let turn = turn + near.turn;
-            low += near.amount / near.factor * lambert((angle + turn).min(PI));
-            high += near.amount * near.factor * lambert((angle - turn).max(0.0));
+        for lamp in self.chosen(of, shadowed) {
+            let Some(lamp_bounds) = lamp.near(point.position, extent) else { return UNBOUNDED };
+            let angle = acos(lamp_bounds.towards.dot(normal).clamp(-1.0, 1.0));
+            let turn = turn + lamp_bounds.turn;
+            low += lamp_bounds.amount / lamp_bounds.factor * lambert((angle + turn).min(PI));
+            high += lamp_bounds.amount * lamp_bounds.factor * lambert((angle - turn).max(0.0));
         }
         (low * (1.0 - self.occlusion.clamp(0.0, 1.0)), high)
     }
@@ -280,39 +281,41 @@ impl Lighting {
         extent: f64,
     ) -> (f64, f64) {
         let Some(frame) = &self.frame else { return (0.0, 0.0) };
-        let (to_eye, way) = self.eye_of_highlights(frame, point.position);
-        if extent > MAX_EXTENT_SHARE * way {
+        let (to_eye, eye_distance) = self.eye_of_highlights(frame, point.position);
+        if extent > MAX_EXTENT_SHARE * eye_distance {
             return UNBOUNDED;
         }
-        let eye_turn = TURN_PER_EXTENT * extent / way;
+        let eye_turn = TURN_PER_EXTENT * extent / eye_distance;
         let normal = self.normal(point);
         let mut high = 0.0;
         for lamp in self.lit(shadowed) {
-            let Some(mut near) = lamp.near(point.position, extent) else { return UNBOUNDED };
-            if let Some((towards, way)) = self.towards_for_highlights(frame, lamp, point.position) {
-                if extent > MAX_EXTENT_SHARE * way {
+            let Some(mut lamp_bounds) = lamp.near(point.position, extent) else { return UNBOUNDED };
+            if let Some((towards, lamp_distance)) = self.towards_for_highlights(frame, lamp, point.position) {
+                if extent > MAX_EXTENT_SHARE * lamp_distance {
                     return UNBOUNDED;
                 }
-                (near.towards, near.turn) = (towards, TURN_PER_EXTENT * extent / way);
+                (lamp_bounds.towards, lamp_bounds.turn) = (towards, TURN_PER_EXTENT * extent / lamp_distance);
             }
-            let half = (near.towards + to_eye).normalize_or_zero();
+            let half = (lamp_bounds.towards + to_eye).normalize_or_zero();
             // The half vector turns by at most the sum of both turns, while the two directions are within a
             // right angle. Otherwise there is no bound.
-            if near.towards.dot(to_eye) < 0.0 {
+            if lamp_bounds.towards.dot(to_eye) < 0.0 {
                 return UNBOUNDED;
             }
-            let angle = acos(normal.dot(half).clamp(-1.0, 1.0)) - turn - near.turn - eye_turn;
-            high += near.amount * near.factor * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
+            let angle = acos(normal.dot(half).clamp(-1.0, 1.0)) - turn - lamp_bounds.turn - eye_turn;
+            high += lamp_bounds.amount
+                * lamp_bounds.factor
+                * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
         }
         (0.0, high)
     }
 
     /// Direction and distance to the eye for highlights; the distance is infinite in parallel views.
     fn eye_of_highlights(&self, frame: &Frame, position: DVec3) -> (DVec3, f64) {
-        match self.near {
+        match self.highlight_distance {
             Some(near) => {
-                let way = frame.target() - frame.forward * near - position;
-                (way.normalize_or_zero(), way.length())
+                let offset = frame.target() - frame.forward * near - position;
+                (offset.normalize_or_zero(), offset.length())
             }
             None if frame.perspective => (frame.to_eye(position), frame.eye.distance(position)),
             None => (frame.to_eye(position), f64::INFINITY),
@@ -322,8 +325,8 @@ impl Lighting {
     /// Direction and distance to a parallel light moved near for highlights; `None` for other lights.
     fn towards_for_highlights(&self, frame: &Frame, lamp: &Lamp, position: DVec3) -> Option<(DVec3, f64)> {
         let LampSource::Parallel { towards } = lamp.reach else { return None };
-        let way = frame.target() + towards * self.near? - position;
-        Some((way.normalize_or_zero(), way.length()))
+        let offset = frame.target() + towards * self.highlight_distance? - position;
+        Some((offset.normalize_or_zero(), offset.length()))
     }
 
     fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {

@@ -68,14 +68,16 @@ pub(crate) struct Tones {
 
 impl Tones {
     /// Tones of a material, with levels for these channels.
-    pub fn new(options: &ToneOptions, look: &ToneSurface, channels: &[ToneChannel]) -> Self {
-        let mixture = HueMixture::of(options, look.hues);
+    pub fn new(options: &ToneOptions, surface: &ToneSurface, channels: &[ToneChannel]) -> Self {
+        let mixture = HueMixture::of(options, surface.hues);
         let mut colours = match &mixture {
-            Some(mixture) => mixture.shares.iter().map(|shares| lake(options, look, *shares, true)).collect(),
-            None => plain_colours(options, look),
+            Some(mixture) => {
+                mixture.shares.iter().map(|shares| lake(options, surface, *shares, true)).collect()
+            }
+            None => plain_colours(options, surface),
         };
         let plain = colours.len();
-        let highlight = options.highlight.of(look.gloss);
+        let highlight = options.highlight.of(surface.gloss);
         if let (Some(highlight), Some(brightest)) = (&highlight, colours.last().copied()) {
             colours.extend(highlight_colours(highlight, brightest));
         }
@@ -132,10 +134,10 @@ impl Tones {
     /// changes most.
     pub fn shades(&self) -> usize {
         let plain = &self.colours[..self.plain.min(self.colours.len())];
-        let way = |channel: fn(&Colour) -> u8| -> usize {
+        let total_change = |channel: fn(&Colour) -> u8| -> usize {
             plain.windows(2).map(|pair| usize::from(channel(&pair[0]).abs_diff(channel(&pair[1])))).sum()
         };
-        way(|c| c.r).max(way(|c| c.g)).max(way(|c| c.b))
+        total_change(|c| c.r).max(total_change(|c| c.g)).max(total_change(|c| c.b))
     }
 
     /// Colour of a tone; the last one for an index out of range.
@@ -155,47 +157,48 @@ fn diffuse_levels(scale: &ToneScale) -> Vec<f64> {
 }
 
 /// Colours of the tones that are not highlights, darkest first.
-fn plain_colours(options: &ToneOptions, look: &ToneSurface) -> Vec<Colour> {
-    let standing = |colours: &[Colour], modulate: f64| -> Vec<Colour> {
+fn plain_colours(options: &ToneOptions, surface: &ToneSurface) -> Vec<Colour> {
+    let modulated_colours = |colours: &[Colour], modulate: f64| -> Vec<Colour> {
         colours
             .iter()
-            .map(|&colour| if modulate > 0.0 { modulated(colour, modulate, look) } else { colour })
+            .map(|&colour| if modulate > 0.0 { modulated(colour, modulate, surface) } else { colour })
             .collect()
     };
     let count = match &options.scale {
-        ToneScale::Ramp(strip) => return standing(&strip.colours, options.modulate.unwrap_or(0.0)),
-        ToneScale::Table(table) => return standing(&table.colours, options.modulate.unwrap_or(1.5)),
+        ToneScale::Ramp(strip) => return modulated_colours(&strip.colours, options.modulate.unwrap_or(0.0)),
+        ToneScale::Table(table) => return modulated_colours(&table.colours, options.modulate.unwrap_or(1.5)),
         scale => diffuse_levels(scale).len() + 1,
     };
     let even = [0.0, 1.0];
     let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
     let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
     let colours = (0..count).map(|k| match &options.colours {
-        Colours::Material => lake(options, look, look.tint.map(|c| c * share(k)), count > 1),
+        Colours::Material => lake(options, surface, surface.tint.map(|c| c * share(k)), count > 1),
         Colours::Palette(palette) => {
             spread(palette, k, count, |a, b, t| a.mix(b, t)).unwrap_or(Colour::WHITE)
         }
-        Colours::Gooch(gooch) => cool_to_warm(gooch, look, share(k)),
+        Colours::Gooch(gooch) => cool_to_warm(gooch, surface, share(k)),
     });
     let colours: Vec<Colour> = colours.collect();
     match options.colours {
-        Colours::Palette(_) => standing(&colours, options.modulate.unwrap_or(0.0)),
+        Colours::Palette(_) => modulated_colours(&colours, options.modulate.unwrap_or(0.0)),
         _ => colours,
     }
 }
 
 /// Lake's eq. 1 with tinted shares in place of max(L·n, 0). It adds the ambient light of the scene and of the
 /// light to the diffuse share of the light, all times the material.
-fn lake(options: &ToneOptions, look: &ToneSurface, shares: [f64; 3], toned: bool) -> Colour {
-    let mut material = look.colour.channels();
+fn lake(options: &ToneOptions, surface: &ToneSurface, shares: [f64; 3], toned: bool) -> Colour {
+    let mut material = surface.colour.channels();
     let greatest = material.into_iter().fold(0.0, f64::max);
     if toned && greatest < MIN_LIT_CHANNEL {
         material = material.map(|channel| channel + MIN_LIT_CHANNEL - greatest);
     }
-    let (a_g, a_l, lit) = (look.ambient.0, options.shadow.0, options.lit.0);
-    let own = look.emissive.channels();
-    let channel = |c: usize| ((a_g[c] + a_l[c] + shares[c] * (lit[c] - a_l[c])) * material[c]).max(own[c]);
-    Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
+    let (a_g, a_l, lit) = (surface.ambient.0, options.shadow.0, options.lit.0);
+    let emitted = surface.emissive.channels();
+    let channel =
+        |c: usize| ((a_g[c] + a_l[c] + shares[c] * (lit[c] - a_l[c])) * material[c]).max(emitted[c]);
+    Colour { a: surface.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
 }
 
 /// Mixture of lights of several tints. Each light falls into its own tones, and each combination of these is
@@ -261,21 +264,21 @@ impl HueMixture {
 }
 
 /// Gooch's blend of k_cool = k_blue + α k_d and k_warm = k_yellow + β k_d.
-fn cool_to_warm(gooch: &Gooch, look: &ToneSurface, share: f64) -> Colour {
-    let (cool, warm, material) = (gooch.cool.channels(), gooch.warm.channels(), look.colour.channels());
+fn cool_to_warm(gooch: &Gooch, surface: &ToneSurface, share: f64) -> Colour {
+    let (cool, warm, material) = (gooch.cool.channels(), gooch.warm.channels(), surface.colour.channels());
     let channel = |c: usize| {
         let k_cool = (cool[c] + gooch.cool_share * material[c]).min(1.0);
         let k_warm = (warm[c] + gooch.warm_share * material[c]).min(1.0);
         k_cool + (k_warm - k_cool) * share
     };
-    Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
+    Colour { a: surface.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
 }
 
 /// Colour of a ramp times the material and the lights' tint, multiplied by a factor and cut off at 1.
-fn modulated(colour: Colour, factor: f64, look: &ToneSurface) -> Colour {
-    let (shade, material) = (colour.channels(), look.colour.channels());
-    let channels = [0, 1, 2].map(|c| factor * shade[c] * material[c] * look.tint[c]);
-    Colour { a: look.colour.a.min(colour.a), ..Colour::from_channels(channels) }
+fn modulated(colour: Colour, factor: f64, surface: &ToneSurface) -> Colour {
+    let (shade, material) = (colour.channels(), surface.colour.channels());
+    let channels = [0, 1, 2].map(|c| factor * shade[c] * material[c] * surface.tint[c]);
+    Colour { a: surface.colour.a.min(colour.a), ..Colour::from_channels(channels) }
 }
 
 /// Rising strengths where highlights begin or change.

@@ -52,8 +52,8 @@ impl Shading {
             .iter()
             .chain([&without])
             .map(|material| {
-                let (own, colour) = tones.for_material(&material.name);
-                (own, material, colour)
+                let (material_tones, colour) = tones.for_material(&material.name);
+                (material_tones, material, colour)
             })
             .collect();
 
@@ -72,11 +72,11 @@ impl Shading {
         let tint = lighting.tint();
         let tones_of = |materials: &[(ToneOptions, &Material, Option<Colour>)]| -> Vec<Tones> {
             let of = |index: usize, colour: Option<Colour>| {
-                let (own, material, instead) = materials.get(index).or(materials.last())?;
+                let (paint_tones, material, instead) = materials.get(index).or(materials.last())?;
                 let colour = instead.or(colour).unwrap_or(material.colour);
                 let Material { emissive, gloss, .. } = **material;
-                let look = ToneSurface { colour, emissive, ambient: light.ambient, tint, gloss, hues };
-                Some(Tones::new(own, &look, &channels))
+                let surface = ToneSurface { colour, emissive, ambient: light.ambient, tint, gloss, hues };
+                Some(Tones::new(paint_tones, &surface, &channels))
             };
             if paints.is_empty() {
                 (0..materials.len()).filter_map(|index| of(index, None)).collect()
@@ -125,8 +125,9 @@ impl Shading {
     /// several tones.
     #[must_use]
     pub fn most_levels(&self) -> usize {
-        let others = || (0..self.channels.len()).filter(|channel| self.bin_channel() != Some(*channel));
-        let of = |tones: &Tones| others().map(|channel| tones.levels(channel).len()).max();
+        let other_channels =
+            || (0..self.channels.len()).filter(|channel| self.bin_channel() != Some(*channel));
+        let of = |tones: &Tones| other_channels().map(|channel| tones.levels(channel).len()).max();
         self.tones.iter().filter_map(of).max().unwrap_or_default()
     }
 
@@ -138,8 +139,9 @@ impl Shading {
         let options = ToneOptions { scale: ToneScale::Thresholds(levels), ..ToneOptions::default() };
         let Material { colour, emissive, .. } = Material::default();
         let ambient = LightOptions::default().ambient;
-        let look = ToneSurface { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
-        let tones = vec![Tones::new(&options, &look, &channels)];
+        let surface =
+            ToneSurface { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
+        let tones = vec![Tones::new(&options, &surface, &channels)];
         Self { lighting, channels, tones }
     }
 

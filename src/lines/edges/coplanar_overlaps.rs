@@ -53,13 +53,13 @@ pub(crate) fn classify_overlaps(
     let (low, high) = (mesh.extents.middle - half, mesh.extents.middle + half);
     let faces = &BoxTree::new(&mesh.positions, &mesh.triangles, &is_overlaid, low, high);
     let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
-    let settled: Vec<Option<Vec<OverlapPiece>>> = segments
+    let new_pieces: Vec<Option<Vec<OverlapPiece>>> = segments
         .par_iter()
         .map(|segment| {
-            let [host, other] = hosts_in_planes(mesh, view, segment);
+            let [host, second_host] = hosts_in_planes(mesh, view, segment);
             let pieces_in = |host: u32| Some(EdgeProbe::new(mesh, segment, host)?.pieces(faces));
             let mut pieces = pieces_in(host?)?;
-            if let Some(more) = other.and_then(pieces_in) {
+            if let Some(more) = second_host.and_then(pieces_in) {
                 pieces = merge_planes(&pieces, &more);
             }
             // An edge that keeps its kind throughout stays unchanged.
@@ -69,12 +69,12 @@ pub(crate) fn classify_overlaps(
         })
         .collect();
     let mut overlaid = OverlapLines::default();
-    for (segment, pieces) in segments.iter().zip(&settled) {
+    for (segment, pieces) in segments.iter().zip(&new_pieces) {
         let pieces = pieces.iter().flatten().filter(|piece| is_wanted(piece.kind));
         overlaid.add(mesh, segment, pieces);
     }
-    let mut settled = settled.into_iter();
-    segments.retain(|segment| settled.next().flatten().is_none() && is_wanted(segment.kind));
+    let mut pieces_of_segment = new_pieces.into_iter();
+    segments.retain(|segment| pieces_of_segment.next().flatten().is_none() && is_wanted(segment.kind));
     overlaid
 }
 
@@ -93,17 +93,17 @@ fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Optio
         LineKind::Contour | LineKind::Crease | LineKind::Material
             if segment.role == Role::Line && second != NO_FACE =>
         {
-            let goes_behind = |own: u32, other: u32| {
-                let [a, b, c] = mesh.corners(FaceId(own));
+            let goes_behind = |host: u32, opposite: u32| {
+                let [a, b, c] = mesh.corners(FaceId(host));
                 let normal = (b - a).cross(c - a).normalize_or_zero();
-                let heights = mesh.corners(FaceId(other)).map(|corner| (corner - a).dot(normal));
+                let heights = mesh.corners(FaceId(opposite)).map(|corner| (corner - a).dot(normal));
                 let height =
                     heights.into_iter().max_by(|p, q| p.abs().total_cmp(&q.abs())).unwrap_or_default();
                 height * view.frame.to_eye(a).dot(normal) < 0.0
             };
-            let mut hosts = [[first, second], [second, first]].into_iter().filter(|[own, other]| {
-                let is_alone = mesh.overlay(*own).plane != 0 && !mesh.share_plane(*own, *other);
-                is_alone && goes_behind(*own, *other)
+            let mut hosts = [[first, second], [second, first]].into_iter().filter(|[plane_face, other]| {
+                let is_alone = mesh.overlay(*plane_face).plane != 0 && !mesh.share_plane(*plane_face, *other);
+                is_alone && goes_behind(*plane_face, *other)
             });
             [hosts.next().map(|[own, _]| own), hosts.next().map(|[own, _]| own)]
         }
@@ -112,21 +112,23 @@ fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Optio
 }
 
 /// Merges the pieces of an edge in two planes: it is a material boundary where it is one in either plane.
-fn merge_planes(one: &[OverlapPiece], two: &[OverlapPiece]) -> Vec<OverlapPiece> {
-    let mut cuts: Vec<f64> = one.iter().chain(two).flat_map(|piece| [piece.start, piece.end]).collect();
+fn merge_planes(first: &[OverlapPiece], second: &[OverlapPiece]) -> Vec<OverlapPiece> {
+    let mut cuts: Vec<f64> = first.iter().chain(second).flat_map(|piece| [piece.start, piece.end]).collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
     let mut pieces: Vec<OverlapPiece> = Vec::new();
     for pair in cuts.windows(2) {
         let (start, end) = (pair[0], pair[1]);
-        let there = || one.iter().chain(two).filter(|piece| piece.start <= start && piece.end >= end);
-        let parted = there().find(|piece| piece.kind == LineKind::Material);
-        let Some(&OverlapPiece { kind, outer_face: beyond, .. }) = parted.or_else(|| there().next()) else {
+        let covering = || first.iter().chain(second).filter(|piece| piece.start <= start && piece.end >= end);
+        let material_piece = covering().find(|piece| piece.kind == LineKind::Material);
+        let Some(&OverlapPiece { kind, outer_face: outer, .. }) =
+            material_piece.or_else(|| covering().next())
+        else {
             continue;
         };
         match pieces.last_mut().filter(|last| last.end == start && last.kind == kind) {
             Some(last) => last.end = end,
-            None => pieces.push(OverlapPiece { start, end, kind, outer_face: beyond }),
+            None => pieces.push(OverlapPiece { start, end, kind, outer_face: outer }),
         }
     }
     pieces
@@ -143,9 +145,9 @@ impl OverlapLines {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
         let mut last: Option<(f64, u32)> = None;
         for piece in pieces {
-            let mut end = |t: f64, whole: u32| {
+            let mut end = |t: f64, fallback: u32| {
                 if t <= 0.0 || t >= 1.0 {
-                    return whole;
+                    return fallback;
                 }
                 if let Some((_, id)) = last.filter(|(at, _)| *at == t) {
                     return id;
@@ -222,11 +224,11 @@ impl<'a> EdgeProbe<'a> {
         let over = mesh.corners(FaceId(host)).map(|corner| (corner - a) - along * (corner - a).dot(along));
         let inward = over.into_iter().max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?;
         let inward = inward.try_normalize()?;
-        let beside = PROBE_OFFSET_CONTACTS * mesh.extent(FaceId(host)).contact;
+        let probe_distance = PROBE_OFFSET_CONTACTS * mesh.extent(FaceId(host)).contact;
         let [first, second] = segment.hosts;
         let is_flat = second == NO_FACE || mesh.share_plane(first, second);
         let (kind, length) = (segment.kind, a.distance(b));
-        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, probe_offset: beside })
+        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, probe_offset: probe_distance })
     }
 
     /// Pieces that are lines, from end to end. `faces` is a tree of the overlapping faces.
@@ -246,26 +248,30 @@ impl<'a> EdgeProbe<'a> {
         });
         let mut cuts: Vec<f64> =
             covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
-        let least = MIN_PIECE_OFFSETS * self.probe_offset / self.length;
-        cuts.retain(|t| *t > least && *t < 1.0 - least);
+        let min_share = MIN_PIECE_OFFSETS * self.probe_offset / self.length;
+        cuts.retain(|t| *t > min_share && *t < 1.0 - min_share);
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup_by(|b, a| *b - *a < least);
+        cuts.dedup_by(|b, a| *b - *a < min_share);
         let ends: Vec<f64> = [0.0].into_iter().chain(cuts).chain([1.0]).collect();
         let mut pieces: Vec<(OverlapPiece, [u32; 2])> = Vec::new();
         for pair in ends.windows(2) {
             let (start, end) = (pair[0], pair[1]);
             let at = f64::midpoint(start, end);
-            let [within, beyond] = [0, 1].map(|side| self.top(&covers[side], at));
-            let Some((kind, beyond)) = self.line(within, beyond) else { continue };
+            let [inner_face, outer_top] = [0, 1].map(|side| self.top(&covers[side], at));
+            let Some((kind, outer_face_or_none)) = self.line(inner_face, outer_top) else { continue };
             let rank = |face: u32| self.mesh.overlay(face).rank;
-            let sides =
-                [within.map_or(u32::MAX, rank), if beyond == NO_FACE { u32::MAX } else { rank(beyond) }];
+            let sides = [
+                inner_face.map_or(u32::MAX, rank),
+                if outer_face_or_none == NO_FACE { u32::MAX } else { rank(outer_face_or_none) },
+            ];
             match pieces
                 .last_mut()
-                .filter(|(last, own)| last.end == start && last.kind == kind && *own == sides)
+                .filter(|(last, last_ranks)| last.end == start && last.kind == kind && *last_ranks == sides)
             {
                 Some((last, _)) => last.end = end,
-                None => pieces.push((OverlapPiece { start, end, kind, outer_face: beyond }, sides)),
+                None => {
+                    pieces.push((OverlapPiece { start, end, kind, outer_face: outer_face_or_none }, sides))
+                }
             }
         }
         pieces.into_iter().map(|(piece, _)| piece).collect()
@@ -273,26 +279,26 @@ impl<'a> EdgeProbe<'a> {
 
     /// Topmost face of those that cover a position.
     fn top(&self, covers: &[((f64, f64), u32)], at: f64) -> Option<u32> {
-        let there = covers.iter().filter(|((start, end), _)| (*start..=*end).contains(&at));
-        there
+        let covering = covers.iter().filter(|((start, end), _)| (*start..=*end).contains(&at));
+        covering
             .map(|(_, face)| *face)
             .max_by_key(|face| (self.mesh.overlay(*face).rank, std::cmp::Reverse(*face)))
     }
 
     /// Kind of line between the topmost faces on both sides, and the outer face. `None` if no line is drawn.
-    fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
+    fn line(&self, inner_face: Option<u32>, outer_face: Option<u32>) -> Option<(LineKind, u32)> {
         let mesh = self.mesh;
-        let own = within.unwrap_or(self.host);
-        let Some(beyond) = beyond else { return Some((self.kind, NO_FACE)) };
+        let inner_or_host = inner_face.unwrap_or(self.host);
+        let Some(outer) = outer_face else { return Some((self.kind, NO_FACE)) };
         let material = |face: u32| mesh.face_material[face as usize];
         // Edges of bodies are drawn across a surface of their plane, even where the colours are equal.
-        if mesh.overlay(own).rank == mesh.overlay(beyond).rank {
-            return (!self.is_flat).then_some((self.kind, beyond));
+        if mesh.overlay(inner_or_host).rank == mesh.overlay(outer).rank {
+            return (!self.is_flat).then_some((self.kind, outer));
         }
-        match (material(own) == material(beyond), self.kind) {
+        match (material(inner_or_host) == material(outer), self.kind) {
             (true, LineKind::Material) if self.is_flat => None,
-            (true, kind) => Some((kind, beyond)),
-            (false, _) => Some((LineKind::Material, beyond)),
+            (true, kind) => Some((kind, outer)),
+            (false, _) => Some((LineKind::Material, outer)),
         }
     }
 
@@ -305,13 +311,13 @@ impl<'a> EdgeProbe<'a> {
         if high < -self.probe_offset || low > self.probe_offset {
             return [None; 2];
         }
-        let places = corners.map(|p| (p - self.from).dot(self.along) / self.length);
+        let offsets = corners.map(|p| (p - self.from).dot(self.along) / self.length);
         [self.probe_offset, -self.probe_offset].map(|inward| {
             let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
             for k in 0..3 {
                 let (p, q) = (heights[k] - inward, heights[(k + 1) % 3] - inward);
                 if (p < 0.0) != (q < 0.0) {
-                    let at = places[k] + (places[(k + 1) % 3] - places[k]) * (p / (p - q));
+                    let at = offsets[k] + (offsets[(k + 1) % 3] - offsets[k]) * (p / (p - q));
                     (start, end) = (start.min(at), end.max(at));
                 }
             }

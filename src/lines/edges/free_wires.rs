@@ -85,34 +85,34 @@ impl WireChord {
     }
 
     /// Range of lengths along this chord where another chord runs next to it.
-    fn along(&self, other: &Self) -> Option<(f64, f64)> {
-        let cosine = self.along.dot(other.along);
+    fn along(&self, other_chord: &Self) -> Option<(f64, f64)> {
+        let cosine = self.along.dot(other_chord.along);
         if cosine.abs() < MIN_CHORD_COSINE {
             return None;
         }
-        let place = |p: DVec3| (p - self.start).dot(self.along);
-        let (first, last) = (place(other.start), place(other.end()));
+        let position_along = |p: DVec3| (p - self.start).dot(self.along);
+        let (first, last) = (position_along(other_chord.start), position_along(other_chord.end()));
         let (from, to) = (first.min(last).max(0.0), first.max(last).min(self.length));
-        if to - from <= self.slack.min(0.5 * self.length.min(other.length)) {
+        if to - from <= self.slack.min(0.5 * self.length.min(other_chord.length)) {
             return None;
         }
         // Offset between the chords, tested at both ends of the range.
         let offset = |t: f64| {
             let at = self.start + self.along * t;
-            at - (other.start + other.along * ((t - first) / cosine))
+            at - (other_chord.start + other_chord.along * ((t - first) / cosine))
         };
-        let is_near = |t: f64| other.holds(self, offset(t)) || self.holds(other, -offset(t));
+        let is_near = |t: f64| other_chord.holds(self, offset(t)) || self.holds(other_chord, -offset(t));
         (is_near(from) && is_near(to)).then_some((from, to))
     }
 
     /// Whether a point at this offset may lie on the curve, or on a finer chord of it.
-    fn holds(&self, other: &Self, offset: DVec3) -> bool {
-        let slack = self.slack.max(other.slack);
-        let way = self.sagitta.normalize_or_zero();
-        let (rise, height) = (offset.dot(way), self.sagitta.length());
-        rise >= -slack - other.sagitta.length()
+    fn holds(&self, other_chord: &Self, offset: DVec3) -> bool {
+        let slack = self.slack.max(other_chord.slack);
+        let bulge_direction = self.sagitta.normalize_or_zero();
+        let (rise, height) = (offset.dot(bulge_direction), self.sagitta.length());
+        rise >= -slack - other_chord.sagitta.length()
             && rise <= height + slack
-            && (offset - way * rise).length() <= slack + height / SAGITTA_PER_TWIST
+            && (offset - bulge_direction * rise).length() <= slack + height / SAGITTA_PER_TWIST
     }
 }
 
@@ -126,9 +126,9 @@ impl Chords {
         let pieces: Vec<([u32; 2], f64)> = pieces.collect();
         let position = |v: u32| mesh.positions[v as usize];
         let chord = |&([a, b], scale): &([u32; 2], f64)| {
-            let way = position(b) - position(a);
-            let length = way.length();
-            let along = way.normalize_or_zero();
+            let chord_vector = position(b) - position(a);
+            let length = chord_vector.length();
+            let along = chord_vector.normalize_or_zero();
             WireChord {
                 start: position(a),
                 along,
@@ -176,11 +176,11 @@ impl ChordGraph<'_> {
     /// Straightest continuation of a chord, and the cosine of the turn.
     fn next(&self, walk: DirectedChord) -> Option<(DirectedChord, f64)> {
         let corner = self.pieces[walk.chord].0[walk.to];
-        let way = self.direction(walk);
+        let heading = self.direction(walk);
         let others = self.at.of(corner as usize).iter().take(MAX_CHORDS_AT_VERTEX).map(|k| *k as usize);
         let others = others.filter(|k| *k != walk.chord).map(|chord| {
-            let other = DirectedChord { chord, to: usize::from(self.pieces[chord].0[0] == corner) };
-            (other, self.direction(other).dot(way))
+            let onward = DirectedChord { chord, to: usize::from(self.pieces[chord].0[0] == corner) };
+            (onward, self.direction(onward).dot(heading))
         });
         others.max_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -190,13 +190,13 @@ impl ChordGraph<'_> {
     /// It follows from the turn at the straighter end. The share of that turn that belongs to the next chord
     /// is subtracted; it is estimated from the turn at the next chord's other end.
     fn sagitta(&self, chord: usize) -> DVec3 {
-        let own = &self.list[chord];
+        let this_chord = &self.list[chord];
         let ends = [0, 1].into_iter().filter_map(|to| {
             let walk = DirectedChord { chord, to };
             Some((walk, self.next(walk)?))
         });
         let straighter = ends.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let Some((walk, (beside, cosine))) =
+        let Some((walk, (adjacent, cosine))) =
             straighter.filter(|(_, (_, cosine))| *cosine >= MIN_CHORD_COSINE)
         else {
             return DVec3::ZERO;
@@ -204,13 +204,13 @@ impl ChordGraph<'_> {
         // Tangent of half the turn. Equal chords share a turn evenly.
         let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
         let turn = half_turn(cosine);
-        let share = self.next(beside).map_or(0.0, |(beyond, cosine)| {
-            let (near, far) = (self.list[beside.chord].length, self.list[beyond.chord].length);
+        let share = self.next(adjacent).map_or(0.0, |(next_adjacent, cosine)| {
+            let (near, far) = (self.list[adjacent.chord].length, self.list[next_adjacent.chord].length);
             if cosine < MIN_CHORD_COSINE { 0.0 } else { half_turn(cosine) * near / (near + far) }
         });
         let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
-        let bend = self.direction(walk) * cosine - self.direction(beside);
-        bend.normalize_or_zero() * (MAX_SAGITTA_RATIO * own.length * own_turn / 2.0)
+        let bend = self.direction(walk) * cosine - self.direction(adjacent);
+        bend.normalize_or_zero() * (MAX_SAGITTA_RATIO * this_chord.length * own_turn / 2.0)
     }
 }
 

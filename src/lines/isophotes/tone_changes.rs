@@ -79,11 +79,11 @@ pub fn unchanged(
     cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < MIN_CUT_DISTANCE_OF_SEGMENT);
 
     let pieces = finder.pieces(&cuts);
-    let asked: Vec<[Option<(u32, DVec3)>; 2]> =
+    let probe_points: Vec<[Option<(u32, DVec3)>; 2]> =
         pieces.par_iter().map(|piece| finder.shadow_points(piece)).collect();
-    let points: Vec<(u32, DVec3)> = asked.iter().flatten().flatten().copied().collect();
+    let points: Vec<(u32, DVec3)> = probe_points.iter().flatten().flatten().copied().collect();
     let mut masks = shadowed(&points).into_iter();
-    let masks: Vec<[u32; 2]> = asked
+    let masks: Vec<[u32; 2]> = probe_points
         .iter()
         .map(|sides| sides.map(|side| side.and_then(|_| masks.next()).unwrap_or_default()))
         .collect();
@@ -121,12 +121,12 @@ impl ToneChangeFinder<'_> {
         if isophotes.contains(&segment) {
             return traced
                 .get(segment - isophotes.start)
-                .map_or(ToneBorderClass::Edge, |own| ToneBorderClass::Isophote(*own));
+                .map_or(ToneBorderClass::Edge, |reason| ToneBorderClass::Isophote(*reason));
         }
         match shadows.contains(&segment) {
             true => casters
                 .get(segment - shadows.start)
-                .map_or(ToneBorderClass::Edge, |own| ToneBorderClass::Shadow(*own)),
+                .map_or(ToneBorderClass::Edge, |caster| ToneBorderClass::Shadow(*caster)),
             false => ToneBorderClass::Edge,
         }
     }
@@ -149,16 +149,16 @@ impl ToneChangeFinder<'_> {
     fn cuts_on_faces(&self) -> Vec<SegmentCut> {
         let on_faces = self.segments_by_face();
         let faces: Vec<&[(u32, usize)]> =
-            on_faces.chunk_by(|a, b| a.0 == b.0).filter(|own| own.len() > 1).collect();
-        faces.into_par_iter().flat_map_iter(|own| self.crossings(own)).collect()
+            on_faces.chunk_by(|a, b| a.0 == b.0).filter(|face_segments| face_segments.len() > 1).collect();
+        faces.into_par_iter().flat_map_iter(|same_face| self.crossings(same_face)).collect()
     }
 
-    fn crossings(&self, own: &[(u32, usize)]) -> Vec<SegmentCut> {
-        let [a, b, c] = self.lit.mesh.corners(FaceId(own[0].0));
+    fn crossings(&self, face_segments: &[(u32, usize)]) -> Vec<SegmentCut> {
+        let [a, b, c] = self.lit.mesh.corners(FaceId(face_segments[0].0));
         let right = (b - a).normalize_or_zero();
         let up = (b - a).cross(c - a).cross(right).normalize_or_zero();
         let flat = |p: DVec3| DVec2::new((p - a).dot(right), (p - a).dot(up));
-        let mut flattened: Vec<(usize, ToneBorderClass, [DVec2; 2])> = own
+        let mut flattened: Vec<(usize, ToneBorderClass, [DVec2; 2])> = face_segments
             .iter()
             .map(|(_, segment)| (*segment, self.class(*segment), self.ends(*segment).map(flat)))
             .collect();
@@ -167,7 +167,7 @@ impl ToneChangeFinder<'_> {
         let mut cuts = Vec::new();
         for (k, (first, class, [p, q])) in flattened.iter().enumerate() {
             let reach = p.x.max(q.x);
-            for (other, its_class, [r, s]) in
+            for (its_segment, its_class, [r, s]) in
                 flattened[k + 1..].iter().take_while(|(_, _, ends)| low(ends) <= reach)
             {
                 if class == its_class {
@@ -181,14 +181,14 @@ impl ToneChangeFinder<'_> {
                 }
                 // Shadow borders lie exactly on the face.
                 let (on, t) = if matches!(its_class, ToneBorderClass::Shadow(_)) {
-                    (*other, its)
+                    (*its_segment, its)
                 } else {
                     (*first, at)
                 };
                 let [from, to] = self.ends(on);
                 let point = from.lerp(to, t);
                 cuts.push(SegmentCut { segment: *first, at, point });
-                cuts.push(SegmentCut { segment: *other, at: its, point });
+                cuts.push(SegmentCut { segment: *its_segment, at: its, point });
             }
         }
         cuts.retain(|cut| cut.at > MIN_CUT_DISTANCE_OF_SEGMENT && cut.at < 1.0 - MIN_CUT_DISTANCE_OF_SEGMENT);
@@ -202,17 +202,17 @@ impl ToneChangeFinder<'_> {
         let px = frame.width.max(frame.height) / 1000.0;
         let of_edge = |segment: usize| {
             let [from, to] = self.ends(segment);
-            let (way, hosts) = (to - from, self.lines.segments[segment].hosts);
+            let (direction, hosts) = (to - from, self.lines.segments[segment].hosts);
             let per_px = if frame.perspective { frame.depth(from).abs() } else { 1.0 } * px / frame.scale;
             let near = tolerances::MAX_SURFACE_LIFT_PX * per_px;
-            let own = hosts.into_iter().flat_map(|face| {
-                let first = on_faces.partition_point(|own| own.0 < face);
-                on_faces[first..].iter().take_while(move |own| own.0 == face)
+            let border_segments = hosts.into_iter().flat_map(|face| {
+                let first = on_faces.partition_point(|entry| entry.0 < face);
+                on_faces[first..].iter().take_while(move |host_entry| host_entry.0 == face)
             });
             let mut cuts = Vec::new();
-            for p in own.flat_map(|(_, border)| self.ends(*border)) {
-                let at = (p - from).dot(way) / way.length_squared();
-                let point = from + way * at;
+            for p in border_segments.flat_map(|(_, border)| self.ends(*border)) {
+                let at = (p - from).dot(direction) / direction.length_squared();
+                let point = from + direction * at;
                 if at > MIN_CUT_DISTANCE_OF_SEGMENT
                     && at < 1.0 - MIN_CUT_DISTANCE_OF_SEGMENT
                     && point.distance(p) <= near
@@ -336,22 +336,22 @@ impl ToneChangeFinder<'_> {
         let shading = self.lit.shading;
         let TraceReason { channel, shadowed: assumed } = traced;
         let value = |shadowed: u32| shading.value(channel, paint, point, shadowed);
-        let own = value(self.mask(channel, shadowed));
-        if (own - value(assumed)).abs() > tolerances::MAX_ISOPHOTE_ERROR_TONE {
+        let own_value = value(self.mask(channel, shadowed));
+        if (own_value - value(assumed)).abs() > tolerances::MAX_ISOPHOTE_ERROR_TONE {
             return false;
         }
         let levels = shading.levels(paint, channel);
-        let off = |level: &f64| (level - own).abs();
+        let off = |level: &f64| (level - own_value).abs();
         let Some((nearest, _)) = levels.iter().enumerate().min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
         else {
             return false;
         };
         let mut bands = self.bands(paint, point, shadowed);
-        let mut look_with = |band: usize| {
+        let mut tone_with_band = |band: usize| {
             bands[channel] = band as u16;
             self.tone_and_bin_of_bands(paint, &bands)
         };
-        look_with(nearest) != look_with(nearest + 1)
+        tone_with_band(nearest) != tone_with_band(nearest + 1)
     }
 }
 
@@ -361,20 +361,23 @@ fn rewrite(lit: &Lit, pieces: &[ToneBorderPiece], changes: &[bool], lines: &mut 
     let first = lit.mesh.positions.len() as u32;
     let mut ids = PointIds::default();
     let mut at = 0;
-    for own in pieces.chunk_by(|a, b| a.segment == b.segment) {
-        let verdicts = &changes[at..at + own.len()];
-        at += own.len();
-        let number = own[0].segment;
-        let whole = lines.segments[number];
+    for segment_pieces in pieces.chunk_by(|a, b| a.segment == b.segment) {
+        let verdicts = &changes[at..at + segment_pieces.len()];
+        at += segment_pieces.len();
+        let number = segment_pieces[0].segment;
+        let original = lines.segments[number];
         let mut k = 0;
-        while k < own.len() {
+        while k < segment_pieces.len() {
             // Consecutive pieces with the same result are merged.
             let run = verdicts[k..].iter().take_while(|verdict| **verdict == verdicts[k]).count();
-            let mut end = |point: Option<DVec3>, whole: u32| {
-                point.map_or(whole, |p| ids.of(&mut lines.points, first, p))
+            let mut end = |point: Option<DVec3>, fallback: u32| {
+                point.map_or(fallback, |p| ids.of(&mut lines.points, first, p))
             };
-            let ends = [end(own[k].ends[0], whole.ends[0]), end(own[k + run - 1].ends[1], whole.ends[1])];
-            let segment = FeatureSegment { ends, ..whole };
+            let ends = [
+                end(segment_pieces[k].ends[0], original.ends[0]),
+                end(segment_pieces[k + run - 1].ends[1], original.ends[1]),
+            ];
+            let segment = FeatureSegment { ends, ..original };
             let id = if k == 0 {
                 lines.segments[number] = segment;
                 number

@@ -71,85 +71,92 @@ impl<'a> JointFaces<'a> {
         Some(Self { mesh, kinds, tree, contact })
     }
 
-    /// Pieces of a line of a part, in order; `None` if none is a joint, or if more than `most` faces are
+    /// Pieces of a line of a part, in order; `None` if none is a joint, or if more than `max_faces` faces are
     /// near.
-    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<JointPiece>> {
+    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], max_faces: usize) -> Option<Vec<JointPiece>> {
         let along = (to - from).try_normalize()?;
-        let way = JointLine { from, to, along, length: from.distance(to) };
-        let mut near = self.near(&way, most)?;
-        let own = self.mesh.extents.part(part).contact;
-        let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own);
-        near.retain(|face| self.reached(&way, *face, contact_of(*face)).is_some());
+        let joint_line = JointLine { from, to, along, length: from.distance(to) };
+        let mut near = self.near(&joint_line, max_faces)?;
+        let own_contact = self.mesh.extents.part(part).contact;
+        let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own_contact);
+        near.retain(|face| self.reached(&joint_line, *face, contact_of(*face)).is_some());
         // Two parts of one kind must be among them.
         let owner = |face: &u32| (kind(self.mesh, self.kinds, *face), self.mesh.face_part[*face as usize]);
         let is_shared = |face: &u32| {
             let (kind, part) = owner(face);
-            near.iter().map(owner).any(|other| other.0 == kind && other.1 != part)
+            near.iter().map(owner).any(|face_owner| face_owner.0 == kind && face_owner.1 != part)
         };
         if !near.iter().any(is_shared) {
             return None;
         }
-        let contact = near.iter().map(|face| contact_of(*face)).fold(own, f64::max);
+        let contact = near.iter().map(|face| contact_of(*face)).fold(own_contact, f64::max);
         let reached: Vec<ReachingFace> =
-            near.iter().filter_map(|face| self.reached(&way, *face, contact)).collect();
-        let pieces = self.cut(&way, &reached, contact);
+            near.iter().filter_map(|face| self.reached(&joint_line, *face, contact)).collect();
+        let pieces = self.cut(&joint_line, &reached, contact);
         pieces.iter().any(|piece| piece.is_joint).then_some(pieces)
     }
 
     /// Faces whose boxes are near that of the line, ascending.
-    fn near(&self, way: &JointLine, most: usize) -> Option<Vec<u32>> {
+    fn near(&self, joint_line: &JointLine, max_faces: usize) -> Option<Vec<u32>> {
         let around = 2.0 * PROBE_OFFSET_CONTACTS * self.contact;
-        let (low, high) = (way.from.min(way.to) - around, way.from.max(way.to) + around);
+        let (low, high) =
+            (joint_line.from.min(joint_line.to) - around, joint_line.from.max(joint_line.to) + around);
         let mut near = Vec::new();
         self.tree.near_box(low, high, |face| near.push(face));
         near.sort_unstable();
-        (near.len() <= most).then_some(near)
+        (near.len() <= max_faces).then_some(near)
     }
 
     /// Ranges that a face covers on both sides of a line, if its plane holds the line.
-    fn reached(&self, way: &JointLine, face: u32, contact: f64) -> Option<ReachingFace> {
+    fn reached(&self, joint_line: &JointLine, face: u32, contact: f64) -> Option<ReachingFace> {
         let mesh = self.mesh;
         let corners = mesh.corners(FaceId(face));
         let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
-        let known = carrier.map_or(corners, |at| mesh.corners(FaceId(mesh.carriers[at][1])));
-        let normal = (known[1] - known[0]).cross(known[2] - known[0]).try_normalize()?;
-        let side = normal.cross(way.along).try_normalize()?;
+        let plane_corners = carrier.map_or(corners, |at| mesh.corners(FaceId(mesh.carriers[at][1])));
+        let normal = (plane_corners[1] - plane_corners[0])
+            .cross(plane_corners[2] - plane_corners[0])
+            .try_normalize()?;
+        let side = normal.cross(joint_line.along).try_normalize()?;
         let flat = corners.map(|corner| {
-            let from = corner - way.from;
-            DVec2::new(from.dot(way.along) / way.length, from.dot(side))
+            let from = corner - joint_line.from;
+            DVec2::new(from.dot(joint_line.along) / joint_line.length, from.dot(side))
         });
-        let beside = PROBE_OFFSET_CONTACTS * contact;
+        let probe_offset = PROBE_OFFSET_CONTACTS * contact;
         // Range where the plane holds the line, within rounding.
-        let heights = [way.from, way.to].map(|end| normal.dot(end - corners[0]));
+        let heights = [joint_line.from, joint_line.to].map(|end| normal.dot(end - corners[0]));
         let held = range_near_plane(heights, contact)?;
-        let least = MIN_PIECE_OFFSETS * beside / way.length;
-        let covers = [beside, -beside].map(|at| {
+        let min_length = MIN_PIECE_OFFSETS * probe_offset / joint_line.length;
+        let covers = [probe_offset, -probe_offset].map(|at| {
             let [start, end] = range_covered(&flat, at)?;
-            let own = [start.max(held[0]), end.min(held[1])];
+            let overlap = [start.max(held[0]), end.min(held[1])];
             // A plane that crosses the line holds only a short range.
-            (own[1] - own[0] > least.min(0.5 * (end - start).min(1.0)) && own[1] > 0.0 && own[0] < 1.0)
-                .then_some(own)
+            (overlap[1] - overlap[0] > min_length.min(0.5 * (end - start).min(1.0))
+                && overlap[1] > 0.0
+                && overlap[0] < 1.0)
+                .then_some(overlap)
         });
         if covers == [None; 2] {
             return None;
         }
-        Some(ReachingFace { face, normal, height: height(&known), covers })
+        Some(ReachingFace { face, normal, height: height(&plane_corners), covers })
     }
 
     /// Pieces of a line, given the faces that reach it.
-    fn cut(&self, way: &JointLine, reached: &[ReachingFace], contact: f64) -> Vec<JointPiece> {
-        let least = MIN_PIECE_OFFSETS * PROBE_OFFSET_CONTACTS * contact / way.length;
-        let mut cuts: Vec<f64> =
-            reached.iter().flat_map(|own| own.covers.into_iter().flatten().flatten()).collect();
-        cuts.retain(|t| *t > least && *t < 1.0 - least);
+    fn cut(&self, joint_line: &JointLine, reached: &[ReachingFace], contact: f64) -> Vec<JointPiece> {
+        let min_length = MIN_PIECE_OFFSETS * PROBE_OFFSET_CONTACTS * contact / joint_line.length;
+        let mut cuts: Vec<f64> = reached
+            .iter()
+            .flat_map(|reaching_face| reaching_face.covers.into_iter().flatten().flatten())
+            .collect();
+        cuts.retain(|t| *t > min_length && *t < 1.0 - min_length);
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup_by(|b, a| *b - *a < least);
-        let right = way.along.any_orthonormal_vector();
-        let up = way.along.cross(right);
+        cuts.dedup_by(|b, a| *b - *a < min_length);
+        let right = joint_line.along.any_orthonormal_vector();
+        let up = joint_line.along.cross(right);
         let mut pieces: Vec<JointPiece> = Vec::with_capacity(cuts.len() + 1);
         let mut start = 0.0;
         for end in cuts.into_iter().chain([1.0]) {
-            let rays = self.rays(way, reached, f64::midpoint(start, end), contact);
+            let rays = self.rays(joint_line, reached, f64::midpoint(start, end), contact);
             let is_joint = RayFan::new(rays, right, up).is_joint();
             match pieces.last_mut().filter(|last| last.is_joint == is_joint) {
                 Some(last) => last.end = end,
@@ -158,27 +165,30 @@ impl<'a> JointFaces<'a> {
             start = end;
         }
         for piece in &mut pieces {
-            piece.vertex =
-                self.vertex_at(way.from.lerp(way.to, piece.end), reached, PROBE_OFFSET_CONTACTS * contact);
+            piece.vertex = self.vertex_at(
+                joint_line.from.lerp(joint_line.to, piece.end),
+                reached,
+                PROBE_OFFSET_CONTACTS * contact,
+            );
         }
         pieces
     }
 
     /// Faces at a position on the line, as rays.
-    fn rays(&self, way: &JointLine, reached: &[ReachingFace], at: f64, contact: f64) -> Vec<FaceRay> {
+    fn rays(&self, joint_line: &JointLine, reached: &[ReachingFace], at: f64, contact: f64) -> Vec<FaceRay> {
         let mesh = self.mesh;
         let mut rays = Vec::new();
-        for own in reached {
-            let side = own.normal.cross(way.along).normalize_or_zero();
-            for (cover, (side, begins)) in own.covers.iter().zip([(side, false), (-side, true)]) {
+        for reaching_face in reached {
+            let side = reaching_face.normal.cross(joint_line.along).normalize_or_zero();
+            for (cover, (side, begins)) in reaching_face.covers.iter().zip([(side, false), (-side, true)]) {
                 if cover.is_some_and(|[start, end]| (start..=end).contains(&at)) {
                     rays.push(FaceRay {
                         direction: side,
                         begins,
-                        angle_error: angle_error_sine(contact, own.height, way.length),
-                        kind: kind(mesh, self.kinds, own.face),
-                        part: mesh.face_part[own.face as usize],
-                        body: mesh.body(own.face),
+                        angle_error: angle_error_sine(contact, reaching_face.height, joint_line.length),
+                        kind: kind(mesh, self.kinds, reaching_face.face),
+                        part: mesh.face_part[reaching_face.face as usize],
+                        body: mesh.body(reaching_face.face),
                     });
                 }
             }
@@ -188,7 +198,8 @@ impl<'a> JointFaces<'a> {
 
     /// Nearest vertex of the given faces, within `reach`.
     fn vertex_at(&self, point: DVec3, reached: &[ReachingFace], reach: f64) -> Option<u32> {
-        let vertices = reached.iter().flat_map(|own| self.mesh.triangles[own.face as usize]);
+        let vertices =
+            reached.iter().flat_map(|reaching_face| self.mesh.triangles[reaching_face.face as usize]);
         let distance = |v: u32| self.mesh.positions[v as usize].distance(point);
         let near = vertices.map(|v| (distance(v), v)).filter(|(distance, _)| *distance <= reach);
         near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(_, v)| v)

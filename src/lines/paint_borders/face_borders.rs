@@ -27,11 +27,11 @@ pub(crate) fn borders(lit: &Lit, face: u32, textured: &TexturedFace) -> Vec<Pain
             let paints = textured.border_paints(colours, middle(ends));
             pieces.extend(paints.map(|paints| PaintBorder { ends, paints }));
         });
-        let own = lit.mesh.paint(crate::mesh::FaceId(face));
+        let face_paint = lit.mesh.paint(crate::mesh::FaceId(face));
         let sides = side_ends(lit, face);
         let lines = on.level_lines(&sides).into_iter();
         let lines = lines.map(|line| line.map(|(side, part)| on_side(sides[side], part)));
-        pieces.extend(lines.map(|ends| PaintBorder { ends, paints: [own; 2] }));
+        pieces.extend(lines.map(|ends| PaintBorder { ends, paints: [face_paint; 2] }));
     }
     if let Some((tints, light)) = textured.tints {
         for (ends, parted) in TintedFace::new(lit, face, tints, light, page_px(lit)).borders() {
@@ -52,11 +52,11 @@ pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &TexturedFace, ends:
             let Some(corners) = on.corners(level) else { continue };
             let side = side(corners, [from, to]);
             let parts = on.borders(level).into_iter().filter_map(|(border, _)| side.crossing(border));
-            let places = parts.map(|(part, _)| on_side([from, to], part));
-            found.extend(places.filter(|at| on.level(*at) == level));
+            let crossings = parts.map(|(part, _)| on_side([from, to], part));
+            found.extend(crossings.filter(|at| on.level(*at) == level));
         }
-        let whole = [on_side([from, to], 0.0), on_side([from, to], 1.0)];
-        found.extend(on.level_ends(whole).into_iter().map(|part| on_side([from, to], part)));
+        let full_side = [on_side([from, to], 0.0), on_side([from, to], 1.0)];
+        found.extend(on.level_ends(full_side).into_iter().map(|part| on_side([from, to], part)));
     }
     if let Some((tints, light)) = textured.tints {
         let borders = TintedFace::new(lit, face, tints, light, page_px(lit)).borders();
@@ -71,7 +71,7 @@ pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &TexturedFace, ends:
 
 /// Corners of a face with the given vertices.
 fn corners_of(vertices: [u32; 3], ends: [u32; 2]) -> Option<[usize; 2]> {
-    let [from, to] = ends.map(|v| vertices.iter().position(|own| *own == v));
+    let [from, to] = ends.map(|v| vertices.iter().position(|vertex| *vertex == v));
     Some([from?, to?]).filter(|[from, to]| from != to)
 }
 
@@ -103,26 +103,26 @@ fn picture_borders(lit: &Lit, face: u32, on: &PictureFace, mut put: impl FnMut([
     let ends = side_ends(lit, face);
     for level in on.levels() {
         let Some(corners) = on.corners(level) else { continue };
-        let whole = doubled_area(corners[0], corners[1], corners[2]);
+        let twice_area = doubled_area(corners[0], corners[1], corners[2]);
         let sides = ends.map(|ends| side(corners, ends));
-        let mut met: Vec<(f64, [f64; 3])> = Vec::new();
+        let mut crossed_points: Vec<(f64, [f64; 3])> = Vec::new();
         for (border, parted) in on.borders(level) {
-            met.clear();
+            crossed_points.clear();
             for (side, ends) in sides.iter().zip(ends) {
                 if let Some((part, along)) = side.crossing(border) {
-                    met.push((along, on_side(ends, part)));
+                    crossed_points.push((along, on_side(ends, part)));
                 }
             }
-            if whole != 0.0 {
+            if twice_area != 0.0 {
                 let is_in = |p: DVec2| sides.iter().all(|side| side.admits(p));
                 for (along, end) in [(0.0, border[0]), (1.0, border[1])] {
                     if is_in(end) {
-                        met.push((along, weights(&corners, end)));
+                        crossed_points.push((along, weights(&corners, end)));
                     }
                 }
             }
-            met.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for pair in met.chunks_exact(2) {
+            crossed_points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for pair in crossed_points.chunks_exact(2) {
                 parts_on_level(on, [pair[0].1, pair[1].1], level)
                     .into_iter()
                     .for_each(|ends| put(ends, parted));
@@ -135,16 +135,18 @@ fn picture_borders(lit: &Lit, face: u32, on: &PictureFace, mut put: impl FnMut([
 fn parts_on_level(on: &PictureFace, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
     let cuts = on.level_ends(ends);
     let at = |part: f64| [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part);
-    let mut places: Vec<(f64, [f64; 3])> = vec![(0.0, ends[0])];
-    places.extend(cuts.into_iter().filter(|part| *part > 0.0 && *part < 1.0).map(|part| (part, at(part))));
-    places.push((1.0, ends[1]));
-    let parts = places.windows(2).map(|pair| (f64::midpoint(pair[0].0, pair[1].0), [pair[0].1, pair[1].1]));
+    let mut cut_points: Vec<(f64, [f64; 3])> = vec![(0.0, ends[0])];
+    cut_points
+        .extend(cuts.into_iter().filter(|part| *part > 0.0 && *part < 1.0).map(|part| (part, at(part))));
+    cut_points.push((1.0, ends[1]));
+    let parts =
+        cut_points.windows(2).map(|pair| (f64::midpoint(pair[0].0, pair[1].0), [pair[0].1, pair[1].1]));
     parts.filter(|(middle, _)| on.level(at(*middle)) == level).map(|(_, ends)| ends).collect()
 }
 
 /// Barycentric weights of a point in texel coordinates.
 fn weights(corners: &[DVec2; 3], at: DVec2) -> [f64; 3] {
     let shares = [0, 1, 2].map(|k| doubled_area(at, corners[(k + 1) % 3], corners[(k + 2) % 3]));
-    let whole: f64 = shares.iter().sum();
-    shares.map(|share| share / whole)
+    let area_sum: f64 = shares.iter().sum();
+    shares.map(|share| share / area_sum)
 }

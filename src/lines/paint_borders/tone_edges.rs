@@ -82,11 +82,11 @@ pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut Featu
     if found.is_empty() {
         return found;
     }
-    let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
-    found.retain(|seam| !known.contains(&seam.segment.ends));
-    let (cut, whole): (Vec<ToneEdge>, Vec<ToneEdge>) =
+    let line_ends: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
+    found.retain(|seam| !line_ends.contains(&seam.segment.ends));
+    let (cut, uncut): (Vec<ToneEdge>, Vec<ToneEdge>) =
         found.into_iter().partition(|seam| !seam.pieces.is_empty());
-    lines.segments.extend(whole.into_iter().map(|seam| seam.segment));
+    lines.segments.extend(uncut.into_iter().map(|seam| seam.segment));
     cut
 }
 
@@ -100,8 +100,9 @@ fn classify_edge(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<ToneEdge> {
         EdgeFaces::Many(faces) => {
             // The first face, and another one that looks different.
             let first = *faces.iter().find(|f| is_real(f))?;
-            let other = |f: &&u32| **f != first && is_real(f) && differ(lit, ends, [first, **f], shadowed);
-            (first, *faces.iter().find(other)?)
+            let differs_from_first =
+                |f: &&u32| **f != first && is_real(f) && differ(lit, ends, [first, **f], shadowed);
+            (first, *faces.iter().find(differs_from_first)?)
         }
     };
     let faces = [first, second];
@@ -124,7 +125,7 @@ fn classify_edge(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<ToneEdge> {
     if !is_parting && pieces.len() == 1 && kind == LineKind::Isophote {
         return None;
     }
-    pieces.retain(|(places, _)| places.iter().any(Option::is_some));
+    pieces.retain(|(piece_ends, _)| piece_ends.iter().any(Option::is_some));
     Some(ToneEdge { segment: segment(mesh, first, faces, kind, ends), pieces })
 }
 
@@ -143,15 +144,15 @@ fn kinds_along(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> Vec<([Option<[f64;
                 lit.textures.picture_line_kind_between(mesh, faces[0], [a, b])
             })
         };
-        let places = stretches(lit, ends, faces, |face| lit.textures.ink_on(mesh, face));
-        return places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect();
+        let ink_stretches = stretches(lit, ends, faces, |face| lit.textures.ink_on(mesh, face));
+        return ink_stretches.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect();
     }
     let kind = |at: f64| {
         let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
         lit.textures.line_kind_between(a, b)
     };
-    let places = stretches(lit, ends, faces, |face| lit.textures.face_texture(mesh, face));
-    places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect()
+    let texture_stretches = stretches(lit, ends, faces, |face| lit.textures.face_texture(mesh, face));
+    texture_stretches.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect()
 }
 
 /// Paint of a face at a parameter of its edge.
@@ -171,9 +172,10 @@ fn weights_along(mesh: &Mesh, ends: [u32; 2], face: u32, at: f64) -> [f64; 3] {
 }
 
 /// Parameter of the middle of a stretch of an edge.
-fn middle(lit: &Lit, ends: [u32; 2], face: u32, places: [Option<[f64; 3]>; 2]) -> f64 {
+fn middle(lit: &Lit, ends: [u32; 2], face: u32, piece_ends: [Option<[f64; 3]>; 2]) -> f64 {
     let corner = lit.mesh.triangles[face as usize].iter().position(|v| *v == ends[1]).unwrap_or_default();
-    let [from, to] = [(places[0], 0.0), (places[1], 1.0)].map(|(at, end)| at.map_or(end, |at| at[corner]));
+    let [from, to] =
+        [(piece_ends[0], 0.0), (piece_ends[1], 1.0)].map(|(at, end)| at.map_or(end, |at| at[corner]));
     f64::midpoint(from, to)
 }
 
@@ -186,23 +188,23 @@ fn stretches<'a>(
     shown: impl Fn(u32) -> Option<TexturedFace<'a>>,
 ) -> Vec<[Option<[f64; 3]>; 2]> {
     let corners = faces.map(|face| {
-        let corner = |v: u32| lit.mesh.triangles[face as usize].iter().position(|own| *own == v);
+        let corner = |v: u32| lit.mesh.triangles[face as usize].iter().position(|vertex| *vertex == v);
         [corner(ends[0]).unwrap_or_default(), corner(ends[1]).unwrap_or_default()]
     });
-    let mut places: Vec<[f64; 3]> = Vec::new();
-    for (face, own) in faces.into_iter().zip(corners) {
+    let mut cut_weights: Vec<[f64; 3]> = Vec::new();
+    for (face, end_corners) in faces.into_iter().zip(corners) {
         let Some(textured) = shown(face) else { continue };
         for at in face_borders::changes_along(lit, face, &textured, ends) {
             let mut weights = [0.0; 3];
-            weights[corners[0][0]] = at[own[0]];
-            weights[corners[0][1]] = at[own[1]];
-            places.push(weights);
+            weights[corners[0][0]] = at[end_corners[0]];
+            weights[corners[0][1]] = at[end_corners[1]];
+            cut_weights.push(weights);
         }
     }
     let to = corners[0][1];
-    places.sort_by(|a, b| a[to].total_cmp(&b[to]));
-    places.dedup_by(|b, a| b[to] - a[to] < tolerances::MIN_CUT_DISTANCE_OF_SEGMENT);
-    let ends = [None].into_iter().chain(places.into_iter().map(Some)).chain([None]);
+    cut_weights.sort_by(|a, b| a[to].total_cmp(&b[to]));
+    cut_weights.dedup_by(|b, a| b[to] - a[to] < tolerances::MIN_CUT_DISTANCE_OF_SEGMENT);
+    let ends = [None].into_iter().chain(cut_weights.into_iter().map(Some)).chain([None]);
     let ends: Vec<Option<[f64; 3]>> = ends.collect();
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
@@ -223,20 +225,21 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
     if shown_colours_differ(lit, ends, faces) {
         return true;
     }
-    let place = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
-    let (Some(a), Some(b)) = (place(faces[0]), place(faces[1])) else { return false };
+    let end_corners = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
+    let (Some(a), Some(b)) = (end_corners(faces[0]), end_corners(faces[1])) else { return false };
     let normals = faces.map(|face| lit.normals.of(face));
     if (0..2).all(|k| normals[0][a[k]] == normals[1][b[k]]) {
         return false;
     }
     // Both faces have the same part, material and paint, so only tones may differ.
-    let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| {
+    let tone_at = |face: u32, at: [usize; 2], t: f64, shadowed: u32| {
         let mut weights = [0.0; 3];
         weights[at[0]] = 1.0 - t;
         weights[at[1]] = t;
         lit.tone(mesh.paint(FaceId(face)), &lit.point(face, weights), shadowed)
     };
-    let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
+    let differs =
+        |t: f64, shadowed: u32| tone_at(faces[0], a, t, shadowed) != tone_at(faces[1], b, t, shadowed);
     shadowed.iter().any(|shadowed| SAMPLE_PARAMETERS.iter().any(|t| differs(*t, *shadowed)))
 }
 
@@ -245,8 +248,8 @@ fn shown_colours_differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
     if faces.iter().any(|face| lit.textures.face_texture(lit.mesh, *face).is_none()) {
         return false;
     }
-    stretches(lit, ends, faces, |face| lit.textures.face_texture(lit.mesh, face)).into_iter().any(|places| {
-        let at = middle(lit, ends, faces[0], places);
+    stretches(lit, ends, faces, |face| lit.textures.face_texture(lit.mesh, face)).into_iter().any(|stretch| {
+        let at = middle(lit, ends, faces[0], stretch);
         let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
         a != b
     })

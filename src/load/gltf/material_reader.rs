@@ -146,10 +146,12 @@ fn image(
     let Some(entry) = root.textures.get(number) else {
         return broken(number, format!("it is pointed to, but the file has {}", root.textures.len()));
     };
-    let other = &entry.extensions;
-    let other =
-        [&other.basisu, &other.webp, &other.avif].into_iter().flatten().find_map(|other| other.source);
-    let source = entry.source.or(other)?;
+    let texture_extensions = &entry.extensions;
+    let extension_source = [&texture_extensions.basisu, &texture_extensions.webp, &texture_extensions.avif]
+        .into_iter()
+        .flatten()
+        .find_map(|other| other.source);
+    let source = entry.source.or(extension_source)?;
     let Some(image) = root.images.get(source) else {
         return broken(
             number,
@@ -178,8 +180,8 @@ fn image(
     if !is_image(&bytes) {
         return broken(number, format!("image {source} is damaged or of an unknown format"));
     }
-    if let Some(other) = other_file {
-        warnings.note(format!("texture {number}{}: {other}", of(material)));
+    if let Some(substitute_note) = other_file {
+        warnings.note(format!("texture {number}{}: {substitute_note}", of(material)));
     }
     let inside = path.is_none().then(|| Arc::from(bytes));
     Some((path, inside))

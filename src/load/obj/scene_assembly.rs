@@ -28,11 +28,11 @@ pub(crate) fn scene(
     // Parts are in the order of their first face.
     let mut order = Vec::new();
     for run in std::mem::take(&mut statements.runs) {
-        if let Some(own) = runs.get_mut(run.object) {
-            if own.is_empty() {
+        if let Some(object_runs) = runs.get_mut(run.object) {
+            if object_runs.is_empty() {
                 order.push(run.object);
             }
-            own.push(run);
+            object_runs.push(run);
         }
     }
     for (geometry, &object) in order.iter().enumerate() {
@@ -51,18 +51,18 @@ pub(crate) fn scene(
     }
     fill_white(&mut statements);
     if let ([object], false) = (&order[..], statements.has_bad_positions) {
-        let own = runs.get(*object).map(Vec::as_slice).unwrap_or_default();
+        let object_runs = runs.get(*object).map(Vec::as_slice).unwrap_or_default();
         let mut geometry = single_geometry(statements);
-        assign_materials(&mut geometry, own, unnamed);
+        assign_materials(&mut geometry, object_runs, unnamed);
         scene.geometries.push(geometry);
         return scene;
     }
     scene.unused_vertices = count_unused_vertices(&statements);
     let mut split = PartSplitter::new(&statements);
     for &object in &order {
-        let own = runs.get(object).map(Vec::as_slice).unwrap_or_default();
-        let mut geometry = split.geometry(own);
-        assign_materials(&mut geometry, own, unnamed);
+        let object_runs = runs.get(object).map(Vec::as_slice).unwrap_or_default();
+        let mut geometry = split.geometry(object_runs);
+        assign_materials(&mut geometry, object_runs, unnamed);
         scene.geometries.push(geometry);
     }
     scene

@@ -186,7 +186,7 @@ struct PolygonCorner {
     point: DVec2,
     before: u32,
     after: u32,
-    known: EarState,
+    ear_state: EarState,
 }
 
 /// Remaining corners as a linked ring, in polygon order.
@@ -207,14 +207,14 @@ impl Ears {
                 point,
                 before: if i == 0 { n.saturating_sub(1) } else { i - 1 },
                 after: if i + 1 == n { 0 } else { i + 1 },
-                known: EarState::Nothing,
+                ear_state: EarState::Nothing,
             })
             .collect();
         Self { corners, first: 0, left: points.len(), tests: 0 }
     }
 
     fn corner(&self, i: u32) -> PolygonCorner {
-        let nowhere = PolygonCorner { point: DVec2::ZERO, before: 0, after: 0, known: EarState::Reflex };
+        let nowhere = PolygonCorner { point: DVec2::ZERO, before: 0, after: 0, ear_state: EarState::Reflex };
         self.corners.get(i as usize).copied().unwrap_or(nowhere)
     }
 
@@ -245,7 +245,7 @@ impl Ears {
         let mut i = self.first;
         for _ in 0..self.left {
             let corner = self.corner(i);
-            if corner.known == EarState::Nothing {
+            if corner.ear_state == EarState::Nothing {
                 match self.look(i) {
                     EarState::Nothing => return Some(i),
                     known => self.learn(i, known),
@@ -284,7 +284,7 @@ impl Ears {
 
     fn learn(&mut self, i: u32, known: EarState) {
         if let Some(corner) = self.corners.get_mut(i as usize) {
-            corner.known = known;
+            corner.ear_state = known;
         }
     }
 
@@ -301,8 +301,8 @@ impl Ears {
         }
         self.left -= 1;
         for corner in &mut self.corners {
-            if corner.known == EarState::Blocked(i) {
-                corner.known = EarState::Nothing;
+            if corner.ear_state == EarState::Blocked(i) {
+                corner.ear_state = EarState::Nothing;
             }
         }
         self.tests += self.corners.len() / 8;

@@ -235,16 +235,17 @@ impl<'a> TextParser<'a> {
             .ok_or_else(|| self.error("a number"))
     }
 
-    fn error(&mut self, wanted: &str) -> Error {
+    fn error(&mut self, expected: &str) -> Error {
         self.cursor.at = self.word_at;
-        let place = format!("line {}", self.cursor.line());
-        let found = self.cursor.word();
-        if found.is_empty() {
-            return Error::new(format!("the file ends where {wanted} should stand"))
-                .at(place)
+        let location = format!("line {}", self.cursor.line());
+        let actual_word = self.cursor.word();
+        if actual_word.is_empty() {
+            return Error::new(format!("the file ends where {expected} should stand"))
+                .at(location)
                 .remedy("it is cut off");
         }
-        Error::new(format!("`{}` stands where {wanted} should", super::quoted_start(found))).at(place)
+        Error::new(format!("`{}` stands where {expected} should", super::quoted_start(actual_word)))
+            .at(location)
     }
 
     /// Reads the facets up to `endsolid`. The end of the file or another `solid` between two facets ends the

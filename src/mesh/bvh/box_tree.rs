@@ -167,15 +167,15 @@ impl BoxTree {
     }
 
     /// Calls `visit` for the faces whose boxes overlap a given one.
-    pub(crate) fn near(&self, own: FineBox, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
-        let wanted = &own.coarse().into();
+    pub(crate) fn near(&self, query: FineBox, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
+        let wanted = &query.coarse().into();
         stack.push((self.levels.len() - 1, 0));
         while let Some((level, block)) = stack.pop() {
             let Some(boxes) = self.levels[level].get(block) else { continue };
-            for node in boxes.overlapping(wanted).map(|place| block * BOXES_PER_NODE + place) {
+            for node in boxes.overlapping(wanted).map(|child| block * BOXES_PER_NODE + child) {
                 if level > 0 {
                     stack.push((level - 1, node));
-                } else if own.overlaps(self.fine[node]) {
+                } else if query.overlaps(self.fine[node]) {
                     visit(self.faces[node]);
                 }
             }
@@ -196,29 +196,29 @@ impl BoxTree {
         self.overlapping_groups(group, search);
         for leaf in group * BOXES_PER_NODE..((group + 1) * BOXES_PER_NODE).min(triangles.len()) {
             let of_leaf = &leaves[group].get(leaf % BOXES_PER_NODE).into();
-            let mut own = [ReplicatedBox { low: [0; 3], high: [0; 3] }; BOXES_PER_NODE];
-            own.iter_mut().enumerate().for_each(|(place, own)| *own = triangles[leaf].get(place).into());
+            let mut own_boxes = [ReplicatedBox { low: [0; 3], high: [0; 3] }; BOXES_PER_NODE];
+            own_boxes.iter_mut().enumerate().for_each(|(slot, own)| *own = triangles[leaf].get(slot).into());
             for &other_group in &search.groups {
                 let first = other_group * BOXES_PER_NODE;
                 let others = leaves[other_group].overlapping(of_leaf);
-                for other in others.from(leaf.saturating_sub(first)).map(|place| first + place) {
-                    let of_other = &leaves[other_group].get(other - first).into();
-                    for place in triangles[leaf].overlapping(of_other) {
-                        let near = triangles[other].overlapping(&own[place]);
+                for other_leaf in others.from(leaf.saturating_sub(first)).map(|child| first + child) {
+                    let of_other = &leaves[other_group].get(other_leaf - first).into();
+                    for own_slot in triangles[leaf].overlapping(of_other) {
+                        let near = triangles[other_leaf].overlapping(&own_boxes[own_slot]);
                         // Within the same leaf, only later triangles.
-                        let near = if other == leaf { near.from(place + 1) } else { near };
+                        let near = if other_leaf == leaf { near.from(own_slot + 1) } else { near };
                         self.add_overlapping_faces(
                             all,
-                            leaf * BOXES_PER_NODE + place,
-                            other,
+                            leaf * BOXES_PER_NODE + own_slot,
+                            other_leaf,
                             near,
-                            &mut search.near[place],
+                            &mut search.near[own_slot],
                         );
                     }
                 }
             }
-            for (place, near) in search.near.iter_mut().enumerate().filter(|(_, near)| !near.is_empty()) {
-                visit(self.faces[leaf * BOXES_PER_NODE + place], near, found);
+            for (own_index, near) in search.near.iter_mut().enumerate().filter(|(_, near)| !near.is_empty()) {
+                visit(self.faces[leaf * BOXES_PER_NODE + own_index], near, found);
                 near.clear();
             }
         }
@@ -231,7 +231,7 @@ impl BoxTree {
         search.stack.push((self.levels.len() - 1, 0));
         while let Some((level, block)) = search.stack.pop() {
             for node in
-                self.levels[level][block].overlapping(wanted).map(|place| block * BOXES_PER_NODE + place)
+                self.levels[level][block].overlapping(wanted).map(|child| block * BOXES_PER_NODE + child)
             {
                 if level == 2 {
                     // Pairs with earlier groups are found from the other group.
@@ -243,7 +243,7 @@ impl BoxTree {
         }
     }
 
-    /// Adds the faces of a leaf, selected by `places`, that overlap the triangle at `rank` on the fine grid
+    /// Adds the faces of a leaf, selected by `overlap_mask`, that overlap the triangle at `rank` on the fine grid
     /// and are not its neighbours.
     #[inline]
     fn add_overlapping_faces(
@@ -251,20 +251,20 @@ impl BoxTree {
         all: TreeFaces,
         rank: usize,
         leaf: usize,
-        places: ChildMask,
+        overlap_mask: ChildMask,
         near: &mut Vec<u32>,
     ) {
-        if places == ChildMask(0) {
+        if overlap_mask == ChildMask(0) {
             return;
         }
         let (own_face, own_box) = (self.faces[rank], self.fine[rank]);
-        let own = all.triangles[own_face as usize];
-        for other in places.map(|place| leaf * BOXES_PER_NODE + place) {
-            let face = self.faces[other];
-            if !own_box.overlaps(self.fine[other]) {
+        let own_corners = all.triangles[own_face as usize];
+        for other_rank in overlap_mask.map(|child| leaf * BOXES_PER_NODE + child) {
+            let face = self.faces[other_rank];
+            if !own_box.overlaps(self.fine[other_rank]) {
                 continue;
             }
-            let shares = share_a_vertex(own, all.triangles[face as usize]);
+            let shares = share_a_vertex(own_corners, all.triangles[face as usize]);
             if !(shares && all.are_joined(own_face, face)) {
                 near.push(face);
             }
@@ -286,10 +286,10 @@ impl TreeFaces<'_> {
     /// that touch at a vertex may still intersect.
     #[inline]
     pub(crate) fn are_joined(&self, a: u32, b: u32) -> bool {
-        let (own, other) = (self.triangles[a as usize], self.triangles[b as usize]);
+        let (a_corners, b_corners) = (self.triangles[a as usize], self.triangles[b as usize]);
         self.bodies.is_empty()
             || self.bodies[a as usize] == self.bodies[b as usize]
-            || own.iter().filter(|v| other.contains(v)).count() > 1
+            || a_corners.iter().filter(|v| b_corners.contains(v)).count() > 1
     }
 }
 
@@ -348,19 +348,19 @@ fn sort_by_key(entries: &mut Vec<u64>) {
     const RADIX_BITS: u32 = 10;
     let mut sorted = vec![0; entries.len()];
     for shift in [32, 32 + RADIX_BITS, 32 + 2 * RADIX_BITS] {
-        let mut places = [0_usize; 1 << RADIX_BITS];
+        let mut offsets = [0_usize; 1 << RADIX_BITS];
         let digit = |entry: u64| (entry >> shift) as usize & ((1 << RADIX_BITS) - 1);
         for &entry in entries.iter() {
-            places[digit(entry)] += 1;
+            offsets[digit(entry)] += 1;
         }
-        let mut place = 0;
-        for count in &mut places {
-            place += std::mem::replace(count, place);
+        let mut offset = 0;
+        for count in &mut offsets {
+            offset += std::mem::replace(count, offset);
         }
         for &entry in entries.iter() {
-            let place = &mut places[digit(entry)];
-            sorted[*place] = entry;
-            *place += 1;
+            let slot = &mut offsets[digit(entry)];
+            sorted[*slot] = entry;
+            *slot += 1;
         }
         std::mem::swap(entries, &mut sorted);
     }

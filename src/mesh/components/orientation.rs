@@ -224,11 +224,11 @@ impl ConnectedTriangles<'_> {
             EdgeFaces::Two { faces: [a, b], same_way } => call(a, b, same_way),
             EdgeFaces::Many(faces) => {
                 // Parts that touch are paired separately.
-                let mut own: Vec<(PartId, u32)> =
+                let mut by_part: Vec<(PartId, u32)> =
                     faces.iter().map(|face| (self.part(*face), *face)).collect();
-                own.sort_unstable();
-                for own in own.chunk_by(|a, b| a.0 == b.0) {
-                    if let [(_, a), (_, b)] = *own {
+                by_part.sort_unstable();
+                for same_part in by_part.chunk_by(|a, b| a.0 == b.0) {
+                    if let [(_, a), (_, b)] = *same_part {
                         call(a, b, self.runs_up(edge, a) == self.runs_up(edge, b));
                     }
                 }
@@ -254,10 +254,10 @@ impl ConnectedTriangles<'_> {
                 EdgeFaces::Two { same_way: false, .. } => {}
                 EdgeFaces::Two { faces, .. } => mixed[of(faces[0])].store(true, Relaxed),
                 EdgeFaces::Many(faces) => {
-                    let mut own: Vec<usize> = faces.iter().map(|face| of(*face)).collect();
-                    own.sort_unstable();
-                    let odd = own.chunk_by(|a, b| a == b).filter(|own| own.len() % 2 == 1);
-                    odd.for_each(|own| open[own[0]].store(true, Relaxed));
+                    let mut face_surfaces: Vec<usize> = faces.iter().map(|face| of(*face)).collect();
+                    face_surfaces.sort_unstable();
+                    let odd = face_surfaces.chunk_by(|a, b| a == b).filter(|own| own.len() % 2 == 1);
+                    odd.for_each(|same_surface| open[same_surface[0]].store(true, Relaxed));
                     self.each_pair(edge, |a, _, same_way| {
                         if same_way {
                             mixed[of(a)].store(true, Relaxed);
@@ -305,7 +305,7 @@ impl ConnectedTriangles<'_> {
                 radius: 0.0,
             }
         };
-        self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
+        self.each_run(surfaces, of_face, |surface, run_sums| sums[surface].add(&run_sums));
         sums
     }
 
@@ -325,7 +325,7 @@ impl ConnectedTriangles<'_> {
                 ..SurfaceSums::default()
             }
         };
-        self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
+        self.each_run(surfaces, of_face, |surface, run_sums| sums[surface].add(&run_sums));
     }
 
     /// Corners of a face, relative to the first corner of its surface.
@@ -343,9 +343,9 @@ impl ConnectedTriangles<'_> {
         of_face: impl Fn(u32, usize) -> SurfaceSums + Sync,
         mut call: impl FnMut(usize, SurfaceSums),
     ) {
-        let of_chunk = |(chunk, own): (usize, &[u32])| {
+        let of_chunk = |(chunk, chunk_surfaces): (usize, &[u32])| {
             let mut runs: Vec<(u32, SurfaceSums)> = Vec::new();
-            for (surface, face) in own.iter().zip(chunk * EDGES_PER_TASK..) {
+            for (surface, face) in chunk_surfaces.iter().zip(chunk * EDGES_PER_TASK..) {
                 let more = of_face(*surface, face);
                 match runs.last_mut() {
                     Some((last, sums)) if last == surface => sums.add(&more),

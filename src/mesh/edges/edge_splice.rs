@@ -31,21 +31,32 @@ impl Edges {
         vertex_count: usize,
         pieces: &[[u32; 3]],
     ) -> (Self, Vec<u32>) {
-        let own = Self::build(vertex_count, pieces);
+        let piece_edges = Self::build(vertex_count, pieces);
         let chunk = if self.len() > MAX_PARALLEL_EDGES { self.len() } else { EDGES_PER_TASK };
-        self.spliced_in_chunks(chunk, &own, renamed, kept)
+        self.spliced_in_chunks(chunk, &piece_edges, renamed, kept)
     }
 
-    /// Same, with the edges `own` of the pieces, and `chunk` edges per task.
-    fn spliced_in_chunks(&self, chunk: usize, own: &Self, renamed: &[u32], kept: u32) -> (Self, Vec<u32>) {
-        let place = |edge: usize| match self.vertices.get(edge) {
+    /// Same, with the edges `piece_edges` of the pieces, and `chunk` edges per task.
+    fn spliced_in_chunks(
+        &self,
+        chunk: usize,
+        piece_edges: &Self,
+        renamed: &[u32],
+        kept: u32,
+    ) -> (Self, Vec<u32>) {
+        let insertion_index = |edge: usize| match self.vertices.get(edge) {
             Some(_) if edge == 0 => 0,
-            Some(ends) => own.vertices.partition_point(|other| other < ends),
-            None => own.len(),
+            Some(ends) => piece_edges.vertices.partition_point(|piece_ends| piece_ends < ends),
+            None => piece_edges.len(),
         };
         let spliced = |k: usize| {
             let edges = k * chunk..((k + 1) * chunk).min(self.len());
-            self.spliced_part(edges.clone(), (own, place(edges.start)..place(edges.end)), renamed, kept)
+            self.spliced_part(
+                edges.clone(),
+                (piece_edges, insertion_index(edges.start)..insertion_index(edges.end)),
+                renamed,
+                kept,
+            )
         };
         let (parts, mut ids): (Vec<Self>, Vec<Vec<u32>>) =
             (0..self.len().div_ceil(chunk).max(1)).into_par_iter().map(spliced).unzip();
@@ -63,7 +74,7 @@ impl Edges {
     fn spliced_part(
         &self,
         edges: Range<usize>,
-        (own, among): (&Self, Range<usize>),
+        (piece_edges, among): (&Self, Range<usize>),
         renamed: &[u32],
         kept: u32,
     ) -> (Self, Vec<u32>) {
@@ -74,13 +85,13 @@ impl Edges {
         let mut ids = Vec::with_capacity(edges.len());
         let mut next = among.start;
         for (edge, ends) in edges.clone().zip(&self.vertices[edges]) {
-            while own.vertices.get(next).is_some_and(|other| other < ends) {
-                all.add(own, next, behind);
+            while piece_edges.vertices.get(next).is_some_and(|piece_ends| piece_ends < ends) {
+                all.add(piece_edges, next, behind);
                 next += 1;
             }
             let [first, second] = self.faces[edge];
-            let beside = own.vertices.get(next) == Some(ends);
-            if !beside && first != NON_MANIFOLD {
+            let is_shared = piece_edges.vertices.get(next) == Some(ends);
+            if !is_shared && first != NON_MANIFOLD {
                 let first = renamed[first as usize];
                 let second = match second {
                     NO_FACE => NO_FACE,
@@ -108,8 +119,8 @@ impl Edges {
                 .map(|face| renamed[*face as usize])
                 .filter(|face| *face != REMOVED)
                 .collect();
-            if beside {
-                faces.extend(own.faces(next).list().iter().map(|piece| piece + kept));
+            if is_shared {
+                faces.extend(piece_edges.faces(next).list().iter().map(|piece| piece + kept));
                 next += 1;
             }
             if faces.is_empty() {
@@ -119,7 +130,7 @@ impl Edges {
             ids.push(all.len() as u32);
             all.push(*ends, &faces, same_way);
         }
-        (next..among.end).for_each(|edge| all.add(own, edge, behind));
+        (next..among.end).for_each(|edge| all.add(piece_edges, edge, behind));
         (all, ids)
     }
 

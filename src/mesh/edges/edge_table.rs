@@ -69,7 +69,7 @@ const MAX_VERTICES_PER_BLOCK: usize = 1 << 14;
 /// Side of a triangle, seen from its smaller vertex.
 #[derive(Clone, Copy)]
 struct TriangleSide {
-    other: u32,
+    larger_vertex: u32,
     /// Face id shifted left by one; bit 0 is set if the face runs from the smaller vertex to the larger.
     face_way: u32,
 }
@@ -188,15 +188,17 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &VertexRange) -> Edges {
         *start = total;
     }
     // Filled from the back, so that `starts` moves from the ends of the buckets to their beginnings.
-    let mut sides = vec![TriangleSide { other: 0, face_way: 0 }; total as usize];
+    let mut sides = vec![TriangleSide { larger_vertex: 0, face_way: 0 }; total as usize];
     for run in share.faces.iter().rev() {
         for (face, &[a, b, c]) in run.clone().zip(&triangles[run.clone()]).rev() {
             for (a, b) in [(c, a), (b, c), (a, b)] {
                 let bucket = a.min(b).wrapping_sub(first) as usize;
                 if bucket < span {
                     starts[bucket] -= 1;
-                    sides[starts[bucket] as usize] =
-                        TriangleSide { other: a.max(b), face_way: (face as u32) << 1 | u32::from(a < b) };
+                    sides[starts[bucket] as usize] = TriangleSide {
+                        larger_vertex: a.max(b),
+                        face_way: (face as u32) << 1 | u32::from(a < b),
+                    };
                 }
             }
         }
@@ -214,13 +216,13 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &VertexRange) -> Edges {
 /// Stable sort. Buckets have about six sides, but the hub of a fan may have thousands.
 fn sort_by_other(sides: &mut [TriangleSide]) {
     if sides.len() > 24 {
-        sides.sort_by_key(|s| s.other);
+        sides.sort_by_key(|s| s.larger_vertex);
         return;
     }
     for i in 1..sides.len() {
         let side = sides[i];
         let mut k = i;
-        while k > 0 && sides[k - 1].other > side.other {
+        while k > 0 && sides[k - 1].larger_vertex > side.larger_vertex {
             sides[k] = sides[k - 1];
             k -= 1;
         }
@@ -238,10 +240,10 @@ impl Edges {
         while i < sides.len() {
             let one = sides[i];
             let mut end = i + 1;
-            while end < sides.len() && sides[end].other == one.other {
+            while end < sides.len() && sides[end].larger_vertex == one.larger_vertex {
                 end += 1;
             }
-            self.vertices.push([vertex, one.other]);
+            self.vertices.push([vertex, one.larger_vertex]);
             self.faces.push(match end - i {
                 1 => [one.face_way >> 1, NO_FACE],
                 2 => {

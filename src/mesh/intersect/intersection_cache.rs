@@ -67,13 +67,17 @@ impl IntersectionCache {
         tolerance: impl Fn(u32) -> PairTolerance + Sync,
     ) -> IntersectionCurves {
         let Some(tree) = &self.tree else { return IntersectionCurves::default() };
-        let mut places = vec![u32::MAX; self.ranks.len()];
-        for (place, face) in hosts.faces[..hosts.kept_count].iter().enumerate() {
-            places[*face as usize] = place as u32;
+        let mut kept_index = vec![u32::MAX; self.ranks.len()];
+        for (index, face) in hosts.faces[..hosts.kept_count].iter().enumerate() {
+            kept_index[*face as usize] = index as u32;
         }
-        let whole = |face: u32| places.get(face as usize).copied().filter(|place| *place != u32::MAX);
+        let uncut_face =
+            |face: u32| kept_index.get(face as usize).copied().filter(|found_index| *found_index != u32::MAX);
         let left = |pair: &IntersectingPair| {
-            Some(IntersectingPair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair })
+            Some(IntersectingPair {
+                faces: [uncut_face(pair.faces[0])?, uncut_face(pair.faces[1])?],
+                ..*pair
+            })
         };
         let mut pairs: Vec<IntersectingPair> = self.pairs.iter().filter_map(left).collect();
 
@@ -90,7 +94,7 @@ impl IntersectionCache {
         let found = |faces: &[(u32, u32)]| {
             let (mut found, mut search) = (Vec::new(), PieceSearch::default());
             for (rank, face) in faces {
-                cut.search_face(*rank, *face, whole, &mut search, |piece, others| {
+                cut.search_face(*rank, *face, uncut_face, &mut search, |piece, others| {
                     pairs_of(finer, piece, others, &tolerance, &mut found);
                 });
             }
@@ -136,25 +140,25 @@ struct NearbyFace {
 
 impl<'a> RefinedFaces<'a> {
     fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: FaceHosts) -> Self {
-        let kept = hosts.kept_count;
+        let first_piece = hosts.kept_count;
         let corners = |triangle: &[u32; 3]| triangle.map(|v| finer.positions[v as usize]);
-        let boxes: Vec<FineBox> = finer.triangles[kept..]
+        let boxes: Vec<FineBox> = finer.triangles[first_piece..]
             .par_iter()
             .with_min_len(1 << 10)
             .map(|triangle| tree.box_of(corners(triangle)))
             .collect();
-        let is_sought = |piece: &usize| finer.active.get(*piece).is_none_or(|active| *active);
+        let is_active_piece = |piece: &usize| finer.active.get(*piece).is_none_or(|active| *active);
         let by_rank = |piece: usize| (ranks[hosts.faces[piece] as usize] as usize, piece as u32);
-        let sought = (kept..finer.triangles.len()).filter(is_sought);
-        let pieces = csr_lists_from_pairs(ranks.len(), sought.map(by_rank));
+        let active_pieces = (first_piece..finer.triangles.len()).filter(is_active_piece);
+        let pieces = csr_lists_from_pairs(ranks.len(), active_pieces.map(by_rank));
         let around = |rank: usize| {
-            let own = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - kept]);
-            Some((rank as u32, own.reduce(FineBox::union)?))
+            let piece_boxes = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - first_piece]);
+            Some((rank as u32, piece_boxes.reduce(FineBox::union)?))
         };
         let changed: Vec<(u32, FineBox)> = (0..pieces.count()).filter_map(around).collect();
         let host = |rank: u32| hosts.faces[pieces.of(rank as usize)[0] as usize];
         let faces = changed.iter().map(|(rank, _)| (*rank, host(*rank))).collect();
-        Self { finer, tree: tree.with_boxes(&changed), kept_count: kept, faces, pieces, boxes, ranks }
+        Self { finer, tree: tree.with_boxes(&changed), kept_count: first_piece, faces, pieces, boxes, ranks }
     }
 
     /// Calls `visit` for each piece of a cut face with the faces that may pass through it. A pair of cut
@@ -163,7 +167,7 @@ impl<'a> RefinedFaces<'a> {
         &self,
         rank: u32,
         face: u32,
-        whole: impl Fn(u32) -> Option<u32>,
+        uncut_face: impl Fn(u32) -> Option<u32>,
         search: &mut PieceSearch,
         mut visit: impl FnMut(u32, &[u32]),
     ) {
@@ -173,39 +177,44 @@ impl<'a> RefinedFaces<'a> {
             NearbyFace { own_box, face, vertices: self.finer.triangles[face as usize] }
         };
         let pieces = self.pieces.of(rank as usize);
-        let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept_count]);
+        let boxes = pieces.iter().map(|piece_index| self.boxes[*piece_index as usize - self.kept_count]);
         let Some(around) = boxes.reduce(FineBox::union) else { return };
         near.clear();
-        self.tree.near(around, stack, |other| {
-            if other == face {
+        self.tree.near(around, stack, |nearby| {
+            if nearby == face {
                 return;
             }
-            let other_rank = self.ranks[other as usize];
+            let other_rank = self.ranks[nearby as usize];
             let of_other = self.pieces.of(other_rank as usize);
             if !of_other.is_empty() {
                 if other_rank > rank {
                     near.extend(of_other.iter().map(|face| piece(*face)));
                 }
-            } else if let Some(face) = whole(other) {
+            } else if let Some(face) = uncut_face(nearby) {
                 let vertices = self.finer.triangles[face as usize];
                 let corners = vertices.map(|v| self.finer.positions[v as usize]);
                 near.push(NearbyFace { own_box: self.tree.box_of(corners), face, vertices });
             }
         });
-        near.retain(|other| around.overlaps(other.own_box));
+        near.retain(|candidate| around.overlaps(candidate.own_box));
         let all = TreeFaces { triangles: self.finer.triangles, bodies: self.finer.bodies };
         let first = near.len();
         near.extend(pieces.iter().map(|face| piece(*face)));
         for k in first..near.len() {
-            let own = near[k];
-            let are_neighbours = |other: &NearbyFace| {
-                share_a_vertex(own.vertices, other.vertices) && all.are_joined(own.face, other.face)
+            let current = near[k];
+            let are_neighbours = |neighbour: &NearbyFace| {
+                share_a_vertex(current.vertices, neighbour.vertices)
+                    && all.are_joined(current.face, neighbour.face)
             };
-            let meets = |other: &&NearbyFace| own.own_box.overlaps(other.own_box) && !are_neighbours(other);
+            let meets = |other_piece: &&NearbyFace| {
+                current.own_box.overlaps(other_piece.own_box) && !are_neighbours(other_piece)
+            };
             others.clear();
-            others.extend(near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|other| other.face));
+            others.extend(
+                near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|met_face| met_face.face),
+            );
             if !others.is_empty() {
-                visit(own.face, others);
+                visit(current.face, others);
             }
         }
     }

@@ -119,25 +119,25 @@ pub(crate) fn pairs_of(
     found: &mut Vec<IntersectingPair>,
 ) {
     let IntersectionInput { positions, triangles, .. } = *input;
-    let own = &Triangle::new(positions, triangles[face as usize]);
+    let own_triangle = &Triangle::new(positions, triangles[face as usize]);
     let own_tolerance = tolerance(face);
-    for &other in others {
-        let other_vertices = triangles[other as usize];
-        if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
+    for &other_face in others {
+        let other_vertices = triangles[other_face as usize];
+        if own_triangle.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
             continue;
         }
         let other_triangle = Triangle::new(positions, other_vertices);
-        if other_triangle.has_on_one_side(&own.corners) {
+        if other_triangle.has_on_one_side(&own_triangle.corners) {
             continue;
         }
-        let tolerance = own_tolerance.and(tolerance(other));
-        let common = if face < other {
-            cross_unrejected(own, &other_triangle, tolerance)
+        let tolerance = own_tolerance.and(tolerance(other_face));
+        let common = if face < other_face {
+            cross_unrejected(own_triangle, &other_triangle, tolerance)
         } else {
-            cross_unrejected(&other_triangle, own, tolerance)
+            cross_unrejected(&other_triangle, own_triangle, tolerance)
         };
         if let Some(common) = common {
-            found.push(IntersectingPair { faces: [face.min(other), face.max(other)], common });
+            found.push(IntersectingPair { faces: [face.min(other_face), face.max(other_face)], common });
         }
     }
 }
@@ -190,16 +190,16 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
             PairIntersection::Point(ends) => (ends, 0),
             PairIntersection::Touch(touch) => {
                 let Some([first, second]) = passing.get(&pierced_and_edge(faces, &touch)) else { continue };
-                let (pierced, own) = pierced_and_own(faces, &touch);
-                if own != *first {
+                let (pierced, host_face) = pierced_and_own(faces, &touch);
+                if host_face != *first {
                     continue;
                 }
                 // Neighbours may name either face at the edge.
-                let other = if pierced < *second { [pierced, *second] } else { [*second, pierced] };
-                let turned = (pierced < own) != (pierced < *second);
+                let second_faces = if pierced < *second { [pierced, *second] } else { [*second, pierced] };
+                let turned = (pierced < host_face) != (pierced < *second);
                 let ends = if turned { touch.ends.map(|[a, b]| [b, a]) } else { touch.ends };
-                name_end(ends[0], other, end_count, &mut namings);
-                name_end(ends[1], other, end_count + 1, &mut namings);
+                name_end(ends[0], second_faces, end_count, &mut namings);
+                name_end(ends[1], second_faces, end_count + 1, &mut namings);
                 (touch.ends, 1)
             }
             PairIntersection::Along(along) => {
@@ -239,9 +239,9 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
         let is_of_edge = |naming: &NamedEnd| naming.name.0[0] != naming.name.0[1];
         is_of_edge(a).cmp(&is_of_edge(b)).then_with(|| compare_places(a.point, b.point))
     };
-    let mut place: Vec<Option<&NamedEnd>> = vec![None; end_count as usize];
+    let mut best_naming: Vec<Option<&NamedEnd>> = vec![None; end_count as usize];
     for naming in &namings {
-        let slot = &mut place[root(&mut parent, naming.end) as usize];
+        let slot = &mut best_naming[root(&mut parent, naming.end) as usize];
         if slot.is_none_or(|best| order(&naming, &best).is_lt()) {
             *slot = Some(naming);
         }
@@ -253,7 +253,7 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
         segment.ends = segment.ends.map(|end| {
             let end = root(&mut parent, end) as usize;
             *index[end].get_or_insert_with(|| {
-                points.extend(place[end].map(|naming| naming.point));
+                points.extend(best_naming[end].map(|naming| naming.point));
                 points.len() as u32 - 1
             })
         });
@@ -279,8 +279,8 @@ fn passing_edges(pairs: &[IntersectingPair]) -> FxHashMap<(u32, Feature), [u32; 
         if let PairIntersection::Touch(touch) = common {
             let side =
                 &mut sides.entry(pierced_and_edge(*faces, touch)).or_default()[usize::from(touch.is_above)];
-            let own = pierced_and_own(*faces, touch).1;
-            *side = Some(side.map_or(own, |known| known.min(own)));
+            let host_face = pierced_and_own(*faces, touch).1;
+            *side = Some(side.map_or(host_face, |lowest| lowest.min(host_face)));
         }
     }
     let both = |(key, [below, above]): (_, [Option<u32>; 2])| {
@@ -299,7 +299,7 @@ fn crossed_edges(pairs: &[IntersectingPair]) -> FxHashMap<[Feature; 2], Vec<Inte
             found.entry(sorted(along)).or_default().push(*pair);
         }
     }
-    found.retain(|_, own| alternate_around_line(own));
+    found.retain(|_, line_pairs| alternate_around_line(line_pairs));
     found
 }
 
@@ -316,9 +316,9 @@ fn alternate_around_line(pairs: &[IntersectingPair]) -> bool {
     for IntersectingPair { faces, common } in pairs {
         let PairIntersection::Along(along) = common else { continue };
         for k in 0..2 {
-            let own = &mut sides[usize::from(along.edges[k] > along.edges[1 - k])];
-            if own.iter().all(|(face, _)| *face != faces[k]) {
-                own.push((faces[k], along.away[k]));
+            let side_faces = &mut sides[usize::from(along.edges[k] > along.edges[1 - k])];
+            if side_faces.iter().all(|(face, _)| *face != faces[k]) {
+                side_faces.push((faces[k], along.away[k]));
             }
         }
     }
@@ -328,18 +328,19 @@ fn alternate_around_line(pairs: &[IntersectingPair]) -> bool {
         return false;
     };
     let quarter = first.cross(others[0].1).normalize_or_zero().cross(*first);
-    let angle = |way: &DVec3| {
-        let angle = crate::geometry::numbers::portable_math::atan2(way.dot(quarter), way.dot(*first));
+    let angle = |direction: &DVec3| {
+        let angle =
+            crate::geometry::numbers::portable_math::atan2(direction.dot(quarter), direction.dot(*first));
         if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
     };
-    let is_between = |way: &DVec3| angle(way) < angle(second);
+    let is_between = |candidate: &DVec3| angle(candidate) < angle(second);
     is_between(&others[0].1) != is_between(&others[1].1)
 }
 
 /// Distance between two ends.
 fn gap(one: &SegmentEnd, other: &SegmentEnd) -> f64 {
-    let place = |end: &SegmentEnd| end.iter().flatten().next().map(|piercing| piercing.point);
-    place(one).zip(place(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
+    let point_of = |end: &SegmentEnd| end.iter().flatten().next().map(|piercing| piercing.point);
+    point_of(one).zip(point_of(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
 }
 
 /// Adds all names of one end of the common part of two faces.

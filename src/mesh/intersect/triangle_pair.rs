@@ -77,8 +77,9 @@ impl Triangle {
         // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the distance to q. If the
         // sine of the corner is above 1/100, this is below 1200 ε of that distance, well inside the plane
         // tolerance.
-        let least = tolerances::MIN_TRUSTED_SINE_SQUARED * e1.length_squared() * e2.length_squared();
-        let trusted = normal.length_squared() > least;
+        let min_squared_length =
+            tolerances::MIN_TRUSTED_SINE_SQUARED * e1.length_squared() * e2.length_squared();
+        let trusted = normal.length_squared() > min_squared_length;
         Self { vertices, corners, normal, trusted }
     }
 
@@ -104,21 +105,21 @@ impl Triangle {
         tolerance: PairTolerance,
     ) -> Option<[f64; 3]> {
         let [a, b, c] = self.corners;
-        let reach = |way: DVec3| way.x.abs() + way.y.abs() + way.z.abs();
+        let reach = |offset: DVec3| offset.x.abs() + offset.y.abs() + offset.z.abs();
         let size = reach(b - a) + reach(c - a);
         let (mut is_zero, mut below, mut above) = ([false; 3], false, false);
         for (is_zero, point) in is_zero.iter_mut().zip(points) {
-            let way = *point - a;
-            let about = self.normal.dot(way);
+            let from_corner = *point - a;
+            let about = self.normal.dot(from_corner);
             // Exceeds the error of every determinant of these points, so that smaller values count as zero
             // either way.
-            let far = size + reach(way);
+            let far = size + reach(from_corner);
             let error = tolerances::DETERMINANT_ROUNDING * (far * far * far);
             // Where surfaces coincide, most corners are in the other plane, and exact predicates would be
             // slow. Most other corners are on one side.
             *is_zero = about.abs() + error < far_tolerance(far, normal_length, tolerance) && {
-                let least = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
-                about.abs() + error < tolerances::PLANE_ROUNDING_FACTOR * least
+                let max_plane_offset = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
+                about.abs() + error < tolerances::PLANE_ROUNDING_FACTOR * max_plane_offset
             };
             below |= !*is_zero && about <= error;
             above |= !*is_zero && about >= -error;
@@ -139,8 +140,8 @@ impl Triangle {
         let [a, b, c] = self.corners;
         let (a, b, c) = (coordinates(a), coordinates(b), coordinates(c));
         let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
-        let within = self.plane_tolerance(point, normal_length, tolerance);
-        if distance.abs() < within { 0.0 } else { distance }
+        let local_tolerance = self.plane_tolerance(point, normal_length, tolerance);
+        if distance.abs() < local_tolerance { 0.0 } else { distance }
     }
 
     /// Maximum distance from the plane of the triangle for a point that counts as in it.
@@ -274,8 +275,8 @@ pub(crate) fn cross_unrejected(
     }
     let direction = along / sine;
     let ordered = |[p, q]: [Piercing; 2]| {
-        let place = |piercing: Piercing| (direction.dot(piercing.point - a.corners[0]), piercing);
-        let (p, q) = (place(p), place(q));
+        let with_parameter = |piercing: Piercing| (direction.dot(piercing.point - a.corners[0]), piercing);
+        let (p, q) = (with_parameter(p), with_parameter(q));
         if p.0 <= q.0 { [p, q] } else { [q, p] }
     };
     let [a_first, a_last] = ordered(a_crossings);
@@ -286,14 +287,14 @@ pub(crate) fn cross_unrejected(
         [(meet || a_is_inner).then_some(a.1), (meet || !a_is_inner).then_some(b.1)]
     };
     let ends = [end(a_first, b_first, a_first.0 >= b_first.0), end(a_last, b_last, a_last.0 <= b_last.0)];
-    let edge = |own: &Triangle, third: usize| {
-        let [v, w] = [own.vertices[(third + 1) % 3], own.vertices[(third + 2) % 3]];
+    let edge = |triangle: &Triangle, third: usize| {
+        let [v, w] = [triangle.vertices[(third + 1) % 3], triangle.vertices[(third + 2) % 3]];
         [v.min(w), v.max(w)]
     };
     if let (Some(a_third), Some(b_third)) = (a_edge, b_edge) {
-        let away = |own: &Triangle, third: usize| {
-            let way = own.corners[third] - own.corners[(third + 1) % 3];
-            (way - direction * way.dot(direction)).normalize_or_zero()
+        let away = |face: &Triangle, third: usize| {
+            let to_third = face.corners[third] - face.corners[(third + 1) % 3];
+            (to_third - direction * to_third.dot(direction)).normalize_or_zero()
         };
         let (edges, away) = ([edge(a, a_third), edge(b, b_third)], [away(a, a_third), away(b, b_third)]);
         return (length > tolerance.overlap).then_some(PairIntersection::Along(Along { ends, edges, away }));
@@ -303,8 +304,9 @@ pub(crate) fn cross_unrejected(
         (_, Some(side)) => Some((b, b_distances, side, true)),
         _ => None,
     };
-    if let Some((own, distances, third, is_of_second)) = touch {
-        let touch = Touch { ends, edge: edge(own, third), is_of_second, is_above: distances[third] > 0.0 };
+    if let Some((flat_triangle, distances, third, is_of_second)) = touch {
+        let touch =
+            Touch { ends, edge: edge(flat_triangle, third), is_of_second, is_above: distances[third] > 0.0 };
         return (length > tolerance.overlap).then_some(PairIntersection::Touch(touch));
     }
     if length > tolerance.overlap {

@@ -43,7 +43,7 @@ impl<'a> CoplanarSearch<'a> {
     pub(crate) fn neighbours_in_plane(&self, face: u32) -> Vec<u32> {
         let corners = self.corners(face);
         let is_in_plane =
-            |other: &u32| self.holds(*other, &corners) || self.holds(face, &self.corners(*other));
+            |candidate: &u32| self.holds(*candidate, &corners) || self.holds(face, &self.corners(*candidate));
         self.neighbours(face).filter(is_in_plane).collect()
     }
 
@@ -54,8 +54,8 @@ impl<'a> CoplanarSearch<'a> {
             let [a, b, c] = self.corners(face);
             (b - a).cross(c - a).normalize_or_zero()
         };
-        let (own, least) = (normal(face), cos(tolerances::MAX_FACET_DEG.to_radians()));
-        self.neighbours(face).filter(|other| normal(*other).dot(own) > least).count() == 3
+        let (own_normal, min_cosine) = (normal(face), cos(tolerances::MAX_FACET_DEG.to_radians()));
+        self.neighbours(face).filter(|neighbour| normal(*neighbour).dot(own_normal) > min_cosine).count() == 3
     }
 
     /// Smallest height of a face, world units.
@@ -89,14 +89,15 @@ impl<'a> CoplanarSearch<'a> {
     /// The first sure face on a path across longest edges, through planes that contain the face.
     fn carrier(&self, face: u32) -> Option<u32> {
         let corners = self.corners(face);
-        let mut way = vec![face];
-        while let Some(at) = way.last().copied().filter(|_| way.len() < MAX_CARRIER_STEPS) {
-            let next =
-                self.neighbours(at).find(|other| !way.contains(other) && self.holds(*other, &corners))?;
+        let mut visited = vec![face];
+        while let Some(at) = visited.last().copied().filter(|_| visited.len() < MAX_CARRIER_STEPS) {
+            let next = self
+                .neighbours(at)
+                .find(|candidate| !visited.contains(candidate) && self.holds(*candidate, &corners))?;
             if !self.is_unsure(next) {
                 return Some(next);
             }
-            way.push(next);
+            visited.push(next);
         }
         None
     }
@@ -109,14 +110,17 @@ impl<'a> CoplanarSearch<'a> {
         let mut sides = [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)]);
         sides.sort_unstable_by(|p, q| length(*q).total_cmp(&length(*p)).then(p.cmp(q)));
         let part = self.parts[face as usize];
-        let beyond = move |side: [u32; 2]| {
+        let neighbour_across = move |side: [u32; 2]| {
             let edge = self.edges.vertices.binary_search(&side).ok()?;
             match self.edges.faces(edge) {
                 EdgeFaces::Two { faces: [p, q], same_way: false } => Some(if p == face { q } else { p }),
                 _ => None,
             }
         };
-        sides.into_iter().filter_map(beyond).filter(move |other| self.parts[*other as usize] == part)
+        sides
+            .into_iter()
+            .filter_map(neighbour_across)
+            .filter(move |neighbour| self.parts[*neighbour as usize] == part)
     }
 
     /// Whether points lie in the plane of a face, within the rounding.

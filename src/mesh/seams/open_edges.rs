@@ -107,16 +107,17 @@ fn open_edges(soup: &Soup, edges: &Edges) -> Vec<OpenEdge> {
         })
     };
     let sides = |edge: usize| {
-        let (one, more) = match edges.faces(edge) {
+        let (border_faces, more) = match edges.faces(edge) {
             EdgeFaces::One(face) => ([Some(face), None], &[][..]),
             EdgeFaces::Two { faces: [a, b], .. } if part(a) == part(b) => ([None; 2], &[][..]),
             EdgeFaces::Two { faces, .. } => (faces.map(Some), &[][..]),
             EdgeFaces::Many(faces) => ([None; 2], faces),
         };
-        let is_shared = one[0].is_none() || one[1].is_some();
-        let is_alone = |face: &u32| more.iter().filter(|other| part(**other) == part(*face)).count() == 1;
+        let is_shared = border_faces[0].is_none() || border_faces[1].is_some();
+        let is_alone =
+            |face: &u32| more.iter().filter(|other_face| part(**other_face) == part(*face)).count() == 1;
         let alone = more.iter().copied().filter(is_alone);
-        one.into_iter().flatten().chain(alone).filter_map(move |face| open(edge, face, is_shared))
+        border_faces.into_iter().flatten().chain(alone).filter_map(move |face| open(edge, face, is_shared))
     };
     (0..edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).flat_map_iter(sides).collect()
 }
@@ -149,8 +150,8 @@ impl OpenEdge {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
                 ([Some(a), Some(b)], Some(c)) => {
-                    let apart = |k: usize| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs();
-                    (0..N).all(|k| apart(k) <= tolerances::MAX_SEAM_PAINT_DIFFERENCE)
+                    let difference = |k: usize| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs();
+                    (0..N).all(|k| difference(k) <= tolerances::MAX_SEAM_PAINT_DIFFERENCE)
                 }
                 ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
             }
@@ -169,7 +170,7 @@ struct SeamSearch<'a> {
     /// The open edges at each corner.
     at: CsrLists<u32>,
     /// Positions of the corners.
-    places: PointTree,
+    corner_tree: PointTree,
 }
 
 impl<'a> SeamSearch<'a> {
@@ -185,7 +186,7 @@ impl<'a> SeamSearch<'a> {
             }
         });
         let places = PointTree::new(corners.iter().map(|v| soup.positions[*v as usize]));
-        Self { soup, open, corners, numbers, at, places }
+        Self { soup, open, corners, numbers, at, corner_tree: places }
     }
 
     fn place(&self, corner: u32) -> DVec3 {
@@ -236,7 +237,7 @@ impl<'a> SeamSearch<'a> {
         faces.dedup_by(|more, first| {
             let same = more.0 == first.0;
             if same {
-                first.1.iter_mut().zip(&mut more.1).for_each(|(own, more)| own.append(more));
+                first.1.iter_mut().zip(&mut more.1).for_each(|(first_cuts, more)| first_cuts.append(more));
             }
             same
         });
@@ -250,67 +251,75 @@ impl<'a> SeamSearch<'a> {
             let edges = self.at.of(of as usize).iter().map(|k| &self.open[*k as usize]);
             edges.filter(|edge| !edge.is_shared)
         };
-        let mut own = borders(corner).peekable();
-        own.peek()?;
-        let scale = own.clone().map(|edge| extents.part(edge.part).scale).fold(0.0, f64::max);
-        let (reach, place) = (tolerances::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
+        let mut own_borders = borders(corner).peekable();
+        own_borders.peek()?;
+        let scale = own_borders.clone().map(|edge| extents.part(edge.part).scale).fold(0.0, f64::max);
+        let (reach, position) = (tolerances::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
-        self.places.visit_near(place, DVec3::ZERO, reach, |other, at| {
-            let apart = at.distance(place);
-            let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
-            if other != corner && apart <= reach && is_nearer && borders(other).next().is_some() {
-                nearest = Some((apart, other));
+        self.corner_tree.visit_near(position, DVec3::ZERO, reach, |nearby_corner, at| {
+            let gap_length = at.distance(position);
+            let is_nearer = nearest
+                .is_none_or(|(nearest_distance, at)| (gap_length, nearby_corner) < (nearest_distance, at));
+            if nearby_corner != corner
+                && gap_length <= reach
+                && is_nearer
+                && borders(nearby_corner).next().is_some()
+            {
+                nearest = Some((gap_length, nearby_corner));
             }
         });
-        let (_, other) = nearest?;
-        let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
+        let (_, mate_corner) = nearest?;
+        let [p, q] = [corner, mate_corner].map(|k| self.corners[k as usize]);
         // Corners connected by an edge lie on both sides of a narrow strip.
         let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
         let meets = |a: &OpenEdge, b: &OpenEdge| {
             let end = usize::from(a.ends[1] == p);
             b.ends[1 - end] == q && a.faces_across(b) && a.matches_paint(end as f64, b.paint[1 - end])
         };
-        (!is_strip && own.any(|a| borders(other).any(|b| meets(a, b)))).then_some(other)
+        (!is_strip && own_borders.any(|a| borders(mate_corner).any(|b| meets(a, b)))).then_some(mate_corner)
     }
 
     /// The corners that cut an open edge, in order along it.
-    fn cuts(&self, edge: usize, least: f64) -> Vec<SideCut> {
-        let own = &self.open[edge];
-        let third = self.soup.triangles[own.face as usize].into_iter().find(|v| !own.ends.contains(v));
-        let start = self.soup.positions[own.ends[0] as usize];
+    fn cuts(&self, edge: usize, min_gap: f64) -> Vec<SideCut> {
+        let open_edge = &self.open[edge];
+        let third =
+            self.soup.triangles[open_edge.face as usize].into_iter().find(|v| !open_edge.ends.contains(v));
+        let start = self.soup.positions[open_edge.ends[0] as usize];
         let opposite = third.map_or(DVec3::ZERO, |v| self.soup.positions[v as usize] - start);
-        let height = (opposite - own.along * opposite.dot(own.along)).length();
+        let height = (opposite - open_edge.along * opposite.dot(open_edge.along)).length();
         // Seen from the opposite corner, a cut must lie between the ends of the side, so that no piece turns
         // over.
-        let is_between = |way: DVec3| {
-            let [from, to, at] = [-opposite, own.along * own.length - opposite, way - opposite];
-            from.cross(at).dot(own.normal) > 0.0 && at.cross(to).dot(own.normal) > 0.0
+        let is_between = |offset: DVec3| {
+            let [from, to, at] =
+                [-opposite, open_edge.along * open_edge.length - opposite, offset - opposite];
+            from.cross(at).dot(open_edge.normal) > 0.0 && at.cross(to).dot(open_edge.normal) > 0.0
         };
         // Where parts touch, all their vertices are on the edge, so no sagitta is needed.
-        let sagitta = if own.is_shared { DVec3::ZERO } else { self.sagitta(own) };
-        let reach = least.max(sagitta.length()).min(height / MIN_CLEARANCE_RATIO);
-        let aside = least.max(sagitta.length() / SAGITTA_PER_TWIST);
+        let sagitta = if open_edge.is_shared { DVec3::ZERO } else { self.sagitta(open_edge) };
+        let reach = min_gap.max(sagitta.length()).min(height / MIN_CLEARANCE_RATIO);
+        let max_aside = min_gap.max(sagitta.length() / SAGITTA_PER_TWIST);
         let mut cuts: Vec<SideCut> = Vec::new();
-        if own.length == 0.0 || reach == 0.0 {
+        if open_edge.length == 0.0 || reach == 0.0 {
             return cuts;
         }
-        self.places.visit_near(start, own.along * own.length, reach, |corner, at| {
+        self.corner_tree.visit_near(start, open_edge.along * open_edge.length, reach, |corner, at| {
             let vertex = self.corners[corner as usize];
-            let way = at - start;
-            let along = way.dot(own.along);
-            let off = way - own.along * along;
-            let way_off = off - off.project_onto_normalized(sagitta.normalize_or_zero());
+            let from_start = at - start;
+            let along = from_start.dot(open_edge.along);
+            let off = from_start - open_edge.along * along;
+            let off_sagitta = off - off.project_onto_normalized(sagitta.normalize_or_zero());
             let off = off.length();
-            let clear = along > MIN_CLEARANCE_RATIO * off && own.length - along > MIN_CLEARANCE_RATIO * off;
-            let is_own = own.ends.contains(&vertex) || third == Some(vertex);
+            let clear =
+                along > MIN_CLEARANCE_RATIO * off && open_edge.length - along > MIN_CLEARANCE_RATIO * off;
+            let is_own = open_edge.ends.contains(&vertex) || third == Some(vertex);
             if off <= reach
-                && way_off.length() <= aside
+                && off_sagitta.length() <= max_aside
                 && clear
                 && !is_own
-                && is_between(way)
-                && self.has_seam_partner(own, along / own.length, corner)
+                && is_between(from_start)
+                && self.has_seam_partner(open_edge, along / open_edge.length, corner)
             {
-                cuts.push((along / own.length, vertex));
+                cuts.push((along / open_edge.length, vertex));
             }
         });
         cuts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -319,37 +328,37 @@ impl<'a> SeamSearch<'a> {
     }
 
     /// Whether an open edge at this corner runs along the given edge, as the other side of a seam.
-    fn has_seam_partner(&self, own: &OpenEdge, t: f64, corner: u32) -> bool {
+    fn has_seam_partner(&self, open_edge: &OpenEdge, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
-        self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
-            own.runs_against(other)
-                && own.matches_paint(t, other.paint[usize::from(other.ends[1] == vertex)])
-                && (!own.folds(other) || self.meets_on_both_sides(own, vertex))
+        self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|candidate| {
+            open_edge.runs_against(candidate)
+                && open_edge.matches_paint(t, candidate.paint[usize::from(candidate.ends[1] == vertex)])
+                && (!open_edge.folds(candidate) || self.meets_on_both_sides(open_edge, vertex))
         })
     }
 
     /// Whether the borders of an open edge and of a nearby vertex separate at a common corner and meet again
     /// at another.
-    fn meets_on_both_sides(&self, own: &OpenEdge, vertex: u32) -> bool {
+    fn meets_on_both_sides(&self, open_edge: &OpenEdge, vertex: u32) -> bool {
         [0, 1].into_iter().all(|end| {
-            let way = if end == 0 { -own.along } else { own.along };
-            let own_corners = self.corners_from(own.ends[end], end, way, own.part);
+            let outward = if end == 0 { -open_edge.along } else { open_edge.along };
+            let own_corners = self.corners_from(open_edge.ends[end], end, outward, open_edge.part);
             // The border on the other side runs in the opposite direction.
-            let others = self.corners_from(vertex, 1 - end, way, own.part);
+            let others = self.corners_from(vertex, 1 - end, outward, open_edge.part);
             own_corners.iter().any(|corner| others.contains(corner))
         })
     }
 
     /// The corners along a border from a vertex in one direction, including the vertex. The open edges begin
     /// (`end` is 0) or end (1) at these corners.
-    fn corners_from(&self, vertex: u32, end: usize, way: DVec3, part: PartId) -> Vec<u32> {
+    fn corners_from(&self, vertex: u32, end: usize, direction: DVec3, part: PartId) -> Vec<u32> {
         let mut found = vec![vertex];
         while let Some(last) = found.last().copied().filter(|_| found.len() < MAX_CORNERS_BETWEEN) {
             let corner = self.numbers[last as usize] as usize;
             let edges = self.at.of(corner).iter().map(|k| &self.open[*k as usize]);
-            let own = edges.filter(|edge| edge.ends[1 - end] == last && edge.part == part);
-            let cosine = |edge: &OpenEdge| edge.along.dot(if end == 0 { -way } else { way });
-            let next = own.max_by(|a, b| cosine(a).total_cmp(&cosine(b)));
+            let continuing_edges = edges.filter(|edge| edge.ends[1 - end] == last && edge.part == part);
+            let cosine = |edge: &OpenEdge| edge.along.dot(if end == 0 { -direction } else { direction });
+            let next = continuing_edges.max_by(|a, b| cosine(a).total_cmp(&cosine(b)));
             let Some(next) =
                 next.filter(|next| cosine(next) > MIN_SEAM_COSINE && !found.contains(&next.ends[end]))
             else {
@@ -365,30 +374,32 @@ impl<'a> SeamSearch<'a> {
     /// The estimate uses the end where the border turns less, because the other end may be a corner of the
     /// curve. The part of that turn that belongs to the next edge is estimated from the turn at the far end
     /// of that edge. A straight side next to a rounded corner therefore stays straight.
-    fn sagitta(&self, own: &OpenEdge) -> DVec3 {
+    fn sagitta(&self, open_edge: &OpenEdge) -> DVec3 {
         let next = |of: &OpenEdge, end: usize| {
             let corner = self.numbers[of.ends[end] as usize] as usize;
-            let goes_on = |other: &&OpenEdge| other.ends[1 - end] == of.ends[end] && other.part == of.part;
+            let goes_on =
+                |candidate: &&OpenEdge| candidate.ends[1 - end] == of.ends[end] && candidate.part == of.part;
             let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
             others.max_by(|a, b| a.along.dot(of.along).total_cmp(&b.along.dot(of.along)))
         };
-        let ends = [0, 1].into_iter().filter_map(|end| Some((end, next(own, end)?)));
-        let straighter = ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
-        let Some((end, beside)) = straighter else { return DVec3::ZERO };
-        let cosine = beside.along.dot(own.along);
+        let ends = [0, 1].into_iter().filter_map(|end| Some((end, next(open_edge, end)?)));
+        let straighter =
+            ends.max_by(|a, b| a.1.along.dot(open_edge.along).total_cmp(&b.1.along.dot(open_edge.along)));
+        let Some((end, adjacent)) = straighter else { return DVec3::ZERO };
+        let cosine = adjacent.along.dot(open_edge.along);
         if cosine < MIN_SEAM_COSINE {
             return DVec3::ZERO;
         }
         // Tangent of half the turn. Equal edges share a turn in halves.
         let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
         let turn = half_turn(cosine);
-        let share = next(beside, end).map_or(0.0, |beyond| {
-            let cosine = beyond.along.dot(beside.along);
-            let of_beside = beside.length / (beside.length + beyond.length);
+        let share = next(adjacent, end).map_or(0.0, |next_adjacent| {
+            let cosine = next_adjacent.along.dot(adjacent.along);
+            let of_beside = adjacent.length / (adjacent.length + next_adjacent.length);
             if cosine < MIN_SEAM_COSINE { 0.0 } else { half_turn(cosine) * of_beside }
         });
         let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
-        let height = SAGITTA_FACTOR * own.length * own_turn / 2.0;
-        (beside.along - own.along * cosine).normalize_or_zero() * height
+        let height = SAGITTA_FACTOR * open_edge.length * own_turn / 2.0;
+        (adjacent.along - open_edge.along * cosine).normalize_or_zero() * height
     }
 }

@@ -23,60 +23,71 @@ pub(crate) struct BalloonCandidate {
 }
 
 /// The candidates of one balloon, cheapest first.
-pub(crate) fn candidates(wish: &PlacementRequest, room: &PlacementArea) -> Vec<BalloonCandidate> {
-    let mut found = Vec::new();
-    for (shape, hull) in wish.hulls.iter().enumerate() {
-        for middle in candidate_centres(wish, hull, room) {
+pub(crate) fn candidates(request: &PlacementRequest, area: &PlacementArea) -> Vec<BalloonCandidate> {
+    let mut balloons = Vec::new();
+    for (shape, hull) in request.hulls.iter().enumerate() {
+        for middle in candidate_centres(request, hull, area) {
             let hull = hull.moved(middle.to_vec2());
-            if wish.at.is_none() && !hull.0.iter().all(|p| room.outline.holds(*p)) {
+            if request.at.is_none() && !hull.0.iter().all(|p| area.outline.holds(*p)) {
                 continue;
             }
-            let tail = match &wish.target {
+            let tail = match &request.target {
                 None => None,
-                Some((target, aim)) => match fit_tail(middle, &hull, (target, *aim), wish, room) {
+                Some((target, aim)) => match fit_tail(middle, &hull, (target, *aim), request, area) {
                     Some(tail) => Some(tail),
                     None => continue,
                 },
             };
-            let around = tail.as_ref().map(|tail| tail_polygon(middle, tail.tip, wish.tail_half_width));
-            let place = PlacedBalloon { shape, middle, tip: tail.as_ref().map(|tail| tail.tip), hull };
-            if wish.at.is_some() || meets_constraints(&place, around.as_ref(), wish, room) {
-                let bounds = place.hull.bounds();
-                let reach = around.as_ref().map_or(bounds, |tail| bounds.union(tail.bounds()));
-                let cost = cost(bounds, shape, tail.as_ref(), wish, room);
-                found.push(BalloonCandidate { place, tail: around, bounds, reach, cost });
+            let tail_outline =
+                tail.as_ref().map(|tail| tail_polygon(middle, tail.tip, request.tail_half_width));
+            let placed_balloon =
+                PlacedBalloon { shape, middle, tip: tail.as_ref().map(|tail| tail.tip), hull };
+            if request.at.is_some()
+                || meets_constraints(&placed_balloon, tail_outline.as_ref(), request, area)
+            {
+                let bounds = placed_balloon.hull.bounds();
+                let reach = tail_outline.as_ref().map_or(bounds, |tail| bounds.union(tail.bounds()));
+                let cost = cost(bounds, shape, tail.as_ref(), request, area);
+                balloons.push(BalloonCandidate {
+                    place: placed_balloon,
+                    tail: tail_outline,
+                    bounds,
+                    reach,
+                    cost,
+                });
             }
         }
     }
-    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    found
+    balloons.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    balloons
 }
 
 /// The possible centres of a balloon: the given one, or a grid over the panel.
-fn candidate_centres(wish: &PlacementRequest, hull: &ConvexPolygon, room: &PlacementArea) -> Vec<Point> {
-    if let Some(at) = wish.at {
+fn candidate_centres(request: &PlacementRequest, hull: &ConvexPolygon, area: &PlacementArea) -> Vec<Point> {
+    if let Some(at) = request.at {
         return vec![at];
     }
-    let (bounds, own) = (room.outline.bounds(), hull.bounds());
-    let free = Vec2::new(bounds.width() - own.width(), bounds.height() - own.height());
-    if free.x < 0.0 || free.y < 0.0 || !free.is_finite() {
+    let (bounds, hull_bounds) = (area.outline.bounds(), hull.bounds());
+    let free_space = Vec2::new(bounds.width() - hull_bounds.width(), bounds.height() - hull_bounds.height());
+    if free_space.x < 0.0 || free_space.y < 0.0 || !free_space.is_finite() {
         return Vec::new();
     }
-    let from = Point::new(bounds.x0 - own.x0, bounds.y0 - own.y0);
-    let step = free / (GRID_STEPS - 1) as f64;
-    let places = (0..GRID_STEPS * GRID_STEPS).map(|k| (k % GRID_STEPS, k / GRID_STEPS));
-    places.map(|(x, y)| from + Vec2::new(x as f64 * step.x, y as f64 * step.y)).collect()
+    let first_centre = Point::new(bounds.x0 - hull_bounds.x0, bounds.y0 - hull_bounds.y0);
+    let step = free_space / (GRID_STEPS - 1) as f64;
+    let grid_cells = (0..GRID_STEPS * GRID_STEPS).map(|k| (k % GRID_STEPS, k / GRID_STEPS));
+    grid_cells.map(|(x, y)| first_centre + Vec2::new(x as f64 * step.x, y as f64 * step.y)).collect()
 }
 
 /// Whether a balloon covers no protected area, and its tail crosses none except its own target.
 fn meets_constraints(
-    own: &PlacedBalloon,
+    balloon: &PlacedBalloon,
     tail: Option<&ConvexPolygon>,
-    wish: &PlacementRequest,
-    room: &PlacementArea,
+    request: &PlacementRequest,
+    area: &PlacementArea,
 ) -> bool {
-    let free = |other: &ConvexPolygon| !own.hull.meets(other, room.gap);
-    let is_own = |other: &ConvexPolygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
-    room.protected.iter().all(|other| free(other) && (is_own(other) || is_clear(tail, other)))
-        && room.obstacles.iter().all(|other| free(other) && is_clear(tail, other))
+    let is_outside = |other: &ConvexPolygon| !balloon.hull.meets(other, area.gap);
+    let is_target =
+        |other: &ConvexPolygon| request.target.as_ref().is_some_and(|(target, _)| target == other);
+    area.protected.iter().all(|other| is_outside(other) && (is_target(other) || is_clear(tail, other)))
+        && area.obstacles.iter().all(|other| is_outside(other) && is_clear(tail, other))
 }

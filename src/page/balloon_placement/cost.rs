@@ -34,30 +34,34 @@ pub(crate) fn cost(
     bounds: Rect,
     shape: usize,
     tail: Option<&BalloonTail>,
-    wish: &PlacementRequest,
-    room: &PlacementArea,
+    request: &PlacementRequest,
+    area: &PlacementArea,
 ) -> f64 {
-    let panel = room.outline.bounds();
-    let down = (bounds.y0 - panel.y0) / wish.em;
-    let late = match room.reading {
+    let panel = area.outline.bounds();
+    let offset_down = (bounds.y0 - panel.y0) / request.em;
+    let offset_in_reading = match area.reading {
         Reading::Ltr => bounds.x0 - panel.x0,
         Reading::Rtl => panel.x1 - bounds.x1,
-    } / wish.em;
-    let covers = COVER_COST
-        * room
+    } / request.em;
+    let cover_cost = COVER_COST
+        * area
             .cover
             .as_ref()
-            .map_or(0.0, |cover| cover.covered_share(bounds.inset(COVER_MARGIN_EM * wish.em)));
-    let own = covers + NEXT_SHAPE_COST * shape as f64;
-    if wish.is_caption {
-        return own + down + 0.5 * late;
+            .map_or(0.0, |cover| cover.covered_share(bounds.inset(COVER_MARGIN_EM * request.em)));
+    let base_cost = cover_cost + NEXT_SHAPE_COST * shape as f64;
+    if request.is_caption {
+        return base_cost + offset_down + 0.5 * offset_in_reading;
     }
-    let pointing = tail.map_or(0.0, |tail| {
-        let long = (tail.length / wish.em - FREE_TAIL_LENGTH_EM).max(0.0);
+    let tail_cost = tail.map_or(0.0, |tail| {
+        let excess_length = (tail.length / request.em - FREE_TAIL_LENGTH_EM).max(0.0);
         // 1 if the tail points straight down.
-        let steep = tail.way.y;
-        let aside = FLAT_TAIL_COST * (1.0 - steep.max(0.0)) + UPWARD_TAIL_COST * (-steep).max(0.0);
-        long + aside + TAIL_OVER_FIGURE_COST * tail.over / wish.em + TAIL_GAP_COST * tail.short / wish.em
+        let downwardness = tail.way.y;
+        let direction_cost =
+            FLAT_TAIL_COST * (1.0 - downwardness.max(0.0)) + UPWARD_TAIL_COST * (-downwardness).max(0.0);
+        excess_length
+            + direction_cost
+            + TAIL_OVER_FIGURE_COST * tail.over / request.em
+            + TAIL_GAP_COST * tail.short / request.em
     });
-    own + pointing + DOWN_COST * down + READING_OFFSET_COST * late
+    base_cost + tail_cost + DOWN_COST * offset_down + READING_OFFSET_COST * offset_in_reading
 }

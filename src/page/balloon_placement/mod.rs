@@ -33,24 +33,25 @@ const MAX_CHECKED_PAIRS: usize = 400_000;
 /// # Errors
 /// Returns the index of a balloon that does not fit.
 pub fn place_balloons(
-    wishes: &[PlacementRequest],
-    room: &PlacementArea,
+    requests: &[PlacementRequest],
+    area: &PlacementArea,
 ) -> Result<Vec<PlacedBalloon>, usize> {
-    let all: Vec<Vec<BalloonCandidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
-    if let Some(none) = all.iter().position(Vec::is_empty) {
-        return Err(none);
+    let all: Vec<Vec<BalloonCandidate>> = requests.iter().map(|wish| candidates(wish, area)).collect();
+    if let Some(unplaceable) = all.iter().position(Vec::is_empty) {
+        return Err(unplaceable);
     }
     // Lower bound of the cost of all balloons from each index on.
-    let mut least = vec![0.0; all.len() + 1];
-    for (number, own) in all.iter().enumerate().rev() {
-        least[number] = least[number + 1] + own.first().map_or(0.0, |candidate| candidate.cost);
+    let mut min_cost_from = vec![0.0; all.len() + 1];
+    for (number, balloon_candidates) in all.iter().enumerate().rev() {
+        min_cost_from[number] =
+            min_cost_from[number + 1] + balloon_candidates.first().map_or(0.0, |candidate| candidate.cost);
     }
-    let told = wishes.iter().map(|wish| wish.at.is_some()).collect();
+    let is_placed_by_author = requests.iter().map(|wish| wish.at.is_some()).collect();
     let mut search = PlacementSearch {
         all: &all,
-        has_given_place: told,
-        least_cost_from: least,
-        room,
+        has_given_place: is_placed_by_author,
+        least_cost_from: min_cost_from,
+        room: area,
         best: None,
         checked_pairs: 0,
         farthest: 0,
@@ -84,18 +85,18 @@ impl<'a> PlacementSearch<'a> {
             return;
         };
         self.farthest = number.max(self.farthest);
-        for own in candidates {
-            let cost = cost + own.cost;
+        for candidate in candidates {
+            let cost = cost + candidate.cost;
             let cannot_be_better = |(best, _): &(f64, _)| cost + self.least_cost_from[number + 1] >= *best;
             if self.checked_pairs > MAX_CHECKED_PAIRS || self.best.as_ref().is_some_and(cannot_be_better) {
                 return;
             }
             self.checked_pairs += placed.len().max(1);
-            let goes = |before: &&BalloonCandidate| {
-                is_compatible(own, before, self.has_given_place[number], self.room)
+            let is_compatible_with = |earlier: &&BalloonCandidate| {
+                is_compatible(candidate, earlier, self.has_given_place[number], self.room)
             };
-            if placed.iter().all(goes) {
-                placed.push(own);
+            if placed.iter().all(is_compatible_with) {
+                placed.push(candidate);
                 self.try_next(placed, cost);
                 placed.pop();
             }
@@ -105,35 +106,35 @@ impl<'a> PlacementSearch<'a> {
 
 /// Whether a candidate is compatible with one of an earlier balloon.
 fn is_compatible(
-    own: &BalloonCandidate,
-    before: &BalloonCandidate,
-    told: bool,
-    room: &PlacementArea,
+    later: &BalloonCandidate,
+    earlier: &BalloonCandidate,
+    has_given_place: bool,
+    area: &PlacementArea,
 ) -> bool {
-    let is_read = told || is_read_after(own.bounds, before.bounds, room.reading);
-    let apart = own.reach.inset(room.gap).intersect(before.reach).is_zero_area();
-    let keeps_off = || {
-        let (hull, other) = (&own.place.hull, &before.place.hull);
-        !hull.meets(other, room.gap)
-            && is_clear(own.tail.as_ref(), other)
-            && is_clear(before.tail.as_ref(), hull)
-            && before.tail.as_ref().is_none_or(|other| is_clear(own.tail.as_ref(), other))
+    let is_read = has_given_place || is_read_after(later.bounds, earlier.bounds, area.reading);
+    let are_apart = later.reach.inset(area.gap).intersect(earlier.reach).is_zero_area();
+    let are_disjoint = || {
+        let (hull, other) = (&later.place.hull, &earlier.place.hull);
+        !hull.meets(other, area.gap)
+            && is_clear(later.tail.as_ref(), other)
+            && is_clear(earlier.tail.as_ref(), hull)
+            && earlier.tail.as_ref().is_none_or(|other| is_clear(later.tail.as_ref(), other))
     };
-    is_read && (apart || keeps_off())
+    is_read && (are_apart || are_disjoint())
 }
 
 /// Whether one box is read after another: it is below the other's centre, or it starts past that centre in
 /// reading direction and is not clearly higher.
-fn is_read_after(own: Rect, before: Rect, reading: Reading) -> bool {
-    let beside = match reading {
-        Reading::Ltr => own.x0 >= before.center().x,
-        Reading::Rtl => own.x1 <= before.center().x,
+fn is_read_after(later: Rect, earlier: Rect, reading: Reading) -> bool {
+    let is_beside = match reading {
+        Reading::Ltr => later.x0 >= earlier.center().x,
+        Reading::Rtl => later.x1 <= earlier.center().x,
     };
     // A box on the side where reading starts must be completely below the other.
-    let below = match reading {
-        Reading::Ltr => own.center().x >= before.x0,
-        Reading::Rtl => own.center().x <= before.x1,
+    let is_forward = match reading {
+        Reading::Ltr => later.center().x >= earlier.x0,
+        Reading::Rtl => later.center().x <= earlier.x1,
     };
-    let under = own.y0 >= before.center().y + if below { 0.0 } else { 0.5 * before.height() };
-    under || (beside && own.center().y >= before.center().y - 0.15 * before.height())
+    let is_under = later.y0 >= earlier.center().y + if is_forward { 0.0 } else { 0.5 * earlier.height() };
+    is_under || (is_beside && later.center().y >= earlier.center().y - 0.15 * earlier.height())
 }

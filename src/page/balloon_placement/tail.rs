@@ -47,52 +47,54 @@ pub(crate) fn fit_tail(
     middle: Point,
     hull: &ConvexPolygon,
     (target, aim): (&ConvexPolygon, Point),
-    wish: &PlacementRequest,
-    room: &PlacementArea,
+    request: &PlacementRequest,
+    area: &PlacementArea,
 ) -> Option<BalloonTail> {
-    let way = aim - middle;
-    let length = way.hypot();
+    let to_aim = aim - middle;
+    let length = to_aim.hypot();
     if length < tolerances::MIN_AIM_DISTANCE_MM {
         return None;
     }
-    let way = way / length;
-    let enters = entry_distance(target, middle, aim).unwrap_or(length);
-    let leaves = exit_distance(hull, middle, aim);
+    let direction = to_aim / length;
+    let entry_at = entry_distance(target, middle, aim).unwrap_or(length);
+    let exit_at = exit_distance(hull, middle, aim);
     // If the balloon is inside a large part, the tail points to the aim itself.
-    let reach = if target.holds(middle) { length } else { enters } - room.gap * TIP_GAP_FACTOR;
-    let least = leaves + wish.min_tail_length;
-    if reach.is_nan() || reach < least {
+    let max_end = if target.holds(middle) { length } else { entry_at } - area.gap * TIP_GAP_FACTOR;
+    let min_end = exit_at + request.min_tail_length;
+    if max_end.is_nan() || max_end < min_end {
         return None;
     }
-    let is_figure = |at: f64| room.cover.as_ref().is_some_and(|cover| cover.is_figure(middle + way * at));
-    let step = wish.em / STEPS_PER_EM;
-    let mut end = reach;
-    while end > least && reach - end < MAX_FIGURE_REACH_EM * wish.em && is_figure(end) {
+    let is_figure =
+        |at: f64| area.cover.as_ref().is_some_and(|cover| cover.is_figure(middle + direction * at));
+    let step = request.em / STEPS_PER_EM;
+    let mut end = max_end;
+    while end > min_end && max_end - end < MAX_FIGURE_REACH_EM * request.em && is_figure(end) {
         end -= step;
     }
     // If the figure covers the whole search length, the tail runs over it.
-    end = if is_figure(end) { reach } else { (end - FIGURE_GAP_EM * wish.em).max(least) };
-    let long = leaves + FULL_TAIL_LENGTH_EM * wish.em;
-    if end > long {
-        end = long + EXCESS_TAIL_SHARE * (end - long);
+    end = if is_figure(end) { max_end } else { (end - FIGURE_GAP_EM * request.em).max(min_end) };
+    let full_length_end = exit_at + FULL_TAIL_LENGTH_EM * request.em;
+    if end > full_length_end {
+        end = full_length_end + EXCESS_TAIL_SHARE * (end - full_length_end);
     }
-    let steps = ((end - leaves) / step).ceil().max(1.0) as usize;
-    let over = (0..steps).filter(|k| is_figure(leaves + step * (*k as f64 + 0.5))).count();
+    let steps = ((end - exit_at) / step).ceil().max(1.0) as usize;
+    let steps_over_figure = (0..steps).filter(|k| is_figure(exit_at + step * (*k as f64 + 0.5))).count();
     Some(BalloonTail {
-        length: reach - leaves,
-        way,
-        over: over as f64 * step,
-        short: reach - end,
-        tip: middle + way * end,
+        length: max_end - exit_at,
+        way: direction,
+        over: steps_over_figure as f64 * step,
+        short: max_end - end,
+        tip: middle + direction * end,
     })
 }
 
 /// A polygon around a tail, from the centre of its balloon to the tip, with space for a bend.
 pub(crate) fn tail_polygon(middle: Point, tip: Point, foot: f64) -> ConvexPolygon {
-    let way = tip - middle;
-    let across = Vec2::new(-way.y, way.x).normalize();
-    let (wide, narrow) = (across * (foot + BEND_SHARE * way.hypot()), across * (0.3 * foot));
-    ConvexPolygon(vec![middle - wide, tip - narrow, tip + narrow, middle + wide])
+    let direction = tip - middle;
+    let normal = Vec2::new(-direction.y, direction.x).normalize();
+    let (wide_offset, narrow_offset) =
+        (normal * (foot + BEND_SHARE * direction.hypot()), normal * (0.3 * foot));
+    ConvexPolygon(vec![middle - wide_offset, tip - narrow_offset, tip + narrow_offset, middle + wide_offset])
 }
 
 /// Distance from a point to where the segment to another point enters a polygon.
@@ -107,13 +109,13 @@ fn exit_distance(polygon: &ConvexPolygon, from: Point, to: Point) -> f64 {
 
 /// Distances to the crossings of a ray with the sides of a polygon.
 fn crossings(polygon: &ConvexPolygon, from: Point, to: Point) -> impl Iterator<Item = f64> + '_ {
-    let way = to - from;
+    let direction = to - from;
     polygon.sides().filter_map(move |(a, b)| {
         let side = b - a;
-        let area = way.cross(side);
-        let (along, across) = ((a - from).cross(side) / area, (a - from).cross(way) / area);
-        let is_there = area != 0.0 && along >= 0.0 && (0.0..=1.0).contains(&across);
-        is_there.then(|| along * way.hypot())
+        let area = direction.cross(side);
+        let (line_share, side_share) = ((a - from).cross(side) / area, (a - from).cross(direction) / area);
+        let is_crossing = area != 0.0 && line_share >= 0.0 && (0.0..=1.0).contains(&side_share);
+        is_crossing.then(|| line_share * direction.hypot())
     })
 }
 

@@ -61,20 +61,26 @@ impl<'a> SheetLayout<'a> {
     pub fn new(sheet: &'a SheetPage, plan: &ViewPlan, source: &PageSource) -> Result<Self, Error> {
         let dimensions = match &sheet.dimensions {
             None => "overall",
-            Some(told) => match &**told.get_ref() {
-                known @ ("none" | "overall" | "auto") => known,
-                _ => return Err(source.unknown(told, "set of dimensions", &["none", "overall", "auto"])),
+            Some(requested_set) => match &**requested_set.get_ref() {
+                set_name @ ("none" | "overall" | "auto") => set_name,
+                _ => {
+                    return Err(source.unknown(
+                        requested_set,
+                        "set of dimensions",
+                        &["none", "overall", "auto"],
+                    ));
+                }
             },
         };
-        let auto = dimensions == "auto";
+        let is_automatic = dimensions == "auto";
         let is_single = plan.sets[0].scene.parts.len() == 1;
-        let cylinders = if sheet.centre_lines.unwrap_or(is_single || auto) {
+        let cylinders = if sheet.centre_lines.unwrap_or(is_single || is_automatic) {
             whole_cylinders(&Mesh::build(plan.sets[0].scene.to_soup()))
         } else {
             Vec::new()
         };
-        let overall = sheet.overall.unwrap_or(dimensions != "none");
-        Ok(Self { sheet, overall, rounds: auto.then(Vec::new), cylinders })
+        let has_overall_dimensions = sheet.overall.unwrap_or(dimensions != "none");
+        Ok(Self { sheet, overall: has_overall_dimensions, rounds: is_automatic.then(Vec::new), cylinders })
     }
 
     fn measures(&self, plan: &ViewPlan, source: &PageSource) -> Result<DimensionSet, Error> {
@@ -96,35 +102,44 @@ impl<'a> SheetLayout<'a> {
     pub fn settle_layout(
         &mut self,
         plan: &mut ViewPlan,
-        place: (Rect, &[Rect]),
+        space_and_reserved: (Rect, &[Rect]),
         (font, items): (&Font, &[PartsListItem]),
         source: &PageSource,
     ) -> Result<SettledLayout, Error> {
-        let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
+        let requested_scale = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
         let sets = plan.sets.clone();
         let mut prepared = Vec::new();
         for (number, set) in sets.iter().enumerate() {
             prepared
                 .push(plan.scene_of_view.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
         }
-        let mut drawn = ViewDrawings::new(prepared, plan.views.len());
+        let mut drawings = ViewDrawings::new(prepared, plan.views.len());
         let mut anchors: Option<Vec<Option<DVec2>>> = None;
         for _ in 0..MAX_LAYOUT_ROUNDS {
             let unit_mm = plan.unit_mm();
-            let arranged = arrange_views(&mut plan.views, place, (self.sheet.projection, unit_mm, told));
-            let Some(scale) = arranged else { return Err(self.misfit_error(plan, source)) };
+            let fitting_scale = arrange_views(
+                &mut plan.views,
+                space_and_reserved,
+                (self.sheet.projection, unit_mm, requested_scale),
+            );
+            let Some(scale) = fitting_scale else { return Err(self.misfit_error(plan, source)) };
             if anchors.is_none() {
-                drawn.update(plan)?;
+                drawings.update(plan)?;
                 if let Some(rounds) = &mut self.rounds {
                     *rounds = find_hole_dimensions(plan);
                 }
-                let found = plan.balloons.map(|view| {
-                    let sight = &plan.views[view].sight;
-                    let found = find_anchors(sight, &plan.sets[plan.scene_of_view[view]].scene, items);
-                    let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
-                    found.into_iter().map(|p| p.map(|p| within(p) / sight.mm_per_unit)).collect()
+                let initial_anchors = plan.balloons.map(|view| {
+                    let sheet_view = &plan.views[view].sight;
+                    let anchor_points =
+                        find_anchors(sheet_view, &plan.sets[plan.scene_of_view[view]].scene, items);
+                    let relative_to_view =
+                        |p: Point| DVec2::new(p.x - sheet_view.corner.x, p.y - sheet_view.corner.y);
+                    anchor_points
+                        .into_iter()
+                        .map(|p| p.map(|p| relative_to_view(p) / sheet_view.mm_per_unit))
+                        .collect()
                 });
-                anchors = Some(found.unwrap_or_default());
+                anchors = Some(initial_anchors.unwrap_or_default());
             }
             let measures = self.measures(plan, source)?;
             let layout = Annotations {
@@ -135,40 +150,45 @@ impl<'a> SheetLayout<'a> {
                 anchors: anchors.as_deref().unwrap_or_default(),
                 scale,
             };
-            let boards = |plan: &ViewPlan, drawn: &ViewDrawings| {
+            let annotate_views = |plan: &ViewPlan, view_drawings: &ViewDrawings| {
                 (0..plan.views.len())
-                    .map(|view| layout.board(view, plan, drawn))
+                    .map(|view| layout.board(view, plan, view_drawings))
                     .collect::<Result<Vec<_>, _>>()
             };
-            let mut laid = boards(plan, &drawn)?;
-            let mut fits = make_room(&mut plan.views, &laid);
-            if fits && drawn.update(plan)? {
-                laid = boards(plan, &drawn)?;
-                fits = make_room(&mut plan.views, &laid);
+            let mut annotation_boards = annotate_views(plan, &drawings)?;
+            let mut fits = make_room(&mut plan.views, &annotation_boards);
+            if fits && drawings.update(plan)? {
+                annotation_boards = annotate_views(plan, &drawings)?;
+                fits = make_room(&mut plan.views, &annotation_boards);
             }
             if !fits {
                 continue;
             }
             if let Some(view) = plan.balloons {
-                let board = |plan: &ViewPlan, drawn: &ViewDrawings| layout.board(view, plan, drawn);
-                fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
+                let annotate_view = |plan: &ViewPlan, drawn: &ViewDrawings| layout.board(view, plan, drawn);
+                fill_ring(plan, view, &mut drawings, (scale, &mut annotation_boards[view]), annotate_view)?;
             }
-            if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
+            if let Some(unplaced) = annotation_boards.iter().find_map(|board| board.unplaced.first()) {
                 return Err(Error::new(format!("this sheet has no free place for {unplaced}"))
                     .remedy("choose a larger size or another scale, or leave something out"));
             }
-            let views = drawn.into_items(plan);
-            return Ok(SettledLayout { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
+            let views = drawings.into_items(plan);
+            return Ok(SettledLayout {
+                scale,
+                views,
+                boards: annotation_boards,
+                anchors: anchors.unwrap_or_default(),
+            });
         }
         Err(self.misfit_error(plan, source))
     }
 
     /// The error that the views do not fit; it names the view with the widest margins.
     fn misfit_error(&self, plan: &ViewPlan, source: &PageSource) -> Error {
-        let around =
+        let total_margin =
             |placed: &PlacedView| placed.margins.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>());
-        let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
-        let message = match widest.filter(|placed| around(placed) > 0.0) {
+        let widest = plan.views.iter().max_by(|a, b| total_margin(a).total_cmp(&total_margin(b)));
+        let message = match widest.filter(|placed| total_margin(placed) > 0.0) {
             Some(placed) => format!(
                 "the views do not fit on this sheet; `{}` needs the most room for dimensions, letters and balloons",
                 placed.sight.name
@@ -177,7 +197,7 @@ impl<'a> SheetLayout<'a> {
         };
         let remedy = "choose a larger size, fewer views or another scale";
         match &self.sheet.scale {
-            Some(told) => source.fault(&told.span(), &message, remedy),
+            Some(requested_scale) => source.fault(&requested_scale.span(), &message, remedy),
             None => Error::new(message).remedy(remedy),
         }
     }
@@ -187,27 +207,29 @@ impl<'a> SheetLayout<'a> {
 fn fill_ring(
     plan: &mut ViewPlan,
     view: usize,
-    drawn: &mut ViewDrawings,
-    (scale, laid): (f64, &mut AnnotationBoard),
-    board: impl Fn(&ViewPlan, &ViewDrawings) -> Result<AnnotationBoard, Error>,
+    drawings: &mut ViewDrawings,
+    (scale, best_board): (f64, &mut AnnotationBoard),
+    annotate_view: impl Fn(&ViewPlan, &ViewDrawings) -> Result<AnnotationBoard, Error>,
 ) -> Result<(), Error> {
     let unit = plan.views[view].sight.mm_per_unit;
-    let Some(most) = plan.views[view].placement.max_unit(scale * plan.unit_mm()) else { return Ok(()) };
-    for larger in RING_ENLARGEMENTS {
-        plan.views[view].rescale(unit, (unit * larger).min(most));
-        let mut own = board(plan, drawn)?;
-        if plan.views[view].has_room_for(&own) {
-            drawn.update(plan)?;
-            own = board(plan, drawn)?;
-            if plan.views[view].has_room_for(&own) {
-                *laid = own;
+    let Some(max_unit_size) = plan.views[view].placement.max_unit(scale * plan.unit_mm()) else {
+        return Ok(());
+    };
+    for enlargement in RING_ENLARGEMENTS {
+        plan.views[view].rescale(unit, (unit * enlargement).min(max_unit_size));
+        let mut trial_board = annotate_view(plan, drawings)?;
+        if plan.views[view].has_room_for(&trial_board) {
+            drawings.update(plan)?;
+            trial_board = annotate_view(plan, drawings)?;
+            if plan.views[view].has_room_for(&trial_board) {
+                *best_board = trial_board;
                 return Ok(());
             }
         }
-        let now = plan.views[view].sight.mm_per_unit;
-        plan.views[view].rescale(now, unit);
+        let enlarged_unit = plan.views[view].sight.mm_per_unit;
+        plan.views[view].rescale(enlarged_unit, unit);
     }
-    drawn.update(plan)?;
+    drawings.update(plan)?;
     Ok(())
 }
 
@@ -216,8 +238,8 @@ fn make_room(views: &mut [PlacedView], boards: &[AnnotationBoard]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
         let needed = Annotations::room(board, placed.sight.rect());
-        let own = placed.margins_at(placed.sight.mm_per_unit);
-        if needed.iter().zip(own).all(|(needed, own)| *needed <= own + LENGTH_ROUNDING_MM) {
+        let current_margins = placed.margins_at(placed.sight.mm_per_unit);
+        if needed.iter().zip(current_margins).all(|(needed, own)| *needed <= own + LENGTH_ROUNDING_MM) {
             continue;
         }
         fits = false;

@@ -91,7 +91,8 @@ impl Prepared<'_> {
         let mut layers: Vec<Layer> = hatching::paper(&page, &style.paper, style.seed).into_iter().collect();
         let lit = fills.filter(|_| surface_requirements::is_lit(style));
         let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
-        let (whole, margin) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
+        let (mesh_and_pieces, margin) =
+            ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
         let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
         let materials: Vec<(Arc<str>, Colour)> =
             scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
@@ -111,9 +112,9 @@ impl Prepared<'_> {
             let lines = image_line_pass::add_image_lines(&mut map, lines, surface, view, style, page.unit);
             let joining = watch.lap_ms();
             centre_on_page(&mut map, &view.frame, &page);
-            let ahead = GapOcclusion::new(whole, view, &lines, &map.visible_contours, margin);
+            let occlusion = GapOcclusion::new(mesh_and_pieces, view, &lines, &map.visible_contours, margin);
             let of_view = (scene.as_ref(), &surface.mesh.extents, &view.frame);
-            let chains = view_chains::chains(&ahead, &map, (style, &widths), page.unit, of_view);
+            let chains = view_chains::chains(&occlusion, &map, (style, &widths), page.unit, of_view);
             (lines, chains, [joining, watch.lap_ms()])
         };
         let (painted, (lines, mut chains, [joining, linking])) = crate::parallel::join(paint, link);
@@ -136,11 +137,11 @@ impl Prepared<'_> {
         }
         report.stages_ms.chains = linking + watch.lap_ms();
 
-        let beside = ChainSampler { scene, surface, view, style, margin, unit: page.unit };
-        chain_samples::sample_chains(&mut chains, &beside);
+        let sampler = ChainSampler { scene, surface, view, style, margin, unit: page.unit };
+        chain_samples::sample_chains(&mut chains, &sampler);
         let paints = paints.as_deref();
         let colours = paints.zip(textures).map(|(paints, textures)| SurfaceColours { paints, textures });
-        chain_colours::sample_colours(&mut chains, &beside, lines, colours, blacks.as_ref());
+        chain_colours::sample_colours(&mut chains, &sampler, lines, colours, blacks.as_ref());
         if let Some(anchors) = &self.anchors {
             anchors.anchor_chains(&mut chains, camera, margin);
         }
@@ -176,18 +177,19 @@ impl Prepared<'_> {
                 layers.extend(hatching::tooth(&page, &style.paper, style.seed));
             }
             Some(stage) => {
-                let ahead = GapOcclusion::new(whole, view, lines, &map.visible_contours, margin);
-                let made = StageInputs {
+                let stage_occlusion =
+                    GapOcclusion::new(mesh_and_pieces, view, lines, &map.visible_contours, margin);
+                let inputs = StageInputs {
                     surface,
                     view,
                     lines,
-                    gap_occlusion: &ahead,
+                    gap_occlusion: &stage_occlusion,
                     map: &map,
                     chains: &chains,
                     style,
                     page: &page,
                 };
-                layers = stages::draw(stage, &made);
+                layers = stages::draw(stage, &inputs);
             }
         }
         report.stages_ms.strokes = watch.lap_ms();
@@ -209,8 +211,8 @@ impl Prepared<'_> {
             report.warnings.push(motion_line_pass::NO_MOMENT.to_owned());
         }
         if stage.is_none() && empty_drawing::shows_nothing(&layers) {
-            let seen = (&surface.mesh, view);
-            report.warnings.push(empty_drawing::empty_reason(scene, seen, style, !chains.is_empty()));
+            let viewed_mesh = (&surface.mesh, view);
+            report.warnings.push(empty_drawing::empty_reason(scene, viewed_mesh, style, !chains.is_empty()));
         }
         let warnings = report.warnings.clone();
         (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)

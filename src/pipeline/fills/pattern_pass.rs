@@ -23,16 +23,16 @@ const MAX_LINE_COVERAGE: f64 = 0.7;
 /// The marks of all patterns of a style.
 pub(crate) fn marks(
     fills: &SurfaceFills,
-    seen: &LabelledPage,
+    labelled_page: &LabelledPage,
     scene: &Scene,
     (page, camera, style): (&Page, &Camera, &Style),
 ) -> Vec<Mark> {
-    let asked = |own: &&Pattern| style.region.enabled || own.unpainted;
-    if !style.patterns.iter().any(|own| asked(&own)) {
+    let is_drawn = |own: &&Pattern| style.region.enabled || own.unpainted;
+    if !style.patterns.iter().any(|own| is_drawn(&own)) {
         return Vec::new();
     }
     let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
-    let ground = HatchRegions::toned(seen, style.region.crumb, page.unit, offset);
+    let hatch_regions = HatchRegions::toned(labelled_page, style.region.crumb, page.unit, offset);
     let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
     let materials: Vec<(Arc<str>, Colour)> =
         scene.materials.iter().map(|own| (Arc::from(own.name.as_str()), own.colour)).collect();
@@ -49,20 +49,27 @@ pub(crate) fn marks(
         fixed: &[],
         frame: None,
     };
-    let of = |own: &Pattern| {
-        let fixed = match (own.fixed, own.kind) {
+    let of = |settings: &Pattern| {
+        let fixed = match (settings.fixed, settings.kind) {
             (PatternFixed::Page, _) => None,
             (PatternFixed::Surface, PatternKind::Lines | PatternKind::Crosses) => {
-                Some(SurfacePattern::Guides(guides(fills, &ground, scene, own, page, offset)))
+                Some(SurfacePattern::Guides(guides(fills, &hatch_regions, scene, settings, page, offset)))
             }
             (PatternFixed::Surface, PatternKind::Dots | PatternKind::Tile) => {
-                Some(surface_patterns::surface_figures(&fills.lit(), &ground, scene, own, page, offset))
+                Some(surface_patterns::surface_figures(
+                    &fills.lit(),
+                    &hatch_regions,
+                    scene,
+                    settings,
+                    page,
+                    offset,
+                ))
             }
         };
-        let tones = |look: &crate::regions::SurfaceLabel| fills.tone_count(look.paint);
-        hatching::pattern(&ground, &context, own, tones, fixed.as_ref())
+        let tones = |label: &crate::regions::SurfaceLabel| fills.tone_count(label.paint);
+        hatching::pattern(&hatch_regions, &context, settings, tones, fixed.as_ref())
     };
-    style.patterns.iter().filter(asked).flat_map(of).collect()
+    style.patterns.iter().filter(is_drawn).flat_map(of).collect()
 }
 
 /// The lines of a pattern that is fixed to the surface: cuts through the model, spaced as on the page at the

@@ -261,7 +261,7 @@ impl<'a> SurfaceFills<'a> {
     /// Outlines of the regions whose look `pick` accepts, with colour, look and provenance.
     pub fn outlines(
         &self,
-        seen: &LabelledPage,
+        labelled_page: &LabelledPage,
         page: &Page,
         camera: &Camera,
         style: &Style,
@@ -269,7 +269,7 @@ impl<'a> SurfaceFills<'a> {
     ) -> Vec<(BezPath, Colour, SurfaceLabel, Provenance)> {
         // Each outline has one colour.
         let options = RegionOptions { steps_as: StepsAs::Bands, ..style.region.clone() };
-        let regions = regions::gather(seen, &options, &style.chain, page.unit);
+        let regions = regions::gather(labelled_page, &options, &style.chain, page.unit);
         let context = self.paint_context(page, camera);
         regions::paint::region_paint::outlines(&regions, context.offset, 0.0, |region| pick(&region.label))
             .into_iter()
@@ -304,12 +304,12 @@ impl<'a> SurfaceFills<'a> {
     /// The painted layers and their regions.
     pub fn paint(
         &self,
-        seen: &LabelledPage,
+        labelled_page: &LabelledPage,
         page: &Page,
         camera: &Camera,
         style: &Style,
     ) -> (Vec<Layer>, Regions) {
-        let regions = regions::gather(seen, &style.region, &style.chain, page.unit);
+        let regions = regions::gather(labelled_page, &style.region, &style.chain, page.unit);
         (regions::paint(&regions, &self.paint_context(page, camera), &style.region), regions)
     }
 }

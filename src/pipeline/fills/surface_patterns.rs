@@ -24,13 +24,13 @@ pub(crate) fn surface_figures(
     lit: &Lit,
     ground: &HatchRegions,
     scene: &Scene,
-    own: &Pattern,
+    pattern: &Pattern,
     page: &Page,
     offset: Vec2,
 ) -> SurfacePattern {
     let mesh = lit.mesh;
-    let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
-    let (figures, filled) = figures(own, width / size);
+    let [size, width] = [pattern.size, pattern.width].map(|length| length.in_unit(page.unit));
+    let (figures, filled) = figures(pattern, width / size);
     if figures.is_empty() {
         return SurfacePattern::Decals(Vec::new(), filled);
     }
@@ -38,14 +38,16 @@ pub(crate) fn surface_figures(
         let number = mesh.face_material[face as usize].index();
         scene.materials.get(number).map_or("", |material| material.name.as_str())
     };
-    let wanted: Vec<bool> =
-        (0..mesh.triangles.len() as u32).map(|face| own.material.matches(material(face))).collect();
-    let mut plane = PatternPlane::new(lit, scene, own.angle.to_radians(), in_model(size, &lit.view.frame));
-    let chart = |plane: &PatternPlane, face: u32| wanted[face as usize].then(|| plane.chart(face)).flatten();
-    let most = count(mesh, |face| chart(&plane, face), &figures);
-    plane.spacing *= (most / MAX_FIGURES).sqrt().max(1.0);
-    let found = decals(lit, ground, offset, &|face| chart(&plane, face), &figures);
-    SurfacePattern::Decals(found, filled)
+    let is_patterned: Vec<bool> =
+        (0..mesh.triangles.len() as u32).map(|face| pattern.material.matches(material(face))).collect();
+    let mut plane =
+        PatternPlane::new(lit, scene, pattern.angle.to_radians(), in_model(size, &lit.view.frame));
+    let chart =
+        |plane: &PatternPlane, face: u32| is_patterned[face as usize].then(|| plane.chart(face)).flatten();
+    let figure_count = count(mesh, |face| chart(&plane, face), &figures);
+    plane.spacing *= (figure_count / MAX_FIGURES).sqrt().max(1.0);
+    let placed_decals = decals(lit, ground, offset, &|face| chart(&plane, face), &figures);
+    SurfacePattern::Decals(placed_decals, filled)
 }
 
 /// The length in the model of a page length, at the camera's target.

@@ -35,15 +35,15 @@ pub(crate) struct Hatching<'a> {
 
 impl Hatching<'_> {
     /// The layer `hatching`, if anything is hatched.
-    pub fn layer(&self, seen: &LabelledPage) -> Option<Layer> {
-        let ground = self.ground(seen);
-        let blacks = if self.style.hatch.blacks > 0 { self.blacks(seen) } else { Vec::new() };
+    pub fn layer(&self, labelled_page: &LabelledPage) -> Option<Layer> {
+        let ground = self.ground(labelled_page);
+        let blacks = if self.style.hatch.blacks > 0 { self.blacks(labelled_page) } else { Vec::new() };
         self.with_context(&ground, |context| hatching::fill(&ground, context, &self.style.hatch, blacks))
     }
 
     /// The ground, and the strokes of each layer on it.
-    pub fn strokes(&self, seen: &LabelledPage) -> (HatchRegions, Vec<LayerStrokes>) {
-        let ground = self.ground(seen);
+    pub fn strokes(&self, labelled_page: &LabelledPage) -> (HatchRegions, Vec<LayerStrokes>) {
+        let ground = self.ground(labelled_page);
         let strokes =
             self.with_context(&ground, |context| hatching::strokes(&ground, context, &self.style.hatch));
         (ground, strokes)
@@ -54,8 +54,8 @@ impl Hatching<'_> {
         Vec2::new(self.page.width - self.camera.width, self.page.height - self.camera.height) / 2.0
     }
 
-    fn ground(&self, seen: &LabelledPage) -> HatchRegions {
-        HatchRegions::new(seen, self.style.hatch.crumb, self.page.unit, self.offset())
+    fn ground(&self, labelled_page: &LabelledPage) -> HatchRegions {
+        HatchRegions::new(labelled_page, self.style.hatch.crumb, self.page.unit, self.offset())
     }
 
     /// Calls `call` with the context of hatching.
@@ -138,19 +138,20 @@ impl Hatching<'_> {
 
     /// The ground, divided into black and other cells. `None` if nothing is black or blacks are not
     /// separated.
-    pub fn black_ground(&self, seen: &LabelledPage) -> Option<HatchRegions> {
+    pub fn black_ground(&self, labelled_page: &LabelledPage) -> Option<HatchRegions> {
         let hatch = &self.style.hatch;
         let coarser = |look: &SurfaceLabel| black_or_not(look, self.is_black(look));
-        (hatch.parting > 0.0 && seen.shows(|look| self.is_black(look)))
-            .then(|| HatchRegions::coarse(seen, coarser, hatch.crumb, self.page.unit, self.offset()))
+        (hatch.parting > 0.0 && labelled_page.shows(|look| self.is_black(look)))
+            .then(|| HatchRegions::coarse(labelled_page, coarser, hatch.crumb, self.page.unit, self.offset()))
     }
 
     /// The outlines of spot blacks, and their looks.
-    fn blacks(&self, seen: &LabelledPage) -> Vec<(BezPath, SurfaceLabel)> {
+    fn blacks(&self, labelled_page: &LabelledPage) -> Vec<(BezPath, SurfaceLabel)> {
         let style = self.style;
         let coarser = |look: &SurfaceLabel| black_or_not(look, self.is_spot_black(look));
         let options = RegionOptions { crumb: style.hatch.crumb, ..style.region.clone() };
-        let regions = regions::gather_relabelled(seen, coarser, &options, &style.chain, self.page.unit);
+        let regions =
+            regions::gather_relabelled(labelled_page, coarser, &options, &style.chain, self.page.unit);
         let reach = style.region.underlap.in_unit(self.page.unit);
         let black = regions::paint::region_paint::outlines(&regions, self.offset(), reach, |region| {
             region.label.bin == 0

@@ -35,36 +35,36 @@ pub(crate) fn needs_material_colours(style: &Style) -> bool {
 /// Samples the colours and blacks next to the chains.
 pub(crate) fn sample_colours(
     chains: &mut [Chain],
-    beside: &ChainSampler,
+    sampler: &ChainSampler,
     lines: &FeatureLines,
     colours: Option<SurfaceColours>,
     blacks: Option<&HatchRegions>,
 ) {
-    let px = Length::px(1.0).in_unit(beside.unit);
-    let colours = colours.filter(|_| needs_material_colours(beside.style));
+    let px = Length::px(1.0).in_unit(sampler.unit);
+    let colours = colours.filter(|_| needs_material_colours(sampler.style));
     let asks = colours.is_some();
     if asks || blacks.is_some() {
         let step = if blacks.is_some() { BLACK_STEP_PX } else { SAMPLE_STEP_PX };
         for chain in chains.iter_mut() {
-            densify(chain, step * px, beside.view.frame.perspective);
+            densify(chain, step * px, sampler.view.frame.perspective);
         }
     }
     if let Some(colours) = colours {
-        sample_surface_colours(chains, beside, lines, colours, px);
+        sample_surface_colours(chains, sampler, lines, colours, px);
     }
     if let Some(blacks) = blacks {
-        let most = widest(beside) * beside.style.hatch.parting;
+        let most = widest(sampler) * sampler.style.hatch.parting;
         let rings = (most.min(MAX_BLACK_REACH_PX * px) / px).ceil().max(1.0) as u32 + 1;
         sample_blacks(chains, blacks, rings, px);
     }
 }
 
 /// The width of the widest pen.
-fn widest(beside: &ChainSampler) -> f64 {
-    let options = &beside.style.stroke;
-    let width = |pen: &Pen| pen.width.in_unit(beside.unit);
+fn widest(sampler: &ChainSampler) -> f64 {
+    let options = &sampler.style.stroke;
+    let width = |pen: &Pen| pen.width.in_unit(sampler.unit);
     let rules = options.rules.iter().filter_map(|rule| rule.pen.width);
-    rules.map(|width| width.in_unit(beside.unit)).fold(width(&options.pen), f64::max)
+    rules.map(|width| width.in_unit(sampler.unit)).fold(width(&options.pen), f64::max)
 }
 
 /// Samples how far blacks extend on both sides of visible chains, point by point.
@@ -90,49 +90,49 @@ fn sample_blacks(chains: &mut [Chain], blacks: &HatchRegions, rings: u32, px: f6
 /// Samples the colour of the surface that each chain belongs to, point by point.
 fn sample_surface_colours(
     chains: &mut [Chain],
-    beside: &ChainSampler,
+    sampler: &ChainSampler,
     lines: &FeatureLines,
     painted: SurfaceColours,
     px: f64,
 ) {
-    let mesh = &beside.surface.mesh;
-    let colours = paint_colours(&painted.paints.list, beside.scene, beside.style);
+    let mesh = &sampler.surface.mesh;
+    let colours = paint_colours(&painted.paints.list, sampler.scene, sampler.style);
     let colour_of = |face: u32| colours.get(mesh.paint(FaceId(face)).index()).copied();
     let colour_at = |(front, p): (FrontFace, DVec2)| {
-        let at = beside.view.frame.local_from_image(p.extend(front.nearness));
+        let at = sampler.view.frame.local_from_image(p.extend(front.nearness));
         colours.get(painted.textures.paint(mesh, front.face, at).index()).copied()
     };
-    let mut places: Vec<DVec2> = Vec::new();
+    let mut side_points: Vec<DVec2> = Vec::new();
     for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
         for i in 0..chain.points.len() {
             let across = across(chain, i) * (SIDE_OFFSET_PX * px);
             for p in [chain.points[i] + across, chain.points[i] - across] {
-                let p = p - beside.margin;
-                places.push(DVec2::new(p.x, p.y));
+                let p = p - sampler.margin;
+                side_points.push(DVec2::new(p.x, p.y));
             }
         }
     }
-    let fronts = front_faces(mesh, beside.view, &places);
-    let mut pairs = fronts.chunks_exact(2).zip(places.chunks_exact(2));
+    let fronts = front_faces(mesh, sampler.view, &side_points);
+    let mut pairs = fronts.chunks_exact(2).zip(side_points.chunks_exact(2));
     for chain in chains.iter_mut() {
         // Hidden chains, and chains whose surface is not visible next to them, take the colour of an adjacent
         // face of their material.
         let hosts = lines.segments.get(chain.segment as usize).map_or([u32::MAX; 2], |s| s.hosts);
         let is_own = |face: &u32| mesh.face_material.get(*face as usize) == Some(&chain.material);
-        let own = hosts.into_iter().find(is_own).and_then(colour_of);
+        let host_colour = hosts.into_iter().find(is_own).and_then(colour_of);
         for sample in &mut chain.samples {
-            let seen = if chain.invisibility == 0 { pairs.next() } else { None };
-            let side = |k: usize| seen.and_then(|(fronts, places)| Some((fronts[k]?, places[k])));
+            let front_pair = if chain.invisibility == 0 { pairs.next() } else { None };
+            let side = |k: usize| front_pair.and_then(|(fronts, places)| Some((fronts[k]?, places[k])));
             let sides = [0, 1].map(|k| side(k).filter(|(front, _)| is_own(&front.face)));
             let nearer = nearer(sides, |(front, _)| {
-                let depth = beside.view.frame.depth_of(front.nearness);
+                let depth = sampler.view.frame.depth_of(front.nearness);
                 depth
-                    / (beside.view.frame.side_at(beside.view.frame.focus) * MIN_DEPTH_GAP_OF_FRAME)
+                    / (sampler.view.frame.side_at(sampler.view.frame.focus) * MIN_DEPTH_GAP_OF_FRAME)
                         .max(f64::MIN_POSITIVE)
             });
             let faces = nearer.into_iter().flatten();
             let darkest = faces.filter_map(colour_at).min_by_key(|c| (weight(*c), *c));
-            sample.backdrop.colour = darkest.or(own);
+            sample.backdrop.colour = darkest.or(host_colour);
         }
     }
 }

@@ -96,17 +96,17 @@ pub(crate) fn segment_names(lines: &FeatureLines, surface: &Surface, options: &S
 }
 
 /// Samples what the pens of the chains need.
-pub(crate) fn sample_chains(chains: &mut [Chain], beside: &ChainSampler) {
-    let wanted = SampleNeeds::of(&beside.style.stroke);
+pub(crate) fn sample_chains(chains: &mut [Chain], sampler: &ChainSampler) {
+    let wanted = SampleNeeds::of(&sampler.style.stroke);
     if wanted == SampleNeeds::default() {
         return;
     }
-    let px = Length::px(1.0).in_unit(beside.unit);
+    let px = Length::px(1.0).in_unit(sampler.unit);
     for chain in chains.iter_mut() {
-        densify(chain, SAMPLE_STEP_PX * px, beside.view.frame.perspective);
+        densify(chain, SAMPLE_STEP_PX * px, sampler.view.frame.perspective);
     }
     if wanted.sides {
-        beside.sample_sides(chains, px, wanted.light);
+        sampler.sample_sides(chains, px, wanted.light);
     }
 }
 

@@ -123,8 +123,8 @@ impl<'a> PosedRenderer<'a> {
         if names(self.scene) != names(posed) {
             return None;
         }
-        let left = glass_pass::without_absent_materials(posed, style);
-        let CutScene { scene, origins, warnings } = glass_pass::cut_textures(posed, &left);
+        let drawn_scene = glass_pass::without_absent_materials(posed, style);
+        let CutScene { scene, origins, warnings } = glass_pass::cut_textures(posed, &drawn_scene);
         let soup = scene.to_soup();
         let mut paints = self.still.paints.clone();
         if posed.materials != self.scene.materials {
@@ -134,21 +134,22 @@ impl<'a> PosedRenderer<'a> {
                 return None;
             }
             if let Some(still) = &paints {
-                let mut own = paints_of(&left, style)?;
-                own.carry(&origins);
-                paints = Some(Arc::new(own)).filter(|own| own.has_same_layout(still));
+                let mut posed_paints = paints_of(&drawn_scene, style)?;
+                posed_paints.carry(&origins);
+                paints = Some(Arc::new(posed_paints)).filter(|own| own.has_same_layout(still));
                 paints.as_ref()?;
             }
         }
         let (still, sources) = (&self.still.surface, self.sources.as_ref()?);
         let mesh = still.mesh.posed(sources, &soup)?;
         let before = before.map_while(|scene| {
-            let cut = glass_pass::cut_textures(&scene, &glass_pass::without_absent_materials(&scene, style))
-                .scene
-                .to_soup();
-            still.mesh.posed(sources, &cut)
+            let previous_soup =
+                glass_pass::cut_textures(&scene, &glass_pass::without_absent_materials(&scene, style))
+                    .scene
+                    .to_soup();
+            still.mesh.posed(sources, &previous_soup)
         });
-        let sought = surface_requirements::required_lines(style);
+        let line_requirements = surface_requirements::required_lines(style);
         let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
         let paintable = paints.as_deref().filter(|_| surface_requirements::uses_paints(style));
         let paintable = paintable.map(|paints| ToneInputs::new(&surface, paints, solid_parts(&surface.mesh)));
@@ -158,7 +159,7 @@ impl<'a> PosedRenderer<'a> {
             scene,
             warnings,
             style,
-            line_options: sought,
+            line_options: line_requirements,
             paints,
             surface,
             counts,

@@ -19,11 +19,11 @@ const RAMP: [Colour; 6] = [
 ];
 
 /// A view edge's step on the ramp; `None` if its kind has no strength.
-fn step(made: &StageInputs, edge: &ViewEdge) -> Option<usize> {
+fn step(inputs: &StageInputs, edge: &ViewEdge) -> Option<usize> {
     let share = match edge.kind {
         LineKind::Crease => f64::from(edge.strength) / 180.0,
         kind if kind.is_inside() => {
-            let ends = [edge.start, edge.end].map(|v| made.map.vertices[v.index()].strength);
+            let ends = [edge.start, edge.end].map(|v| inputs.map.vertices[v.index()].strength);
             f64::from(ends[0] + ends[1]) / 2.0
         }
         _ => return None,
@@ -42,22 +42,22 @@ fn note(kind: LineKind, step: usize) -> String {
 }
 
 /// Draws weak edges first, so that strong ones lie over them.
-pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
+pub(crate) fn draw(inputs: &StageInputs) -> Vec<Layer> {
     let mut steps: Vec<Option<usize>> = vec![None];
     steps.extend((0..RAMP.len()).map(Some));
     let visible: Vec<(&ViewEdge, Option<usize>)> =
-        made.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| (e, step(made, e))).collect();
+        inputs.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| (e, step(inputs, e))).collect();
     let mut marks = Vec::new();
     for wanted in steps {
         for kind in LineKind::ALL {
             let mut runs = PolylineRuns::default();
             for (edge, _) in visible.iter().filter(|(e, step)| e.kind == kind && *step == wanted) {
-                runs.push([edge.start, edge.end].map(|v| made.map.vertices[v.index()].position));
+                runs.push([edge.start, edge.end].map(|v| inputs.map.vertices[v.index()].position));
             }
             let Some(path) = runs.finish() else { continue };
             marks.push(match wanted {
-                None => line(path, PALE, made.px(1.0), &[kind.name()], None),
-                Some(step) => line(path, RAMP[step], made.px(1.6), &[kind.name()], Some(&note(kind, step))),
+                None => line(path, PALE, inputs.px(1.0), &[kind.name()], None),
+                Some(step) => line(path, RAMP[step], inputs.px(1.6), &[kind.name()], Some(&note(kind, step))),
             });
         }
     }

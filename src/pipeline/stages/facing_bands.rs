@@ -48,9 +48,9 @@ const WIDEN_PX: f64 = 0.4;
 const SHARP_COSINE: f64 = -0.5;
 
 /// Draws the front faces from back to front, with the zero set over them.
-pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
-    let (mesh, view) = (&made.surface.mesh, made.view);
-    let cut = cut(mesh, &made.surface.smooth, &lines::facing(made.surface, view), &LEVELS);
+pub(crate) fn draw(inputs: &StageInputs) -> Vec<Layer> {
+    let (mesh, view) = (&inputs.surface.mesh, inputs.view);
+    let cut = cut(mesh, &inputs.surface.smooth, &lines::facing(inputs.surface, view), &LEVELS);
     let screen = PixelGrid::new(mesh, view);
     let buffer = FaceBuffer::new(&screen);
     let order = back_to_front(&screen, &buffer);
@@ -58,30 +58,30 @@ pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
     for face in &order {
         let pieces = cut.of_face(*face);
         if pieces.is_empty() {
-            let colour = flat_colour(made, *face);
+            let colour = flat_colour(inputs, *face);
             let corners = &mesh.triangles[*face as usize];
-            paint(&mut fills, made, &cut, corners, colour, &["field", "flat"], "a flat face");
+            paint(&mut fills, inputs, &cut, corners, colour, &["field", "flat"], "a flat face");
         }
         for piece in pieces {
             let band = usize::from(piece.band);
             let side = if piece.band > ZERO_LEVEL { "facing" } else { "averted" };
             let note = format!("n·v {:.1} to {:.1}", band as f64 / 5.0 - 1.0, (band + 1) as f64 / 5.0 - 1.0);
-            paint(&mut fills, made, &cut, cut.corners(piece), BAND_COLOURS[band], &["field", side], &note);
+            paint(&mut fills, inputs, &cut, cut.corners(piece), BAND_COLOURS[band], &["field", side], &note);
         }
     }
     let dark = Colour::rgb(0x1a, 0x1a, 0x1a);
-    let zero = zero_set(made, &cut, &buffer)
-        .map(|path| line(path, dark, made.px(1.2), &["zero-set"], Some("the zero set of n·v")));
+    let zero = zero_set(inputs, &cut, &buffer)
+        .map(|path| line(path, dark, inputs.px(1.2), &["zero-set"], Some("the zero set of n·v")));
     layers([(LayerKind::Fills, fills), (LayerKind::Lines, zero.into_iter().collect())])
 }
 
-fn flat_colour(made: &StageInputs, face: u32) -> Colour {
-    if !made.view.facing[face as usize] {
+fn flat_colour(inputs: &StageInputs, face: u32) -> Colour {
+    if !inputs.view.facing[face as usize] {
         return AVERTED_FLAT_COLOUR;
     }
     // The view axis is used instead of the eye direction, so that triangles of one plane are alike.
-    let normal = glam::Vec3::from_array(made.surface.mesh.face_normals[face as usize]).as_dvec3();
-    let cosine = -normal.dot(made.view.frame.forward);
+    let normal = glam::Vec3::from_array(inputs.surface.mesh.face_normals[face as usize]).as_dvec3();
+    let cosine = -normal.dot(inputs.view.frame.forward);
     FACING_FLAT_COLOURS
         [((cosine.max(0.0) * FACING_FLAT_COLOURS.len() as f64) as usize).min(FACING_FLAT_COLOURS.len() - 1)]
 }
@@ -89,17 +89,17 @@ fn flat_colour(made: &StageInputs, face: u32) -> Colour {
 /// Paints a polygon. Consecutive polygons of one colour share a mark.
 fn paint(
     marks: &mut Vec<Mark>,
-    made: &StageInputs,
+    inputs: &StageInputs,
     cut: &SurfaceCut,
     corners: &[u32],
     colour: Colour,
     classes: &[&'static str],
     note: &str,
 ) {
-    let Some(points) = corners.iter().map(|c| on_page(made, cut, *c)).collect::<Option<Vec<_>>>() else {
+    let Some(points) = corners.iter().map(|c| on_page(inputs, cut, *c)).collect::<Option<Vec<_>>>() else {
         return;
     };
-    let points = widened(&points, made.px(WIDEN_PX));
+    let points = widened(&points, inputs.px(WIDEN_PX));
     let like = |mark: &&mut Mark| mark.paint == Paint::Fill(colour);
     let add = |path: &mut BezPath| {
         super::stage_marks::add(path, &points);
@@ -116,12 +116,12 @@ fn paint(
 }
 
 /// A corner of a piece on the page; `None` if the near plane cuts it off.
-fn on_page(made: &StageInputs, cut: &SurfaceCut, corner: u32) -> Option<Point> {
-    let point = match made.view.points.get(corner as usize) {
+fn on_page(inputs: &StageInputs, cut: &SurfaceCut, corner: u32) -> Option<Point> {
+    let point = match inputs.view.points.get(corner as usize) {
         Some(point) => *point,
-        None => made.view.frame.image_from_local(cut.position(&made.surface.mesh, corner)),
+        None => inputs.view.frame.image_from_local(cut.position(&inputs.surface.mesh, corner)),
     };
-    (!point.z.is_nan()).then(|| Point::new(point.x, point.y) + made.margin())
+    (!point.z.is_nan()).then(|| Point::new(point.x, point.y) + inputs.margin())
 }
 
 /// A polygon with its sides moved outwards, always in the same orientation, so that overlapping polygons in
@@ -150,25 +150,25 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
 }
 
 /// The zero set where its face is in front, or no face is.
-fn zero_set(made: &StageInputs, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
-    let mesh = &made.surface.mesh;
-    let per_unit = buffer.columns as f64 / made.view.frame.width;
+fn zero_set(inputs: &StageInputs, surface_cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
+    let mesh = &inputs.surface.mesh;
+    let per_unit = buffer.columns as f64 / inputs.view.frame.width;
     let in_front = |face: u32, middle: Point| {
-        let own = mesh.triangles[face as usize];
+        let corners = mesh.triangles[face as usize];
         let (column, row) = ((middle.x * per_unit).floor() as isize, (middle.y * per_unit).floor() as isize);
-        let mut beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
-        beside.any(|(x, y)| {
+        let mut pixels_around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
+        pixels_around.any(|(x, y)| {
             if x < 0 || y < 0 || x as usize >= buffer.columns || y as usize >= buffer.rows {
                 return false;
             }
             let front = buffer.front(y as usize * buffer.columns + x as usize);
-            front.is_none_or(|front| mesh.triangles[front as usize].iter().any(|v| own.contains(v)))
+            front.is_none_or(|front| mesh.triangles[front as usize].iter().any(|v| corners.contains(v)))
         })
     };
     let mut runs = PolylineRuns::default();
-    for (face, side) in cut.border(ZERO_LEVEL) {
-        let [Some(a), Some(b)] = side.map(|corner| on_page(made, cut, corner)) else { continue };
-        if in_front(face, a.midpoint(b) - made.margin()) {
+    for (face, side) in surface_cut.border(ZERO_LEVEL) {
+        let [Some(a), Some(b)] = side.map(|corner| on_page(inputs, surface_cut, corner)) else { continue };
+        if in_front(face, a.midpoint(b) - inputs.margin()) {
             runs.push([a, b]);
         }
     }

@@ -40,15 +40,15 @@ pub(crate) struct StageInputs<'a> {
 }
 
 /// Draws the result of one stage.
-pub(crate) fn draw(stage: Stage, made: &StageInputs) -> Vec<Layer> {
+pub(crate) fn draw(stage: Stage, inputs: &StageInputs) -> Vec<Layer> {
     match stage {
-        Stage::Field => facing_bands::draw(made),
-        Stage::Zeros => zero_sets::draw(made),
-        Stage::Lines => of_lines(made),
-        Stage::ViewMap => of_view_map(made),
-        Stage::Strengths => edge_strengths::draw(made),
-        Stage::Chains => of_chains(made),
-        Stage::Removed => removed_lines::draw(made),
+        Stage::Field => facing_bands::draw(inputs),
+        Stage::Zeros => zero_sets::draw(inputs),
+        Stage::Lines => of_lines(inputs),
+        Stage::ViewMap => of_view_map(inputs),
+        Stage::Strengths => edge_strengths::draw(inputs),
+        Stage::Chains => of_chains(inputs),
+        Stage::Removed => removed_lines::draw(inputs),
     }
 }
 
@@ -86,32 +86,32 @@ fn kind_colour(kind: LineKind) -> Colour {
 }
 
 /// All feature lines, hidden or not, with one colour per kind.
-fn of_lines(made: &StageInputs) -> Vec<Layer> {
-    let marks = (0..made.lines.segments.len() as u32).filter_map(|s| {
-        let kind = made.lines.segments[s as usize].kind;
-        Some(line(polyline(&made.segment(s)?), kind_colour(kind), made.thin(), &[kind.name()], None))
+fn of_lines(inputs: &StageInputs) -> Vec<Layer> {
+    let marks = (0..inputs.lines.segments.len() as u32).filter_map(|s| {
+        let kind = inputs.lines.segments[s as usize].kind;
+        Some(line(polyline(&inputs.segment(s)?), kind_colour(kind), inputs.thin(), &[kind.name()], None))
     });
     layers([(LayerKind::Lines, marks.collect())])
 }
 
 /// Every view edge separately. Visible edges have the colour of their kind. Hidden ones are pale, in a layer
 /// below.
-fn of_view_map(made: &StageInputs) -> Vec<Layer> {
+fn of_view_map(inputs: &StageInputs) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
-    for edge in &made.map.edges {
-        let ends = [edge.start, edge.end].map(|v| made.map.vertices[v.index()].position);
+    for edge in &inputs.map.edges {
+        let ends = [edge.start, edge.end].map(|v| inputs.map.vertices[v.index()].position);
         let colour = if edge.silhouette { Colour::BLACK } else { kind_colour(edge.kind) };
-        push(polyline(&ends), colour, edge.kind, edge.invisibility, made.thin(), &mut hidden, &mut visible);
+        push(polyline(&ends), colour, edge.kind, edge.invisibility, inputs.thin(), &mut hidden, &mut visible);
     }
     layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])
 }
 
 /// Every chain, in eight colours that repeat.
-fn of_chains(made: &StageInputs) -> Vec<Layer> {
+fn of_chains(inputs: &StageInputs) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
-    for (i, chain) in made.chains.iter().enumerate() {
+    for (i, chain) in inputs.chains.iter().enumerate() {
         let (colour, path) = (HUES[i % HUES.len()], chain.path.clone());
-        let width = if chain.invisibility == 0 { 1.5 * made.thin() } else { made.thin() };
+        let width = if chain.invisibility == 0 { 1.5 * inputs.thin() } else { inputs.thin() };
         push(path, colour, chain.kind, chain.invisibility, width, &mut hidden, &mut visible);
     }
     layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])

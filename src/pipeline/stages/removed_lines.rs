@@ -24,25 +24,26 @@ fn note(reason: RemovalReason) -> &'static str {
 }
 
 /// The remaining lines, and the lines that tidying removed.
-pub(crate) fn draw(made: &StageInputs) -> Vec<Layer> {
-    let style = made.style;
+pub(crate) fn draw(inputs: &StageInputs) -> Vec<Layer> {
+    let style = inputs.style;
     let (chains, removed) = link_with_removed(
-        Some(made.gap_occlusion),
-        made.map,
+        Some(inputs.gap_occlusion),
+        inputs.map,
         &style.chain,
-        made.page.unit,
+        inputs.page.unit,
         style.lines.hidden,
     );
     let seen = chains.iter().filter(|chain| chain.invisibility == 0);
-    let mut marks: Vec<_> =
-        seen.map(|chain| line(chain.path.clone(), PALE, made.px(1.2), &[chain.kind.name()], None)).collect();
+    let mut marks: Vec<_> = seen
+        .map(|chain| line(chain.path.clone(), PALE, inputs.px(1.2), &[chain.kind.name()], None))
+        .collect();
     for removed in &removed {
         let mut path = polyline(&removed.points);
         if removed.closed {
             path.close_path();
         }
         let classes = [removed.kind.name(), "removed", removed.reason.name()];
-        marks.push(line(path, colour(removed.reason), made.px(3.5), &classes, Some(note(removed.reason))));
+        marks.push(line(path, colour(removed.reason), inputs.px(3.5), &classes, Some(note(removed.reason))));
     }
     layers([(LayerKind::Lines, marks)])
 }

@@ -179,33 +179,34 @@ impl Noder {
             }
         }
         let free = (0..uses.len() as u32).filter(|p| uses[*p as usize].0 == 1);
-        let asked: Vec<(u32, GridPoint)> = free.map(|p| (p, self.points[p as usize])).collect();
-        if asked.is_empty() || reach <= 0.0 {
+        let free_ends: Vec<(u32, GridPoint)> = free.map(|p| (p, self.points[p as usize])).collect();
+        if free_ends.is_empty() || reach <= 0.0 {
             return Vec::new();
         }
-        let found: Vec<Option<GridPoint>> = asked
+        let bridge_ends: Vec<Option<GridPoint>> = free_ends
             .par_iter()
             .map(|(end, p)| {
                 let mut nearest: Option<(f64, GridPoint)> = None;
                 for k in self.tiles.around(*p, reach).flat_map(|tile| self.tiles.of(tile)) {
                     let [a, b] = self.ends(k);
-                    let most = nearest.map_or(reach * reach, |(distance2, _)| distance2);
+                    let max_distance2 = nearest.map_or(reach * reach, |(distance2, _)| distance2);
                     let is_own = self.pieces[k as usize].ends.contains(end);
                     // The bounding box is at least as near as the piece.
-                    if self.is_cut[k as usize] || is_own || box_distance2(a, b, *p) > most {
+                    if self.is_cut[k as usize] || is_own || box_distance2(a, b, *p) > max_distance2 {
                         continue;
                     }
-                    let found = foot(a, b, *p);
-                    let is_nearer =
-                        |old: (f64, GridPoint)| found.0 < old.0 || (found.0 == old.0 && found.1 < old.1);
-                    if found.0 <= most && nearest.is_none_or(is_nearer) {
-                        nearest = Some(found);
+                    let candidate = foot(a, b, *p);
+                    let is_nearer = |old: (f64, GridPoint)| {
+                        candidate.0 < old.0 || (candidate.0 == old.0 && candidate.1 < old.1)
+                    };
+                    if candidate.0 <= max_distance2 && nearest.is_none_or(is_nearer) {
+                        nearest = Some(candidate);
                     }
                 }
                 nearest.map(|(_, foot)| foot)
             })
             .collect();
-        for ((end, _), foot) in asked.iter().zip(found) {
+        for ((end, _), foot) in free_ends.iter().zip(bridge_ends) {
             if let Some(foot) = foot {
                 let foot = self.point(foot);
                 let is_tone = uses[*end as usize].1.is_tone();

@@ -20,20 +20,26 @@ pub(crate) struct LabelComponents {
 /// A patch with less than `crumb2` (twice the area) goes to the neighbour with the longest shared border,
 /// smallest patch first. The label `background` receives none, since a model must not get holes. Patches with
 /// only background around them stay.
-pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> LabelComponents {
-    let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
+pub(crate) fn gather(
+    triangulation: &Triangulation,
+    labels_by_triangle: &[u32],
+    background: u32,
+    crumb2: f64,
+) -> LabelComponents {
+    let (of, count) = triangulation.flooded(|a, _, b| labels_by_triangle[a] == labels_by_triangle[b]);
     let mut patches =
         LabelComponents { component_of_triangle: of, labels: vec![0; count], area2: vec![0.0; count] };
     let mut shared: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); count];
-    for (triangle, look) in looks.iter().enumerate() {
-        let own = patches.component_of_triangle[triangle];
-        patches.labels[own as usize] = *look;
-        patches.area2[own as usize] += cut.area2(triangle);
+    for (triangle, triangle_label) in labels_by_triangle.iter().enumerate() {
+        let own_component = patches.component_of_triangle[triangle];
+        patches.labels[own_component as usize] = *triangle_label;
+        patches.area2[own_component as usize] += triangulation.area2(triangle);
         for side in 0..3 {
-            let next = cut.neighbours[triangle][side];
-            if next != OUTSIDE && patches.component_of_triangle[next as usize] != own {
-                *shared[own as usize].entry(patches.component_of_triangle[next as usize]).or_default() +=
-                    cut.side(triangle, side);
+            let next = triangulation.neighbours[triangle][side];
+            if next != OUTSIDE && patches.component_of_triangle[next as usize] != own_component {
+                *shared[own_component as usize]
+                    .entry(patches.component_of_triangle[next as usize])
+                    .or_default() += triangulation.side(triangle, side);
             }
         }
     }

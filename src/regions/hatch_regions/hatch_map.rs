@@ -45,12 +45,12 @@ impl HatchRegions {
     /// Cells of a labelled page, moved by `offset`. Cells with less area than a square of side `crumb` go to
     /// a neighbour.
     #[must_use]
-    pub fn new(seen: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
-        let cut = &seen.cut;
+    pub fn new(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let cut = &labelled_page.cut;
         // Hatching ignores tones and marks of cast shadows: the bins include shadows already.
-        let (looks, table) = seen.relabelled(|look| SurfaceLabel { tone: 0, cast: false, ..*look });
+        let (labels, table) = labelled_page.relabelled(|look| SurfaceLabel { tone: 0, cast: false, ..*look });
         let part = |triangle: usize| {
-            looks[triangle]
+            labels[triangle]
                 .checked_sub(1)
                 .and_then(|k| table.get(k as usize))
                 .map(|look| (look.part, look.material))
@@ -58,60 +58,60 @@ impl HatchRegions {
         let (facet_of, _) = cut.flooded(|triangle, side, next| {
             cut.borders[triangle][side].is_none_or(|border| border.is_tone()) && part(triangle) == part(next)
         });
-        Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
+        Self::gathered(labelled_page, &labels, &table, &facet_of, crumb, unit, offset)
     }
 
     /// Cells that differ in tone and colour, but not in hatching bin.
     #[must_use]
-    pub fn toned(seen: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
-        let (looks, table) = seen.relabelled(|look| SurfaceLabel { bin: 0, ..*look });
-        let (facet_of, _) = seen.cut.flooded(|triangle, side, next| {
-            seen.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
+    pub fn toned(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let (looks, table) = labelled_page.relabelled(|look| SurfaceLabel { bin: 0, ..*look });
+        let (facet_of, _) = labelled_page.cut.flooded(|triangle, side, next| {
+            labelled_page.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
                 && looks[triangle] == looks[next]
         });
-        Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
+        Self::gathered(labelled_page, &looks, &table, &facet_of, crumb, unit, offset)
     }
 
     /// Cells after relabelling by `coarser`, which may make labels equal. All cells form one facet.
     pub(crate) fn coarse(
-        seen: &LabelledPage,
+        labelled_page: &LabelledPage,
         coarser: impl Fn(&SurfaceLabel) -> SurfaceLabel,
         crumb: Length,
         unit: Unit,
         offset: Vec2,
     ) -> Self {
-        let (looks, table) = seen.relabelled(coarser);
-        Self::gathered(seen, &looks, &table, &vec![0; looks.len()], crumb, unit, offset)
+        let (looks, table) = labelled_page.relabelled(coarser);
+        Self::gathered(labelled_page, &looks, &table, &vec![0; looks.len()], crumb, unit, offset)
     }
 
     /// Builds cells and border pieces from triangles with known labels and facets.
     fn gathered(
-        seen: &LabelledPage,
-        looks: &[u32],
+        labelled_page: &LabelledPage,
+        triangle_labels: &[u32],
         table: &[SurfaceLabel],
         facet_of: &[u32],
         crumb: Length,
         unit: Unit,
         offset: Vec2,
     ) -> Self {
-        let cut = &seen.cut;
+        let triangulation = &labelled_page.cut;
         let mut numbers: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         let mut keys: Vec<(u32, u32)> = vec![(NO_LABEL, 0)];
-        let keyed: Vec<u32> = (0..looks.len())
+        let keyed: Vec<u32> = (0..triangle_labels.len())
             .map(|t| {
-                if looks[t] == NO_LABEL {
+                if triangle_labels[t] == NO_LABEL {
                     return NO_LABEL;
                 }
-                *numbers.entry((looks[t], facet_of[t])).or_insert_with(|| {
-                    keys.push((looks[t], facet_of[t]));
+                *numbers.entry((triangle_labels[t], facet_of[t])).or_insert_with(|| {
+                    keys.push((triangle_labels[t], facet_of[t]));
                     keys.len() as u32 - 1
                 })
             })
             .collect();
-        let crumb = crumb.in_unit(unit).max(0.0) / seen.step;
-        let patches = label_components::gather(cut, &keyed, NO_LABEL, 2.0 * crumb * crumb);
+        let crumb = crumb.in_unit(unit).max(0.0) / labelled_page.step;
+        let patches = label_components::gather(triangulation, &keyed, NO_LABEL, 2.0 * crumb * crumb);
 
-        let mut ground = Self { cells: vec![paper()], facets: 1, ..Self::default() };
+        let mut regions = Self { cells: vec![paper()], facets: 1, ..Self::default() };
         let mut cell_of: Vec<Option<u32>> = vec![None; patches.labels.len()];
         let mut facets: BTreeMap<u32, u32> = BTreeMap::new();
         for patch in &patches.component_of_triangle {
@@ -125,20 +125,20 @@ impl HatchRegions {
                 *cell = Some(PAPER);
                 continue;
             };
-            let next = ground.facets;
+            let next = regions.facets;
             let facet = *facets.entry(facet).or_insert(next);
-            ground.facets = next.max(facet + 1);
-            *cell = Some(ground.cells.len() as u32);
-            let area = patches.area2[*patch as usize] / 2.0 * seen.step * seen.step;
-            ground.cells.push(HatchCell { look: *look, facet, area });
+            regions.facets = next.max(facet + 1);
+            *cell = Some(regions.cells.len() as u32);
+            let area = patches.area2[*patch as usize] / 2.0 * labelled_page.step * labelled_page.step;
+            regions.cells.push(HatchCell { look: *look, facet, area });
         }
         let of = |triangle: usize| cell_of[patches.component_of_triangle[triangle] as usize].unwrap_or(PAPER);
-        ground.add_pieces(cut, of, |v: u32| {
-            let [x, y] = cut.points[v as usize];
-            Point::new(x as f64 * seen.step, y as f64 * seen.step) + offset
+        regions.add_pieces(triangulation, of, |v: u32| {
+            let [x, y] = triangulation.points[v as usize];
+            Point::new(x as f64 * labelled_page.step, y as f64 * labelled_page.step) + offset
         });
-        ground.grid = BorderPieceTiles::new(&ground.pieces);
-        ground
+        regions.grid = BorderPieceTiles::new(&regions.pieces);
+        regions
     }
 
     /// A ground with the given cells and pieces, for tests and for pages without a model. The first cell is
@@ -159,16 +159,16 @@ impl HatchRegions {
                     continue;
                 }
                 let own = cell(triangle);
-                let other = if next == OUTSIDE { PAPER } else { cell(next as usize) };
+                let other_cell = if next == OUTSIDE { PAPER } else { cell(next as usize) };
                 let parts = cut.borders[triangle][side].is_some_and(|border| !border.is_tone());
-                if own == other && (!parts || own == PAPER) {
+                if own == other_cell && (!parts || own == PAPER) {
                     continue;
                 }
                 let facet = |cell: u32| self.cells[cell as usize].facet;
-                let parts_surfaces = parts || facet(own) != facet(other);
+                let parts_surfaces = parts || facet(own) != facet(other_cell);
                 let ends = [corners[side], corners[(side + 1) % 3]].map(&point);
                 // Triangles turn from x to y, so their inside is on the right on the page.
-                self.pieces.push(BorderPiece { ends, sides: [own, other], parts_surfaces });
+                self.pieces.push(BorderPiece { ends, sides: [own, other_cell], parts_surfaces });
             }
         }
     }

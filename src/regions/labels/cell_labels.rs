@@ -55,29 +55,29 @@ pub(crate) fn label_cells(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<
 }
 
 /// Labels a non-empty cell.
-fn label_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLabels {
+fn label_cell(cut: &Triangulation, triangles: &[u32], point_labels: &[u32], wide: f64) -> CellLabels {
     let mut areas: Vec<(u32, f64)> = Vec::new();
     for triangle in triangles {
-        let look = seen[*triangle as usize];
+        let triangle_label = point_labels[*triangle as usize];
         let area = cut.area2(*triangle as usize);
-        match areas.iter_mut().find(|(known, _)| *known == look) {
+        match areas.iter_mut().find(|(known, _)| *known == triangle_label) {
             Some((_, sum)) => *sum += area,
-            None => areas.push((look, area)),
+            None => areas.push((triangle_label, area)),
         }
     }
     // The label of largest total area; the first one among equals.
-    let (most, _) =
+    let (main_label, _) =
         areas.iter().fold(
             (OUTSIDE, f64::NEG_INFINITY),
-            |most, (look, area)| {
-                if most.1 >= *area { most } else { (*look, *area) }
+            |best, (look, area)| {
+                if best.1 >= *area { best } else { (*look, *area) }
             },
         );
-    let differs = |t: &u32| seen[*t as usize] != most && cut.width(*t as usize) > wide;
+    let differs = |t: &u32| point_labels[*t as usize] != main_label && cut.width(*t as usize) > wide;
     if triangles.iter().any(differs) {
-        CellLabels::PerTriangle(spread_labels(cut, triangles, wide, seen))
+        CellLabels::PerTriangle(spread_labels(cut, triangles, wide, point_labels))
     } else {
-        CellLabels::Uniform(most)
+        CellLabels::Uniform(main_label)
     }
 }
 

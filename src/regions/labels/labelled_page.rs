@@ -80,11 +80,11 @@ pub fn label_page(
             (a + b + c) / 3.0 * step
         })
         .collect();
-    let (looks, table) = label_points(lit, &centres, shadowed, darkened);
+    let (centre_labels, table) = label_points(lit, &centres, shadowed, darkened);
     drop(centres);
-    let (looks, leaks) =
-        cell_labels::label_cells(&cut, &looks, tolerances::MIN_LABEL_DIFFERENCE_PX * px / step);
-    LabelledPage { cut, triangle_labels: looks, table, step, leaks }
+    let (final_labels, leaks) =
+        cell_labels::label_cells(&cut, &centre_labels, tolerances::MIN_LABEL_DIFFERENCE_PX * px / step);
+    LabelledPage { cut, triangle_labels: final_labels, table, step, leaks }
 }
 
 impl LabelledPage {

@@ -13,7 +13,7 @@ const POINTS_PER_TASK: usize = 1 << 9;
 
 /// Labels of a batch of points: the distinct labels, and for each point [`NO_LABEL`] or an index plus 1.
 struct LabelBatch {
-    looks: Vec<SurfaceLabel>,
+    labels: Vec<SurfaceLabel>,
     numbers: Vec<u32>,
 }
 
@@ -28,11 +28,13 @@ pub(crate) fn label_points(
     darkened: ShadowDarkening,
 ) -> (Vec<u32>, Vec<SurfaceLabel>) {
     let fronts = front_faces(lit.mesh, lit.view, points);
-    let place = |front: &FrontFace, p: &DVec2| lit.view.frame.local_from_image(p.extend(front.nearness));
+    let position_on =
+        |front: &FrontFace, p: &DVec2| lit.view.frame.local_from_image(p.extend(front.nearness));
     let masks = shadowed.map(|shadowed| {
-        let seen = || fronts.iter().zip(points).filter_map(|(front, p)| Some((front.as_ref()?, p)));
-        let asked: Vec<(u32, DVec3)> = seen().map(|(front, p)| (front.face, place(front, p))).collect();
-        let mut masks = shadowed(&asked).into_iter();
+        let visible_points = || fronts.iter().zip(points).filter_map(|(front, p)| Some((front.as_ref()?, p)));
+        let shadow_queries: Vec<(u32, DVec3)> =
+            visible_points().map(|(front, p)| (front.face, position_on(front, p))).collect();
+        let mut masks = shadowed(&shadow_queries).into_iter();
         let of_point =
             |front: &Option<FrontFace>| front.as_ref().and_then(|_| masks.next()).unwrap_or_default();
         fronts.iter().map(of_point).collect::<Vec<u32>>()
@@ -40,7 +42,7 @@ pub(crate) fn label_points(
     let look_at = |k: usize| {
         let front = fronts[k].as_ref()?;
         let shadowed = masks.as_ref().map_or(0, |masks| masks[k]);
-        Some(label_at(lit, front.face, place(front, &points[k]), shadowed, darkened))
+        Some(label_at(lit, front.face, position_on(front, &points[k]), shadowed, darkened))
     };
     let some: Vec<LabelBatch> = (0..points.len().div_ceil(POINTS_PER_TASK))
         .into_par_iter()
@@ -51,37 +53,40 @@ pub(crate) fn label_points(
             )
         })
         .collect();
-    let all: FxHashSet<SurfaceLabel> = some.iter().flat_map(|some| &some.looks).copied().collect();
-    let mut table: Vec<SurfaceLabel> = all.into_iter().collect();
+    let distinct_labels: FxHashSet<SurfaceLabel> =
+        some.iter().flat_map(|some| &some.labels).copied().collect();
+    let mut table: Vec<SurfaceLabel> = distinct_labels.into_iter().collect();
     table.sort_unstable();
     let mut numbers = Vec::with_capacity(points.len());
-    for LabelBatch { looks, numbers: own } in some {
+    for LabelBatch { labels: looks, numbers: batch_numbers } in some {
         let number = |look: &SurfaceLabel| table.binary_search(look).map_or(NO_LABEL, |at| at as u32 + 1);
         let of: Vec<u32> = looks.iter().map(number).collect();
-        numbers.extend(own.iter().map(|own| own.checked_sub(1).map_or(NO_LABEL, |own| of[own as usize])));
+        numbers.extend(
+            batch_numbers.iter().map(|own| own.checked_sub(1).map_or(NO_LABEL, |own| of[own as usize])),
+        );
     }
     (numbers, table)
 }
 
 impl LabelBatch {
-    fn of(seen: impl Iterator<Item = Option<SurfaceLabel>>) -> Self {
-        let (mut looks, mut known) = (Vec::new(), FxHashMap::default());
+    fn of(point_labels: impl Iterator<Item = Option<SurfaceLabel>>) -> Self {
+        let (mut batch_labels, mut known) = (Vec::new(), FxHashMap::default());
         // Consecutive points mostly have the same label.
         let mut last = (None, NO_LABEL);
-        let numbers = seen.map(|look| {
-            if look != last.0 {
-                let number = look.map_or(NO_LABEL, |look| {
+        let numbers = point_labels.map(|point_label| {
+            if point_label != last.0 {
+                let number = point_label.map_or(NO_LABEL, |look| {
                     *known.entry(look).or_insert_with(|| {
-                        looks.push(look);
-                        looks.len() as u32
+                        batch_labels.push(look);
+                        batch_labels.len() as u32
                     })
                 });
-                last = (look, number);
+                last = (point_label, number);
             }
             last.1
         });
         let numbers = numbers.collect();
-        Self { looks, numbers }
+        Self { labels: batch_labels, numbers }
     }
 }
 
@@ -118,7 +123,7 @@ mod tests {
             cast: tone == 9,
         };
         let seen = [3, 3, 0, 9, 0, 0, 3, 7, 9].map(|tone| (tone > 0).then(|| look(tone)));
-        let LabelBatch { looks, numbers } = LabelBatch::of(seen.into_iter());
+        let LabelBatch { labels: looks, numbers } = LabelBatch::of(seen.into_iter());
         assert_eq!(looks, [3, 9, 7].map(look));
         let back = numbers.iter().map(|number| number.checked_sub(1).map(|k| looks[k as usize]));
         assert!(back.eq(seen) && numbers[2] == NO_LABEL);

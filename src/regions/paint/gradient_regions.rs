@@ -37,8 +37,8 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     for (k, (at, tones)) in ramp.steps.iter().enumerate() {
         let [below, above] = tones.map(&colour);
         alpha = below.a;
-        let beside = if k == 0 { ramp.steps.get(1) } else { ramp.steps.get(k - 1) };
-        let half = beside.map_or(0.0, |(other, _)| (at - other).abs() / 2.0);
+        let adjacent_step = if k == 0 { ramp.steps.get(1) } else { ramp.steps.get(k - 1) };
+        let half = adjacent_step.map_or(0.0, |(other, _)| (at - other).abs() / 2.0);
         if k == 0 {
             shades.push((at - half, below.channels()));
         }
@@ -51,9 +51,9 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     let length = shades.last().map_or(0.0, |shade| shade.0) - from;
     let mut kept = vec![false; shades.len()];
     mark_needed_stops(&shades, 0, shades.len().saturating_sub(1), &mut kept);
-    let place = |at: f64| if length > 0.0 { (at - from) / length } else { 0.0 };
+    let stop_offset = |at: f64| if length > 0.0 { (at - from) / length } else { 0.0 };
     let stop = |(at, channels): &(f64, [f64; 3])| {
-        (place(*at), Colour { a: alpha, ..Colour::from_channels(*channels) })
+        (stop_offset(*at), Colour { a: alpha, ..Colour::from_channels(*channels) })
     };
     let stops = shades.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(shade, _)| stop(shade)).collect();
     let at = |along: f64| (ramp.way * along + offset).to_point();
@@ -97,14 +97,14 @@ struct BandBorder {
     tones: [u16; 2],
     ends: [Point; 2],
     /// Unit normal, towards the lighter side.
-    way: Vec2,
+    normal: Vec2,
     length: f64,
 }
 
 /// Patches that may become one region.
 #[derive(Default)]
 struct RampGroup {
-    way: Vec2,
+    direction: Vec2,
     /// Indices of the borders inside the group.
     steps: Vec<usize>,
     /// Range of positions of the borders, for each pair of tones.
@@ -156,7 +156,7 @@ pub(crate) fn join(
         let Some(group) = joined.groups.get(&root) else { continue };
         let middle = |(from, to): (f64, f64)| f64::midpoint(from, to);
         let steps = group.spans.iter().map(|(tones, span)| (middle(*span), *tones)).collect();
-        ramps[root as usize] = Some(Ramp { way: group.way, steps });
+        ramps[root as usize] = Some(Ramp { way: group.direction, steps });
         for patch in &own {
             number[*patch as usize] = root;
             if *patch != root {
@@ -202,7 +202,14 @@ fn straight<'a>(
     } else {
         ([left, right], [a.tone, b.tone], -to_left)
     };
-    points.iter().all(is_near).then_some(BandBorder { arc, patches, tones, ends: [first, last], way, length })
+    points.iter().all(is_near).then_some(BandBorder {
+        arc,
+        patches,
+        tones,
+        ends: [first, last],
+        normal: way,
+        length,
+    })
 }
 
 struct RampGroups {
@@ -229,8 +236,8 @@ impl RampGroups {
         let size = |root: u32| self.groups.get(&root).map_or(0, |group| group.steps.len());
         let (large, small) = if size(b) > size(a) { (b, a) } else { (a, b) };
         let (way, mut spans) = match self.groups.get(&large) {
-            Some(group) => (group.way, group.spans.clone()),
-            None => (step.way, Spans::new()),
+            Some(group) => (group.direction, group.spans.clone()),
+            None => (step.normal, Spans::new()),
         };
         let added: Vec<usize> = self
             .groups
@@ -257,7 +264,7 @@ impl RampGroups {
         self.groups.remove(&small);
         self.root[small as usize] = large;
         let group = self.groups.entry(large).or_default();
-        group.way = way;
+        group.direction = way;
         group.spans = spans;
         group.steps.extend(added);
     }
@@ -286,7 +293,7 @@ impl RampGroups {
                 let high = if high > f64::NEG_INFINITY { high } else { f64::INFINITY };
                 let slack = MAX_OVERHANG_TOLERANCES * tolerance;
                 let is_within = |p: &Point| {
-                    let at = p.to_vec2().dot(group.way);
+                    let at = p.to_vec2().dot(group.direction);
                     at >= low - slack && at <= high + slack
                 };
                 group.is_broken = !points.iter().all(is_within);

@@ -72,14 +72,14 @@ impl LightLattice {
             .zip(&points)
             .map(|(front, p)| front.map(|f| (f.face, frame.local_from_image(p.extend(f.nearness)))))
             .collect();
-        let asked: Vec<(u32, DVec3)> = hits.iter().flatten().copied().collect();
-        let masks = shadowed(&asked);
-        let mut place = 0;
+        let shadow_queries: Vec<(u32, DVec3)> = hits.iter().flatten().copied().collect();
+        let masks = shadowed(&shadow_queries);
+        let mut hit_count = 0;
         let mask_of: Vec<u32> = hits
             .iter()
             .map(|hit| {
-                place += usize::from(hit.is_some());
-                if hit.is_some() { masks.get(place - 1).copied().unwrap_or_default() } else { 0 }
+                hit_count += usize::from(hit.is_some());
+                if hit.is_some() { masks.get(hit_count - 1).copied().unwrap_or_default() } else { 0 }
             })
             .collect();
         let channel = lit.shading.bin_channel().unwrap_or(0);

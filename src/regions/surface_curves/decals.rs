@@ -69,7 +69,7 @@ struct FigurePlacement {
     figure: u32,
     face: u32,
     /// Repetition number along x and y.
-    place: [i64; 2],
+    repetition_number: [i64; 2],
     /// Position in space.
     at: DVec3,
     /// Whether it lies outside the face, where the plane is not continued.
@@ -93,7 +93,7 @@ pub fn decals(
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
-            let mut found = Vec::new();
+            let mut placements = Vec::new();
             for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(faces) {
                 let Some(own) = chart(face as u32).filter(|_| !mesh.is_degenerate(FaceId(face as u32)))
                 else {
@@ -105,11 +105,11 @@ pub fn decals(
                         face as u32,
                         &own,
                         (number as u32, figure, middles[number]),
-                        &mut found,
+                        &mut placements,
                     );
                 }
             }
-            found
+            placements
         })
         .collect();
     let inside = shows_inside(lit);
@@ -120,8 +120,8 @@ pub fn decals(
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
-            let own = chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(faces);
-            own.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()
+            let face_range = chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(faces);
+            face_range.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()
         })
         .collect();
     add_outer(lit, chart, outer.into_iter().flatten().collect(), &mut anchors);
@@ -132,15 +132,21 @@ pub fn decals(
         .filter(|anchor| shows(anchor.face))
         .filter_map(|anchor| {
             let figure = &figures[anchor.figure as usize];
-            let [i, j] = anchor.place.map(|k| k as f64);
+            let [i, j] = anchor.repetition_number.map(|k| k as f64);
             walker.lay(anchor, figure, (figure.period * DVec2::new(i, j), offset), shows)
         })
         .collect();
-    let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();
-    let mut seen = are_visible(lit, offset, &asked).into_iter();
+    let samples: Vec<(Point, f64)> =
+        laid.iter().flat_map(|laid| laid.visibility_samples.iter().copied()).collect();
+    let mut visibility = are_visible(lit, offset, &samples).into_iter();
     let decal = |laid: PlacedFigure| {
-        let seen: Vec<bool> = seen.by_ref().take(laid.asked.len()).collect();
-        let on = laid.asked.iter().zip(seen).filter(|(_, seen)| *seen).map(|((p, _), _)| ground.cell_at(*p));
+        let is_visible: Vec<bool> = visibility.by_ref().take(laid.visibility_samples.len()).collect();
+        let on = laid
+            .visibility_samples
+            .iter()
+            .zip(is_visible)
+            .filter(|(_, seen)| *seen)
+            .map(|((p, _), _)| ground.cell_at(*p));
         let mut facets: Vec<u32> =
             on.filter(|cell| *cell != PAPER).map(|cell| ground.cells[cell as usize].facet).collect();
         facets.sort_unstable();
@@ -154,7 +160,7 @@ pub fn decals(
 struct PlacedFigure {
     figure: u32,
     lines: Vec<Vec<Point>>,
-    asked: Vec<(Point, f64)>,
+    visibility_samples: Vec<(Point, f64)>,
 }
 
 /// Centre of a figure's bounding box.
@@ -193,7 +199,13 @@ fn place_on_face(
             });
             if is_in {
                 let at = (0..3).map(|k| solid[k] * (parts[k].0 / whole)).sum();
-                found.push(FigurePlacement { figure: number, face, place: [i, j], at, is_outer: false });
+                found.push(FigurePlacement {
+                    figure: number,
+                    face,
+                    repetition_number: [i, j],
+                    at,
+                    is_outer: false,
+                });
             }
         }
     }
@@ -214,7 +226,7 @@ fn add_outer(
 ) {
     let key = |anchor: &FigurePlacement| {
         let name = chart(anchor.face).map_or(0, |chart| chart.name);
-        (lit.mesh.face_part[anchor.face as usize], name, anchor.figure, anchor.place)
+        (lit.mesh.face_part[anchor.face as usize], name, anchor.figure, anchor.repetition_number)
     };
     if outer.is_empty() {
         return;
@@ -254,22 +266,29 @@ fn drop_crowded(
     if names.iter().all(|name| *name == names[0]) {
         return anchors;
     }
-    let far = |figure: &Figure| {
+    let extent = |figure: &Figure| {
         let middle = figure_centre(figure);
         figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
     };
-    let reaches: Vec<f64> = figures.iter().map(far).collect();
+    let reaches: Vec<f64> = figures.iter().map(extent).collect();
     let normal = |face: u32| {
         let [a, b, c] = mesh.corners(FaceId(face));
         (b - a).cross(c - a).normalize_or_zero()
     };
     let part = |anchor: &FigurePlacement| mesh.face_part[anchor.face as usize];
     anchors.sort_by_key(|anchor| {
-        (anchor.is_outer, part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face)
+        (
+            anchor.is_outer,
+            part(anchor),
+            name(anchor.face),
+            anchor.figure,
+            anchor.repetition_number,
+            anchor.face,
+        )
     });
     let widest = reaches.iter().copied().fold(0.0, f64::max);
     let cell = |p: DVec3, size: f64| (p / size).floor().to_array().map(|v| v as i64);
-    let mut kept: BTreeMap<(u32, [i64; 3]), Vec<usize>> = BTreeMap::new();
+    let mut kept_anchors: BTreeMap<(u32, [i64; 3]), Vec<usize>> = BTreeMap::new();
     let mut stays = vec![true; anchors.len()];
     for (k, anchor) in anchors.iter().enumerate() {
         let part = part(anchor).index() as u32;
@@ -278,20 +297,21 @@ fn drop_crowded(
         if !(size > 0.0 && size.is_finite()) {
             continue;
         }
-        let own = name(anchor.face);
+        let chart_name = name(anchor.face);
         let [x, y, z] = cell(anchor.at, size);
         let around = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
-        let is_near = |other: &usize| {
-            let other = &anchors[*other];
-            let reach =
-                (reaches[anchor.figure as usize] + reaches[other.figure as usize]) * unit * MIN_SPACING_RATIO;
-            name(other.face) != own
-                && anchor.at.distance(other.at) < reach
-                && normal(anchor.face).dot(normal(other.face)) > MIN_NORMAL_COSINE
+        let is_near = |other_number: &usize| {
+            let other_anchor = &anchors[*other_number];
+            let reach = (reaches[anchor.figure as usize] + reaches[other_anchor.figure as usize])
+                * unit
+                * MIN_SPACING_RATIO;
+            name(other_anchor.face) != chart_name
+                && anchor.at.distance(other_anchor.at) < reach
+                && normal(anchor.face).dot(normal(other_anchor.face)) > MIN_NORMAL_COSINE
         };
-        stays[k] = !around.filter_map(|cell| kept.get(&(part, cell))).flatten().any(is_near);
+        stays[k] = !around.filter_map(|cell| kept_anchors.get(&(part, cell))).flatten().any(is_near);
         if stays[k] {
-            kept.entry((part, [x, y, z])).or_default().push(k);
+            kept_anchors.entry((part, [x, y, z])).or_default().push(k);
         }
     }
     let mut stays = stays.into_iter();
@@ -337,7 +357,7 @@ impl Walker<'_> {
             }
             lines.push(points);
         }
-        Some(PlacedFigure { figure: anchor.figure, lines, asked })
+        Some(PlacedFigure { figure: anchor.figure, lines, visibility_samples: asked })
     }
 
     /// Figures whose centres lie outside a face at the border of the plane.
@@ -364,8 +384,14 @@ impl Walker<'_> {
                     let p = *middle + figure.period * DVec2::new(i as f64, j as f64);
                     // Figures on a face are known already, unless they lie exactly on the border.
                     if let Some((at, last, is_on)) = self.walk(face, p, |_| true) {
-                        let (figure, place) = (number as u32, [i, j]);
-                        found.push(FigurePlacement { figure, face: last, place, at, is_outer: !is_on });
+                        let (figure, repetition) = (number as u32, [i, j]);
+                        found.push(FigurePlacement {
+                            figure,
+                            face: last,
+                            repetition_number: repetition,
+                            at,
+                            is_outer: !is_on,
+                        });
                     }
                 }
             }

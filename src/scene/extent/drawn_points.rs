@@ -62,13 +62,17 @@ impl DegenerateCounts {
 struct PlacedGeometry<'a> {
     part: usize,
     geometry: &'a Geometry,
-    place: &'a DAffine3,
+    world_from_geometry: &'a DAffine3,
 }
 
 impl PlacedGeometry<'_> {
     fn at(&self, vertex: u32) -> DVec3 {
-        let own = self.geometry.positions.get(vertex as usize).copied().unwrap_or_default();
-        if *self.place == DAffine3::IDENTITY { own } else { self.place.transform_point3(own) }
+        let point = self.geometry.positions.get(vertex as usize).copied().unwrap_or_default();
+        if *self.world_from_geometry == DAffine3::IDENTITY {
+            point
+        } else {
+            self.world_from_geometry.transform_point3(point)
+        }
     }
 
     fn corners(&self, triangle: &[u32; 3]) -> [DVec3; 3] {
@@ -91,12 +95,15 @@ impl PlacedGeometry<'_> {
     }
 
     /// Transforms points of the geometry to world space and appends them.
-    fn add(&self, own: &[DVec3], to: &mut Vec<DVec3>) {
-        if *self.place == DAffine3::IDENTITY {
-            to.extend_from_slice(own);
+    fn add(&self, points: &[DVec3], to: &mut Vec<DVec3>) {
+        if *self.world_from_geometry == DAffine3::IDENTITY {
+            to.extend_from_slice(points);
         } else {
             to.par_extend(
-                own.par_iter().with_min_len(MIN_TASK_ITEMS).map(|&p| self.place.transform_point3(p)),
+                points
+                    .par_iter()
+                    .with_min_len(MIN_TASK_ITEMS)
+                    .map(|&p| self.world_from_geometry.transform_point3(p)),
             );
         }
     }
@@ -113,31 +120,37 @@ impl DrawnPoints {
         let wanted = scene.parts.iter().enumerate().filter(|(_, part)| is_wanted(part));
         let placed = wanted.filter_map(|(number, part)| {
             let geometry = scene.geometry_of(part)?;
-            Some(PlacedGeometry { part: number, geometry, place: &part.world_from_part })
+            Some(PlacedGeometry { part: number, geometry, world_from_geometry: &part.world_from_part })
         });
         Self::of_placed(placed.collect())
     }
 
     /// Points of a geometry, in local space.
     pub fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
-        Self::of_placed(vec![PlacedGeometry { part: 0, geometry, place: &DAffine3::IDENTITY }]).points
+        Self::of_placed(vec![PlacedGeometry { part: 0, geometry, world_from_geometry: &DAffine3::IDENTITY }])
+            .points
     }
 
     fn of_placed(mut placed: Vec<PlacedGeometry>) -> Self {
         let mut all = Self::default();
         // Instances of a geometry share its list of used points.
-        let mut known: FxHashMap<*const Geometry, Cow<[DVec3]>> = FxHashMap::default();
-        placed.retain(|own| {
+        let mut points_by_geometry: FxHashMap<*const Geometry, Cow<[DVec3]>> = FxHashMap::default();
+        placed.retain(|placed_geometry| {
             let first = all.points.len();
-            let used =
-                known.entry(std::ptr::from_ref(own.geometry)).or_insert_with(|| used_points(own.geometry));
-            own.add(used, &mut all.points);
+            let used = points_by_geometry
+                .entry(std::ptr::from_ref(placed_geometry.geometry))
+                .or_insert_with(|| used_points(placed_geometry.geometry));
+            placed_geometry.add(used, &mut all.points);
             let points = all.points.get(first..).unwrap_or_default();
             // A part with coordinates that are not finite or too large is not drawn.
             let is_drawn = points.par_iter().with_min_len(MIN_TASK_ITEMS).all(|&p| is_drawable(p));
             if is_drawn {
                 let points = first..all.points.len();
-                all.parts.push(DrawnPart { part: own.part, points, left_out: DegenerateCounts::default() });
+                all.parts.push(DrawnPart {
+                    part: placed_geometry.part,
+                    points,
+                    left_out: DegenerateCounts::default(),
+                });
             } else {
                 all.points.truncate(first);
             }
@@ -150,44 +163,45 @@ impl DrawnPoints {
     fn without_flat(&self, placed: &[PlacedGeometry]) -> Option<Self> {
         let (low, high) = bounds(&self.points)?;
         let largest = largest_scale(low, high);
-        let doubtful = |own: &PlacedGeometry| {
-            let suspects = own.suspects(largest);
-            let is_whole = suspects.is_empty() && !own.has_short_wires();
-            (!is_whole).then(|| DegenerateCandidates::of(own, suspects))
+        let doubtful = |placed_geometry: &PlacedGeometry| {
+            let suspects = placed_geometry.suspects(largest);
+            let is_whole = suspects.is_empty() && !placed_geometry.has_short_wires();
+            (!is_whole).then(|| DegenerateCandidates::of(placed_geometry, suspects))
         };
         let doubtful: Vec<Option<DegenerateCandidates>> = placed.iter().map(doubtful).collect();
         if doubtful.iter().all(Option::is_none) {
             return None;
         }
-        let whole = |part: &DrawnPart| bounds(self.points.get(part.points.clone()).unwrap_or_default());
+        let all_bounds = |part: &DrawnPart| bounds(self.points.get(part.points.clone()).unwrap_or_default());
         let parts = || placed.iter().zip(&self.parts).zip(&doubtful);
         let boxes = parts().filter_map(|((own, part), doubtful)| match doubtful {
             Some(doubtful) => doubtful.bounds(own, has_own_area),
-            None => whole(part),
+            None => all_bounds(part),
         });
         let (low, high) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((low, high));
         // From here on coordinates are relative to the origin of the mesh, as the mesh measures them.
         let origin = origin(low, high);
         let mut all = Self::default();
-        for ((own, part), doubtful) in parts() {
+        for ((placement, part), doubtful) in parts() {
             let first = all.points.len();
             let mut left_out = DegenerateCounts::default();
             if let Some(doubtful) = doubtful {
-                let counted = doubtful.bounds(own, |corners| has_own_area(corners.map(|p| p - origin)));
-                let scale = counted.or(whole(part)).map_or(0.0, |(l, h)| scale_of(l - origin, h - origin));
+                let counted = doubtful.bounds(placement, |corners| has_own_area(corners.map(|p| p - origin)));
+                let scale =
+                    counted.or(all_bounds(part)).map_or(0.0, |(l, h)| scale_of(l - origin, h - origin));
                 let has_area = |corners: [DVec3; 3]| has_area(corners.map(|p| p - origin), scale);
-                own.add(&doubtful.counted(own, has_area), &mut all.points);
-                left_out = doubtful.left_out(own, has_area);
+                placement.add(&doubtful.counted(placement, has_area), &mut all.points);
+                left_out = doubtful.left_out(placement, has_area);
             } else {
                 all.points.extend_from_slice(self.points.get(part.points.clone()).unwrap_or_default());
             }
-            all.parts.push(DrawnPart { part: own.part, points: first..all.points.len(), left_out });
+            all.parts.push(DrawnPart { part: placement.part, points: first..all.points.len(), left_out });
         }
         if all.points.is_empty() {
             // If no face has area, the camera still frames all points.
             all.points.clone_from(&self.points);
-            for (part, whole) in all.parts.iter_mut().zip(&self.parts) {
-                part.points = whole.points.clone();
+            for (part, original) in all.parts.iter_mut().zip(&self.parts) {
+                part.points = original.points.clone();
             }
         }
         Some(all)
@@ -206,14 +220,14 @@ struct DegenerateCandidates {
 }
 
 impl DegenerateCandidates {
-    fn of(own: &PlacedGeometry, suspects: Vec<u32>) -> Self {
-        let mut is_suspect = vec![false; own.geometry.triangles.len()];
+    fn of(placed: &PlacedGeometry, suspects: Vec<u32>) -> Self {
+        let mut is_suspect = vec![false; placed.geometry.triangles.len()];
         suspects.iter().for_each(|face| is_suspect[*face as usize] = true);
-        let used = used(own.geometry, |face| !is_suspect[face], |wire| own.is_long(wire));
+        let used = used(placed.geometry, |face| !is_suspect[face], |wire| placed.is_long(wire));
         let vertices = used.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS).filter(|(_, used)| **used);
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let grow = |(low, high): (DVec3, DVec3), (vertex, _): (usize, &bool)| {
-            let p = own.at(vertex as u32);
+            let p = placed.at(vertex as u32);
             (low.min(p), high.max(p))
         };
         let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
@@ -224,45 +238,45 @@ impl DegenerateCandidates {
     /// Suspect faces for which `counts` returns `wanted`.
     fn those<'a>(
         &'a self,
-        own: &'a PlacedGeometry,
+        placed: &'a PlacedGeometry,
         counts: impl Fn([DVec3; 3]) -> bool + 'a,
         wanted: bool,
     ) -> impl Iterator<Item = &'a [u32; 3]> {
-        let faces = self.suspects.iter().map(|face| &own.geometry.triangles[*face as usize]);
-        faces.filter(move |t| counts(own.corners(t)) == wanted)
+        let faces = self.suspects.iter().map(|face| &placed.geometry.triangles[*face as usize]);
+        faces.filter(move |t| counts(placed.corners(t)) == wanted)
     }
 
     /// Bounding box without the suspect faces for which `counts` is false, world space.
-    fn bounds(&self, own: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
-        let real = self.those(own, counts, true).flatten();
+    fn bounds(&self, placed: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
+        let real = self.those(placed, counts, true).flatten();
         let real = real.filter(|corner| (**corner as usize) < self.used.len());
         let (low, high) = real.fold((self.low, self.high), |(low, high), corner| {
-            let p = own.at(*corner);
+            let p = placed.at(*corner);
             (low.min(p), high.max(p))
         });
         (low.x <= high.x).then_some((low, high))
     }
 
     /// Vertices without those of suspect faces for which `counts` is false, in local space.
-    fn counted(&self, own: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
+    fn counted(&self, placed: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
         let mut used = self.used.clone();
-        for corner in self.those(own, counts, true).flatten() {
+        for corner in self.those(placed, counts, true).flatten() {
             if let Some(used) = used.get_mut(*corner as usize) {
                 *used = true;
             }
         }
-        let kept = own.geometry.positions.iter().zip(used).filter(|(_, used)| *used);
-        kept.map(|(p, _)| *p).collect()
+        let used_positions = placed.geometry.positions.iter().zip(used).filter(|(_, used)| *used);
+        used_positions.map(|(p, _)| *p).collect()
     }
 
-    fn left_out(&self, own: &PlacedGeometry, has_area: impl Fn([DVec3; 3]) -> bool) -> DegenerateCounts {
-        let is_short = |wire: &&[u32; 2]| !own.is_long(wire);
-        let wires = || own.geometry.wires.iter().filter(is_short);
-        let first_face = self.those(own, &has_area, false).next().map(|t| own.at(t[0]));
+    fn left_out(&self, placed: &PlacedGeometry, has_area: impl Fn([DVec3; 3]) -> bool) -> DegenerateCounts {
+        let is_short = |wire: &&[u32; 2]| !placed.is_long(wire);
+        let wires = || placed.geometry.wires.iter().filter(is_short);
+        let first_face = self.those(placed, &has_area, false).next().map(|t| placed.at(t[0]));
         DegenerateCounts {
-            faces: self.those(own, &has_area, false).count() as u64,
+            faces: self.those(placed, &has_area, false).count() as u64,
             wires: wires().count() as u64,
-            first: first_face.or_else(|| wires().next().map(|wire| own.at(wire[0]))),
+            first: first_face.or_else(|| wires().next().map(|wire| placed.at(wire[0]))),
         }
     }
 }

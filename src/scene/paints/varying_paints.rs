@@ -31,13 +31,16 @@ impl Paints {
         count: usize,
         factor: &MaterialFactor,
     ) {
-        let seen: Vec<(Colour, bool)> = triangles
+        let shown_colours: Vec<(Colour, bool)> = triangles
             .iter()
-            .filter_map(|own| Some((own.shown?, own.spread < MIN_CHANNEL_DIFFERENCE)))
+            .filter_map(|triangle_colour| {
+                Some((triangle_colour.shown?, triangle_colour.spread < MIN_CHANNEL_DIFFERENCE))
+            })
             .collect();
-        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
-        let shown = texture.shown(scene, material, &places);
-        let swatches = cluster_palette(&seen);
+        let triangle_ids: Vec<[usize; 2]> =
+            triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let shown = texture.shown(scene, material, &triangle_ids);
+        let swatches = cluster_palette(&shown_colours);
         let mut colours = match &swatches {
             Some(swatches) => swatches.clone(),
             None => texture.representative_colours(&shown, count),
@@ -45,20 +48,23 @@ impl Paints {
         colours.sort_unstable();
         colours.dedup();
         let tinted: Vec<Colour> = colours.iter().map(|colour| factor.tint(*colour)).collect();
-        let known = self.of_colours(material, &tinted);
+        let paint_of_tint = self.of_colours(material, &tinted);
         let with_paint: Vec<(Colour, PaintId)> = colours
             .iter()
             .zip(&tinted)
-            .filter_map(|(own, tinted)| Some((*own, *known.get(tinted)?)))
+            .filter_map(|(base_colour, tinted)| Some((*base_colour, *paint_of_tint.get(tinted)?)))
             .collect();
         let paint_of = |colour: Colour| {
-            with_paint.iter().min_by_key(|(own, _)| channel_difference(*own, colour)).map(|(_, paint)| *paint)
+            with_paint
+                .iter()
+                .min_by_key(|(listed_colour, _)| channel_difference(*listed_colour, colour))
+                .map(|(_, paint)| *paint)
         };
         // Areas of mixed colour are divided where the picture changes, not along triangle edges.
-        let is_near = |own: &TriangleColour| {
-            colours
-                .iter()
-                .any(|c| own.shown.is_some_and(|s| channel_difference(*c, s) <= MAX_STORAGE_CHANNEL_ERROR))
+        let is_near = |candidate: &TriangleColour| {
+            colours.iter().any(|c| {
+                candidate.shown.is_some_and(|s| channel_difference(*c, s) <= MAX_STORAGE_CHANNEL_ERROR)
+            })
         };
         let is_whole = |own: &TriangleColour| {
             with_paint.len() < 2
@@ -73,8 +79,8 @@ impl Paints {
             return;
         }
         let picture = PaintId::from(self.list.len());
-        let whole = texture.mean(&shown);
-        self.list.push(MaterialPaint { material: material.into(), colour: factor.tint(whole) });
+        let mean_colour = texture.mean(&shown);
+        self.list.push(MaterialPaint { material: material.into(), colour: factor.tint(mean_colour) });
         for own in triangles {
             let own_paint = own.shown.filter(|_| is_whole(own)).and_then(paint_of);
             self.paint(scene, own, own_paint.unwrap_or(picture));
@@ -82,7 +88,7 @@ impl Paints {
         let (colours, mut paints): (Vec<Colour>, Vec<PaintId>) = with_paint.into_iter().unzip();
         // The mean colour comes last.
         paints.push(picture);
-        let painted = texture.painted(shown, &colours, whole);
+        let painted = texture.painted(shown, &colours, mean_colour);
         self.varied.push((picture, VaryingSurface::new(Some(painted), None, paints)));
     }
 
@@ -96,8 +102,9 @@ impl Paints {
         count: usize,
         factor: &MaterialFactor,
     ) {
-        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), own.is_flat())).collect();
-        let swatches = cluster_palette(&seen);
+        let triangle_colours: Vec<(Colour, bool)> =
+            triangles.iter().map(|own| (factor.of(own), own.is_flat())).collect();
+        let swatches = cluster_palette(&triangle_colours);
         let opaque = |colour: Colour| Colour { a: factor.base.a, ..colour };
         let mut colours = match &swatches {
             Some(swatches) => swatches.clone(),
@@ -111,14 +118,19 @@ impl Paints {
         if colours.is_empty() {
             return;
         }
-        let known = self.of_colours(material, &colours);
+        let paint_of_colour = self.of_colours(material, &colours);
         let varied = PaintId::from(self.list.len());
-        self.list.push(MaterialPaint { material: material.into(), colour: opaque(mean(&seen)) });
-        for (number, own) in triangles.iter().enumerate() {
-            let swatch = swatches.as_ref().map(|swatches| swatches[number]).filter(|_| own.is_flat());
-            self.paint(scene, own, swatch.and_then(|s| known.get(&s).copied()).unwrap_or(varied));
+        self.list.push(MaterialPaint { material: material.into(), colour: opaque(mean(&triangle_colours)) });
+        for (number, triangle_colour) in triangles.iter().enumerate() {
+            let swatch =
+                swatches.as_ref().map(|swatches| swatches[number]).filter(|_| triangle_colour.is_flat());
+            self.paint(
+                scene,
+                triangle_colour,
+                swatch.and_then(|s| paint_of_colour.get(&s).copied()).unwrap_or(varied),
+            );
         }
-        let paints = colours.iter().filter_map(|colour| known.get(colour).copied()).collect();
+        let paints = colours.iter().filter_map(|colour| paint_of_colour.get(colour).copied()).collect();
         let tints = VertexColourPalette::new(factor.light(), &colours);
         self.varied.push((varied, VaryingSurface::new(None, Some(tints), paints)));
         self.tinted = true;
@@ -135,30 +147,31 @@ impl Paints {
         count: usize,
         factor: &MaterialFactor,
     ) {
-        let places: Vec<[usize; 2]> = triangles
+        let triangle_ids: Vec<[usize; 2]> = triangles
             .iter()
             .filter(|own| own.shown.is_some())
             .map(|own| [own.geometry, own.triangle])
             .collect();
-        let shown = texture.shown(scene, material, &places);
+        let shown = texture.shown(scene, material, &triangle_ids);
         let of_picture = texture.representative_colours(&shown, count);
         let plain = MaterialFactor { base: Colour::WHITE, multiplies: false };
         let (samples, areas) = vertex_colours::sample_vertex_colours(scene, triangles, &plain);
         let of_tints = textures::kmeans_colours(&samples, &areas, count);
         // Rows: colours of the picture, its mean colour, and no picture.
-        let whole = texture.mean(&shown);
-        let rows = of_picture.iter().chain([&whole]).map(|colour| Some(light(*colour))).chain([None]);
+        let mean_colour = texture.mean(&shown);
+        let rows = of_picture.iter().chain([&mean_colour]).map(|colour| Some(light(*colour))).chain([None]);
         let products: Vec<Colour> = rows
             .flat_map(|row| of_tints.iter().map(move |tint| factor.product([row, Some(light(*tint))])))
             .collect();
-        let known = self.of_colours(material, &products);
+        let paint_of_product = self.of_colours(material, &products);
         let varied = PaintId::from(self.list.len());
-        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), false)).collect();
-        let colour = Colour { a: factor.base.a, ..mean(&seen) };
+        let triangle_colours: Vec<(Colour, bool)> =
+            triangles.iter().map(|own| (factor.of(own), false)).collect();
+        let colour = Colour { a: factor.base.a, ..mean(&triangle_colours) };
         self.list.push(MaterialPaint { material: material.into(), colour });
         triangles.iter().for_each(|own| self.paint(scene, own, varied));
-        let paints = products.iter().filter_map(|colour| known.get(colour).copied()).collect();
-        let painted = texture.painted(shown, &of_picture, whole);
+        let paints = products.iter().filter_map(|colour| paint_of_product.get(colour).copied()).collect();
+        let painted = texture.painted(shown, &of_picture, mean_colour);
         let tints = VertexColourPalette::new(glam::Vec3::ONE, &of_tints);
         self.varied.push((varied, VaryingSurface::new(Some(painted), Some(tints), paints)));
         self.tinted = true;
@@ -173,9 +186,11 @@ impl Paints {
         texture: Texture,
         factor: &MaterialFactor,
     ) {
-        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
-        let seen = texture.mean_light(&texture.shown(scene, material, &places)).unwrap_or(Colour::WHITE);
-        let mean = factor.tint(seen);
+        let triangle_ids: Vec<[usize; 2]> =
+            triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let mean_shown =
+            texture.mean_light(&texture.shown(scene, material, &triangle_ids)).unwrap_or(Colour::WHITE);
+        let mean = factor.tint(mean_shown);
         // Probes of the same hue, so that the effect of tones on each channel can be derived.
         let greatest = mean.channels().into_iter().fold(0.0, f64::max).max(0.05);
         let bright = |level: f64| {
@@ -186,8 +201,8 @@ impl Paints {
             self.list.push(MaterialPaint { material: material.into(), colour });
             PaintId::from(self.list.len() - 1)
         });
-        for own in triangles {
-            self.paint(scene, own, paint);
+        for triangle_colour in triangles {
+            self.paint(scene, triangle_colour, paint);
         }
         let weighed = scene.materials.get(material).is_some_and(|own| own.alpha != Alpha::Opaque);
         let base = factor.multiplies.then_some(factor.base);

@@ -11,55 +11,56 @@ const MAX_REMEMBERED_KEYS: usize = 64;
 /// drawn once. The total size is bounded, and the oldest results are dropped first. Clones share the cache.
 #[derive(Debug)]
 pub(crate) struct ResultCache<K, V> {
-    asked: Arc<Mutex<Vec<CacheEntry<K, V>>>>,
+    entries: Arc<Mutex<Vec<CacheEntry<K, V>>>>,
     /// Size of a result, and maximum total size.
     size: fn(&V) -> usize,
-    most: usize,
+    max_total: usize,
 }
 
 /// A requested key, with its result from the second request on.
 #[derive(Debug)]
 struct CacheEntry<K, V> {
     key: K,
-    made: Option<Arc<V>>,
+    computed_value: Option<Arc<V>>,
 }
 
 impl<K, V> Clone for ResultCache<K, V> {
     fn clone(&self) -> Self {
-        Self { asked: Arc::clone(&self.asked), ..*self }
+        Self { entries: Arc::clone(&self.entries), ..*self }
     }
 }
 
 impl<K: Copy + PartialEq, V> ResultCache<K, V> {
-    /// Makes a cache of at most `most` units, as measured by `size`.
+    /// Makes a cache of at most `max_total` units, as measured by `size`.
     pub fn new(most: usize, size: fn(&V) -> usize) -> Self {
-        Self { asked: Arc::default(), size, most }
+        Self { entries: Arc::default(), size, max_total: most }
     }
 
     /// Returns the result of a key, from the cache or computed by `make`. `make` must be deterministic.
     pub fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
-        let lock = || self.asked.lock().unwrap_or_else(PoisonError::into_inner);
-        let asked = lock().iter().find(|asked| asked.key == key).map(|asked| asked.made.clone());
-        if let Some(Some(made)) = asked {
-            return made;
+        let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        let remembered =
+            lock().iter().find(|asked| asked.key == key).map(|asked| asked.computed_value.clone());
+        if let Some(Some(known_result)) = remembered {
+            return known_result;
         }
         // The lock is released here: `make` may run other tasks that request the same key.
-        let made = Arc::new(make());
+        let computed = Arc::new(make());
         let mut all = lock();
-        all.retain(|asked| asked.key != key);
-        all.push(CacheEntry { key, made: asked.map(|_| Arc::clone(&made)) });
+        all.retain(|entry| entry.key != key);
+        all.push(CacheEntry { key, computed_value: remembered.map(|_| Arc::clone(&computed)) });
         self.forget(&mut all);
-        made
+        computed
     }
 
     /// Drops the oldest results and keys until the limits are met.
     fn forget(&self, all: &mut Vec<CacheEntry<K, V>>) {
-        let mut left = self.most;
-        for asked in all.iter_mut().rev() {
-            let size = asked.made.as_ref().map_or(0, |made| (self.size)(made));
+        let mut left = self.max_total;
+        for cached in all.iter_mut().rev() {
+            let size = cached.computed_value.as_ref().map_or(0, |made| (self.size)(made));
             match left.checked_sub(size) {
                 Some(rest) => left = rest,
-                None => asked.made = None,
+                None => cached.computed_value = None,
             }
         }
         let more = all.len().saturating_sub(MAX_REMEMBERED_KEYS);
@@ -109,6 +110,6 @@ mod tests {
         // A result larger than the limit is never stored.
         assert_eq!(is_computed_per_request(&kept, &[11, 11, 11, 4]), [true, true, true, false]);
         (100..200).for_each(|size| assert_eq!(is_computed_per_request(&kept, &[size]), [true]));
-        assert!(kept.asked.lock().unwrap().len() <= MAX_REMEMBERED_KEYS);
+        assert!(kept.entries.lock().unwrap().len() <= MAX_REMEMBERED_KEYS);
     }
 }

@@ -163,27 +163,30 @@ pub(crate) fn brush_outline(
             let around = brush.repeats || axis.closed;
             let at = |side: usize| -> Vec<f64> {
                 let of = |(arc, width): (&f64, &f64)| {
-                    let place = (arc - axis.arcs[0]) / total * copies;
-                    width * sample(profile, place, side, around)
+                    let position = (arc - axis.arcs[0]) / total * copies;
+                    width * sample(profile, position, side, around)
                 };
                 axis.arcs.iter().zip(thick).map(of).collect()
             };
             let (left, right) = (at(0), at(1));
             let is_inked = |i: usize| !brush.repeats || left[i] + right[i] > 0.0;
             let at_least = |side: &[f64]| -> Vec<f64> {
-                let own = |(i, half): (usize, &f64)| if is_inked(i) { half.max(reach[i]) } else { *half };
-                side.iter().enumerate().map(own).collect()
+                let reaching_half =
+                    |(i, half): (usize, &f64)| if is_inked(i) { half.max(reach[i]) } else { *half };
+                side.iter().enumerate().map(reaching_half).collect()
             };
             let (left, right) = (at_least(&left), at_least(&right));
-            let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
+            let full_widths: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
             let path = outline(axis, [&left, &right], nib)?;
-            Some(BrushOutline { path, width: mean(axis, &both), image: None })
+            Some(BrushOutline { path, width: mean(axis, &full_widths), image: None })
         }
         (shape, turns) => {
             let map = BrushMap { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
-            let size = [total / copies, pen * thinner].map(|way| way / nib.px);
+            let size = [total / copies, pen * thinner].map(|side_length| side_length / nib.px);
             let straight = shape.path(size);
-            let turned = turns.as_ref().map(|turns| [&turns.left, &turns.right].map(|own| own.path(size)));
+            let turned = turns
+                .as_ref()
+                .map(|turns| [&turns.left, &turns.right].map(|turned_shape| turned_shape.path(size)));
             let mut path = BezPath::new();
             let mut image = match shape {
                 BrushShape::Image(strip, _) => Some((Arc::clone(strip), strip.pixels(size[1]), Vec::new())),
@@ -192,8 +195,8 @@ pub(crate) fn brush_outline(
             let solid = |outline: BezPath| ImagePiece { outline, shows: PieceContent::Colour(colour) };
             for number in 0..copies as usize {
                 let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, number));
-                let own = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
-                match (&mut image, own) {
+                let turned_path = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
+                match (&mut image, turned_path) {
                     (None, own) => map.add(own.unwrap_or(&straight), number, nib.px, &mut path),
                     (Some((.., pieces)), Some(own)) => {
                         let mut outline = BezPath::new();
@@ -214,19 +217,19 @@ pub(crate) fn brush_outline(
             use kurbo::Shape;
             let area = path.area();
             if reach.iter().any(|reach| *reach > 0.0) {
-                let least = if brush.repeats { 0.0 } else { 1.0 };
-                let half = |i: usize, way: Option<[f64; 2]>| match way {
+                let core_share = if brush.repeats { 0.0 } else { 1.0 };
+                let half = |i: usize, ink_offset: Option<[f64; 2]>| match ink_offset {
                     Some(way) => way.map(|way| reach[i].max(way * thick[i])),
-                    None => [reach[i] * least; 2],
+                    None => [reach[i] * core_share; 2],
                 };
-                let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
+                let brush_position = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
                 let columns = match shape {
                     BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ink_offsets),
                     BrushShape::Image(strip, _) => Cow::Borrowed(&strip.ink_offsets),
                     _ => Cow::Owned(brush_core::columns(&straight)),
                 };
                 let mut core = BezPath::new();
-                brush_core::add(&mut core, &columns, axis, half, place, nib);
+                brush_core::add(&mut core, &columns, axis, half, brush_position, nib);
                 path.extend(core.iter());
                 if let Some((.., pieces)) = image.as_mut().filter(|_| !core.elements().is_empty()) {
                     pieces.push(solid(core));
@@ -318,7 +321,7 @@ impl BrushMap<'_> {
 
     /// Adds a copy of the brush to a path.
     fn add(&self, shape: &BezPath, copy: usize, px: f64, path: &mut BezPath) {
-        let place = |p: Point| self.at(Point::new(p.x + copy as f64, p.y));
+        let mapped = |p: Point| self.at(Point::new(p.x + copy as f64, p.y));
         let long = self.total / self.copies;
         let mut run: Vec<Point> = Vec::new();
         let mut last: Option<Vec2> = None;
@@ -330,39 +333,39 @@ impl BrushMap<'_> {
             }
             run.clear();
         };
-        let mut here = Point::ZERO;
+        let mut current = Point::ZERO;
         for element in shape.elements() {
             let cubic = match *element {
                 PathEl::MoveTo(p) => {
                     flush(&mut run, path);
-                    (here, start, last) = (p, p, None);
-                    path.move_to(place(p));
+                    (current, start, last) = (p, p, None);
+                    path.move_to(mapped(p));
                     continue;
                 }
-                PathEl::LineTo(p) => line(here, p),
-                PathEl::QuadTo(q, p) => kurbo::QuadBez::new(here, q, p).raise(),
-                PathEl::CurveTo(q, r, p) => kurbo::CubicBez::new(here, q, r, p),
-                PathEl::ClosePath => line(here, start),
+                PathEl::LineTo(p) => line(current, p),
+                PathEl::QuadTo(q, p) => kurbo::QuadBez::new(current, q, p).raise(),
+                PathEl::CurveTo(q, r, p) => kurbo::CubicBez::new(current, q, r, p),
+                PathEl::ClosePath => line(current, start),
             };
-            let ways = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
-            let ways = ways.map(|way| if way.hypot2() > 0.0 { way } else { cubic.p3 - cubic.p0 });
-            if last.is_some_and(|last| unit(last).dot(unit(ways[0])) < CORNER_COSINE) {
+            let end_tangents = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
+            let tangents = end_tangents.map(|way| if way.hypot2() > 0.0 { way } else { cubic.p3 - cubic.p0 });
+            if last.is_some_and(|last| unit(last).dot(unit(tangents[0])) < CORNER_COSINE) {
                 flush(&mut run, path);
             }
             if run.is_empty() {
-                run.push(place(cubic.p0));
+                run.push(mapped(cubic.p0));
             }
             let extent = [cubic.p1 - cubic.p0, cubic.p2 - cubic.p1, cubic.p3 - cubic.p2];
             let size: f64 = extent.iter().map(|v| (v.x.abs() * long) + v.y.abs() * self.thick[0]).sum();
             let count = (size / (EDGE_STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
             for k in 1..=count {
-                let p = place(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
+                let p = mapped(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
                 if run.last().is_none_or(|q| length(p - *q) > tolerances::MIN_OUTLINE_STEP_PX * px) {
                     run.push(p);
                 }
             }
-            last = Some(ways[1]);
-            here = cubic.p3;
+            last = Some(tangents[1]);
+            current = cubic.p3;
             if matches!(element, PathEl::ClosePath) {
                 flush(&mut run, path);
                 path.close_path();

@@ -63,14 +63,14 @@ pub(crate) fn nearest_ink(meets: &[(f64, i32)]) -> Option<InkOffset> {
             continue;
         }
         let middle = f64::midpoint(begun, *y);
-        let way = match (begun > 0.0, *y < 0.0) {
+        let extents = match (begun > 0.0, *y < 0.0) {
             (true, _) => [0.0, middle],
             (_, true) => [-middle, 0.0],
             _ => [0.0, 0.0],
         };
-        let far = |way: InkOffset| way[0].max(way[1]);
-        if best.is_none_or(|best| far(way) < far(best)) {
-            best = Some(way);
+        let farthest = |ink_offset: InkOffset| ink_offset[0].max(ink_offset[1]);
+        if best.is_none_or(|best| farthest(extents) < farthest(best)) {
+            best = Some(extents);
         }
     }
     best

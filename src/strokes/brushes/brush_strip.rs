@@ -41,19 +41,19 @@ impl BrushStrip {
     /// The strip of a picture of a stroke, dark on light, running from left to right.
     #[must_use]
     pub fn of(picture: &Picture) -> Self {
-        let whole = DarknessMap::of(picture);
-        let times = (MAX_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
+        let full_map = DarknessMap::of(picture);
+        let times = (MAX_PIXELS as f64 / (full_map.width * full_map.height) as f64).sqrt().min(1.0);
         let smaller = |count: usize| (count as f64 * times).floor() as usize;
-        let shades = whole.at_most(smaller(whole.width), smaller(whole.height));
+        let shades = full_map.at_most(smaller(full_map.width), smaller(full_map.height));
         let wide = shades.at_most(BRUSH_COLUMNS, shades.height);
-        let way = |k: usize| {
+        let ink_of_column = |k: usize| {
             let column = k * wide.width / BRUSH_COLUMNS;
             let (top, bottom) = edges(&wide, column)?;
             let [top, bottom] = [top, bottom].map(|row| row / wide.height as f64 - 0.5);
             nearest_ink(&[(top, 1), (bottom, -1)])
         };
-        let ways = (0..BRUSH_COLUMNS).map(way).collect();
-        Self { shades, ink_offsets: ways }
+        let column_offsets = (0..BRUSH_COLUMNS).map(ink_of_column).collect();
+        Self { shades, ink_offsets: column_offsets }
     }
 
     /// Whether the stroke has almost no paper between its edges.

@@ -137,33 +137,37 @@ impl<'a> HaloGrid<'a> {
 
     /// Whether the halo of a nearer line covers a point of a line.
     fn covers(&self, line: usize, arc: f64) -> bool {
-        let own = self.lines[line].axis;
-        let (p, sample) = own.at(arc);
+        let own_axis = self.lines[line].axis;
+        let (p, sample) = own_axis.at(arc);
         let (x, y) = self.at(p);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
         around.filter_map(|cell| self.cells.get(&cell)).flatten().any(|stretch| {
-            let other = &self.lines[stretch.line as usize];
-            let reach = other.reach;
+            let haloed_line = &self.lines[stretch.line as usize];
+            let reach = haloed_line.reach;
             for i in stretch.from as usize..stretch.to as usize {
-                let (a, b) = (other.axis.points[i], other.axis.points[i + 1]);
-                let way = b - a;
-                let t =
-                    if way.hypot2() > 0.0 { ((p - a).dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+                let (a, b) = (haloed_line.axis.points[i], haloed_line.axis.points[i + 1]);
+                let segment = b - a;
+                let t = if segment.hypot2() > 0.0 {
+                    ((p - a).dot(segment) / segment.hypot2()).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
                 if (p - a.lerp(b, t)).hypot2() >= reach * reach {
                     continue;
                 }
-                let depth = other.axis.samples[i].lerp(other.axis.samples[i + 1], t).depth;
+                let depth = haloed_line.axis.samples[i].lerp(haloed_line.axis.samples[i + 1], t).depth;
                 if depth >= sample.depth - self.margin {
                     continue;
                 }
-                let there = other.axis.arcs[i] + (other.axis.arcs[i + 1] - other.axis.arcs[i]) * t;
+                let other_arc =
+                    haloed_line.axis.arcs[i] + (haloed_line.axis.arcs[i + 1] - haloed_line.axis.arcs[i]) * t;
                 let same = stretch.line as usize == line;
-                if same && near_along(own, arc, there, JOIN_ZONE_REACHES * reach) {
+                if same && near_along(own_axis, arc, other_arc, JOIN_ZONE_REACHES * reach) {
                     continue;
                 }
                 if !same
-                    && (self.meets(own, arc, other, there)
-                        || self.meets(other.axis, there, &HaloLine { axis: own, reach }, arc))
+                    && (self.meets(own_axis, arc, haloed_line, other_arc)
+                        || self.meets(haloed_line.axis, other_arc, &HaloLine { axis: own_axis, reach }, arc))
                 {
                     continue;
                 }
@@ -174,20 +178,20 @@ impl<'a> HaloGrid<'a> {
     }
 
     /// Whether a line, near one of its ends, is about to meet another one there.
-    fn meets(&self, axis: &StrokeAxis, arc: f64, other: &HaloLine, there: f64) -> bool {
+    fn meets(&self, axis: &StrokeAxis, arc: f64, nearer_line: &HaloLine, other_arc: f64) -> bool {
         if axis.closed {
             return false;
         }
-        let near = JOIN_ZONE_REACHES * other.reach;
+        let search_range = JOIN_ZONE_REACHES * nearer_line.reach;
         let ends = [(arc - axis.arcs[0], 0), (axis.length() - arc, axis.len() - 1)];
-        ends.into_iter().filter(|(way, _)| *way < near).any(|(_, end)| {
+        ends.into_iter().filter(|(end_distance, _)| *end_distance < search_range).any(|(_, end)| {
             let (p, depth) = (axis.points[end], axis.samples[end].depth);
             // Search the other line around its current position for a point that touches the end.
             let touch = MAX_TOUCH_PX * self.px;
-            let steps = (2.0 * near / self.px).ceil() as usize;
+            let steps = (2.0 * search_range / self.px).ceil() as usize;
             (0..=steps).any(|k| {
-                let at = there - near + 2.0 * near * k as f64 / steps as f64;
-                let (q, sample) = other.axis.at(at);
+                let at = other_arc - search_range + 2.0 * search_range * k as f64 / steps as f64;
+                let (q, sample) = nearer_line.axis.at(at);
                 (q - p).hypot2() <= touch * touch && (sample.depth - depth).abs() <= self.margin
             })
         })

@@ -61,12 +61,12 @@ pub(crate) fn split_by_ink(
 ///
 /// Pieces of a closed chain continue past its seam, and open chains are extended at their ends. A whole
 /// closed chain starts where its ink first changes.
-fn cyclic_spans(inks: &[InkSpan], round: Option<f64>, whole: bool) -> Vec<InkSpan> {
+fn cyclic_spans(inks: &[InkSpan], round: Option<f64>, is_whole: bool) -> Vec<InkSpan> {
     let mut all = inks.to_vec();
     match round {
         Some(round) => {
             all.extend(inks.iter().map(|s| InkSpan { from: s.from + round, to: s.to + round, ..*s }));
-            if whole {
+            if is_whole {
                 // Of two rounds, keep one round from the first change.
                 all = all.into_iter().skip(1).take(inks.len()).collect();
             }

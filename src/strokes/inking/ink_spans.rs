@@ -70,8 +70,8 @@ fn merge_short_spans(mut stretches: Vec<InkSpan>, least: f64) -> Vec<InkSpan> {
         };
         let before = short.checked_sub(1);
         let after = (short + 1 < stretches.len()).then_some(short + 1);
-        let beside = [before, after].into_iter().flatten().max_by(by_length);
-        stretches[short].tint = beside.map_or(stretches[short].tint, |k| stretches[k].tint);
+        let neighbour = [before, after].into_iter().flatten().max_by(by_length);
+        stretches[short].tint = neighbour.map_or(stretches[short].tint, |k| stretches[k].tint);
         stretches = stretches.into_iter().fold(Vec::new(), |mut kept: Vec<InkSpan>, next| {
             match kept.last_mut() {
                 Some(last) if last.tint == next.tint => last.to = next.to,

@@ -180,8 +180,8 @@ fn in_ink(axis: &StrokeAxis, halves: &[f64], point: &SidePoint) -> bool {
         (axis.points[j] - point.at).hypot2() < reach * reach
     };
     let away = |j: usize| {
-        let way = (axis.arcs[j] - own).abs();
-        if axis.closed { way.min(total - way) } else { way }
+        let arc_distance = (axis.arcs[j] - own).abs();
+        if axis.closed { arc_distance.min(total - arc_distance) } else { arc_distance }
     };
     for sign in [-1_isize, 1] {
         for k in 1..ring as isize {

@@ -144,7 +144,14 @@ fn handedness(axis: &StrokeAxis) -> f64 {
 /// Tapers the ends of an open axis over the length `over`. The width is multiplied by a factor that rises
 /// from `to` at the end to 1, as (2 - t) t for t from 0 to 1. Shorter lines are thinner throughout, so that
 /// they do not become dots.
-pub(crate) fn taper(axis: &StrokeAxis, widths: &mut [f64], ends: [bool; 2], over: f64, to: f64, least: f64) {
+pub(crate) fn taper(
+    axis: &StrokeAxis,
+    widths: &mut [f64],
+    ends: [bool; 2],
+    over: f64,
+    to: f64,
+    min_width: f64,
+) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
     let count = ends.iter().filter(|end| **end).count();
     let total = last - first;
@@ -152,17 +159,17 @@ pub(crate) fn taper(axis: &StrokeAxis, widths: &mut [f64], ends: [bool; 2], over
         return;
     }
     let eased = |t: f64| to + (1.0 - to) * t * (2.0 - t);
-    let whole = eased((total / over).min(1.0));
+    let overall_factor = eased((total / over).min(1.0));
     let over = over.min(total / count as f64);
-    widths.iter_mut().for_each(|width| *width *= whole);
-    let part = |way: f64| eased((way / over).clamp(0.0, 1.0));
+    widths.iter_mut().for_each(|width| *width *= overall_factor);
+    let part = |distance: f64| eased((distance / over).clamp(0.0, 1.0));
     for (width, arc) in widths.iter_mut().zip(&axis.arcs) {
-        for (end, way) in [(ends[0], arc - first), (ends[1], last - arc)] {
+        for (end, end_distance) in [(ends[0], arc - first), (ends[1], last - arc)] {
             if end {
-                *width *= part(way);
+                *width *= part(end_distance);
             }
         }
-        *width = width.max(least);
+        *width = width.max(min_width);
     }
 }
 

@@ -36,10 +36,10 @@ pub(crate) fn ending(typed: &str, only_settable: bool) -> Vec<String> {
     for key in StyleKey::all().iter().filter(|key| key.is_settable() || !only_settable) {
         let ends = key.path.match_indices('.').map(|(at, _)| at).chain([key.path.len()]);
         for path in ends.filter_map(|end| key.path.get(..end)) {
-            let bare = path.replace("[]", "");
-            let fits = bare == typed || bare.ends_with(&suffix);
+            let plain_path = path.replace("[]", "");
+            let fits = plain_path == typed || plain_path.ends_with(&suffix);
             let is_general = key.inherits.is_none() || path.len() <= key.prefix.len();
-            if fits && found.iter().all(|(.., other)| *other != path) {
+            if fits && found.iter().all(|(.., listed_path)| *listed_path != path) {
                 found.push((path.matches('.').count(), is_general, path));
             }
         }

@@ -58,13 +58,15 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
             (b - a).cross(c - a).try_normalize().unwrap_or_default()
         })
         .collect();
-    let two = |edge: usize| match mesh.edges.faces(edge) {
+    let joined_faces = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces: [a, b], same_way: false } if mesh.body(a) == mesh.body(b) => Some([a, b]),
         _ => None,
     };
     let turn = |[a, b]: [u32; 2]| normals[a as usize].dot(normals[b as usize]);
     let facets = DisjointSets::new(mesh.triangles.len(), |join| {
-        for faces in (0..mesh.edges.len()).filter_map(two).filter(|faces| turn(*faces) > MIN_FACET_COSINE) {
+        for faces in
+            (0..mesh.edges.len()).filter_map(joined_faces).filter(|faces| turn(*faces) > MIN_FACET_COSINE)
+        {
             join(faces[0], faces[1]);
         }
     });
@@ -74,16 +76,16 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let facet = |face: u32| facets.representative(face);
     for edge in 0..mesh.edges.len() {
         let Some(faces) =
-            two(edge).filter(|faces| (MIN_STRIP_COSINE..=MIN_FACET_COSINE).contains(&turn(*faces)))
+            joined_faces(edge).filter(|faces| (MIN_STRIP_COSINE..=MIN_FACET_COSINE).contains(&turn(*faces)))
         else {
             continue;
         };
         for face in faces {
-            let own = lines.entry(facet(face)).or_default();
-            if own.is_empty() {
+            let facet_edges = lines.entry(facet(face)).or_default();
+            if facet_edges.is_empty() {
                 order.push(facet(face));
             }
-            own.push(edge);
+            facet_edges.push(edge);
         }
     }
     let mut first_face: FxHashMap<u32, u32> = FxHashMap::default();
@@ -95,15 +97,15 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let mut part_of: Vec<PartId> = Vec::new();
     let mut at_edge: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
     let mut edges: Vec<usize> = Vec::new();
-    for own in order {
-        let (Some(lines), Some(face)) = (lines.get(&own), first_face.get(&own)) else { continue };
+    for facet_id in order {
+        let (Some(lines), Some(face)) = (lines.get(&facet_id), first_face.get(&facet_id)) else { continue };
         for (strip, along) in strips_of(mesh, lines, normals[*face as usize]) {
             for edge in &along {
-                let known = at_edge.entry(*edge).or_default();
-                if known.is_empty() {
+                let strip_ids = at_edge.entry(*edge).or_default();
+                if strip_ids.is_empty() {
                     edges.push(*edge);
                 }
-                known.push(strips.len());
+                strip_ids.push(strips.len());
             }
             strips.push(strip);
             edges_of.push(along);
@@ -127,79 +129,81 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(FlatStrip, Vec
         return Vec::new();
     }
     let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-    let way = |edge: usize| {
+    let direction = |edge: usize| {
         let [a, b] = ends(edge);
         (b - a).normalize_or_zero()
     };
     let mut done = vec![false; lines.len()];
     let mut strips = Vec::new();
     for k in 0..lines.len() {
-        let axis = way(lines[k]);
+        let axis = direction(lines[k]);
         if done[k] || axis == DVec3::ZERO {
             continue;
         }
         let mut along = Vec::new();
         for (n, edge) in lines.iter().enumerate() {
-            if way(*edge).cross(axis).length() < MAX_PARALLEL_SINE {
+            if direction(*edge).cross(axis).length() < MAX_PARALLEL_SINE {
                 done[n] = true;
                 along.push(*edge);
             }
         }
         let across = normal.cross(axis).normalize_or_zero();
-        let place = |edge: &usize| {
+        let offset_across = |edge: &usize| {
             let [a, b] = ends(*edge);
             (a + b).dot(across) / 2.0
         };
-        let low = along.iter().map(place).fold(f64::INFINITY, f64::min);
-        let high = along.iter().map(place).fold(f64::NEG_INFINITY, f64::max);
+        let low = along.iter().map(offset_across).fold(f64::INFINITY, f64::min);
+        let high = along.iter().map(offset_across).fold(f64::NEG_INFINITY, f64::max);
         let width = high - low;
-        let is_outer =
-            |edge: &usize| (place(edge) - low).min(high - place(edge)) < MAX_SIDE_OFFSET_OF_WIDTH * width;
+        let is_outer = |edge: &usize| {
+            (offset_across(edge) - low).min(high - offset_across(edge)) < MAX_SIDE_OFFSET_OF_WIDTH * width
+        };
         if width <= 0.0 || !along.iter().all(is_outer) {
             continue;
         }
         let reach = |side: f64| {
-            let is_on_side = |edge: &&usize| (place(edge) - side).abs() < MAX_SIDE_OFFSET_OF_WIDTH * width;
-            let own = along.iter().filter(is_on_side);
-            own.flat_map(|edge| ends(*edge)).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
+            let is_on_side =
+                |edge: &&usize| (offset_across(edge) - side).abs() < MAX_SIDE_OFFSET_OF_WIDTH * width;
+            let side_edges = along.iter().filter(is_on_side);
+            side_edges.flat_map(|edge| ends(*edge)).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
                 let at = p.dot(axis);
                 [l.min(at), h.max(at)]
             })
         };
         let ([a, b], [c, d]) = (reach(low), reach(high));
-        let (least, most) = (a.min(c), b.max(d));
-        let nearly = MAX_END_DIFFERENCE_OF_STRIP * (most - least).max(width);
+        let (start, end) = (a.min(c), b.max(d));
+        let nearly = MAX_END_DIFFERENCE_OF_STRIP * (end - start).max(width);
         let differs = (a - c).abs() > nearly && (b - d).abs() > nearly;
         let tapers = differs && (a < c) == (b > d);
         let some = ends(along[0])[0];
         let middle = some + across * ((low + high) / 2.0 - some.dot(across));
-        strips.push((FlatStrip { axis, normal, middle, width, ends: [least, most], tapers }, along));
+        strips.push((FlatStrip { axis, normal, middle, width, ends: [start, end], tapers }, along));
     }
     strips
 }
 
 /// The circles of each pair of strips at an edge.
-fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[FlatStrip]) -> Vec<StripPair> {
+fn pairs_at(mesh: &Mesh, edge: usize, strip_indices: &[usize], strips: &[FlatStrip]) -> Vec<StripPair> {
     let mut pairs = Vec::new();
     let on = mesh.positions[mesh.edges.vertices[edge][0] as usize];
-    for (k, a) in beside.iter().enumerate() {
-        for b in &beside[..k] {
-            let (one, other) = (&strips[*a], &strips[*b]);
-            let axis = one.axis;
-            if axis.cross(other.axis).length() > MAX_PARALLEL_SINE {
+    for (k, a) in strip_indices.iter().enumerate() {
+        for b in &strip_indices[..k] {
+            let (first, second) = (&strips[*a], &strips[*b]);
+            let axis = first.axis;
+            if axis.cross(second.axis).length() > MAX_PARALLEL_SINE {
                 continue;
             }
             // Intersection of the perpendicular bisectors, seen along the axis.
             let flat = |v: DVec3| v - axis * v.dot(axis);
-            let between = flat(other.middle - one.middle);
-            let cross = one.normal.cross(other.normal).dot(axis);
+            let between = flat(second.middle - first.middle);
+            let cross = first.normal.cross(second.normal).dot(axis);
             if cross.abs() < MIN_BISECTOR_SINE {
                 continue;
             }
-            let far = between.cross(other.normal).dot(axis) / cross;
-            let centre = one.middle + one.normal * far;
+            let far = between.cross(second.normal).dot(axis) / cross;
+            let centre = first.middle + first.normal * far;
             let radius = flat(on - centre).length();
-            let hollow = flat(on - centre).dot(one.normal) < 0.0;
+            let hollow = flat(on - centre).dot(first.normal) < 0.0;
             pairs.push(StripPair { strips: [*a, *b], centre, radius, is_hole: hollow });
         }
     }
@@ -215,19 +219,19 @@ fn grouped(
 ) -> Vec<Cylinder> {
     let agree = |a: &StripPair, b: &StripPair| {
         let axis = strips[a.strips[0]].axis;
-        let apart = a.centre - b.centre;
-        let apart = (apart - axis * apart.dot(axis)).length();
+        let offset = a.centre - b.centre;
+        let distance = (offset - axis * offset.dot(axis)).length();
         let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * a.radius.min(b.radius);
-        a.is_hole == b.is_hole && apart < reach && (a.radius - b.radius).abs() < reach
+        a.is_hole == b.is_hole && distance < reach && (a.radius - b.radius).abs() < reach
     };
     let mut at_strip: Vec<Vec<usize>> = vec![Vec::new(); strips.len()];
     for (k, pair) in pairs.iter().enumerate() {
         pair.strips.iter().for_each(|strip| at_strip[*strip].push(k));
     }
     let groups = DisjointSets::new(pairs.len(), |join| {
-        for own in &at_strip {
-            for (k, a) in own.iter().enumerate() {
-                for b in own[..k].iter().filter(|b| agree(&pairs[*a], &pairs[**b])) {
+        for strip_pairs in &at_strip {
+            for (k, a) in strip_pairs.iter().enumerate() {
+                for b in strip_pairs[..k].iter().filter(|b| agree(&pairs[*a], &pairs[**b])) {
                     join(*a as u32, *b as u32);
                 }
             }
@@ -238,8 +242,8 @@ fn grouped(
         members[groups.representative(k as u32) as usize].push(k);
     }
     let mut found: Vec<Cylinder> = Vec::new();
-    for own in members.into_iter().filter(|own| own.len() > 1) {
-        let mut of: Vec<usize> = own.iter().flat_map(|pair| pairs[*pair].strips).collect();
+    for group in members.into_iter().filter(|own| own.len() > 1) {
+        let mut of: Vec<usize> = group.iter().flat_map(|pair| pairs[*pair].strips).collect();
         of.sort_unstable();
         of.dedup();
         if of.iter().all(|strip| strips[*strip].tapers) {
@@ -247,9 +251,9 @@ fn grouped(
         }
         let axis = strips[of[0]].axis;
         let mean = |value: &dyn Fn(&StripPair) -> f64| {
-            own.iter().map(|k| value(&pairs[*k])).sum::<f64>() / own.len() as f64
+            group.iter().map(|k| value(&pairs[*k])).sum::<f64>() / group.len() as f64
         };
-        let centre = own.iter().map(|k| pairs[*k].centre).sum::<DVec3>() / own.len() as f64;
+        let centre = group.iter().map(|k| pairs[*k].centre).sum::<DVec3>() / group.len() as f64;
         let radius = mean(&|pair| pair.radius);
         let angle = |width: f64| {
             let half = (width / 2.0).min(radius);
@@ -266,7 +270,7 @@ fn grouped(
         let corners = corners_of(mesh, &of, edges_of);
         let (centre, radius, spread) = fitted(&corners, axis, centre, radius);
         let (part, point) = (part_of[of[0]], centre + mesh.origin);
-        let (arc, hollow) = (arc.min(TAU), pairs[own[0]].is_hole);
+        let (arc, hollow) = (arc.min(TAU), pairs[group[0]].is_hole);
         merge(mesh, &mut found, Cylinder { part, point, axis, radius, spread, ends, arc, is_hole: hollow });
     }
     found
@@ -295,7 +299,7 @@ fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3,
     let spread = |to: DVec2, radius: f64| {
         corners.iter().map(|p| (flat(p).distance(to) - radius).abs()).fold(0.0, f64::max)
     };
-    let known = || (centre, radius, spread(DVec2::ZERO, radius));
+    let unchanged = || (centre, radius, spread(DVec2::ZERO, radius));
     let count = corners.len() as f64;
     let mean = corners.iter().map(flat).sum::<DVec2>() / count;
     let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
@@ -306,14 +310,14 @@ fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3,
     let determinant = xx * yy - xy * xy;
     let to = mean + DVec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
     if !to.is_finite() || to.length() > MAX_CIRCLE_OFFSET_OF_RADIUS * radius {
-        return known();
+        return unchanged();
     }
     let fitted = corners.iter().map(|p| flat(p).distance(to)).sum::<f64>() / count;
     let off = spread(to, fitted);
     if (fitted - radius).abs() > MAX_CIRCLE_OFFSET_OF_RADIUS * radius
         || off > MAX_CIRCLE_OFFSET_OF_RADIUS * radius
     {
-        return known();
+        return unchanged();
     }
     (centre + across * to.x + along * to.y, fitted, off)
 }
@@ -321,23 +325,24 @@ fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3,
 /// Adds a cylinder, or extends the known cylinder that it continues.
 fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
     let body = |part: PartId| body_of(&mesh.bodies, part);
-    let is_same = |known: &&mut Cylinder| {
-        let apart = known.point - new.point;
+    let is_same = |existing: &&mut Cylinder| {
+        let offset = existing.point - new.point;
         let reach = MAX_CIRCLE_OFFSET_OF_RADIUS * new.radius;
-        body(known.part) == body(new.part)
-            && known.is_hole == new.is_hole
-            && known.axis.cross(new.axis).length() < MAX_PARALLEL_SINE
-            && (known.radius - new.radius).abs() < reach
-            && (apart - new.axis * apart.dot(new.axis)).length() < reach
+        body(existing.part) == body(new.part)
+            && existing.is_hole == new.is_hole
+            && existing.axis.cross(new.axis).length() < MAX_PARALLEL_SINE
+            && (existing.radius - new.radius).abs() < reach
+            && (offset - new.axis * offset.dot(new.axis)).length() < reach
     };
     match found.iter_mut().find(is_same) {
         None => found.push(new),
-        Some(known) => {
-            let shift = (new.point - known.point).dot(known.axis);
-            let [a, b] = if known.axis.dot(new.axis) < 0.0 { [-new.ends[1], -new.ends[0]] } else { new.ends };
-            known.ends = [known.ends[0].min(a + shift), known.ends[1].max(b + shift)];
-            known.arc = (known.arc + new.arc).min(TAU);
-            known.spread = known.spread.max(new.spread);
+        Some(matching) => {
+            let shift = (new.point - matching.point).dot(matching.axis);
+            let [a, b] =
+                if matching.axis.dot(new.axis) < 0.0 { [-new.ends[1], -new.ends[0]] } else { new.ends };
+            matching.ends = [matching.ends[0].min(a + shift), matching.ends[1].max(b + shift)];
+            matching.arc = (matching.arc + new.arc).min(TAU);
+            matching.spread = matching.spread.max(new.spread);
         }
     }
 }

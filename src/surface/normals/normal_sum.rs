@@ -15,8 +15,8 @@ pub(crate) struct NormalSum {
     of_max: DVec3,
     of_area: DVec3,
     /// Largest squared doubled area, and the inverse of the smallest.
-    most: f64,
-    least: f64,
+    max_squared: f64,
+    max_inverse: f64,
 }
 
 /// Maximum ratio of the areas around a vertex. Above it, the small faces form an edge strip.
@@ -56,13 +56,17 @@ impl NormalSum {
         self.of_max += face.cross * of_max;
         // The sine replaces the angle; they are close where faces are many.
         self.of_area += face.cross * (face.squared * of_max).sqrt();
-        self.most = self.most.max(face.squared);
-        self.least = self.least.max(face.inverse);
+        self.max_squared = self.max_squared.max(face.squared);
+        self.max_inverse = self.max_inverse.max(face.inverse);
     }
 
     /// The selected sum, not of unit length.
     #[inline]
     pub fn normal(&self) -> DVec3 {
-        if self.most * self.least > MAX_AREA_RATIO * MAX_AREA_RATIO { self.of_area } else { self.of_max }
+        if self.max_squared * self.max_inverse > MAX_AREA_RATIO * MAX_AREA_RATIO {
+            self.of_area
+        } else {
+            self.of_max
+        }
     }
 }

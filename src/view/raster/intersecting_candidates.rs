@@ -29,23 +29,23 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     let is_marked = |marks: &[AtomicBool], face: u32| marks[face as usize].load(Ordering::Relaxed);
     let mark = |marks: &[AtomicBool], face: u32| marks[face as usize].store(true, Ordering::Relaxed);
 
-    let strangers = unmarked();
+    let contact_marks = unmarked();
     (0..buffer.rows.div_ceil(ROWS_PER_TASK)).into_par_iter().with_max_len(1).for_each(|task| {
         for row in task * ROWS_PER_TASK..((task + 1) * ROWS_PER_TASK).min(buffer.rows) {
             for_each_pair(mesh, buffer, row, |a, b| {
-                mark(&strangers, a);
-                mark(&strangers, b);
+                mark(&contact_marks, a);
+                mark(&contact_marks, b);
             });
         }
     });
 
-    let near = unmarked();
+    let near_marks = unmarked();
     let edges = mesh.edges.len();
     (0..edges.div_ceil(EDGES_PER_TASK)).into_par_iter().with_max_len(1).for_each(|task| {
         for edge in task * EDGES_PER_TASK..((task + 1) * EDGES_PER_TASK).min(edges) {
             let spread = |faces: &[u32]| {
-                if faces.iter().any(|face| is_marked(&strangers, *face)) {
-                    faces.iter().for_each(|face| mark(&near, *face));
+                if faces.iter().any(|face| is_marked(&contact_marks, *face)) {
+                    faces.iter().for_each(|face| mark(&near_marks, *face));
                 }
             };
             match mesh.edges.faces(edge) {
@@ -55,7 +55,7 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
             }
         }
     });
-    let mut active: Vec<bool> = near.into_iter().map(AtomicBool::into_inner).collect();
+    let mut active: Vec<bool> = near_marks.into_iter().map(AtomicBool::into_inner).collect();
     for _ in 0..MAX_RINGS {
         if active.iter().filter(|a| **a).count() > MAX_WIDENED_FACES {
             break;
@@ -82,20 +82,20 @@ fn add_ring(mesh: &Mesh, active: &mut [bool]) {
 fn for_each_pair(mesh: &Mesh, buffer: &FaceBuffer, row: usize, visit: impl Fn(u32, u32)) {
     for column in 0..buffer.columns {
         let pixel = row * buffer.columns + column;
-        let Some(own) = buffer.front(pixel) else { continue };
-        let look = |pixel: usize| {
-            if let Some(other) = buffer.front(pixel)
-                && other != own
-                && !are_neighbours(mesh, own, other)
+        let Some(front_face) = buffer.front(pixel) else { continue };
+        let compare_with = |pixel: usize| {
+            if let Some(other_face) = buffer.front(pixel)
+                && other_face != front_face
+                && !are_neighbours(mesh, front_face, other_face)
             {
-                visit(own, other);
+                visit(front_face, other_face);
             }
         };
         if column + 1 < buffer.columns {
-            look(pixel + 1);
+            compare_with(pixel + 1);
         }
         if row + 1 < buffer.rows {
-            look(pixel + buffer.columns);
+            compare_with(pixel + buffer.columns);
         }
     }
 }

@@ -169,8 +169,9 @@ impl FaceNormals {
     fn new(mesh: &Mesh, view: &View, face: u32, normals: [DVec3; 3]) -> Self {
         let side = if view.facing[face as usize] { 1.0 } else { -1.0 };
         let frame = &view.frame;
-        let seen = |n: DVec3| DVec3::new(n.dot(frame.right), n.dot(frame.up), -n.dot(frame.forward)) * side;
-        let normals = normals.map(seen);
+        let to_camera =
+            |n: DVec3| DVec3::new(n.dot(frame.right), n.dot(frame.up), -n.dot(frame.forward)) * side;
+        let normals = normals.map(to_camera);
         let corners = mesh.triangles[FaceId(face).index()].map(|v| view.points[v as usize]);
         // A face that the near plane cuts gets the mean of its corners.
         let even = Self { weights: [[1.0, 0.0, 0.0]; 3], normals };
@@ -179,8 +180,8 @@ impl FaceNormals {
         if area == 0.0 || !area.is_finite() || corners.iter().any(|corner| corner.z.is_nan()) {
             return even;
         }
-        let weight = |p: DVec3, q: DVec3, own: DVec3| {
-            let nearness = if frame.perspective { own.z } else { 1.0 };
+        let weight = |p: DVec3, q: DVec3, opposite: DVec3| {
+            let nearness = if frame.perspective { opposite.z } else { 1.0 };
             let k = nearness / area;
             [k * (p.x * q.y - q.x * p.y), k * (p.y - q.y), k * (q.x - p.x)]
         };

@@ -28,28 +28,31 @@ pub fn back_to_front(screen: &PixelGrid, buffer: &FaceBuffer) -> Vec<u32> {
         .into_par_iter()
         .with_max_len(1)
         .map(|task| {
-            let (mut near, mut over) = (Vec::new(), Vec::new());
+            let (mut nearness_bits, mut overlaps) = (Vec::new(), Vec::new());
             for id in task * TRIANGLES_PER_TASK..((task + 1) * TRIANGLES_PER_TASK).min(count) {
                 let (corners, face) = screen.triangle(id);
-                let Some(own) = slot(face) else { continue };
-                near.push((own, ((corners[0][2] + corners[1][2] + corners[2][2]) / 3.0).max(0.0).to_bits()));
+                let Some(slot_index) = slot(face) else { continue };
+                nearness_bits.push((
+                    slot_index,
+                    ((corners[0][2] + corners[1][2] + corners[2][2]) / 3.0).max(0.0).to_bits(),
+                ));
                 screen.cover(&corners, |pixel, _| {
                     if let Some(front) = buffer.front(pixel).filter(|front| *front != face)
                         && let Some(front) = slot(front)
                     {
-                        over.push([own as u32, front as u32]);
+                        overlaps.push([slot_index as u32, front as u32]);
                     }
                 });
-                over.dedup();
+                overlaps.dedup();
             }
-            (near, over)
+            (nearness_bits, overlaps)
         })
         .collect();
     let mut nearness = vec![0; shown.len()];
     let mut over: Vec<[u32; 2]> = Vec::new();
     for (near, pairs) in tasks {
-        for (own, bits) in near {
-            nearness[own] = bits.max(nearness[own]);
+        for (index, bits) in near {
+            nearness[index] = bits.max(nearness[index]);
         }
         over.extend(pairs);
     }

@@ -157,11 +157,11 @@ impl<'a> PixelGrid<'a> {
     /// the rows. `None` if there are none.
     #[inline]
     fn pixel_box(&self, [a, b, c]: &[PixelPoint; 3]) -> Option<[i32; 4]> {
-        let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
+        let clamped = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
         let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - tolerances::COVER_MARGIN_PIXELS);
         let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + tolerances::COVER_MARGIN_PIXELS);
-        let (left, right) = (place(low(0), self.columns), place(high(0), self.columns));
-        let (top, bottom) = (place(low(1), self.rows), place(high(1), self.rows));
+        let (left, right) = (clamped(low(0), self.columns), clamped(high(0), self.columns));
+        let (top, bottom) = (clamped(low(1), self.rows), clamped(high(1), self.rows));
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
     }
 
@@ -218,13 +218,13 @@ impl<'a> PixelGrid<'a> {
                 let (at_c, by_c) = quad.side(a, b);
                 let first = row as usize * self.columns + column as usize;
                 let (right_too, below_too) = (column + 1 < right, row + 1 < bottom);
-                let places = [
+                let quad_pixels = [
                     (true, first),
                     (right_too, first + 1),
                     (below_too, first + self.columns),
                     (right_too & below_too, first + self.columns + 1),
                 ];
-                for (i, (in_box, pixel)) in places.into_iter().enumerate() {
+                for (i, (in_box, pixel)) in quad_pixels.into_iter().enumerate() {
                     if in_box & by_a[i] & by_b[i] & by_c[i] {
                         let q = (at_a[i] * a[2] + at_b[i] * b[2] + at_c[i] * c[2]) / area.abs();
                         visit(pixel, within_corners(q, a, b, c));
@@ -269,12 +269,12 @@ impl PixelQuad {
     #[inline]
     fn side(&self, p: PixelPoint, q: PixelPoint) -> ([f32; 4], [bool; 4]) {
         let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-        let least = -tolerances::COVER_MARGIN_PIXELS * (dx.abs() + dy.abs());
+        let threshold = -tolerances::COVER_MARGIN_PIXELS * (dx.abs() + dy.abs());
         let mut areas = [0.0; 4];
         let mut inside = [false; 4];
         for i in 0..4 {
             areas[i] = dx * (self.y[i] - p[1]) - dy * (self.x[i] - p[0]);
-            inside[i] = areas[i] >= least;
+            inside[i] = areas[i] >= threshold;
         }
         (areas, inside)
     }
@@ -324,6 +324,6 @@ fn span(sides: &[PixelSide; 3], y: f64, left: f64, right: f64) -> Range<usize> {
     }
     // Integer conversions are much faster than rounding functions.
     let from = from.min(right);
-    let whole = from as usize;
-    whole + usize::from(from > whole as f64)..to.max(0.0) as usize
+    let truncated = from as usize;
+    truncated + usize::from(from > truncated as f64)..to.max(0.0) as usize
 }

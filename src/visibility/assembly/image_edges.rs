@@ -24,17 +24,17 @@ const MIN_REMAINDER_PX: f64 = 6.0;
 
 /// Adds image lines to a view map, and their segments to its feature lines.
 ///
-/// With `beside`, only those parts are added that have no visible line of the map next to them.
+/// With `drop_duplicates`, only those parts are added that have no visible line of the map next to them.
 pub fn join(
     map: &mut ViewMap,
     lines: &mut FeatureLines,
     image: &ImageLines,
     mesh: &Mesh,
     view: &View,
-    beside: bool,
+    drop_duplicates: bool,
 ) {
-    let rest = beside.then(|| rest(map, image, view));
-    let image = rest.as_ref().unwrap_or(image);
+    let remainder = drop_duplicates.then(|| rest(map, image, view));
+    let image = remainder.as_ref().unwrap_or(image);
     let first_point = mesh.positions.len() + lines.points.len();
     let first_vertex = map.vertices.len() as u32;
     for ImagePoint { position, depth } in &image.points {
@@ -82,7 +82,7 @@ pub fn join(
 fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
     let px = view.frame.px();
     let drawn = VisibleLines::new(map, view);
-    let mut rest = ImageLines { lines: image.lines, ..ImageLines::default() };
+    let mut remainder = ImageLines { lines: image.lines, ..ImageLines::default() };
     // Each continuous line is sampled in steps. Runs of steps without a line next to them are kept.
     for line in image.pieces.chunk_by(|a, b| a.line == b.line && a.ends[1] == b.ends[0]) {
         let mut steps: Vec<(ImagePoint, ImagePoint, ImageLinePiece)> = Vec::new();
@@ -108,27 +108,27 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
             .collect();
         let mut at = 0;
         for run in is_new.chunk_by(|a, b| a == b) {
-            let of_run = &steps[at..at + run.len()];
+            let run_steps = &steps[at..at + run.len()];
             at += run.len();
-            let length: f64 = of_run.iter().map(|(a, b, _)| a.position.distance(b.position)).sum();
+            let length: f64 = run_steps.iter().map(|(a, b, _)| a.position.distance(b.position)).sum();
             if run[0] && length >= MIN_REMAINDER_PX * px {
-                rest.points.push(of_run[0].0);
-                for (_, to, piece) in of_run {
-                    let last = (rest.points.len() - 1) as u32;
-                    rest.points.push(*to);
-                    rest.pieces.push(ImageLinePiece { ends: [last, last + 1], ..*piece });
+                remainder.points.push(run_steps[0].0);
+                for (_, to, piece) in run_steps {
+                    let last = (remainder.points.len() - 1) as u32;
+                    remainder.points.push(*to);
+                    remainder.pieces.push(ImageLinePiece { ends: [last, last + 1], ..*piece });
                 }
             }
         }
     }
-    rest
+    remainder
 }
 
 /// Visible lines of a map, in a grid for lookup by position.
 struct VisibleLines {
     lines: Vec<[Point; 2]>,
     /// Lines that pass through or near each tile of the grid.
-    near: Option<(TileGrid, CsrLists<u32>)>,
+    tile_index: Option<(TileGrid, CsrLists<u32>)>,
 }
 
 impl VisibleLines {
@@ -141,13 +141,13 @@ impl VisibleLines {
             .map(|edge| [at(edge.start), at(edge.end)])
             .collect();
         if lines.is_empty() {
-            return Self { lines, near: None };
+            return Self { lines, tile_index: None };
         }
         let (width, height) = (view.frame.width, view.frame.height);
         let across = (width.max(height) / (4.0 * MAX_DUPLICATE_GAP_PX * view.frame.px())) as u32;
         let grid = TileGrid::new(DVec2::ZERO, DVec2::new(width, height), across.clamp(16, 1024));
         let reach = MAX_DUPLICATE_GAP_PX * view.frame.px();
-        let near = csr_lists(grid.len(), |put| {
+        let lines_by_tile = csr_lists(grid.len(), |put| {
             for (id, [a, b]) in lines.iter().enumerate() {
                 for (dx, dy) in [(0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
                     let moved = |p: &Point| DVec3::new(p.x + dx * reach, p.y + dy * reach, 0.0);
@@ -155,17 +155,21 @@ impl VisibleLines {
                 }
             }
         });
-        Self { lines, near: Some((grid, near)) }
+        Self { lines, tile_index: Some((grid, lines_by_tile)) }
     }
 
     /// Squared distance to the nearest line; ∞ if none is within reach.
     fn distance2(&self, p: DVec2) -> f64 {
-        let Some((grid, near)) = &self.near else { return f64::INFINITY };
+        let Some((grid, lines_by_tile)) = &self.tile_index else { return f64::INFINITY };
         let at = Point::new(p.x, p.y);
         let of = |id: &u32| {
             let [a, b] = self.lines[*id as usize];
             segment_distance_squared(at, a, b)
         };
-        near.of(grid.tile(grid.column(p.x), grid.row(p.y))).iter().map(of).fold(f64::INFINITY, f64::min)
+        lines_by_tile
+            .of(grid.tile(grid.column(p.x), grid.row(p.y)))
+            .iter()
+            .map(of)
+            .fold(f64::INFINITY, f64::min)
     }
 }

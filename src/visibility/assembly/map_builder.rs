@@ -48,9 +48,9 @@ pub fn build_with(
     options: &LineOptions,
     covers: Option<&ViewOcclusionBuffer>,
 ) -> ViewMap {
-    let asked = ProjectedLines::new(mesh, view, lines, options);
-    let told = asked.decide(mesh, covers);
-    asked.map(&told, None)
+    let projected = ProjectedLines::new(mesh, view, lines, options);
+    let line_visibility = projected.decide(mesh, covers);
+    projected.map(&line_visibility, None)
 }
 
 /// Builds two view maps of a mesh with see-through faces: all visible lines, and the parts visible only
@@ -66,9 +66,9 @@ pub fn build_through(
     options: &LineOptions,
 ) -> [ViewMap; 2] {
     let options = LineOptions { hidden: HiddenLines::None, ..options.clone() };
-    let asked = ProjectedLines::new(mesh, view, lines, &options);
-    let (front, behind) = (asked.decide(mesh, None), asked.decide(clear, None));
-    [asked.map(&behind, None), asked.map(&behind, Some(&front))]
+    let projected = ProjectedLines::new(mesh, view, lines, &options);
+    let (front, behind) = (projected.decide(mesh, None), projected.decide(clear, None));
+    [projected.map(&behind, None), projected.map(&behind, Some(&front))]
 }
 
 /// Builds the view map of plain lines whose hidden intervals are given.
@@ -119,36 +119,51 @@ impl<'a> ProjectedLines<'a> {
         let Self { view, lines, limits, segments, .. } = self;
         let counting = self.hidden == HiddenPieces::All;
         let is_round = segments.iter().any(|s| s.role != Role::Line);
-        let (seen, smooth) = crate::parallel::join(
+        let (visibility, smooth) = crate::parallel::join(
             || decide_with(mesh, view, segments, limits, counting, covers),
             || is_round.then(|| SmoothContours::new(lines, segments, limits)),
         );
         let rounded = smooth.map_or_else(ContourVisibility::default, |smooth| {
-            contour_visibility::decide_contours(self.mesh, view, smooth, segments, &seen, limits, counting)
+            contour_visibility::decide_contours(
+                self.mesh,
+                view,
+                smooth,
+                segments,
+                &visibility,
+                limits,
+                counting,
+            )
         });
-        LineVisibility { segment_visibility: seen, rounded }
+        LineVisibility { segment_visibility: visibility, rounded }
     }
 
     /// Builds the map of the visible pieces. With `but`, only of pieces that are not visible with that other
     /// mesh.
-    fn map(&self, told: &LineVisibility, but: Option<&LineVisibility>) -> ViewMap {
+    fn map(&self, line_visibility: &LineVisibility, but: Option<&LineVisibility>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
-        let (mut map, needles) = crate::parallel::join(
-            || self.map_with_doubles(told, but),
+        let (mut map, fold_segments) = crate::parallel::join(
+            || self.map_with_doubles(line_visibility, but),
             || thin_folds::find_thin_folds(mesh, view, lines, &self.segments),
         );
-        map.tests = told.segment_visibility.tests;
-        map.contours = told.rounded.counts;
-        map.visible_contours = told.rounded.visible_mesh_contours.clone();
-        map.thin_folds = needles;
+        map.tests = line_visibility.segment_visibility.tests;
+        map.contours = line_visibility.rounded.counts;
+        map.visible_contours = line_visibility.rounded.visible_mesh_contours.clone();
+        map.thin_folds = fold_segments;
         coincident_lines::remove_coincident(&mut map, limits.double, &view.frame, &mesh.extents);
         map
     }
 
-    fn map_with_doubles(&self, told: &LineVisibility, but: Option<&LineVisibility>) -> ViewMap {
+    fn map_with_doubles(
+        &self,
+        line_visibility: &LineVisibility,
+        front_visibility: Option<&LineVisibility>,
+    ) -> ViewMap {
         let ids: Vec<usize> = (0..self.segments.len()).step_by(SEGMENTS_PER_TASK).collect();
-        let cuts: Vec<CutSegments> =
-            ids.into_par_iter().with_max_len(1).map(|first| self.cuts(first, told, but)).collect();
+        let cuts: Vec<CutSegments> = ids
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|first| self.cuts(first, line_visibility, front_visibility))
+            .collect();
         let mut builder = MapBuilder::new(self.mesh, self.view, self.lines);
         // Reserved up front to avoid repeated copying. Most kept segments have a single piece.
         let drawn = cuts.iter().map(|cuts| cuts.segments.len()).sum::<usize>();
@@ -159,31 +174,37 @@ impl<'a> ProjectedLines<'a> {
     }
 
     /// Cuts one task's share of the segments, from `first` on, and keeps those with anything to draw.
-    fn cuts(&self, first: usize, told: &LineVisibility, but: Option<&LineVisibility>) -> CutSegments {
+    fn cuts(
+        &self,
+        first: usize,
+        line_visibility: &LineVisibility,
+        front_visibility: Option<&LineVisibility>,
+    ) -> CutSegments {
         let mut cuts = CutSegments::default();
         let end = (first + SEGMENTS_PER_TASK).min(self.segments.len());
         for (i, segment) in (first..end).zip(&self.segments[first..end]) {
-            let seen = told.occlusion_of(i, segment.role);
-            let mut drawn = told.draws(i, segment.role);
-            let left;
-            let seen = match but {
-                None => seen,
-                Some(but) => {
-                    let front = but.occlusion_of(i, segment.role);
-                    let front = if but.draws(i, segment.role) {
+            let full_occlusion = line_visibility.occlusion_of(i, segment.role);
+            let mut drawn = line_visibility.draws(i, segment.role);
+            let remaining;
+            let occlusion = match front_visibility {
+                None => full_occlusion,
+                Some(front_lines) => {
+                    let front = front_lines.occlusion_of(i, segment.role);
+                    let front = if front_lines.draws(i, segment.role) {
                         front.hidden
                     } else {
                         &segment_visibility::FULLY_HIDDEN
                     };
                     drawn &= !front.is_empty();
-                    left = interval_sweep::only_behind(front, seen.hidden);
-                    SegmentOcclusion { hidden: &left, non_silhouette: seen.non_silhouette }
+                    remaining = interval_sweep::only_behind(front, full_occlusion.hidden);
+                    SegmentOcclusion { hidden: &remaining, non_silhouette: full_occlusion.non_silhouette }
                 }
             };
             if drawn {
                 let source = &self.lines.segments[segment.source as usize];
-                let keeps_hidden = but.is_none() && keeps_hidden(self.hidden, segment, source.kind);
-                cuts.add(i, segment, seen, self.limits.piece, keeps_hidden);
+                let keeps_hidden =
+                    front_visibility.is_none() && keeps_hidden(self.hidden, segment, source.kind);
+                cuts.add(i, segment, occlusion, self.limits.piece, keeps_hidden);
             }
         }
         cuts
@@ -236,9 +257,9 @@ impl<'a> MapBuilder<'a> {
     fn add_all(&mut self, segments: &[ImageSegment], cuts: &CutSegments) {
         let mut pieces = cuts.pieces.as_slice();
         for cut in &cuts.segments {
-            let own;
-            (own, pieces) = pieces.split_at(cut.count);
-            self.add(&segments[cut.segment], own, cut.keeps_hidden);
+            let cut_pieces;
+            (cut_pieces, pieces) = pieces.split_at(cut.count);
+            self.add(&segments[cut.segment], cut_pieces, cut.keeps_hidden);
         }
     }
 

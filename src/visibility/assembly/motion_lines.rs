@@ -35,24 +35,26 @@ pub fn build_motion_lines(
 ) -> ViewMap {
     let limits = ViewTolerances::new(&view.frame);
     let segments = project(mesh, view, lines);
-    let seen = decide(mesh, view, &segments, &limits, false);
-    let mut hidden: Vec<Vec<Interval>> =
-        (0..segments.len()).map(|i| seen.hidden(i).iter().map(|layer| layer.interval).collect()).collect();
-    for BodyLines { segments: own, body } in bodies {
+    let visibility = decide(mesh, view, &segments, &limits, false);
+    let mut hidden: Vec<Vec<Interval>> = (0..segments.len())
+        .map(|i| visibility.hidden(i).iter().map(|layer| layer.interval).collect())
+        .collect();
+    for BodyLines { segments: body_segments, body } in bodies {
         let of_body = View::new(body, camera);
         // A line behind all of a body is hidden everywhere the body covers it in the image.
         let nearness = of_body.points.iter().map(|point| point.z).filter(|nearness| !nearness.is_nan());
-        let least = nearness.fold(f64::INFINITY, f64::min);
+        let min_nearness = nearness.fold(f64::INFINITY, f64::min);
         let frame = &view.frame;
-        let far = if frame.perspective { least / 2.0 } else { least - frame.side_at(frame.focus) };
+        let pushed_nearness =
+            if frame.perspective { min_nearness / 2.0 } else { min_nearness - frame.side_at(frame.focus) };
         let behind = |segment: &ImageSegment| {
             let [mut a, mut b] = [segment.a, segment.b];
-            (a.z, b.z) = (far, far);
+            (a.z, b.z) = (pushed_nearness, pushed_nearness);
             // Its ends are not vertices of the body.
             ImageSegment { a, b, ends: [u32::MAX; 2], ..*segment }
         };
         let numbers: Vec<usize> =
-            (0..segments.len()).filter(|i| own.contains(&segments[*i].source)).collect();
+            (0..segments.len()).filter(|i| body_segments.contains(&segments[*i].source)).collect();
         let pushed: Vec<ImageSegment> = numbers.iter().map(|i| behind(&segments[*i])).collect();
         let covered = decide(body, &of_body, &pushed, &limits, false);
         for (k, i) in numbers.into_iter().enumerate() {

@@ -24,9 +24,9 @@ impl ContourChain {
     }
 
     /// Whether the image of the run turns back within `within` of a place.
-    pub fn turns_near(&self, place: f64, within: f64) -> bool {
-        let first = self.starts.partition_point(|start| *start < place - within).max(1);
-        let cusps = (first..self.segments.len()).take_while(|k| self.starts[*k] <= place + within);
+    pub fn turns_near(&self, arc_length: f64, within: f64) -> bool {
+        let first = self.starts.partition_point(|start| *start < arc_length - within).max(1);
+        let cusps = (first..self.segments.len()).take_while(|k| self.starts[*k] <= arc_length + within);
         cusps.into_iter().any(|k| self.backward[k - 1] != self.backward[k])
     }
 
@@ -73,8 +73,8 @@ fn of_curve(
         }
         joined = !cut[1];
     }
-    let whole = found.len() == 1 && found[0].len() == curve.segments.len();
-    let closed = whole && curve.closed && joined && !segments[found[0][0].0 as usize].cut[0];
+    let is_complete = found.len() == 1 && found[0].len() == curve.segments.len();
+    let closed = is_complete && curve.closed && joined && !segments[found[0][0].0 as usize].cut[0];
     found
         .into_iter()
         .map(|pieces| {
@@ -118,8 +118,8 @@ fn backward_pieces(pieces: &[(u32, f32)], starts: &[f64], closed: bool, cusp: f6
         if stretches.len() < 2 {
             return backward;
         }
-        let least = stretches.iter().min_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
-        match least {
+        let weakest = stretches.iter().min_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
+        match weakest {
             Some(&(first, count, sum)) if sum < cusp => {
                 for k in first..first + count {
                     backward[k % n] = !backward[k % n];

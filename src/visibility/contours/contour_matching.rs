@@ -128,32 +128,32 @@ pub(crate) struct ContourPosition {
 
 impl ContourMatcher<'_> {
     /// Matches all mesh contours. Hidden spans are included only with `hidden`.
-    pub fn match_contours(&self, seen: &SegmentVisibility, hidden: bool) -> MatchResult {
+    pub fn match_contours(&self, visibility: &SegmentVisibility, hidden: bool) -> MatchResult {
         let count = self.segments.len();
-        let heard: Vec<MatchResult> = (0..count.div_ceil(CONTOURS_PER_TASK))
+        let results: Vec<MatchResult> = (0..count.div_ceil(CONTOURS_PER_TASK))
             .into_par_iter()
             .with_max_len(1)
             .map(|chunk| {
-                let mut testimony = MatchResult::default();
+                let mut task_result = MatchResult::default();
                 for id in chunk * CONTOURS_PER_TASK..((chunk + 1) * CONTOURS_PER_TASK).min(count) {
-                    self.match_contour(id as u32, seen, hidden, &mut testimony);
+                    self.match_contour(id as u32, visibility, hidden, &mut task_result);
                 }
-                testimony
+                task_result
             })
             .collect();
         let mut all = MatchResult::default();
-        for one in heard {
-            all.matched.extend(one.matched);
-            all.visible_contours.extend(one.visible_contours);
-            all.unmatched.extend(one.unmatched);
+        for result in results {
+            all.matched.extend(result.matched);
+            all.visible_contours.extend(result.visible_contours);
+            all.unmatched.extend(result.unmatched);
         }
         all
     }
 
-    fn match_contour(&self, id: u32, seen: &SegmentVisibility, hidden: bool, out: &mut MatchResult) {
+    fn match_contour(&self, id: u32, visibility: &SegmentVisibility, hidden: bool, out: &mut MatchResult) {
         let segment = &self.segments[id as usize];
         let Role::MeshContour { convex, .. } = segment.role else { return };
-        let layers = seen.hidden(id as usize);
+        let layers = visibility.hidden(id as usize);
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
         let end = HiddenInterval {
@@ -168,7 +168,7 @@ impl ContourMatcher<'_> {
         for layer in layers.iter().chain([&end]) {
             let Interval { start, end, start_kind, end_kind } = layer.interval;
             if start > at {
-                let whole = CurveSpan {
+                let visible_span = CurveSpan {
                     run: 0,
                     from: at,
                     to: start,
@@ -178,7 +178,7 @@ impl ContourMatcher<'_> {
                 };
                 let ends = [at, start].map(|t| segment.at(t).truncate());
                 out.visible_contours.push(VisibleContour { ends, segment: segment.source });
-                for piece in backed_pieces(&whole, seen.backed(id as usize)) {
+                for piece in backed_pieces(&visible_span, visibility.backed(id as usize)) {
                     self.match_part(id, convex, &piece, out);
                 }
             }
@@ -199,40 +199,41 @@ impl ContourMatcher<'_> {
         let steps = ((piece.to - piece.from) * segment.length() / (SAMPLE_STEP_PX * self.px)).ceil().max(1.0);
         let t =
             |k: f64| if k >= steps { piece.to } else { piece.from + (piece.to - piece.from) * (k / steps) };
-        let mut last = self.nearest(segment, convex, segment.at(piece.from));
+        let mut previous = self.nearest(segment, convex, segment.at(piece.from));
         for k in 0..steps as u32 {
             let (from, to) = (t(f64::from(k)), t(f64::from(k + 1)));
-            let here = self.nearest(segment, convex, segment.at(to));
-            match (last, here) {
+            let position = self.nearest(segment, convex, segment.at(to));
+            match (previous, position) {
                 (Some(p), Some(q)) => {
                     let kinds = [
                         if k == 0 { piece.kinds[0] } else { ViewVertexKind::Vertex },
                         if f64::from(k + 1) >= steps { piece.kinds[1] } else { ViewVertexKind::Vertex },
                     ];
-                    let way = MAX_STRETCH * (to - from) * segment.length() + MAX_MATCH_DISTANCE_PX * self.px;
-                    self.add_curve_span(p, q, way, kinds, piece, out);
+                    let max_advance =
+                        MAX_STRETCH * (to - from) * segment.length() + MAX_MATCH_DISTANCE_PX * self.px;
+                    self.add_curve_span(p, q, max_advance, kinds, piece, out);
                 }
                 _ if piece.count == 0 => {
                     out.unmatched.push(UnmatchedSpan { segment: id, from, to, silhouette: piece.silhouette });
                 }
                 _ => {}
             }
-            last = here;
+            previous = position;
         }
     }
 
-    /// Adds the span between two places of a run, if it is no longer than `most`.
+    /// Adds the span between two places of a run, if it is no longer than `max_length`.
     fn add_curve_span(
         &self,
         p: ContourPosition,
         q: ContourPosition,
-        most: f64,
+        max_length: f64,
         kinds: [ViewVertexKind; 2],
         piece: &CurveSpan,
         out: &mut MatchResult,
     ) {
         let run = &self.contour_chains[p.chain as usize];
-        if p.chain != q.chain || run.between(p.arc_length, q.arc_length) > most {
+        if p.chain != q.chain || run.between(p.arc_length, q.arc_length) > max_length {
             return;
         }
         let (from, to, kinds) = if p.arc_length <= q.arc_length {
@@ -240,39 +241,45 @@ impl ContourMatcher<'_> {
         } else {
             (q.arc_length, p.arc_length, [kinds[1], kinds[0]])
         };
-        let told = CurveSpan { run: p.chain, kinds, ..*piece };
+        let matched_span = CurveSpan { run: p.chain, kinds, ..*piece };
         if run.closed && to - from > run.length() / 2.0 {
             // The span crosses the seam of the closed run.
             let inner = ViewVertexKind::Vertex;
-            out.matched.push(CurveSpan { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
-            out.matched.push(CurveSpan { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
+            out.matched.push(CurveSpan {
+                from: to,
+                to: run.length(),
+                kinds: [kinds[1], inner],
+                ..matched_span
+            });
+            out.matched.push(CurveSpan { from: 0.0, to: from, kinds: [inner, kinds[0]], ..matched_span });
         } else {
-            out.matched.push(CurveSpan { from, to, ..told });
+            out.matched.push(CurveSpan { from, to, ..matched_span });
         }
     }
 
     /// Nearest place of a curve that may stand for a mesh contour edge at one of its points.
-    pub fn match_point(&self, witness: &ImageSegment, p: DVec3) -> Option<ContourPosition> {
-        match witness.role {
-            Role::MeshContour { convex, .. } => self.nearest(witness, convex, p),
+    pub fn match_point(&self, mesh_contour: &ImageSegment, p: DVec3) -> Option<ContourPosition> {
+        match mesh_contour.role {
+            Role::MeshContour { convex, .. } => self.nearest(mesh_contour, convex, p),
             _ => None,
         }
     }
 
-    fn nearest(&self, witness: &ImageSegment, convex: bool, p: DVec3) -> Option<ContourPosition> {
+    fn nearest(&self, mesh_contour: &ImageSegment, convex: bool, p: DVec3) -> Option<ContourPosition> {
         let normal = |face: u32| Vec3::from_array(self.mesh.face_normals[face as usize]);
-        let outward = (normal(witness.hosts[0]) + normal(witness.hosts[1])).normalize_or_zero();
+        let outward = (normal(mesh_contour.hosts[0]) + normal(mesh_contour.hosts[1])).normalize_or_zero();
         let body = |face: u32| self.mesh.body(face);
-        let (depth, own_body) = (self.view.frame.depth_of(p.z), body(witness.hosts[0]));
-        let reach_own = self.reach(witness.hosts[0]).max(self.reach(witness.hosts[1]));
+        let (depth, own_body) = (self.view.frame.depth_of(p.z), body(mesh_contour.hosts[0]));
+        let reach_own = self.reach(mesh_contour.hosts[0]).max(self.reach(mesh_contour.hosts[1]));
         let per_px =
             if self.view.frame.perspective { depth.abs() } else { 1.0 } / self.view.frame.scale * self.px;
         let mut best: Option<(f64, ContourPosition)> = None;
-        self.visit_near(p, MAX_MATCH_DISTANCE_PX * self.px, |away, r, k, place| {
-            if best.as_ref().is_some_and(|(least, other)| {
-                away.total_cmp(least)
-                    .then(r.cmp(&other.chain))
-                    .then(place.total_cmp(&other.arc_length))
+        self.visit_near(p, MAX_MATCH_DISTANCE_PX * self.px, |squared_distance, r, k, distance_along| {
+            if best.as_ref().is_some_and(|(best_distance, best_position)| {
+                squared_distance
+                    .total_cmp(best_distance)
+                    .then(r.cmp(&best_position.chain))
+                    .then(distance_along.total_cmp(&best_position.arc_length))
                     .is_ge()
             }) {
                 return;
@@ -286,21 +293,22 @@ impl ContourMatcher<'_> {
             {
                 return;
             }
-            let t = (place - run.starts[k]) / (run.starts[k + 1] - run.starts[k]).max(f64::MIN_POSITIVE);
+            let t =
+                (distance_along - run.starts[k]) / (run.starts[k + 1] - run.starts[k]).max(f64::MIN_POSITIVE);
             let gap = (self.view.frame.depth_of(curve.at(t).z) - depth).abs();
             if gap <= MAX_DEPTH_GAP_FACES * (reach_own + self.reach(host)) + MAX_DEPTH_GAP_PX * per_px {
-                best = Some((away, ContourPosition { chain: r, arc_length: place }));
+                best = Some((squared_distance, ContourPosition { chain: r, arc_length: distance_along }));
             }
         });
-        best.map(|(_, place)| place)
+        best.map(|(_, position)| position)
     }
 
     /// Whether a visible part of a curve passes a point of the image within ink distance. `is_seen` takes a
     /// run and a place along it.
     pub fn has_ink_near(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
         let mut inked = false;
-        self.visit_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, place| {
-            inked = inked || is_seen(r, place)
+        self.visit_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, distance_along| {
+            inked = inked || is_seen(r, distance_along)
         });
         inked
     }
@@ -315,12 +323,12 @@ impl ContourMatcher<'_> {
                 let segment = &self.segments[run.segments[*k as usize] as usize];
                 let (a, along) = (segment.a.truncate(), (segment.b - segment.a).truncate());
                 let squared = along.length_squared();
-                let way = (p.truncate() - a).dot(along);
-                let t = if squared > 0.0 { (way / squared).clamp(0.0, 1.0) } else { 0.0 };
-                let away = (a + along * t).distance_squared(p.truncate());
-                if away <= reach * reach {
+                let projection = (p.truncate() - a).dot(along);
+                let t = if squared > 0.0 { (projection / squared).clamp(0.0, 1.0) } else { 0.0 };
+                let distance2 = (a + along * t).distance_squared(p.truncate());
+                if distance2 <= reach * reach {
                     let k = *k as usize;
-                    visit(away, *r, k, run.starts[k] + (run.starts[k + 1] - run.starts[k]) * t);
+                    visit(distance2, *r, k, run.starts[k] + (run.starts[k + 1] - run.starts[k]) * t);
                 }
             }
         }
@@ -334,27 +342,27 @@ impl ContourMatcher<'_> {
 }
 
 /// Splits a visible part where background begins or ends next to it.
-fn backed_pieces(whole: &CurveSpan, backed: &[Interval]) -> Vec<CurveSpan> {
+fn backed_pieces(span: &CurveSpan, backed: &[Interval]) -> Vec<CurveSpan> {
     let mut pieces = Vec::with_capacity(1);
-    let mut at = whole.from;
+    let mut at = span.from;
     let inner = ViewVertexKind::Backdrop;
     let mut push = |from: f64, to: f64, silhouette: bool| {
         if to > from {
             let kinds = [
-                if from > whole.from { inner } else { whole.kinds[0] },
-                if to < whole.to { inner } else { whole.kinds[1] },
+                if from > span.from { inner } else { span.kinds[0] },
+                if to < span.to { inner } else { span.kinds[1] },
             ];
-            pieces.push(CurveSpan { from, to, kinds, silhouette, ..*whole });
+            pieces.push(CurveSpan { from, to, kinds, silhouette, ..*span });
         }
     };
     for interval in backed {
-        let (from, to) = (interval.start.max(at), interval.end.min(whole.to));
+        let (from, to) = (interval.start.max(at), interval.end.min(span.to));
         if to > from {
             push(at, from, true);
             push(from, to, false);
             at = to;
         }
     }
-    push(at, whole.to, true);
+    push(at, span.to, true);
     pieces
 }

@@ -62,17 +62,17 @@ struct ContourPieces {
 
 impl ContourPieces {
     /// Groups the results by image segment.
-    fn sorted(self, segments: usize, seen: Vec<VisibleContour>) -> ContourVisibility {
-        let mut bare = vec![false; segments];
-        self.unmatched.iter().for_each(|segment| bare[*segment as usize] = true);
+    fn sorted(self, segments: usize, visible_contours: Vec<VisibleContour>) -> ContourVisibility {
+        let mut is_unmatched = vec![false; segments];
+        self.unmatched.iter().for_each(|segment| is_unmatched[*segment as usize] = true);
         let hidden = by_segment(segments, &self.hidden, |layer| layer.interval.start);
         let backed = by_segment(segments, &self.non_silhouette, |interval| interval.start);
         ContourVisibility {
             hidden,
             non_silhouette: backed,
-            has_unmatched: bare,
+            has_unmatched: is_unmatched,
             counts: self.counts,
-            visible_mesh_contours: seen,
+            visible_mesh_contours: visible_contours,
         }
     }
 }
@@ -105,14 +105,20 @@ impl SmoothContours {
 pub(crate) fn decide_contours(
     mesh: &Mesh,
     view: &View,
-    SmoothContours { contour_chains: runs, curve_index: sought }: SmoothContours,
+    SmoothContours { contour_chains: runs, curve_index: curve_lookup }: SmoothContours,
     segments: &[ImageSegment],
     seen: &SegmentVisibility,
     limits: &ViewTolerances,
     counting: bool,
 ) -> ContourVisibility {
-    let court =
-        ContourMatcher { mesh, view, segments, contour_chains: &runs, curve_index: sought, px: limits.px };
+    let court = ContourMatcher {
+        mesh,
+        view,
+        segments,
+        contour_chains: &runs,
+        curve_index: curve_lookup,
+        px: limits.px,
+    };
     let mut testimony = court.match_contours(seen, counting);
     testimony.matched.par_sort_by(|a, b| {
         a.run
@@ -162,10 +168,10 @@ struct VisibleChains<'a> {
 }
 
 impl VisibleChains<'_> {
-    fn is_visible_at(&self, run: u32, place: f64) -> bool {
+    fn is_visible_at(&self, run: u32, arc_length: f64) -> bool {
         let pieces = &self.pieces[run as usize];
-        let next = pieces.partition_point(|t| t.to < place);
-        pieces.get(next).is_some_and(|t| t.from <= place)
+        let next = pieces.partition_point(|t| t.to < arc_length);
+        pieces.get(next).is_some_and(|t| t.from <= arc_length)
     }
 
     /// Whether a run is visible throughout between two places. On a closed run, either way round is enough.
@@ -184,24 +190,26 @@ impl ContourPieces {
     /// mesh in front of another surface.
     fn add_unmatched(
         &mut self,
-        court: &ContourMatcher,
+        matcher: &ContourMatcher,
         segments: &[ImageSegment],
-        bare: &[UnmatchedSpan],
-        seen: &[Vec<CurveSpan>],
+        unmatched_spans: &[UnmatchedSpan],
+        spans_by_chain: &[Vec<CurveSpan>],
     ) {
-        let seen = VisibleChains { contour_chains: court.contour_chains, pieces: seen };
-        let teeth = ContourSpurs::new(court, segments);
+        let visible_chains = VisibleChains { contour_chains: matcher.contour_chains, pieces: spans_by_chain };
+        let spurs = ContourSpurs::new(matcher, segments);
         let is_ripple = |id: u32| {
             matches!(segments[id as usize].role, Role::MeshContour { fold: true, .. })
-                || teeth.contains(id, |run, from, to| seen.between(run, from, to))
+                || spurs.contains(id, |run, from, to| visible_chains.between(run, from, to))
         };
         let mut drawn: Vec<UnmatchedSpan> = Vec::new();
-        for own in bare.chunk_by(|a, b| a.segment == b.segment) {
-            let segment = &segments[own[0].segment as usize];
+        for segment_spans in unmatched_spans.chunk_by(|a, b| a.segment == b.segment) {
+            let segment = &segments[segment_spans[0].segment as usize];
             let mut ripple = None;
-            for piece in own {
+            for piece in segment_spans {
                 let middle = segment.at((piece.from + piece.to) / 2.0);
-                if court.has_ink_near(middle, |run, place| seen.is_visible_at(run, place)) {
+                if matcher
+                    .has_ink_near(middle, |run, arc_length| visible_chains.is_visible_at(run, arc_length))
+                {
                     continue;
                 }
                 if !piece.silhouette && *ripple.get_or_insert_with(|| is_ripple(piece.segment)) {
@@ -221,26 +229,31 @@ impl ContourPieces {
             }
         }
         self.counts.unmatched = drawn.len() as u64;
-        for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
-            self.add_mesh_contour(own);
-            self.unmatched.push(own[0].segment);
+        for drawn_spans in drawn.chunk_by(|a, b| a.segment == b.segment) {
+            self.add_mesh_contour(drawn_spans);
+            self.unmatched.push(drawn_spans[0].segment);
         }
     }
 
     /// Adds the hidden parts of a run: everything outside its visible spans.
-    fn add_run(&mut self, run: &ContourChain, [visible, silhouette, told]: [&[CurveSpan]; 3], cusp: f64) {
+    fn add_run(
+        &mut self,
+        run: &ContourChain,
+        [visible, silhouette, chain_spans]: [&[CurveSpan]; 3],
+        cusp: f64,
+    ) {
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
         // A contour end that no line covers is a cusp if the contour turns back in the image there.
-        let ended = |place: f64, kind: ViewVertexKind| match kind {
-            ViewVertexKind::Vertex if run.turns_near(place, cusp) => ViewVertexKind::Cusp,
+        let ended = |arc_length: f64, kind: ViewVertexKind| match kind {
+            ViewVertexKind::Vertex if run.turns_near(arc_length, cusp) => ViewVertexKind::Cusp,
             kind => kind,
         };
         for piece in visible {
-            self.hide(run, [at, piece.from], [kind, ended(piece.from, piece.kinds[0])], told);
+            self.hide(run, [at, piece.from], [kind, ended(piece.from, piece.kinds[0])], chain_spans);
             (at, kind) = (piece.to, ended(piece.to, piece.kinds[1]));
         }
-        self.hide(run, [at, run.length()], [kind, ViewVertexKind::Vertex], told);
+        self.hide(run, [at, run.length()], [kind, ViewVertexKind::Vertex], chain_spans);
         let mut at = 0.0;
         let ends = silhouette.iter().map(|piece| (piece.from, piece.to));
         for (from, to) in ends.chain([(run.length(), run.length())]) {
@@ -253,21 +266,21 @@ impl ContourPieces {
         }
     }
 
-    /// Adds a hidden range of a run, with the kinds of its ends. `told` gives the number of surfaces in
+    /// Adds a hidden range of a run, with the kinds of its ends. `chain_spans` gives the number of surfaces in
     /// front.
     fn hide(
         &mut self,
         run: &ContourChain,
         [from, to]: [f64; 2],
         kinds: [ViewVertexKind; 2],
-        told: &[CurveSpan],
+        chain_spans: &[CurveSpan],
     ) {
         // Parts without a match are behind at least one surface.
         let count = |from: f64, to: f64| {
-            let hidden = told.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
+            let hidden = chain_spans.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
             hidden.map(|t| t.count).max().unwrap_or(1)
         };
-        let counted = told.iter().any(|t| t.count > 0);
+        let counted = chain_spans.iter().any(|t| t.count > 0);
         each_part(run, from, to, |segment, start, end| {
             let interval = Interval { start, end, start_kind: kinds[0], end_kind: kinds[1] };
             let count = if counted { count(from, to) } else { 1 };
@@ -276,12 +289,12 @@ impl ContourPieces {
     }
 
     /// Adds the undrawn parts of a mesh contour segment: everything outside its unmatched visible spans.
-    fn add_mesh_contour(&mut self, bare: &[UnmatchedSpan]) {
+    fn add_mesh_contour(&mut self, unmatched_spans: &[UnmatchedSpan]) {
         let inner = ViewVertexKind::Vertex;
         let mut at = 0.0;
-        let segment = bare[0].segment;
+        let segment = unmatched_spans[0].segment;
         let end = UnmatchedSpan { segment, from: 1.0, to: 1.0, silhouette: true };
-        for piece in bare.iter().chain([&end]) {
+        for piece in unmatched_spans.iter().chain([&end]) {
             if piece.from > at {
                 let interval = Interval { start: at, end: piece.from, start_kind: inner, end_kind: inner };
                 self.hidden.push((segment, HiddenInterval { interval, count: 1 }));
@@ -310,7 +323,7 @@ fn each_part(run: &ContourChain, from: f64, to: f64, mut visit: impl FnMut(u32, 
         }
         let length = end - start;
         if length > 0.0 {
-            let at = |place: f64| ((place - start) / length).clamp(0.0, 1.0);
+            let at = |arc_length: f64| ((arc_length - start) / length).clamp(0.0, 1.0);
             if at(to) > at(from) {
                 visit(*id, at(from), at(to));
             }

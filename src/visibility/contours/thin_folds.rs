@@ -52,10 +52,10 @@ pub(crate) fn find_thin_folds(
     let pairs = ends.chunk_by(|a, b| a.0 == b.0).filter(|ends| ends.len() == 2);
     let of_pair =
         |ends: &[(u32, u32)]| thin_fold(mesh, view, lines, segments, [ends[0].1, ends[1].1], ends[0].0);
-    let needles: Vec<ThinFold> = pairs.filter_map(of_pair).collect();
-    let goes_on = continued(&needles, lines, segments);
-    let bare = needles.iter().zip(goes_on).filter(|(_, goes_on)| !goes_on);
-    let sides = bare.flat_map(|(needle, _)| needle.sides.map(|id| segments[id as usize].source));
+    let folds: Vec<ThinFold> = pairs.filter_map(of_pair).collect();
+    let goes_on = continued(&folds, lines, segments);
+    let isolated_folds = folds.iter().zip(goes_on).filter(|(_, goes_on)| !goes_on);
+    let sides = isolated_folds.flat_map(|(needle, _)| needle.sides.map(|id| segments[id as usize].source));
     let mut found: Vec<u32> = sides.filter(|source| lines.segments[*source as usize].smooth).collect();
     found.sort_unstable();
     found.dedup();
@@ -66,31 +66,34 @@ pub(crate) fn find_thin_folds(
 /// towards the tip.
 ///
 /// In the second case the three contours are one line that doubles back.
-fn continued(needles: &[ThinFold], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
-    let mut goes_on = vec![false; needles.len()];
-    let mut places: Vec<(u32, u32)> = Vec::new();
-    for (needle, id) in needles.iter().zip(0..) {
-        places.extend([needle.tip, needle.feet[0], needle.feet[1]].map(|vertex| (vertex, id)));
+fn continued(folds: &[ThinFold], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
+    let mut goes_on = vec![false; folds.len()];
+    let mut fold_vertices: Vec<(u32, u32)> = Vec::new();
+    for (current_fold, id) in folds.iter().zip(0..) {
+        fold_vertices.extend(
+            [current_fold.tip, current_fold.feet[0], current_fold.feet[1]].map(|vertex| (vertex, id)),
+        );
     }
-    places.sort_unstable();
-    if places.is_empty() {
+    fold_vertices.sort_unstable();
+    if fold_vertices.is_empty() {
         return goes_on;
     }
     for (segment, id) in segments.iter().zip(0..) {
         for (k, end) in segment.ends.iter().enumerate() {
-            let first = places.partition_point(|(vertex, _)| vertex < end);
-            for (_, of) in places[first..].iter().take_while(|(vertex, _)| vertex == end) {
-                let needle = &needles[*of as usize];
-                if needle.sides.contains(&id) {
+            let first = fold_vertices.partition_point(|(vertex, _)| vertex < end);
+            for (_, of) in fold_vertices[first..].iter().take_while(|(vertex, _)| vertex == end) {
+                let matched_fold = &folds[*of as usize];
+                if matched_fold.sides.contains(&id) {
                     continue;
                 }
                 let ends = [segment.a, segment.b].map(DVec3::truncate);
-                let (way, back) = (ends[1 - k] - ends[k], -needle.along);
+                let (side_direction, tip_direction) = (ends[1 - k] - ends[k], -matched_fold.along);
                 let is_contour = lines.segments[segment.source as usize].kind == LineKind::Contour;
                 // A shorter line is the base of the fold.
-                let same_way = MIN_ASPECT * way.length() > back.length()
-                    && way.dot(back) > MIN_CONTINUATION_COSINE * way.length() * back.length();
-                goes_on[*of as usize] |= *end == needle.tip || (is_contour && same_way);
+                let same_way = MIN_ASPECT * side_direction.length() > tip_direction.length()
+                    && side_direction.dot(tip_direction)
+                        > MIN_CONTINUATION_COSINE * side_direction.length() * tip_direction.length();
+                goes_on[*of as usize] |= *end == matched_fold.tip || (is_contour && same_way);
             }
         }
     }
@@ -108,17 +111,17 @@ fn thin_fold(
 ) -> Option<ThinFold> {
     let (frame, px) = (&view.frame, view.frame.px());
     let pair = sides.map(|id| &segments[id as usize]);
-    let far = pair.map(|s| usize::from(s.ends[0] == tip));
+    let foot_end = pair.map(|s| usize::from(s.ends[0] == tip));
     let along = [0, 1].map(|k| {
         let ends = [pair[k].a, pair[k].b].map(DVec3::truncate);
-        ends[far[k]] - ends[1 - far[k]]
+        ends[foot_end[k]] - ends[1 - foot_end[k]]
     });
     let lengths = along.map(DVec2::length);
     let across = along[0].perp_dot(along[1]).abs();
     if along[0].dot(along[1]) <= 0.0 || across > tolerances::THIN_FOLD_PX * px * lengths[0].max(lengths[1]) {
         return None;
     }
-    let feet = [0, 1].map(|k| pair[k].ends[far[k]]);
+    let feet = [0, 1].map(|k| pair[k].ends[foot_end[k]]);
     let [p, q] = feet.map(|foot| lines.position(mesh, foot));
     let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
     let is_slender =
@@ -133,6 +136,6 @@ fn is_ridge(mesh: &Mesh, lines: &FeatureLines, segment: &ImageSegment) -> bool {
     let [first, second] = segment.hosts;
     let third = mesh.triangles[second as usize].iter().find(|v| !segment.ends.contains(v));
     let [a, b, c] = mesh.corners(FaceId(first));
-    let way = third.map_or(a, |v| mesh.positions[*v as usize]) - lines.position(mesh, segment.ends[0]);
-    (b - a).cross(c - a).dot(way) < 0.0
+    let offset = third.map_or(a, |v| mesh.positions[*v as usize]) - lines.position(mesh, segment.ends[0]);
+    (b - a).cross(c - a).dot(offset) < 0.0
 }

@@ -51,7 +51,7 @@ impl EdgeFunctions {
     pub(crate) fn new(corners: &[DVec3; 3], window: &Window, limits: &ViewTolerances) -> Self {
         let [a, b, c] = corners.map(DVec3::truncate);
         let sign = (b - a).perp_dot(c - a).signum();
-        let mut made = Self { x: [0.0; 4], y: [0.0; 4], at_middle: [1.0; 4] };
+        let mut functions = Self { x: [0.0; 4], y: [0.0; 4], at_middle: [1.0; 4] };
         for (k, (corner, next)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
             let side = (next - corner) * sign;
             let at_middle = side.perp_dot(window.middle - corner);
@@ -59,21 +59,22 @@ impl EdgeFunctions {
             let raised = at_middle
                 + limits.cover * size
                 + tolerances::EDGE_FUNCTION_ROUNDING_SHARE * (at_middle.abs() + window.reach * size);
-            (made.x[k], made.y[k], made.at_middle[k]) = (-side.y as f32, side.x as f32, raised as f32);
+            (functions.x[k], functions.y[k], functions.at_middle[k]) =
+                (-side.y as f32, side.x as f32, raised as f32);
         }
-        made
+        functions
     }
 
     /// Whether two points, and so all points between them, are outside the same side.
     #[inline]
     pub(crate) fn are_outside_a_side(&self, a: [f32; 2], b: [f32; 2]) -> bool {
-        let mut beyond = false;
+        let mut is_outside = false;
         for k in 0..4 {
             let at = |p: [f32; 2]| self.x[k] * p[0] + self.y[k] * p[1] + self.at_middle[k];
             let (at_a, at_b) = (at(a), at(b));
-            beyond |= at_a < 0.0 && at_b < 0.0;
+            is_outside |= at_a < 0.0 && at_b < 0.0;
         }
-        beyond
+        is_outside
     }
 }
 

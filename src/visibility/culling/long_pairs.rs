@@ -79,18 +79,18 @@ impl LongPairs {
                 }
             }
         });
-        let known: Vec<KnownOcclusion> = (0..segments.list.len())
+        let found_occlusions: Vec<KnownOcclusion> = (0..segments.list.len())
             .into_par_iter()
             .map_init(
                 || TestMarks { marks: vec![0; long.triangles.len()], last: 0 },
-                |seen, k| {
+                |test_marks, k| {
                     let segment = &compared.segments[segments.list[k] as usize];
-                    long.compare(segment, stays.of(k), seen)
+                    long.compare(segment, stays.of(k), test_marks)
                 },
             )
             .collect();
-        let tests = known.iter().map(|known| known.tests).sum();
-        Some(Self { numbers: segments.numbers, is_long, occlusions: known, tests })
+        let tests = found_occlusions.iter().map(|known| known.tests).sum();
+        Some(Self { numbers: segments.numbers, is_long, occlusions: found_occlusions, tests })
     }
 
     /// Whether a segment is one of the long ones.
@@ -105,13 +105,15 @@ impl LongPairs {
 
     /// Hidden parts of an item.
     pub fn hidden(&self, item: &TileSegment) -> impl Iterator<Item = HiddenInterval> {
-        self.occlusion_of(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
+        self.occlusion_of(item.segment).into_iter().flat_map(|occlusion| within(&occlusion.hidden, *item))
     }
 
     /// Parts of an item that a long triangle lies next to, on one of its outer sides.
     pub fn backed(&self, item: &TileSegment, side: usize) -> impl Iterator<Item = Interval> {
-        let known = self.occlusion_of(item.segment).into_iter();
-        known.flat_map(move |known| within(&known.side_cover[side], *item)).map(|layer| layer.interval)
+        let segment_occlusion = self.occlusion_of(item.segment).into_iter();
+        segment_occlusion
+            .flat_map(move |known| within(&known.side_cover[side], *item))
+            .map(|layer| layer.interval)
     }
 
     fn occlusion_of(&self, segment: u32) -> Option<&KnownOcclusion> {
@@ -202,29 +204,34 @@ impl<'a> LongTriangles<'a> {
             numbers[reach.id as usize] = number;
         }
         let of_tile = tiles.map(|ids| {
-            let mut own: Vec<u32> = ids.map(|id| numbers[*id as usize]).collect();
-            own.sort_unstable();
-            own
+            let mut tile_numbers: Vec<u32> = ids.map(|id| numbers[*id as usize]).collect();
+            tile_numbers.sort_unstable();
+            tile_numbers
         });
         let of_tile = of_tile.collect();
         Self { compared, triangles, of_tile }
     }
 
     /// Compares a segment with the long triangles of its tiles.
-    fn compare(&self, segment: &ImageSegment, stays: &[TileSpan], seen: &mut TestMarks) -> KnownOcclusion {
-        let mut known = KnownOcclusion::default();
-        let mut found = self.hidden(segment, stays, seen, &mut known.tests);
-        sweep(&mut found, &[], 0.0, self.compared.counting, &mut known.hidden);
+    fn compare(
+        &self,
+        segment: &ImageSegment,
+        tile_spans: &[TileSpan],
+        test_marks: &mut TestMarks,
+    ) -> KnownOcclusion {
+        let mut occlusion = KnownOcclusion::default();
+        let mut found = self.hidden(segment, tile_spans, test_marks, &mut occlusion.tests);
+        sweep(&mut found, &[], 0.0, self.compared.counting, &mut occlusion.hidden);
         let is_buried = |known: &KnownOcclusion| {
             known.hidden.iter().any(|l| l.interval.start <= 0.0 && l.interval.end >= 1.0)
         };
-        if segment.bounds && !is_buried(&known) {
+        if segment.bounds && !is_buried(&occlusion) {
             for (number, side) in OuterSides::of(segment, self.compared.triangles).open() {
-                let mut found = self.backed(side, stays, &known.hidden, seen);
-                sweep(&mut found, &[], 0.0, false, &mut known.side_cover[number]);
+                let mut found = self.backed(side, tile_spans, &occlusion.hidden, test_marks);
+                sweep(&mut found, &[], 0.0, false, &mut occlusion.side_cover[number]);
             }
         }
-        known
+        occlusion
     }
 
     /// Intervals that triangles hide of a segment. Once all of a stay is hidden and counts are not needed,
@@ -232,24 +239,25 @@ impl<'a> LongTriangles<'a> {
     fn hidden(
         &self,
         segment: &ImageSegment,
-        stays: &[TileSpan],
-        seen: &mut TestMarks,
+        tile_spans: &[TileSpan],
+        test_marks: &mut TestMarks,
         tests: &mut u64,
     ) -> Vec<Interval> {
         let OcclusionInput { triangles, limits, counting, .. } = *self.compared;
         let mut hidden = Vec::new();
         let mut run = NO_INTERVAL;
-        seen.last += 1;
-        for stay in stays {
-            let is_hidden = |run: (f64, f64)| !counting && run.0 <= stay.start && run.1 >= stay.end;
-            let farthest = (segment.at(stay.start).z.min(segment.at(stay.end).z) as f32).next_down();
-            for number in &self.of_tile[stay.tile as usize] {
+        test_marks.last += 1;
+        for tile_span in tile_spans {
+            let is_hidden = |run: (f64, f64)| !counting && run.0 <= tile_span.start && run.1 >= tile_span.end;
+            let farthest =
+                (segment.at(tile_span.start).z.min(segment.at(tile_span.end).z) as f32).next_down();
+            for number in &self.of_tile[tile_span.tile as usize] {
                 let (reach, occluder) = &self.triangles[*number as usize];
                 if reach.nearest < farthest || is_hidden(run) {
                     break;
                 }
-                let mark = &mut seen.marks[*number as usize];
-                if std::mem::replace(mark, seen.last) == seen.last
+                let mark = &mut test_marks.marks[*number as usize];
+                if std::mem::replace(mark, test_marks.last) == test_marks.last
                     || triangles.mesh.touches(segment.hosts, occluder.face)
                 {
                     continue;
@@ -269,25 +277,27 @@ impl<'a> LongTriangles<'a> {
     fn backed(
         &self,
         side: &OuterSide,
-        stays: &[TileSpan],
+        tile_spans: &[TileSpan],
         hidden: &[HiddenInterval],
-        seen: &mut TestMarks,
+        test_marks: &mut TestMarks,
     ) -> Vec<Interval> {
         let limits = self.compared.limits;
         let mut backed = Vec::new();
         let mut run = NO_INTERVAL;
-        seen.last += 1;
-        for stay in stays {
-            let has = |start: f64, end: f64| start <= stay.start && end >= stay.end;
+        test_marks.last += 1;
+        for tile_span in tile_spans {
+            let has = |start: f64, end: f64| start <= tile_span.start && end >= tile_span.end;
             if hidden.iter().any(|layer| has(layer.interval.start, layer.interval.end)) {
                 continue;
             }
-            for number in &self.of_tile[stay.tile as usize] {
+            for number in &self.of_tile[tile_span.tile as usize] {
                 // The range is already complete.
                 if has(run.0, run.1) {
                     break;
                 }
-                if std::mem::replace(&mut seen.marks[*number as usize], seen.last) == seen.last {
+                if std::mem::replace(&mut test_marks.marks[*number as usize], test_marks.last)
+                    == test_marks.last
+                {
                     continue;
                 }
                 if let Some((start, end)) = side.range(&self.triangles[*number as usize].1, limits) {

@@ -11,9 +11,9 @@ pub(crate) const UNCOVERED: f32 = f32::NEG_INFINITY;
 
 /// Sets a value to the nearer of two.
 #[inline]
-pub(crate) fn raise(own: &mut f32, other: f32) {
+pub(crate) fn raise(bound: &mut f32, candidate: f32) {
     // `f32::max` is slower, because it also checks for NaN.
-    *own = if other > *own { other } else { *own };
+    *bound = if candidate > *bound { candidate } else { *bound };
 }
 
 /// Difference in nearness that certainly hides: twice the touching tolerance at the nearest corner of the
@@ -38,7 +38,7 @@ pub(crate) struct NearnessBound {
     /// Point of the image, with the bound for a square centred there.
     base: DVec3,
     /// Overall lower bound.
-    least: f32,
+    minimum: f32,
 }
 
 /// Magnitude near which numbers of single precision overflow.
@@ -55,27 +55,33 @@ impl NearnessBound {
         let is_thin = area.abs() <= limits.height * u.truncate().length().max(v.truncate().length());
         let (low, high) =
             (points[0].z.min(points[1].z).min(points[2].z), points[0].z.max(points[1].z).max(points[2].z));
-        let least = low - step;
+        let lower_bound = low - step;
         if is_thin {
-            return Self::of_plane(DVec2::ZERO, points[0].truncate().extend(least), least, least.abs());
+            return Self::of_plane(
+                DVec2::ZERO,
+                points[0].truncate().extend(lower_bound),
+                lower_bound,
+                lower_bound.abs(),
+            );
         }
         let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
         let spread = (slope.x.abs() + slope.y.abs()) * half;
         // Largest magnitude at the centre of a square that meets the triangle.
-        let most = low.abs().max(high.abs()) + 2.0 * spread + step;
-        Self::of_plane(slope, points[0] - DVec3::Z * (spread + step), least, most)
+        let max_magnitude = low.abs().max(high.abs()) + 2.0 * spread + step;
+        Self::of_plane(slope, points[0] - DVec3::Z * (spread + step), lower_bound, max_magnitude)
     }
 
-    /// Bound for the plane through `base`, at least `least`.
+    /// Bound for the plane through `base`, at least `lower_bound`.
     ///
-    /// `most` is an upper bound for the magnitude of every sum and partial sum to be evaluated.
+    /// `max_magnitude` is an upper bound for the magnitude of every sum and partial sum to be evaluated.
     #[inline]
-    fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
-        if most < MAX_MAGNITUDE {
-            let less = tolerances::NEARNESS_ROUNDING_SHARE * most + tolerances::MIN_NEARNESS_MAGNITUDE;
-            Self { slope, base: base - DVec3::Z * less, least: (least - less) as f32 }
+    fn of_plane(slope: DVec2, base: DVec3, lower_bound: f64, max_magnitude: f64) -> Self {
+        if max_magnitude < MAX_MAGNITUDE {
+            let margin =
+                tolerances::NEARNESS_ROUNDING_SHARE * max_magnitude + tolerances::MIN_NEARNESS_MAGNITUDE;
+            Self { slope, base: base - DVec3::Z * margin, minimum: (lower_bound - margin) as f32 }
         } else {
-            Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), least: UNCOVERED }
+            Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), minimum: UNCOVERED }
         }
     }
 
@@ -83,10 +89,10 @@ impl NearnessBound {
     #[inline]
     pub(crate) fn over(&self, centre: DVec2, side: f64, count: usize) -> impl Iterator<Item = f32> {
         let first = (self.base.z + self.slope.dot(centre - self.base.truncate())) as f32;
-        let (along, least) = ((self.slope.x * side) as f32, self.least);
+        let (along, lower_bound) = ((self.slope.x * side) as f32, self.minimum);
         (0..count as i32).map(move |k| {
             let z = first + along * k as f32;
-            if z > least { z } else { least }
+            if z > lower_bound { z } else { lower_bound }
         })
     }
 }
@@ -104,27 +110,27 @@ mod tests {
             let scale = 10.0_f64.powi((n % 90) as i32 - 45);
             let slope = DVec2::new(part(n, 0), part(n, 1)) * scale;
             let base = DVec3::new(part(n, 2), part(n, 3), part(n, 4) * scale);
-            let least = (part(n, 5) - 1.0) * scale;
-            let plane = NearnessBound::of_plane(slope, base, least, 8.0 * scale);
+            let lower_bound = (part(n, 5) - 1.0) * scale;
+            let plane = NearnessBound::of_plane(slope, base, lower_bound, 8.0 * scale);
             let (centre, side) = (DVec2::new(part(n, 6), part(n, 7)), 0.01);
             for (k, found) in plane.over(centre, side, 100).enumerate() {
                 let at = centre + DVec2::X * side * k as f64 - base.truncate();
-                let exact = (base.z + slope.dot(at)).max(least);
+                let exact = (base.z + slope.dot(at)).max(lower_bound);
                 assert!(f64::from(found) < exact, "{n} {k}: {found} {exact}");
                 apart += u32::from(f64::from(found) < exact - 1e-5 * scale);
             }
         }
         // The bound is loose only where numbers are too small or too large.
         assert!(apart < 400_000 / 4, "{apart}");
-        let far = NearnessBound::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
-        assert_eq!(far.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [UNCOVERED; 3]);
+        let overflowing = NearnessBound::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
+        assert_eq!(overflowing.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [UNCOVERED; 3]);
     }
 
     #[test]
     fn raise_keeps_the_nearer_bound() {
-        let raised = |mut own: f32, other: f32| {
-            raise(&mut own, other);
-            own
+        let raised = |mut bound: f32, candidate: f32| {
+            raise(&mut bound, candidate);
+            bound
         };
         assert_eq!([raised(UNCOVERED, -2.0), raised(-2.0, -3.0), raised(-3.0, -2.0)], [-2.0; 3]);
         assert_eq!([raised(1.0, f32::NAN), raised(1.0, UNCOVERED)], [1.0; 2]);

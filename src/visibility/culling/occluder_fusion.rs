@@ -38,7 +38,7 @@ pub(crate) struct FusedOccluders {
     faces: CsrLists<u32>,
     /// Border edges of each group.
     ends: CsrLists<u32>,
-    far: BackFaces,
+    back_faces: BackFaces,
 }
 
 impl FusedOccluders {
@@ -84,18 +84,18 @@ impl FusedOccluders {
                 })
             },
         );
-        Self { faces, ends, far }
+        Self { faces, ends, back_faces: far }
     }
 
     /// Indices of the usable groups, by root face; [`NO_GROUP`] for all other faces.
     ///
     /// A usable group is not the back of a body, is at least as large as a square, and respects the limits on
     /// box size and face area.
-    fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &BackFaces, cell: f64) -> Vec<u32> {
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], back_faces: &BackFaces, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NO_GROUP; turns.len()];
-        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.contains(*face as u32)) {
-            let id = &mut ids[far.group(face as u32) as usize];
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !back_faces.contains(*face as u32)) {
+            let id = &mut ids[back_faces.group(face as u32) as usize];
             if *id == NO_GROUP {
                 *id = found.len() as u32;
                 found.push((
@@ -119,10 +119,10 @@ impl FusedOccluders {
         let mut next = 0;
         for (root, [left, top, right, bottom], count, area) in found {
             let (width, height) = (f64::from(right - left) / cell, f64::from(bottom - top) / cell);
-            let most = (MAX_CELLS_PER_FACE * count as usize + share) as f64;
+            let max_cells = (MAX_CELLS_PER_FACE * count as usize + share) as f64;
             let is_fine = area <= MAX_MEAN_FACE_AREA_CELLS * cell * cell * f64::from(count);
             let is_wanted =
-                is_fine && width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= most;
+                is_fine && width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= max_cells;
             ids[root as usize] = if is_wanted { next } else { NO_GROUP };
             next += u32::from(is_wanted);
         }
@@ -136,7 +136,7 @@ impl FusedOccluders {
     /// Whether a face is part of the back of a body.
     #[inline]
     pub fn is_far_side(&self, face: u32) -> bool {
-        self.far.contains(face)
+        self.back_faces.contains(face)
     }
 
     /// Raises the value of each square that a group fills.
@@ -153,11 +153,11 @@ impl FusedOccluders {
         let all = self.faces.of(expanse).iter().flat_map(|face| corners(*face));
         let (low, high) =
             all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-        let own = squares.tile_box(low, high);
-        if own.is_empty() {
+        let covered_box = squares.tile_box(low, high);
+        if covered_box.is_empty() {
             return;
         }
-        let filled = &mut FillBuffer::new(squares, own, buffer);
+        let filled = &mut FillBuffer::new(squares, covered_box, buffer);
         for face in self.faces.of(expanse) {
             let slack = FaceTolerances::of(mesh.extent(FaceId(*face)));
             let corners = corners(*face);
@@ -167,13 +167,13 @@ impl FusedOccluders {
             let ends = mesh.edges.vertices[*edge as usize].map(|v| view.points[v as usize].truncate());
             filled.end(ends);
         }
-        for row in own.top..=own.bottom {
-            let first = squares.tile(u32::from(own.left), u32::from(row));
-            let (place, width) = (filled.place(row, own.left), filled.width);
-            for (cover, least) in
-                cover[first..first + width].iter_mut().zip(&filled.least[place..place + width])
+        for row in covered_box.top..=covered_box.bottom {
+            let first = squares.tile(u32::from(covered_box.left), u32::from(row));
+            let (offset, width) = (filled.place(row, covered_box.left), filled.width);
+            for (cover, lowest) in
+                cover[first..first + width].iter_mut().zip(&filled.lowest_nearness[offset..offset + width])
             {
-                raise(cover, if *least < f32::INFINITY { *least } else { UNCOVERED });
+                raise(cover, if *lowest < f32::INFINITY { *lowest } else { UNCOVERED });
             }
         }
     }
@@ -183,13 +183,13 @@ const NO_GROUP: u32 = u32::MAX;
 
 /// Squares in the bounding box of a group.
 ///
-/// `least` holds the nearness of the farthest face that meets each square: ∞ if none does, −∞ where the group
+/// `lowest_nearness` holds the nearness of the farthest face that meets each square: ∞ if none does, −∞ where the group
 /// ends.
 struct FillBuffer<'a> {
     squares: &'a TileGrid,
-    own: TileBox,
+    region: TileBox,
     width: usize,
-    least: &'a mut [f32],
+    lowest_nearness: &'a mut [f32],
 }
 
 impl<'a> FillBuffer<'a> {
@@ -198,11 +198,11 @@ impl<'a> FillBuffer<'a> {
         let height = usize::from(own.bottom - own.top) + 1;
         buffer.clear();
         buffer.resize(width * height, f32::INFINITY);
-        Self { squares, own, width, least: buffer }
+        Self { squares, region: own, width, lowest_nearness: buffer }
     }
 
     fn place(&self, row: u16, column: u16) -> usize {
-        usize::from(row - self.own.top) * self.width + usize::from(column - self.own.left)
+        usize::from(row - self.region.top) * self.width + usize::from(column - self.region.left)
     }
 
     fn meet(&mut self, points: &[DVec3; 3], step: f64, limits: &ViewTolerances) {
@@ -214,7 +214,7 @@ impl<'a> FillBuffer<'a> {
                 low - cell * tolerances::FUSED_FACE_MARGIN_OF_SQUARE,
                 high + cell * tolerances::FUSED_FACE_MARGIN_OF_SQUARE,
             )
-            .within(self.own);
+            .within(self.region);
         if tiles.is_empty() {
             return;
         }
@@ -222,16 +222,20 @@ impl<'a> FillBuffer<'a> {
         let slope = NearnessBound::new(points, half, step, limits);
         let sides = (tiles.area() > 1).then(|| TriangleHalfPlanes::new(points));
         for row in tiles.top..=tiles.bottom {
-            let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
-            let columns = sides.as_ref().map_or(whole, |sides| sides.columns(squares, tiles, row, half));
+            let all_columns = u32::from(tiles.left)..u32::from(tiles.right) + 1;
+            let columns =
+                sides.as_ref().map_or(all_columns, |sides| sides.columns(squares, tiles, row, half));
             if columns.is_empty() {
                 continue;
             }
             let centre = squares.corner(columns.start, u32::from(row)) + cell / 2.0;
             let first = self.place(row, columns.start as u16);
-            let own = &mut self.least[first..first + columns.len()];
+            let row_nearness = &mut self.lowest_nearness[first..first + columns.len()];
             let over = slope.over(centre, cell, columns.len());
-            own.iter_mut().zip(over).for_each(|(own, least)| *own = if least < *own { least } else { *own });
+            row_nearness
+                .iter_mut()
+                .zip(over)
+                .for_each(|(own, bound)| *own = if bound < *own { bound } else { *own });
         }
     }
 
@@ -239,26 +243,26 @@ impl<'a> FillBuffer<'a> {
     fn end(&mut self, [a, b]: [DVec2; 2]) {
         let (squares, reach) = (self.squares, self.squares.cell * tolerances::FUSED_BORDER_MARGIN_OF_SQUARE);
         let (low, high) = (a.min(b) - reach, a.max(b) + reach);
-        let tiles = squares.tile_box(low.extend(0.0), high.extend(0.0)).within(self.own);
+        let tiles = squares.tile_box(low.extend(0.0), high.extend(0.0)).within(self.region);
         if tiles.is_empty() {
             return;
         }
-        let way = b - a;
+        let direction = b - a;
         for row in tiles.top..=tiles.bottom {
             let top = squares.corner(0, u32::from(row)).y - reach;
             let bottom = top + squares.cell + 2.0 * reach;
             // Part of the edge within the row.
             let (mut from, mut to) = (0.0, 1.0);
-            if way.y != 0.0 {
-                let at = [top, bottom].map(|y| (y - a.y) / way.y);
+            if direction.y != 0.0 {
+                let at = [top, bottom].map(|y| (y - a.y) / direction.y);
                 (from, to) = (at[0].min(at[1]).clamp(0.0, 1.0), at[0].max(at[1]).clamp(0.0, 1.0));
             }
-            let at = [from, to].map(|t| a.x + way.x * t);
+            let at = [from, to].map(|t| a.x + direction.x * t);
             let left = squares.column(at[0].min(at[1]) - reach).max(u32::from(tiles.left)) as u16;
             let right = squares.column(at[0].max(at[1]) + reach).min(u32::from(tiles.right)) as u16;
             if left <= right {
                 let first = self.place(row, left);
-                self.least[first..=first + usize::from(right - left)].fill(f32::NEG_INFINITY);
+                self.lowest_nearness[first..=first + usize::from(right - left)].fill(f32::NEG_INFINITY);
             }
         }
     }

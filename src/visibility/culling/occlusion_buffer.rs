@@ -139,17 +139,17 @@ impl OcclusionBuffer {
             (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
         // One row of tiles with its rows of squares.
-        let of_row = |(row, own): (usize, &mut [f32])| {
+        let of_row = |(row, row_cover): (usize, &mut [f32])| {
             let first = row * per_tile as usize * squares.columns as usize;
-            for other in &covers {
-                let other = &other[first..first + own.len()];
-                own.iter_mut().zip(other).for_each(|(own, other)| raise(own, *other));
+            for layer in &covers {
+                let layer_row = &layer[first..first + row_cover.len()];
+                row_cover.iter_mut().zip(layer_row).for_each(|(own, other)| raise(own, *other));
             }
             let mut spans = vec![[f32::INFINITY, UNCOVERED]; triangles.grid.columns as usize];
-            for squares in own.chunks(squares.columns as usize) {
-                for ([least, most], squares) in spans.iter_mut().zip(squares.chunks(per_tile as usize)) {
+            for squares in row_cover.chunks(squares.columns as usize) {
+                for ([lowest, highest], squares) in spans.iter_mut().zip(squares.chunks(per_tile as usize)) {
                     for cover in squares {
-                        (*least, *most) = (least.min(*cover), most.max(*cover));
+                        (*lowest, *highest) = (lowest.min(*cover), highest.max(*cover));
                     }
                 }
             }
@@ -182,9 +182,9 @@ impl OcclusionBuffer {
 
     /// Whether a triangle is behind the buffer in every square that its bounding box meets.
     ///
-    /// False if the box meets more than `most` squares; true if it meets none.
+    /// False if the box meets more than `max_squares` squares; true if it meets none.
     #[must_use]
-    pub fn hides_triangle(&self, points: &[DVec3; 3], most: u32) -> bool {
+    pub fn hides_triangle(&self, points: &[DVec3; 3], max_squares: u32) -> bool {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         // The tiles settle most cases.
@@ -197,11 +197,11 @@ impl OcclusionBuffer {
             tells_all &= high.z < self.tile_nearness[tile];
         }
         let squares = self.squares.tile_box(low, high);
-        if tells_all && squares.area() <= most {
+        if tells_all && squares.area() <= max_squares {
             return true;
         }
         let is_behind = |(square, _): (usize, DVec2)| high.z < f64::from(self.square_nearness[square]);
-        squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
+        squares.area() <= max_squares && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
 
     /// Whether a part of a segment inside one tile is behind the buffer in all squares it passes.

@@ -25,12 +25,12 @@ const MIN_LENGTH_PER_DISTANCE: f64 = 8.0;
 /// Lines per task of the grid traversal.
 const LINES_PER_TASK: usize = 1 << 11;
 
-/// Removes the parts of visible edges that lie within `within` (user units) of a stronger visible edge.
+/// Removes the parts of visible edges that lie within `max_distance` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
-pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) {
+pub fn remove_coincident(map: &mut ViewMap, max_distance: f64, frame: &Frame, extents: &MeshMetrics) {
     let perspective = frame.perspective;
-    let covered = find_covered(map, within, frame, extents);
+    let covered = find_covered(map, max_distance, frame, extents);
     if covered.is_empty() {
         return;
     }
@@ -44,7 +44,7 @@ pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents:
         if ranges.is_empty() {
             edges.push(*edge);
         } else {
-            cut_edge(&mut map.vertices, &mut edges, edge, &mut ranges, within, perspective);
+            cut_edge(&mut map.vertices, &mut edges, edge, &mut ranges, max_distance, perspective);
         }
     }
     map.edges = edges;
@@ -52,11 +52,11 @@ pub fn remove_coincident(map: &mut ViewMap, within: f64, frame: &Frame, extents:
 
 /// Parameter ranges of edges that another edge covers, sorted by edge and start.
 fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics) -> Vec<(u32, (f64, f64))> {
-    let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
-    let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
+    let visible_edges = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
+    let visible_ids: Vec<u32> = visible_edges.map(|(_, id)| id).collect();
     let of_edge = |id: &u32| (*id, EdgeLine::of(map, &map.edges[*id as usize]));
-    let mut lines: Vec<(u32, EdgeLine)> = seen.par_iter().with_min_len(1 << 10).map(of_edge).collect();
-    drop(seen);
+    let mut lines: Vec<(u32, EdgeLine)> = visible_ids.par_iter().with_min_len(1 << 10).map(of_edge).collect();
+    drop(visible_ids);
     lines.retain(|(_, line)| line.length > MIN_LENGTH_PER_DISTANCE * within);
     if lines.is_empty() {
         return Vec::new();
@@ -83,11 +83,11 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics
     let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
     let in_tile = csr_lists_from_pairs(grid.len(), passed);
     drop(walked);
-    let among = CoincidenceSearch { map, extents, frame, max_distance: within, lines, grid, in_tile };
-    let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
+    let search = CoincidenceSearch { map, extents, frame, max_distance: within, lines, grid, in_tile };
+    let mut covered: Vec<(u32, (f64, f64))> = (0..search.lines.len())
         .into_par_iter()
         .with_min_len(256)
-        .map_init(NearbyLines::default, |near, k| among.covered_with(k, near))
+        .map_init(NearbyLines::default, |near, k| search.covered_with(k, near))
         .flatten_iter()
         .collect();
     covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
@@ -108,24 +108,24 @@ struct CoincidenceSearch<'a> {
 
 impl CoincidenceSearch<'_> {
     /// Ranges of one line and the lines before it that cover each other.
-    fn covered_with(&self, number: usize, near: &mut NearbyLines) -> Vec<(u32, (f64, f64))> {
+    fn covered_with(&self, number: usize, nearby: &mut NearbyLines) -> Vec<(u32, (f64, f64))> {
         let Self { map, extents, max_distance: within, lines, .. } = self;
         let (id, line) = &lines[number];
         let edge = &map.edges[*id as usize];
         let mut covered = Vec::new();
-        self.find_near(number, near);
-        for near in &near.lines {
-            let (other_id, other_line) = &lines[*near as usize];
-            let other = &map.edges[*other_id as usize];
-            let joined = edge.start == other.start
-                || edge.start == other.end
-                || edge.end == other.start
-                || edge.end == other.end;
-            let within = if joined { self.joined_tolerance([edge, other]) } else { *within };
+        self.find_near(number, nearby);
+        for nearby_number in &nearby.lines {
+            let (other_id, other_line) = &lines[*nearby_number as usize];
+            let other_edge = &map.edges[*other_id as usize];
+            let joined = edge.start == other_edge.start
+                || edge.start == other_edge.end
+                || edge.end == other_edge.start
+                || edge.end == other_edge.end;
+            let within = if joined { self.joined_tolerance([edge, other_edge]) } else { *within };
             if !line.runs_along(other_line, within) {
                 continue;
             }
-            let (loser, range) = if precedence(map, extents, edge, other).is_lt() {
+            let (loser, range) = if precedence(map, extents, edge, other_edge).is_lt() {
                 (*other_id, other_line.covered_by(line, within))
             } else {
                 (*id, line.covered_by(other_line, within))
@@ -189,13 +189,13 @@ struct NearbyLines {
 pub(crate) fn precedence(map: &ViewMap, extents: &MeshMetrics, one: &ViewEdge, other: &ViewEdge) -> Ordering {
     let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
     let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
-    let place = |edge: &ViewEdge| {
-        let mut places = ends(edge).map(|end| [end.position.x, end.position.y]);
-        places.sort_by(|p, q| p.partial_cmp(q).unwrap_or(Ordering::Equal));
-        places
+    let end_points = |edge: &ViewEdge| {
+        let mut positions = ends(edge).map(|end| [end.position.x, end.position.y]);
+        positions.sort_by(|p, q| p.partial_cmp(q).unwrap_or(Ordering::Equal));
+        positions
     };
     let by_depth = || depth(one).total_cmp(&depth(other));
-    let by_place = || place(one).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
+    let by_place = || end_points(one).partial_cmp(&end_points(other)).unwrap_or(Ordering::Equal);
     let by_part = || extents.part(one.part).precedence(extents.part(other.part));
     let last = || other.segment.cmp(&one.segment);
     one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)

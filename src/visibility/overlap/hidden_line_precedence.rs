@@ -79,8 +79,8 @@ fn find(map: &ViewMap, ink: &LineInk) -> Vec<Vec<ParameterRange>> {
     let half_width = |edge: &ViewEdge| (ink.half_width)(edge).max(BEHIND_INK_PX * ink.px);
     let reaches: Vec<f64> = map.edges.par_iter().with_min_len(256).map(half_width).collect();
     let widest = reaches.iter().copied().fold(0.0, f64::max);
-    let most = (size / (MIN_CELL_PER_REACH * widest)).max(1.0) as u32;
-    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024).min(most);
+    let max_across = (size / (MIN_CELL_PER_REACH * widest)).max(1.0) as u32;
+    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024).min(max_across);
     let grid = TileGrid::new(low.truncate(), high.truncate(), across);
     let in_tile = csr_lists(grid.len(), |put| {
         for (line, number) in lines.iter().zip(0..) {
@@ -88,10 +88,13 @@ fn find(map: &ViewMap, ink: &LineInk) -> Vec<Vec<ParameterRange>> {
             grid.walk(p, q, |tile, _, _| put(tile, number));
         }
     });
-    let among = InkSearch { map, half_widths: reaches, widest, lines, grid, in_tile, ink };
-    let found: Vec<NearbyEdges> =
-        (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.nearby_edges(edge)).collect();
-    among.resolve(found)
+    let search = InkSearch { map, half_widths: reaches, widest, lines, grid, in_tile, ink };
+    let found: Vec<NearbyEdges> = (0..map.edges.len())
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|edge| search.nearby_edges(edge))
+        .collect();
+    search.resolve(found)
 }
 
 /// Edges near a hidden edge.
@@ -127,20 +130,20 @@ impl InkSearch<'_> {
         }
         let mut found = NearbyEdges::default();
         let mut covered = Vec::new();
-        for other in self.candidates_near(line).into_iter().filter(|other| *other as usize != number) {
-            let (its, reach) = (&self.lines[other as usize], self.half_widths[other as usize]);
-            let is_visible = self.map.edges[other as usize].invisibility == 0;
+        for neighbour in self.candidates_near(line).into_iter().filter(|other| *other as usize != number) {
+            let (other_line, reach) = (&self.lines[neighbour as usize], self.half_widths[neighbour as usize]);
+            let is_visible = self.map.edges[neighbour as usize].invisibility == 0;
             if is_visible {
-                covered.extend(line.within_ink_of(its, reach));
+                covered.extend(line.within_ink_of(other_line, reach));
             }
-            if !is_parallel(line, its) {
+            if !is_parallel(line, other_line) {
                 continue;
             }
-            let Some(range) = along(line, its, reach) else { continue };
+            let Some(range) = along(line, other_line, reach) else { continue };
             if is_visible {
                 found.behind.push(range);
-            } else if self.order(other, number as u32).is_lt() {
-                found.preceding_hidden.push(other);
+            } else if self.order(neighbour, number as u32).is_lt() {
+                found.preceding_hidden.push(neighbour);
             }
         }
         found.within = matches!(joined(covered, 0.0).as_slice(), [(from, to)] if *from <= 0.0 && *to >= 1.0);
@@ -148,16 +151,16 @@ impl InkSearch<'_> {
     }
 
     /// Compares two coincident hidden edges; the lesser one is kept.
-    fn order(&self, one: u32, other: u32) -> Ordering {
+    fn order(&self, first: u32, second: u32) -> Ordering {
         let Self { map, ink, .. } = self;
-        let [a, b] = [one, other].map(|number| &map.edges[number as usize]);
+        let [a, b] = [first, second].map(|number| &map.edges[number as usize]);
         let by_kind = a.kind.cmp(&b.kind).then(a.invisibility.cmp(&b.invisibility));
-        by_kind.then_with(|| precedence(map, ink.extents, a, b)).then(one.cmp(&other))
+        by_kind.then_with(|| precedence(map, ink.extents, a, b)).then(first.cmp(&second))
     }
 
     /// Ranges that each edge loses, after those before it have lost theirs.
     fn resolve(&self, mut found: Vec<NearbyEdges>) -> Vec<Vec<ParameterRange>> {
-        let mut lost: Vec<Vec<ParameterRange>> = vec![Vec::new(); found.len()];
+        let mut removed_ranges: Vec<Vec<ParameterRange>> = vec![Vec::new(); found.len()];
         for line in smooth_chains(self.map) {
             if line.iter().all(|edge| found[*edge as usize].within) {
                 line.iter().for_each(|edge| found[*edge as usize].behind = vec![(0.0, 1.0)]);
@@ -171,23 +174,28 @@ impl InkSearch<'_> {
             .collect();
         order.par_sort_by(|a, b| self.order(*a, *b));
         for number in order {
-            let NearbyEdges { behind, preceding_hidden: before, .. } =
+            let NearbyEdges { behind, preceding_hidden: earlier, .. } =
                 std::mem::take(&mut found[number as usize]);
             let line = &self.lines[number as usize];
             let mut ranges = behind;
-            for other in before {
-                let (its, reach) = (&self.lines[other as usize], self.half_widths[other as usize]);
-                let left = rest(&lost[other as usize]);
-                ranges.extend(left.into_iter().filter_map(|piece| along(line, &its.piece(piece), reach)));
+            for earlier_id in earlier {
+                let (earlier_line, reach) =
+                    (&self.lines[earlier_id as usize], self.half_widths[earlier_id as usize]);
+                let visible_ranges = rest(&removed_ranges[earlier_id as usize]);
+                ranges.extend(
+                    visible_ranges
+                        .into_iter()
+                        .filter_map(|piece| along(line, &earlier_line.piece(piece), reach)),
+                );
             }
             // Gaps shorter than the ink width are closed by the ink around them. Where lines only meet, the
             // overlap is no longer than that.
             let width = self.half_widths[number as usize] / line.length;
             let mut ranges = joined(ranges, width);
             ranges.retain(|(from, to)| to - from > width.min(0.5));
-            lost[number as usize] = ranges;
+            removed_ranges[number as usize] = ranges;
         }
-        lost
+        removed_ranges
     }
 
     /// Edges that may be within reach of a line, ascending.
@@ -198,31 +206,31 @@ impl InkSearch<'_> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.widest;
         let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
         let reach = if is_short { line.along * self.widest } else { Vec2::ZERO };
-        let mut near: Vec<u32> = Vec::new();
+        let mut candidates: Vec<u32> = Vec::new();
         for shift in [Vec2::ZERO, across, -across] {
             let ends = [line.start + shift - reach, line.end() + shift + reach].map(vector);
             self.grid.walk(ends[0], ends[1], |tile, _, _| {
-                let beside = |other: &&u32| is_short || is_parallel(line, &self.lines[**other as usize]);
-                near.extend(self.in_tile.of(tile).iter().filter(beside));
+                let is_relevant = |other: &&u32| is_short || is_parallel(line, &self.lines[**other as usize]);
+                candidates.extend(self.in_tile.of(tile).iter().filter(is_relevant));
             });
         }
-        near.sort_unstable();
-        near.dedup();
-        near
+        candidates.sort_unstable();
+        candidates.dedup();
+        candidates
     }
 }
 
 /// Complement of sorted, disjoint ranges in the parameter range 0 to 1.
-fn rest(lost: &[ParameterRange]) -> Vec<ParameterRange> {
-    let mut left = Vec::with_capacity(lost.len() + 1);
+fn rest(removed: &[ParameterRange]) -> Vec<ParameterRange> {
+    let mut remaining = Vec::with_capacity(removed.len() + 1);
     let mut at = 0.0;
-    for (from, to) in lost.iter().copied().chain([(1.0, 1.0)]) {
+    for (from, to) in removed.iter().copied().chain([(1.0, 1.0)]) {
         if from > at {
-            left.push((at, from));
+            remaining.push((at, from));
         }
         at = at.max(to);
     }
-    left
+    remaining
 }
 
 fn is_parallel(line: &EdgeLine, other: &EdgeLine) -> bool {
@@ -242,22 +250,22 @@ fn joined(mut ranges: Vec<ParameterRange>, gap: f64) -> Vec<ParameterRange> {
     joined
 }
 
-/// Range of a line's parameter (0 to 1) along which a parallel line is within `within`.
-fn along(line: &EdgeLine, other: &EdgeLine, within: f64) -> Option<ParameterRange> {
-    let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
-    let (mut a, mut b) = (place(other.start), place(other.end()));
+/// Range of a line's parameter (0 to 1) along which a parallel line is within `max_distance`.
+fn along(line: &EdgeLine, other: &EdgeLine, max_distance: f64) -> Option<ParameterRange> {
+    let line_coordinates = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
+    let (mut a, mut b) = (line_coordinates(other.start), line_coordinates(other.end()));
     if a.0 > b.0 {
         std::mem::swap(&mut a, &mut b);
     }
     let (mut from, mut to) = (a.0.max(0.0), b.0.min(line.length));
     let slope = (b.1 - a.1) / (b.0 - a.0);
     if slope == 0.0 {
-        if a.1.abs() > within {
+        if a.1.abs() > max_distance {
             return None;
         }
     } else {
         let reaches = |offset: f64| a.0 + (offset - a.1) / slope;
-        let (p, q) = (reaches(-within), reaches(within));
+        let (p, q) = (reaches(-max_distance), reaches(max_distance));
         from = from.max(p.min(q));
         to = to.min(p.max(q));
     }

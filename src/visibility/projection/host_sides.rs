@@ -19,8 +19,8 @@ pub(crate) struct HostedLine {
 
 impl HostedLine {
     /// Whether its own faces leave a side open, so background may be next to it.
-    pub fn may_bound(&self, mesh: &Mesh, view: &View, beside: f64) -> bool {
-        self.across().is_some_and(|across| self.covered_sides(across, mesh, view, beside) != [true; 2])
+    pub fn may_bound(&self, mesh: &Mesh, view: &View, margin: f64) -> bool {
+        self.across().is_some_and(|across| self.covered_sides(across, mesh, view, margin) != [true; 2])
     }
 
     /// Unit vector to the right of the line (y down); `None` if it has no length.
@@ -28,19 +28,19 @@ impl HostedLine {
         (self.line[1] - self.line[0]).truncate().perp().try_normalize()
     }
 
-    /// Whether its own faces cover its left side and its right side, farther than `beside` user units from
+    /// Whether its own faces cover its left side and its right side, farther than `margin` user units from
     /// it. Without own faces, both sides count as covered.
-    pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, beside: f64) -> [bool; 2] {
+    pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, margin: f64) -> [bool; 2] {
         if self.hosts == [NO_FACE; 2] {
             return [true; 2];
         }
         let mut cover = [false; 2];
         for face in self.hosts.into_iter().filter(|face| *face != NO_FACE) {
-            self.add_sides(face, across, mesh, view, beside, &mut cover);
+            self.add_sides(face, across, mesh, view, margin, &mut cover);
         }
         if cover != [true; 2] {
             for face in self.others(mesh) {
-                self.add_sides(*face, across, mesh, view, beside, &mut cover);
+                self.add_sides(*face, across, mesh, view, margin, &mut cover);
             }
         }
         cover
@@ -53,15 +53,15 @@ impl HostedLine {
         across: DVec2,
         mesh: &Mesh,
         view: &View,
-        beside: f64,
+        margin: f64,
         cover: &mut [bool; 2],
     ) {
         let corners = mesh.triangles[face as usize];
         for corner in corners.into_iter().filter(|v| !self.ends.contains(v)) {
             let height = (view.points[corner as usize] - self.line[0]).truncate().dot(across);
             if height.is_finite() {
-                cover[0] |= height < -beside;
-                cover[1] |= height > beside;
+                cover[0] |= height < -margin;
+                cover[1] |= height > margin;
             } else {
                 // The near plane cuts the face, so its winding gives the side on which it lies.
                 match winding_side(self.ends, corners, view.facing[face as usize]) {
@@ -87,8 +87,8 @@ impl HostedLine {
 /// Side of an edge on which its face lies in the image, 0 for left; `None` if the edge is not one of the
 /// face.
 fn winding_side(ends: [u32; 2], corners: [u32; 3], is_facing: bool) -> Option<usize> {
-    let place = |end: u32| corners.iter().position(|v| *v == end);
-    let (from, to) = (place(ends[0])?, place(ends[1])?);
+    let corner_index = |end: u32| corners.iter().position(|v| *v == end);
+    let (from, to) = (corner_index(ends[0])?, corner_index(ends[1])?);
     let runs_forward = (from + 1) % 3 == to;
     // A facing face is counter-clockwise and lies to the left of its edges.
     Some(usize::from(runs_forward != is_facing))

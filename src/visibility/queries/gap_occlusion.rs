@@ -65,10 +65,18 @@ impl<'a> GapOcclusion<'a> {
         (mesh, pieces): (&'a Mesh, &'a [u32]),
         view: &'a View,
         lines: &'a FeatureLines,
-        seen: &'a [VisibleContour],
+        contours: &'a [VisibleContour],
         moved: Vec2,
     ) -> Self {
-        Self { mesh, pieces, view, lines, visible_contours: seen, moved, triangle_blocks: OnceLock::new() }
+        Self {
+            mesh,
+            pieces,
+            view,
+            lines,
+            visible_contours: contours,
+            moved,
+            triangle_blocks: OnceLock::new(),
+        }
     }
 
     /// Reports for each gap whether it passes behind a visible surface of another component than its two
@@ -78,14 +86,15 @@ impl<'a> GapOcclusion<'a> {
     /// gap touches. A surface in front of the gap does not count either where the mesh contour is visible
     /// next to the gap.
     #[must_use]
-    pub fn occluded_gaps(&self, ways: &[GapSegment]) -> Vec<bool> {
-        if self.pieces.is_empty() || ways.is_empty() {
-            return vec![false; ways.len()];
+    pub fn occluded_gaps(&self, gaps: &[GapSegment]) -> Vec<bool> {
+        if self.pieces.is_empty() || gaps.is_empty() {
+            return vec![false; gaps.len()];
         }
         let Self { mesh, view, .. } = self;
         let limits = ViewTolerances::new(&view.frame);
-        let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
-        let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
+        let segments: Vec<ImageSegment> = gaps.iter().map(|gap| self.image(gap)).collect();
+        let own_pieces: Vec<[u32; 2]> =
+            gaps.iter().map(|gap_segment| gap_segment.segments.map(|s| self.piece(s))).collect();
         let grid = grid_over(segments.iter(), TILES_ACROSS);
         // Gaps are few and short, so only the tiles they pass through are numbered.
         let mut items: Vec<(usize, TileSegment)> = Vec::new();
@@ -100,12 +109,12 @@ impl<'a> GapOcclusion<'a> {
         let triangles = TiledTriangles { mesh, view, grid: &grid, limits: &limits };
         let occluders = self.blocks(&limits).fill(&triangles, &wanted);
         let reach = DVec2::splat(MAX_MATCH_DISTANCE_PX * limits.px);
-        let seen = csr_lists(wanted.count(), |put| {
-            for seen in self.visible_contours {
-                let [a, b] = seen.ends;
+        let contours_by_tile = csr_lists(wanted.count(), |put| {
+            for contour in self.visible_contours {
+                let [a, b] = contour.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
                 if !tiles.is_empty() && wanted.has_any(tiles) {
-                    wanted.within(tiles).for_each(|number| put(number, *seen));
+                    wanted.within(tiles).for_each(|number| put(number, *contour));
                 }
             }
         });
@@ -113,37 +122,41 @@ impl<'a> GapOcclusion<'a> {
             .into_par_iter()
             .with_min_len(TILES_PER_TASK)
             .map(|tile| {
-                let over: Vec<BoxedOccluder> = occluders
+                let boxed_occluders: Vec<BoxedOccluder> = occluders
                     .of(tile)
                     .iter()
                     .map(|id| BoxedOccluder::from(triangles.occluder(*id)))
                     .collect();
-                let around = GapTile {
+                let gap_tile = GapTile {
                     gap_occlusion: self,
                     limits: &limits,
-                    occluders: &over,
-                    visible_contours: seen.of(tile),
+                    occluders: &boxed_occluders,
+                    visible_contours: contours_by_tile.of(tile),
                 };
                 let is_behind = |item: &&TileSegment| {
-                    let way = item.segment as usize;
-                    around.occludes_gap_part(&segments[way], (item.start, item.end), own[way])
+                    let gap_index = item.segment as usize;
+                    gap_tile.occludes_gap_part(
+                        &segments[gap_index],
+                        (item.start, item.end),
+                        own_pieces[gap_index],
+                    )
                 };
                 items.of(tile).iter().filter(is_behind).map(|item| item.segment).collect()
             })
             .collect();
-        let mut hidden = vec![false; ways.len()];
-        found.iter().flatten().for_each(|way| hidden[*way as usize] = true);
+        let mut hidden = vec![false; gaps.len()];
+        found.iter().flatten().for_each(|gap_id| hidden[*gap_id as usize] = true);
         hidden
     }
 
     fn blocks(&self, limits: &ViewTolerances) -> &TriangleBlocks {
-        if let Some(near) = self.triangle_blocks.get() {
-            return near;
+        if let Some(existing) = self.triangle_blocks.get() {
+            return existing;
         }
         // Built outside the lock, so it may be built twice. Waiting for another thread here could deadlock,
         // because that thread may run this very task while it builds.
-        let made = TriangleBlocks::new(self.mesh, self.view, limits);
-        self.triangle_blocks.get_or_init(|| made)
+        let new_blocks = TriangleBlocks::new(self.mesh, self.view, limits);
+        self.triangle_blocks.get_or_init(|| new_blocks)
     }
 
     fn piece(&self, segment: u32) -> u32 {
@@ -151,10 +164,10 @@ impl<'a> GapOcclusion<'a> {
         self.pieces.get(hosts[0] as usize).copied().unwrap_or(u32::MAX)
     }
 
-    fn image(&self, way: &GapSegment) -> ImageSegment {
+    fn image(&self, gap: &GapSegment) -> ImageSegment {
         let point = |k: usize| {
-            let at = way.ends[k] - self.moved;
-            DVec3::new(at.x, at.y, self.view.frame.nearness_of(way.depths[k]))
+            let at = gap.ends[k] - self.moved;
+            DVec3::new(at.x, at.y, self.view.frame.nearness_of(gap.depths[k]))
         };
         ImageSegment {
             a: point(0),
@@ -171,7 +184,7 @@ impl<'a> GapOcclusion<'a> {
 
 /// Triangle with its bounding box in the image.
 struct BoxedOccluder {
-    whole: Occluder,
+    occluder: Occluder,
     low: DVec2,
     high: DVec2,
 }
@@ -179,7 +192,7 @@ struct BoxedOccluder {
 impl From<Occluder> for BoxedOccluder {
     fn from(whole: Occluder) -> Self {
         let [a, b, c] = whole.corners.map(DVec3::truncate);
-        Self { whole, low: a.min(b).min(c), high: a.max(b).max(c) }
+        Self { occluder: whole, low: a.min(b).min(c), high: a.max(b).max(c) }
     }
 }
 
@@ -195,24 +208,26 @@ struct GapTile<'a> {
 
 impl GapTile<'_> {
     /// Whether a triangle of another component hides the part of a gap in the tile.
-    fn occludes_gap_part(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
-        let Self { gap_occlusion: ahead, limits, occluders: over, .. } = self;
-        let is_own = |over: &BoxedOccluder| own.contains(&ahead.pieces[over.whole.face as usize]);
-        let ends = [part.0, part.1].map(|t| way.at(t).truncate());
+    fn occludes_gap_part(&self, gap: &ImageSegment, part: (f64, f64), own_pieces: [u32; 2]) -> bool {
+        let Self { gap_occlusion: query, limits, occluders: boxes, .. } = self;
+        let is_own = |boxed: &BoxedOccluder| own_pieces.contains(&query.pieces[boxed.occluder.face as usize]);
+        let ends = [part.0, part.1].map(|t| gap.at(t).truncate());
         let (low, high) = (
             ends[0].min(ends[1]) - tolerances::BOX_MARGIN_UNITS,
             ends[0].max(ends[1]) + tolerances::BOX_MARGIN_UNITS,
         );
-        let meets = |over: &&BoxedOccluder| over.low.cmple(high).all() && over.high.cmpge(low).all();
-        over.iter().filter(meets).filter(|over| !is_own(over)).any(|other| {
-            let hidden = hidden_interval(way, part, &other.whole, &ahead.view.frame, limits)
-                .filter(|hidden| (hidden.end - hidden.start) * way.length() > limits.piece);
+        let meets =
+            |candidate: &&BoxedOccluder| candidate.low.cmple(high).all() && candidate.high.cmpge(low).all();
+        boxes.iter().filter(meets).filter(|over| !is_own(over)).any(|hiding_box| {
+            let hidden = hidden_interval(gap, part, &hiding_box.occluder, &query.view.frame, limits)
+                .filter(|hidden| (hidden.end - hidden.start) * gap.length() > limits.piece);
             let Some(hidden) = hidden else { return false };
-            let middle = way.at((hidden.start + hidden.end) / 2.0).truncate();
-            let nearness_of = |over: &BoxedOccluder| nearness(&over.whole.corners, middle);
-            let seen = nearness_of(other);
-            let is_covered = || over.iter().any(|own| is_own(own) && nearness_of(own) > seen);
-            !is_covered() && !self.is_contour_visible_near(way, middle, own)
+            let middle = gap.at((hidden.start + hidden.end) / 2.0).truncate();
+            let nearness_of = |over: &BoxedOccluder| nearness(&over.occluder.corners, middle);
+            let hiding_nearness = nearness_of(hiding_box);
+            let is_covered =
+                || boxes.iter().any(|own_box| is_own(own_box) && nearness_of(own_box) > hiding_nearness);
+            !is_covered() && !self.is_contour_visible_near(gap, middle, own_pieces)
         })
     }
 
@@ -220,17 +235,17 @@ impl GapTile<'_> {
     ///
     /// It is if the contour crosses the normal of the gap there, no farther away than a smooth contour may be
     /// from its mesh contour.
-    fn is_contour_visible_near(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
-        let along = (way.b - way.a).truncate();
+    fn is_contour_visible_near(&self, gap: &ImageSegment, at: DVec2, own_pieces: [u32; 2]) -> bool {
+        let along = (gap.b - gap.a).truncate();
         let across = along.perp().normalize_or_zero();
-        self.visible_contours.iter().any(|seen| {
-            let [from, to] = seen.ends.map(|end| end - at);
+        self.visible_contours.iter().any(|contour| {
+            let [from, to] = contour.ends.map(|end| end - at);
             let (before, behind) = (from.dot(along), to.dot(along));
             let crosses = before * behind <= 0.0 && before != behind;
             let away = || from.lerp(to, before / (before - behind)).dot(across).abs();
             crosses
                 && away() <= MAX_MATCH_DISTANCE_PX * self.limits.px
-                && own.contains(&self.gap_occlusion.piece(seen.segment))
+                && own_pieces.contains(&self.gap_occlusion.piece(contour.segment))
         })
     }
 }

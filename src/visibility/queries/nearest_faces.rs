@@ -39,15 +39,15 @@ const MAX_CELLS_ACROSS: usize = 512;
 #[must_use]
 pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<FrontFace>> {
     let Some(grid) = PointGrid::new(points) else { return Vec::new() };
-    let whole = mesh.triangles.len();
-    let count = whole + view.clipped.len();
+    let face_count = mesh.triangles.len();
+    let count = face_count + view.clipped.len();
     let tasks: Vec<Vec<(u32, FrontFace)>> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|task| {
             let mut hits = Vec::new();
             for id in task * FACES_PER_TASK..((task + 1) * FACES_PER_TASK).min(count) {
-                match id.checked_sub(whole) {
+                match id.checked_sub(face_count) {
                     None => {
                         let t = mesh.triangles[id];
                         if !mesh.is_degenerate(FaceId(id as u32)) {
@@ -193,7 +193,7 @@ mod tests {
         let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
         let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.1);
         let view = View::new(&mesh, &camera);
-        let mut asked = Vec::new();
+        let mut query_points = Vec::new();
         let mut wanted = Vec::new();
         for i in 0..60 {
             for k in 0..60 {
@@ -202,11 +202,11 @@ mod tests {
                 let sheet = [1.0, 2.0, 4.0].iter().position(|half| reach < *half).map(|k| 2 - k);
                 let height = sheet.map_or(0.0, |sheet| sheet as f64);
                 let image = view.frame.image_from_local(DVec3::new(x, y, height) - mesh.origin);
-                asked.push(image.truncate());
+                query_points.push(image.truncate());
                 wanted.push(sheet);
             }
         }
-        let found = front_faces(&mesh, &view, &asked);
+        let found = front_faces(&mesh, &view, &query_points);
         let perspective_hides = |sheet: Option<usize>, front: Option<usize>| front > sheet;
         for (front, sheet) in found.iter().zip(&wanted) {
             let front = front.map(|front| front.face as usize / 2);
@@ -233,18 +233,18 @@ mod tests {
             // Random points, and the corners of faces.
             let (width, height) = (camera.width, camera.height);
             let anywhere = || DVec2::new(dice.between(0.0, width), dice.between(0.0, height));
-            let mut asked: Vec<DVec2> = std::iter::repeat_with(anywhere).take(2000).collect();
-            asked.extend(view.points.iter().map(|p| p.truncate()));
-            let found = front_faces(&mesh, &view, &asked);
+            let mut query_points: Vec<DVec2> = std::iter::repeat_with(anywhere).take(2000).collect();
+            query_points.extend(view.points.iter().map(|p| p.truncate()));
+            let found = front_faces(&mesh, &view, &query_points);
             let mut covered = 0;
-            for (k, (p, found)) in asked.iter().zip(&found).enumerate() {
+            for (k, (p, found)) in query_points.iter().zip(&found).enumerate() {
                 let covering = mesh.triangles.iter().filter_map(|t| {
                     let [a, b, c] = t.map(|v| view.points[v as usize]);
                     let side = |a: DVec3, b: DVec3| (b - a).truncate().perp_dot(*p - a.truncate());
                     let weights = [side(b, c), side(c, a), side(a, b)];
                     let sum: f64 = weights.iter().sum();
-                    let least = weights.iter().map(|w| w / sum).fold(f64::INFINITY, f64::min);
-                    (least >= 1e-9).then(|| (a * weights[0] + b * weights[1] + c * weights[2]).z / sum)
+                    let min_weight = weights.iter().map(|w| w / sum).fold(f64::INFINITY, f64::min);
+                    (min_weight >= 1e-9).then(|| (a * weights[0] + b * weights[1] + c * weights[2]).z / sum)
                 });
                 let inside = covering.fold(f64::NEG_INFINITY, f64::max);
                 let corner = k.checked_sub(2000).map_or(f64::NEG_INFINITY, |v| view.points[v].z);

@@ -43,18 +43,18 @@ impl CutSegments {
         &mut self,
         id: usize,
         segment: &ImageSegment,
-        seen: SegmentOcclusion,
+        occlusion: SegmentOcclusion,
         shortest: f64,
         keeps_hidden: bool,
     ) {
         // Most lines behind walls are hidden throughout.
-        if !keeps_hidden && seen.hidden == segment_visibility::FULLY_HIDDEN {
+        if !keeps_hidden && occlusion.hidden == segment_visibility::FULLY_HIDDEN {
             return;
         }
         let first = self.pieces.len();
         // The background next to a smooth contour comes from the mesh contour matched to it.
         let bounds = segment.bounds || segment.role == Role::SmoothContour;
-        cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
+        cut_segment(segment, occlusion, bounds, shortest, &mut self.pieces);
         if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
             self.segments.push(CutSegment { segment: id, count: self.pieces.len() - first, keeps_hidden });
         } else {
@@ -68,18 +68,18 @@ impl CutSegments {
 /// If it `bounds` a surface, the visible parts are also cut where background begins or ends next to them.
 fn cut_segment(
     segment: &ImageSegment,
-    seen: SegmentOcclusion,
+    occlusion: SegmentOcclusion,
     bounds: bool,
     shortest: f64,
     out: &mut Vec<SegmentPart>,
 ) {
     let shortest = shortest / segment.length().max(shortest);
     let mut at = 0.0;
-    for layer in seen.hidden {
+    for layer in occlusion.hidden {
         let interval = &layer.interval;
         let start = if interval.start - at <= shortest { at } else { interval.start };
         if start > at {
-            visible(out, seen, bounds, at, start, interval.start_kind, shortest);
+            visible(out, occlusion, bounds, at, start, interval.start_kind, shortest);
         }
         let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
         out.push(SegmentPart {
@@ -92,13 +92,13 @@ fn cut_segment(
         at = end;
     }
     if at < 1.0 {
-        visible(out, seen, bounds, at, 1.0, ViewVertexKind::Vertex, shortest);
+        visible(out, occlusion, bounds, at, 1.0, ViewVertexKind::Vertex, shortest);
     }
 }
 
 fn visible(
     out: &mut Vec<SegmentPart>,
-    seen: SegmentOcclusion,
+    occlusion: SegmentOcclusion,
     bounds: bool,
     start: f64,
     end: f64,
@@ -112,8 +112,8 @@ fn visible(
     if bounds {
         // A line behind many thin parts has many visible pieces and many backed intervals, hence the binary
         // search.
-        let first = seen.non_silhouette.partition_point(|backed| backed.end <= start);
-        for backed in seen.non_silhouette[first..].iter().take_while(|backed| backed.start < end) {
+        let first = occlusion.non_silhouette.partition_point(|backed| backed.end <= start);
+        for backed in occlusion.non_silhouette[first..].iter().take_while(|backed| backed.start < end) {
             let (from, to) = (backed.start.max(at), backed.end.min(end));
             if to - from <= shortest {
                 continue;
@@ -175,15 +175,18 @@ mod tests {
                 keeps_hidden,
             );
         }
-        let mut rest = cuts.pieces.as_slice();
+        let mut remaining = cuts.pieces.as_slice();
         let pieces = |cut: &CutSegment| {
-            let own;
-            (own, rest) = rest.split_at(cut.count);
+            let cut_pieces;
+            (cut_pieces, remaining) = remaining.split_at(cut.count);
             assert_eq!(cut.keeps_hidden, keeps_hidden);
-            own.iter().map(|piece| (piece.start, piece.end, piece.invisibility, piece.silhouette)).collect()
+            cut_pieces
+                .iter()
+                .map(|piece| (piece.start, piece.end, piece.invisibility, piece.silhouette))
+                .collect()
         };
         let all = cuts.segments.iter().map(pieces).collect();
-        assert!(rest.is_empty());
+        assert!(remaining.is_empty());
         all
     }
 
@@ -210,11 +213,11 @@ mod tests {
             &[hidden_interval(0.0, 0.5, 1), hidden_interval(0.5, 1.0, 2)],
             &[hidden_interval(0.0, 0.9995, 3)],
         ];
-        let whole = (0.0, 1.0, 0, false);
-        assert_eq!(kept_pieces(false, false, &hidden), [[whole]]);
+        let visible_piece = (0.0, 1.0, 0, false);
+        assert_eq!(kept_pieces(false, false, &hidden), [[visible_piece]]);
         let found = kept_pieces(false, true, &hidden);
         assert_eq!(found[0], [(0.0, 1.0, 1, false)]);
-        assert_eq!(found[1], [whole]);
+        assert_eq!(found[1], [visible_piece]);
         assert_eq!(found[2], [(0.0, 0.5, 1, false), (0.5, 1.0, 2, false)]);
         assert_eq!(found[3], [(0.0, 1.0, 3, false)]);
     }

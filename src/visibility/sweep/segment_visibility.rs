@@ -98,17 +98,18 @@ pub(crate) fn decide_with(
     segments: &[ImageSegment],
     limits: &ViewTolerances,
     counting: bool,
-    known: Option<&ViewOcclusionBuffer>,
+    buffer: Option<&ViewOcclusionBuffer>,
 ) -> SegmentVisibility {
-    let asked = || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::SmoothContour);
-    if asked().next().is_none() {
+    let relevant_segments =
+        || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::SmoothContour);
+    if relevant_segments().next().is_none() {
         return gather(segments, limits, &[], &[]);
     }
-    let grid = grid_over(asked().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
+    let grid = grid_over(relevant_segments().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
     let triangles = TiledTriangles { mesh, view, grid: &grid, limits };
     let items = || {
-        let known = known.filter(|known| known.grid == grid);
-        let covers = match known {
+        let matching_buffer = buffer.filter(|known| known.grid == grid);
+        let covers = match matching_buffer {
             _ if counting => Cow::Owned(OcclusionBuffer::none(&grid)),
             Some(known) => Cow::Borrowed(&known.covers),
             None => Cow::Owned(OcclusionBuffer::find(&triangles)),
@@ -142,10 +143,10 @@ pub(crate) fn decide_with(
             match &long {
                 None => decide(items, &mut ids.iter()),
                 Some(long) => {
-                    let (of_long, others): (Vec<TileSegment>, Vec<TileSegment>) =
+                    let (long_items, remaining_items): (Vec<TileSegment>, Vec<TileSegment>) =
                         items.iter().partition(|item| long.has(item.segment));
-                    decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
-                    decide(&others, &mut ids.iter());
+                    decide(&long_items, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
+                    decide(&remaining_items, &mut ids.iter());
                 }
             }
         }
@@ -166,9 +167,9 @@ pub(crate) fn decide_with(
     let long_tests = long.as_ref().map_or(0, |long| long.tests);
     // Freed first, because sorting the results takes the same amount of memory again.
     drop((long, occluders, items, memories));
-    let mut told = gather(segments, limits, &buried, &results);
-    told.tests += long_tests;
-    told
+    let mut visibility = gather(segments, limits, &buried, &results);
+    visibility.tests += long_tests;
+    visibility
 }
 
 /// Gathers the results of all tiles by segment and joins them there.
@@ -179,11 +180,11 @@ fn gather(
     results: &[TileResult],
 ) -> SegmentVisibility {
     let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
-    let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.fully_hidden));
+    let hidden_items = || buried_items.iter().chain(results.iter().flat_map(|r| &r.fully_hidden));
     // The parts of a segment divide its parameter range. So a segment is entirely hidden if its hidden parts
     // add up to 1.
     let mut length = vec![0.0f64; segments.len()];
-    for item in wholes() {
+    for item in hidden_items() {
         length[item.segment as usize] += item.end - item.start;
     }
     let buried: Vec<bool> =
@@ -192,7 +193,7 @@ fn gather(
     let hidden = || {
         let of_item = |item: &TileSegment| (item.segment, whole(item.start, item.end));
         let pieces = results.iter().flat_map(|r| &r.hidden).copied();
-        let found = wholes().map(of_item).chain(pieces).filter(|(segment, _)| open(*segment));
+        let found = hidden_items().map(of_item).chain(pieces).filter(|(segment, _)| open(*segment));
         let hidden =
             csr_lists_from_pairs(segments.len(), found.map(|(segment, layer)| (segment as usize, layer)));
         hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))

@@ -44,13 +44,13 @@ impl TileBox {
     #[inline]
     #[must_use]
     pub fn within(self, other: Self) -> Self {
-        let both = Self {
+        let overlap = Self {
             left: self.left.max(other.left),
             right: self.right.min(other.right),
             top: self.top.max(other.top),
             bottom: self.bottom.min(other.bottom),
         };
-        if both.left > both.right || both.top > both.bottom { Self::EMPTY } else { both }
+        if overlap.left > overlap.right || overlap.top > overlap.bottom { Self::EMPTY } else { overlap }
     }
 
     /// Number of tiles.
@@ -81,9 +81,9 @@ impl TileReach {
     /// Combined range of the three corners of a triangle.
     #[inline]
     pub fn of_all([a, b, c]: [Self; 3]) -> Self {
-        let least = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
-        let most = |k: usize| a.to[k].max(b.to[k]).max(c.to[k]);
-        Self { from: [least(0), least(1)], to: [most(0), most(1)] }
+        let min_index = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
+        let max_index = |k: usize| a.to[k].max(b.to[k]).max(c.to[k]);
+        Self { from: [min_index(0), min_index(1)], to: [max_index(0), max_index(1)] }
     }
 }
 
@@ -92,7 +92,7 @@ impl TileGrid {
     #[inline]
     pub(crate) fn around(&self, point: DVec3, slack: f64) -> TileReach {
         let last = self.corner(self.columns, self.rows);
-        let place = |x: f64, first: f64, last: f64, tile: u32, count: u32| {
+        let clamped_index = |x: f64, first: f64, last: f64, tile: u32, count: u32| {
             if x < first {
                 0
             } else if x > last {
@@ -101,8 +101,8 @@ impl TileGrid {
                 tile as u16 + 1
             }
         };
-        let column = |x: f64| place(x, self.origin.x, last.x, self.column(x), self.columns);
-        let row = |y: f64| place(y, self.origin.y, last.y, self.row(y), self.rows);
+        let column = |x: f64| clamped_index(x, self.origin.x, last.x, self.column(x), self.columns);
+        let row = |y: f64| clamped_index(y, self.origin.y, last.y, self.row(y), self.rows);
         let (low, high) = (point - slack, point + slack);
         TileReach { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
     }

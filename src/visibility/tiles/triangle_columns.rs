@@ -101,10 +101,10 @@ mod tests {
             let points = [0; 3].map(|_| dice.point(40.0) + DVec3::splat(32.0));
             let sides = TriangleHalfPlanes::new(&points);
             let [a, b, c] = points.map(DVec3::truncate);
-            let way = (b - a).perp_dot(c - a).signum();
+            let orientation = (b - a).perp_dot(c - a).signum();
             // Smallest distance of a point from the sides, positive inside.
             let inside = |p: DVec2| {
-                let of_side = |q: DVec2, r: DVec2| (r - q).normalize().perp_dot(p - q) * way;
+                let of_side = |q: DVec2, r: DVec2| (r - q).normalize().perp_dot(p - q) * orientation;
                 of_side(a, b).min(of_side(b, c)).min(of_side(c, a))
             };
             let low = points[0].min(points[1]).min(points[2]);

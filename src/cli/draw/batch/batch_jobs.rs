@@ -42,7 +42,7 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<BatchJob>, Error> {
     let models = models(args);
     let piped = args.many.piped(&models)?;
     let mut jobs: Vec<BatchJob> = Vec::with_capacity(models.len());
-    let mut taken: HashMap<PathBuf, &Path> = HashMap::new();
+    let mut model_of_output: HashMap<PathBuf, &Path> = HashMap::new();
     'models: for model in &models {
         let plain = match &args.many.out_dir {
             Some(folder) => in_folder(folder, model, args)?,
@@ -60,9 +60,11 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<BatchJob>, Error> {
             let outputs = plain.iter().map(|path| Output::new(with_view_name(path, view, args)));
             let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
             for output in &outputs {
-                match taken.insert(key(&output.path), model) {
-                    Some(other) if other == model || same_file(other, model) => continue 'models,
-                    Some(other) => return Err(clash(output, other, model, args)),
+                match model_of_output.insert(key(&output.path), model) {
+                    Some(earlier_model) if earlier_model == model || same_file(earlier_model, model) => {
+                        continue 'models;
+                    }
+                    Some(earlier_model) => return Err(clash(output, earlier_model, model, args)),
                     None => {}
                 }
             }

@@ -21,7 +21,7 @@ pub(crate) struct InputWatch<'a> {
     jobs: &'a [BatchJob],
     /// Input files of each job. They change when a style sheet extends another sheet.
     files: Vec<Vec<PathBuf>>,
-    seen: Stamps,
+    last_stamps: Stamps,
 }
 
 impl<'a> InputWatch<'a> {
@@ -29,7 +29,7 @@ impl<'a> InputWatch<'a> {
     pub(crate) fn new(jobs: &'a [BatchJob]) -> Self {
         let files = files(jobs);
         let seen = stamps(&files);
-        Self { jobs, files, seen }
+        Self { jobs, files, last_stamps: seen }
     }
 
     /// Waits for a change, and returns the jobs with changed inputs.
@@ -37,7 +37,7 @@ impl<'a> InputWatch<'a> {
         loop {
             std::thread::sleep(POLL_INTERVAL);
             let mut now = stamps(&self.files);
-            if now == self.seen {
+            if now == self.last_stamps {
                 continue;
             }
             loop {
@@ -50,19 +50,20 @@ impl<'a> InputWatch<'a> {
                 }
             }
             // A missing file may come back: programs often save by replacing a file.
-            now.retain(|_, stamp| stamp.is_some());
-            let is_new =
-                |path: &PathBuf| now.get(path).is_some_and(|stamp| self.seen.get(path) != Some(stamp));
+            now.retain(|_, file_stamp| file_stamp.is_some());
+            let is_new = |path: &PathBuf| {
+                now.get(path).is_some_and(|new_stamp| self.last_stamps.get(path) != Some(new_stamp))
+            };
             let files_of_jobs = self.jobs.iter().zip(&self.files);
             let jobs: Vec<&BatchJob> =
                 files_of_jobs.filter(|(_, files)| files.iter().any(is_new)).map(|(job, _)| job).collect();
-            self.seen.extend(now);
+            self.last_stamps.extend(now);
             if jobs.is_empty() {
                 continue;
             }
             self.files = files(self.jobs);
-            for (path, stamp) in stamps(&self.files) {
-                self.seen.entry(path).or_insert(stamp);
+            for (path, first_stamp) in stamps(&self.files) {
+                self.last_stamps.entry(path).or_insert(first_stamp);
             }
             return jobs;
         }

@@ -118,13 +118,13 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
         let Some(of) = number("SLURM_ARRAY_TASK_COUNT")?.filter(|of| *of > 0) else {
             return unsaid(name, "SLURM_ARRAY_TASK_COUNT is missing");
         };
-        let least = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(1);
+        let min_id = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(1);
         let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
-        let most =
-            number("SLURM_ARRAY_TASK_MAX")?.unwrap_or(least.saturating_add((of - 1).saturating_mul(step)));
-        let place = |id: usize| id.checked_sub(least).filter(|off| off % step == 0).map(|off| off / step);
+        let max_id =
+            number("SLURM_ARRAY_TASK_MAX")?.unwrap_or(min_id.saturating_add((of - 1).saturating_mul(step)));
+        let index_of = |id: usize| id.checked_sub(min_id).filter(|off| off % step == 0).map(|off| off / step);
         // A list such as 3,7 has gaps, so the position of this task in it is unknown.
-        return match place(id).filter(|first| *first < of && place(most) == Some(of - 1)) {
+        return match index_of(id).filter(|first| *first < of && index_of(max_id) == Some(of - 1)) {
             Some(first) => Ok(Some(Shard { first, count: of })),
             None => unsaid(name, "its task numbers have gaps"),
         };

@@ -45,7 +45,7 @@ impl Plates {
             Inks::Cmyk(profile) => Some(profile),
             Inks::Screen | Inks::K => options.profile.as_ref(),
         };
-        let wanted = match options.inks {
+        let colour_model = match options.inks {
             Inks::Screen => (DataColorSpace::Rgb, 3, "RGB"),
             Inks::K | Inks::Cmyk(_) => (DataColorSpace::Cmyk, 4, "CMYK"),
         };
@@ -66,13 +66,13 @@ impl Plates {
             plates.limit = Some(limit / 100.0);
         }
         for (number, spot) in options.spots.iter().enumerate() {
-            let taken =
+            let is_reserved =
                 ["", "All", "None", "Cyan", "Magenta", "Yellow", "Black"].contains(&spot.name.as_str());
-            if taken || spot.name.len() > 127 {
+            if is_reserved || spot.name.len() > 127 {
                 return Err(Error::new(format!("`{}` cannot be the name of an ink", spot.name))
                     .remedy("give the name of the ink, such as \"PANTONE 185 C\""));
             }
-            if options.spots.iter().take(number).any(|other| same(other.colour, spot.colour)) {
+            if options.spots.iter().take(number).any(|earlier_spot| same(earlier_spot.colour, spot.colour)) {
                 return Err(Error::new(format!("the colour {} has two inks", spot.colour.hex()))
                     .remedy("name it once"));
             }
@@ -81,14 +81,14 @@ impl Plates {
         let refused = |what: &str| {
             Error::new(what).of_kind(ErrorKind::Unsupported).remedy(format!(
                 "give the ICC profile of a {}, with {} channels",
-                if wanted.1 == 3 { "screen" } else { "press" },
-                wanted.2
+                if colour_model.1 == 3 { "screen" } else { "press" },
+                colour_model.2
             ))
         };
         let profile =
             ColorProfile::new_from_slice(bytes).map_err(|_| refused("the file is not an ICC profile"))?;
-        if profile.color_space != wanted.0 {
-            return Err(refused(&format!("the profile is not for {}", wanted.2)));
+        if profile.color_space != colour_model.0 {
+            return Err(refused(&format!("the profile is not for {}", colour_model.2)));
         }
         if matches!(options.inks, Inks::Cmyk(_)) {
             let intent = RenderingIntent::RelativeColorimetric;
@@ -104,7 +104,7 @@ impl Plates {
         }
         let name =
             profile.description.as_ref().and_then(named).unwrap_or_else(|| "a profile without a name".into());
-        plates.profile = Some((Arc::clone(bytes), wanted.1, name));
+        plates.profile = Some((Arc::clone(bytes), colour_model.1, name));
         Ok(plates)
     }
 

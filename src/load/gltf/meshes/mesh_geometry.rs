@@ -86,11 +86,11 @@ struct VertexBlock {
 }
 
 impl<'a> MeshBuilder<'a> {
-    /// Adds a primitive; `here` names it in messages.
+    /// Adds a primitive; `describe_location` names it in messages.
     fn add(
         &mut self,
         primitive: &'a Primitive,
-        here: &dyn Fn() -> String,
+        describe_location: &dyn Fn() -> String,
         warnings: &mut Warnings,
         missing: &mut MissingReferences,
     ) -> Result<(), Error> {
@@ -98,7 +98,7 @@ impl<'a> MeshBuilder<'a> {
         let material = primitive.material.filter(|material| *material < materials);
         if let (Some(number), None) = (primitive.material, material) {
             missing.materials.add(|| {
-                let (here, number) = (here(), DisplayIndex(number));
+                let (here, number) = (describe_location(), DisplayIndex(number));
                 format!("{here}: has material {number}, but the file has {materials}; it is drawn without a material")
             });
         }
@@ -111,9 +111,9 @@ impl<'a> MeshBuilder<'a> {
         let mut shape = self.shape(primitive, mode, block, ready, warnings)?;
         let mut marks = match &primitive.extensions.edges {
             Some(edges) if !edges.is_empty() => {
-                let own = self.geometry.positions.get(block.start as usize..).unwrap_or_default();
-                let own = own.get(..block.count as usize).unwrap_or_default();
-                edge_visibility::marks(self.buffers, edges, &shape.triangles, own, warnings)?
+                let block_positions = self.geometry.positions.get(block.start as usize..).unwrap_or_default();
+                let block_positions = block_positions.get(..block.count as usize).unwrap_or_default();
+                edge_visibility::marks(self.buffers, edges, &shape.triangles, block_positions, warnings)?
             }
             _ => Vec::new(),
         };
@@ -126,8 +126,8 @@ impl<'a> MeshBuilder<'a> {
         }
         if !block.uvs && !shape.triangles.is_empty() && self.wants_uvs(material) {
             missing.uvs.add(|| {
-                let (here, wanted) = (here(), vertex_reader::uv_name(self.buffers, primitive));
-                format!("{here}: its texture wants {wanted}, which it does not have; the plain colour is drawn instead")
+                let (here, uv_set_name) = (describe_location(), vertex_reader::uv_name(self.buffers, primitive));
+                format!("{here}: its texture wants {uv_set_name}, which it does not have; the plain colour is drawn instead")
             });
         }
         self.painted.push((material, shape.triangles.len()));
@@ -247,18 +247,18 @@ impl<'a> MeshBuilder<'a> {
         warnings: &mut Warnings,
     ) {
         let positions = &self.geometry.positions;
-        let own =
+        let block_positions =
             positions.get(block.start as usize..(block.start + block.count) as usize).unwrap_or_default();
-        if own.iter().all(|position| position.is_finite()) {
+        if block_positions.iter().all(|position| position.is_finite()) {
             return;
         }
         let sound = |index: &u32| positions.get(*index as usize).is_some_and(|position| position.is_finite());
         let keep: Vec<bool> = shape.triangles.iter().map(|corners| corners.iter().all(sound)).collect();
         let before = (shape.triangles.len(), shape.wires.len());
-        let mut kept = keep.iter();
-        shape.triangles.retain(|_| kept.next().copied().unwrap_or(true));
-        let mut kept = keep.iter();
-        marks.retain(|_| kept.next().copied().unwrap_or(true));
+        let mut keep_flags = keep.iter();
+        shape.triangles.retain(|_| keep_flags.next().copied().unwrap_or(true));
+        let mut keep_flags = keep.iter();
+        marks.retain(|_| keep_flags.next().copied().unwrap_or(true));
         shape.wires.retain(|ends| ends.iter().all(sound));
         let dropped = |before: usize, after: usize| (before - after) as u64;
         let (triangles, lines) =

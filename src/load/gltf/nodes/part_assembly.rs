@@ -32,12 +32,12 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
     let mut morphing = vec![false; nodes.rest.len()];
     for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {
         let Some((node, NodeProperty::Weights)) = channel.target.of_node() else { continue };
-        if let Some(own) = morphing.get_mut(node) {
-            *own = true;
+        if let Some(is_morphing) = morphing.get_mut(node) {
+            *is_morphing = true;
         }
     }
     let mut skins: BTreeMap<usize, Skin> = BTreeMap::new();
-    let mut known: BTreeMap<GeometryKey, usize> = BTreeMap::new();
+    let mut geometry_of_key: BTreeMap<GeometryKey, usize> = BTreeMap::new();
     let mut reach: Vec<DVec3> = Vec::new();
     let mut missing = MissingReferences::default();
     let no_weights: Vec<f64> = Vec::new();
@@ -46,7 +46,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
             continue;
         };
         let Some(number) = node.mesh else { continue };
-        let here = |error: Error| error.within(format!("node {index}"));
+        let in_node = |error: Error| error.within(format!("node {index}"));
         let weights = match (&node.weights, buffers.root.meshes.get(number)) {
             (Some(weights), _) => weights,
             (None, Some(mesh)) => &mesh.weights,
@@ -69,50 +69,55 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
                 )
             });
         }
-        let own = Some(index).filter(|_| morphing.get(index).copied().unwrap_or(false));
-        let key: GeometryKey = (number, skin, weights.iter().map(|weight| weight.to_bits()).collect(), own);
-        let geometry = match known.get(&key) {
+        let morphing_node = Some(index).filter(|_| morphing.get(index).copied().unwrap_or(false));
+        let key: GeometryKey =
+            (number, skin, weights.iter().map(|weight| weight.to_bits()).collect(), morphing_node);
+        let geometry = match geometry_of_key.get(&key) {
             Some(geometry) => *geometry,
             None => {
                 let joints = match skin {
                     Some(skin) => {
-                        let own = match skins.entry(skin) {
+                        let loaded_skin = match skins.entry(skin) {
                             Entry::Occupied(known) => known.into_mut(),
                             Entry::Vacant(new) => new.insert(skin_and_morphs::skin(buffers, skin)?),
                         };
-                        Some(own.transforms(&nodes.world))
+                        Some(loaded_skin.transforms(&nodes.world))
                     }
                     None => None,
                 };
-                let asked = (weights.as_slice(), joints.as_deref(), rigged);
-                let (made, bodies) =
-                    mesh_geometry::geometry(buffers, number, asked, &mut scene.warnings, &mut missing)?;
+                let deformation = (weights.as_slice(), joints.as_deref(), rigged);
+                let (new_geometry, bodies) =
+                    mesh_geometry::geometry(buffers, number, deformation, &mut scene.warnings, &mut missing)?;
                 if rigged {
                     rig.forms.push(GeometryRig { node: index, skin, bodies });
                 }
-                reach
-                    .push(made.positions.iter().fold(DVec3::ZERO, |most, position| most.max(position.abs())));
-                scene.geometries.push(made);
-                known.insert(key, scene.geometries.len() - 1);
+                reach.push(
+                    new_geometry
+                        .positions
+                        .iter()
+                        .fold(DVec3::ZERO, |max_corner, position| max_corner.max(position.abs())),
+                );
+                scene.geometries.push(new_geometry);
+                geometry_of_key.insert(key, scene.geometries.len() - 1);
                 scene.geometries.len() - 1
             }
         };
         // The joints already transform a skinned mesh to world space.
         let world = if skin.is_some() { DAffine3::IDENTITY } else { world };
-        let places = match &node.extensions.instancing {
-            Some(instancing) => instances::places(buffers, instancing).map_err(here)?,
+        let instance_transforms = match &node.extensions.instancing {
+            Some(instancing) => instances::places(buffers, instancing).map_err(in_node)?,
             None => vec![DAffine3::IDENTITY],
         };
-        if scene.parts.len().saturating_add(places.len()) > MAX_PARTS {
-            return Err(here(Error::new(format!("the scene has more than {MAX_PARTS} instances"))));
+        if scene.parts.len().saturating_add(instance_transforms.len()) > MAX_PARTS {
+            return Err(in_node(Error::new(format!("the scene has more than {MAX_PARTS} instances"))));
         }
         let reach = reach.get(geometry).copied().unwrap_or_default();
-        for place in places {
-            let world_from_part = world * place;
-            check_size(world_from_part, reach).map_err(here)?;
+        for instance_transform in instance_transforms {
+            let world_from_part = world * instance_transform;
+            check_size(world_from_part, reach).map_err(in_node)?;
             scene.parts.push(Part { name: hierarchy::name(buffers.root, index), geometry, world_from_part });
             if rigged {
-                rig.parts.push((index, place));
+                rig.parts.push((index, instance_transform));
             }
         }
     }
@@ -121,9 +126,9 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
     missing.warn(&mut lost);
     scene.warnings.extend(&lost);
     if rigged {
-        let most = skins.keys().last().map_or(0, |skin| skin + 1);
+        let skin_count = skins.keys().last().map_or(0, |skin| skin + 1);
         let none = Skin { joints: Vec::new(), binds: Vec::new() };
-        rig.skins = (0..most).map(|skin| skins.remove(&skin).unwrap_or_else(|| none.clone())).collect();
+        rig.skins = (0..skin_count).map(|skin| skins.remove(&skin).unwrap_or_else(|| none.clone())).collect();
     }
     if scene.parts.is_empty() {
         if let [first, ..] = lost.lines().as_slice() {
@@ -132,7 +137,8 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
         let meshes = || nodes.shown.iter().filter_map(|node| buffers.root.nodes.get(*node)?.mesh);
         if meshes().next().is_some() {
             let shown = meshes().filter_map(|mesh| buffers.root.meshes.get(mesh));
-            let has_points = shown.flat_map(|mesh| &mesh.primitives).any(|own| own.mode == Some(0));
+            let has_points =
+                shown.flat_map(|mesh| &mesh.primitives).any(|primitive| primitive.mode == Some(0));
             return Err(nothing_to_draw(&scene.warnings, has_points));
         }
         let nodes = nodes.shown.len();

@@ -212,16 +212,20 @@ impl Buffers<'_> {
             })?);
             Ok::<_, Error>(part)
         };
-        let places = ComponentType::new(sparse.indices.component_type)?;
-        let places = part(sparse.indices.buffer_view, sparse.indices.byte_offset, places, 1, false)?;
+        let index_type = ComponentType::new(sparse.indices.component_type)?;
+        let sparse_indices =
+            part(sparse.indices.buffer_view, sparse.indices.byte_offset, index_type, 1, false)?;
         let changed =
             part(sparse.values.buffer_view, sparse.values.byte_offset, like.component, N, like.normalized)?;
         let count = values.len();
-        for (place, value) in places.whole_numbers()?.values.into_iter().zip(changed.collect(make)) {
-            match values.get_mut(place as usize) {
+        for (element_index, value) in
+            sparse_indices.whole_numbers()?.values.into_iter().zip(changed.collect(make))
+        {
+            match values.get_mut(element_index as usize) {
                 Some(old) => *old = value,
                 None => {
-                    let message = format!("sparse index {place} is out of range, there are {count} elements");
+                    let message =
+                        format!("sparse index {element_index} is out of range, there are {count} elements");
                     return Err(Error::new(message));
                 }
             }

@@ -55,31 +55,32 @@ impl Parser<'_> {
     /// Parses a negative index, or one of a vertex further below, or reports an error.
     #[cold]
     fn unusual_position(&mut self) -> Result<u32, ParseStop> {
-        let place = self.cursor.clone();
+        let index_start = self.cursor.clone();
         let Some(index) = self.cursor.integer() else { return Err(self.not_an_index().into()) };
         let count = self.position_count as i64;
-        let found = if index < 0 { count + index } else { index - 1 };
+        let zero_based = if index < 0 { count + index } else { index - 1 };
         let fail = |message: String| {
-            let place = format!("line {}", place.line());
+            let line_text = format!("line {}", index_start.line());
             Err(ParseStop::Error(
-                Error::new(message).at(place).remedy("indices count from 1, or from −1 backwards"),
+                Error::new(message).at(line_text).remedy("indices count from 1, or from −1 backwards"),
             ))
         };
-        if index == 0 || found < 0 {
+        if index == 0 || zero_based < 0 {
             return fail(format!("vertex {index} does not exist"));
         }
-        if found >= count {
-            if found < self.out.positions.len() as i64 {
-                return Ok(found as u32);
+        if zero_based >= count {
+            if zero_based < self.out.positions.len() as i64 {
+                return Ok(zero_based as u32);
             }
             let all = if self.second_pass { self.out.positions.len() } else { count_vertices(&self.cursor) };
-            if self.second_pass || found >= count + all as i64 {
+            if self.second_pass || zero_based >= count + all as i64 {
                 let all = if self.second_pass { all } else { self.position_count + all };
                 return fail(format!("vertex {index} does not exist; the file has {all}"));
             }
             return Err(ParseStop::FaceFirst);
         }
-        u32::try_from(found).or_else(|_| fail(format!("vertex {index} has coordinates that are too large")))
+        u32::try_from(zero_based)
+            .or_else(|_| fail(format!("vertex {index} has coordinates that are too large")))
     }
 
     #[inline]

@@ -326,12 +326,12 @@ mod tests {
     #[test]
     fn parallel_parse_finds_whole_runs_of_vertices_and_faces() {
         let text = b"v 1 2 3\nv 4 5 6\n\nf 1 2 3\n# f 1 2 3\nf 3 2 1\nf 0 1 2\nf 1 2 3\n";
-        let found = runs(text, 0, text.len());
-        let ends: Vec<[usize; 2]> = found.iter().map(|run| [run.start, run.end]).collect();
-        assert_eq!(ends, [[0, 15], [17, 24], [35, 42], [51, 58]]);
-        assert_eq!(found[1].read, RunValues::Triangles(vec![[0, 1, 2]], 2));
+        let found_runs = runs(text, 0, text.len());
+        let spans: Vec<[usize; 2]> = found_runs.iter().map(|run| [run.start, run.end]).collect();
+        assert_eq!(spans, [[0, 15], [17, 24], [35, 42], [51, 58]]);
+        assert_eq!(found_runs[1].read, RunValues::Triangles(vec![[0, 1, 2]], 2));
         // Parallel parsing gives up soon on a file of other statements.
-        let others = "s 1\n".repeat(1000) + "v 1 2 3\n";
-        assert!(runs(others.as_bytes(), 0, others.len()).is_empty());
+        let other_text = "s 1\n".repeat(1000) + "v 1 2 3\n";
+        assert!(runs(other_text.as_bytes(), 0, other_text.len()).is_empty());
     }
 }

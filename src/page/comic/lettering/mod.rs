@@ -79,7 +79,7 @@ impl<'a> Lettering<'a> {
     pub fn letter(
         &self,
         shape: &PanelOutline,
-        seen: Option<&PanelScene>,
+        scene: Option<&PanelScene>,
         sheet: &PageBoxes,
         warnings: &mut Vec<String>,
     ) -> Result<Option<PlacedDrawing>, Error> {
@@ -91,11 +91,11 @@ impl<'a> Lettering<'a> {
         let mut marks = Vec::new();
         let mut obstacles = Vec::new();
         for sound in &keys.sound {
-            let (own, hull) = self.sound(sound, bounds, warnings)?;
-            marks.extend(own);
+            let (sound_marks, hull) = self.sound(sound, bounds, warnings)?;
+            marks.extend(sound_marks);
             obstacles.push(hull);
         }
-        marks.extend(self.balloons(shape, keys, (seen, obstacles), sheet, warnings)?);
+        marks.extend(self.balloons(shape, keys, (scene, obstacles), sheet, warnings)?);
         let Rect { x1: width, y1: height, .. } = sheet.bleed;
         let page = Page { width, height, unit: Unit::Mm, background: None };
         let name = format!("{}-letters", shape.name);
@@ -135,8 +135,8 @@ impl<'a> Lettering<'a> {
         }
         let mut setting = Setting::new(font).with_capitals(size);
         setting.upper_case = self.keys.upper_case;
-        let made = sound_effect::sound_outlines(keys.text.get_ref(), &setting, keys, stretch, bounds);
-        let (letters, fallbacks) = made.map_err(|error| self.source.about(&keys.text.span(), error))?;
+        let outlines = sound_effect::sound_outlines(keys.text.get_ref(), &setting, keys, stretch, bounds);
+        let (letters, fallbacks) = outlines.map_err(|error| self.source.about(&keys.text.span(), error))?;
         add_new_warnings(fallbacks, warnings);
         let colours = [keys.fill.unwrap_or(self.keys.fill), keys.colour.unwrap_or(self.keys.colour)];
         Ok(sound_effect::paint_letters(letters, colours, line))
@@ -147,7 +147,7 @@ impl<'a> Lettering<'a> {
         &self,
         shape: &PanelOutline,
         keys: &PanelKeys,
-        (seen, obstacles): (Option<&PanelScene>, Vec<ConvexPolygon>),
+        (scene, obstacles): (Option<&PanelScene>, Vec<ConvexPolygon>),
         sheet: &PageBoxes,
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Mark>, Error> {
@@ -167,48 +167,53 @@ impl<'a> Lettering<'a> {
                 return Err(self.source.fault(&keys.text.span(), &message, &advice));
             }
         }
-        let told: Vec<BalloonSpec> = keys
+        let balloon_specs: Vec<BalloonSpec> = keys
             .balloon
             .iter()
-            .map(|keys| Ok(BalloonSpec { keys, target: self.target(keys, shape, seen)? }))
+            .map(|keys| Ok(BalloonSpec { keys, target: self.target(keys, shape, scene)? }))
             .collect::<Result<_, Error>>()?;
-        let mut kept = Vec::new();
+        let mut protected_hulls = Vec::new();
         for glob in &keys.keep {
-            let Some(seen) = seen else {
+            let Some(panel_scene) = scene else {
                 return Err(self.source.fault(
                     &glob.span(),
                     "there is no model in this panel",
                     "leave out `keep`",
                 ));
             };
-            let places = seen.part_bounds(glob, self.source)?;
-            let within = |hull| ConvexPolygon(hull).common(&shape.outline);
-            kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
+            let visible_parts = panel_scene.part_bounds(glob, self.source)?;
+            let clipped_to_panel = |hull| ConvexPolygon(hull).common(&shape.outline);
+            protected_hulls.extend(
+                visible_parts
+                    .into_iter()
+                    .map(|part_box| clipped_to_panel(part_box.hull))
+                    .filter(|hull| !hull.0.is_empty()),
+            );
         }
-        kept.extend(told.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
+        protected_hulls.extend(balloon_specs.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
         let parts: Vec<&str> =
-            told.iter().filter_map(|told| Some(told.target.as_ref()?.part.as_str())).collect();
-        let cover = seen.map(|seen| seen.coverage(&parts));
-        let mut stuck = 0;
+            balloon_specs.iter().filter_map(|told| Some(told.target.as_ref()?.part.as_str())).collect();
+        let cover = scene.map(|seen| seen.coverage(&parts));
+        let mut unplaced_balloon = 0;
         for size in LETTER_SIZE_FACTORS {
             let balloons: Vec<Vec<Balloon>> =
-                told.iter().map(|told| self.set(told, size)).collect::<Result<_, _>>()?;
+                balloon_specs.iter().map(|told| self.set(told, size)).collect::<Result<_, _>>()?;
             let gap = BALLOON_GAP_EM * self.setting.em() * size;
-            let room = PlacementArea {
+            let placement_area = PlacementArea {
                 outline: shape.outline.inset(gap).common(&ConvexPolygon::from(sheet.safe)),
-                protected: kept.clone(),
+                protected: protected_hulls.clone(),
                 obstacles: obstacles.clone(),
                 cover: cover.clone(),
                 gap,
                 reading: self.reading,
             };
-            let wishes: Vec<PlacementRequest> = balloons
+            let requests: Vec<PlacementRequest> = balloons
                 .iter()
-                .zip(&told)
+                .zip(&balloon_specs)
                 .map(|(shapes, told)| placement_request(shapes, told, shape))
                 .collect();
-            match balloon_placement::place_balloons(&wishes, &room) {
-                Ok(places) => {
+            match balloon_placement::place_balloons(&requests, &placement_area) {
+                Ok(placed_balloons) => {
                     if size < 1.0 {
                         let percent = (size * 100.0).round();
                         warnings.push(format!(
@@ -216,12 +221,12 @@ impl<'a> Lettering<'a> {
                             shape.name
                         ));
                     }
-                    return Ok(self.painted(&balloons, &told, &places, warnings));
+                    return Ok(self.painted(&balloons, &balloon_specs, &placed_balloons, warnings));
                 }
-                Err(number) => stuck = stuck.max(number),
+                Err(number) => unplaced_balloon = unplaced_balloon.max(number),
             }
         }
-        let text = told.get(stuck).map_or(0..0, |told| told.keys.text.span());
+        let text = balloon_specs.get(unplaced_balloon).map_or(0..0, |told| told.keys.text.span());
         let advice =
             "shorten the text, make letters smaller or the panel larger, or give its place: at = [0.5, 0.2]";
         Err(self.source.fault(&text, "there is no room in the panel for this balloon", advice))
@@ -232,7 +237,7 @@ impl<'a> Lettering<'a> {
         &self,
         keys: &BalloonKeys,
         shape: &PanelOutline,
-        seen: Option<&PanelScene>,
+        scene: Option<&PanelScene>,
     ) -> Result<Option<TailTarget>, Error> {
         let Some(glob) = &keys.tail else { return Ok(None) };
         if keys.kind == BalloonKind::Caption {
@@ -242,15 +247,15 @@ impl<'a> Lettering<'a> {
                 "leave it out, or choose another kind",
             ));
         }
-        let Some(seen) = seen else {
+        let Some(seen) = scene else {
             return Err(self.source.fault(
                 &glob.span(),
                 "there is no model in this panel",
                 "leave out the tail",
             ));
         };
-        let places = seen.part_bounds(glob, self.source)?;
-        match TailTarget::of(&places, &shape.outline) {
+        let visible_parts = seen.part_bounds(glob, self.source)?;
+        match TailTarget::of(&visible_parts, &shape.outline) {
             Some(target) => Ok(Some(target)),
             None => {
                 let message = format!("the part `{}` is not in the picture of this panel", glob.get_ref());
@@ -264,11 +269,11 @@ impl<'a> Lettering<'a> {
     }
 
     /// A balloon with its text set, once for each aspect ratio.
-    fn set(&self, told: &BalloonSpec, size: f64) -> Result<Vec<Balloon>, Error> {
-        let BalloonSpec { keys, .. } = told;
-        let own =
+    fn set(&self, spec: &BalloonSpec, size: f64) -> Result<Vec<Balloon>, Error> {
+        let BalloonSpec { keys, .. } = spec;
+        let letter_size =
             keys.size.as_ref().map_or(Ok(self.setting.em()), |size| positive_length(size, self.source))?;
-        let setting = self.setting.clone().with_em(own * size);
+        let setting = self.setting.clone().with_em(letter_size * size);
         let set = |aspect| {
             Balloon::new(keys.text.get_ref(), keys.kind, &setting, aspect)
                 .map_err(|error| self.source.about(&keys.text.span(), error))
@@ -276,20 +281,20 @@ impl<'a> Lettering<'a> {
         BALLOON_ASPECTS.into_iter().map(set).collect()
     }
 
-    /// The marks of the placed balloons and their letters. `places` is parallel to `balloons`.
+    /// The marks of the placed balloons and their letters. `placed_balloons` is parallel to `balloons`.
     fn painted(
         &self,
         balloons: &[Vec<Balloon>],
-        told: &[BalloonSpec],
-        places: &[PlacedBalloon],
+        specs: &[BalloonSpec],
+        placed_balloons: &[PlacedBalloon],
         warnings: &mut Vec<String>,
     ) -> Vec<Mark> {
         let mut marks = Vec::new();
-        for ((shapes, told), place) in balloons.iter().zip(told).zip(places) {
-            let Some(balloon) = shapes.get(place.shape) else { continue };
-            let fill = told.keys.fill.unwrap_or(self.keys.fill);
+        for ((shapes, spec), placed_balloon) in balloons.iter().zip(specs).zip(placed_balloons) {
+            let Some(balloon) = shapes.get(placed_balloon.shape) else { continue };
+            let fill = spec.keys.fill.unwrap_or(self.keys.fill);
             let ink = BalloonPaint { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
-            marks.extend(balloon.marks(place.middle, place.tip, &ink));
+            marks.extend(balloon.marks(placed_balloon.middle, placed_balloon.tip, &ink));
             add_new_warnings(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
         }
         marks
@@ -297,21 +302,21 @@ impl<'a> Lettering<'a> {
 }
 
 /// The placement request of a balloon with its possible shapes.
-fn placement_request(shapes: &[Balloon], told: &BalloonSpec, shape: &PanelOutline) -> PlacementRequest {
+fn placement_request(shapes: &[Balloon], spec: &BalloonSpec, shape: &PanelOutline) -> PlacementRequest {
     let bounds = shape.outline.bounds();
-    let at = told.keys.at.as_ref().map(|at| {
+    let at = spec.keys.at.as_ref().map(|at| {
         let [x, y] = *at.get_ref();
         Point::new(bounds.x0 + x * bounds.width(), bounds.y0 + y * bounds.height())
     });
-    let of = |measure: fn(&Balloon) -> f64| shapes.first().map_or(0.0, measure);
+    let of_first_shape = |measure: fn(&Balloon) -> f64| shapes.first().map_or(0.0, measure);
     PlacementRequest {
         hulls: shapes.iter().map(Balloon::hull).collect(),
-        target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
+        target: spec.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
         at,
-        em: of(Balloon::em),
-        min_tail_length: of(Balloon::shortest_tail),
-        tail_half_width: of(Balloon::foot),
-        is_caption: told.keys.kind == BalloonKind::Caption,
+        em: of_first_shape(Balloon::em),
+        min_tail_length: of_first_shape(Balloon::shortest_tail),
+        tail_half_width: of_first_shape(Balloon::foot),
+        is_caption: spec.keys.kind == BalloonKind::Caption,
     }
 }
 

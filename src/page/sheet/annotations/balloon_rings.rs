@@ -51,62 +51,64 @@ pub(crate) fn draw_balloons(
     anchors: &[Option<Point>],
     board: &mut AnnotationBoard,
 ) -> Result<(), Error> {
-    let seen: Vec<(usize, Point)> =
+    let visible_items: Vec<(usize, Point)> =
         anchors.iter().enumerate().filter_map(|(k, anchor)| anchor.map(|anchor| (k, anchor))).collect();
-    let points: Vec<Point> = seen.iter().map(|(_, anchor)| *anchor).collect();
+    let points: Vec<Point> = visible_items.iter().map(|(_, anchor)| *anchor).collect();
     if points.is_empty() {
         return Ok(());
     }
     // The offset of the outermost ring decides, because the view needs that much room. If nothing else fits,
     // leaders may cross those of diameters, and then arrow heads.
-    let ways = [
+    let clearances_and_steps = [
         (Clearance::Leaders, MAX_OUTWARD_STEPS / 3),
         (Clearance::Solids, MAX_OUTWARD_STEPS / 3),
         (Clearance::Texts, MAX_OUTWARD_STEPS),
     ];
-    let rings = ways.into_iter().flat_map(|(clear, steps)| {
+    let attempts = clearances_and_steps.into_iter().flat_map(|(attempt_clearance, steps)| {
         (0..steps).flat_map(move |step| {
-            let away = OUTWARD_STEP_MM * f64::from(step);
-            let farther = move |rings: u32| (clear, rings, away - RING_SPACING_MM * f64::from(rings - 1));
+            let step_offset = OUTWARD_STEP_MM * f64::from(step);
+            let farther = move |rings: u32| {
+                (attempt_clearance, rings, step_offset - RING_SPACING_MM * f64::from(rings - 1))
+            };
             (1..=MAX_RINGS).map(farther).filter(|(.., farther)| *farther >= 0.0)
         })
     });
-    let found = rings.into_iter().find_map(|(clear, rings, farther)| {
-        let places = free_slots(rect, (rings, farther), board);
-        if places.len() < points.len() {
+    let leader_lines = attempts.into_iter().find_map(|(clearance, rings, farther)| {
+        let slots = free_slots(rect, (rings, farther), board);
+        if slots.len() < points.len() {
             return None;
         }
         let is_blocked = |p: &Point, place: &Point| {
-            !board.taken.is_free(&ConvexShape::line(*p, *place, THIN_LINE_MM).wider(0.3), clear)
+            !board.taken.is_free(&ConvexShape::line(*p, *place, THIN_LINE_MM).wider(0.3), clearance)
         };
         let blocked: Vec<Vec<bool>> =
-            points.iter().map(|p| places.iter().map(|place| is_blocked(p, place)).collect()).collect();
+            points.iter().map(|p| slots.iter().map(|place| is_blocked(p, place)).collect()).collect();
         if blocked.iter().any(|places| places.iter().all(|is_blocked| *is_blocked)) {
             return None;
         }
-        let lines = |of: &[usize]| -> Vec<[Point; 2]> {
-            points.iter().zip(of).map(|(p, slot)| [*p, places[*slot]]).collect()
+        let lines = |assignment: &[usize]| -> Vec<[Point; 2]> {
+            points.iter().zip(assignment).map(|(p, slot)| [*p, slots[*slot]]).collect()
         };
-        let is_clear = |of: &Vec<usize>| {
-            let lines = lines(of);
-            lines.iter().enumerate().all(|(k, own)| {
-                !blocked[k][of[k]]
-                    && lines.iter().enumerate().all(|(n, other)| {
+        let is_clear = |assigned_slots: &Vec<usize>| {
+            let lines = lines(assigned_slots);
+            lines.iter().enumerate().all(|(k, leader)| {
+                !blocked[k][assigned_slots[k]]
+                    && lines.iter().enumerate().all(|(n, other_leader)| {
                         n == k
-                            || !passes_through_balloon(*own, other[1])
-                                && (n < k || !segments_meet(*own, *other))
+                            || !passes_through_balloon(*leader, other_leader[1])
+                                && (n < k || !segments_meet(*leader, *other_leader))
                     })
             })
         };
-        let nearest = assign_leaders(&points, &places, &|k, place| blocked[k][place]);
+        let nearest = assign_leaders(&points, &slots, &|k, place| blocked[k][place]);
         if is_clear(&nearest) {
             return Some(lines(&nearest));
         }
-        let spokes = assign_radially(&points, &places, &|k, place| blocked[k][place]);
-        is_clear(&spokes).then(|| lines(&spokes))
+        let radial_assignment = assign_radially(&points, &slots, &|k, place| blocked[k][place]);
+        is_clear(&radial_assignment).then(|| lines(&radial_assignment))
     });
-    let Some(lines) = found else {
-        let numbers: Vec<&str> = seen.iter().map(|(item, _)| &*items[*item].number).collect();
+    let Some(lines) = leader_lines else {
+        let numbers: Vec<&str> = visible_items.iter().map(|(item, _)| &*items[*item].number).collect();
         let (first, last) = (numbers.first().unwrap_or(&""), numbers.last().unwrap_or(&""));
         board.unplaced.push(match numbers.len() {
             1 => format!("the balloon {first}"),
@@ -114,11 +116,11 @@ pub(crate) fn draw_balloons(
         });
         return Ok(());
     };
-    for ((item, _), [anchor, centre]) in seen.iter().zip(lines) {
+    for ((item, _), [anchor, centre]) in visible_items.iter().zip(lines) {
         let towards = anchor - centre;
-        let far = towards.hypot2().sqrt();
-        if far > BALLOON_RADIUS_MM {
-            let end = centre + towards * (BALLOON_RADIUS_MM / far);
+        let distance = towards.hypot2().sqrt();
+        if distance > BALLOON_RADIUS_MM {
+            let end = centre + towards * (BALLOON_RADIUS_MM / distance);
             board.balloons.line(end, anchor, THIN_LINE_MM);
             board.taken.take(ConvexShape::line(end, anchor, THIN_LINE_MM), OccupantKind::Leader);
         }
@@ -128,29 +130,30 @@ pub(crate) fn draw_balloons(
         let word =
             board.word_within(&items[*item].number, NUMBER_HEIGHT_MM, 2.0 * BALLOON_RADIUS_MM - 1.5)?;
         // All numbers share a baseline, whether or not they have descenders.
-        let at = Point::new(centre.x - word.bounds.center().x, centre.y - word.bounds.y0 / 2.0);
-        board.write_in_balloon(&word, Affine::translate(at.to_vec2()));
+        let text_origin = Point::new(centre.x - word.bounds.center().x, centre.y - word.bounds.y0 / 2.0);
+        board.write_in_balloon(&word, Affine::translate(text_origin.to_vec2()));
     }
     Ok(())
 }
 
 /// Slots of one ring or two that are on free paper.
-fn free_slots(rect: Rect, (rings, farther): (u32, f64), board: &AnnotationBoard) -> Vec<Point> {
-    let inner = rect.inflate(FIRST_RING_OFFSET_MM + farther, FIRST_RING_OFFSET_MM + farther);
-    let all =
+fn free_slots(rect: Rect, (rings, extra_offset): (u32, f64), board: &AnnotationBoard) -> Vec<Point> {
+    let inner = rect.inflate(FIRST_RING_OFFSET_MM + extra_offset, FIRST_RING_OFFSET_MM + extra_offset);
+    let candidate_slots =
         if rings == 1 { balloon_slots(inner, SINGLE_RING_PITCH_MM, 0.5) } else { staggered_slots(inner) };
     // At corners, slots of neighbouring sides may be close to each other.
-    let mut kept: Vec<Point> = Vec::new();
-    for p in all {
-        let near = 2.0 * BALLOON_RADIUS_MM + BALLOON_CLEARANCE_MM;
+    let mut free_places: Vec<Point> = Vec::new();
+    for p in candidate_slots {
+        let min_distance = 2.0 * BALLOON_RADIUS_MM + BALLOON_CLEARANCE_MM;
         let is_free = board
             .taken
             .is_free(&ConvexShape::disc(p, BALLOON_RADIUS_MM + BALLOON_CLEARANCE_MM), Clearance::All);
-        if is_free && kept.iter().all(|other| Vec2::hypot2(*other - p) >= near * near) {
-            kept.push(p);
+        if is_free && free_places.iter().all(|other| Vec2::hypot2(*other - p) >= min_distance * min_distance)
+        {
+            free_places.push(p);
         }
     }
-    kept
+    free_places
 }
 
 /// Slots on rays from the centre, alternating between this ring and the one around it. Each ray passes the
@@ -158,14 +161,14 @@ fn free_slots(rect: Rect, (rings, farther): (u32, f64), board: &AnnotationBoard)
 fn staggered_slots(inner: Rect) -> Vec<Point> {
     let outer = inner.inflate(RING_SPACING_MM, RING_SPACING_MM);
     let middle = inner.center();
-    let at = |ring: Rect, turn: f64| {
-        let way = Vec2::new(cos(turn), sin(turn));
-        let far = (ring.width() / 2.0 / way.x.abs()).min(ring.height() / 2.0 / way.y.abs());
-        way * far
+    let offset_on_ring = |ring: Rect, turn: f64| {
+        let direction = Vec2::new(cos(turn), sin(turn));
+        let distance = (ring.width() / 2.0 / direction.x.abs()).min(ring.height() / 2.0 / direction.y.abs());
+        direction * distance
     };
     let step = |turn: f64| {
-        let far = at(inner, turn).hypot2().sqrt();
-        (LEADER_PASSING_DISTANCE_MM / far).min(1.0)
+        let ring_radius = offset_on_ring(inner, turn).hypot2().sqrt();
+        (LEADER_PASSING_DISTANCE_MM / ring_radius).min(1.0)
     };
     let mut turns = Vec::new();
     let mut turn = 0.0;
@@ -176,8 +179,8 @@ fn staggered_slots(inner: Rect) -> Vec<Point> {
     // An even count, so that the last slot and the first one are on different rings.
     let count = turns.len() - turns.len() % 2;
     let slack = turn / std::f64::consts::TAU;
-    let place = |(k, turn): (usize, &f64)| {
-        middle + at(if k % 2 == 0 { inner } else { outer }, *turn / slack.max(f64::MIN_POSITIVE))
+    let slot_centre = |(k, turn): (usize, &f64)| {
+        middle + offset_on_ring(if k % 2 == 0 { inner } else { outer }, *turn / slack.max(f64::MIN_POSITIVE))
     };
-    turns.iter().take(count).enumerate().map(place).collect()
+    turns.iter().take(count).enumerate().map(slot_centre).collect()
 }

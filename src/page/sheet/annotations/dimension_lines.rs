@@ -69,62 +69,74 @@ impl DimensionLine {
     fn new(points: [Point; 2], along: Vec2, through: Point) -> Self {
         let feet = points.map(|p| through + along * (p - through).dot(along));
         let length = (feet[1] - feet[0]).hypot2().sqrt();
-        let way = if length > 0.0 { (feet[1] - feet[0]) / length } else { along };
+        let direction = if length > 0.0 { (feet[1] - feet[0]) / length } else { along };
         // Values must be readable from below or from the right.
         let mut reading = along;
         if reading.x < -MAX_ZERO_COMPONENT || reading.x.abs() <= MAX_ZERO_COMPONENT && reading.y > 0.0 {
             reading = -reading;
         }
-        Self { points, feet, way, length, is_inside: length >= 2.0 * ARROW_LENGTH_MM + 1.0, reading }
+        Self {
+            points,
+            feet,
+            way: direction,
+            length,
+            is_inside: length >= 2.0 * ARROW_LENGTH_MM + 1.0,
+            reading,
+        }
     }
 
     /// Candidate positions for the centre of a value, along the line from its middle, preferred first.
-    fn value_offsets(&self, wide: f64) -> Vec<f64> {
-        let mut spots = Vec::new();
-        let slack = self.length / 2.0 - ARROW_LENGTH_MM - wide / 2.0;
+    fn value_offsets(&self, text_width: f64) -> Vec<f64> {
+        let mut offsets = Vec::new();
+        let slack = self.length / 2.0 - ARROW_LENGTH_MM - text_width / 2.0;
         if self.is_inside && slack > 0.0 {
-            spots.push(0.0);
+            offsets.push(0.0);
             let steps = (slack / VALUE_STEP_MM).floor().min(f64::from(MAX_VALUE_STEPS)) as u32;
-            spots.extend(
+            offsets.extend(
                 (1..=steps).flat_map(|k| [VALUE_STEP_MM * f64::from(k), -VALUE_STEP_MM * f64::from(k)]),
             );
         }
-        let out = self.length / 2.0 + 2.0 * ARROW_LENGTH_MM + wide / 2.0;
-        let outer = (0..MAX_VALUE_STEPS).map(|k| out + VALUE_STEP_MM * f64::from(k));
-        spots.extend(outer.flat_map(|out| [out, -out]));
-        spots
+        let first_outer_offset = self.length / 2.0 + 2.0 * ARROW_LENGTH_MM + text_width / 2.0;
+        let outer_offsets = (0..MAX_VALUE_STEPS).map(|k| first_outer_offset + VALUE_STEP_MM * f64::from(k));
+        offsets.extend(outer_offsets.flat_map(|out| [out, -out]));
+        offsets
     }
 
-    /// Both ends of the line, along it from its middle, if the value is at `spot`.
-    fn ends(&self, spot: f64, wide: f64) -> [f64; 2] {
-        let own = self.length / 2.0 + if self.is_inside { 0.0 } else { 2.0 * ARROW_LENGTH_MM };
+    /// Both ends of the line, along it from its middle, if the value is at `offset`.
+    fn ends(&self, offset: f64, text_width: f64) -> [f64; 2] {
+        let line_end = self.length / 2.0 + if self.is_inside { 0.0 } else { 2.0 * ARROW_LENGTH_MM };
         // The line extends below a value that is outside.
-        let reach = if spot.abs() < self.length / 2.0 { 0.0 } else { spot.abs() + wide / 2.0 };
-        if spot < 0.0 { [-own.max(reach), own] } else { [-own, own.max(reach)] }
+        let text_end = if offset.abs() < self.length / 2.0 { 0.0 } else { offset.abs() + text_width / 2.0 };
+        if offset < 0.0 { [-line_end.max(text_end), line_end] } else { [-line_end, line_end.max(text_end)] }
     }
 
-    fn at(&self, along: f64) -> Point {
-        self.feet[0].midpoint(self.feet[1]) + self.way * along
+    fn at(&self, offset: f64) -> Point {
+        self.feet[0].midpoint(self.feet[1]) + self.way * offset
     }
 
     /// The placement of a value above or below its line.
-    fn place(&self, word: &SetWord, spot: f64, is_above: bool) -> Affine {
+    fn place(&self, word: &SetWord, offset: f64, is_above: bool) -> Affine {
         let up = Vec2::new(self.reading.y, -self.reading.x);
         // Commas and brackets reach below the baseline.
         let rise =
             if is_above { VALUE_GAP_MM + word.bounds.y1.max(0.0) } else { -VALUE_GAP_MM + word.bounds.y0 };
-        let at = self.at(spot) + up * rise;
+        let text_point = self.at(offset) + up * rise;
         let [c, s] = [self.reading.x, self.reading.y];
-        Affine::new([c, s, -s, c, at.x, at.y]) * Affine::translate((-word.bounds.center().x, 0.0))
+        Affine::new([c, s, -s, c, text_point.x, text_point.y])
+            * Affine::translate((-word.bounds.center().x, 0.0))
     }
 
     /// The extension lines.
     fn extension_lines(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
         self.points.iter().zip(self.feet).filter_map(|(p, foot)| {
-            let out = foot - *p;
-            let far = out.hypot2().sqrt();
-            (far > EXTENSION_GAP_MM)
-                .then(|| [*p + out * (EXTENSION_GAP_MM / far), foot + out * (EXTENSION_OVERSHOOT_MM / far)])
+            let to_foot = foot - *p;
+            let distance = to_foot.hypot2().sqrt();
+            (distance > EXTENSION_GAP_MM).then(|| {
+                [
+                    *p + to_foot * (EXTENSION_GAP_MM / distance),
+                    foot + to_foot * (EXTENSION_OVERSHOOT_MM / distance),
+                ]
+            })
         })
     }
 
@@ -134,12 +146,12 @@ impl DimensionLine {
         [(self.feet[0], -self.way * sign), (self.feet[1], self.way * sign)]
     }
 
-    /// Whether lines and arrow heads touch nothing that `clear` excludes.
-    fn is_free(&self, ends: [f64; 2], clear: Clearance, board: &AnnotationBoard) -> bool {
+    /// Whether lines and arrow heads touch nothing that `clearance` excludes.
+    fn is_free(&self, ends: [f64; 2], clearance: Clearance, board: &AnnotationBoard) -> bool {
         let heads = self.heads().map(|(tip, towards)| {
             AnnotationBoard::head(tip, towards, ARROW_LENGTH_MM).wider(LINE_CLEARANCE_MM)
         });
-        board.is_line_free(self.at(ends[0]), self.at(ends[1]), clear)
+        board.is_line_free(self.at(ends[0]), self.at(ends[1]), clearance)
             // Extension lines to outer rows may pass arrow heads that start at the same point.
             && self.extension_lines().all(|[a, b]| board.is_line_free(a, b, Clearance::Texts))
             && heads.iter().all(|head| board.taken.is_free(head, Clearance::Texts))
@@ -164,129 +176,147 @@ struct RowPlacement {
     span: [f64; 2],
 }
 
-/// Draws the lengths along one side of a view in rows. `kept` are positions along the side that values must
+/// Draws the lengths along one side of a view in rows. `crossings` are positions along the side that values must
 /// avoid, because lines will pass there.
 pub(crate) fn draw_rows(
     rect: Rect,
-    told: &[&SideLength],
-    kept: &[f64],
+    side_lengths: &[&SideLength],
+    crossings: &[f64],
     board: &mut AnnotationBoard,
 ) -> Result<(), Error> {
-    let mut order: Vec<usize> = (0..told.len()).collect();
-    let long = |k: usize| told[k].span()[1] - told[k].span()[0];
+    let mut order: Vec<usize> = (0..side_lengths.len()).collect();
+    let span_length = |k: usize| side_lengths[k].span()[1] - side_lengths[k].span()[0];
     order.sort_by(|a, b| {
-        let low = |k: usize| told[k].span()[0];
-        long(*a).total_cmp(&long(*b)).then(low(*a).total_cmp(&low(*b))).then(a.cmp(b))
+        let low = |k: usize| side_lengths[k].span()[0];
+        span_length(*a).total_cmp(&span_length(*b)).then(low(*a).total_cmp(&low(*b))).then(a.cmp(b))
     });
-    let mut done: Vec<RowPlacement> = Vec::new();
+    let mut placed_rows: Vec<RowPlacement> = Vec::new();
     for (n, k) in order.iter().enumerate() {
-        let own = told[*k];
-        let word = board.word(&own.text, VALUE_HEIGHT_MM)?;
-        let wide = word.bounds.width();
-        let later = order.iter().skip(n + 1).flat_map(|k| told[*k].span());
-        let passing: Vec<f64> = later.chain(kept.iter().copied()).collect();
-        let found = (0..MAX_ROWS).find_map(|row| {
-            let line = row_line(own, rect, row);
-            let spot = line.value_offsets(wide).into_iter().find(|spot| {
-                let ends = line.ends(*spot, wide);
-                let span = span_along(own, [line.at(ends[0]), line.at(ends[1])]);
-                let is_outer = done.iter().all(|other| {
-                    other.row < row
-                        || other.span[0] - span[1] >= MIN_ROW_GAP_MM
-                        || span[0] - other.span[1] >= MIN_ROW_GAP_MM
+        let side_length = side_lengths[*k];
+        let word = board.word(&side_length.text, VALUE_HEIGHT_MM)?;
+        let text_width = word.bounds.width();
+        let later = order.iter().skip(n + 1).flat_map(|k| side_lengths[*k].span());
+        let passing: Vec<f64> = later.chain(crossings.iter().copied()).collect();
+        let placement = (0..MAX_ROWS).find_map(|row| {
+            let line = row_line(side_length, rect, row);
+            let spot = line.value_offsets(text_width).into_iter().find(|spot| {
+                let ends = line.ends(*spot, text_width);
+                let span = span_along(side_length, [line.at(ends[0]), line.at(ends[1])]);
+                let is_outer = placed_rows.iter().all(|placed_row| {
+                    placed_row.row < row
+                        || placed_row.span[0] - span[1] >= MIN_ROW_GAP_MM
+                        || span[0] - placed_row.span[1] >= MIN_ROW_GAP_MM
                 });
-                let place = line.place(&word, *spot, true);
-                let text = word.shape(place).wider(TEXT_CLEARANCE_MM).bounds();
-                let text = span_along(own, [Point::new(text.x0, text.y0), Point::new(text.x1, text.y1)]);
+                let text_transform = line.place(&word, *spot, true);
+                let text_bounds = word.shape(text_transform).wider(TEXT_CLEARANCE_MM).bounds();
+                let text_span = span_along(
+                    side_length,
+                    [Point::new(text_bounds.x0, text_bounds.y0), Point::new(text_bounds.x1, text_bounds.y1)],
+                );
                 is_outer
-                    && !passing.iter().any(|x| text[0] <= *x && *x <= text[1])
-                    && board.is_free(&word, place)
+                    && !passing.iter().any(|x| text_span[0] <= *x && *x <= text_span[1])
+                    && board.is_free(&word, text_transform)
                     && line.is_free(ends, Clearance::Solids, board)
             })?;
             Some((row, line, spot))
         });
-        let Some((row, line, spot)) = found else {
-            board.unplaced.push(format!("the length `{}`", own.text));
+        let Some((row, line, spot)) = placement else {
+            board.unplaced.push(format!("the length `{}`", side_length.text));
             continue;
         };
-        let ends = line.ends(spot, wide);
-        done.push(RowPlacement { row, span: span_along(own, [line.at(ends[0]), line.at(ends[1])]) });
+        let ends = line.ends(spot, text_width);
+        placed_rows
+            .push(RowPlacement { row, span: span_along(side_length, [line.at(ends[0]), line.at(ends[1])]) });
         line.draw(&word, (spot, true), board);
     }
     Ok(())
 }
 
 /// Two positions along the side of a length, in rising order.
-fn span_along(told: &SideLength, [a, b]: [Point; 2]) -> [f64; 2] {
-    let [a, b] = [a, b].map(|p| if told.side.is_across() { p.x } else { p.y });
+fn span_along(side_length: &SideLength, [a, b]: [Point; 2]) -> [f64; 2] {
+    let [a, b] = [a, b].map(|p| if side_length.side.is_across() { p.x } else { p.y });
     [a.min(b), a.max(b)]
 }
 
-fn row_line(told: &SideLength, rect: Rect, row: u32) -> DimensionLine {
-    let away = FIRST_ROW_OFFSET_MM + ROW_SPACING_MM * f64::from(row);
-    let out = told.side.outward();
-    let corner = if out.x + out.y < 0.0 { rect.origin() } else { Point::new(rect.x1, rect.y1) };
-    let along = if told.side.is_across() { Vec2::new(1.0, 0.0) } else { Vec2::new(0.0, 1.0) };
-    DimensionLine::new(told.ends, along, corner + out * away)
+fn row_line(side_length: &SideLength, rect: Rect, row: u32) -> DimensionLine {
+    let row_offset = FIRST_ROW_OFFSET_MM + ROW_SPACING_MM * f64::from(row);
+    let outward_direction = side_length.side.outward();
+    let corner = if outward_direction.x + outward_direction.y < 0.0 {
+        rect.origin()
+    } else {
+        Point::new(rect.x1, rect.y1)
+    };
+    let along = if side_length.side.is_across() { Vec2::new(1.0, 0.0) } else { Vec2::new(0.0, 1.0) };
+    DimensionLine::new(side_length.ends, along, corner + outward_direction * row_offset)
 }
 
 /// The paper that extension lines of slanted lengths may need.
 pub(crate) fn extension_line_paper<'a>(
     rect: Rect,
-    told: impl Iterator<Item = &'a SlantedLength>,
+    slanted_lengths: impl Iterator<Item = &'a SlantedLength>,
 ) -> Occupancy {
-    let mut kept = Occupancy::default();
-    let far = rect.size().to_vec2().hypot2().sqrt() + EXTENSION_REACH_MM;
-    for told in told {
-        let out = outward(told.along);
-        for p in told.ends {
-            kept.take(
-                ConvexShape::line(p - out * far, p + out * far, THIN_LINE_MM).wider(LINE_CLEARANCE_MM),
+    let mut occupancy = Occupancy::default();
+    let max_length = rect.size().to_vec2().hypot2().sqrt() + EXTENSION_REACH_MM;
+    for slanted_length in slanted_lengths {
+        let direction = outward(slanted_length.along);
+        for p in slanted_length.ends {
+            occupancy.take(
+                ConvexShape::line(p - direction * max_length, p + direction * max_length, THIN_LINE_MM)
+                    .wider(LINE_CLEARANCE_MM),
                 OccupantKind::Line,
             );
         }
     }
-    kept
+    occupancy
 }
 
 /// The normal of a length that points below, or to the right if the length is vertical.
 fn outward(along: Vec2) -> Vec2 {
-    let out = Vec2::new(-along.y, along.x);
-    let is_above = out.y < -MAX_ZERO_COMPONENT;
-    let is_vertical = out.y.abs() <= MAX_ZERO_COMPONENT;
-    if is_above || is_vertical && out.x < 0.0 { -out } else { out }
+    let normal = Vec2::new(-along.y, along.x);
+    let is_above = normal.y < -MAX_ZERO_COMPONENT;
+    let is_vertical = normal.y.abs() <= MAX_ZERO_COMPONENT;
+    if is_above || is_vertical && normal.x < 0.0 { -normal } else { normal }
 }
 
 /// Draws a length that is not in a row.
 pub(crate) fn draw_slanted(
     rect: Rect,
-    told: &SlantedLength,
+    slanted_length: &SlantedLength,
     board: &mut AnnotationBoard,
 ) -> Result<(), Error> {
-    let word = board.word(&told.text, VALUE_HEIGHT_MM)?;
-    let wide = word.bounds.width();
-    let out = outward(told.along);
-    let outer = told.ends.map(|p| p.to_vec2().dot(out));
+    let word = board.word(&slanted_length.text, VALUE_HEIGHT_MM)?;
+    let text_width = word.bounds.width();
+    let outward_direction = outward(slanted_length.along);
+    let end_offsets = slanted_length.ends.map(|p| p.to_vec2().dot(outward_direction));
     let line = |offset: f64| {
-        let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
-        DimensionLine::new(told.ends, told.along, told.ends[0] + out * (reach - outer[0] + offset))
+        let outermost = if offset > 0.0 {
+            end_offsets[0].max(end_offsets[1])
+        } else {
+            end_offsets[0].min(end_offsets[1])
+        };
+        DimensionLine::new(
+            slanted_length.ends,
+            slanted_length.along,
+            slanted_length.ends[0] + outward_direction * (outermost - end_offsets[0] + offset),
+        )
     };
-    let offsets: Vec<f64> = told.offset.map_or_else(
+    let offsets: Vec<f64> = slanted_length.offset.map_or_else(
         || {
-            let most =
+            let step_count =
                 (rect.size().to_vec2().hypot2().sqrt() / SLANTED_STEP_MM).ceil().min(200.0) as u32 + 10;
-            let farther = (0..most).map(|k| FIRST_SLANTED_OFFSET_MM + SLANTED_STEP_MM * f64::from(k));
-            farther.flat_map(|offset| [offset, -offset]).collect()
+            let outward_offsets =
+                (0..step_count).map(|k| FIRST_SLANTED_OFFSET_MM + SLANTED_STEP_MM * f64::from(k));
+            outward_offsets.flat_map(|offset| [offset, -offset]).collect()
         },
         |offset| vec![offset],
     );
-    for clear in [Clearance::Solids, Clearance::Texts] {
+    for clearance in [Clearance::Solids, Clearance::Texts] {
         for offset in &offsets {
             let line = line(*offset);
-            for spot in line.value_offsets(wide) {
+            for spot in line.value_offsets(text_width) {
                 for is_above in [true, false] {
                     let is_free = board.is_free(&word, line.place(&word, spot, is_above))
-                        && line.is_free(line.ends(spot, wide), clear, board);
+                        && line.is_free(line.ends(spot, text_width), clearance, board);
                     if is_free {
                         line.draw(&word, (spot, is_above), board);
                         return Ok(());
@@ -295,7 +325,7 @@ pub(crate) fn draw_slanted(
             }
         }
     }
-    board.unplaced.push(format!("the length `{}`", told.text));
+    board.unplaced.push(format!("the length `{}`", slanted_length.text));
     Ok(())
 }
 

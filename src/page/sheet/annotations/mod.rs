@@ -68,17 +68,18 @@ impl Annotations<'_> {
         &self,
         view: usize,
         plan: &ViewPlan,
-        drawn: &ViewDrawings,
+        drawings: &ViewDrawings,
     ) -> Result<AnnotationBoard, Error> {
         let mut board = AnnotationBoard::new(self.font);
-        let sight = &plan.views[view].sight;
-        let rect = sight.rect();
-        for ([a, b], width) in drawn.chords(view, plan) {
+        let sheet_view = &plan.views[view].sight;
+        let rect = sheet_view.rect();
+        for ([a, b], width) in drawings.chords(view, plan) {
             board.taken.take(ConvexShape::line(a, b, width), OccupantKind::Geometry);
         }
         let anchors: Vec<Option<Point>> = if plan.balloons == Some(view) {
-            let anchor =
-                |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.mm_per_unit);
+            let anchor = |offset: &Option<DVec2>| {
+                offset.map(|at| sheet_view.corner + Vec2::new(at.x, at.y) * sheet_view.mm_per_unit)
+            };
             self.anchors.iter().map(anchor).collect()
         } else {
             Vec::new()
@@ -89,10 +90,10 @@ impl Annotations<'_> {
         }
         centre_lines::centre_lines(plan, view, self.cylinders, &mut board);
         for circled in &plan.circled {
-            if circled.source_view == view && circled.meets(sight) {
+            if circled.source_view == view && circled.meets(sheet_view) {
                 detail_labels::draw_circle(
-                    sight.to_page(circled.at),
-                    circled.radius * sight.mm_per_unit,
+                    sheet_view.to_page(circled.at),
+                    circled.radius * sheet_view.mm_per_unit,
                     &mut board,
                 );
             }
@@ -101,42 +102,54 @@ impl Annotations<'_> {
             }
         }
         let mut marks = self.cut_marks(view, plan, &mut board);
-        let told: Vec<&SideLength> =
-            self.measures.lengths.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
-        let kept = |out: Vec2| -> Vec<f64> {
-            told.iter()
-                .filter(|told| told.side.outward().dot(out) > 0.7)
+        let side_lengths: Vec<&SideLength> = self
+            .measures
+            .lengths
+            .iter()
+            .filter(|(view_index, _)| *view_index == view)
+            .map(|(_, told)| told)
+            .collect();
+        let crossings_on_side = |direction: Vec2| -> Vec<f64> {
+            side_lengths
+                .iter()
+                .filter(|side_length| side_length.side.outward().dot(direction) > 0.7)
                 .flat_map(|told| told.span())
                 .collect()
         };
-        let slanted: Vec<&SlantedLength> =
-            self.measures.slanted.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
+        let slanted: Vec<&SlantedLength> = self
+            .measures
+            .slanted
+            .iter()
+            .filter(|(shown_in, _)| *shown_in == view)
+            .map(|(_, told)| told)
+            .collect();
         board.reserved = dimension_lines::extension_line_paper(rect, slanted.iter().copied());
         for mark in &mut marks {
-            mark.place_near(&kept, &mut board)?;
+            mark.place_near(&crossings_on_side, &mut board)?;
         }
         for side in ViewSide::ALL {
-            let own: Vec<&SideLength> = told.iter().copied().filter(|told| told.side == side).collect();
-            let open: Vec<f64> = marks
+            let lengths_of_side: Vec<&SideLength> =
+                side_lengths.iter().copied().filter(|told| told.side == side).collect();
+            let section_crossings: Vec<f64> = marks
                 .iter()
                 .filter_map(|mark| mark.open_crossing(side.is_across(), side.outward()))
                 .collect();
-            dimension_lines::draw_rows(rect, &own, &open, &mut board)?;
+            dimension_lines::draw_rows(rect, &lengths_of_side, &section_crossings, &mut board)?;
         }
-        for (k, own) in slanted.iter().enumerate() {
+        for (k, slanted_length) in slanted.iter().enumerate() {
             board.reserved = dimension_lines::extension_line_paper(rect, slanted.iter().skip(k + 1).copied());
-            dimension_lines::draw_slanted(rect, own, &mut board)?;
+            dimension_lines::draw_slanted(rect, slanted_length, &mut board)?;
         }
-        for (_, led) in self.measures.diameters.iter().filter(|(of, _)| *of == view) {
-            diameter_leaders::draw_diameter(rect, led, &mut board)?;
+        for (_, diameter_leader) in self.measures.diameters.iter().filter(|(of, _)| *of == view) {
+            diameter_leaders::draw_diameter(rect, diameter_leader, &mut board)?;
         }
         for mark in marks {
             mark.finish(&mut board)?;
         }
         for circled in
-            plan.circled.iter().filter(|circled| circled.source_view == view && circled.meets(sight))
+            plan.circled.iter().filter(|circled| circled.source_view == view && circled.meets(sheet_view))
         {
-            let (centre, radius) = (sight.to_page(circled.at), circled.radius * sight.mm_per_unit);
+            let (centre, radius) = (sheet_view.to_page(circled.at), circled.radius * sheet_view.mm_per_unit);
             detail_labels::draw_detail_label(&circled.label, centre, radius, &mut board)?;
         }
         if let Some(title) = titles_and_notes::view_title(plan, view, self.scale) {
@@ -148,16 +161,17 @@ impl Annotations<'_> {
 
     /// The section marks of a view, ordered so that no arrow lies on a mark placed later.
     fn cut_marks(&self, view: usize, plan: &ViewPlan, board: &mut AnnotationBoard) -> Vec<SectionMark> {
-        let sight = &plan.views[view].sight;
-        let rect = sight.rect();
+        let sheet_view = &plan.views[view].sight;
+        let rect = sheet_view.rect();
         let mut marks: Vec<SectionMark> = Vec::new();
         for cut in plan.cuts.iter().filter(|cut| titles_and_notes::edge_on_view(plan, cut) == Some(view)) {
             let normal = cut.plane.normal();
             // Towards the viewer of the section, on the page.
-            let back = sight.to_page(plan.middle + normal) - sight.to_page(plan.middle);
-            let back = back / back.hypot2().sqrt();
-            let on = sight.to_page(plan.middle - normal * cut.plane.distance(plan.middle));
-            marks.push(SectionMark::new(&cut.label, on, back, rect));
+            let viewing_direction =
+                sheet_view.to_page(plan.middle + normal) - sheet_view.to_page(plan.middle);
+            let unit_direction = viewing_direction / viewing_direction.hypot2().sqrt();
+            let point_on_line = sheet_view.to_page(plan.middle - normal * cut.plane.distance(plan.middle));
+            marks.push(SectionMark::new(&cut.label, point_on_line, unit_direction, rect));
         }
         marks.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
         for mark in &marks {
@@ -169,8 +183,9 @@ impl Annotations<'_> {
     /// The extra margins that annotations need outside the regular margin: left, above, right, below, mm.
     pub fn room(board: &AnnotationBoard, rect: Rect) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
-        let own = VIEW_MARGIN_MM - ANNOTATION_MARGIN_MM;
-        let past = [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
-        past.map(|past| (past - own).max(0.0))
+        let existing_margin = VIEW_MARGIN_MM - ANNOTATION_MARGIN_MM;
+        let overhangs =
+            [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
+        overhangs.map(|past| (past - existing_margin).max(0.0))
     }
 }

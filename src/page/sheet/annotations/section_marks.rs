@@ -54,21 +54,21 @@ impl SectionMark {
     pub fn new(label: &str, on: Point, back: Vec2, rect: Rect) -> Self {
         let along = Vec2::new(-back.y, back.x);
         let corners = [(rect.x0, rect.y0), (rect.x1, rect.y0), (rect.x1, rect.y1), (rect.x0, rect.y1)];
-        let places = corners.map(|corner| (Point::from(corner) - on).dot(along));
-        let least = places.into_iter().fold(f64::INFINITY, f64::min);
-        let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let corner_offsets = corners.map(|corner| (Point::from(corner) - on).dot(along));
+        let min_offset = corner_offsets.into_iter().fold(f64::INFINITY, f64::min);
+        let max_offset = corner_offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
         Self {
             label: label.to_owned(),
             on,
             along,
             back,
-            open: vec![(-1.0, least), (1.0, most)],
+            open: vec![(-1.0, min_offset), (1.0, max_offset)],
             ends: [None; 2],
         }
     }
 
-    fn at(&self, along: f64) -> Point {
-        self.on + self.along * along
+    fn at(&self, offset: f64) -> Point {
+        self.on + self.along * offset
     }
 
     /// Position of the plane along `back`.
@@ -77,10 +77,10 @@ impl SectionMark {
     }
 
     /// Where the line crosses the side of the view in direction `outward`, if its end there has no place yet:
-    /// the x coordinate if `across`, else y.
-    pub fn open_crossing(&self, across: bool, outward: Vec2) -> Option<f64> {
+    /// the x coordinate if `is_across`, else y.
+    pub fn open_crossing(&self, is_across: bool, outward: Vec2) -> Option<f64> {
         let passes = self.open.iter().any(|(sign, _)| (self.along * *sign).dot(outward) > 0.7);
-        passes.then_some(if across { self.on.x } else { self.on.y })
+        passes.then_some(if is_across { self.on.x } else { self.on.y })
     }
 
     /// Marks the paper of the line within the view as occupied.
@@ -92,9 +92,13 @@ impl SectionMark {
         }
     }
 
-    /// Places ends near the view. `kept` returns the positions of future extension lines for a direction.
-    pub fn place_near(&mut self, kept: DimensionCrossings, board: &mut AnnotationBoard) -> Result<(), Error> {
-        self.place(board, MAX_NEAR_STEPS, Some(kept))
+    /// Places ends near the view. `crossings` returns the positions of future extension lines for a direction.
+    pub fn place_near(
+        &mut self,
+        crossings: DimensionCrossings,
+        board: &mut AnnotationBoard,
+    ) -> Result<(), Error> {
+        self.place(board, MAX_NEAR_STEPS, Some(crossings))
     }
 
     /// Places the remaining ends and draws the line.
@@ -113,21 +117,23 @@ impl SectionMark {
         &mut self,
         board: &mut AnnotationBoard,
         tries: u32,
-        kept: Option<DimensionCrossings>,
+        crossings: Option<DimensionCrossings>,
     ) -> Result<(), Error> {
         let word = board.word(&self.label, LETTER_HEIGHT_MM)?;
         for (sign, border) in std::mem::take(&mut self.open) {
             // If nothing else is left, a line may cross an arrow head.
-            let ways = [Clearance::All, Clearance::Solids, Clearance::Texts];
-            let found = ways.into_iter().filter(|clear| kept.is_none() || *clear == Clearance::All).find_map(
-                |clear| {
+            let clearances = [Clearance::All, Clearance::Solids, Clearance::Texts];
+            let found = clearances
+                .into_iter()
+                .filter(|candidate_clearance| crossings.is_none() || *candidate_clearance == Clearance::All)
+                .find_map(|clearance| {
                     (0..tries).find_map(|k| {
                         let end = border + sign * (FIRST_END_OFFSET_MM + OUTWARD_STEP_MM * f64::from(k));
-                        let letter = self.letter((sign, border, end), &word, (clear, kept), board)?;
+                        let letter =
+                            self.letter((sign, border, end), &word, (clearance, crossings), board)?;
                         Some((end, letter))
                     })
-                },
-            );
+                });
             let Some((end, letter)) = found else {
                 self.open.push((sign, border));
                 continue;
@@ -143,54 +149,55 @@ impl SectionMark {
         &self,
         (sign, border, end): (f64, f64, f64),
         word: &SetWord,
-        (clear, kept): (Clearance, Option<DimensionCrossings>),
+        (clearance, crossings): (Clearance, Option<DimensionCrossings>),
         board: &AnnotationBoard,
     ) -> Option<Point> {
         let tip = self.at(end - sign * ARROW_INSET_MM);
-        let out = self.along * sign;
-        let thick =
+        let outward = self.along * sign;
+        let thick_end =
             ConvexShape::line(self.at(end), self.at(end - sign * THICK_END_LENGTH_MM), 2.0 * THICK_LINE_MM)
                 .wider(TEXT_CLEARANCE_MM);
         let shaft = ConvexShape::line(tip + self.back * ARROW_TAIL_MM, tip + self.back * 3.0, THIN_LINE_MM)
             .wider(TEXT_CLEARANCE_MM);
         let head = AnnotationBoard::head(tip, -self.back, ARROW_HEAD_MM).wider(TEXT_CLEARANCE_MM);
-        let solids = if clear == Clearance::Texts { Clearance::Texts } else { Clearance::Solids };
-        let is_free = board.taken.is_free(&thick, solids)
-            && board.taken.is_free(&head, clear)
-            && board.taken.is_free(&shaft, clear)
-            && board.is_line_free(self.at(border), self.at(end), solids);
+        let solid_clearance =
+            if clearance == Clearance::Texts { Clearance::Texts } else { Clearance::Solids };
+        let is_free = board.taken.is_free(&thick_end, solid_clearance)
+            && board.taken.is_free(&head, clearance)
+            && board.taken.is_free(&shaft, clearance)
+            && board.is_line_free(self.at(border), self.at(end), solid_clearance);
         if !is_free {
             return None;
         }
-        let passes = |shape: &ConvexShape| {
+        let crosses_dimension = |shape: &ConvexShape| {
             let bounds = shape.bounds().inflate(DIMENSION_CLEARANCE_MM, DIMENSION_CLEARANCE_MM);
-            kept.is_some_and(|kept| {
-                let vertical = out.y.abs() > out.x.abs();
+            crossings.is_some_and(|kept| {
+                let vertical = outward.y.abs() > outward.x.abs();
                 let (low, high) = if vertical { (bounds.x0, bounds.x1) } else { (bounds.y0, bounds.y1) };
-                kept(out).iter().any(|x| low <= *x && *x <= high)
+                kept(outward).iter().any(|x| low <= *x && *x <= high)
             })
         };
-        if passes(&head) || passes(&thick) {
+        if crosses_dimension(&head) || crosses_dimension(&thick_end) {
             return None;
         }
-        let beside = word.bounds.width() / 2.0 + 1.5;
+        let side_offset = word.bounds.width() / 2.0 + 1.5;
         [
-            self.back * 12.0 + out * 1.5,
+            self.back * 12.0 + outward * 1.5,
             self.back * 12.5,
-            self.back * 6.5 + out * (beside + 0.5),
-            self.back * 6.5 + out * (beside + 2.0),
-            self.back * 14.0 + out * 3.0,
-            out * (beside + 2.5),
-            self.back * -4.5 + out * 1.0,
+            self.back * 6.5 + outward * (side_offset + 0.5),
+            self.back * 6.5 + outward * (side_offset + 2.0),
+            self.back * 14.0 + outward * 3.0,
+            outward * (side_offset + 2.5),
+            self.back * -4.5 + outward * 1.0,
         ]
         .into_iter()
-        .map(|way| tip + way)
+        .map(|letter_offset| tip + letter_offset)
         .find(|middle| {
-            let place = word.centred(*middle);
-            let own = word.shape(place).wider(TEXT_CLEARANCE_MM);
-            board.is_free(word, place)
-                && !passes(&own)
-                && ![thick, shaft, head].iter().any(|part| part.touches(&own))
+            let letter_transform = word.centred(*middle);
+            let letter_shape = word.shape(letter_transform).wider(TEXT_CLEARANCE_MM);
+            board.is_free(word, letter_transform)
+                && !crosses_dimension(&letter_shape)
+                && ![thick_end, shaft, head].iter().any(|part| part.touches(&letter_shape))
         })
     }
 

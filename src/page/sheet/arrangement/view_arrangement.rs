@@ -50,8 +50,8 @@ pub(crate) struct PlacedView {
 
 impl PlacedView {
     /// A view without annotations.
-    pub fn new(sight: SheetView, stands: ViewPlacement) -> Self {
-        Self { sight, placement: stands, margins: Vec::new(), place: Rect::ZERO }
+    pub fn new(sight: SheetView, view_placement: ViewPlacement) -> Self {
+        Self { sight, placement: view_placement, margins: Vec::new(), place: Rect::ZERO }
     }
 }
 
@@ -73,10 +73,10 @@ impl PlacedView {
     /// Widens the margins at the present scale to at least `needed`.
     pub fn widen_margins(&mut self, needed: [f64; 4]) {
         let unit = self.sight.mm_per_unit;
-        let own = self.margins_at(unit);
+        let current_margins = self.margins_at(unit);
         let is_other = |known: &f64| (known / unit - 1.0).abs() >= tolerances::MAX_SCALE_DIFFERENCE_SHARE;
         self.margins.retain(|(known, _)| is_other(known));
-        self.margins.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
+        self.margins.push((unit, [0, 1, 2, 3].map(|side| current_margins[side].max(needed[side]))));
     }
 
     /// Changes the scale from `from` to `to` and keeps the centre of the view.
@@ -91,8 +91,8 @@ impl PlacedView {
         let rect = self.sight.rect();
         let extents = board.extents().map_or(rect, |extents| extents.union(rect));
         let margin = tolerances::POSITION_ROUNDING_MM - ANNOTATION_MARGIN_MM;
-        let own = self.place.inflate(margin, margin);
-        own.contains_rect(extents) && board.unplaced.is_empty()
+        let reserved_rect = self.place.inflate(margin, margin);
+        reserved_rect.contains_rect(extents) && board.unplaced.is_empty()
     }
 }
 
@@ -125,10 +125,10 @@ impl ViewPlacement {
 }
 
 /// A scale, and the next smaller ones of the series.
-fn with_smaller_scales(scale: f64, place: usize) -> Vec<f64> {
+fn with_smaller_scales(scale: f64, scale_index: usize) -> Vec<f64> {
     [scale]
         .into_iter()
-        .chain(STANDARD_SCALES.iter().skip(place + 1).copied().take(MAX_SMALLER_SCALES))
+        .chain(STANDARD_SCALES.iter().skip(scale_index + 1).copied().take(MAX_SMALLER_SCALES))
         .collect()
 }
 
@@ -147,56 +147,56 @@ fn grid_cell(view: NamedView, method: ProjectionMethod) -> [i32; 2] {
 
 /// Places all views on the free part of a sheet and returns the scale; `None` if they do not fit.
 ///
-/// `unit_mm` is the length of a model unit in mm, `told` a scale from the page file. Of the two largest
+/// `unit_mm` is the length of a model unit in mm, `requested_scale` a scale from the page file. Of the two largest
 /// scales that fit, the one with the larger product of view sizes wins.
 pub(crate) fn arrange_views(
     views: &mut [PlacedView],
-    (space, taken): (Rect, &[Rect]),
-    (method, unit_mm, told): (ProjectionMethod, f64, Option<f64>),
+    (space, reserved_rects): (Rect, &[Rect]),
+    (method, unit_mm, requested_scale): (ProjectionMethod, f64, Option<f64>),
 ) -> Option<f64> {
-    let mut room = FreeRectangles::new(space);
-    taken.iter().for_each(|taken| room.take(*taken));
-    let told = told.map(|scale| vec![scale]);
-    let alone: Vec<usize> =
+    let mut free_rectangles = FreeRectangles::new(space);
+    reserved_rects.iter().for_each(|taken| free_rectangles.take(*taken));
+    let told = requested_scale.map(|scale| vec![scale]);
+    let unprojected_views: Vec<usize> =
         (0..views.len()).filter(|k| !matches!(views[*k].placement, ViewPlacement::Projected(_))).collect();
-    let orders = placement_orders(&alone);
+    let orders = placement_orders(&unprojected_views);
     let mut best: Option<(f64, f64, &Vec<usize>)> = None;
-    let mut fitting = 0;
+    let mut fitting_scales = 0;
     for scale in told.as_deref().unwrap_or(&STANDARD_SCALES) {
         let mut fits = false;
         for order in &orders {
-            let mut room = room.clone();
-            if try_scale(views, (&mut room, space), (method, *scale, unit_mm), order).is_none() {
+            let mut trial_rectangles = free_rectangles.clone();
+            if try_scale(views, (&mut trial_rectangles, space), (method, *scale, unit_mm), order).is_none() {
                 continue;
             }
             fits = true;
             let size: f64 = views.iter().map(|placed| ln(placed.sight.mm_per_unit)).sum();
-            if best.is_none_or(|(known, ..)| size > known + tolerances::MIN_LOG_SCALE_GAIN) {
+            if best.is_none_or(|(best_size, ..)| size > best_size + tolerances::MIN_LOG_SCALE_GAIN) {
                 best = Some((size, *scale, order));
             }
         }
-        fitting += usize::from(fits);
-        if fitting == 2 {
+        fitting_scales += usize::from(fits);
+        if fitting_scales == 2 {
             break;
         }
     }
     let (_, scale, order) = best?;
-    let free = room.clone();
-    try_scale(views, (&mut room, space), (method, scale, unit_mm), order)?;
-    centre_free_views(views, &free, order);
+    let free_before = free_rectangles.clone();
+    try_scale(views, (&mut free_rectangles, space), (method, scale, unit_mm), order)?;
+    centre_free_views(views, &free_before, order);
     Some(scale)
 }
 
 /// Moves each separate view to the middle of the free rectangle around it.
 fn centre_free_views(views: &mut [PlacedView], free: &FreeRectangles, order: &[usize]) {
     for k in order {
-        let mut room = free.clone();
-        let others = views.iter().enumerate().filter(|(other, _)| other != k);
-        others.for_each(|(_, placed)| room.take(placed.place));
-        let own = views[*k].place;
-        if let Some(around) = room.around(own) {
-            let shift = around.center() - own.center();
-            views[*k].place = own + shift;
+        let mut free_rectangles = free.clone();
+        let other_views = views.iter().enumerate().filter(|(other, _)| other != k);
+        other_views.for_each(|(_, placed)| free_rectangles.take(placed.place));
+        let view_rect = views[*k].place;
+        if let Some(around) = free_rectangles.around(view_rect) {
+            let shift = around.center() - view_rect.center();
+            views[*k].place = view_rect + shift;
             views[*k].sight.corner += shift;
         }
     }
@@ -206,41 +206,41 @@ fn centre_free_views(views: &mut [PlacedView], free: &FreeRectangles, order: &[u
 /// placed in the given order only.
 fn placement_orders(views: &[usize]) -> Vec<Vec<usize>> {
     const MAX_PERMUTED_VIEWS: usize = 5;
-    let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MAX_PERMUTED_VIEWS) else {
+    let Some((first, other_views)) = views.split_first().filter(|_| views.len() <= MAX_PERMUTED_VIEWS) else {
         return vec![views.to_vec()];
     };
-    let mut all = Vec::new();
-    for order in placement_orders(rest) {
-        for at in 0..=order.len() {
+    let mut orders = Vec::new();
+    for order in placement_orders(other_views) {
+        for insert_position in 0..=order.len() {
             let mut order = order.clone();
-            order.insert(at, *first);
-            all.push(order);
+            order.insert(insert_position, *first);
+            orders.push(order);
         }
     }
-    all.sort();
-    all
+    orders.sort();
+    orders
 }
 
 fn try_scale(
     views: &mut [PlacedView],
-    (room, space): (&mut FreeRectangles, Rect),
+    (free_rectangles, space): (&mut FreeRectangles, Rect),
     (method, scale, unit_mm): (ProjectionMethod, f64, f64),
     order: &[usize],
 ) -> Option<()> {
     let unit = scale * unit_mm;
-    let group = |views: &[PlacedView]| -> Vec<(usize, [i32; 2])> {
-        let of = |(k, placed): (usize, &PlacedView)| match placed.placement {
+    let projected_cells = |views: &[PlacedView]| -> Vec<(usize, [i32; 2])> {
+        let cell_of_view = |(k, placed): (usize, &PlacedView)| match placed.placement {
             ViewPlacement::Projected(view) => Some((k, grid_cell(view, method))),
             _ => None,
         };
-        views.iter().enumerate().filter_map(of).collect()
+        views.iter().enumerate().filter_map(cell_of_view).collect()
     };
-    let beside = group(views);
-    if !beside.is_empty() {
+    let projected_views = projected_cells(views);
+    if !projected_views.is_empty() {
         // Extent of the views before and after the model's centre, for a column (line 0) or a row (line 1).
-        let reach = |line: usize, at: i32| {
-            let own = beside.iter().filter(|(_, field)| field[line] == at);
-            own.fold(None, |reach: Option<[f64; 2]>, (k, _)| {
+        let line_extent = |line: usize, at: i32| {
+            let views_on_line = projected_views.iter().filter(|(_, field)| field[line] == at);
+            views_on_line.fold(None, |extent_so_far: Option<[f64; 2]>, (k, _)| {
                 let (low, high) = (views[*k].sight.low * unit, views[*k].sight.high * unit);
                 let around = views[*k].margins_at(unit);
                 let [before, after] = if line == 0 {
@@ -248,25 +248,25 @@ fn try_scale(
                 } else {
                     [around[1] + high.y, around[3] - low.y]
                 };
-                let [b, a] = reach.unwrap_or([f64::NEG_INFINITY; 2]);
+                let [b, a] = extent_so_far.unwrap_or([f64::NEG_INFINITY; 2]);
                 Some([b.max(before), a.max(after)])
             })
         };
         let mut middles = [Vec::new(), Vec::new()];
         for (line, middles) in middles.iter_mut().enumerate() {
-            let mut at = VIEW_MARGIN_MM;
+            let mut offset = VIEW_MARGIN_MM;
             for k in -2..=3 {
-                if let Some([before, after]) = reach(line, k) {
-                    middles.push((k, at + before));
-                    at += before + after + 2.0 * VIEW_MARGIN_MM;
+                if let Some([before, after]) = line_extent(line, k) {
+                    middles.push((k, offset + before));
+                    offset += before + after + 2.0 * VIEW_MARGIN_MM;
                 }
             }
         }
         // The rectangle of a view with its margins, and the corner of the view itself.
-        let place = |placed: &PlacedView, field: [i32; 2], start: [f64; 2]| {
+        let rect_and_corner = |placed: &PlacedView, field: [i32; 2], start: [f64; 2]| {
             let middle = |line: usize| {
-                let found = middles[line].iter().find(|(at, _)| *at == field[line]);
-                start[line] + found.map_or(0.0, |(_, middle)| *middle)
+                let line_middle = middles[line].iter().find(|(at, _)| *at == field[line]);
+                start[line] + line_middle.map_or(0.0, |(_, middle)| *middle)
             };
             let sight = &placed.sight;
             let corner = Point::new(
@@ -286,25 +286,30 @@ fn try_scale(
             [CENTRING_MARK_OFFSET_MM, CENTRING_MARK_OFFSET_MM],
         ];
         let fits = |start: &[f64; 2]| {
-            beside.iter().all(|(k, field)| room.is_free(place(&views[*k], *field, *start).0))
+            projected_views
+                .iter()
+                .all(|(k, field)| free_rectangles.is_free(rect_and_corner(&views[*k], *field, *start).0))
         };
         let start = starts.into_iter().find(fits)?;
-        for (k, field) in &beside {
-            let (place, corner) = place(&views[*k], *field, start);
+        for (k, field) in &projected_views {
+            let (view_rect, corner) = rect_and_corner(&views[*k], *field, start);
             let placed = &mut views[*k];
-            (placed.place, placed.sight.mm_per_unit, placed.sight.corner) = (place, unit, corner);
-            room.take(place);
+            (placed.place, placed.sight.mm_per_unit, placed.sight.corner) = (view_rect, unit, corner);
+            free_rectangles.take(view_rect);
         }
     }
     for k in order {
         let placed = &mut views[*k];
-        let most = scale * (1.0 + tolerances::MAX_SCALE_DIFFERENCE_SHARE);
-        let from = STANDARD_SCALES.iter().position(|own| *own <= most).unwrap_or_default();
+        let max_scale = scale * (1.0 + tolerances::MAX_SCALE_DIFFERENCE_SHARE);
+        let first_scale_index = STANDARD_SCALES
+            .iter()
+            .position(|standard_scale| *standard_scale <= max_scale)
+            .unwrap_or_default();
         let scales: Vec<f64> = match placed.placement {
             ViewPlacement::Projected(_) => continue,
             ViewPlacement::Enlarged(times) => vec![scale * times],
             ViewPlacement::At(scale) => vec![scale],
-            ViewPlacement::Separate => with_smaller_scales(scale, from),
+            ViewPlacement::Separate => with_smaller_scales(scale, first_scale_index),
             ViewPlacement::Pictorial => {
                 (0..FREE_SCALE_STEPS).map(|k| scale * FREE_SCALE_FACTOR.powi(k)).collect()
             }
@@ -312,17 +317,19 @@ fn try_scale(
                 .map(|k| scale * MAX_FREE_ENLARGEMENT * FREE_SCALE_FACTOR.powi(k))
                 .collect(),
         };
-        let found = scales.into_iter().find_map(|scale| {
+        let scale_and_rect = scales.into_iter().find_map(|scale| {
             let [w, h] = placed.sight.size(scale * unit_mm);
             let [left, above, right, below] = placed.margins_at(scale * unit_mm);
-            room.put(w + 2.0 * VIEW_MARGIN_MM + left + right, h + 2.0 * VIEW_MARGIN_MM + above + below)
-                .map(|place| (scale, place))
+            free_rectangles
+                .put(w + 2.0 * VIEW_MARGIN_MM + left + right, h + 2.0 * VIEW_MARGIN_MM + above + below)
+                .map(|fitting_rect| (scale, fitting_rect))
         });
-        let (scale, place) = found?;
+        let (scale, placed_rect) = scale_and_rect?;
         let [left, above, ..] = placed.margins_at(scale * unit_mm);
-        placed.place = place;
+        placed.place = placed_rect;
         placed.sight.mm_per_unit = scale * unit_mm;
-        placed.sight.corner = Point::new(place.x0 + VIEW_MARGIN_MM + left, place.y0 + VIEW_MARGIN_MM + above);
+        placed.sight.corner =
+            Point::new(placed_rect.x0 + VIEW_MARGIN_MM + left, placed_rect.y0 + VIEW_MARGIN_MM + above);
     }
     Some(())
 }

@@ -121,13 +121,13 @@ impl ViewPlan {
         let views = sheet.views.clone().unwrap_or_else(|| ["front", "top", "left", "iso"].map(names).into());
         let views = views.iter().map(|name| parse_view(name, source)).collect::<Result<Vec<_>, _>>()?;
         for view in &views {
-            let stands = if SIDE_VIEWS.contains(view) {
+            let placement_of_view = if SIDE_VIEWS.contains(view) {
                 ViewPlacement::Projected(*view)
             } else {
                 ViewPlacement::Pictorial
             };
             let camera = Camera::named(*view, scene.up);
-            plan.add(view.name(), camera, &points, (0, stands));
+            plan.add(view.name(), camera, &points, (0, placement_of_view));
         }
         plan.sets.push(Arc::new(ShownScene { scene, style: style.clone() }));
         plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
@@ -149,11 +149,18 @@ impl ViewPlan {
         Ok(plan)
     }
 
-    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, ViewPlacement)) {
-        let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
-        let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
-        let sight = SheetView::new(&name, camera, self.middle, points);
-        self.views.push(PlacedView::new(sight, stands));
+    fn add(
+        &mut self,
+        name: &str,
+        camera: Camera,
+        points: &[DVec3],
+        (set, placement): (usize, ViewPlacement),
+    ) {
+        let same_name_count = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
+        let name =
+            if same_name_count == 0 { name.to_owned() } else { format!("{name}-{}", same_name_count + 1) };
+        let sheet_view = SheetView::new(&name, camera, self.middle, points);
+        self.views.push(PlacedView::new(sheet_view, placement));
         self.scene_of_view.push(set);
     }
 
@@ -164,38 +171,40 @@ impl ViewPlan {
         (points, style): (&[DVec3], &Style),
         source: &PageSource,
     ) -> Result<(), Error> {
-        let mut taken: Vec<NamedView> = views.to_vec();
+        let mut used_views: Vec<NamedView> = views.to_vec();
         for (k, keys) in sheet.section.iter().enumerate() {
-            let whole = &self.sets[0].scene;
+            let uncut_scene = &self.sets[0].scene;
             let span = keys.plane.span();
-            let wrong = |message: String| source.fault(&span, "this is not a plane", &message);
-            let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
-            let (normal, _) = told.normal();
-            let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
+            let plane_error = |message: String| source.fault(&span, "this is not a plane", &message);
+            let cut_plane = CutPlane::parse(keys.plane.get_ref()).map_err(plane_error)?;
+            let (normal, _) = cut_plane.normal();
+            let forward = |view: &NamedView| Camera::named(*view, uncut_scene.up).axes()[2];
             let is_normal = |forward: &DVec3| forward.dot(normal).abs() > tolerances::MIN_PARALLEL_COSINE;
             let preferred = SIDE_VIEWS.iter().map(forward).find(is_normal);
-            let plane = told
-                .of(whole, self.unit_mm(), preferred.unwrap_or(-normal))
+            let plane = cut_plane
+                .of(uncut_scene, self.unit_mm(), preferred.unwrap_or(-normal))
                 .map_err(|error| source.about(&span, error))?;
             let is_opposite =
                 |view: &NamedView| forward(view).dot(plane.normal()) < -tolerances::MIN_PARALLEL_COSINE;
-            let side = SIDE_VIEWS.into_iter().find(is_opposite);
-            let camera =
-                side.map_or_else(|| camera_facing(&plane, whole), |view| Camera::named(view, whole.up));
+            let opposite_view = SIDE_VIEWS.into_iter().find(is_opposite);
+            let camera = opposite_view.map_or_else(
+                || camera_facing(&plane, uncut_scene),
+                |view| Camera::named(view, uncut_scene.up),
+            );
             let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
-            let mut section = cut(whole.clone(), &plane, &uncut);
+            let mut section = cut(uncut_scene.clone(), &plane, &uncut);
             let style = with_cut_hatching_for(style, &mut section.scene, &mut section.faces, &[camera]);
             self.sets.push(Arc::new(ShownScene { scene: std::mem::take(&mut section.scene), style }));
-            let stands = match side.filter(|view| !taken.contains(view)) {
+            let placement = match opposite_view.filter(|view| !used_views.contains(view)) {
                 Some(view) => {
-                    taken.push(view);
+                    used_views.push(view);
                     ViewPlacement::Projected(view)
                 }
                 None => ViewPlacement::Separate,
             };
             let label = keys.label.clone().unwrap_or_else(|| label_letter(k));
             let set = self.sets.len() - 1;
-            self.add(&format!("section-{label}"), camera, points, (set, stands));
+            self.add(&format!("section-{label}"), camera, points, (set, placement));
             if let Some(placed) = self.views.last_mut() {
                 placed.sight.title = Some(format!("{label}-{label}"));
             }
@@ -207,9 +216,10 @@ impl ViewPlan {
     fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &PageSource) -> Result<(), Error> {
         let Some(keys) = &sheet.exploded else { return Ok(()) };
         let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| parse_view(view, source))?;
-        let whole = &self.sets[0].scene;
-        let ways = explode(whole, &explosion_keys::explosion(keys, whole, source)?);
-        let scene = with_trails(whole.clone(), &ways);
+        let assembled_scene = &self.sets[0].scene;
+        let displacements =
+            explode(assembled_scene, &explosion_keys::explosion(keys, assembled_scene, source)?);
+        let scene = with_trails(assembled_scene.clone(), &displacements);
         let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
         self.sets.push(Arc::new(ShownScene { scene, style: with_trail_lines(style) }));
         let set = self.sets.len() - 1;
@@ -232,7 +242,7 @@ impl ViewPlan {
     }
 
     fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &PageSource) -> Result<(), Error> {
-        let of = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
+        let source_index = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
         let radius = *keys.radius.get_ref();
         if !(radius.is_finite() && radius > 0.0) {
             return Err(source.fault(
@@ -243,16 +253,23 @@ impl ViewPlan {
         }
         let label = keys.label.clone().unwrap_or_else(|| label_letter(number));
         let at = DVec3::from_array(keys.at);
-        let mut sight = self.views[of].sight.detail(&format!("detail-{label}"), at, radius);
-        sight.title = Some(label.clone());
+        let mut detail_sheet_view =
+            self.views[source_index].sight.detail(&format!("detail-{label}"), at, radius);
+        detail_sheet_view.title = Some(label.clone());
         // A step of the series enlarges by 2 or 2.5; two steps by about 5.
-        let stands = match &keys.scale {
+        let placement = match &keys.scale {
             None => ViewPlacement::Enlarged(5.0),
-            Some(told) => ViewPlacement::At(read_scale(told, source)?),
+            Some(scale_text) => ViewPlacement::At(read_scale(scale_text, source)?),
         };
-        self.circled.push(DetailCircle { label, source_view: of, detail_view: self.views.len(), at, radius });
-        self.views.push(PlacedView::new(sight, stands));
-        self.scene_of_view.push(self.scene_of_view[of]);
+        self.circled.push(DetailCircle {
+            label,
+            source_view: source_index,
+            detail_view: self.views.len(),
+            at,
+            radius,
+        });
+        self.views.push(PlacedView::new(detail_sheet_view, placement));
+        self.scene_of_view.push(self.scene_of_view[source_index]);
         Ok(())
     }
 
@@ -282,16 +299,17 @@ impl ViewPlan {
             let is_behind = |p: &DVec3| section.plane.side(part.world_from_part.transform_point3(*p)) < 0;
             return positions.iter().any(is_behind).then_some(*cylinder);
         }
-        let away = cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
-        let near = tolerances::MAX_OFFSET_OF_RADIUS * cylinder.radius;
-        if (away[0] - away[1]).abs() <= near {
-            return (away[0] <= near).then_some(*cylinder);
+        let end_distances =
+            cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
+        let tolerance = tolerances::MAX_OFFSET_OF_RADIUS * cylinder.radius;
+        if (end_distances[0] - end_distances[1]).abs() <= tolerance {
+            return (end_distances[0] <= tolerance).then_some(*cylinder);
         }
         // The end in front of the plane is moved into the plane.
-        let share = away[0] / (away[0] - away[1]);
-        let at = cylinder.ends[0] + share * (cylinder.ends[1] - cylinder.ends[0]);
-        let ends = [0, 1].map(|k| if away[k] > 0.0 { at } else { cylinder.ends[k] });
-        ((ends[1] - ends[0]).abs() > near).then_some(Cylinder { ends, ..*cylinder })
+        let share = end_distances[0] / (end_distances[0] - end_distances[1]);
+        let cut_end = cylinder.ends[0] + share * (cylinder.ends[1] - cylinder.ends[0]);
+        let ends = [0, 1].map(|k| if end_distances[k] > 0.0 { cut_end } else { cylinder.ends[k] });
+        ((ends[1] - ends[0]).abs() > tolerance).then_some(Cylinder { ends, ..*cylinder })
     }
 
     /// The section plane of a section view.
@@ -304,15 +322,15 @@ impl ViewPlan {
         let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
         names
             .iter()
-            .position(|known| known == name.get_ref())
+            .position(|view_name| view_name == name.get_ref())
             .ok_or_else(|| source.unknown(name, "view on this sheet", &names))
     }
 }
 
 /// Parses a scale.
-pub(crate) fn read_scale(told: &Spanned<String>, source: &PageSource) -> Result<f64, Error> {
-    scale_series::parse_scale(told.get_ref())
-        .ok_or_else(|| source.fault(&told.span(), "this is not a scale", "write such as 1:5 or 2:1"))
+pub(crate) fn read_scale(scale_text: &Spanned<String>, source: &PageSource) -> Result<f64, Error> {
+    scale_series::parse_scale(scale_text.get_ref())
+        .ok_or_else(|| source.fault(&scale_text.span(), "this is not a scale", "write such as 1:5 or 2:1"))
 }
 
 fn parse_view(name: &Spanned<String>, source: &PageSource) -> Result<NamedView, Error> {

@@ -27,11 +27,11 @@ pub(crate) struct SetWord {
 
 impl SetWord {
     /// The paper that the word occupies at a place.
-    pub fn shape(&self, place: Affine) -> ConvexShape {
-        let turned = |v: Vec2| place * v.to_point() - place * Point::ZERO;
-        let along = turned(Vec2::new(self.bounds.width() / 2.0, 0.0));
-        let across = turned(Vec2::new(0.0, self.bounds.height() / 2.0));
-        ConvexShape::turned(place * self.bounds.center(), along, across)
+    pub fn shape(&self, transform: Affine) -> ConvexShape {
+        let transformed = |v: Vec2| transform * v.to_point() - transform * Point::ZERO;
+        let half_width = transformed(Vec2::new(self.bounds.width() / 2.0, 0.0));
+        let half_height = transformed(Vec2::new(0.0, self.bounds.height() / 2.0));
+        ConvexShape::turned(transform * self.bounds.center(), half_width, half_height)
     }
 
     /// The place that centres the letters at a point.
@@ -64,39 +64,39 @@ impl AnnotationBoard {
     }
 
     /// Sets a word with a given height of capitals.
-    pub fn word(&self, words: &str, high: f64) -> Result<SetWord, Error> {
-        self.word_within(words, high, 0.0)
+    pub fn word(&self, words: &str, height: f64) -> Result<SetWord, Error> {
+        self.word_within(words, height, 0.0)
     }
 
-    /// Sets a word, smaller if it would be wider than `most`; 0 sets no limit.
-    pub fn word_within(&self, words: &str, high: f64, most: f64) -> Result<SetWord, Error> {
+    /// Sets a word, smaller if it would be wider than `max_width`; 0 sets no limit.
+    pub fn word_within(&self, words: &str, height: f64, max_width: f64) -> Result<SetWord, Error> {
         let mut ink = self.ink.new_like();
-        ink.word(words, Point::ZERO, high, WordAnchor::Left, most)?;
+        ink.word(words, Point::ZERO, height, WordAnchor::Left, max_width)?;
         let boxes = ink.marks.iter().map(|mark| mark.path.bounding_box());
         let bounds = boxes.reduce(|a, b| a.union(b)).unwrap_or_default();
         Ok(SetWord { marks: ink.marks, bounds })
     }
 
     /// Whether the paper for a word at a place is free and not reserved.
-    pub fn is_free(&self, word: &SetWord, place: Affine) -> bool {
-        let shape = word.shape(place).wider(TEXT_CLEARANCE_MM);
+    pub fn is_free(&self, word: &SetWord, transform: Affine) -> bool {
+        let shape = word.shape(transform).wider(TEXT_CLEARANCE_MM);
         self.taken.is_free(&shape, Clearance::All) && self.reserved.is_free(&shape, Clearance::All)
     }
 
     /// Adds a word at a place.
-    pub fn write(&mut self, word: &SetWord, place: Affine) {
-        self.taken.take(word.shape(place), OccupantKind::Solid);
-        self.ink.marks.extend(placed_marks(word, place));
+    pub fn write(&mut self, word: &SetWord, transform: Affine) {
+        self.taken.take(word.shape(transform), OccupantKind::Solid);
+        self.ink.marks.extend(placed_marks(word, transform));
     }
 
     /// Adds the number of a balloon at a place.
-    pub fn write_in_balloon(&mut self, word: &SetWord, place: Affine) {
-        self.balloons.marks.extend(placed_marks(word, place));
+    pub fn write_in_balloon(&mut self, word: &SetWord, transform: Affine) {
+        self.balloons.marks.extend(placed_marks(word, transform));
     }
 
     /// Whether a line fits between two points, with clearance.
-    pub fn is_line_free(&self, a: Point, b: Point, clear: Clearance) -> bool {
-        self.taken.is_free(&ConvexShape::line(a, b, 0.0).wider(LINE_CLEARANCE_MM), clear)
+    pub fn is_line_free(&self, a: Point, b: Point, clearance: Clearance) -> bool {
+        self.taken.is_free(&ConvexShape::line(a, b, 0.0).wider(LINE_CLEARANCE_MM), clearance)
     }
 
     /// Adds a line.
@@ -125,20 +125,21 @@ impl AnnotationBoard {
 
     /// Bounding box of all annotations, including line widths.
     pub fn extents(&self) -> Option<Rect> {
-        let of = |mark: &Mark| {
-            let wide = if let Paint::Stroke(stroke) = &mark.paint { stroke.width / 2.0 } else { 0.0 };
-            mark.path.bounding_box().inflate(wide, wide)
+        let mark_bounds = |mark: &Mark| {
+            let half_line_width =
+                if let Paint::Stroke(stroke) = &mark.paint { stroke.width / 2.0 } else { 0.0 };
+            mark.path.bounding_box().inflate(half_line_width, half_line_width)
         };
-        self.ink.marks.iter().chain(&self.balloons.marks).map(of).reduce(|a, b| a.union(b))
+        self.ink.marks.iter().chain(&self.balloons.marks).map(mark_bounds).reduce(|a, b| a.union(b))
     }
 }
 
-fn placed_marks(word: &SetWord, place: Affine) -> impl Iterator<Item = Mark> + '_ {
+fn placed_marks(word: &SetWord, transform: Affine) -> impl Iterator<Item = Mark> + '_ {
     word.marks.iter().map(move |mark| {
         let mut mark = mark.clone();
-        mark.path.apply_affine(place);
+        mark.path.apply_affine(transform);
         if let Some(text) = &mut mark.provenance.text {
-            text.place = place * text.place;
+            text.place = transform * text.place;
         }
         mark
     })

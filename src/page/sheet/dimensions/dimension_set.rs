@@ -60,37 +60,44 @@ impl DimensionSet {
     /// in another side view.
     pub fn add_overall(&mut self, plan: &ViewPlan) {
         let points = MeasuredPoint::of_parts(&plan.sets[0].scene, |_| true);
-        let mut told: Vec<DVec3> = Vec::new();
+        let mut measured_axes: Vec<DVec3> = Vec::new();
         let is_side = |k: &usize| matches!(plan.views[*k].placement, ViewPlacement::Projected(_));
         let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
         // Views without section marks come first, because the marks take the space of dimensions.
         sides.sort_by_key(|k| plan.cuts.iter().any(|cut| edge_on_view(plan, cut) == Some(*k)));
         for view in sides {
-            let sight = &plan.views[view].sight;
-            let [right, up, _] = sight.axes();
+            let sheet_view = &plan.views[view].sight;
+            let [right, up, _] = sheet_view.axes();
             for (axis, side) in [(right, ViewSide::Below), (up, ViewSide::Left)] {
-                if told.iter().any(|known| known.dot(axis).abs() > MIN_PARALLEL_COSINE) {
+                if measured_axes
+                    .iter()
+                    .any(|measured_axis| measured_axis.dot(axis).abs() > MIN_PARALLEL_COSINE)
+                {
                     continue;
                 }
-                told.push(axis);
+                measured_axes.push(axis);
                 // From the outermost points, take those nearest to the dimension line.
                 let key = |p: &MeasuredPoint| {
-                    let page = sight.to_page(p.at);
-                    if side.is_across() { (page.x, -page.y) } else { (page.y, page.x) }
+                    let page_point = sheet_view.to_page(p.at);
+                    if side.is_across() {
+                        (page_point.x, -page_point.y)
+                    } else {
+                        (page_point.y, page_point.x)
+                    }
                 };
-                let order = |a: &MeasuredPoint, b: &MeasuredPoint| {
+                let by_start = |a: &MeasuredPoint, b: &MeasuredPoint| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(c.total_cmp(&d))
                 };
-                let last = |a: &MeasuredPoint, b: &MeasuredPoint| {
+                let by_end = |a: &MeasuredPoint, b: &MeasuredPoint| {
                     let ((a, c), (b, d)) = (key(a), key(b));
                     a.total_cmp(&b).then(d.total_cmp(&c))
                 };
-                let ends = (points.iter().copied().min_by(order), points.iter().copied().max_by(last));
+                let ends = (points.iter().copied().min_by(by_start), points.iter().copied().max_by(by_end));
                 if let (Some(from), Some(to)) = ends {
                     let length = (to.at - from.at).dot(axis).abs();
                     let text = plan.values.written(length, LengthPrecision::between([from, to], axis));
-                    self.add(view, [from, to].map(|p| sight.to_page(p.at)), side, text);
+                    self.add(view, [from, to].map(|p| sheet_view.to_page(p.at)), side, text);
                 }
             }
         }
@@ -104,14 +111,17 @@ impl DimensionSet {
                 if round.centres.len() > 1 { format!("{}× ", round.centres.len()) } else { String::new() };
             let pitch =
                 round.pitch.map(|(middle, radius)| (sight.to_page(middle), radius * sight.mm_per_unit));
-            let on = round.pitch.map_or_else(String::new, |(_, radius)| {
+            let pitch_text = round.pitch.map_or_else(String::new, |(_, radius)| {
                 format!(" / ⌀{}", plan.values.written(2.0 * radius, round.precision))
             });
-            let text = format!("{count}⌀{}{on}", plan.values.written(2.0 * round.radius, round.precision));
+            let text =
+                format!("{count}⌀{}{pitch_text}", plan.values.written(2.0 * round.radius, round.precision));
             let centres: Vec<Point> = round.centres.iter().map(|at| sight.to_page(*at)).collect();
             // The leader belongs to the circle nearest to the upper right corner.
-            let high = |p: &Point| p.x - p.y;
-            let Some(centre) = centres.iter().copied().max_by(|a, b| high(a).total_cmp(&high(b))) else {
+            let upper_right_score = |p: &Point| p.x - p.y;
+            let Some(centre) =
+                centres.iter().copied().max_by(|a, b| upper_right_score(a).total_cmp(&upper_right_score(b)))
+            else {
                 continue;
             };
             let radius = round.radius * sight.mm_per_unit;
@@ -123,47 +133,49 @@ impl DimensionSet {
         for view in views {
             let sight = &plan.views[view].sight;
             let rect = sight.rect();
-            let own: Vec<&HoleDimension> = rounds.iter().filter(|round| round.view == view).collect();
+            let dimensions_in_view: Vec<&HoleDimension> =
+                rounds.iter().filter(|round| round.view == view).collect();
             // Positions of holes, except holes that are concentric with something round, which is positioned
             // already.
-            let outer: Vec<Point> = own
+            let solid_centres: Vec<Point> = dimensions_in_view
                 .iter()
                 .filter(|round| !round.is_hole)
                 .flat_map(|round| round.centres.iter().map(|at| sight.to_page(*at)))
                 .collect();
-            let places: Vec<(DVec3, LengthPrecision)> = own
+            let hole_centres: Vec<(DVec3, LengthPrecision)> = dimensions_in_view
                 .iter()
                 .filter(|round| round.is_hole && round.pitch.is_none())
                 .flat_map(|round| round.centres.iter().map(|at| (*at, round.precision)))
                 .filter(|(at, _)| {
-                    outer
-                        .iter()
-                        .all(|other| (*other - sight.to_page(*at)).hypot2() > MIN_OFFSET_MM * MIN_OFFSET_MM)
+                    solid_centres.iter().all(|solid_centre| {
+                        (*solid_centre - sight.to_page(*at)).hypot2() > MIN_OFFSET_MM * MIN_OFFSET_MM
+                    })
                 })
                 .collect();
             let [right, up, _] = sight.axes();
             let corner = plan.middle + right * sight.low.x + up * sight.low.y;
             for (side, axis) in [(ViewSide::Below, right), (ViewSide::Left, up)] {
-                let mut done: Vec<String> = Vec::new();
-                let mut sorted = places.clone();
+                let mut written_texts: Vec<String> = Vec::new();
+                let mut sorted = hole_centres.clone();
                 // Of several holes in line, the nearest to the side comes first.
                 sorted.sort_by(|(a, _), (b, _)| {
-                    let along = |p: &DVec3| (p.dot(axis), p.dot(right + up - axis));
-                    let ((a, c), (b, d)) = (along(a), along(b));
+                    let sort_key = |p: &DVec3| (p.dot(axis), p.dot(right + up - axis));
+                    let ((a, c), (b, d)) = (sort_key(a), sort_key(b));
                     a.total_cmp(&b).then(c.total_cmp(&d))
                 });
                 for (at, precision) in sorted {
-                    let far = (at - corner).dot(axis);
+                    let distance = (at - corner).dot(axis);
                     let ends = [MeasuredPoint { at: corner, step }, MeasuredPoint::exact(at)];
-                    let text =
-                        plan.values.written(far, LengthPrecision::between(ends, axis).coarser(precision));
-                    if far * sight.mm_per_unit < MIN_OFFSET_MM
-                        || done.len() >= MAX_POSITIONS_PER_SIDE
-                        || done.contains(&text)
+                    let text = plan
+                        .values
+                        .written(distance, LengthPrecision::between(ends, axis).coarser(precision));
+                    if distance * sight.mm_per_unit < MIN_OFFSET_MM
+                        || written_texts.len() >= MAX_POSITIONS_PER_SIDE
+                        || written_texts.contains(&text)
                     {
                         continue;
                     }
-                    done.push(text.clone());
+                    written_texts.push(text.clone());
                     let from = Point::new(rect.x0, rect.y1);
                     self.add(view, [from, sight.to_page(at)], side, text);
                 }

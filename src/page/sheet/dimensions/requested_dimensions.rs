@@ -35,17 +35,17 @@ pub(crate) fn add_requested(
     measures: &mut DimensionSet,
     source: &PageSource,
 ) -> Result<(), Error> {
-    let mut found: Option<Vec<Cylinder>> = None;
+    let mut cached_cylinders: Option<Vec<Cylinder>> = None;
     for keys in &sheet.dimension {
         let (span, keys) = (keys.span(), keys.get_ref());
         let view = match &keys.of {
             Some(name) => plan.view(name, source)?,
             None => plan.view(&Spanned::new(span.clone(), "front".to_owned()), source)?,
         };
-        let sight = &plan.views[view].sight;
+        let sheet_view = &plan.views[view].sight;
         let scene = &plan.sets[0].scene;
-        let place = |told: &Option<Spanned<PlaceKeys>>, key: &str| match told {
-            Some(told) => resolve_place(told, sheet, scene, sight, source),
+        let resolve_point = |place_keys: &Option<Spanned<PlaceKeys>>, key: &str| match place_keys {
+            Some(told) => resolve_place(told, sheet, scene, sheet_view, source),
             None => Err(source.fault(
                 &span,
                 &format!("this dimension has no `{key}`"),
@@ -57,20 +57,27 @@ pub(crate) fn add_requested(
             if plan.foreshortening(view) == Foreshortening::Moved {
                 return Err(source.fault(&span, REFUSED_IN_EXPLODED_VIEW[0], REFUSED_IN_EXPLODED_VIEW[1]));
             }
-            let at = place(&keys.at, "at")?.at;
-            let own = found.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
-            let led = nearest_cylinder_leader(own, at, (measure, keys), (plan, sight));
-            let told = keys.at.as_ref().map_or(span, Spanned::span);
+            let point_on_cylinder = resolve_point(&keys.at, "at")?.at;
+            let scene_cylinders =
+                cached_cylinders.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
+            let nearest_leader = nearest_cylinder_leader(
+                scene_cylinders,
+                point_on_cylinder,
+                (measure, keys),
+                (plan, sheet_view),
+            );
+            let at_span = keys.at.as_ref().map_or(span, Spanned::span);
             let remedy = "name a point on a cylinder that is seen along its axis in this view";
-            let led = led.ok_or_else(|| source.fault(&told, "there is no cylinder in this view", remedy))?;
-            measures.diameters.push((view, led));
+            let leader = nearest_leader
+                .ok_or_else(|| source.fault(&at_span, "there is no cylinder in this view", remedy))?;
+            measures.diameters.push((view, leader));
             continue;
         }
-        let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
-        let length = true_length([from, to], measure, sight, plan.foreshortening(view));
+        let (from, to) = (resolve_point(&keys.from, "from")?, resolve_point(&keys.to, "to")?);
+        let length = true_length([from, to], measure, sheet_view, plan.foreshortening(view));
         let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
         let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
-        let ends = [from, to].map(|p| sight.to_page(p.at));
+        let ends = [from, to].map(|p| sheet_view.to_page(p.at));
         add_length(ends, (measure, text), keys, view, measures);
     }
     Ok(())
@@ -78,85 +85,86 @@ pub(crate) fn add_requested(
 
 /// The point on the model that a key names.
 fn resolve_place(
-    told: &Spanned<PlaceKeys>,
+    place_keys: &Spanned<PlaceKeys>,
     sheet: &SheetPage,
     scene: &Scene,
-    sight: &SheetView,
+    sheet_view: &SheetView,
     source: &PageSource,
 ) -> Result<MeasuredPoint, Error> {
-    let finite = |p: &[f64; 3]| {
+    let finite_point = |p: &[f64; 3]| {
         let advice = "write three numbers such as [0, 12.5, 3]";
         let is_finite = p.iter().all(|x| x.is_finite());
         let point = is_finite.then(|| MeasuredPoint::exact(DVec3::from_array(*p)));
-        point.ok_or_else(|| source.fault(&told.span(), "this is not a point", advice))
+        point.ok_or_else(|| source.fault(&place_keys.span(), "this is not a point", advice))
     };
-    let name = match told.get_ref() {
-        PlaceKeys::Point(p) => return finite(p),
+    let name = match place_keys.get_ref() {
+        PlaceKeys::Point(p) => return finite_point(p),
         PlaceKeys::Named(name) => name,
     };
     if let Some(p) = sheet.points.get(name) {
-        return finite(p);
+        return finite_point(p);
     }
     let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
     let end = if end == "center" { "centre" } else { end };
     if !PLACE_ENDS.contains(&end) {
         let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(PLACE_ENDS).collect();
-        return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
+        return Err(source.unknown(&Spanned::new(place_keys.span(), name.clone()), "place", &known));
     }
     let glob = Glob::new(part);
     let points = MeasuredPoint::of_parts(scene, |part| glob.matches(&part.name));
     if points.is_empty() {
         let message = format!("there is no part `{part}`");
         return Err(source.fault(
-            &told.span(),
+            &place_keys.span(),
             &message,
             "`ligne info MODEL` lists them; * matches any text",
         ));
     }
-    let [right, up, _] = sight.axes();
-    let outermost =
-        |way: DVec3| points.iter().copied().max_by(|a, b| a.at.dot(way).total_cmp(&b.at.dot(way)));
-    let found = match end {
+    let [right, up, _] = sheet_view.axes();
+    let outermost = |direction: DVec3| {
+        points.iter().copied().max_by(|a, b| a.at.dot(direction).total_cmp(&b.at.dot(direction)))
+    };
+    let end_point = match end {
         "left" => outermost(-right),
         "right" => outermost(right),
         "top" => outermost(up),
         "bottom" => outermost(-up),
         _ => Some(box_centre(&points)),
     };
-    Ok(found.unwrap_or(MeasuredPoint::exact(DVec3::ZERO)))
+    Ok(end_point.unwrap_or(MeasuredPoint::exact(DVec3::ZERO)))
 }
 
 /// The centre of the bounding box of some points, with their coarsest step.
 fn box_centre(points: &[MeasuredPoint]) -> MeasuredPoint {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(p.at), h.max(p.at)));
+    let empty_bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(empty_bounds, |(l, h), p| (l.min(p.at), h.max(p.at)));
     MeasuredPoint { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
 }
 
 /// The leader of the cylinder that is seen end-on and whose surface is nearest to a point.
 fn nearest_cylinder_leader(
-    found: &[Cylinder],
+    cylinders: &[Cylinder],
     at: DVec3,
     (measure, keys): (DimensionKind, &DimensionKeys),
-    (plan, sight): (&ViewPlan, &SheetView),
+    (plan, sheet_view): (&ViewPlan, &SheetView),
 ) -> Option<DiameterLeader> {
-    let forward = sight.axes()[2];
-    let beside = |cylinder: &Cylinder| {
-        let away = at - cylinder.point;
-        let along = away.dot(cylinder.axis);
-        let aside = (away - cylinder.axis * along).length() - cylinder.radius;
-        let beyond = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
-        aside * aside + beyond * beyond
+    let forward = sheet_view.axes()[2];
+    let squared_distance = |cylinder: &Cylinder| {
+        let offset = at - cylinder.point;
+        let along = offset.dot(cylinder.axis);
+        let radial_distance = (offset - cylinder.axis * along).length() - cylinder.radius;
+        let axial_distance = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
+        radial_distance * radial_distance + axial_distance * axial_distance
     };
     let is_end_on = |cylinder: &&Cylinder| cylinder.axis.dot(forward).abs() > tolerances::MIN_END_ON_COSINE;
-    let seen = found.iter().filter(is_end_on);
-    let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
+    let end_on_cylinders = cylinders.iter().filter(is_end_on);
+    let nearest = end_on_cylinders.min_by(|a, b| squared_distance(a).total_cmp(&squared_distance(b)))?;
     let is_radius = measure == DimensionKind::Radius;
     let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
     let text = keys.text.clone().unwrap_or_else(|| {
         format!("{sign}{}", plan.values.written(length, LengthPrecision::of_cylinder(nearest)))
     });
-    let (centre, radius) = (sight.to_page(nearest.point), nearest.radius * sight.mm_per_unit);
+    let (centre, radius) = (sheet_view.to_page(nearest.point), nearest.radius * sheet_view.mm_per_unit);
     Some(DiameterLeader { centre, radius, text, pitch: None })
 }
 
@@ -168,20 +176,20 @@ fn add_length(
     view: usize,
     measures: &mut DimensionSet,
 ) {
-    let along = match measure {
+    let line_vector = match measure {
         DimensionKind::Horizontal => Vec2::new(1.0, 0.0),
         DimensionKind::Vertical => Vec2::new(0.0, 1.0),
         _ => ends[1] - ends[0],
     };
-    let far = along.hypot2().sqrt();
-    if far.is_nan() || far <= 0.0 {
+    let length = line_vector.hypot2().sqrt();
+    if length.is_nan() || length <= 0.0 {
         return;
     }
-    let along = along / far;
-    let across = along.y.abs() < tolerances::MAX_ZERO_COMPONENT;
-    if keys.offset.is_none() && (across || along.x.abs() < tolerances::MAX_ZERO_COMPONENT) {
-        let side = keys.side.filter(|side| side.is_across() == across);
-        let side = side.unwrap_or(if across { ViewSide::Below } else { ViewSide::Left });
+    let along = line_vector / length;
+    let is_horizontal = along.y.abs() < tolerances::MAX_ZERO_COMPONENT;
+    if keys.offset.is_none() && (is_horizontal || along.x.abs() < tolerances::MAX_ZERO_COMPONENT) {
+        let side = keys.side.filter(|side| side.is_across() == is_horizontal);
+        let side = side.unwrap_or(if is_horizontal { ViewSide::Below } else { ViewSide::Left });
         measures.add(view, ends, side, text);
         return;
     }

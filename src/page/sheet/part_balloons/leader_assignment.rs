@@ -29,23 +29,23 @@ const MAX_SWEEPS: usize = 1000;
 
 /// Slots for balloons on the border of a rectangle, clockwise from its upper left corner.
 ///
-/// `room` is the minimum length of border per slot, `begin` the offset of the first slot as a fraction of a
+/// `slot_spacing` is the minimum length of border per slot, `start_share` the offset of the first slot as a fraction of a
 /// slot.
 #[must_use]
-pub fn balloon_slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
-    let around = 2.0 * (border.width() + border.height());
-    let number = ((around / room).floor() as usize).clamp(1, MAX_SLOTS);
-    let step = around / number as f64;
-    let at = |along: f64| {
+pub fn balloon_slots(border: Rect, slot_spacing: f64, start_share: f64) -> Vec<Point> {
+    let perimeter = 2.0 * (border.width() + border.height());
+    let slot_count = ((perimeter / slot_spacing).floor() as usize).clamp(1, MAX_SLOTS);
+    let step = perimeter / slot_count as f64;
+    let border_point = |offset: f64| {
         let (w, h) = (border.width(), border.height());
-        match along {
+        match offset {
             x if x < w => Point::new(border.x0 + x, border.y0),
             x if x < w + h => Point::new(border.x1, border.y0 + x - w),
             x if x < 2.0 * w + h => Point::new(border.x1 - (x - w - h), border.y1),
             x => Point::new(border.x0, border.y1 - (x - 2.0 * w - h)),
         }
     };
-    (0..number).map(|k| at((k as f64 + begin) * step)).collect()
+    (0..slot_count).map(|k| border_point((k as f64 + start_share) * step)).collect()
 }
 
 /// The slot of each anchor.
@@ -59,18 +59,18 @@ pub fn assign_leaders(
     is_blocked: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<usize> {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
-    let mut free = vec![true; slots.len()];
-    let mut of: Vec<usize> = Vec::with_capacity(anchors.len());
+    let mut is_free = vec![true; slots.len()];
+    let mut assigned_slots: Vec<usize> = Vec::with_capacity(anchors.len());
     for anchor in 0..anchors.len() {
         let nearest = (0..slots.len())
-            .filter(|slot| free[*slot])
+            .filter(|slot| is_free[*slot])
             .min_by(|a, b| length(anchor, *a).total_cmp(&length(anchor, *b)));
-        let Some(slot) = nearest else { return of };
-        free[slot] = false;
-        of.push(slot);
+        let Some(slot) = nearest else { return assigned_slots };
+        is_free[slot] = false;
+        assigned_slots.push(slot);
     }
-    untangle(anchors, slots, is_blocked, &mut of);
-    of
+    untangle(anchors, slots, is_blocked, &mut assigned_slots);
+    assigned_slots
 }
 
 /// The slot of each anchor, with leaders that spread radially, for slots in several rings.
@@ -86,39 +86,53 @@ pub fn assign_radially(
     let count = anchors.len();
     let middle = anchors.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count.max(1) as f64;
     let angle = |p: &Point| crate::geometry::numbers::portable_math::atan2(p.y - middle.y, p.x - middle.x);
-    let around = |points: &[Point]| {
+    let sorted_by_angle = |points: &[Point]| {
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| angle(&points[*a]).total_cmp(&angle(&points[*b])).then(a.cmp(b)));
         order
     };
-    let (order, places) = (around(anchors), around(slots));
-    let turned = |turn: usize| {
-        let mut of = vec![0; count];
-        for (k, anchor) in order.iter().enumerate() {
-            of[*anchor] = places[(k * places.len() / count + turn) % places.len()];
+    let (anchor_order, slot_order) = (sorted_by_angle(anchors), sorted_by_angle(slots));
+    let assignment_at_turn = |turn: usize| {
+        let mut slot_of_anchor = vec![0; count];
+        for (k, anchor) in anchor_order.iter().enumerate() {
+            slot_of_anchor[*anchor] = slot_order[(k * slot_order.len() / count + turn) % slot_order.len()];
         }
-        of
+        slot_of_anchor
     };
-    let long = |of: &[usize]| -> f64 {
-        anchors.iter().zip(of).map(|(p, slot)| (*p - slots[*slot]).hypot2().sqrt()).sum()
+    let total_length = |assignment: &[usize]| -> f64 {
+        anchors.iter().zip(assignment).map(|(p, slot)| (*p - slots[*slot]).hypot2().sqrt()).sum()
     };
-    let shortest = (0..places.len()).map(turned).min_by(|a, b| long(a).total_cmp(&long(b)));
-    let mut of = shortest.unwrap_or_default();
-    resolve_conflicts(anchors, slots, is_blocked, &mut of);
-    of
+    let shortest = (0..slot_order.len())
+        .map(assignment_at_turn)
+        .min_by(|a, b| total_length(a).total_cmp(&total_length(b)));
+    let mut assigned_slots = shortest.unwrap_or_default();
+    resolve_conflicts(anchors, slots, is_blocked, &mut assigned_slots);
+    assigned_slots
 }
 
 /// Exchanges slots while that shortens leaders, then resolves the conflicts that remain.
-fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
+fn untangle(
+    anchors: &[Point],
+    slots: &[Point],
+    is_blocked: &dyn Fn(usize, usize) -> bool,
+    assigned_slots: &mut [usize],
+) {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
     for _ in 0..MAX_SWEEPS {
         let mut exchanged = false;
-        for a in 0..of.len() {
+        for a in 0..assigned_slots.len() {
             for b in 0..a {
-                let gain = length(a, of[a]) + length(b, of[b]) - length(a, of[b]) - length(b, of[a]);
-                let crosses = || segments_meet([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]);
+                let gain = length(a, assigned_slots[a]) + length(b, assigned_slots[b])
+                    - length(a, assigned_slots[b])
+                    - length(b, assigned_slots[a]);
+                let crosses = || {
+                    segments_meet(
+                        [anchors[a], slots[assigned_slots[a]]],
+                        [anchors[b], slots[assigned_slots[b]]],
+                    )
+                };
                 if gain > MIN_LEADER_GAIN_MM || gain > 0.0 && crosses() {
-                    of.swap(a, b);
+                    assigned_slots.swap(a, b);
                     exchanged = true;
                 }
             }
@@ -127,7 +141,7 @@ fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize
             break;
         }
     }
-    resolve_conflicts(anchors, slots, is_blocked, of);
+    resolve_conflicts(anchors, slots, is_blocked, assigned_slots);
 }
 
 /// Moves leaders to other slots until no conflicts remain or the search stalls. A step may increase the
@@ -138,13 +152,13 @@ fn resolve_conflicts(
     anchors: &[Point],
     slots: &[Point],
     is_blocked: &dyn Fn(usize, usize) -> bool,
-    of: &mut [usize],
+    assigned_slots: &mut [usize],
 ) {
     let line = |k: usize, slot: usize| [anchors[k], slots[slot]];
-    let long = |k: usize, slot: usize| (anchors[k] - slots[slot]).hypot2().sqrt();
-    let mut holder: Vec<Option<usize>> = vec![None; slots.len()];
-    for (k, slot) in of.iter().enumerate() {
-        holder[*slot] = Some(k);
+    let leader_length = |k: usize, slot: usize| (anchors[k] - slots[slot]).hypot2().sqrt();
+    let mut anchor_of_slot: Vec<Option<usize>> = vec![None; slots.len()];
+    for (k, slot) in assigned_slots.iter().enumerate() {
+        anchor_of_slot[*slot] = Some(k);
     }
     // For each anchor and slot, the conflicts of that leader with all others.
     let faults_at = |k: usize, slot: usize, of: &[usize]| {
@@ -152,49 +166,53 @@ fn resolve_conflicts(
         others.map(|other| count_conflicts(line(k, slot), line(other, of[other]))).sum::<usize>()
             + usize::from(is_blocked(k, slot))
     };
-    let row = |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, of)).collect::<Vec<usize>>();
-    let mut faults: Vec<Vec<usize>> = (0..of.len()).map(row).collect();
+    let row =
+        |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, assigned_slots)).collect::<Vec<usize>>();
+    let mut faults: Vec<Vec<usize>> = (0..assigned_slots.len()).map(row).collect();
     let total = |faults: &[Vec<usize>], of: &[usize]| {
         of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>()
     };
-    let mut best = (total(&faults, of), of.to_vec());
+    let mut best = (total(&faults, assigned_slots), assigned_slots.to_vec());
     // The step until which an anchor may not return to a slot.
-    let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
-    let (mut step, mut found) = (0, 0);
-    while best.0 > 0 && step < found + MAX_STEPS_WITHOUT_GAIN {
+    let mut barred_until = vec![vec![0_usize; slots.len()]; assigned_slots.len()];
+    let (mut step, mut last_gain_step) = (0, 0);
+    while best.0 > 0 && step < last_gain_step + MAX_STEPS_WITHOUT_GAIN {
         step += 1;
         // The move that leaves the fewest conflicts; ties go to the smaller increase in length.
-        let mut next: Option<(usize, usize, f64, usize, usize)> = None;
-        for k in (0..of.len()).filter(|k| faults[*k][of[*k]] > 0) {
-            let from = of[k];
-            for slot in (0..slots.len()).filter(|slot| *slot != from && barred[k][*slot] < step) {
-                let (mut old, mut new) = (faults[k][from], faults[k][slot]);
-                let mut longer = long(k, slot) - long(k, from);
-                if let Some(other) = holder[slot] {
-                    old += faults[other][slot] - count_conflicts(line(k, from), line(other, slot));
-                    new -= count_conflicts(line(k, slot), line(other, slot));
-                    new += faults[other][from] - count_conflicts(line(other, from), line(k, from));
-                    new += count_conflicts(line(k, slot), line(other, from));
-                    longer += long(other, from) - long(other, slot);
+        let mut best_move: Option<(usize, usize, f64, usize, usize)> = None;
+        for k in (0..assigned_slots.len()).filter(|k| faults[*k][assigned_slots[*k]] > 0) {
+            let from = assigned_slots[k];
+            for slot in (0..slots.len()).filter(|slot| *slot != from && barred_until[k][*slot] < step) {
+                let (mut old_faults, mut new_faults) = (faults[k][from], faults[k][slot]);
+                let mut added_length = leader_length(k, slot) - leader_length(k, from);
+                if let Some(displaced_anchor) = anchor_of_slot[slot] {
+                    old_faults += faults[displaced_anchor][slot]
+                        - count_conflicts(line(k, from), line(displaced_anchor, slot));
+                    new_faults -= count_conflicts(line(k, slot), line(displaced_anchor, slot));
+                    new_faults += faults[displaced_anchor][from]
+                        - count_conflicts(line(displaced_anchor, from), line(k, from));
+                    new_faults += count_conflicts(line(k, slot), line(displaced_anchor, from));
+                    added_length +=
+                        leader_length(displaced_anchor, from) - leader_length(displaced_anchor, slot);
                 }
-                let is_better = next.is_none_or(|(its_new, its_old, length, ..)| {
-                    let order = (new + its_old).cmp(&(its_new + old));
-                    order.is_lt() || order.is_eq() && longer < length
+                let is_better = best_move.is_none_or(|(its_new, its_old, length, ..)| {
+                    let order = (new_faults + its_old).cmp(&(its_new + old_faults));
+                    order.is_lt() || order.is_eq() && added_length < length
                 });
                 if is_better {
-                    next = Some((new, old, longer, k, slot));
+                    best_move = Some((new_faults, old_faults, added_length, k, slot));
                 }
             }
         }
-        let Some((_, _, _, k, slot)) = next else { break };
-        let from = of[k];
-        let other = holder[slot].replace(k);
-        holder[from] = other;
+        let Some((_, _, _, k, slot)) = best_move else { break };
+        let from = assigned_slots[k];
+        let exchanged_anchor = anchor_of_slot[slot].replace(k);
+        anchor_of_slot[from] = exchanged_anchor;
         for (moved, old, new) in
-            [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten()
+            [Some((k, from, slot)), exchanged_anchor.map(|other| (other, slot, from))].into_iter().flatten()
         {
-            of[moved] = new;
-            barred[moved][old] = step + TABU_STEPS;
+            assigned_slots[moved] = new;
+            barred_until[moved][old] = step + TABU_STEPS;
             let [before, after] = [line(moved, old), line(moved, new)];
             for (k, row) in faults.iter_mut().enumerate().filter(|(k, _)| *k != moved) {
                 for (slot, faults) in row.iter_mut().enumerate() {
@@ -203,12 +221,12 @@ fn resolve_conflicts(
                 }
             }
         }
-        let now = total(&faults, of);
-        if now < best.0 {
-            (best, found) = ((now, of.to_vec()), step);
+        let fault_count = total(&faults, assigned_slots);
+        if fault_count < best.0 {
+            (best, last_gain_step) = ((fault_count, assigned_slots.to_vec()), step);
         }
     }
-    of.copy_from_slice(&best.1);
+    assigned_slots.copy_from_slice(&best.1);
 }
 
 /// The number of conflicts between two leaders: a crossing, and each leader that passes through the other
@@ -230,9 +248,9 @@ fn count_conflicts([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
 /// Whether a leader passes through the circle of a balloon at `centre`, with clearance.
 #[must_use]
 pub fn passes_through_balloon([a, b]: [Point; 2], centre: Point) -> bool {
-    let way = b - a;
-    let share = ((centre - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (a + way * share - centre).hypot2().sqrt() < BALLOON_RADIUS_MM + LEADER_CLEARANCE_MM
+    let direction = b - a;
+    let share = ((centre - a).dot(direction) / direction.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (a + direction * share - centre).hypot2().sqrt() < BALLOON_RADIUS_MM + LEADER_CLEARANCE_MM
 }
 
 /// Whether two segments have a common point, by exact predicates.

@@ -51,32 +51,33 @@ impl PartShape {
     /// The shape of a part; `None` without faces.
     pub fn of(scene: &Scene, part: &Part) -> Option<Self> {
         let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
-        let place = part.world_from_part;
-        let rounding = file_rounding(geometry, &place);
+        let transform = part.world_from_part;
+        let rounding = file_rounding(geometry, &transform);
         let mut grid = CongruenceGrid::new(4.0 * rounding);
-        let mut known: FxHashMap<u32, u32> = FxHashMap::default();
-        let mut number = |p: u32| {
-            *known.entry(p).or_insert_with(|| {
-                let at = place.transform_point3(geometry.positions[p as usize]);
-                grid.nearest(at, 2.0 * rounding, |_| true).unwrap_or_else(|| grid.add(at))
+        let mut corner_of_position: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut corner_number = |p: u32| {
+            *corner_of_position.entry(p).or_insert_with(|| {
+                let world_point = transform.transform_point3(geometry.positions[p as usize]);
+                grid.nearest(world_point, 2.0 * rounding, |_| true).unwrap_or_else(|| grid.add(world_point))
             })
         };
-        let mut faces: Vec<[u32; 3]> = geometry.triangles.iter().map(|face| face.map(&mut number)).collect();
+        let mut faces: Vec<[u32; 3]> =
+            geometry.triangles.iter().map(|face| face.map(&mut corner_number)).collect();
         faces.retain(|[a, b, c]| a != b && b != c && a != c);
         let corners = grid.corners;
         let mean = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
-        let far: Vec<f64> = corners.iter().map(|p| p.distance(mean)).collect();
-        let mut sorted = far.clone();
+        let distances_from_mean: Vec<f64> = corners.iter().map(|p| p.distance(mean)).collect();
+        let mut sorted = distances_from_mean.clone();
         sorted.sort_by(f64::total_cmp);
-        let m = place.matrix3;
-        let instance = (part.geometry, m.transpose() * m);
+        let matrix = transform.matrix3;
+        let instance = (part.geometry, matrix.transpose() * matrix);
         Some(Self {
             instance,
-            is_mirrored: m.determinant() < 0.0,
+            is_mirrored: matrix.determinant() < 0.0,
             corners,
             faces,
             mean,
-            far,
+            far: distances_from_mean,
             sorted,
             rounding,
         })
@@ -84,52 +85,63 @@ impl PartShape {
 
     /// Whether two shapes are congruent.
     pub fn equals(&self, other: &Self) -> bool {
-        let scale = self.instance.1.to_cols_array().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let scale = self
+            .instance
+            .1
+            .to_cols_array()
+            .iter()
+            .fold(0.0_f64, |max_component, x| max_component.max(x.abs()));
         let same_axes = self.instance.1.abs_diff_eq(other.instance.1, F32_STEP * scale);
         if self.instance.0 == other.instance.0 && self.is_mirrored == other.is_mirrored && same_axes {
             return true;
         }
         // Rounding moves a corner and the mean in both shapes.
-        let near = 2.0 * (self.rounding + other.rounding);
-        let alike = || self.sorted.iter().zip(&other.sorted).all(|(a, b)| (a - b).abs() <= near);
-        if self.corners.len() != other.corners.len() || !alike() {
+        let tolerance = 2.0 * (self.rounding + other.rounding);
+        let has_equal_distances =
+            || self.sorted.iter().zip(&other.sorted).all(|(a, b)| (a - b).abs() <= tolerance);
+        if self.corners.len() != other.corners.len() || !has_equal_distances() {
             return false;
         }
-        let Some(first) = self.rarest(near) else { return true };
-        let arm = (self.corners[first] - self.mean).normalize_or_zero();
-        let aside = |p: &DVec3| (*p - self.mean).cross(arm).length();
-        let second = self.corners.iter().enumerate().max_by(|a, b| aside(a.1).total_cmp(&aside(b.1)));
+        let Some(first) = self.rarest(tolerance) else { return true };
+        let first_direction = (self.corners[first] - self.mean).normalize_or_zero();
+        let distance_from_axis = |p: &DVec3| (*p - self.mean).cross(first_direction).length();
+        let second = self
+            .corners
+            .iter()
+            .enumerate()
+            .max_by(|a, b| distance_from_axis(a.1).total_cmp(&distance_from_axis(b.1)));
         let Some((second, p)) = second else { return true };
-        if aside(p) <= near {
+        if distance_from_axis(p) <= tolerance {
             // All corners are on a line, so there are no faces.
             return true;
         }
-        let mut grid = CongruenceGrid::new(16.0 * near);
+        let mut grid = CongruenceGrid::new(16.0 * tolerance);
         other.corners.iter().for_each(|p| {
             grid.add(*p);
         });
-        let apart = self.corners[first].distance(self.corners[second]);
+        let first_to_second = self.corners[first].distance(self.corners[second]);
         // The error of the first corner turns the shape and grows with the distance from the mean.
-        let near_there = near * (2.0 + self.sorted.last().map_or(0.0, |most| most / self.far[first]));
-        let mut left = MAX_CORNER_CHECKS;
-        for p in (0..other.corners.len()).filter(|p| (other.far[*p] - self.far[first]).abs() <= near) {
+        let turned_tolerance =
+            tolerance * (2.0 + self.sorted.last().map_or(0.0, |max_distance| max_distance / self.far[first]));
+        let mut checks_left = MAX_CORNER_CHECKS;
+        for p in (0..other.corners.len()).filter(|p| (other.far[*p] - self.far[first]).abs() <= tolerance) {
             for q in 0..other.corners.len() {
-                left = left.saturating_sub(1);
-                let is_candidate = (other.far[q] - self.far[second]).abs() <= near
-                    && (other.corners[p].distance(other.corners[q]) - apart).abs() <= near;
+                checks_left = checks_left.saturating_sub(1);
+                let is_candidate = (other.far[q] - self.far[second]).abs() <= tolerance
+                    && (other.corners[p].distance(other.corners[q]) - first_to_second).abs() <= tolerance;
                 if !is_candidate {
                     continue;
                 }
-                if left == 0 {
+                if checks_left == 0 {
                     return false;
                 }
                 let [from, to] = [(self, first, second), (other, p, q)].map(|(shape, first, second)| {
                     corner_frame(shape.corners[first] - shape.mean, shape.corners[second] - shape.mean)
                 });
                 let turn = to * from.transpose();
-                let brought = self.corners.iter().map(|p| other.mean + turn * (*p - self.mean));
-                let onto = match_corners(brought, &grid, near_there, &mut left);
-                if onto.is_some_and(|onto| same_faces(self, other, &onto, near_there)) {
+                let turned_corners = self.corners.iter().map(|p| other.mean + turn * (*p - self.mean));
+                let corner_map = match_corners(turned_corners, &grid, turned_tolerance, &mut checks_left);
+                if corner_map.is_some_and(|onto| same_faces(self, other, &onto, turned_tolerance)) {
                     return true;
                 }
             }
@@ -138,14 +150,17 @@ impl PartShape {
     }
 
     /// A corner of the rarest distance from the mean, not too close to it.
-    fn rarest(&self, near: f64) -> Option<usize> {
-        let most = self.sorted.last().copied().filter(|most| *most > near)?;
-        let far = &self.far;
+    fn rarest(&self, tolerance: f64) -> Option<usize> {
+        let max_distance = self.sorted.last().copied().filter(|most| *most > tolerance)?;
+        let distances = &self.far;
         let mut order: Vec<usize> =
-            (0..far.len()).filter(|k| far[*k] >= MIN_FIRST_CORNER_SHARE * most).collect();
-        order.sort_by(|a, b| far[*a].total_cmp(&far[*b]).then(a.cmp(b)));
-        let groups = order.chunk_by(|a, b| far[*b] - far[*a] <= near);
-        groups.min_by(|a, b| a.len().cmp(&b.len()).then(far[b[0]].total_cmp(&far[a[0]])))?.first().copied()
+            (0..distances.len()).filter(|k| distances[*k] >= MIN_FIRST_CORNER_SHARE * max_distance).collect();
+        order.sort_by(|a, b| distances[*a].total_cmp(&distances[*b]).then(a.cmp(b)));
+        let groups = order.chunk_by(|a, b| distances[*b] - distances[*a] <= tolerance);
+        groups
+            .min_by(|a, b| a.len().cmp(&b.len()).then(distances[b[0]].total_cmp(&distances[a[0]])))?
+            .first()
+            .copied()
     }
 }
 
@@ -153,29 +168,37 @@ impl PartShape {
 fn match_corners(
     points: impl Iterator<Item = DVec3>,
     grid: &CongruenceGrid,
-    near: f64,
-    left: &mut usize,
+    tolerance: f64,
+    checks_left: &mut usize,
 ) -> Option<Vec<u32>> {
-    let mut taken = vec![false; grid.corners.len()];
+    let mut is_matched = vec![false; grid.corners.len()];
     points
         .map(|p| {
-            *left = left.saturating_sub(1);
-            let k = grid.nearest(p, near, |k| !taken[k as usize])?;
-            taken[k as usize] = true;
+            *checks_left = checks_left.saturating_sub(1);
+            let k = grid.nearest(p, tolerance, |k| !is_matched[k as usize])?;
+            is_matched[k as usize] = true;
             Some(k)
         })
         .collect()
 }
 
 /// Maximum shift of corners by the rounding of the file, world units.
-fn file_rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
-    let largest = geometry.positions.iter().fold(0.0_f64, |most, p| most.max(p.abs().max_element()));
-    let single = if geometry.single_precision { F32_STEP * largest * MAX_F32_ROUNDING_STEPS } else { 0.0 };
-    let lattice = geometry.lattice_step * MAX_LATTICE_ROUNDING_STEPS;
-    let stretch =
-        place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
-    let world = largest * stretch + place.translation.abs().max_element();
-    single.max(lattice) * stretch + CORNER_ROUNDING_OF_COORDINATE * world
+fn file_rounding(geometry: &Geometry, transform: &DAffine3) -> f64 {
+    let largest = geometry
+        .positions
+        .iter()
+        .fold(0.0_f64, |max_coordinate, p| max_coordinate.max(p.abs().max_element()));
+    let single_precision_rounding =
+        if geometry.single_precision { F32_STEP * largest * MAX_F32_ROUNDING_STEPS } else { 0.0 };
+    let lattice_rounding = geometry.lattice_step * MAX_LATTICE_ROUNDING_STEPS;
+    let stretch = transform
+        .matrix3
+        .x_axis
+        .length()
+        .max(transform.matrix3.y_axis.length())
+        .max(transform.matrix3.z_axis.length());
+    let world_size = largest * stretch + transform.translation.abs().max_element();
+    single_precision_rounding.max(lattice_rounding) * stretch + CORNER_ROUNDING_OF_COORDINATE * world_size
 }
 
 /// An orthonormal frame: x along the first vector, z normal to both.
@@ -186,54 +209,56 @@ fn corner_frame(first: DVec3, second: DVec3) -> DMat3 {
 }
 
 /// Whether the mapped faces of one shape cover the same surface as those of the other.
-fn same_faces(one: &PartShape, other: &PartShape, to: &[u32], near: f64) -> bool {
+fn same_faces(first_shape: &PartShape, second_shape: &PartShape, corner_map: &[u32], tolerance: f64) -> bool {
     let key = |mut face: [u32; 3]| {
         face.sort_unstable();
         face
     };
-    let mut left: FxHashMap<[u32; 3], usize> = FxHashMap::default();
-    for face in &other.faces {
-        *left.entry(key(*face)).or_default() += 1;
+    let mut unmatched_counts: FxHashMap<[u32; 3], usize> = FxHashMap::default();
+    for face in &second_shape.faces {
+        *unmatched_counts.entry(key(*face)).or_default() += 1;
     }
-    let mut mine = Vec::new();
-    for face in &one.faces {
-        let face = face.map(|corner| to[corner as usize]);
-        match left.get_mut(&key(face)).filter(|count| **count > 0) {
+    let mut only_in_first = Vec::new();
+    for face in &first_shape.faces {
+        let face = face.map(|corner| corner_map[corner as usize]);
+        match unmatched_counts.get_mut(&key(face)).filter(|count| **count > 0) {
             Some(count) => *count -= 1,
-            None => mine.push(face),
+            None => only_in_first.push(face),
         }
     }
-    let its: Vec<[u32; 3]> = other
+    let only_in_second: Vec<[u32; 3]> = second_shape
         .faces
         .iter()
         .copied()
-        .filter(|face| left.get(&key(*face)).is_some_and(|count| *count > 0))
+        .filter(|face| unmatched_counts.get(&key(*face)).is_some_and(|count| *count > 0))
         .collect();
-    if mine.len().max(its.len()) > MAX_FLIPPED_FACES {
+    if only_in_first.len().max(only_in_second.len()) > MAX_FLIPPED_FACES {
         return false;
     }
-    let covered = |faces: &[[u32; 3]], by: &[[u32; 3]]| {
+    let covered = |faces: &[[u32; 3]], covering_faces: &[[u32; 3]]| {
         faces.iter().all(|face| {
-            let [a, b, c] = face.map(|k| other.corners[k as usize]);
+            let [a, b, c] = face.map(|k| second_shape.corners[k as usize]);
             let inner = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0];
-            inner
-                .into_iter()
-                .all(|p| by.iter().any(|face| lies_in(p, face.map(|k| other.corners[k as usize]), near)))
+            inner.into_iter().all(|p| {
+                covering_faces
+                    .iter()
+                    .any(|face| lies_in(p, face.map(|k| second_shape.corners[k as usize]), tolerance))
+            })
         })
     };
-    covered(&mine, &its) && covered(&its, &mine)
+    covered(&only_in_first, &only_in_second) && covered(&only_in_second, &only_in_first)
 }
 
 /// Whether a point lies in a triangle, within a tolerance.
-fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
+fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], tolerance: f64) -> bool {
     let normal = (b - a).cross(c - a);
-    let long = normal.length();
-    if long <= 0.0 || ((p - a).dot(normal) / long).abs() > near {
+    let normal_length = normal.length();
+    if normal_length <= 0.0 || ((p - a).dot(normal) / normal_length).abs() > tolerance {
         return false;
     }
     [[a, b], [b, c], [c, a]]
         .into_iter()
-        .all(|[a, b]| (b - a).cross(p - a).dot(normal) >= -near * (b - a).length() * long)
+        .all(|[a, b]| (b - a).cross(p - a).dot(normal) >= -tolerance * (b - a).length() * normal_length)
 }
 
 /// Corners in a grid of cubic cells.
@@ -260,16 +285,19 @@ impl CongruenceGrid {
     }
 
     /// The nearest allowed corner within a distance of at most half a cell.
-    fn nearest(&self, p: DVec3, near: f64, allowed: impl Fn(u32) -> bool) -> Option<u32> {
-        let [low, high] = [p - near, p + near].map(|p| self.cell_of(p));
+    fn nearest(&self, p: DVec3, max_distance: f64, allowed: impl Fn(u32) -> bool) -> Option<u32> {
+        let [low, high] = [p - max_distance, p + max_distance].map(|p| self.cell_of(p));
         let mut best: Option<(f64, u32)> = None;
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
                     for k in self.cells.get(&[x, y, z]).into_iter().flatten() {
-                        let far = self.corners[*k as usize].distance(p);
-                        if far <= near && allowed(*k) && best.is_none_or(|(known, _)| far < known) {
-                            best = Some((far, *k));
+                        let corner_distance = self.corners[*k as usize].distance(p);
+                        if corner_distance <= max_distance
+                            && allowed(*k)
+                            && best.is_none_or(|(best_distance, _)| corner_distance < best_distance)
+                        {
+                            best = Some((corner_distance, *k));
                         }
                     }
                 }

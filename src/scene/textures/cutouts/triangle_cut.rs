@@ -49,7 +49,7 @@ type CutTriangulation = ConstrainedDelaunayTriangulation<Point2<f64>>;
 struct TriangulationBuilder {
     faces: CutTriangulation,
     /// Position of each vertex on the original triangle.
-    places: Vec<PieceVertex>,
+    piece_vertices: Vec<PieceVertex>,
 }
 
 type VertexHandle = spade::handles::FixedVertexHandle;
@@ -66,13 +66,13 @@ impl TexelTriangle<'_> {
         for border in borders {
             self.add_border(&mut net, &corners, *border, &mut drawn)?;
         }
-        let TriangulationBuilder { faces: net, places } = net;
+        let TriangulationBuilder { faces: net, piece_vertices: places } = net;
         let (component, count) = components(&net);
-        let kept = self.kept(&net, &component, count, &drawn, mask);
+        let is_kept_face = self.kept(&net, &component, count, &drawn, mask);
         let turned = doubled_area(self.corners[0], self.corners[1], self.corners[2]) < 0.0;
         let mut pieces = TrianglePieces::default();
         let mut number = vec![UNASSIGNED; net.num_vertices()];
-        for face in net.inner_faces().filter(|face| kept[face.index()]) {
+        for face in net.inner_faces().filter(|face| is_kept_face[face.index()]) {
             let mut triangle = face.vertices().map(|vertex| {
                 let number = &mut number[vertex.index()];
                 if *number == UNASSIGNED {
@@ -124,29 +124,31 @@ impl TexelTriangle<'_> {
         border: BorderSegment,
         drawn: &mut Vec<[VertexHandle; 2]>,
     ) -> Option<()> {
-        let mut met: Vec<(f64, VertexHandle)> = Vec::new();
+        let mut crossing_vertices: Vec<(f64, VertexHandle)> = Vec::new();
         for (k, side) in self.sides.iter().enumerate() {
             let Some((part, along)) = side.crossing(border) else { continue };
-            let own = self.crossings[k];
+            let side_crossings = self.crossings[k];
             let nearest = match part {
                 0.0 => 0,
-                1.0 => own.len() + 1,
+                1.0 => side_crossings.len() + 1,
                 _ => {
-                    let after = own.partition_point(|other| *other < part);
-                    let is_before =
-                        after > 0 && own.get(after).is_none_or(|next| part - own[after - 1] < *next - part);
+                    let after = side_crossings.partition_point(|other| *other < part);
+                    let is_before = after > 0
+                        && side_crossings
+                            .get(after)
+                            .is_none_or(|next| part - side_crossings[after - 1] < *next - part);
                     after + usize::from(!is_before)
                 }
             };
-            met.push((along, *rows[k].get(nearest)?));
+            crossing_vertices.push((along, *rows[k].get(nearest)?));
         }
         for (end, along) in [(border[0], 0.0), (border[1], 1.0)] {
             if self.sides.iter().all(|side| side.admits(end)) {
-                met.push((along, net.insert(end, PieceVertex::Inside(self.shares(end)))?));
+                crossing_vertices.push((along, net.insert(end, PieceVertex::Inside(self.shares(end)))?));
             }
         }
-        met.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for pair in met.chunks_exact(2) {
+        crossing_vertices.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for pair in crossing_vertices.chunks_exact(2) {
             let [from, to] = [pair[0].1, pair[1].1];
             if net.join(from, to) {
                 drawn.push([from, to]);
@@ -159,8 +161,8 @@ impl TexelTriangle<'_> {
     fn shares(&self, p: DVec2) -> [f64; 3] {
         let [a, b, c] = self.corners;
         let shares = [doubled_area(b, c, p), doubled_area(c, a, p), doubled_area(a, b, p)];
-        let whole: f64 = shares.iter().sum();
-        shares.map(|share| share / whole)
+        let area_sum: f64 = shares.iter().sum();
+        shares.map(|share| share / area_sum)
     }
 
     /// Which faces remain: those of components on the opaque (left) side of a border.
@@ -175,19 +177,19 @@ impl TexelTriangle<'_> {
         drawn: &[[VertexHandle; 2]],
         mask: Option<&OpacityMask>,
     ) -> Vec<bool> {
-        let mut says: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
+        let mut border_sides: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
         for [from, to] in drawn {
             let Some(edge) = net.get_edge_from_neighbors(*from, *to) else { continue };
-            says[component[edge.face().index()] as usize][1] = true;
-            says[component[edge.rev().face().index()] as usize][0] = true;
+            border_sides[component[edge.face().index()] as usize][1] = true;
+            border_sides[component[edge.rev().face().index()] as usize][0] = true;
         }
         let is_opaque = |p: DVec2| mask.is_none_or(|mask| mask.is_opaque(p));
         let without = is_opaque(self.corners.iter().sum::<DVec2>() / 3.0);
-        let mut kept = vec![false; component.len()];
+        let mut is_kept = vec![false; component.len()];
         for face in net.inner_faces() {
-            let own = component[face.index()];
-            kept[face.index()] = own != 0
-                && match says[own as usize] {
+            let face_component = component[face.index()];
+            is_kept[face.index()] = face_component != 0
+                && match border_sides[face_component as usize] {
                     [false, true] => true,
                     [true, false] => false,
                     [false, false] => without,
@@ -197,16 +199,16 @@ impl TexelTriangle<'_> {
                     }
                 };
         }
-        kept
+        is_kept
     }
 }
 
 impl TriangulationBuilder {
     /// Adds a vertex; an existing vertex at the same position keeps its place.
-    fn insert(&mut self, at: DVec2, place: PieceVertex) -> Option<VertexHandle> {
+    fn insert(&mut self, at: DVec2, piece_vertex: PieceVertex) -> Option<VertexHandle> {
         let vertex = self.faces.insert(spade::mitigate_underflow(Point2::new(at.x, at.y))).ok()?;
-        if vertex.index() == self.places.len() {
-            self.places.push(place);
+        if vertex.index() == self.piece_vertices.len() {
+            self.piece_vertices.push(piece_vertex);
         }
         Some(vertex)
     }
@@ -241,13 +243,13 @@ fn components(net: &CutTriangulation) -> (Vec<u32>, u32) {
     loop {
         while let Some(face) = stack.pop() {
             let face = net.face(face);
-            let own = component[face.index()];
+            let current_component = component[face.index()];
             let Some(inner) = face.as_inner() else { continue };
             for edge in inner.adjacent_edges() {
-                let other = edge.rev().face();
-                if !edge.is_constraint_edge() && component[other.index()] == UNASSIGNED {
-                    component[other.index()] = own;
-                    stack.push(other.fix());
+                let neighbour = edge.rev().face();
+                if !edge.is_constraint_edge() && component[neighbour.index()] == UNASSIGNED {
+                    component[neighbour.index()] = current_component;
+                    stack.push(neighbour.fix());
                 }
             }
         }

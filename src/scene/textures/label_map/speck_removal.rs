@@ -7,34 +7,34 @@ use crate::parallel::prelude::*;
 use super::colour_labels::ColourLabels;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
-/// Gives each connected region of fewer than `least` texels the label of the neighbour with the longest
+/// Gives each connected region of fewer than `min_size` texels the label of the neighbour with the longest
 /// common border, smallest regions first. Returns the number of texels that the first pass changes.
-pub(crate) fn merge_specks(labels: &mut ColourLabels, least: f64) -> usize {
-    let first = merge_once(labels, least);
+pub(crate) fn merge_specks(labels: &mut ColourLabels, min_size: f64) -> usize {
+    let first = merge_once(labels, min_size);
     // A speck may have taken the label of another speck, so a merged region may still be too small.
-    if first > 0 && merge_once(labels, least) > 0 {
-        merge_once(labels, least);
+    if first > 0 && merge_once(labels, min_size) > 0 {
+        merge_once(labels, min_size);
     }
     first
 }
 
 /// One pass over all specks. Returns the number of texels whose label changes.
-fn merge_once(labels: &mut ColourLabels, least: f64) -> usize {
+fn merge_once(labels: &mut ColourLabels, min_size: f64) -> usize {
     let texels = labels.texels;
-    let mut small = small_components(labels, least);
+    let mut small = small_components(labels, min_size);
     small.sort_by_key(|speck| (speck.len(), speck[0]));
     let mut changed = 0;
     for speck in small {
         let colour = labels.winner(speck[0]);
         let mut shared: Vec<(u8, usize)> = Vec::new();
         for next in speck.iter().flat_map(|texel| texels.beside(*texel)) {
-            let other = labels.winner(next);
-            if other == colour {
+            let neighbour_colour = labels.winner(next);
+            if neighbour_colour == colour {
                 continue;
             }
-            match shared.iter_mut().find(|(known, _)| *known == other) {
+            match shared.iter_mut().find(|(counted_colour, _)| *counted_colour == neighbour_colour) {
                 Some((_, length)) => *length += 1,
-                None => shared.push((other, 1)),
+                None => shared.push((neighbour_colour, 1)),
             }
         }
         if let Some((other, _)) =
@@ -47,10 +47,10 @@ fn merge_once(labels: &mut ColourLabels, least: f64) -> usize {
     changed
 }
 
-/// Connected regions of fewer than `least` texels, each in ascending order.
+/// Connected regions of fewer than `min_size` texels, each in ascending order.
 ///
 /// The search starts at borders and stops when a region is large enough, so most texels are never visited.
-fn small_components(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
+fn small_components(labels: &ColourLabels, min_size: f64) -> Vec<Vec<usize>> {
     let texels = labels.texels;
     let count = texels.size[0] * texels.size[1];
     let at_border = |texel: &usize| {
@@ -58,28 +58,28 @@ fn small_components(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
     };
     let border: Vec<usize> =
         (0..count).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(at_border).collect();
-    let mut known = vec![SpeckState::Not; count];
+    let mut states = vec![SpeckState::Not; count];
     let mut small: Vec<Vec<usize>> = Vec::new();
-    let mut own: Vec<usize> = Vec::new();
+    let mut component: Vec<usize> = Vec::new();
     for first in border {
-        if known[first] != SpeckState::Not {
+        if states[first] != SpeckState::Not {
             continue;
         }
         let colour = labels.winner(first);
-        known[first] = SpeckState::Small;
-        own.clear();
-        own.push(first);
+        states[first] = SpeckState::Small;
+        component.clear();
+        component.push(first);
         let mut at = 0;
         let mut is_small = true;
-        while is_small && at < own.len() && (own.len() as f64) < least {
-            for next in texels.beside(own[at]) {
+        while is_small && at < component.len() && (component.len() as f64) < min_size {
+            for next in texels.beside(component[at]) {
                 if labels.winner(next) != colour {
                     continue;
                 }
-                match known[next] {
+                match states[next] {
                     SpeckState::Not => {
-                        known[next] = SpeckState::Small;
-                        own.push(next);
+                        states[next] = SpeckState::Small;
+                        component.push(next);
                     }
                     SpeckState::Small => {}
                     SpeckState::Large => is_small = false,
@@ -87,11 +87,11 @@ fn small_components(labels: &ColourLabels, least: f64) -> Vec<Vec<usize>> {
             }
             at += 1;
         }
-        if is_small && (own.len() as f64) < least {
-            own.sort_unstable();
-            small.push(own.clone());
+        if is_small && (component.len() as f64) < min_size {
+            component.sort_unstable();
+            small.push(component.clone());
         } else {
-            own.iter().for_each(|texel| known[*texel] = SpeckState::Large);
+            component.iter().for_each(|texel| states[*texel] = SpeckState::Large);
         }
     }
     small

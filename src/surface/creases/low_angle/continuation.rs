@@ -46,8 +46,8 @@ enum Continuation {
 }
 
 /// Whether surfaces with these two continuations end at the edge between them.
-fn is_end(beyond: [Continuation; 2]) -> bool {
-    match beyond {
+fn is_end(continuations: [Continuation; 2]) -> bool {
+    match continuations {
         [Continuation::Bends(far), Continuation::Ends(near)]
         | [Continuation::Ends(near), Continuation::Bends(far)] => far > MAX_FACET_WIDTH_RATIO * near,
         [Continuation::Ends(_), _] | [_, Continuation::Ends(_)] => true,
@@ -61,18 +61,18 @@ impl SurfaceTracer<'_> {
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
         let (bend, faces) = self.bend(edge)?;
         let [first, second] = faces.map(|face| self.continuation(&bend, face));
-        let beyond = [first?, second?];
+        let direct = [first?, second?];
         // A trace is enough for most facets of curves. Only for the rest are the facets examined all around.
-        if !is_end(beyond) {
+        if !is_end(direct) {
             return None;
         }
-        let first = self.continuation_around_facet(&bend, faces[0], beyond[0])?;
+        let first = self.continuation_around_facet(&bend, faces[0], direct[0])?;
         // The other facet cannot turn this result into an end.
-        if !is_end([first, beyond[1]]) {
+        if !is_end([first, direct[1]]) {
             return None;
         }
-        let beyond = [first, self.continuation_around_facet(&bend, faces[1], beyond[1])?];
-        is_end(beyond).then_some(beyond.map(|beyond| match beyond {
+        let around_facets = [first, self.continuation_around_facet(&bend, faces[1], direct[1])?];
+        is_end(around_facets).then_some(around_facets.map(|beyond| match beyond {
             Continuation::TurnsBack(edge) => Some(edge),
             _ => None,
         }))
@@ -80,14 +80,14 @@ impl SurfaceTracer<'_> {
 
     /// Continuation of the surface from an edge, straight across one of its faces; `None` if undecided.
     fn continuation(&self, bend: &BentEdge, face: u32) -> Option<Continuation> {
-        let (beyond, crossed) = self.across(bend, face)?;
-        match (beyond, crossed) {
+        let (direct, crossed) = self.across(bend, face)?;
+        match (direct, crossed) {
             (Continuation::Ends(near), Some((sharp, last)))
                 if self.is_fillet_centre(bend, near, sharp, last) =>
             {
                 Some(Continuation::Bends(near))
             }
-            _ => Some(beyond),
+            _ => Some(direct),
         }
     }
 
@@ -97,26 +97,26 @@ impl SurfaceTracer<'_> {
         &self,
         bend: &BentEdge,
         face: u32,
-        beyond: Continuation,
+        direct: Continuation,
     ) -> Option<Continuation> {
-        let Some(around) = self.facet(face) else { return Some(beyond) };
+        let Some(around) = self.facet(face) else { return Some(direct) };
         if self.is_triangle(&around) {
             return None;
         }
-        match beyond {
-            Continuation::Bends(_) => Some(beyond),
-            _ => Some(self.parallel_bend_distance(bend, &around).map_or(beyond, Continuation::Bends)),
+        match direct {
+            Continuation::Bends(_) => Some(direct),
+            _ => Some(self.parallel_bend_distance(bend, &around).map_or(direct, Continuation::Bends)),
         }
     }
 
     /// Whether a crease at distance `near` is the middle of a fillet of few steps: the next strip has a
     /// similar width and bends in the same direction.
     fn is_fillet_centre(&self, bend: &BentEdge, near: f64, sharp: usize, last: u32) -> bool {
-        let most = cos((MAX_MIDDLE_TURN_RATIO * bend.turn).min(PI)) as f32;
+        let min_cosine = cos((MAX_MIDDLE_TURN_RATIO * bend.turn).min(PI)) as f32;
         let is_step =
-            |edge: usize| self.turns.of_two(edge) >= most && self.is_convex(edge) == Some(bend.convex);
-        let Some(other) = self.opposite_face(sharp, last).filter(|_| is_step(sharp)) else { return false };
-        let far = match self.across(&BentEdge { edge: sharp, ..*bend }, other) {
+            |edge: usize| self.turns.of_two(edge) >= min_cosine && self.is_convex(edge) == Some(bend.convex);
+        let Some(far_face) = self.opposite_face(sharp, last).filter(|_| is_step(sharp)) else { return false };
+        let far = match self.across(&BentEdge { edge: sharp, ..*bend }, far_face) {
             Some((Continuation::Bends(far), _)) => far,
             Some((Continuation::Ends(far), Some((next, _)))) if is_step(next) => far,
             _ => return false,
@@ -126,17 +126,17 @@ impl SurfaceTracer<'_> {
 
     /// The edges around the facet of a face; `None` for a large facet.
     fn facet(&self, face: u32) -> Option<Vec<usize>> {
-        let (mut own, mut at, mut around) = (vec![face], 0, Vec::new());
-        while at < own.len() {
-            let face = own[at];
+        let (mut facet_faces, mut at, mut around) = (vec![face], 0, Vec::new());
+        while at < facet_faces.len() {
+            let face = facet_faces[at];
             at += 1;
             let [a, b, c] = self.mesh.triangles[face as usize];
             for [a, b] in [[a, b], [b, c], [c, a]] {
                 let Some(edge) = self.edge([a.min(b), a.max(b)]) else { continue };
                 match self.opposite_face(edge, face).filter(|_| self.flat.contains(edge)) {
-                    Some(other) if own.contains(&other) => {}
-                    Some(_) if own.len() == MAX_FACET_FACES => return None,
-                    Some(other) => own.push(other),
+                    Some(neighbour) if facet_faces.contains(&neighbour) => {}
+                    Some(_) if facet_faces.len() == MAX_FACET_FACES => return None,
+                    Some(unvisited) => facet_faces.push(unvisited),
                     None => around.push(edge),
                 }
             }
@@ -150,9 +150,9 @@ impl SurfaceTracer<'_> {
         for edge in around {
             let [p, q] = self.mesh.edges.vertices[*edge].map(|v| self.mesh.positions[v as usize]);
             let along = (q - p).normalize_or_zero();
-            let is_on = |[from, way]: &[DVec3; 2]| {
-                let (aside, far) = ((p - *from).reject_from(*way).length(), (p - *from).length());
-                along.dot(*way).abs() > MIN_COLLINEAR_COSINE
+            let is_on = |[from, direction]: &[DVec3; 2]| {
+                let (aside, far) = ((p - *from).reject_from(*direction).length(), (p - *from).length());
+                along.dot(*direction).abs() > MIN_COLLINEAR_COSINE
                     && aside <= MAX_COLLINEAR_OFFSET * far.max(p.distance(q))
             };
             if !lines.iter().any(is_on) {
@@ -166,24 +166,24 @@ impl SurfaceTracer<'_> {
     fn parallel_bend_distance(&self, bend: &BentEdge, around: &[usize]) -> Option<f64> {
         let ends = |edge: usize| self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
         let [from, to] = ends(bend.edge);
-        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
+        let bend_cosine = cos(MIN_TURN_RATIO * bend.turn) as f32;
         let bends = |edge: usize| {
             let cosine = self.turns.of_two(edge);
-            cosine < again && cosine >= self.crease_cosine && self.is_convex(edge) == Some(bend.convex)
+            cosine < bend_cosine && cosine >= self.crease_cosine && self.is_convex(edge) == Some(bend.convex)
         };
-        let way = |edge: usize| {
+        let direction = |edge: usize| {
             let [p, q] = ends(edge);
             (q - p).normalize_or_zero()
         };
-        let along = way(bend.edge);
-        let apart = |edge: usize| {
+        let along = direction(bend.edge);
+        let bend_distance = |edge: usize| {
             let [p, q] = ends(edge);
             let away = (p + q) / 2.0 - (from + to) / 2.0;
-            let apart = away.reject_from(along).length();
+            let distance = away.reject_from(along).length();
             // An edge on the same line belongs to the same crease.
-            let is_beside = way(edge).dot(along).abs() > MIN_PARALLEL_COSINE
-                && apart > MIN_PARALLEL_OFFSET * away.length();
-            is_beside.then_some(apart)
+            let is_beside = direction(edge).dot(along).abs() > MIN_PARALLEL_COSINE
+                && distance > MIN_PARALLEL_OFFSET * away.length();
+            is_beside.then_some(distance)
         };
         // So does an edge connected end to end around the facet.
         let mut others: Vec<usize> =
@@ -193,34 +193,34 @@ impl SurfaceTracer<'_> {
             let [a, b] = self.mesh.edges.vertices[last];
             others.retain(|edge| {
                 let meets = self.mesh.edges.vertices[*edge].iter().any(|v| *v == a || *v == b)
-                    && way(*edge).dot(way(last)).abs() > MIN_PARALLEL_COSINE;
+                    && direction(*edge).dot(direction(last)).abs() > MIN_PARALLEL_COSINE;
                 if meets {
                     same.push(*edge);
                 }
                 !meets
             });
         }
-        others.into_iter().filter_map(apart).min_by(f64::total_cmp)
+        others.into_iter().filter_map(bend_distance).min_by(f64::total_cmp)
     }
 
     /// Continuation found by a trace from the middle of an edge, with the edge where a crease ended it and
     /// the face before that edge.
     fn across(&self, bend: &BentEdge, face: u32) -> Option<(Continuation, Option<(usize, u32)>)> {
-        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
+        let bend_cosine = cos(MIN_TURN_RATIO * bend.turn) as f32;
         for crossing in self.crossings(bend.edge, face) {
             let TraceCrossing { edge, before, reach } = crossing?;
             let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else {
                 return Some((Continuation::Ends(reach), None));
             };
-            let other = faces[usize::from(faces[0] == before)];
-            if self.mesh.is_degenerate(FaceId(other)) {
+            let face_across = faces[usize::from(faces[0] == before)];
+            if self.mesh.is_degenerate(FaceId(face_across)) {
                 return None;
             }
             let cosine = self.turns.of_two(edge);
             if self.hard.is_hard(edge) || cosine < self.crease_cosine {
                 return Some((Continuation::Ends(reach), Some((edge, before))));
             }
-            if cosine < again {
+            if cosine < bend_cosine {
                 let same = self.is_convex(edge)? == bend.convex;
                 return Some((
                     if same { Continuation::Bends(reach) } else { Continuation::TurnsBack(edge) },

@@ -32,13 +32,13 @@ const MIN_NORMAL_DIFFERENCE: f32 = 0.1;
 /// Minimum number of edges per task.
 const MIN_EDGES_PER_TASK: usize = 1 << 8;
 
-/// The edges of `asked`, in order, that lie in the middle of a narrow fillet and cover most of its centre
+/// The edges of `candidate_edges`, in order, that lie in the middle of a narrow fillet and cover most of its centre
 /// line.
-pub(crate) fn narrow_fillets(walk: &SurfaceTracer, asked: &[usize]) -> Vec<usize> {
+pub(crate) fn narrow_fillets(walk: &SurfaceTracer, candidate_edges: &[usize]) -> Vec<usize> {
     let wide_at = |edge: &usize| Some((*edge, FilletCandidate::at(walk, *edge)?.wide_if_middle(walk.mesh)?));
     let found: Vec<CentreEdge> =
-        asked.par_iter().with_min_len(MIN_EDGES_PER_TASK).filter_map(wide_at).collect();
-    if found.is_empty() { Vec::new() } else { centre_lines(walk, asked, &found) }
+        candidate_edges.par_iter().with_min_len(MIN_EDGES_PER_TASK).filter_map(wide_at).collect();
+    if found.is_empty() { Vec::new() } else { centre_lines(walk, candidate_edges, &found) }
 }
 
 /// Edge where the surface turns.
@@ -63,7 +63,7 @@ struct FilletSide {
 impl FilletSide {
     /// Traces across `face` from an edge of the given length. `None` if no fillet ends on this side.
     fn new(walk: &SurfaceTracer, bend: &BentEdge, length: f64, face: u32) -> Option<Self> {
-        let again = cos(MIN_TURN_RATIO * bend.turn) as f32;
+        let bend_cosine = cos(MIN_TURN_RATIO * bend.turn) as f32;
         let mut last = FilletStep { reach: 0.0, turned: 0.0, face };
         let mut side = Self { steps: [last; MAX_STEPS_PER_SIDE], count: 0, end: f64::INFINITY };
         for crossing in walk.crossings(bend.edge, face) {
@@ -76,7 +76,7 @@ impl FilletSide {
             }
             let cosine = walk.turns.of_two(edge);
             let next = walk.bend(edge).filter(|_| cosine >= walk.crease_cosine && !walk.hard.is_hard(edge));
-            if next.is_some() && cosine >= again {
+            if next.is_some() && cosine >= bend_cosine {
                 continue;
             }
             // The first strip sets the width of the others.
@@ -134,11 +134,12 @@ impl FilletCandidate {
         let runs = (0..near.count).flat_map(|i| (0..far.count).map(move |j| [i, j]));
         let wide = |[i, j]: [usize; 2]| near.steps[i].reach + far.steps[j].reach;
         let is_one = |run: &[usize; 2]| {
-            let (wide, beside) = (wide(*run), [near.width(run[0]), far.width(run[1])]);
-            let (least, most) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
+            let (wide, neighbour_widths) = (wide(*run), [near.width(run[0]), far.width(run[1])]);
+            let (narrower, wider) =
+                (neighbour_widths[0].min(neighbour_widths[1]), neighbour_widths[0].max(neighbour_widths[1]));
             wide <= self.length
-                && least >= MIN_NEIGHBOUR_WIDTH_RATIOS[0] * wide
-                && most >= MIN_NEIGHBOUR_WIDTH_RATIOS[1] * wide
+                && narrower >= MIN_NEIGHBOUR_WIDTH_RATIOS[0] * wide
+                && wider >= MIN_NEIGHBOUR_WIDTH_RATIOS[1] * wide
         };
         runs.filter(is_one).min_by(|a, b| wide(*a).total_cmp(&wide(*b)))
     }
@@ -163,7 +164,7 @@ impl FilletCandidate {
         }
         strips.is_within(MAX_STEP_RATIO)
             && inner.is_within(MAX_STEP_RATIO)
-            && most_at_end <= MAX_END_TURN_RATIO * inner.least
+            && most_at_end <= MAX_END_TURN_RATIO * inner.lowest
     }
 
     /// Width of the narrow fillet whose middle edge this is. Of two middle edges, the one next to the wider
@@ -176,24 +177,24 @@ impl FilletCandidate {
 
     fn is_middle(&self, mesh: &Mesh, run: [usize; 2]) -> bool {
         let ends = [0, 1].map(|k| self.sides[k].steps[run[k]]);
-        let whole = ends[0].turned + self.turn + ends[1].turned;
-        let [least, most] = FILLET_TURN_RANGE_DEG.map(f64::to_radians);
-        if whole < least || whole > most {
+        let total_turn = ends[0].turned + self.turn + ends[1].turned;
+        let [min_turn, max_turn] = FILLET_TURN_RANGE_DEG.map(f64::to_radians);
+        if total_turn < min_turn || total_turn > max_turn {
             return false;
         }
         // Half of the total turn, minus the turn on each side.
-        let less = ends.map(|end| whole / 2.0 - end.turned);
-        let alike = MAX_TURN_DIFFERENCE_OF_FILLET * whole;
-        if less[0].min(less[1]) < -alike {
+        let less = ends.map(|end| total_turn / 2.0 - end.turned);
+        let turn_tolerance = MAX_TURN_DIFFERENCE_OF_FILLET * total_turn;
+        if less[0].min(less[1]) < -turn_tolerance {
             return false;
         }
-        let Some(other) = less.iter().position(|less| *less < alike) else { return true };
-        let own = 1 - other;
-        let widths = [own, other].map(|k| self.sides[k].width(run[k]));
+        let Some(tied_side) = less.iter().position(|less| *less < turn_tolerance) else { return true };
+        let opposite_side = 1 - tied_side;
+        let widths = [opposite_side, tied_side].map(|k| self.sides[k].width(run[k]));
         if widths[0] > MIN_WIDER_RATIO * widths[1] || widths[1] > MIN_WIDER_RATIO * widths[0] {
             return widths[0] > widths[1];
         }
-        let normals = [own, other].map(|k| mesh.face_normals[ends[k].face as usize]);
+        let normals = [opposite_side, tied_side].map(|k| mesh.face_normals[ends[k].face as usize]);
         (0..3)
             .rev()
             .map(|axis| normals[0][axis] - normals[1][axis])
@@ -204,23 +205,23 @@ impl FilletCandidate {
 
 /// Range of some numbers.
 struct ValueRange {
-    least: f64,
-    most: f64,
+    lowest: f64,
+    highest: f64,
 }
 
 impl Default for ValueRange {
     fn default() -> Self {
-        Self { least: f64::INFINITY, most: 0.0 }
+        Self { lowest: f64::INFINITY, highest: 0.0 }
     }
 }
 
 impl ValueRange {
     fn with(self, number: f64) -> Self {
-        Self { least: self.least.min(number), most: self.most.max(number) }
+        Self { lowest: self.lowest.min(number), highest: self.highest.max(number) }
     }
 
     /// Whether the largest is at most `factor` times the smallest.
     fn is_within(&self, factor: f64) -> bool {
-        self.most <= factor * self.least
+        self.highest <= factor * self.lowest
     }
 }
