@@ -11,7 +11,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::order::canonical_order;
-use super::seams::open_edges;
+use super::seams::seam_search;
 use super::weld::nearby_vertices;
 use super::{EdgeFaces, Edges, Mesh, MeshMetrics, RepairCounts, Soup, part_metrics};
 use crate::mesh::components::bodies::bodies;
@@ -89,12 +89,12 @@ impl Mesh {
             edges = edges.without(&renamed, &soup.triangles);
             (is_final, is_as_found) = (false, false);
         }
-        let mut seams = open_edges::find(&soup, &edges, &extents, true);
+        let mut seams = seam_search::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
             let changed = faces_of(&soup, |v| seams.joined[v as usize] != v);
             replace_vertices(&mut soup, &seams.joined, &mut cleaning);
             edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
-            seams = open_edges::find(&soup, &edges, &extents, false);
+            seams = seam_search::find(&soup, &edges, &extents, false);
             is_as_found = false;
         }
         if !seams.cuts.is_empty() {

@@ -1,5 +1,4 @@
-//! [`Decal`]: figures on a plane that is laid on the surface, projected to the page with the facets that show
-//! them.
+//! [`Decal`]: figures on a plane laid on the surface, projected to the page with the facets that show them.
 //!
 //! 1. The plane lies on the surface face by face, by texture coordinates or part axes.
 //! 2. Each figure is anchored at its centre. Its points are found by walking from there over the faces,
