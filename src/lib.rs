@@ -29,10 +29,10 @@
 //! 5. The result is a [`drawing::Drawing`], a 2-D document. [`export`] writes it as SVG, PDF, DXF or PNG.
 //!
 //! [`pipeline`] connects the stages and shares work between views. [`style`] sets their options. [`edit`]
-//! and [`animation`] change a scene before it is drawn; [`animate`] draws frames, [`page`] composes pages,
-//! and [`diff`] compares drawings. [`text`] sets letters, [`images`] places pictures of materials, and
-//! [`motion`] draws motion lines. `cli` is the program. `error`, `parallel`, `geometry` and `colour` are the
-//! base of all areas.
+//! and [`animation`] change a scene before it is drawn. [`animate`] draws frames, [`page`] composes comic
+//! pages with balloons and technical sheets, and [`diff`] compares drawings. [`text`] sets letters,
+//! [`images`] places pictures of materials, and [`motion`] draws motion lines. `cli` is the program.
+//! `error`, `parallel`, `geometry` and `colour` are the base of all areas.
 //!
 //! ```
 //! use ligne::lines::{self, LineKind, LineOptions, Surface};
@@ -63,7 +63,7 @@
 //! - No async.
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::unwrap_used)]
-// Heads of modules list their files, of which many are private.
+// Heads of modules list their files. Many are private.
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod animate;

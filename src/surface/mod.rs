@@ -1,8 +1,8 @@
 //! The smooth surface that a mesh approximates: creases, patches, normals, curvature and refined faces.
 //!
-//! 1. `patches` classifies each connected component as machined, organic or faceted, and finds the curved
-//!    patches.
-//! 2. `creases` finds the edges where the surface is creased.
+//! 1. `creases` holds the rules that find creased edges.
+//! 2. `patches` classifies each connected component as machined, round or faceted, chooses its creases by
+//!    these rules (`patch_layout`), and finds the curved patches.
 //! 3. `normals` assigns a normal to each smooth vertex, split at creases.
 //! 4. `curvature` estimates principal curvatures and their derivatives.
 //! 5. `refine` subdivides curved faces near the lines of a view.

@@ -2,7 +2,7 @@
 //!
 //! 1. For each balloon the candidate places on a grid are listed; hard constraints are checked and the rest
 //!    get a cost.
-//! 2. Branch and bound chooses one candidate for each balloon. The sum of the costs is the lowest that a
+//! 2. Branch and bound (this file) chooses one candidate for each balloon. The sum of the costs is the lowest that a
 //!    bounded search finds.
 //! 3. Two chosen candidates must not overlap, their tails must not cross, and the later one must be read
 //!    later.

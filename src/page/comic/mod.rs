@@ -3,7 +3,8 @@
 //! 1. `panel_outlines` computes the boxes of the page and the outline of each panel from its layout.
 //! 2. `panel_drawing` draws the scene of each panel (in parallel), its border, and the parts that break out
 //!    of the border.
-//! 3. `lettering` sets balloons, captions and sound effects, and places the balloons.
+//! 3. `lettering` sets balloons, captions and sound effects, and has `page::balloon_placement`
+//!    place the balloons.
 //! 4. The page is painted in this order: all panels, parts that break out, letters.
 //!
 //! Files, in reading order: [`comic_keys`], the keys of a page file; `panel_outlines`; `panel_drawing`;

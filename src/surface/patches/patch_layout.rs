@@ -1,4 +1,4 @@
-//! [`Patches`]: the borders between the surfaces of a mesh, and which surfaces are curved.
+//! [`Patches`]: the creases of a mesh, the borders between its surfaces, and which surfaces are curved.
 //!
 //! Planes, cylinders and cones are drawn as their faces are: a surface that bends one way has contours along
 //! its edges only. Surfaces that bend both ways are rounded. These are scans and figures, except at their
