@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 /// machining, to a metre.
 pub(crate) const STEP_TOLERANCES_MM: RangeInclusive<f64> = 1e-4..=1e3;
 
-/// Maximum time by which a film may exceed its animation and still be within it, seconds: rounding of times
+/// Maximum excess of a film over the time of its animation, seconds. It covers the rounding of times
 /// that are multiples of a frame.
 pub(crate) const TIME_ROUNDING_S: f64 = 1e-9;
 

@@ -141,7 +141,7 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// Breaks the text greedily into lines of at most `width` user units. Returns the breaks that end
-    /// lines, or the break at which nothing fits. `parted` allows hyphens.
+    /// lines, or the break after which nothing fits. `parted` allows hyphens.
     pub fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
         let limit = self.in_ems(width);
         let breaks = self.breaks.clone();

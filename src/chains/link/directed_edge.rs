@@ -1,4 +1,4 @@
-//! [`DirectedEdge`]: an edge of the view map with the direction in which a route passes it.
+//! [`DirectedEdge`]: an edge of the view map with the direction of a route along it.
 //!
 //! [`order`] sorts such edges by geometry, so that routes do not depend on the order of the view map.
 

@@ -1,6 +1,6 @@
 //! Bridges tiny hidden gaps in visible smooth contours by marking them as visible.
 //!
-//! On a mesh, a contour dips behind a fold of its own surface for a fraction of a px. On the smooth surface
+//! On a mesh, a contour dips behind a fold of the same surface for a fraction of a px. On the smooth surface
 //! it would be one line.
 //!
 //! 1. Hidden runs shorter than a limit, between visible runs of one contour, are candidates.

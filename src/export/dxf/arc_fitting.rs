@@ -65,7 +65,7 @@ pub(crate) fn fit_curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<F
         .collect()
 }
 
-/// Fits a subpath in which arcs were recovered. The parts between the arcs are fitted separately.
+/// Fits a subpath with recovered arcs. The parts between the arcs are fitted separately.
 fn with_arcs(path: &PathSteps, tolerance: f64) -> Option<FittedCurve> {
     if !path.points().iter().all(|point| point.is_finite()) {
         return None;

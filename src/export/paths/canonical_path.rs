@@ -159,7 +159,7 @@ fn rotate(pieces: &mut [PathPiece]) {
     pieces.rotate_left(turns);
 }
 
-/// Number of items by which to rotate a cycle left to make it lexicographically least, in linear time.
+/// Left rotation of a cycle that makes it lexicographically least, as a number of items, in linear time.
 ///
 /// Two candidate starts are compared. Where they differ, the greater one and all starts up to that place are
 /// discarded.

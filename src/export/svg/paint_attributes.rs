@@ -158,7 +158,7 @@ impl Attributes {
         }
     }
 
-    /// Whether a mark inside `outer` needs no attributes of its own.
+    /// Whether a mark inside `outer` needs no attributes.
     pub fn fits(&self, outer: &Self) -> bool {
         self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == AttributeValue::Any)
     }

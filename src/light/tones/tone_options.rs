@@ -22,7 +22,7 @@ use crate::scene::material::Gloss;
 /// Tones of the surface of a material, and their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneOptions {
-    /// Light levels at which tones change. Default: one threshold at 0.5.
+    /// Light levels between tones. Default: one threshold at 0.5.
     pub scale: ToneScale,
     /// Source of the colours of tones. Default: the material.
     pub colours: Colours,
@@ -46,7 +46,7 @@ pub struct ToneOptions {
     pub materials: Vec<MaterialChange>,
 }
 
-/// Light levels at which tones change.
+/// Light levels between tones.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ToneScale {
     /// At rising thresholds of the diffuse light.
@@ -75,7 +75,7 @@ impl ToneScale {
     }
 }
 
-/// Source of the colours of tones. Not used with a ramp or a table, which have colours of their own.
+/// Source of the colours of tones. Not used with a ramp or a table, which bring their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colours {
     /// The material, by eq. 1 of Lake et al. 2000.
@@ -189,7 +189,7 @@ pub struct MaterialChange {
     pub name: Glob,
     /// Colour that replaces the material's.
     pub colour: Option<Colour>,
-    /// Light levels at which tones change.
+    /// Light levels between tones.
     pub scale: Option<ToneScale>,
     /// Source of the colours of tones.
     pub colours: Option<Colours>,

@@ -81,8 +81,8 @@ pub(crate) fn classify_overlaps(
 /// Faces of an edge in whose planes surfaces overlap, if nothing at the edge lies on the camera's side of
 /// the plane.
 ///
-/// Such edges are borders, material boundaries in the plane, and edges at which a body continues behind the
-/// plane. The latter may have faces in two such planes.
+/// Such edges are borders, material boundaries in the plane, and edges of a body that continues behind the
+/// plane. The last kind may have faces in two such planes.
 fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Option<u32>; 2] {
     let [first, second] = segment.hosts;
     match segment.kind {

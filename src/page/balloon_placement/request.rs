@@ -34,7 +34,7 @@ pub struct PlacementArea {
     /// The outline that contains all balloons.
     pub outline: ConvexPolygon,
     /// Areas that no balloon may cover, such as faces and parts in the key `keep`. A tail may cover only
-    /// the area of its own target.
+    /// the area of its target.
     pub protected: Vec<ConvexPolygon>,
     /// Areas that neither balloons nor tails may cover, such as sound effects.
     pub obstacles: Vec<ConvexPolygon>,

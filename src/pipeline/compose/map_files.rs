@@ -1,4 +1,4 @@
-//! [`MapFiles`]: the pixel maps in which image-space lines are detected, encoded as PNG files for
+//! [`MapFiles`]: the pixel maps of the search for image-space lines, encoded as PNG files for
 //! inspection and for other programs.
 
 use crate::parallel::prelude::*;

@@ -1,7 +1,7 @@
 //! [`BatchJob`]: the drawings of one model in a call of `ligne draw`, with their output paths.
 //!
 //! A call may name several models, views and file types. [`jobs`] turns its options into one job per model,
-//! and refuses calls in which two drawings would have the same path.
+//! and refuses a call that gives two drawings the same path.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};

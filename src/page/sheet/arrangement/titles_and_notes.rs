@@ -49,7 +49,7 @@ pub(crate) fn detail_circle(shown: &SheetView) -> Circle {
 
 /// Letter height of notes.
 const NOTE_HEIGHT_MM: f64 = 3.5;
-/// Width at which notes are wrapped.
+/// Maximum width of a line of a note.
 const MAX_NOTE_WIDTH_MM: f64 = 90.0;
 /// Distance of notes from the left side of the frame.
 const NOTE_LEFT_MARGIN_MM: f64 = 16.0;

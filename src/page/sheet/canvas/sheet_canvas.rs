@@ -173,7 +173,7 @@ impl SheetCanvas {
         Ok(lines)
     }
 
-    /// The first of `heights` at which a text fits, with its lines; the last one if none fits. `heights` must
+    /// The first of `heights` that fits a text, with its lines; the last one if none fits. `heights` must
     /// descend. `fits` takes a height and the number of lines.
     ///
     /// # Errors
