@@ -27,10 +27,10 @@ pub mod textures;
 mod tolerances;
 pub mod zero_sets;
 
-pub use edges::edge_search::EdgeSearch;
+pub use edges::culling::edge_search::EdgeSearch;
 pub use feature_line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
 pub use image::{ImageOptions, Source};
-pub(crate) use isophotes::covered_faces::{shows_inside, visible_faces_of};
+pub(crate) use isophotes::culling::covered_faces::{shows_inside, visible_faces_of};
 pub use isophotes::lit_surface::Lit;
 pub use line_kind::LineKind;
 pub use line_options::{Contours, HiddenLines, LineOptions, Normals};

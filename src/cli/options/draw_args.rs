@@ -6,16 +6,16 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum, ValueHint};
 
 use super::batch_args::BatchArgs;
+use super::contact_sheet_args::ViewSheetArgs;
 use super::dxf_args::DxfArgs;
 use super::framing_args::{FramingArgs, SaveArgs};
 #[cfg(feature = "pdf")]
 use super::print_args::PrintArgs;
 use super::section_and_explode_args::SectionArgs;
+use super::step_args::StepArgs;
 use super::style_keys;
 use super::values::paper_size;
 use super::web_args::WebArgs;
-use crate::cli::options::contact_sheet_args::ViewSheetArgs;
-use crate::cli::options::step_args::StepArgs;
 use crate::cli::options::values::completion_values::CompletionValues;
 use crate::cli::options::values::paper_size::{PageLength, PaperSize};
 use crate::colour::srgb::Colour;

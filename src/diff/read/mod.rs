@@ -13,4 +13,4 @@ mod inherited_context;
 mod paint_description;
 mod svg_reader;
 mod tagged_svg;
-pub(crate) mod unsupported_features;
+mod unsupported_features;

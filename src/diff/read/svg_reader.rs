@@ -8,9 +8,9 @@ use usvg::tiny_skia_path::PathSegment;
 
 use super::paint_description;
 use super::tagged_svg::{self, ShapeOrigin, TaggedSvg};
+use super::unsupported_features::unread;
 use crate::colour::srgb::Colour;
 use crate::diff::markup::input_limits;
-use crate::diff::read::unsupported_features::unread;
 use crate::diff::shapes::ink::{self, ShapeInk, ShapePaint};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 use crate::diff::shapes::placeholder::Details;

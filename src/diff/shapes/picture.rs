@@ -6,7 +6,7 @@ use kurbo::BezPath;
 
 use super::ink::ShapeInk;
 use super::label::Label;
-use crate::diff::shapes::render_tree::RenderTree;
+use super::render_tree::RenderTree;
 use crate::drawing::Unit;
 
 /// Kind of a shape.

@@ -10,11 +10,11 @@
 //! Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques, NPAR 2000, section 4.1.
 //!
 //! Files, in reading order: [`edge_lines`]; [`edge_fans`]; [`ripple_edges`]; [`coplanar_overlaps`];
-//! [`free_wires`]; [`edge_search`] only for speed: candidate edges for many views of one surface.
+//! [`free_wires`]; [`culling`] shortcuts for many views of one surface.
 
 pub(crate) mod coplanar_overlaps;
+pub mod culling;
 mod edge_fans;
 pub mod edge_lines;
-pub mod edge_search;
 pub(crate) mod free_wires;
 pub(crate) mod ripple_edges;

@@ -12,8 +12,8 @@ use crate::parallel::prelude::*;
 use super::facet_contacts;
 use crate::lines::prepared_surface::RefinedSurface;
 use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
+use crate::mesh::intersect::cache::intersection_cache::{FaceHosts, IntersectionCache};
 use crate::mesh::intersect::curve_tracer::CurveTracer;
-use crate::mesh::intersect::intersection_cache::{FaceHosts, IntersectionCache};
 use crate::mesh::intersect::intersection_curves::{
     IntersectionCurves, IntersectionInput, IntersectionSegment, intersections_of_parts,
 };

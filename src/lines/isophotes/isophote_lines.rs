@@ -9,11 +9,11 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::covered_faces::visible_faces_of;
 use super::level_tracer::{FaceExtents, FaceSample, LevelSegment, LevelTracer};
 use super::tone_changes::TraceReason;
 use crate::light::{LightSlope, SurfacePoint};
 use crate::lines::feature_line::segment;
+use crate::lines::isophotes::culling::covered_faces::visible_faces_of;
 use crate::lines::tolerances;
 use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};

@@ -13,9 +13,9 @@
 //! 3.6.
 //!
 //! Files, in reading order: [`lit_surface`] light, tone and paint at a point; [`isophote_lines`];
-//! [`level_tracer`]; [`level_strides`]; [`covered_faces`] faces that may be seen; [`tone_changes`].
+//! [`level_tracer`]; [`level_strides`]; [`culling`] faces that may be seen; [`tone_changes`].
 
-pub(crate) mod covered_faces;
+pub(crate) mod culling;
 pub mod isophote_lines;
 mod level_strides;
 pub(crate) mod level_tracer;

@@ -7,9 +7,9 @@
 //! 4. For a refined mesh, known pairs are reused and only the pieces of cut faces are tested.
 //!
 //! Files, in reading order: [`triangle_pair`] (step 2), [`intersection_curves`] (steps 1 and 3),
-//! [`curve_tracer`] (follows a curve from given pairs), [`intersection_cache`] (step 4).
+//! [`curve_tracer`] (follows a curve from given pairs), [`cache`] (step 4).
 
+pub mod cache;
 pub mod curve_tracer;
-pub mod intersection_cache;
 pub mod intersection_curves;
 pub mod triangle_pair;

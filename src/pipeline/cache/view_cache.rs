@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use crate::light::NormalCones;
 use crate::lines::intersections::intersection_lines;
 use crate::lines::{EdgeSearch, HiddenLines, LineKind, LineOptions, RefinedSurface, SharedSearches, Surface};
-use crate::mesh::intersect::intersection_cache::IntersectionCache;
+use crate::mesh::intersect::cache::intersection_cache::IntersectionCache;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
 use crate::visibility::ViewOcclusionBuffer;

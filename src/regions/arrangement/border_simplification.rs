@@ -10,8 +10,8 @@
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::grid_tiles::GridPoint;
 use super::snap_rounding::Border;
-use crate::regions::arrangement::grid_tiles::GridPoint;
 
 /// Segments between points of the integer grid, with the kind of border.
 pub(crate) type Segments = Vec<([GridPoint; 2], Border)>;

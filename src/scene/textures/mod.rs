@@ -7,13 +7,13 @@
 //! 5. With `fill = "image"` [`embedded_texture`] resamples the picture for the drawing instead.
 //!
 //! [`cutouts`] uses the same plane to cut transparent texels out of the triangles. [`texture_options`] has
-//! the style keys; [`result_cache`] keeps assignments and maps between views.
+//! the style keys; [`cache`] keeps assignments and maps between views.
 
+mod cache;
 pub(crate) mod cutouts;
 mod embedded_texture;
 mod label_map;
 pub(crate) mod palette;
-mod result_cache;
 mod texel_coverage;
 pub(crate) mod texel_plane;
 pub mod texture_options;
@@ -25,9 +25,9 @@ pub(crate) use label_map::colour_map::ColourMap;
 pub(crate) use label_map::painted_texture::PaintedTexture;
 pub(crate) use palette::colour_kmeans::kmeans_colours;
 
+use self::cache::result_cache::ResultCache;
 use self::label_map::texel_assignments::TexelAssignments;
 use self::palette::palette_clusters::{MIN_CHANNEL_DIFFERENCE, channel_difference};
-use self::result_cache::ResultCache;
 use super::model_folder::read_from_model_folder;
 use super::{Alpha, Filter, Material, Scene};
 use crate::colour::oklab;

@@ -16,7 +16,7 @@ use crate::colour::oklab::{self, Oklab, linear_table};
 use crate::colour::srgb::Colour;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::Filter;
-use crate::scene::textures::result_cache::ResultCache;
+use crate::scene::textures::cache::result_cache::ResultCache;
 use crate::scene::textures::texel_plane::TexelPlane;
 use crate::scene::tolerances;
 

@@ -8,14 +8,14 @@
 
 use crate::parallel::prelude::*;
 
-use super::intersection_curves::{
-    IntersectingPair, IntersectionCurves, IntersectionInput, bounds, intersections_of_parts, join, pairs_in,
-    pairs_of,
-};
-use super::triangle_pair::PairTolerance;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::bvh::box_tree::{BoxTree, TreeFaces, share_a_vertex};
 use crate::mesh::bvh::quantized_box::FineBox;
+use crate::mesh::intersect::intersection_curves::{
+    IntersectingPair, IntersectionCurves, IntersectionInput, bounds, intersections_of_parts, join, pairs_in,
+    pairs_of,
+};
+use crate::mesh::intersect::triangle_pair::PairTolerance;
 
 /// Number of cut faces per task.
 const FACES_PER_TASK: usize = 64;

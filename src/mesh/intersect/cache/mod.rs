@@ -1,0 +1,5 @@
+//! Intersecting pairs kept from one mesh to the next.
+//!
+//! [`intersection_cache`] reuses the pairs of a mesh after some of its faces are cut.
+
+pub mod intersection_cache;
