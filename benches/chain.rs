@@ -2,44 +2,14 @@
 
 use divan::{Bencher, black_box};
 use kurbo::Point;
-use ligne::chains::{ChainOptions, link};
+use libm::{cos, sin};
+use ligne::Style;
 use ligne::drawing::Unit;
-use ligne::geometry::numbers::portable_math::{cos, sin};
-use ligne::lines::{HiddenLines, LineKind};
-use ligne::mesh::{MaterialId, PartId};
-use ligne::surface::MeshSource;
-use ligne::visibility::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use ligne::internals::add_line as add;
+use ligne::pipeline::{Chain, LineKind, ViewMap};
 
 fn main() {
     divan::main();
-}
-
-/// Adds a line of one kind through points.
-fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
-    let first = map.vertices.len() as u32;
-    map.vertices.extend(points.iter().map(|position| ViewVertex {
-        position: *position,
-        depth: 1.0,
-        strength: 1.0,
-        kind: ViewVertexKind::Vertex,
-    }));
-    let count = points.len() as u32;
-    for k in 0..if closed { count } else { count - 1 } {
-        map.edges.push(ViewEdge {
-            start: ViewVertexId(first + k),
-            end: ViewVertexId(first + (k + 1) % count),
-            kind,
-            invisibility: 0,
-            silhouette: false,
-            both_seen: kind == LineKind::Crease,
-            smooth: kind == LineKind::Contour,
-            origin: if kind == LineKind::Contour { MeshSource::Scanned } else { MeshSource::Constructed },
-            strength: 90.0,
-            part: PartId(0),
-            material: MaterialId(0),
-            segment: map.edges.len() as u32,
-        });
-    }
 }
 
 /// Wavy loops of small zigzag edges, like the contours of a scan.
@@ -77,12 +47,12 @@ fn city(edges: usize) -> ViewMap {
 
 #[divan::bench(args = [3_000, 60_000])]
 fn chains_of_a_scan(bencher: Bencher, pieces: usize) {
-    let map = scan(pieces);
-    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px, HiddenLines::None));
+    let (map, style) = (scan(pieces), Style::default());
+    bencher.bench(|| Chain::link(black_box(&map), &style, Unit::Px));
 }
 
 #[divan::bench(args = [160_000])]
 fn chains_of_a_city(bencher: Bencher, edges: usize) {
-    let map = city(edges);
-    bencher.bench(|| link(black_box(&map), &ChainOptions::default(), Unit::Px, HiddenLines::None));
+    let (map, style) = (city(edges), Style::default());
+    bencher.bench(|| Chain::link(black_box(&map), &style, Unit::Px));
 }

@@ -22,12 +22,12 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 
-use ligne::lines::edges::edge_lines;
-use ligne::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
-use ligne::mesh::Mesh;
-use ligne::mesh::bvh::ToneTree;
+use ligne::internals::lines::edge_lines;
+use ligne::internals::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
+use ligne::internals::mesh::Mesh;
+use ligne::internals::mesh::ToneTree;
+use ligne::internals::view::View;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
-use ligne::view::View;
 use rayon::prelude::*;
 use solids::Solid;
 
@@ -113,7 +113,7 @@ fn row(name: &str, scene: &Scene) {
     let mut options = LineOptions { contours: Contours::Mesh, ..LineOptions::default() };
     options.kinds.retain(|kind| *kind != LineKind::Intersection);
     let surface = Surface::new(Mesh::build(scene.to_soup()), &options);
-    let edges = surface.mesh.edges.len();
+    let edges = ligne::internals::edges(&surface.mesh).len();
     let started = Instant::now();
     let search = EdgeSearch::new(&surface);
     let made = started.elapsed();
@@ -138,7 +138,7 @@ fn row(name: &str, scene: &Scene) {
             });
             tree_time += time;
             assert!(plain == by_tree, "the tree finds other lines than the plain scan");
-            let found = search.tree().candidates(view.frame.homogeneous_eye());
+            let found = search.tree().candidates(ligne::internals::frame(&view).homogeneous_eye());
             asked += found.items.len();
             boxes += found.boxes;
             contours += plain.iter().filter(|s| s.kind == LineKind::Contour).count();

@@ -4,7 +4,7 @@
 //! cargo bench --bench fills [-- MODEL…]
 //! ```
 //!
-//! A *redraw* is all work for one view of a [`Prepared`] scene: projection, lines, tone borders, visibility,
+//! A *redraw* is all work for one view of a [`Renderer`] scene: projection, lines, tone borders, visibility,
 //! regions, chains, ink. The *floor* is one depth raster of its faces with 1024 x 1024 pixels. Ratios can be
 //! compared between machines, times cannot.
 
@@ -20,13 +20,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
+use libm::{atan2, cos, sin};
 use ligne::drawing::{Page, Unit};
-use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
-use ligne::mesh::Mesh;
-use ligne::pipeline::Prepared;
+use ligne::internals::mesh::Mesh;
+use ligne::internals::view::View;
+use ligne::internals::view::{FaceBuffer, PixelGrid};
+use ligne::pipeline::Renderer;
 use ligne::scene::{Geometry, Part};
-use ligne::view::View;
-use ligne::view::raster::{FaceBuffer, PixelGrid};
 use ligne::{Camera, Scene, Style};
 use rayon::ThreadPool;
 use solids::Solid;
@@ -50,9 +50,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [one, all] = pools;
     let pools = [one?, all?];
     let styles = [
-        ("ink", Style::load("ink", &[])?),
-        ("fills", Style::load("toon", &["lines.enabled=false".to_owned()])?),
-        ("toon", Style::load("toon", &[])?),
+        ("ink", Style::load("ink")?),
+        ("fills", Style::load("toon")?.set("lines.enabled", false)?.clone()),
+        ("toon", Style::load("toon")?),
     ];
 
     println!("Least times in ms, and in floors (x): lines alone, fills alone, lines and fills.");
@@ -106,8 +106,8 @@ fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool
         let threads = pool.current_num_threads();
         print!("{name:<20} {:>8} {threads:>4} {floor:>8.2}", mesh.triangles.len());
         for (_, style) in styles {
-            let prepared = Prepared::new(scene, style);
-            let redraw = pool.install(|| least_ms(|| prepared.draw(&camera, page, None).unwrap()));
+            let prepared = Renderer::new(scene, style);
+            let redraw = pool.install(|| least_ms(|| prepared.draw(&camera, page).unwrap()));
             print!("  {redraw:>8.1} {:>7.1}", redraw / floor);
         }
         println!();

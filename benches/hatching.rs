@@ -15,8 +15,8 @@ mod models;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use ligne::drawing::{Page, Unit};
-use ligne::pipeline::{Prepared, Report, render_reported};
+use ligne::drawing::Page;
+use ligne::pipeline::{Renderer, Report};
 use ligne::{Camera, Scene, Style};
 
 /// Rounds per measurement. The shortest time counts.
@@ -40,15 +40,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for path in all {
         let scene = Scene::open(&path)?;
         let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-        let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+        let page = Page::px(camera.width, camera.height);
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let (ink, _) = least(&scene, &camera, page, &Style::load("ink", &[])?);
+        let (ink, _) = least(&scene, &camera, page, &Style::load("ink")?);
         for style in ["pencil", "pen", "engraving", "patent", "comic"] {
-            let sheet = Style::load(style, &[])?;
+            let sheet = Style::load(style)?;
             let (whole, report) = least(&scene, &camera, page, &sheet);
-            let strokes = Prepared::new(&scene, &sheet)
-                .hatch_strokes(&camera, page)
-                .map_or(0, |(_, layers)| layers.iter().map(|layer| layer.strokes.len()).sum());
+            let strokes = ligne::internals::hatch_strokes(&Renderer::new(&scene, &sheet), &camera);
             let stages = report.stages_ms;
             println!(
                 "{name:<22} {style:>8} {strokes:>8} {:>9.1}x {:>10.1} {:>11.2}x",
@@ -66,7 +64,7 @@ fn least(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> (f64, Rep
     let mut best: Option<(f64, Report)> = None;
     for _ in 0..ROUNDS {
         let start = Instant::now();
-        let (_, report) = render_reported(scene, camera, style, page, None).unwrap();
+        let (_, report) = Renderer::new(scene, style).draw(camera, page).unwrap();
         let time = start.elapsed().as_secs_f64() * 1e3;
         if best.as_ref().is_none_or(|(least, _)| time < *least) {
             best = Some((time, report));

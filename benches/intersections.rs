@@ -10,8 +10,8 @@ mod solids;
 use divan::Bencher;
 use glam::DVec3;
 use ligne::Scene;
-use ligne::mesh::Mesh;
-use ligne::mesh::intersect::intersection_curves::{IntersectionInput, intersections};
+use ligne::internals::mesh::Mesh;
+use ligne::internals::mesh::{IntersectionInput, intersections};
 use solids::Solid;
 
 fn main() {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use divan::{Bencher, black_box};
-use ligne::load::{obj, ply, stl};
+use ligne::load::ModelFormat;
 use ligne::scene::Scene;
 
 /// Side of the wavy grid in quads: 708 x 708 quads are 1,002,528 triangles.
@@ -75,27 +75,27 @@ fn bench(bencher: Bencher, bytes: Vec<u8>, read: impl Fn(&[u8]) -> Option<Scene>
 
 #[divan::bench]
 fn obj_million(bencher: Bencher) {
-    bench(bencher, obj_text(), |bytes| obj::read_bytes(bytes, "", |_| None).ok());
+    bench(bencher, obj_text(), |bytes| Scene::from_bytes(bytes, ModelFormat::Obj).ok());
 }
 
 #[divan::bench]
 fn ply_million(bencher: Bencher) {
-    bench(bencher, ply_bytes(), |bytes| ply::read_bytes(bytes, "").ok());
+    bench(bencher, ply_bytes(), |bytes| Scene::from_bytes(bytes, ModelFormat::Ply).ok());
 }
 
 #[divan::bench]
 fn stl_million(bencher: Bencher) {
-    bench(bencher, stl_bytes(), |bytes| stl::read_bytes(bytes, "").ok());
+    bench(bencher, stl_bytes(), |bytes| Scene::from_bytes(bytes, ModelFormat::Stl).ok());
 }
 
 #[divan::bench]
 fn flatten_million(bencher: Bencher) {
-    let Ok(scene) = ply::read_bytes(&ply_bytes(), "") else { return };
+    let Ok(scene) = Scene::from_bytes(&ply_bytes(), ModelFormat::Ply) else { return };
     bencher.bench(|| black_box(&scene).to_soup());
 }
 
 #[divan::bench]
 fn bounds_million(bencher: Bencher) {
-    let Ok(scene) = ply::read_bytes(&ply_bytes(), "") else { return };
+    let Ok(scene) = Scene::from_bytes(&ply_bytes(), ModelFormat::Ply) else { return };
     bencher.bench(|| black_box(&scene).bounds());
 }

@@ -2,9 +2,9 @@
 
 use divan::{Bencher, black_box};
 use glam::DVec3;
+use libm::{cos, sin};
 use ligne::Scene;
 use ligne::edit::simplify::Detail;
-use ligne::geometry::numbers::portable_math::{cos, sin};
 
 /// Squares along a side: 69,938 and 1,002,528 triangles.
 const SIDES: [u32; 2] = [187, 708];

@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use glam::DAffine3;
 use ligne::drawing::{Page, Unit};
-use ligne::pipeline::Prepared;
+use ligne::pipeline::Renderer;
 use ligne::scene::{Geometry, Part};
 use ligne::{Camera, Scene, Style, SvgOptions};
 
@@ -41,10 +41,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("knot_100k", shared("cad/knot_100k.glb")?),
     ];
     let styles = [
-        ("ink", Style::load("ink", &[])?),
-        ("ink along edges", Style::load("ink", &["lines.contours=mesh".to_owned()])?),
-        ("two tones", Style::load("toon", &[])?),
-        ("pencil", Style::load("pencil", &[])?),
+        ("ink", Style::load("ink")?),
+        ("ink along edges", Style::load("ink")?.set("lines.contours", "mesh")?.clone()),
+        ("two tones", Style::load("toon")?),
+        ("pencil", Style::load("pencil")?),
     ];
     println!("Medians over {VIEWS} views in ms, on {} threads.", rayon::current_num_threads());
     println!("{:<20} {:<16} {:>8} {:>8} {:>8} {:>9}", "model", "style", "least", "median", "most", "bytes");
@@ -63,15 +63,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Time of each view, seconds, ascending, and the number of bytes of the last.
 fn redraw(scene: &Scene, style: &Style) -> Result<(Vec<f64>, usize), ligne::Error> {
-    let prepared = Prepared::new(scene, style);
-    let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: style.background };
+    let prepared = Renderer::new(scene, style);
+    let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None };
     let mut times = Vec::new();
     let mut bytes = 0;
     for view in 0..WARM + VIEWS {
         let turn = 360.0 * f64::from(view) / f64::from(VIEWS);
         let camera = Camera::azimuth_elevation(turn, 25.0, scene.up).with_frame(SIDE, SIDE).fit(scene);
         let start = Instant::now();
-        let (drawing, _) = prepared.draw(&camera, page, None)?;
+        let (drawing, _) = prepared.draw(&camera, page)?;
         let svg = black_box(drawing.to_svg(&SvgOptions::default()));
         if view >= WARM {
             times.push(start.elapsed().as_secs_f64());

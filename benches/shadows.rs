@@ -12,11 +12,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DVec3;
-use ligne::light::Caster;
-use ligne::light::ambient_visibility;
-use ligne::mesh::{FaceId, Mesh};
+use ligne::internals::light::Caster;
+use ligne::internals::light::ambient_visibility;
+use ligne::internals::mesh::{FaceId, Mesh};
+use ligne::internals::shadows::Shadows;
 use ligne::scene::Scene;
-use ligne::shadows::Shadows;
 
 const SHARED: [&str; 7] = [
     "cad/drive.glb",
@@ -48,10 +48,11 @@ fn main() {
 }
 
 fn rows(name: &str, mesh: &Mesh) {
+    let diagonal = ligne::internals::diagonal(mesh);
     let lights = [
         ("directional", Caster::Directional { towards: DVec3::new(0.5, 0.7, 0.6) }),
-        ("point", Caster::Point { position: DVec3::new(0.5, 0.7, 0.6) * mesh.extents.diagonal }),
-        ("six views", Caster::Point { position: DVec3::new(0.21, 0.28, 0.23) * mesh.extents.diagonal }),
+        ("point", Caster::Point { position: DVec3::new(0.5, 0.7, 0.6) * diagonal }),
+        ("six views", Caster::Point { position: DVec3::new(0.21, 0.28, 0.23) * diagonal }),
     ];
     let faces = mesh.triangles.len() as u32;
     let asked: Vec<(u32, DVec3)> = (0..100_000_u32)
@@ -61,7 +62,7 @@ fn rows(name: &str, mesh: &Mesh) {
             (face, (a + b + c) / 3.0)
         })
         .collect();
-    for reach in [f64::INFINITY, mesh.extents.diagonal / 10.0] {
+    for reach in [f64::INFINITY, diagonal / 10.0] {
         let started = Instant::now();
         let sky = ambient_visibility(mesh, &[], |_| reach);
         let took = started.elapsed();

@@ -2,18 +2,10 @@
 
 use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
-use ligne::drawing::Drawing;
-use ligne::export::SvgOptions;
-use ligne::lines::zero_sets::interior;
-use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface};
-use ligne::mesh::{Edges, Mesh, MeshMetrics};
-use ligne::pipeline;
-use ligne::scene::{Camera, Geometry, NamedView, Part, Scene, UpAxis};
-use ligne::style::Style;
-use ligne::surface::{HardEdges, SmoothNormals};
-use ligne::view::{Frame, View};
-use ligne::visibility::overlap::coincident_lines;
-use ligne::visibility::{self, ViewMap};
+use ligne::drawing::{Drawing, Unit};
+use ligne::pipeline::{Chain, FeatureLines, Mesh, Surface, View, ViewMap};
+use ligne::scene::{Geometry, Part};
+use ligne::{Camera, Scene, Style, SvgOptions, render};
 
 #[allow(dead_code)]
 #[path = "../examples/make_stress/scenes.rs"]
@@ -55,19 +47,19 @@ fn made(name: &str) -> Made {
     let scene = scene(name);
     let camera = Camera::three_quarter().fit(&scene);
     let style = Style::preset("ink").unwrap_or_default();
-    let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines).finer_for(&camera);
-    let view = View::new(&surface.mesh, &camera);
-    let lines = lines::extract(&surface, &view, &style.lines);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let view = View::of(&surface, &camera);
+    let lines = FeatureLines::of(&surface, &view, &style);
     Made { scene, camera, style, surface, view, lines }
 }
 
 impl Made {
     fn view_map(&self) -> ViewMap {
-        visibility::build(&self.surface.mesh, &self.view, &self.lines, &self.style.lines)
+        ViewMap::of(&self.surface, &self.view, &self.lines, &self.style)
     }
 
     fn drawing(&self) -> Drawing {
-        pipeline::render(&self.scene, &self.camera, &self.style).unwrap()
+        render(&self.scene, &self.camera, &self.style).unwrap()
     }
 }
 
@@ -78,65 +70,35 @@ fn fit(bencher: Bencher, name: &str) {
 }
 
 #[divan::bench(args = SCENES)]
-fn flatten(bencher: Bencher, name: &str) {
-    let made = made(name);
-    bencher.bench(|| black_box(&made.scene).to_soup());
-}
-
-#[divan::bench(args = SCENES)]
-fn edges(bencher: Bencher, name: &str) {
-    let soup = scene(name).to_soup();
-    bencher.bench(|| Edges::build(soup.positions.len(), black_box(&soup.triangles)));
-}
-
-#[divan::bench(args = SCENES)]
 fn mesh(bencher: Bencher, name: &str) {
     let scene = scene(name);
-    bencher.with_inputs(|| scene.to_soup()).bench_values(Mesh::build);
+    bencher.bench(|| Mesh::of(black_box(&scene)));
+}
+
+#[divan::bench(args = SCENES)]
+fn surface(bencher: Bencher, name: &str) {
+    let (mesh, style) = (Mesh::of(&scene(name)), Style::default());
+    bencher.with_inputs(|| mesh.clone()).bench_values(|mesh| Surface::of(mesh, &style));
 }
 
 #[divan::bench(args = SCENES)]
 fn view(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| View::new(black_box(&made.surface.mesh), &made.camera));
-}
-
-#[divan::bench(args = SCENES)]
-fn hard_edges(bencher: Bencher, name: &str) {
-    let made = made(name);
-    bencher.bench(|| HardEdges::find(black_box(&made.surface.mesh), made.style.lines.crease_deg));
-}
-
-#[divan::bench(args = SCENES)]
-fn edge_lines(bencher: Bencher, name: &str) {
-    let made = made(name);
-    bencher.bench(|| lines::edges::edge_lines::find(black_box(&made.surface), &made.view, &made.style.lines));
-}
-
-#[divan::bench(args = SCENES)]
-fn curvature(bencher: Bencher, name: &str) {
-    let made = made(name);
-    let smooth = SmoothNormals::rounded(&made.surface.mesh);
-    bencher.bench(|| interior::curvature(black_box(&made.surface.mesh), &smooth, &InsideOptions::default()));
+    bencher.bench(|| View::of(black_box(&made.surface), &made.camera));
 }
 
 #[divan::bench(args = SCENES)]
 fn suggestive_contours(bencher: Bencher, name: &str) {
     let made = made(name);
-    let smooth = SmoothNormals::rounded(&made.surface.mesh);
-    let options = LineOptions { kinds: vec![LineKind::Suggestive], ..LineOptions::default() };
-    let curvature = interior::curvature(&made.surface.mesh, &smooth, &options.inside);
-    bencher.bench(|| {
-        let mut lines = FeatureLines::default();
-        interior::find(black_box(&made.surface.mesh), &made.view, &smooth, &curvature, &options, &mut lines);
-        lines
-    });
+    let mut style = Style::default();
+    style.set("lines.kinds", "['suggestive']").unwrap();
+    bencher.bench(|| FeatureLines::of(black_box(&made.surface), &made.view, &style));
 }
 
 #[divan::bench(args = SCENES)]
 fn all_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::extract(black_box(&made.surface), &made.view, &made.style.lines));
+    bencher.bench(|| FeatureLines::of(black_box(&made.surface), &made.view, &made.style));
 }
 
 #[divan::bench(args = SCENES)]
@@ -145,15 +107,10 @@ fn visibility(bencher: Bencher, name: &str) {
     bencher.bench(|| black_box(&made).view_map());
 }
 
-/// The input map has no overlaps left, so this measures the search without the removal.
 #[divan::bench(args = SCENES)]
-fn doubles(bencher: Bencher, name: &str) {
-    let map = made(name).view_map();
-    let camera = Camera::named(NamedView::Front, UpAxis::Y).with_frame(1000.0, 1000.0);
-    let frame = Frame::new(&camera, DVec3::ZERO);
-    bencher
-        .with_inputs(|| map.clone())
-        .bench_refs(|map| coincident_lines::remove_coincident(map, 0.02, &frame, &MeshMetrics::default()));
+fn chains(bencher: Bencher, name: &str) {
+    let (map, style) = (made(name).view_map(), Style::default());
+    bencher.bench(|| Chain::link(black_box(&map), &style, Unit::Px));
 }
 
 #[divan::bench(args = SCENES)]

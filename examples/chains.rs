@@ -4,42 +4,35 @@
 //! cargo run --example chains [-- MODEL]
 //! ```
 
-use ligne::chains::{self, ChainOptions};
-use ligne::drawing::{Length, Unit};
-use ligne::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::mesh::Mesh;
-use ligne::view::View;
-use ligne::visibility;
-use ligne::{Camera, Error, Scene};
+use ligne::drawing::Unit;
+use ligne::pipeline::{Chain, FeatureLines, Mesh, Surface, View, ViewMap};
+use ligne::{Camera, Error, Scene, Style};
 
 fn main() -> Result<(), Error> {
     let teapot = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/teapot.obj");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| teapot.to_owned()))?;
-    let options = LineOptions::default();
+    let style = Style::default();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
-    let view = View::new(&surface.mesh, &camera);
-    let map = visibility::build(&surface.mesh, &view, &lines::extract(&surface, &view, &options), &options);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let view = View::of(&surface, &camera);
+    let map = ViewMap::of(&surface, &view, &FeatureLines::of(&surface, &view, &style), &style);
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();
     println!("{visible} visible view edges");
 
     // A length of 0 disables its step. Without any step, chains consist of mesh edges.
-    let off = ChainOptions {
-        smooth: Length::px(0.0),
-        simplify: Length::px(0.0),
-        tidy: Length::px(0.0),
-        fit: false,
-        ..ChainOptions::default()
-    };
+    let mut linked = style.clone();
+    linked.set("chain.smooth", 0)?.set("chain.simplify", 0)?.set("chain.tidy", 0)?.set("chain.fit", false)?;
+    let tidied = linked.clone().set("chain.tidy", 4)?.clone();
+    let simplified = tidied.clone().set("chain.simplify", 0.05)?.clone();
     let ways = [
-        ("only linked", off.clone()),
-        ("and tidied", ChainOptions { tidy: Length::px(4.0), ..off.clone() }),
-        ("and simplified", ChainOptions { tidy: Length::px(4.0), simplify: Length::px(0.05), ..off }),
-        ("as by default", ChainOptions::default()),
+        ("only linked", linked),
+        ("and tidied", tidied),
+        ("and simplified", simplified),
+        ("as by default", style),
     ];
-    for (name, options) in ways {
+    for (name, style) in ways {
         // Hidden contours are linked as well, but not drawn here.
-        let mut chains = chains::link(&map, &options, Unit::Px, HiddenLines::None);
+        let mut chains = Chain::link(&map, &style, Unit::Px);
         chains.retain(|chain| chain.invisibility == 0);
         let closed = chains.iter().filter(|chain| chain.closed).count();
         // The first element of a path moves the pen. Each further one is a line or a curve.

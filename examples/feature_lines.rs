@@ -4,16 +4,14 @@
 //! cargo run --example feature_lines [-- MODEL]
 //! ```
 
-use ligne::lines::{self, LineKind, LineOptions, Surface};
-use ligne::mesh::Mesh;
+use ligne::pipeline::{FeatureLines, LineKind, Mesh, Surface, View};
 use ligne::scene::NamedView;
-use ligne::view::View;
-use ligne::{Camera, Error, Scene};
+use ligne::{Camera, Error, Scene, Style};
 
 fn main() -> Result<(), Error> {
     let castle = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/castle.obj");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| castle.to_owned()))?;
-    let mesh = Mesh::build(scene.to_soup());
+    let mesh = Mesh::of(&scene);
 
     // Borders, creases, material boundaries and intersections depend on the model only. Contours depend on
     // the view.
@@ -22,12 +20,12 @@ fn main() -> Result<(), Error> {
     print!("{:12}", "view");
     kinds.iter().for_each(|kind| print!("{:>14}", kind.name()));
     println!();
-    let options = LineOptions { crease_deg: 30.0, ..LineOptions::default() };
-    let surface = Surface::new(mesh.clone(), &options);
+    let mut style = Style::default();
+    style.set("lines.crease_deg", 30)?;
+    let surface = Surface::of(mesh.clone(), &style);
     for named in [NamedView::Front, NamedView::Right, NamedView::Top, NamedView::Iso] {
-        let camera = Camera::named(named, scene.up).fit(&scene);
-        let view = View::new(&surface.mesh, &camera);
-        let found = lines::extract(&surface, &view, &options);
+        let view = View::of(&surface, &Camera::named(named, scene.up).fit(&scene));
+        let found = FeatureLines::of(&surface, &view, &style);
 
         print!("{:12}", named.name());
         for kind in kinds {
@@ -36,12 +34,13 @@ fn main() -> Result<(), Error> {
         println!();
     }
 
-    // Options are data: only sharp edges, and only very sharp ones.
-    let view = View::new(&mesh, &Camera::named(NamedView::Iso, scene.up).fit(&scene));
+    // Only sharp edges, and only very sharp ones.
+    style.set("lines.kinds", "['crease']")?;
     for crease_deg in [20.0, 40.0, 80.0] {
-        let options = LineOptions { kinds: vec![LineKind::Crease], crease_deg, ..LineOptions::default() };
-        let surface = Surface::new(mesh.clone(), &options);
-        let found = lines::extract(&surface, &view, &options);
+        style.set("lines.crease_deg", crease_deg)?;
+        let surface = Surface::of(mesh.clone(), &style);
+        let view = View::of(&surface, &Camera::named(NamedView::Iso, scene.up).fit(&scene));
+        let found = FeatureLines::of(&surface, &view, &style);
         println!("{} edges are creases of more than {crease_deg} degrees", found.segments.len());
     }
     Ok(())

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let scene = Scene::open(model)?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let style = Style::load("ink", &[])?;
+    let style = Style::load("ink")?;
     let drawing = render(&scene, &camera, &style)?;
     std::fs::write(&out, drawing.to_svg(&SvgOptions::default()))?;
 

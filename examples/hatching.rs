@@ -1,4 +1,4 @@
-//! Strokes of a hatching: how much of each tone they cover, and which ones a darker drawing keeps.
+//! Strokes of a hatching: their length in each tone, in two densities.
 //!
 //! ```sh
 //! cargo run --release --example hatching
@@ -6,43 +6,33 @@
 
 use std::collections::BTreeMap;
 
-use ligne::drawing::{Page, Unit};
-use ligne::hatching::clip::line_clip::length;
-use ligne::pipeline::Prepared;
-use ligne::{Camera, Scene, Style};
+use kurbo::{PathEl, Shape};
+use ligne::drawing::LayerKind;
+use ligne::{Camera, Scene, Style, render};
 
 fn main() -> Result<(), ligne::Error> {
     let scene = Scene::open("examples/models/teapot.obj")?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
 
     // Pen and ink, and the same style with more ink in every tone.
-    let pen = Style::load("pen", &[])?;
-    let darker = Style::load("pen", &["hatching.coverage=[0.44, 0.35, 0.26, 0]".to_owned()])?;
-    let mut kept: Vec<BTreeMap<u64, f64>> = Vec::new();
-    for style in [&pen, &darker] {
-        let prepared = Prepared::new(&scene, style);
-        let Some((ground, layers)) = prepared.hatch_strokes(&camera, page) else { continue };
-
-        // Each stroke stores the cell where it begins. A cell stores its tone bin.
-        let mut area: BTreeMap<u16, f64> = BTreeMap::new();
-        for cell in ground.cells.iter().filter(|cell| cell.facet != 0) {
-            *area.entry(cell.look.bin).or_default() += cell.area;
+    let pen = Style::load("pen")?;
+    let mut darker = pen.clone();
+    darker.set("hatching.coverage", "[0.44, 0.35, 0.26, 0]")?;
+    for (name, style) in [("pen", pen), ("darker", darker)] {
+        let drawing = render(&scene, &camera, &style)?;
+        let mut tones: BTreeMap<u16, (usize, f64)> = BTreeMap::new();
+        let layers = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Hatching);
+        for mark in layers.flat_map(|layer| &layer.marks) {
+            let strokes =
+                mark.path.elements().iter().filter(|part| matches!(part, PathEl::MoveTo(_))).count();
+            let (count, outline) = tones.entry(mark.provenance.tone.unwrap_or_default()).or_default();
+            *count += strokes;
+            *outline += mark.path.perimeter(0.01);
         }
-        let strokes = || layers.iter().flat_map(|layer| &layer.strokes);
-        let total: f64 = strokes().map(|stroke| length(&stroke.points)).sum();
-        println!("{} strokes, {total:.0} px long together", strokes().count());
-        for (bin, area) in area {
-            println!(
-                "  bin {bin}: {area:>7.0} px2, {:.0} % to be covered",
-                100.0 * style.hatch.coverage[usize::from(bin)]
-            );
+        println!("{name}:");
+        for (tone, (strokes, outline)) in tones {
+            println!("  tone {tone}: {strokes} strokes, {outline:.0} px of outline");
         }
-        kept.push(strokes().map(|stroke| (stroke.id, length(&stroke.points))).collect());
-    }
-    if let [light, dark] = &kept[..] {
-        let same = light.keys().filter(|id| dark.contains_key(id)).count();
-        println!("the darker drawing keeps {same} of {} strokes", light.len());
     }
     Ok(())
 }

@@ -4,8 +4,7 @@
 //! cargo run --example load [-- MODEL]
 //! ```
 
-use ligne::mesh::Mesh;
-use ligne::pipeline::report::mesh_defects;
+use ligne::pipeline::Mesh;
 use ligne::{Error, Scene};
 
 fn main() -> Result<(), Error> {
@@ -35,12 +34,9 @@ fn main() -> Result<(), Error> {
     println!("{} of {all} parts are no bolts", scene.parts.len());
 
     // The mesh holds all parts in world space. Vertices at the same position are welded.
-    let mesh = Mesh::build(scene.to_soup());
-    let cleaning = mesh.cleaning;
-    println!("{} faces, {} vertices, {} edges", mesh.triangles.len(), mesh.positions.len(), mesh.edges.len());
-    println!("  {} vertices were joined to another at their place", cleaning.welded);
-    println!("  {} edges have one face, {} three or more", cleaning.borders, cleaning.non_manifold);
-    for line in mesh_defects::of_mesh(&mesh, &scene).lines() {
+    let mesh = Mesh::of(&scene);
+    println!("{} faces, {} vertices", mesh.triangles.len(), mesh.positions.len());
+    for line in mesh.warnings(&scene).lines() {
         println!("  cleaning it: {line}");
     }
     Ok(())

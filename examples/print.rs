@@ -6,16 +6,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Cap, Composition, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, PlacedDrawing, PrintBoxes,
-    Provenance, StrokePaint, Unit,
+    Provenance, StrokePaint,
 };
 use ligne::export::{Inks, PdfOptions, PngOptions, Resolution, Standard, SvgOptions, to_pdf};
 use ligne::kurbo::{Affine, Ellipse, Point, Rect, Shape};
 use ligne::page::PageFile;
 use ligne::text::{Font, Setting, TextBlock};
-use ligne::{Camera, Error, Scene, Style, render};
+use ligne::{Camera, Colour, Error, Scene, Style, render};
 
 const RED: Colour = Colour::rgb(228, 0, 43);
 
@@ -73,16 +72,12 @@ fn page(title: &str, words: &str) -> Result<Composition, Error> {
     let (width, height, bleed) = (120.0, 80.0, 3.0);
     let whole = Rect::new(0.0, 0.0, width + 2.0 * bleed, height + 2.0 * bleed);
     let trim = whole.inset(-bleed);
-    let sheet = Page {
-        width: whole.width(),
-        height: whole.height(),
-        unit: Unit::Mm,
-        background: Some(Colour::rgb(255, 246, 214)),
-    };
+    let sheet =
+        Page { background: Some(Colour::rgb(255, 246, 214)), ..Page::mm(whole.width(), whole.height()) };
     let mut items = Vec::new();
     for (number, style) in ["toon", "ink"].into_iter().enumerate() {
         let camera = Camera::three_quarter().fit(&scene);
-        let drawing = render(&scene, &camera, &Style::load(style, &[])?)?;
+        let drawing = render(&scene, &camera, &Style::load(style)?)?;
         let frame = Rect::new(8.0, 8.0, 62.0, 78.0) + ligne::kurbo::Vec2::new(56.0 * number as f64, 0.0);
         // The drawing is slightly larger than its frame.
         let scale = frame.height() / drawing.page.height * 1.2;

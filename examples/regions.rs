@@ -18,7 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::open(&model)?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     // Regions end exactly at their borders, so that their areas add up.
-    let style = Style::load("toon", &["fills.seams=exact".to_owned()])?;
+    let mut style = Style::load("toon")?;
+    style.set("fills.seams", "exact")?;
     let drawing = render(&scene, &camera, &style)?;
 
     // Regions are marks in separate layers below the lines. If the style casts shadows, shaded regions are in

@@ -1,4 +1,4 @@
-//! Three ways to make a style: changes of a built-in style, options set in code, and a style sheet.
+//! Three ways to make a style: keys set on a built-in style, a style sheet, and a function that picks pens.
 //!
 //! ```sh
 //! cargo run --example styles [-- FOLDER]
@@ -6,9 +6,8 @@
 
 use std::path::PathBuf;
 
-use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
-use ligne::lines::{HiddenLines, LineKind};
+use ligne::style::LineKind;
 use ligne::{Camera, Scene, Style, SvgOptions, render};
 
 const BLUEPRINT: &str = r##"
@@ -32,19 +31,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
 
     // The same as `--style technical --set lines.crease_deg=20` on the command line.
-    let changed = Style::load("technical", &["lines.crease_deg=20".to_owned()])?;
-
-    // Each stage has a struct of options with public fields. A style combines them.
-    let mut coded = Style { background: Some(Colour::rgb(0xfb, 0xf5, 0xe6)), ..Style::default() };
-    coded.lines.hidden = HiddenLines::Solid;
-    coded.lines.kinds = vec![LineKind::Contour, LineKind::Crease];
-    coded.chain.smooth = Length::px(1.0);
+    let mut changed = Style::load("technical")?;
+    changed.set("lines.crease_deg", 20)?;
 
     // A style sheet is TOML, and can also define pens. Errors show the line.
     let sheet = Style::from_toml(BLUEPRINT)?;
     if let Err(error) = Style::from_toml("[lines]\ncrease_dg = 20\n") {
         println!("{error}");
     }
+
+    // A program can change the pen of each line: by kind, part, length, curvature, depth or light.
+    let coded = Style::load("ink")?.with_pens(|line, pen| {
+        let outline = line.kind == LineKind::Contour;
+        pen.width = Length::px(if outline { 3.0 } else { 2.0 - 1.5 * line.depth });
+    });
 
     for (name, style) in [("changed", changed), ("coded", coded), ("blueprint", sheet)] {
         let picture = folder.join(format!("styles-{name}.svg"));

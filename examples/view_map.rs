@@ -6,23 +6,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligne::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::mesh::Mesh;
-use ligne::view::View;
-use ligne::visibility::{self, ViewVertexKind};
-use ligne::{Camera, Error, Scene};
+use ligne::pipeline::{FeatureLines, Mesh, Surface, View, ViewMap, ViewVertexKind};
+use ligne::{Camera, Error, Scene, Style};
 
 fn main() -> Result<(), Error> {
     let bracket = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bracket.stl");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| bracket.to_owned()))?;
 
     // Hidden lines are dropped and not counted unless they are requested.
-    let options = LineOptions { hidden: HiddenLines::Solid, ..LineOptions::default() };
+    let mut style = Style::default();
+    style.set("lines.hidden", "solid")?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
-    let view = View::new(&surface.mesh, &camera);
-    let feature_lines = lines::extract(&surface, &view, &options);
-    let map = visibility::build(&surface.mesh, &view, &feature_lines, &options);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let view = View::of(&surface, &camera);
+    let feature_lines = FeatureLines::of(&surface, &view, &style);
+    let map = ViewMap::of(&surface, &view, &feature_lines, &style);
 
     // Each edge of the map is a straight piece of one line with constant invisibility.
     let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();

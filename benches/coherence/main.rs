@@ -26,7 +26,7 @@ use change::Change;
 use inked::Inked;
 use ligne::animate::{Animator, FrameSpec, Timeline, Turntable, film_points};
 use ligne::animation::{Playing, Rigged};
-use ligne::drawing::{Page, Unit};
+use ligne::drawing::Page;
 use ligne::glam::DAffine3;
 use ligne::{Camera, Style};
 use seen::Seen;
@@ -75,7 +75,7 @@ fn main() {
             continue;
         };
         for style in &styles {
-            let sheet = Style::load(style, &[]).expect("a style");
+            let sheet = Style::load(style).expect("a style");
             print_changes(file.rsplit('/').next().unwrap_or(file), style, &changes(&rigged, clip, &sheet));
         }
     }
@@ -120,7 +120,7 @@ fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
     let poses: Vec<_> = timeline.drawn_frames().map(|frame| (playing(frame), moved(frame))).collect();
     let points = film_points(rigged, &poses).expect("poses");
     let camera = Camera::three_quarter_of(rigged.scene.up).fit_points(&points, 0.05);
-    let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+    let page = Page::px(camera.width, camera.height);
     let animator = Animator::new(rigged, style);
     let of = |frame: usize| {
         let camera = table.map_or(camera, |table| table.camera(&camera, frame));

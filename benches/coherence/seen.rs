@@ -158,8 +158,7 @@ fn spot(position: DVec3, camera: &Camera) -> Spot {
     let depth = offset.dot(forward);
     let scale = match camera.projection {
         Projection::Perspective { fov_y_deg } => {
-            camera.height
-                / (2.0 * ligne::geometry::numbers::portable_math::tan(fov_y_deg.to_radians() / 2.0) * depth)
+            camera.height / (2.0 * libm::tan(fov_y_deg.to_radians() / 2.0) * depth)
         }
         Projection::Orthographic { height } => camera.height / height,
     };

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec3;
-use ligne::mesh::{Edges, Soup};
+use ligne::internals::mesh::{Edges, Soup};
+use ligne::internals::view::Frame;
 use ligne::scene::{Camera, Scene};
-use ligne::view::Frame;
 
 /// Side length of the depth raster, pixels.
 const SIDE: usize = 1024;

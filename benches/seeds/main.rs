@@ -15,11 +15,11 @@ mod plain;
 
 use std::time::Instant;
 
+use libm::{cos, sin};
 use ligne::animate::{Animator, DetailLevel, FrameSpec, Timeline, Turntable, film_points};
 use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Page, Unit};
 use ligne::edit::simplify::Detail;
-use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::glam::{DAffine3, DVec3};
 use ligne::{Camera, Scene, Style, SvgOptions};
 
@@ -83,8 +83,11 @@ fn main() {
 }
 
 fn styled(name: &str, set: &[&str]) -> Style {
-    let set: Vec<String> = set.iter().map(|&own| own.to_owned()).collect();
-    Style::load(name, &set).expect("a style")
+    let mut style = Style::load(name).expect("a style");
+    for (key, value) in set.iter().filter_map(|set| set.split_once('=')) {
+        style.set(key, value).expect("a key of styles");
+    }
+    style
 }
 
 fn heading(first: &str) {

@@ -14,10 +14,7 @@ pub fn shaded(positions: &[DVec3], triangles: &[[u32; 3]], camera: &Camera) -> V
         let depth = offset.dot(forward);
         let scale = match camera.projection {
             Projection::Perspective { fov_y_deg } => {
-                camera.height
-                    / (2.0
-                        * ligne::geometry::numbers::portable_math::tan(fov_y_deg.to_radians() / 2.0)
-                        * depth)
+                camera.height / (2.0 * libm::tan(fov_y_deg.to_radians() / 2.0) * depth)
             }
             Projection::Orthographic { height } => camera.height / height,
         };

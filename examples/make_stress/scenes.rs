@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Welded triangles, counter-clockwise from outside; y is up.
 #[derive(Debug, Clone, Default)]
-pub struct Triangles {
+pub(crate) struct Triangles {
     pub points: Vec<[f64; 3]>,
     pub faces: Vec<[u32; 3]>,
     /// First face of each object; empty for a single object.
@@ -64,7 +64,7 @@ fn chance(x: i64, y: i64, salt: u64) -> f64 {
 
 /// `side` x `side` houses in blocks of five with streets in between. Some touch, none overlap. 300 per side
 /// give 1.08 million triangles.
-pub fn city(side: u32) -> Triangles {
+pub(crate) fn city(side: u32) -> Triangles {
     let mut out = Triangles::default();
     let middle = f64::from(side) / 2.0;
     for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
@@ -105,7 +105,7 @@ fn is_solid(cell: [i64; 3], size: i64) -> bool {
 
 /// Surface of a Menger sponge in the unit cube, with one square per outer side of a smallest cube. Level 4
 /// has 672,768 triangles. Where solid cells only meet along an edge, four squares share it.
-pub fn menger(level: u32) -> Triangles {
+pub(crate) fn menger(level: u32) -> Triangles {
     let size = 3_i64.pow(level);
     let mut out = Triangles::default();
     let mut known: BTreeMap<[i64; 3], u32> = BTreeMap::new();
@@ -134,7 +134,7 @@ pub fn menger(level: u32) -> Triangles {
 
 /// Unit sphere of 12 `n`² triangles: the sides of a cube with `n` squares along each, projected onto the
 /// sphere.
-pub fn sphere(n: u32) -> Triangles {
+pub(crate) fn sphere(n: u32) -> Triangles {
     let mut out = Triangles::default();
     let mut known: BTreeMap<[i64; 3], u32> = BTreeMap::new();
     let size = i64::from(n);
@@ -174,7 +174,7 @@ fn noise(x: f64, z: f64, salt: u64) -> f64 {
 }
 
 /// Hills over a square of side 100, with `n` squares along each side: 2 `n`² triangles, open at the border.
-pub fn terrain(n: u32) -> Triangles {
+pub(crate) fn terrain(n: u32) -> Triangles {
     let mut out = Triangles::default();
     for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j))) {
         let [x, z] = [i, j].map(|k| 100.0 * f64::from(k) / f64::from(n) - 50.0);
@@ -200,7 +200,7 @@ fn turned(turns: f64) -> [f64; 2] {
 
 /// Trefoil of a round tube with `n` squares around it: 8 `n`² triangles. 100 give 80 thousand, 1,118 give ten
 /// million.
-pub fn knot(n: u32) -> Triangles {
+pub(crate) fn knot(n: u32) -> Triangles {
     let middle = |s: f64| {
         let ([c2, s2], [c3, s3]) = (turned(2.0 * s), turned(3.0 * s));
         let away = 2.0 + c3;
@@ -226,7 +226,7 @@ fn normalized(a: [f64; 3]) -> [f64; 3] {
 }
 
 /// Two nested shells, folded and rough like a scan: 24 `n`² triangles, 1.2 million for 224.
-pub fn nested(n: u32) -> Triangles {
+pub(crate) fn nested(n: u32) -> Triangles {
     let mut out = Triangles::default();
     for (salt, radius) in [(40_u64, 1.0), (50, 0.86)] {
         let mut shell = sphere(n);
@@ -247,7 +247,7 @@ pub fn nested(n: u32) -> Triangles {
 }
 
 /// Plate with 83 parts of five kinds side by side: 83 times 8 `n`² triangles, one million for 39.
-pub fn printed(n: u32) -> Triangles {
+pub(crate) fn printed(n: u32) -> Triangles {
     let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();
     let mut out = Triangles::default();
     for k in 0..83_u32 {
@@ -279,7 +279,7 @@ fn printed_part(kind: u32, n: u32) -> Triangles {
 
 /// 67 objects, some inside each other, with every face doubled in both orientations: 67 times 16 `n`²
 /// triangles, 347 thousand for 18.
-pub fn doubled(n: u32) -> Triangles {
+pub(crate) fn doubled(n: u32) -> Triangles {
     let mut single = Triangles::default();
     let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();
     for k in 0..67_u32 {

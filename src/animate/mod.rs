@@ -146,7 +146,7 @@ impl<'a> Animator<'a> {
         let mut watch = Stopwatch::start();
         let resting = self.resting();
         if playing.is_empty() && !self.rigged.hides() {
-            return resting.still().draw(camera, *page, None);
+            return resting.still().draw(camera, *page);
         }
         watch.lap_ms();
         let scene = motion::posed(self.rigged, playing, &self.style.motion, self.style.seed)?;
@@ -157,7 +157,7 @@ impl<'a> Animator<'a> {
         let pose = watch.lap_ms();
         let prepared = resting.posed_after(&scene, || self.before(playing));
         let preparing = watch.lap_ms();
-        let (drawing, mut report) = prepared.draw(camera, *page, None)?;
+        let (drawing, mut report) = prepared.draw(camera, *page)?;
         report.stages_ms.pose = pose;
         report.stages_ms.topology += preparing;
         Ok((drawing, report))

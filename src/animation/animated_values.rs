@@ -16,7 +16,7 @@ use crate::scene::{Camera, Light, LightKind, Projection};
 pub(crate) struct AnimatedValues<'a>(BTreeMap<AnimationTarget, Vec<(&'a Track, f64, f64)>>);
 
 impl<'a> AnimatedValues<'a> {
-    pub fn new(clips: &'a [Clip], playing: &[Playing]) -> Self {
+    pub(crate) fn new(clips: &'a [Clip], playing: &[Playing]) -> Self {
         let mut moved: BTreeMap<AnimationTarget, Vec<_>> = BTreeMap::new();
         for Playing { clip, time, weight } in playing.iter().filter(|playing| playing.weight > 0.0) {
             let channels = clips.get(*clip).into_iter().flat_map(|clip| &clip.channels);
@@ -41,7 +41,7 @@ impl<'a> AnimatedValues<'a> {
     }
 
     /// Camera `number` of the file with its present properties.
-    pub fn camera(&self, number: usize, mut camera: Camera) -> Camera {
+    pub(crate) fn camera(&self, number: usize, mut camera: Camera) -> Camera {
         let of = |lens, rest: f64| Some(self.of(AnimationTarget::Camera(number, lens), [rest])?[0]);
         let positive = |value: &f64| *value > 0.0;
         let aspect = camera.width / camera.height;
@@ -71,7 +71,7 @@ impl<'a> AnimatedValues<'a> {
     }
 
     /// Sets the present properties of light `number` of the file.
-    pub fn light(&self, number: usize, light: &mut Light) {
+    pub(crate) fn light(&self, number: usize, light: &mut Light) {
         let of = |shine, rest: f64| Some(self.of(AnimationTarget::Light(number, shine), [rest])?[0]);
         if let Some(colour) =
             self.of(AnimationTarget::Light(number, LightProperty::Colour), light.colour.map(f64::from))
@@ -91,7 +91,7 @@ impl<'a> AnimatedValues<'a> {
     }
 
     /// Present values of a material; `None` if nothing animates them.
-    pub fn material(&self, number: usize, rest: &MaterialFactors) -> Option<MaterialFactors> {
+    pub(crate) fn material(&self, number: usize, rest: &MaterialFactors) -> Option<MaterialFactors> {
         let target = |finish| AnimationTarget::Material(number, finish);
         let one = |finish, rest: f32| Some(self.of(target(finish), [f64::from(rest)])?[0] as f32);
         let base = self.of(target(MaterialProperty::Base), rest.base.map(f64::from));

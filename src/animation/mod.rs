@@ -20,23 +20,23 @@
 //! holds the smallest quaternion.
 
 mod animated_values;
-pub mod clip;
-pub mod deformable_mesh;
-pub mod material_factors;
-pub mod posed_vertices;
-pub mod rig;
+pub(crate) mod clip;
+pub(crate) mod deformable_mesh;
+pub(crate) mod material_factors;
+pub(crate) mod posed_vertices;
+pub(crate) mod rig;
 mod tolerances;
-pub mod track;
+pub(crate) mod track;
 
-pub use clip::{
-    AnimationTarget, CameraProperty, Clip, ClipChannel, LightProperty, MaterialProperty, NodeProperty,
-    Playing,
+pub(crate) use clip::{
+    AnimationTarget, CameraProperty, ClipChannel, LightProperty, MaterialProperty, NodeProperty,
 };
-pub use deformable_mesh::DeformableMesh;
-pub use material_factors::MaterialFactors;
-pub use posed_vertices::PosedVertices;
-pub use rig::Rig;
-pub use track::{Interpolation, Track};
+pub use clip::{Clip, Playing};
+pub(crate) use deformable_mesh::DeformableMesh;
+pub(crate) use material_factors::MaterialFactors;
+pub(crate) use posed_vertices::PosedVertices;
+pub(crate) use rig::Rig;
+pub(crate) use track::{Interpolation, Track};
 
 use std::collections::BTreeSet;
 

@@ -131,7 +131,7 @@ impl Track {
 
 /// Normalises a quaternion to a rotation; `None` if its length is near zero.
 #[must_use]
-pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
+pub(crate) fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
     let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
     // Files round the components. Other viewers normalise quaternions of any length as well.
     (length.is_finite() && length > tolerances::MIN_QUATERNION_LENGTH)

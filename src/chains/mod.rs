@@ -14,17 +14,17 @@
 pub(crate) mod chain_identity;
 pub(crate) mod fit;
 mod link;
-pub mod options;
+pub(crate) mod options;
 mod sample;
 mod sampled_line;
 #[cfg(test)]
 mod tests;
-pub mod tidy;
+pub(crate) mod tidy;
 mod tolerances;
 
-pub use options::ChainOptions;
-pub use sample::{Anchor, LineBackdrop, Sample};
-pub use tidy::removed_lines::{RemovalReason, RemovedLine};
+pub(crate) use options::ChainOptions;
+pub(crate) use sample::{Anchor, LineBackdrop, Sample};
+pub(crate) use tidy::removed_lines::{RemovalReason, RemovedLine};
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ pub struct Chain {
     /// Points in user units of the page, x right, y down. A closed chain does not repeat its first point.
     pub points: Vec<Point>,
     /// One per point.
-    pub samples: Vec<Sample>,
+    pub(crate) samples: Vec<Sample>,
     /// Whether the last point joins the first.
     pub closed: bool,
     /// Kind of line.
@@ -60,24 +60,24 @@ pub struct Chain {
     /// the chain has the smallest.
     pub invisibility: u16,
     /// Whether all of it is seen through a material that is not opaque.
-    pub veiled: bool,
+    pub(crate) veiled: bool,
     /// Whether both surfaces that meet in it face the camera.
-    pub both_seen: bool,
+    pub(crate) both_seen: bool,
     /// Part that it belongs to.
     pub part: PartId,
     /// Material of the nearer surface.
     pub material: MaterialId,
     /// Whether it lies on a smooth surface.
-    pub smooth: bool,
+    pub(crate) smooth: bool,
     /// Whether a surface covers the line at its first and last point. There the line ends in the drawing, but
     /// continues on the surface.
-    pub covered: [bool; 2],
+    pub(crate) covered: [bool; 2],
     /// Smallest number of its feature segments.
-    pub segment: u32,
+    pub(crate) segment: u32,
     /// Number that stays the same from frame to frame; 0 if not computed.
-    pub identity: u64,
+    pub(crate) identity: u64,
     /// Cells of the rest pose that it passes, as ascending numbers; empty if not computed.
-    pub rest_cells: Arc<[u64]>,
+    pub(crate) rest_cells: Arc<[u64]>,
     /// Path to draw: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
@@ -85,7 +85,7 @@ pub struct Chain {
 /// How far the rounding of the file moves corners on the page, user units, one per part. Known for parallel
 /// views only.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Rounding<'a>(pub Option<&'a [f64]>);
+pub(crate) struct Rounding<'a>(pub Option<&'a [f64]>);
 
 impl Rounding<'_> {
     /// Tolerances of arcs for the parts of a line.
@@ -112,27 +112,14 @@ const DIRECTION_WINDOW_PX: f64 = 3.0;
 ///   inside a straight line are left out.
 /// - Chains are in the order of their feature segments.
 #[must_use]
-pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
+pub(crate) fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
     link_with(map, (options, Rounding::default()), unit, hidden, None, &mut RemovalLog::default())
 }
 
-/// Joins chains as [`link::routes`] does, but tidying draws no line across another surface that hides it, however
-/// thin.
+/// Joins chains as [`link()`] does, but tidying draws no line across another surface that hides it, however
+/// thin. Makes circular arcs where the options and the rounding of corners allow.
 #[must_use]
-pub fn link_with_occlusion(
-    occlusion: &GapOcclusion,
-    map: &ViewMap,
-    options: &ChainOptions,
-    unit: Unit,
-    hidden: HiddenLines,
-) -> Vec<Chain> {
-    link_with_arcs(occlusion, map, (options, Rounding::default()), unit, hidden)
-}
-
-/// Joins chains as [`link_with_occlusion`] does, with circular arcs where the options and the rounding of corners
-/// allow.
-#[must_use]
-pub fn link_with_arcs(
+pub(crate) fn link_with_arcs(
     occlusion: &GapOcclusion,
     map: &ViewMap,
     (options, rounding): (&ChainOptions, Rounding),
@@ -142,9 +129,9 @@ pub fn link_with_arcs(
     link_with(map, (options, rounding), unit, hidden, Some(occlusion), &mut RemovalLog::default())
 }
 
-/// Joins chains as [`link_with_occlusion`] does, and returns the lines that tidying dropped, in that order.
+/// Joins chains as [`link()`] does, and returns the lines that tidying dropped, in that order.
 #[must_use]
-pub fn link_with_removed(
+pub(crate) fn link_with_removed(
     occlusion: Option<&GapOcclusion>,
     map: &ViewMap,
     options: &ChainOptions,

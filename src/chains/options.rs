@@ -9,7 +9,7 @@ use crate::drawing::{Length, Unit};
 /// chain is exactly the projected mesh edges.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct ChainOptions {
+pub(crate) struct ChainOptions {
     /// How far smoothing may move a point of a line on a smooth surface. Default: 0.5 px.
     pub smooth: Length,
     /// How far a simplified line may lie from the points that are left out. Default: 0.05 px.
@@ -34,7 +34,7 @@ impl ChainOptions {
     /// Options for a page to scale or a DXF file: no point moves by more than 0.02 mm, and corners on one
     /// circle become arcs.
     #[must_use]
-    pub fn to_scale(self) -> Self {
+    pub(crate) fn to_scale(self) -> Self {
         let within = |length: Length, most: f64| {
             if length.in_unit(Unit::Mm) > most { Length { value: most, unit: Unit::Mm } } else { length }
         };

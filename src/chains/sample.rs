@@ -4,7 +4,7 @@ use crate::colour::srgb::Colour;
 
 /// Properties of the scene at one point of a chain. Strokes read these and need no access to the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub(crate) struct Sample {
     /// Distance from the camera along the optical axis, world units.
     pub depth: f64,
     /// Strength of the line, 0 to 1. Only suggestive contours, ridges and valleys are weaker than 1.
@@ -25,7 +25,7 @@ pub struct Sample {
 
 /// Position on the model that does not depend on pose and view. Known only if computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Anchor {
+pub(crate) struct Anchor {
     /// Position in the part's rest pose, in diagonals of its bounding box, relative to its centre.
     pub rest_position: [f32; 3],
     /// Length of one such diagonal on the page at this point, user units; 0 if unknown.
@@ -35,13 +35,13 @@ pub struct Anchor {
 impl Anchor {
     /// Whether the anchor was computed.
     #[must_use]
-    pub fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         self.scale > 0.0
     }
 
     /// Linear interpolation between two anchors at parameter `t`.
     #[must_use]
-    pub fn lerp(self, to: Self, t: f64) -> Self {
+    pub(crate) fn lerp(self, to: Self, t: f64) -> Self {
         if !(self.is_known() && to.is_known()) {
             return if self.is_known() { self } else { to };
         }
@@ -53,7 +53,7 @@ impl Anchor {
 
 /// Colours next to a line at one of its points. Known only if computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LineBackdrop {
+pub(crate) struct LineBackdrop {
     /// Unlit colour of the surface that the line belongs to.
     pub colour: Option<Colour>,
     /// Distance to both sides of the line that is covered by spot blacks only, user units.
@@ -63,7 +63,7 @@ pub struct LineBackdrop {
 impl Sample {
     /// A sample with known depth and strength, and defaults for the rest.
     #[must_use]
-    pub const fn new(depth: f64, strength: f64) -> Self {
+    pub(crate) const fn new(depth: f64, strength: f64) -> Self {
         Self {
             depth,
             strength,
@@ -77,7 +77,7 @@ impl Sample {
 
     /// Linear interpolation between two samples at parameter `t`.
     #[must_use]
-    pub fn lerp(self, to: Self, t: f64) -> Self {
+    pub(crate) fn lerp(self, to: Self, t: f64) -> Self {
         let mix = |from: f64, to: f64| from + (to - from) * t;
         Self {
             depth: mix(self.depth, to.depth),

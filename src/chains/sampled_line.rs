@@ -26,7 +26,7 @@ pub(crate) struct SampledLine {
 
 impl SampledLine {
     /// Polyline of a route, without repeated points. If `noisy`, all of it counts as smooth.
-    pub fn of_route(map: &ViewMap, steps: &[DirectedEdge], closed: bool, noisy: bool) -> Self {
+    pub(crate) fn of_route(map: &ViewMap, steps: &[DirectedEdge], closed: bool, noisy: bool) -> Self {
         let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
         for step in steps {
             let vertex = &map.vertices[step.from(map).index()];
@@ -56,12 +56,19 @@ impl SampledLine {
     }
 
     /// Appends a point of the default part, or updates the last point if it has the same position.
-    pub fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
+    pub(crate) fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
         self.push_of(point, sample, soft, silhouette, PartId::default());
     }
 
     /// Appends a point, or updates the last point if it has the same position.
-    pub fn push_of(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool, part: PartId) {
+    pub(crate) fn push_of(
+        &mut self,
+        point: Point,
+        sample: Sample,
+        soft: bool,
+        silhouette: bool,
+        part: PartId,
+    ) {
         if self.points.last() == Some(&point) {
             if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
                 *was_soft = soft;
@@ -80,7 +87,7 @@ impl SampledLine {
     }
 
     /// Removes the last point.
-    pub fn pop(&mut self) {
+    pub(crate) fn pop(&mut self) {
         self.points.pop();
         self.samples.pop();
         self.soft.pop();
@@ -88,17 +95,17 @@ impl SampledLine {
         self.part.pop();
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
 
     /// Whether any side lies on a smooth surface.
-    pub fn is_soft(&self) -> bool {
+    pub(crate) fn is_soft(&self) -> bool {
         self.soft.iter().any(|soft| *soft)
     }
 
     /// Length weighted by strength.
-    pub fn strength(&self) -> f64 {
+    pub(crate) fn strength(&self) -> f64 {
         let n = self.len();
         let sides = if self.closed { n } else { n.saturating_sub(1) };
         let side = |i: usize| {
@@ -110,12 +117,12 @@ impl SampledLine {
     }
 
     /// Greatest strength.
-    pub fn peak(&self) -> f64 {
+    pub(crate) fn peak(&self) -> f64 {
         self.samples.iter().map(|sample| sample.strength).fold(0.0, f64::max)
     }
 
     /// The line opened at point `start`, which is repeated at the end.
-    pub fn opened_at(&self, start: usize) -> Self {
+    pub(crate) fn opened_at(&self, start: usize) -> Self {
         let n = self.len();
         let index = (0..=n).map(|i| (start + i) % n.max(1));
         let index: Vec<usize> = if n == 0 { Vec::new() } else { index.collect() };
@@ -123,7 +130,7 @@ impl SampledLine {
     }
 
     /// Points `first..=last` as an open line.
-    pub fn slice(&self, first: usize, last: usize) -> Self {
+    pub(crate) fn slice(&self, first: usize, last: usize) -> Self {
         Self {
             points: self.points[first..=last].to_vec(),
             samples: self.samples[first..=last].to_vec(),
@@ -135,7 +142,7 @@ impl SampledLine {
     }
 
     /// The points at the given indices, in that order.
-    pub fn pick(&self, index: &[usize]) -> Self {
+    pub(crate) fn pick(&self, index: &[usize]) -> Self {
         Self {
             points: index.iter().map(|i| self.points[*i]).collect(),
             samples: index.iter().map(|i| self.samples[*i]).collect(),

@@ -21,7 +21,7 @@ pub(crate) fn load_style(
     sets: &[String],
     background: Option<Option<Colour>>,
 ) -> Result<Style, Error> {
-    let mut style = Style::load(name_or_path, sets)?;
+    let mut style = Style::load_with(name_or_path, sets)?;
     if let Some(background) = background {
         style.background = background;
     }

@@ -13,13 +13,13 @@ use super::srgb::Colour;
 /// Style sheets write one number for all three (0 to 2), a list of three numbers, or a colour whose channels
 /// count from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ColourFactor(pub [f64; 3]);
+pub(crate) struct ColourFactor(pub [f64; 3]);
 
 impl ColourFactor {
     /// Multiplies every channel by 0: the result is black.
-    pub const NONE: Self = Self([0.0; 3]);
+    pub(crate) const NONE: Self = Self([0.0; 3]);
     /// Leaves colours unchanged.
-    pub const ALL: Self = Self([1.0; 3]);
+    pub(crate) const ALL: Self = Self([1.0; 3]);
 }
 
 impl From<Colour> for ColourFactor {

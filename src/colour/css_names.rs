@@ -2,7 +2,7 @@
 
 /// Red, green and blue of a CSS colour name, in any letter case.
 #[must_use]
-pub fn css_colour(name: &str) -> Option<[u8; 3]> {
+pub(crate) fn css_colour(name: &str) -> Option<[u8; 3]> {
     let name = name.to_ascii_lowercase();
     let at = NAMES.binary_search_by(|(known, _)| (*known).cmp(name.as_str())).ok()?;
     let [_, r, g, b] = NAMES.get(at)?.1.to_be_bytes();

@@ -15,7 +15,7 @@ const MAX_CROSSINGS: usize = 1 << 20;
 
 /// Darkness of a picture on white paper, 0 to 1, averaged over any rectangle.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DarknessMap {
+pub(crate) struct DarknessMap {
     /// Width in pixels, at least 1.
     pub width: usize,
     /// Height in pixels, at least 1.
@@ -26,7 +26,7 @@ pub struct DarknessMap {
 
 /// Options for tracing outlines.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OutlineTracing {
+pub(crate) struct OutlineTracing {
     /// Pixels darker than this are inside, 0 to 1.
     pub level: f64,
     /// Size of a pixel in the result, along x and y.
@@ -42,7 +42,7 @@ pub struct OutlineTracing {
 impl DarknessMap {
     /// Darkness of the pixels of a picture.
     #[must_use]
-    pub fn of(picture: &Picture) -> Self {
+    pub(crate) fn of(picture: &Picture) -> Self {
         Self::of_values(picture.width, picture.height, |column, row| {
             let c = picture.at(column, row);
             let grey = (f64::from(c.r) + f64::from(c.g) + f64::from(c.b)) / 765.0;
@@ -52,7 +52,7 @@ impl DarknessMap {
 
     /// Builds the table from the darkness of each pixel.
     #[must_use]
-    pub fn of_values(width: usize, height: usize, value: impl Fn(usize, usize) -> f64) -> Self {
+    pub(crate) fn of_values(width: usize, height: usize, value: impl Fn(usize, usize) -> f64) -> Self {
         let stride = width + 1;
         let mut sums = vec![0.0; stride * (height + 1)];
         for row in 0..height {
@@ -76,14 +76,14 @@ impl DarknessMap {
 
     /// Mean darkness of a rectangle within the picture.
     #[must_use]
-    pub fn mean(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    pub(crate) fn mean(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
         let sum = self.sum(x1, y1) - self.sum(x0, y1) - self.sum(x1, y0) + self.sum(x0, y0);
         sum / ((x1 - x0) * (y1 - y0)).max(f64::MIN_POSITIVE)
     }
 
     /// Downsamples to at most `columns` by `rows` pixels.
     #[must_use]
-    pub fn at_most(&self, columns: usize, rows: usize) -> Self {
+    pub(crate) fn at_most(&self, columns: usize, rows: usize) -> Self {
         let (width, height) = (columns.clamp(1, self.width), rows.clamp(1, self.height));
         let [x, y] = [self.width as f64 / width as f64, self.height as f64 / height as f64];
         Self::of_values(width, height, |column, row| {
@@ -97,7 +97,7 @@ impl DarknessMap {
     /// Outlines are closed and do not repeat their first point. Dark is always on the same side, so holes
     /// turn the other way than islands. Returns `None` if there are too many points.
     #[must_use]
-    pub fn outlines(&self, tracing: &OutlineTracing) -> Option<Vec<Vec<Point>>> {
+    pub(crate) fn outlines(&self, tracing: &OutlineTracing) -> Option<Vec<Vec<Point>>> {
         let (width, height) = (self.width as i64, self.height as i64);
         let inner =
             |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };

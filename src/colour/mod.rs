@@ -5,9 +5,9 @@
 //! perceptually uniform space (Ottosson 2020); [`pixel_picture`] decoded PNG, JPEG and WebP files;
 //! [`darkness_map`] the darkness of a picture as a summed-area table, and outlines of its dark parts.
 
-pub mod colour_factor;
-pub mod css_names;
-pub mod darkness_map;
-pub mod oklab;
-pub mod pixel_picture;
-pub mod srgb;
+pub(crate) mod colour_factor;
+pub(crate) mod css_names;
+pub(crate) mod darkness_map;
+pub(crate) mod oklab;
+pub(crate) mod pixel_picture;
+pub(crate) mod srgb;

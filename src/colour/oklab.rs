@@ -6,11 +6,11 @@ use super::srgb::{Colour, linear};
 use crate::geometry::numbers::portable_math;
 
 /// Lightness, green to red, blue to yellow.
-pub type Oklab = [f32; 3];
+pub(crate) type Oklab = [f32; 3];
 
 /// Converts linear light, each channel 0 to 1.
 #[must_use]
-pub fn of_linear([r, g, b]: [f32; 3]) -> Oklab {
+pub(crate) fn of_linear([r, g, b]: [f32; 3]) -> Oklab {
     let [r, g, b] = [r, g, b].map(f64::from);
     let l = portable_math::cbrt(0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b);
     let m = portable_math::cbrt(0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b);
@@ -25,20 +25,20 @@ pub fn of_linear([r, g, b]: [f32; 3]) -> Oklab {
 
 /// Table from an sRGB channel, 0 to 255, to linear light.
 #[must_use]
-pub fn linear_table() -> [f32; 256] {
+pub(crate) fn linear_table() -> [f32; 256] {
     std::array::from_fn(|c| linear(c as f32 / 255.0))
 }
 
 /// Converts an sRGB colour; opacity is ignored.
 #[must_use]
-pub fn of(colour: Colour) -> Oklab {
+pub(crate) fn of(colour: Colour) -> Oklab {
     of_linear([colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0)))
 }
 
 /// Squared distance between two colours.
 #[inline]
 #[must_use]
-pub fn distance2(a: Oklab, b: Oklab) -> f32 {
+pub(crate) fn distance2(a: Oklab, b: Oklab) -> f32 {
     let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     x * x + y * y + z * z
 }

@@ -10,7 +10,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 use super::srgb::Colour;
 
 /// Maximum width and height of a picture, px. Larger files are refused.
-pub const MAX_SIDE_PX: u32 = 16_384;
+pub(crate) const MAX_SIDE_PX: u32 = 16_384;
 
 /// Maximum memory for decoding a picture, bytes.
 const MAX_DECODE_BYTES: usize = 1 << 30;

@@ -115,7 +115,7 @@ impl Colour {
 
 /// Converts an sRGB channel, 0 to 1, to linear light, 0 to 1.
 #[must_use]
-pub fn linear(channel: f32) -> f32 {
+pub(crate) fn linear(channel: f32) -> f32 {
     let c = f64::from(channel.clamp(0.0, 1.0));
     let l = if c <= 0.040_45 {
         c / 12.92

@@ -53,9 +53,7 @@ pub use findings::ink_totals::{Measure, Totals};
 pub use findings::pixel_count::PixelDiff;
 pub use report::overlay::View;
 pub use shapes::ignore_options::Ignore;
-pub use shapes::ink::{ShapeInk, ShapePaint};
-pub use shapes::label::Label;
-pub use shapes::picture::{Picture, Shape, ShapeKind};
+pub use shapes::picture::Picture;
 pub use shapes::tolerance_table::Tolerances;
 
 /// Options of a comparison.

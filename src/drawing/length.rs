@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::Unit;
 
 /// Millimetres per px (CSS: 96 px per inch).
-pub const MM_PER_PX: f64 = 25.4 / 96.0;
+pub(crate) const MM_PER_PX: f64 = 25.4 / 96.0;
 
 /// A length on the page, at least 0 in style sheets: a number of px, or a string with a unit (`"0.35mm"`).
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]

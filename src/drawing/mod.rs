@@ -15,17 +15,17 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
-pub mod composition;
+pub(crate) mod composition;
 mod flat_composition;
-pub mod hotspot;
-pub mod length;
-pub mod mark;
+pub(crate) mod hotspot;
+pub(crate) mod length;
+pub(crate) mod mark;
 mod mark_transform;
-pub mod page;
+pub(crate) mod page;
 pub(crate) mod region_clip;
 #[cfg(feature = "cli")]
 pub(crate) mod stroke_font;
-pub mod text_run;
+pub(crate) mod text_run;
 
 pub use composition::{Composition, PlacedDrawing, PrintBoxes};
 pub use hotspot::Hotspot;

@@ -38,3 +38,17 @@ pub struct Page {
     /// Background colour; `None` for transparent.
     pub background: Option<Colour>,
 }
+
+impl Page {
+    /// A transparent page in px.
+    #[must_use]
+    pub const fn px(width: f64, height: f64) -> Self {
+        Self { width, height, unit: Unit::Px, background: None }
+    }
+
+    /// A transparent page in millimetres.
+    #[must_use]
+    pub const fn mm(width: f64, height: f64) -> Self {
+        Self { width, height, unit: Unit::Mm, background: None }
+    }
+}

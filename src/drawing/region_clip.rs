@@ -18,7 +18,7 @@ pub(crate) struct ClipRegion {
 
 impl ClipRegion {
     /// The inside of a path, flattened with a tolerance.
-    pub fn new(path: &BezPath, tolerance: f64) -> Self {
+    pub(crate) fn new(path: &BezPath, tolerance: f64) -> Self {
         let mut flat = BezPath::new();
         kurbo::flatten(path, tolerance, |element| flat.push(element));
         let sides: Vec<Line> = flat
@@ -45,7 +45,7 @@ impl ClipRegion {
     }
 
     /// The part of a line inside the region.
-    pub fn line(&self, path: &BezPath) -> BezPath {
+    pub(crate) fn line(&self, path: &BezPath) -> BezPath {
         let mut kept = BezPath::new();
         if self.misses(path.bounding_box()) {
             return kept;
@@ -99,7 +99,7 @@ impl ClipRegion {
 
     /// The part of an area inside a convex region. Its curves become polygons within `tolerance`. If the
     /// region is not convex, an area that touches it is returned unchanged.
-    pub fn area(&self, path: &BezPath, tolerance: f64) -> BezPath {
+    pub(crate) fn area(&self, path: &BezPath, tolerance: f64) -> BezPath {
         let bounds = path.bounding_box();
         if self.misses(bounds) {
             return BezPath::new();

@@ -26,6 +26,8 @@ pub enum ErrorKind {
     Unsupported,
     /// There is nothing to draw.
     Empty,
+    /// A function of the program cancelled the drawing.
+    Cancelled,
 }
 
 /// Error about an input or output.

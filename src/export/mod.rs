@@ -16,14 +16,14 @@
 //! data; `svg`; `pdf`; `dxf`; `raster` PNG from the SVG text; `film` animations. PDF, PNG and animations
 //! build on SVG, never the other way round.
 
-pub mod dxf;
+pub(crate) mod dxf;
 pub(crate) mod encoding;
 #[cfg(feature = "film")]
-pub mod film;
+pub(crate) mod film;
 pub(crate) mod paths;
-pub mod pdf;
-pub mod raster;
-pub mod svg;
+pub(crate) mod pdf;
+pub(crate) mod raster;
+pub(crate) mod svg;
 mod tolerances;
 
 #[cfg(feature = "pdf")]
@@ -33,6 +33,8 @@ pub use self::pdf::press::halftone_screen::Screen;
 #[cfg(feature = "pdf")]
 pub use self::pdf::press::pdf_options::{Inks, PdfOptions, Spot, Standard};
 pub use dxf::{DxfLength, DxfOptions, DxfVersion};
+#[cfg(feature = "film")]
+pub use film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
 #[cfg(feature = "png")]
 pub use raster::png_drawing::{Pixels, PngOptions, Resolution};
 pub use svg::svg_options::{Grouping, SvgOptions};

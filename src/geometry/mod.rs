@@ -8,13 +8,12 @@
 //! - [`plane`]: distances, convex hulls and zero lines of grids.
 //! - [`lists`]: lists of lists (CSR) and bit sets.
 //! - [`names`]: name patterns and stable ids.
-//! - [`tolerances`]: thresholds that several modules share.
+//! - [`tolerances`]: thresholds that several modules share. `dice`: random numbers for tests.
 
 #[cfg(test)]
-#[path = "../../tests/library/support/scenes/random_dice.rs"]
-pub mod dice;
-pub mod lists;
-pub mod names;
-pub mod numbers;
-pub mod plane;
-pub mod tolerances;
+pub(crate) mod dice;
+pub(crate) mod lists;
+pub(crate) mod names;
+pub(crate) mod numbers;
+pub(crate) mod plane;
+pub(crate) mod tolerances;

@@ -10,12 +10,12 @@
 //! - Lengths in space that are given in px are measured at their depth.
 
 /// Maximum distance between neighbouring `f32` numbers, as a fraction of the number: 2^-23.
-pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
+pub(crate) const F32_STEP: f64 = 1.0 / 8_388_608.0;
 
 /// A point within this distance of a projected triangle's border (px) is inside, so a line exactly behind an
 /// edge is hidden by the faces of that edge.
-pub const TRIANGLE_BORDER_PX: f64 = 1e-7;
+pub(crate) const TRIANGLE_BORDER_PX: f64 = 1e-7;
 
 /// Minimum pivot of a positive definite matrix, as a fraction of its trace: the rounding of `f64`. Smaller
 /// pivots count as zero.
-pub const MIN_PIVOT_OF_TRACE: f64 = f64::EPSILON;
+pub(crate) const MIN_PIVOT_OF_TRACE: f64 = f64::EPSILON;

@@ -13,7 +13,7 @@ use crate::regions::LightLattice;
 
 /// Scene and page data that hatching needs besides the ground.
 #[derive(Clone, Copy)]
-pub struct HatchContext<'a> {
+pub(crate) struct HatchContext<'a> {
     /// Unit of the page.
     pub unit: Unit,
     /// Random seed: [`crate::Style::seed`].

@@ -45,7 +45,7 @@ pub(crate) fn fullest(layer: &HatchLayer, unit: Unit) -> f64 {
 
 /// The greatest share of the paper that all layers cover together. Coverage tables cannot exceed it.
 #[must_use]
-pub fn max_coverage(options: &HatchOptions, unit: Unit) -> f64 {
+pub(crate) fn max_coverage(options: &HatchOptions, unit: Unit) -> f64 {
     1.0 - options.layers.iter().map(|layer| 1.0 - fullest(layer, unit)).product::<f64>()
 }
 

@@ -12,38 +12,38 @@
 //! Files, in reading order: [`options`]; [`context`] names and colours; [`tone`]; [`layer_shares`];
 //! [`guides`]; [`clip`]; [`lines`]; [`dots`](mod@dots); [`patterns`] over tones; [`paper`](mod@paper) sheet and grain.
 
-pub mod clip;
+pub(crate) mod clip;
 mod context;
-pub mod dots;
-pub mod guides;
+pub(crate) mod dots;
+pub(crate) mod guides;
 mod layer_shares;
-pub mod lines;
-pub mod options;
-pub mod paper;
-pub mod patterns;
+pub(crate) mod lines;
+pub(crate) mod options;
+pub(crate) mod paper;
+pub(crate) mod patterns;
 mod tolerances;
-pub mod tone;
+pub(crate) mod tone;
 
 use std::sync::Arc;
 
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
-pub use clip::polygon_clip::WindingRule;
-pub use context::HatchContext;
-pub use dots::halftone::{CellDots, DotScreen, ToneBorders, dots};
-pub use dots::stipple::{Stipple, stipple};
-pub use guides::guide::{Guide, GuideScope};
-pub use guides::guide_directions::GuideDirections;
-pub use guides::stroke_layout::{HatchStroke, StrokeLayout};
-pub use layer_shares::max_coverage;
-pub use options::{Direction, HatchKind, HatchLayer, HatchOptions};
-pub use paper::grain::{Grain, Tooth, grain, speckle};
-pub use paper::sheet::{Paper, paper, tooth};
-pub use patterns::pattern_marks::{SurfacePattern, pattern};
-pub use patterns::pattern_options::{Pattern, PatternFixed, PatternKind};
-pub use patterns::tile::Tile;
-pub use tone::ToneCoverage;
+pub(crate) use clip::polygon_clip::WindingRule;
+pub(crate) use context::HatchContext;
+pub(crate) use dots::halftone::{CellDots, DotScreen, ToneBorders, dots};
+pub(crate) use dots::stipple::{Stipple, stipple};
+pub(crate) use guides::guide::Guide;
+pub(crate) use guides::guide_directions::GuideDirections;
+pub(crate) use guides::stroke_layout::{HatchStroke, StrokeLayout};
+pub(crate) use layer_shares::max_coverage;
+pub(crate) use options::{Direction, HatchKind, HatchLayer, HatchOptions};
+pub(crate) use paper::grain::{Tooth, speckle};
+pub(crate) use paper::sheet::{Paper, paper, tooth};
+pub(crate) use patterns::pattern_marks::{SurfacePattern, pattern};
+pub(crate) use patterns::pattern_options::{Pattern, PatternFixed, PatternKind};
+pub(crate) use patterns::tile::Tile;
+pub(crate) use tone::ToneCoverage;
 
 use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance};
@@ -56,14 +56,18 @@ use layer_shares::{LayerShares, coverage_and_density};
 
 /// Strokes of one layer of hatching on the page.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct LayerStrokes {
+pub(crate) struct LayerStrokes {
     /// The strokes, in the order of their guides.
     pub strokes: Vec<HatchStroke>,
 }
 
 /// The strokes of each layer of lines. Layers of dots have none.
 #[must_use]
-pub fn strokes(ground: &HatchRegions, context: &HatchContext, options: &HatchOptions) -> Vec<LayerStrokes> {
+pub(crate) fn strokes(
+    ground: &HatchRegions,
+    context: &HatchContext,
+    options: &HatchOptions,
+) -> Vec<LayerStrokes> {
     let layers = options.layers.iter().enumerate();
     layers
         .map(|(number, layer)| {
@@ -90,7 +94,7 @@ pub fn strokes(ground: &HatchRegions, context: &HatchContext, options: &HatchOpt
 /// Spot blacks come first, in the colour of the first layer. They are given by their outlines and the look of
 /// their regions.
 #[must_use]
-pub fn fill(
+pub(crate) fn fill(
     ground: &HatchRegions,
     context: &HatchContext,
     options: &HatchOptions,

@@ -10,7 +10,7 @@ use crate::strokes::Ink;
 
 /// Options of hatching.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HatchOptions {
+pub(crate) struct HatchOptions {
     /// Whether surfaces are hatched. Default: false.
     pub enabled: bool,
     /// Share of the paper that ink covers in each bin, darkest first. If its length differs from the number
@@ -50,7 +50,7 @@ impl Default for HatchOptions {
 /// Kind of marks in a layer of hatching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum HatchKind {
+pub(crate) enum HatchKind {
     /// Parallel strokes.
     #[default]
     Lines,
@@ -63,7 +63,7 @@ pub enum HatchKind {
 /// Direction of strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Direction {
+pub(crate) enum Direction {
     /// At one fixed angle on the page.
     #[default]
     Page,
@@ -80,7 +80,7 @@ pub enum Direction {
 /// One layer of hatching: an entry of `[[hatching.layer]]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct HatchLayer {
+pub(crate) struct HatchLayer {
     /// Kind of marks. Default: lines.
     pub kind: HatchKind,
     /// Direction of strokes. Default: page.
@@ -185,7 +185,7 @@ impl Default for HatchLayer {
 impl HatchLayer {
     /// Whether this layer needs light or directions sampled at a lattice of page points.
     #[must_use]
-    pub fn samples(&self) -> bool {
+    pub(crate) fn samples(&self) -> bool {
         self.kind != HatchKind::Lines
             || self.swell
             || matches!(self.direction, Direction::Surface | Direction::Light)
@@ -193,7 +193,7 @@ impl HatchLayer {
 
     /// Distance from line to line: the spacing, or that of the screen ruling.
     #[must_use]
-    pub fn pitch(&self) -> Length {
+    pub(crate) fn pitch(&self) -> Length {
         let screen = |lpi: f64| Length::mm(25.4 / lpi);
         let usual = if self.kind == HatchKind::Dots { screen(DEFAULT_SCREEN_LPI) } else { Length::px(4.0) };
         self.lpi.map(screen).or(self.spacing).unwrap_or(usual)

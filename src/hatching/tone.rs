@@ -2,7 +2,7 @@
 
 /// Light bins of one material, and the coverage of each.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToneCoverage {
+pub(crate) struct ToneCoverage {
     /// Rising edges between the bins.
     pub levels: Vec<f64>,
     /// Coverage of each bin, darkest first: one more than there are edges.
@@ -13,7 +13,7 @@ impl ToneCoverage {
     /// The tone of bins with a table of coverage, which is interpolated if its length differs from the number
     /// of bins.
     #[must_use]
-    pub fn new(levels: &[f64], table: &[f64]) -> Self {
+    pub(crate) fn new(levels: &[f64], table: &[f64]) -> Self {
         let bins = levels.len() + 1;
         let at = |bin: usize| {
             if table.len() == bins {
@@ -30,7 +30,7 @@ impl ToneCoverage {
 
     /// The coverage of a bin.
     #[must_use]
-    pub fn of_bin(&self, bin: u16) -> f64 {
+    pub(crate) fn of_bin(&self, bin: u16) -> f64 {
         self.coverage.get(usize::from(bin)).or(self.coverage.last()).copied().unwrap_or_default()
     }
 
@@ -39,7 +39,7 @@ impl ToneCoverage {
     /// In full shadow the darkest bin applies. At the edge of two bins the result is their mean, or 0 if one
     /// of them is blank.
     #[must_use]
-    pub fn of_light(&self, light: f64) -> f64 {
+    pub(crate) fn of_light(&self, light: f64) -> f64 {
         let bin = self.levels.partition_point(|level| *level <= light);
         let own = self.of_bin(bin as u16);
         if own <= 0.0 {
@@ -62,7 +62,7 @@ impl ToneCoverage {
 /// Layers are filled in order; `fullest` holds the greatest coverage of each. Where layers cross, ink
 /// overlaps: a layer covers its share of the paper that the layers before it left blank.
 #[must_use]
-pub fn coverage_per_layer(coverage: f64, fullest: &[f64]) -> Vec<f64> {
+pub(crate) fn coverage_per_layer(coverage: f64, fullest: &[f64]) -> Vec<f64> {
     let mut left = coverage.clamp(0.0, 1.0);
     let mut blank = 1.0;
     fullest

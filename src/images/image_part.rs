@@ -27,7 +27,7 @@ pub(crate) struct MappedPiece {
 impl MappedPiece {
     /// Piece with this outline on the page, with the frame shifted by `offset`. The picture repeats after
     /// `periods`.
-    pub fn new(outline: BezPath, map: AffineFit, offset: Vec2, periods: [Option<f64>; 2]) -> Self {
+    pub(crate) fn new(outline: BezPath, map: AffineFit, offset: Vec2, periods: [Option<f64>; 2]) -> Self {
         let points = outline.elements().iter().filter_map(PathEl::end_point);
         let places = points.map(|p| map.place(DVec2::new(p.x - offset.x, p.y - offset.y)));
         let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -49,7 +49,7 @@ pub(crate) struct ImagePart {
 impl ImagePart {
     /// Resamples the shown part with `scale` pixels per texel, or fewer where the picture would be too large.
     /// Without repetition, it reaches at most one picture size past each edge. `None` if nothing is shown.
-    pub fn of(
+    pub(crate) fn of(
         imaged: &EmbeddedTexture,
         pieces: &[MappedPiece],
         scale: f64,
@@ -84,7 +84,7 @@ impl ImagePart {
     }
 
     /// Transform from pixels of the part to the page, for one piece.
-    pub fn transform(&self, piece: &MappedPiece, offset: Vec2) -> Affine {
+    pub(crate) fn transform(&self, piece: &MappedPiece, offset: Vec2) -> Affine {
         let (page_from_place, origin) = piece.map.to_page();
         let matrix = page_from_place * DMat2::from_diagonal(DVec2::ONE / self.scale);
         let moved = page_from_place * (self.from - piece.shift) + origin;

@@ -40,7 +40,7 @@ const MAX_COLOUR_ERROR: f64 = 0.012;
 
 impl ToneVeils {
     /// Veils for a picture; `None` if the tones have fixed colours that do not depend on the picture.
-    pub fn of(shading: &Shading, paints: &[MaterialPaint], imaged: &EmbeddedTexture) -> Option<Self> {
+    pub(crate) fn of(shading: &Shading, paints: &[MaterialPaint], imaged: &EmbeddedTexture) -> Option<Self> {
         let channels = |paint: crate::mesh::PaintId| Some(paints.get(paint.index())?.colour.channels());
         let probes = [channels(imaged.probes[0])?, channels(imaged.probes[1])?];
         let mean = channels(imaged.paint)?;
@@ -108,7 +108,7 @@ impl ToneVeils {
     }
 
     /// Applies the picture's own tone to its pixels.
-    pub fn tone(&self, picture: &mut Picture) {
+    pub(crate) fn tone(&self, picture: &mut Picture) {
         let tables = self.tone.map(|[factor, added]| {
             let of = |c: u8| ((f64::from(c) * factor + added * 255.0).round().clamp(0.0, 255.0)) as u8;
             (0..=255).map(of).collect::<Vec<u8>>()

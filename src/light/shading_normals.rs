@@ -13,7 +13,7 @@ use crate::surface::{HardEdges, SmoothNormals};
 
 /// Normals used for lighting a mesh. Inside a face they are interpolated and normalized.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ShadingNormals {
+pub(crate) struct ShadingNormals {
     /// Unit normals, local space, on the outer side of their faces.
     pub normals: Vec<DVec3>,
     /// Indices of the normals at the corners of each face.
@@ -24,7 +24,7 @@ impl ShadingNormals {
     /// Normals of a mesh with these hard edges. `smooth` gives the normals of its rounded parts, which also
     /// give their contour.
     #[must_use]
-    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
+    pub(crate) fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
         if smooth.corners_of_all() {
             let mut shaded = Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() };
             shaded.mend(mesh);
@@ -55,7 +55,7 @@ impl ShadingNormals {
     /// Normals at the corners of a face.
     #[inline]
     #[must_use]
-    pub fn of(&self, face: u32) -> [DVec3; 3] {
+    pub(crate) fn of(&self, face: u32) -> [DVec3; 3] {
         self.corners[face as usize].map(|id| self.normals[id as usize])
     }
 

@@ -2,30 +2,30 @@
 
 /// Minimum distance of a zero-set crossing from the ends of a mesh edge, as a fraction of the edge. Prevents
 /// pieces of zero length.
-pub const ZERO_SET_OF_EDGE: f64 = 1e-6;
+pub(crate) const ZERO_SET_OF_EDGE: f64 = 1e-6;
 
 /// An edge of a rounded surface is split if its arc deviates from it by more than this (px).
-pub const MAX_ARC_ERROR_PX: f64 = 0.08;
+pub(crate) const MAX_ARC_ERROR_PX: f64 = 0.08;
 
 /// Edges up to this length (px, seen face-on) are never split; lines across them are already smooth.
-pub const MIN_SPLIT_EDGE_PX: f64 = 2.5;
+pub(crate) const MIN_SPLIT_EDGE_PX: f64 = 2.5;
 
 /// With more levels than this, tones form a gradient whose single steps are not visible.
-pub const MAX_SEPARATE_LEVELS: usize = 64;
+pub(crate) const MAX_SEPARATE_LEVELS: usize = 64;
 
 /// Minimum distance from a model's lamp, as a fraction of the frame's longer side at the target: closer to
 /// the lamp its light grows no more.
-pub const MIN_LAMP_DISTANCE_OF_FRAME: f64 = 1e-3;
+pub(crate) const MIN_LAMP_DISTANCE_OF_FRAME: f64 = 1e-3;
 
 /// Highlights fade out where the cosine of the incident light is below this, so that they end without a jump
 /// at the terminator.
-pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
+pub(crate) const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 
 /// Minimum softness of a spot light's cone, as a difference of cosines. Recommended by KHR_lights_punctual.
-pub const MIN_CONE_SOFTNESS_COSINE: f64 = 1e-3;
+pub(crate) const MIN_CONE_SOFTNESS_COSINE: f64 = 1e-3;
 
 /// Height of the sky-visibility sample above a vertex, as a fraction of the surrounding edges.
-pub const SKY_PROBE_OF_EDGE: f64 = 1e-2;
+pub(crate) const SKY_PROBE_OF_EDGE: f64 = 1e-2;
 
 /// Margin for the rounding of lengths and bounds in double precision, as a fraction of them. Much larger than
 /// the error: a rounding is at most 1.2e-16.

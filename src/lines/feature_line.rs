@@ -9,14 +9,14 @@ use crate::mesh::{MaterialId, Mesh, PartId, Wire};
 use crate::surface::MeshSource;
 
 /// In [`FeatureSegment::hosts`]: no face.
-pub const NO_FACE: u32 = u32::MAX;
+pub(crate) const NO_FACE: u32 = u32::MAX;
 
 /// Role of a feature segment in the drawing.
 ///
 /// The contour of a rounded surface consists of two lines. The mesh contour is the edges where the polyhedron
 /// turns away; its visibility is exact. The smooth contour next to it is the one that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Role {
+pub(crate) enum Role {
     /// Drawn where it is visible.
     #[default]
     Line,
@@ -39,17 +39,17 @@ pub struct FeatureSegment {
     pub ends: [u32; 2],
     /// Two of the faces that meet in the line and so never hide it ([`NO_FACE`] = none). Other faces with
     /// both ends as corners never hide it either.
-    pub hosts: [u32; 2],
+    pub(crate) hosts: [u32; 2],
     /// Kind of line.
     pub kind: LineKind,
     /// Whether both surfaces that meet in it turn the same side to the camera.
-    pub both_seen: bool,
+    pub(crate) both_seen: bool,
     /// Whether the surface is rounded here, so that corners along the line are artefacts of the mesh.
-    pub smooth: bool,
+    pub(crate) smooth: bool,
     /// Origin of the surface.
-    pub origin: MeshSource,
+    pub(crate) origin: MeshSource,
     /// Role in the drawing.
-    pub role: Role,
+    pub(crate) role: Role,
     /// Turn of the surface across the line, degrees; 180 if not applicable, 0 where it does not turn.
     pub strength: f32,
     /// Part of the nearer surface.
@@ -102,7 +102,7 @@ pub(crate) fn segment(
 /// Smooth contour of a rounded surface: a run of feature segments from head to tail. The facing side of the
 /// surface is on their left, seen from outside.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ContourCurve {
+pub(crate) struct ContourCurve {
     /// Its segments in [`FeatureLines::segments`].
     pub segments: Range<u32>,
     /// Whether it is closed.
@@ -119,11 +119,11 @@ pub struct FeatureLines {
     /// Segments. Those that share an end id are joined there.
     pub segments: Vec<FeatureSegment>,
     /// Ends that are not mesh vertices, in local space.
-    pub points: Vec<DVec3>,
+    pub(crate) points: Vec<DVec3>,
     /// Strength at the first of these points, 0 to 1; all other ends have strength 1.
-    pub strengths: Vec<f32>,
+    pub(crate) strengths: Vec<f32>,
     /// Smooth contours among the segments, ascending.
-    pub curves: Vec<ContourCurve>,
+    pub(crate) curves: Vec<ContourCurve>,
 }
 
 impl FeatureLines {

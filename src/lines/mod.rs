@@ -12,31 +12,34 @@
 //! [`edges`]; [`joints`]; [`intersections`]; [`zero_sets`]; [`isophotes`]; [`textures`]; [`paint_borders`];
 //! [`image`].
 
-pub mod edges;
-pub mod feature_line;
-pub mod image;
-pub mod intersections;
-pub mod isophotes;
-pub mod joints;
-pub mod line_kind;
-pub mod line_options;
-pub mod paint_borders;
-pub mod prepared_surface;
+pub(crate) mod edges;
+pub(crate) mod feature_line;
+pub(crate) mod image;
+pub(crate) mod intersections;
+pub(crate) mod isophotes;
+pub(crate) mod joints;
+pub(crate) mod line_kind;
+pub(crate) mod line_options;
+pub(crate) mod paint_borders;
+pub(crate) mod prepared_surface;
 mod shared_points;
-pub mod textures;
+pub(crate) mod textures;
 mod tolerances;
-pub mod zero_sets;
+pub(crate) mod zero_sets;
 
 pub use edges::culling::edge_search::EdgeSearch;
-pub use feature_line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
-pub use image::{ImageOptions, Source};
+pub(crate) use feature_line::{ContourCurve, NO_FACE, Role};
+pub use feature_line::{FeatureLines, FeatureSegment};
+pub(crate) use image::{ImageOptions, Source};
 pub(crate) use isophotes::culling::covered_faces::{shows_inside, visible_faces_of};
-pub use isophotes::lit_surface::Lit;
+pub(crate) use isophotes::lit_surface::Lit;
 pub use line_kind::LineKind;
-pub use line_options::{Contours, HiddenLines, LineOptions, Normals};
-pub use prepared_surface::{RefinedSurface, Surface};
-pub use textures::view_textures::Textures;
-pub use zero_sets::interior::InsideOptions;
+pub(crate) use line_options::HiddenLines;
+pub use line_options::{Contours, LineOptions};
+pub(crate) use prepared_surface::RefinedSurface;
+pub use prepared_surface::Surface;
+pub(crate) use textures::view_textures::Textures;
+pub(crate) use zero_sets::interior::InsideOptions;
 
 use crate::parallel::prelude::*;
 
@@ -47,7 +50,7 @@ use crate::view::View;
 
 /// n·v as used for tracing contours, one per smooth vertex; smoothed where it is near zero.
 #[must_use]
-pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
+pub(crate) fn facing(surface: &Surface, view: &View) -> Vec<f64> {
     let Surface { mesh, smooth, .. } = surface;
     let mut facing = light::facing(mesh, smooth, &view.frame);
     light::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
@@ -56,7 +59,7 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
 
 /// Results that are shared by all views of a surface.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct SharedSearches<'a> {
+pub(crate) struct SharedSearches<'a> {
     /// Search for lines along edges. Ignored if it does not fit the mesh.
     pub search: Option<&'a EdgeSearch>,
     /// All curves where the surface passes through itself: [`intersections::intersection_lines::all_curves`].
@@ -65,13 +68,13 @@ pub struct SharedSearches<'a> {
 
 /// All feature lines of a view, of the kinds in the options.
 #[must_use]
-pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
+pub(crate) fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
     extract_with(surface, SharedSearches::default(), view, options)
 }
 
 /// All feature lines of a view, using results that are shared by all views of the surface.
 #[must_use]
-pub fn extract_with(
+pub(crate) fn extract_with(
     surface: &Surface,
     shared: SharedSearches,
     view: &View,

@@ -25,21 +25,21 @@ pub struct Surface {
     /// The faces.
     pub mesh: Mesh,
     /// Creased edges.
-    pub hard: HardEdges,
+    pub(crate) hard: HardEdges,
     /// Sharp edges that are neither creases nor inside a rounded surface.
-    pub sliver_creases: EdgeSet,
+    pub(crate) sliver_creases: EdgeSet,
     /// Middle edges of narrow roundings: drawn as creases, but smooth for normals.
-    pub fillet_centres: EdgeSet,
+    pub(crate) fillet_centres: EdgeSet,
     /// Normals of rounded parts, which have smooth contours; none with [`Contours::Mesh`].
-    pub smooth: SmoothNormals,
+    pub(crate) smooth: SmoothNormals,
     /// Origin of the surface, one per face.
-    pub origins: Vec<MeshSource>,
+    pub(crate) origins: Vec<MeshSource>,
     /// Connected component of each face; empty if there is only one, or if not computed.
-    pub pieces: Vec<u32>,
+    pub(crate) pieces: Vec<u32>,
     /// Whether faces were subdivided.
-    pub refined: bool,
+    pub(crate) refined: bool,
     /// A camera for which no face needs subdivision, if known.
-    pub fine_enough_camera: Option<Camera>,
+    pub(crate) fine_enough_camera: Option<Camera>,
 }
 
 impl Surface {

@@ -113,12 +113,12 @@ pub(crate) struct PointIds(FxHashMap<PointKey, u32>);
 
 impl PointIds {
     /// Ids of distinct points, numbered from `first` on.
-    pub fn new(points: &[DVec3], first: u32) -> Self {
+    pub(crate) fn new(points: &[DVec3], first: u32) -> Self {
         Self(points.iter().map(|p| point_key(*p)).zip(first..).collect())
     }
 
     /// Id of a point, which is appended to `points` if new. `points[0]` has the id `first`.
-    pub fn of(&mut self, points: &mut Vec<DVec3>, first: u32, p: DVec3) -> u32 {
+    pub(crate) fn of(&mut self, points: &mut Vec<DVec3>, first: u32, p: DVec3) -> u32 {
         *self.0.entry(point_key(p)).or_insert_with(|| {
             points.push(p);
             first + points.len() as u32 - 1

@@ -20,12 +20,12 @@
 //! [`triangle_colours`]; [`coordinate_precision`]; [`tolerances`].
 
 mod coordinate_precision;
-pub mod gltf;
-pub mod obj;
+pub(crate) mod gltf;
+pub(crate) mod obj;
 mod parallel_file_read;
-pub mod ply;
+pub(crate) mod ply;
 mod polygons;
-pub mod stl;
+pub(crate) mod stl;
 mod text_cursor;
 mod tolerances;
 mod triangle_colours;
@@ -96,7 +96,33 @@ impl Scene {
     /// # Errors
     /// Names the place in the bytes and the remedy if they are damaged, or if nothing can be drawn.
     pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
-        read_bytes(bytes, format, gltf::read_bytes)
+        Self::from_bytes_with(bytes, format, |_| None)
+    }
+
+    /// Reads a model from memory like [`Scene::from_bytes`]. `files` returns the content of other files that the
+    /// model names: material libraries, buffers and pictures. Names are relative to the model, as written in it.
+    ///
+    /// ```
+    /// use ligne::Scene;
+    /// use ligne::load::ModelFormat;
+    ///
+    /// let obj = b"mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    /// let files = |name: &str| (name == "red.mtl").then(|| b"newmtl red\nKd 1 0 0\n".to_vec());
+    /// let scene = Scene::from_bytes_with(obj, ModelFormat::Obj, files)?;
+    /// assert_eq!(scene.materials[0].colour.hex(), "#ff0000");
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Scene::from_bytes`].
+    pub fn from_bytes_with(
+        bytes: &[u8],
+        format: ModelFormat,
+        files: impl Fn(&str) -> Option<Vec<u8>>,
+    ) -> Result<Self, Error> {
+        let mut scene = read_bytes(bytes, format, &files, gltf::read_bytes)?;
+        add_pictures(&mut scene, &files);
+        Ok(scene)
     }
 }
 
@@ -114,7 +140,7 @@ impl Rigged {
     /// # Errors
     /// As [`Scene::from_bytes`].
     pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
-        read_bytes(bytes, format, gltf::read_rigged_bytes)
+        read_bytes(bytes, format, &|_| None, gltf::read_rigged_bytes)
     }
 }
 
@@ -143,17 +169,29 @@ fn open_with<T: From<Scene>>(
     scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
 }
 
-/// Reads a model from memory, without other files.
+/// Stores the pictures that materials name and that are not in the model.
+fn add_pictures(scene: &mut Scene, files: &impl Fn(&str) -> Option<Vec<u8>>) {
+    for material in &mut scene.materials {
+        if let (Some(name), None) = (&material.texture, &material.picture) {
+            material.picture = files(name).map(Into::into);
+        }
+    }
+}
+
+/// Reads a model from memory, with the other files that it names.
 fn read_bytes<T: From<Scene>>(
     bytes: &[u8],
     format: ModelFormat,
+    files: &dyn Fn(&str) -> Option<Vec<u8>>,
     read_gltf: impl FnOnce(&[u8], &dyn Fn(&str, usize) -> Result<Vec<u8>, std::io::Error>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     const STEM: &str = "model";
     refuse_other_content(bytes)?;
     match format {
-        ModelFormat::Obj => with_precision(obj::read_bytes(bytes, STEM, |_| None)).map(T::from),
-        ModelFormat::Gltf => read_gltf(bytes, &|_, _| Err(ErrorKind::NotFound.into())),
+        ModelFormat::Obj => with_precision(obj::read_bytes(bytes, STEM, files)).map(T::from),
+        ModelFormat::Gltf => {
+            read_gltf(bytes, &|name, _| files(name).ok_or_else(|| ErrorKind::NotFound.into()))
+        }
         ModelFormat::Stl => with_precision(stl::read_bytes(bytes, STEM)).map(T::from),
         ModelFormat::Ply => with_precision(ply::read_bytes(bytes, STEM)).map(T::from),
     }

@@ -25,32 +25,32 @@ pub(crate) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     /// Starts at the beginning of a text, after a byte-order mark if there is one.
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         Self { bytes, at }
     }
 
     /// Whether the end of the text is reached.
     #[inline]
-    pub fn at_end(&self) -> bool {
+    pub(crate) fn at_end(&self) -> bool {
         self.at >= self.bytes.len()
     }
 
     /// The next byte.
     #[inline]
-    pub fn peek(&self) -> u8 {
+    pub(crate) fn peek(&self) -> u8 {
         self.peek_on(0)
     }
 
     /// The byte `n` after the next.
     #[inline]
-    pub fn peek_on(&self, n: usize) -> u8 {
+    pub(crate) fn peek_on(&self, n: usize) -> u8 {
         self.bytes.get(self.at + n).copied().unwrap_or(b'\n')
     }
 
     /// Skips blanks and tabs, and a backslash that continues the line.
     #[inline]
-    pub fn skip_blanks(&mut self) {
+    pub(crate) fn skip_blanks(&mut self) {
         loop {
             match self.peek() {
                 b' ' | b'\t' => self.at += 1,
@@ -74,7 +74,7 @@ impl<'a> Cursor<'a> {
 
     /// Skips blanks, tabs and line ends.
     #[inline]
-    pub fn skip_space(&mut self) {
+    pub(crate) fn skip_space(&mut self) {
         while !self.at_end() && self.peek().is_ascii_whitespace() {
             self.at += 1;
         }
@@ -82,18 +82,18 @@ impl<'a> Cursor<'a> {
 
     /// Whether the line ends here (or a comment begins).
     #[inline]
-    pub fn at_line_end(&self) -> bool {
+    pub(crate) fn at_line_end(&self) -> bool {
         matches!(self.peek(), b'\n' | b'\r' | b'#')
     }
 
     /// Whether a word ends here.
     #[inline]
-    pub fn at_word_end(&self) -> bool {
+    pub(crate) fn at_word_end(&self) -> bool {
         matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r' | b'#' | b'\\')
     }
 
     /// Moves to the end of the line and returns the rest of it, trimmed.
-    pub fn rest_of_line(&mut self) -> &'a [u8] {
+    pub(crate) fn rest_of_line(&mut self) -> &'a [u8] {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
         self.at += length;
@@ -101,7 +101,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Skips the rest of a word, at least one byte, so that parsing always advances.
-    pub fn skip_word(&mut self) {
+    pub(crate) fn skip_word(&mut self) {
         self.at += 1;
         while !self.at_word_end() {
             self.at += 1;
@@ -109,7 +109,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Next word of printing characters; empty at the end of a line.
-    pub fn word(&mut self) -> &'a [u8] {
+    pub(crate) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while !self.at_end() && !self.peek().is_ascii_whitespace() {
             self.at += 1;
@@ -118,7 +118,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Line number of `at`, counted from 1. Takes time in proportion to the text before it.
-    pub fn line(&self) -> usize {
+    pub(crate) fn line(&self) -> usize {
         let before = self.bytes.get(..self.at).unwrap_or(self.bytes);
         let newlines = memchr::memchr_iter(b'\n', before).count();
         let lone =
@@ -129,7 +129,7 @@ impl<'a> Cursor<'a> {
     /// Reads a number, correctly rounded; also `nan` and `inf`. If there is none, returns `None` and does not
     /// move.
     #[inline]
-    pub fn number(&mut self) -> Option<f64> {
+    pub(crate) fn number(&mut self) -> Option<f64> {
         if let Some((value, at)) = plain_number(self.bytes, self.at) {
             self.at = at;
             return Some(value);
@@ -195,7 +195,7 @@ impl<'a> Cursor<'a> {
 
     /// Reads digits and appends them to `value`, which wraps; returns their number.
     #[inline]
-    pub fn digits(&mut self, value: &mut u64) -> usize {
+    pub(crate) fn digits(&mut self, value: &mut u64) -> usize {
         let start = self.at;
         (*value, self.at) = digits(self.bytes, start, *value);
         self.at - start
@@ -203,7 +203,7 @@ impl<'a> Cursor<'a> {
 
     /// Reads an integer, saturated to the range of `i64`. If there is none, returns `None` and does not move.
     #[inline]
-    pub fn integer(&mut self) -> Option<i64> {
+    pub(crate) fn integer(&mut self) -> Option<i64> {
         let start = self.at;
         let negative = self.sign();
         let mut value = 0;

@@ -5,8 +5,11 @@ macro_rules! id {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
         #[repr(transparent)]
+        // Some ids are part of the public interface, others are not.
+        #[allow(unreachable_pub)]
         pub struct $name(pub u32);
 
+        #[allow(unreachable_pub)]
         impl $name {
             /// The id as an index into the arrays of its type.
             #[inline]
@@ -32,10 +35,6 @@ id!(
 id!(
     /// A triangle of the mesh.
     FaceId
-);
-id!(
-    /// An edge of the mesh, shared by the faces that meet there.
-    EdgeId
 );
 id!(
     /// A part of the scene: a glTF node, an OBJ object or group.

@@ -13,39 +13,43 @@
 //! [`quantization`] undoes the quantization of compressed files, [`bvh`] answers box, ray and nearest-point
 //! queries, [`intersect`] finds where triangles cross.
 
-pub mod build;
-pub mod bvh;
-pub mod components;
-pub mod edges;
-pub mod ids;
-pub mod intersect;
-pub mod normals;
+pub(crate) mod build;
+pub(crate) mod bvh;
+pub(crate) mod components;
+pub(crate) mod edges;
+pub(crate) mod ids;
+pub(crate) mod intersect;
+pub(crate) mod normals;
 pub(crate) mod order;
 mod overlaps;
-pub mod part_metrics;
-pub mod quantization;
+pub(crate) mod part_metrics;
+pub(crate) mod quantization;
 mod seams;
-pub mod soup;
+pub(crate) mod soup;
 pub(crate) mod tolerances;
-pub mod vertex_sources;
-pub mod weld;
+pub(crate) mod vertex_sources;
+pub(crate) mod weld;
 
 use glam::DVec3;
 
-pub use components::disjoint_sets::{DisjointSets, NumberedSets};
-pub use components::orientation::TurnedFaces;
-pub use edges::edge_set::EdgeSet;
-pub use edges::edge_table::{EdgeFaces, Edges};
+pub(crate) use components::disjoint_sets::{DisjointSets, NumberedSets};
+pub(crate) use components::orientation::TurnedFaces;
+pub(crate) use edges::edge_set::EdgeSet;
+pub(crate) use edges::edge_table::EdgeFaces;
+pub use edges::edge_table::Edges;
 pub(crate) use edges::vertex_edges::VertexEdges;
 pub(crate) use edges::vertex_ranges::{VertexRange, range_count, vertex_ranges};
-pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
-pub use normals::dihedral::Dihedral;
-pub use normals::dihedral_cosines::DihedralCosines;
-pub use overlaps::overlay_order::Overlay;
-pub use part_metrics::{MeshMetrics, PartMetrics};
-pub use soup::{EdgeMark, Soup, Wire};
-pub use vertex_sources::VertexSources;
-pub use weld::duplicate_faces::RepairCounts;
+pub use ids::{FaceId, MaterialId, PartId};
+pub(crate) use ids::{PaintId, VertexId};
+pub(crate) use normals::dihedral::Dihedral;
+pub(crate) use normals::dihedral_cosines::DihedralCosines;
+pub(crate) use overlaps::overlay_order::Overlay;
+pub(crate) use part_metrics::MeshMetrics;
+pub(crate) use part_metrics::PartMetrics;
+pub use soup::Soup;
+pub(crate) use soup::{EdgeMark, Wire};
+pub(crate) use vertex_sources::VertexSources;
+pub(crate) use weld::duplicate_faces::RepairCounts;
 
 /// A welded triangle mesh, built by [`Mesh::build`].
 ///
@@ -55,54 +59,54 @@ pub use weld::duplicate_faces::RepairCounts;
 pub struct Mesh {
     /// World position of the origin of `positions`. It is zero, or for models far from zero a round point
     /// near them, which preserves precision.
-    pub origin: DVec3,
+    pub(crate) origin: DVec3,
     /// Size of each part. Every tolerance is a fraction of it.
-    pub extents: MeshMetrics,
+    pub(crate) extents: MeshMetrics,
     /// Vertex positions, world units relative to `origin`.
     pub positions: Vec<DVec3>,
     /// Vertex ids of each face, counter-clockwise seen from outside. Surfaces without an outside, such as
     /// flat sheets, keep the winding of the file.
     pub triangles: Vec<[u32; 3]>,
     /// Unit normal of each face; zero for degenerate faces.
-    pub face_normals: Vec<[f32; 3]>,
+    pub(crate) face_normals: Vec<[f32; 3]>,
     /// Narrow faces, ascending, each with a wider coplanar face whose normal is more accurate; see
     /// [`normals::normal_carriers`].
-    pub carriers: Vec<[u32; 2]>,
+    pub(crate) carriers: Vec<[u32; 2]>,
     /// First face that is a piece of another face, created by subdivision; `None` if there are none. Pieces
     /// come last.
-    pub first_piece: Option<u32>,
+    pub(crate) first_piece: Option<u32>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
     /// For each part, the first part of its body: parts whose surfaces continue in each other. Empty if every
     /// part is a separate body. See [`Mesh::body`].
-    pub bodies: Vec<PartId>,
+    pub(crate) bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
     /// Paint of each face, or empty if each has the paint of its material; see [`Mesh::paint`].
-    pub face_paint: Vec<PaintId>,
+    pub(crate) face_paint: Vec<PaintId>,
     /// Unit normals, indexed by `corner_normals`.
-    pub normals: Vec<[f32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
     /// Normal of each corner of each face (`u32::MAX` = none), or empty.
-    pub corner_normals: Vec<[u32; 3]>,
+    pub(crate) corner_normals: Vec<[u32; 3]>,
     /// Texture coordinates, indexed by `corner_uvs`.
-    pub uvs: Vec<[f32; 2]>,
+    pub(crate) uvs: Vec<[f32; 2]>,
     /// Texture coordinates of each corner of each face (`u32::MAX` = none), or empty.
-    pub corner_uvs: Vec<[u32; 3]>,
+    pub(crate) corner_uvs: Vec<[u32; 3]>,
     /// Linear colour of each corner of each face, or empty if no colour varies within a face.
-    pub corner_colours: Vec<[[f32; 3]; 3]>,
+    pub(crate) corner_colours: Vec<[[f32; 3]; 3]>,
     /// Edge marks of the sides 0-1, 1-2, 2-0 of each face, from the file, or empty.
-    pub edge_marks: Vec<[EdgeMark; 3]>,
+    pub(crate) edge_marks: Vec<[EdgeMark; 3]>,
     /// Stacking position of each face among coplanar surfaces of different colours; empty if none overlap.
-    pub overlays: Vec<Overlay>,
+    pub(crate) overlays: Vec<Overlay>,
     /// Edges, and the faces that meet at each of them.
-    pub edges: Edges,
+    pub(crate) edges: Edges,
     /// Lines without faces. Their vertices are vertices of the mesh.
-    pub wires: Vec<Wire>,
+    pub(crate) wires: Vec<Wire>,
     /// Counts of repaired and remaining defects.
-    pub cleaning: RepairCounts,
+    pub(crate) cleaning: RepairCounts,
     /// Faces that the file winds inward or against their neighbours: one entry for each part that has any, in
     /// part order.
-    pub turned: Vec<TurnedFaces>,
+    pub(crate) turned: Vec<TurnedFaces>,
 }
 
 impl Mesh {

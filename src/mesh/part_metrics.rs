@@ -84,7 +84,7 @@ impl PartMetrics {
 
 /// Extents of all parts of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct MeshMetrics {
+pub(crate) struct MeshMetrics {
     part_metrics: Vec<PartMetrics>,
     /// Centre of the box around everything, local space. Only for searches whose result does not depend on
     /// it.
@@ -166,19 +166,19 @@ impl MeshMetrics {
 
     /// Extent of a part; empty for a part without faces and wires.
     #[must_use]
-    pub fn part(&self, part: PartId) -> &PartMetrics {
+    pub(crate) fn part(&self, part: PartId) -> &PartMetrics {
         self.part_metrics.get(part.index()).unwrap_or(&PartMetrics::NOTHING)
     }
 
     /// Extents of all parts.
     #[must_use]
-    pub fn all(&self) -> &[PartMetrics] {
+    pub(crate) fn all(&self) -> &[PartMetrics] {
         &self.part_metrics
     }
 
     /// Rank of each part in the order of [`PartMetrics::precedence`]. Equal parts keep the order of the file.
     #[must_use]
-    pub fn ranks(&self) -> Vec<u32> {
+    pub(crate) fn ranks(&self) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.part_metrics.len() as u32).collect();
         order.sort_by(|a, b| self.part_metrics[*a as usize].precedence(&self.part_metrics[*b as usize]));
         let mut ranks = vec![0; order.len()];
@@ -190,27 +190,27 @@ impl MeshMetrics {
 
     /// Whether the coordinates of any part are rounded.
     #[must_use]
-    pub fn is_rounded(&self) -> bool {
+    pub(crate) fn is_rounded(&self) -> bool {
         self.part_metrics.iter().any(|part| part.rounding > 0.0)
     }
 
     /// Bounding sphere of all vertices: centre in local space, and radius. Both are rounded, so that they
     /// rarely change when parts are added, removed or moved.
     #[must_use]
-    pub fn ball(&self) -> (DVec3, f64) {
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
         ball(self.middle, self.diagonal)
     }
 
     /// Same, without faces that have no area, unless there are no others. Use it for everything visible in a
     /// drawing.
     #[must_use]
-    pub fn counted_ball(&self) -> (DVec3, f64) {
+    pub(crate) fn counted_ball(&self) -> (DVec3, f64) {
         ball(self.counted.0, self.counted.1)
     }
 
     /// Diagonal of the box around everything except faces without area.
     #[must_use]
-    pub fn counted_diagonal(&self) -> f64 {
+    pub(crate) fn counted_diagonal(&self) -> f64 {
         self.counted.1
     }
 }

@@ -45,7 +45,7 @@ pub(crate) struct LineStarts {
 impl LineStarts {
     /// Chooses vertices of a body at random by their rest positions, independent of their numbers, or as the
     /// style names them.
-    pub fn new(rigged: &Rigged, body: &MovingBody, options: &MotionOptions, seed: u64) -> Self {
+    pub(crate) fn new(rigged: &Rigged, body: &MovingBody, options: &MotionOptions, seed: u64) -> Self {
         let mut own = Self { lines: Vec::new(), anchors: Vec::new(), material: None, missing: Vec::new() };
         let Some(part) = rigged.scene.parts.get(body.part) else { return own };
         let Some(geometry) = rigged.scene.geometries.get(part.geometry) else { return own };
@@ -85,7 +85,7 @@ impl LineStarts {
     }
 
     /// Mean speed over a step of the vertices where lines start, world units per second.
-    pub fn speed(&self, part: usize, [now, before]: [&PosedVertices; 2], step: f64) -> f64 {
+    pub(crate) fn speed(&self, part: usize, [now, before]: [&PosedVertices; 2], step: f64) -> f64 {
         let way =
             |line: &LineStart| Some(now.place(part, line.vertex)?.distance(before.place(part, line.vertex)?));
         let ways: Vec<f64> = self.lines.iter().filter_map(way).collect();

@@ -17,7 +17,7 @@
 //! use ligne::{Camera, Style, motion, render};
 //!
 //! let model = Rigged::open("examples/models/brick.glb")?;
-//! let style = Style::load("ink", &["motion.enabled=true".to_owned()])?;
+//! let style = Style::load_with("ink", &["motion.enabled=true".to_owned()])?;
 //! let scene = motion::posed(&model, &[Playing::all(0, 1.0)], &style.motion, style.seed)?;
 //! let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &style)?;
 //! assert!(drawing.layers.iter().any(|layer| layer.kind == LayerKind::Motion));
@@ -26,7 +26,7 @@
 
 mod line_starts;
 mod moving_bodies;
-pub mod options;
+pub(crate) mod options;
 mod tolerances;
 
 use crate::parallel::prelude::*;
@@ -39,17 +39,17 @@ use crate::scene::{Mover, Scene, Trail};
 use line_starts::LineStarts;
 use moving_bodies::{BodySelection, MovingBody, bodies};
 
-pub use options::{FadeBy, LineChange, MotionOptions, Speed, TrailPath};
+pub(crate) use options::{FadeBy, MotionOptions, Speed, TrailPath};
 
 /// Points of a trail per segment. Long segments of bent trails are therefore drawn as curves.
-pub const POINTS_PER_SEGMENT: usize = 4;
+pub(crate) const POINTS_PER_SEGMENT: usize = 4;
 
 /// The scene while clips play, as [`Rigged::posed`] gives it. If the options enable motion lines, it includes
 /// the bodies that may leave them. `seed` selects the vertices where lines start.
 ///
 /// # Errors
 /// As [`Rigged::posed`].
-pub fn posed(
+pub(crate) fn posed(
     rigged: &Rigged,
     playing: &[Playing],
     options: &MotionOptions,
@@ -197,7 +197,7 @@ fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
 
 /// A sentence that explains why no body leaves lines at a moment; `None` if one does.
 #[must_use]
-pub fn no_lines_reason(
+pub(crate) fn no_lines_reason(
     rigged: &Rigged,
     playing: &[Playing],
     options: &MotionOptions,

@@ -22,12 +22,12 @@ pub(crate) struct MovingBody {
 
 impl MovingBody {
     /// Whether it is moved by a joint of a skin.
-    pub fn is_joint(&self) -> bool {
+    pub(crate) fn is_joint(&self) -> bool {
         self.owned_vertices.is_some()
     }
 
     /// Whether a vertex of the part belongs to it.
-    pub fn holds(&self, vertex: u32) -> bool {
+    pub(crate) fn holds(&self, vertex: u32) -> bool {
         self.owned_vertices.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
     }
 }
@@ -75,7 +75,7 @@ pub(crate) struct BodySelection<'a> {
 }
 
 impl<'a> BodySelection<'a> {
-    pub fn new(rigged: &'a Rigged, options: &'a MotionOptions) -> Self {
+    pub(crate) fn new(rigged: &'a Rigged, options: &'a MotionOptions) -> Self {
         let rig = &rigged.rig;
         let mut nodes = vec![false; rig.nodes.len()];
         for &number in &rig.order {
@@ -99,7 +99,7 @@ impl<'a> BodySelection<'a> {
     }
 
     /// Whether a body at a speed leaves lines in every view.
-    pub fn selects(&self, body: &MovingBody, speed: f64) -> bool {
+    pub(crate) fn selects(&self, body: &MovingBody, speed: f64) -> bool {
         let named = |part: usize| {
             let name = self.rigged.scene.parts.get(part).map_or("", |part| &part.name);
             let node = self.rigged.rig.parts.get(part).map(|(node, _)| *node);

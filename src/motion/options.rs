@@ -21,7 +21,7 @@ const MAX_FADE_FRAMES: u32 = 24;
 /// Which bodies leave motion lines, and how these are drawn.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct MotionOptions {
+pub(crate) struct MotionOptions {
     /// Whether motion lines are drawn. Default: false.
     pub enabled: bool,
     /// Number of lines per body. Default: 7.
@@ -100,7 +100,7 @@ impl Default for MotionOptions {
 /// Motion that lines follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum TrailPath {
+pub(crate) enum TrailPath {
     /// That of the vertex where the line starts: arcs behind rotating bodies.
     #[default]
     Vertex,
@@ -110,7 +110,7 @@ pub enum TrailPath {
 
 /// Speed above which bodies leave lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Speed {
+pub(crate) enum Speed {
     /// Model units per second. Written as a number.
     Model(f64),
     /// Page length per second. Written as a string with a unit: `"200px"`.
@@ -120,7 +120,7 @@ pub enum Speed {
 /// Change of one line of a body.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LineChange {
+pub(crate) struct LineChange {
     /// Names of the parts or joints that it covers. Default: all.
     pub part: Option<Glob>,
     /// Number of the vertex in the part where the line starts.

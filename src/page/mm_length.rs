@@ -9,12 +9,12 @@ use crate::drawing::{Length, Unit};
 
 /// A length on a page in mm: a number of mm, or a string with a unit (`"0.25in"`). May be negative.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
-pub struct Mm(pub f64);
+pub(crate) struct Mm(pub f64);
 
 impl Mm {
     /// Parses `5`, `5mm`, `0.2in` or `12pt`.
     #[must_use]
-    pub fn parse(text: &str) -> Option<Self> {
+    pub(crate) fn parse(text: &str) -> Option<Self> {
         let bare = text.trim().ends_with(|c: char| c.is_ascii_digit() || c == '.');
         let length = Length::parse(text)?;
         Some(Self(if bare { length.value } else { length.in_unit(Unit::Mm) }))

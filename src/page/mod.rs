@@ -22,18 +22,18 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
-pub mod balloon_placement;
-pub mod comic;
-pub mod composed_page;
-pub mod figure;
-pub mod layout;
-pub mod mm_length;
-pub mod model_reader;
-pub mod page_file;
-pub mod page_size;
-pub mod page_source;
-pub mod print_inks;
-pub mod sheet;
+pub(crate) mod balloon_placement;
+pub(crate) mod comic;
+pub(crate) mod composed_page;
+pub(crate) mod figure;
+pub(crate) mod layout;
+pub(crate) mod mm_length;
+pub(crate) mod model_reader;
+pub(crate) mod page_file;
+pub(crate) mod page_size;
+pub(crate) mod page_source;
+pub(crate) mod print_inks;
+pub(crate) mod sheet;
 mod tolerances;
 
 pub use composed_page::ComposedPage;

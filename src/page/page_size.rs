@@ -30,7 +30,7 @@ const NAMED_SIZES: [(&str, f64, f64); 17] = [
 
 /// The trimmed size of a page in mm: a name (`"A4"`, `"US comic"`), `"170x260mm"` or `[170, 260]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PageSize {
+pub(crate) struct PageSize {
     /// Width, mm.
     pub width: f64,
     /// Height, mm.
@@ -46,13 +46,13 @@ impl Default for PageSize {
 
 impl PageSize {
     /// All named sizes.
-    pub fn names() -> impl Iterator<Item = &'static str> {
+    pub(crate) fn names() -> impl Iterator<Item = &'static str> {
         NAMED_SIZES.iter().map(|(name, ..)| *name)
     }
 
     /// Parses a name or `170x260mm`.
     #[must_use]
-    pub fn parse(text: &str) -> Option<Self> {
+    pub(crate) fn parse(text: &str) -> Option<Self> {
         let named = NAMED_SIZES.iter().find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()));
         if let Some((_, width, height)) = named {
             return Some(Self { width: *width, height: *height });
@@ -66,7 +66,7 @@ impl PageSize {
 
     /// The same size in landscape format.
     #[must_use]
-    pub fn landscape(self) -> Self {
+    pub(crate) fn landscape(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }
     }
 

@@ -16,7 +16,7 @@ const INK_SETS: [&str; 3] = ["screen", "k", "cmyk"];
 
 /// The keys of a page for its inks.
 #[derive(Debug, Clone, Default)]
-pub struct PrintKeys {
+pub(crate) struct PrintKeys {
     /// `screen`, `k` or `cmyk`.
     pub ink: Option<Spanned<String>>,
     /// The ICC profile of the press.
@@ -33,7 +33,7 @@ pub struct PrintKeys {
     untagged,
     expecting = "this is not a spot colour; write { name = \"PANTONE 185 C\", colour = \"#e4002b\" }, or a list of these"
 )]
-pub enum SpotColours {
+pub(crate) enum SpotColours {
     /// One.
     One(SpotKeys),
     /// Several.

@@ -4,11 +4,11 @@
 
 /// Maximum rounding error of a coordinate that is transformed to world space in double precision, as a
 /// fraction of the coordinate.
-pub const MAX_ROUNDING_OF_COORDINATE: f64 = 8.0 * f64::EPSILON;
+pub(crate) const MAX_ROUNDING_OF_COORDINATE: f64 = 8.0 * f64::EPSILON;
 
 /// Maximum error of the centre and radius of a circle fitted to exact corners, as a fraction of the largest
 /// coordinate.
-pub const MAX_CIRCLE_FIT_OF_COORDINATE: f64 = 1e-12;
+pub(crate) const MAX_CIRCLE_FIT_OF_COORDINATE: f64 = 1e-12;
 
 /// Rounding error in double precision of a transformed corner and of the mean of all corners, as a fraction
 /// of the largest coordinate.

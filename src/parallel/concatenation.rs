@@ -9,7 +9,7 @@ use super::prelude::*;
 const MIN_TASK_VALUES: usize = 1 << 12;
 
 /// Concatenates lists in their order, on all threads.
-pub fn concatenate<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
+pub(crate) fn concatenate<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
     let mut starts = Vec::with_capacity(lists.len());
     let mut total = 0;
     for list in lists {

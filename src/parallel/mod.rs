@@ -15,14 +15,14 @@
 //! for cheap items. `with_max_len` bounds them from above, for items of unequal cost. Without limits a loop
 //! has up to 8 parts per thread.
 
-pub mod concatenation;
+pub(crate) mod concatenation;
 mod ends;
 pub(crate) mod scratch_pool;
 mod sort;
 mod sources;
 mod starts;
 mod steps;
-pub mod task_size;
+pub(crate) mod task_size;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

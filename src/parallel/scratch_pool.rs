@@ -10,7 +10,7 @@ pub(crate) struct ScratchPool<T>(Mutex<Vec<T>>);
 
 impl<T: Default> ScratchPool<T> {
     /// Runs `work` with an object of the pool, or with a new one if all are lent.
-    pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+    pub(crate) fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let mut one = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
         let result = work(&mut one);
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(one);

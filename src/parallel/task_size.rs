@@ -4,4 +4,4 @@
 ///
 /// Waking a sleeping thread takes about 10 microseconds, so smaller tasks finish sooner on one thread. A
 /// larger value would leave a small part to a single thread.
-pub const MIN_TASK_ITEMS: usize = 1 << 11;
+pub(crate) const MIN_TASK_ITEMS: usize = 1 << 11;

@@ -1,27 +1,26 @@
 //! The pipeline: from a scene and a camera to a drawing and a report.
 //!
-//! 1. The scene is prepared once for a style: mesh, creases and smooth patches ([`Prepared`]; `prepare`).
+//! 1. The scene is prepared once for a style: mesh, creases and smooth patches ([`Renderer`]; `prepare`).
 //! 2. For each view, feature lines are found and their visibility is decided (`view`).
 //! 3. Surfaces are filled and hatched (`fills`) while visible lines are linked into chains (`lines`).
 //! 4. Chains get their strokes, and all layers are put together (`compose`).
 //!
-//! Files, in reading order: `prepare`; `view`; `lines`; `fills`; `compose`; `report`; `stages` pictures of
+//! Files, in reading order: `prepare`; `view`; `lines`; `fills`; `compose`; `report`; `progress`; `stages` pictures of
 //! intermediate results; `rest` positions on the resting model; `section` styles for cut models; `cache`
-//! results shared by views; `thread_pool`.
+//! results shared by views; `steps` constructors of intermediate results; `thread_pool`.
 //!
 //! ```
-//! use ligne::pipeline::Prepared;
-//! use ligne::drawing::{Page, Unit};
+//! use ligne::pipeline::Renderer;
+//! use ligne::drawing::Page;
 //! use ligne::scene::NamedView;
 //! use ligne::{Camera, Scene, Style};
 //!
 //! let scene = Scene::open("examples/models/gear.obj")?;
 //! let style = Style::default();
-//! let prepared = Prepared::new(&scene, &style);
+//! let renderer = Renderer::new(&scene, &style);
 //! for view in [NamedView::Front, NamedView::Top] {
 //!     let camera = Camera::named(view, scene.up).fit(&scene);
-//!     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-//!     let (drawing, report) = prepared.draw(&camera, page, None)?;
+//!     let (drawing, report) = renderer.draw(&camera, Page::px(camera.width, camera.height))?;
 //!     assert!(report.counts.chains > 0 && !drawing.layers.is_empty());
 //! }
 //! # Ok::<(), ligne::Error>(())
@@ -32,23 +31,37 @@ mod compose;
 mod fills;
 mod lines;
 mod prepare;
-pub mod report;
+mod progress;
+pub(crate) mod report;
 mod rest;
 mod section;
 mod stages;
+mod steps;
 mod thread_pool;
 mod tolerances;
 mod view;
 
 pub use compose::hotspots::hotspots;
-pub use compose::map_files::MapFiles;
-pub use prepare::prepared_scene::Prepared;
-pub use prepare::rigged_scene::PosedRenderer;
-pub use report::drawing_report::{Report, Stopwatch};
-pub use section::section_style::{with_cut_hatching, with_cut_hatching_for, with_trail_lines};
-pub use stages::stage::Stage;
+pub(crate) use compose::map_files::MapFiles;
+pub use prepare::prepared_scene::Renderer;
+pub(crate) use prepare::rigged_scene::PosedRenderer;
+pub use progress::Step;
+pub(crate) use report::drawing_report::Stopwatch;
+pub use report::drawing_report::{Counts, Report, StagesMs};
+pub use section::section_style::with_cut_hatching;
+pub(crate) use section::section_style::{with_cut_hatching_for, with_trail_lines};
+pub(crate) use stages::stage::Stage;
+// Types of the public interface that other areas define.
+pub use crate::chains::Chain;
+pub use crate::lines::{FeatureLines, FeatureSegment, LineKind, Surface};
+pub use crate::mesh::{MaterialId, Mesh, PartId};
+pub use crate::regions::{Region, RegionBorder, Regions, SurfaceLabel};
+pub use crate::view::View;
+pub use crate::visibility::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
-use crate::drawing::{Drawing, Page, Unit};
+use std::borrow::Cow;
+
+use crate::drawing::{Drawing, Page};
 use crate::error::Error;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
@@ -56,45 +69,41 @@ use crate::style::Style;
 /// Draws a scene on a page in px with the size of the camera's frame.
 ///
 /// ```no_run
-/// use ligne::{pipeline, scene::{Camera, Scene}, style::Style};
+/// use ligne::{Camera, Scene, Style, SvgOptions, render};
 ///
 /// let scene = Scene::open("gear.obj")?;
 /// let camera = Camera::three_quarter().fit(&scene);
-/// let style = Style::preset("ink").unwrap_or_default();
-/// let drawing = pipeline::render(&scene, &camera, &style)?;
+/// let drawing = render(&scene, &camera, &Style::load("ink")?)?;
 /// drawing.warnings.iter().for_each(|warning| eprintln!("{warning}"));
-/// println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
+/// println!("{}", drawing.to_svg(&SvgOptions::default()));
 /// # Ok::<(), ligne::Error>(())
 /// ```
 ///
 /// # Errors
 /// If the camera is invalid: see [`Camera::validate`].
 pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, Error> {
-    let page =
-        Page { width: camera.width, height: camera.height, unit: Unit::Px, background: style.background };
-    render_reported(scene, camera, style, page, None).map(|(drawing, _)| drawing)
+    render_on(Page::px(camera.width, camera.height), scene, camera, style)
 }
 
-/// Draws a scene with the camera's frame centred on a page, and reports times and counts. With a stage named,
-/// draws the result of that stage instead.
+/// Draws a scene on a page with the camera's frame in its centre. The page gets the background of the style.
 ///
-/// The report's load and write times and its path counts are left to the caller.
+/// ```
+/// use ligne::drawing::Page;
+/// use ligne::{Camera, Scene, Style, pipeline};
+///
+/// let scene = Scene::open("examples/models/gear.obj")?;
+/// let camera = Camera::three_quarter().with_frame(128.0, 85.0).fit(&scene);
+/// let drawing = pipeline::render_on(Page::mm(148.0, 105.0), &scene, &camera, &Style::load("technical")?)?;
+/// # assert!(drawing.to_svg(&Default::default()).contains("width=\"148mm\""));
+/// # Ok::<(), ligne::Error>(())
+/// ```
 ///
 /// # Errors
 /// If the camera is invalid: see [`Camera::validate`].
-pub fn render_reported(
-    scene: &Scene,
-    camera: &Camera,
-    style: &Style,
-    page: Page,
-    stage: Option<Stage>,
-) -> Result<(Drawing, Report), Error> {
-    let mut watch = Stopwatch::start();
-    let prepared = Prepared::for_camera(scene, style, camera);
-    let preparing = watch.lap_ms();
-    let (drawing, mut report) = prepared.draw(camera, page, stage)?;
-    report.stages_ms.topology += preparing;
-    Ok((drawing, report))
+pub fn render_on(page: Page, scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, Error> {
+    let page = Page { background: style.background, ..page };
+    let renderer = Renderer::for_camera(Cow::Borrowed(scene), style, camera);
+    renderer.draw(camera, page).map(|(drawing, _)| drawing)
 }
 
 #[cfg(test)]
@@ -113,10 +122,9 @@ mod tests {
             Camera { width: f64::NAN, ..good },
             Camera { up: good.target - good.eye, ..good },
         ] {
-            let page = Page { width: 10.0, height: 10.0, unit: Unit::Px, background: None };
+            let page = Page::px(10.0, 10.0);
             assert!(render(&scene, &camera, &style).is_err());
-            assert!(render_reported(&scene, &camera, &style, page, None).is_err());
-            assert!(Prepared::new(&scene, &style).draw(&camera, page, None).is_err());
+            assert!(Renderer::new(&scene, &style).draw(&camera, page).is_err());
         }
     }
 }

@@ -4,8 +4,8 @@
 ///
 /// Half the diagonal of a cell for rounding, and the same again because the exporting program computed with
 /// rounded numbers.
-pub const MAX_CIRCLE_CORNER_STEPS: f64 = 1.5;
+pub(crate) const MAX_CIRCLE_CORNER_STEPS: f64 = 1.5;
 
 /// Minimum area of a face's texture coordinates, as a fraction of its area at the usual scale of its part.
 /// Texture coordinates of a smaller area are squeezed into a line, and are ignored.
-pub const MIN_TEXTURE_AREA_SHARE: f64 = 1e-4;
+pub(crate) const MIN_TEXTURE_AREA_SHARE: f64 = 1e-4;

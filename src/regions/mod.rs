@@ -16,24 +16,25 @@
 
 mod arrangement;
 mod cells;
-pub mod hatch_regions;
-pub mod labels;
-pub mod options;
-pub mod paint;
-pub mod sampling;
-pub mod surface_curves;
+pub(crate) mod hatch_regions;
+pub(crate) mod labels;
+pub(crate) mod options;
+pub(crate) mod paint;
+pub(crate) mod sampling;
+pub(crate) mod surface_curves;
 pub(crate) mod tolerances;
 
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
-pub use hatch_regions::hatch_map::HatchRegions;
-pub use labels::labelled_page::{LabelledPage, PageBorders, label_page};
-pub use labels::surface_label::{ShadowDarkening, SurfaceLabel};
-pub use options::{RegionOptions, Seams, StepsAs};
-pub use paint::gradient_regions::Ramp;
-pub use paint::region_paint::paint;
-pub use sampling::page_lattice::LightLattice;
+pub(crate) use hatch_regions::hatch_map::HatchRegions;
+pub(crate) use labels::labelled_page::{LabelledPage, PageBorders, label_page};
+pub(crate) use labels::surface_label::ShadowDarkening;
+pub use labels::surface_label::SurfaceLabel;
+pub(crate) use options::{RegionOptions, Seams, StepsAs};
+pub(crate) use paint::gradient_regions::Ramp;
+pub(crate) use paint::region_paint::paint;
+pub(crate) use sampling::page_lattice::LightLattice;
 
 use crate::chains::{self, ChainOptions};
 use crate::drawing::{Length, Unit};
@@ -64,7 +65,7 @@ pub struct Region {
     /// followed from start to end.
     pub loops: Vec<Vec<(u32, bool)>>,
     /// Gradient across it, if it joins several steps of light.
-    pub ramp: Option<Ramp>,
+    pub(crate) ramp: Option<Ramp>,
 }
 
 /// All regions of a drawing.
@@ -75,13 +76,13 @@ pub struct Regions {
     /// All borders.
     pub borders: Vec<RegionBorder>,
     /// Number of cells whose triangles have different labels, because a line around the cell has a gap.
-    pub leaks: u64,
+    pub(crate) leaks: u64,
 }
 
 /// Collects the regions of a labelled page: connected areas of equal label. Neighbours that differ in
 /// hatching bin only are one region. `unit` is the user unit of the page.
 #[must_use]
-pub fn gather(
+pub(crate) fn gather(
     labelled_page: &LabelledPage,
     options: &RegionOptions,
     chain: &ChainOptions,

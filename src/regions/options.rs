@@ -7,7 +7,7 @@ use crate::drawing::Length;
 /// Treatment of the border between two regions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Seams {
+pub(crate) enum Seams {
     /// The region painted first extends a little under its neighbour. No paper shows through where both are
     /// anti-aliased.
     #[default]
@@ -19,7 +19,7 @@ pub enum Seams {
 /// How steps of light are painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum StepsAs {
+pub(crate) enum StepsAs {
     /// Each step in its own colour.
     #[default]
     Bands,
@@ -30,7 +30,7 @@ pub enum StepsAs {
 
 /// How regions are collected and painted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RegionOptions {
+pub(crate) struct RegionOptions {
     /// Whether regions are painted at all. Default: false.
     pub enabled: bool,
     /// How steps of light are painted. Default: bands.

@@ -9,7 +9,7 @@ use crate::geometry::names::glob::Glob;
 /// How see-through materials are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum GlassDraw {
+pub(crate) enum GlassDraw {
     /// Like all other materials.
     #[default]
     Opaque,
@@ -22,7 +22,7 @@ pub enum GlassDraw {
 /// Treatment of see-through materials: the `[glass]` table of a style sheet.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct GlassOptions {
+pub(crate) struct GlassOptions {
     /// How they are drawn. Default: opaque.
     pub draw: GlassDraw,
     /// Materials that count as glass regardless of their opacity in the file; `*` matches any text. Default:
@@ -57,7 +57,7 @@ impl Material {
 impl GlassOptions {
     /// Opacity of a see-through material; `None` for an opaque one.
     #[must_use]
-    pub fn opacity_of(&self, material: &Material) -> Option<f64> {
+    pub(crate) fn opacity_of(&self, material: &Material) -> Option<f64> {
         let own = material.opacity();
         if own < 1.0 {
             return Some(own.max(MIN_GLASS_OPACITY));
@@ -68,7 +68,7 @@ impl GlassOptions {
     /// Opacity of each see-through material of a scene, by index. Empty if there is none, or if they are
     /// drawn in another way than `draw`.
     #[must_use]
-    pub fn opacities(&self, scene: &Scene, draw: GlassDraw) -> Vec<Option<f64>> {
+    pub(crate) fn opacities(&self, scene: &Scene, draw: GlassDraw) -> Vec<Option<f64>> {
         if self.draw != draw {
             return Vec::new();
         }

@@ -22,20 +22,20 @@
 //! materials; [`textures`]; [`paints`]; [`triangle_soup`]; [`motion_trails`]; [`model_folder`] files next to
 //! the model; [`warnings`]; [`tolerances`].
 
-pub mod cameras;
-pub mod extent;
-pub mod glass;
-pub mod light;
-pub mod material;
+pub(crate) mod cameras;
+pub(crate) mod extent;
+pub(crate) mod glass;
+pub(crate) mod light;
+pub(crate) mod material;
 pub(crate) mod model_folder;
-pub mod motion_trails;
-pub mod paints;
-pub mod part_selection;
-pub mod parts;
+pub(crate) mod motion_trails;
+pub(crate) mod paints;
+pub(crate) mod part_selection;
+pub(crate) mod parts;
 pub(crate) mod textures;
 mod tolerances;
-pub mod triangle_soup;
-pub mod warnings;
+pub(crate) mod triangle_soup;
+pub(crate) mod warnings;
 
 use std::path::PathBuf;
 
@@ -43,14 +43,14 @@ use glam::{DAffine3, DVec3};
 
 pub use cameras::camera::{Camera, Projection};
 pub use cameras::named_views::NamedView;
-pub use glass::{GlassDraw, GlassOptions};
+pub(crate) use glass::{GlassDraw, GlassOptions};
 pub use light::{Light, LightKind};
 pub use material::{Alpha, Filter, Material, Wrap};
-pub use motion_trails::{Mover, Trail};
-pub use paints::artist_textures::{ArtistTexture, ArtistTextures};
-pub use paints::triangle_paints::{MaterialPaint, Paints};
+pub(crate) use motion_trails::{Mover, Trail};
+pub(crate) use paints::artist_textures::ArtistTextures;
+pub(crate) use paints::triangle_paints::{MaterialPaint, Paints};
 pub use parts::{Geometry, Part};
-pub use textures::texture_options::{TextureFill, TextureOptions};
+pub(crate) use textures::texture_options::{TextureFill, TextureOptions};
 pub use warnings::Warnings;
 
 use crate::error::{Error, ErrorKind};

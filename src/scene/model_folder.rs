@@ -18,7 +18,7 @@ const MAX_PATH_STEPS: usize = 16;
 /// # Errors
 /// If the name, or a link that it stands for, leads outside the model's folder, or if the file cannot be
 /// read.
-pub fn read_from_model_folder(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
+pub(crate) fn read_from_model_folder(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !stays_inside(name) {
         return Err(Error::new(format!("{name} is outside the model's folder")).in_file(model));
     }
@@ -35,7 +35,7 @@ pub fn read_from_model_folder(model: &Path, name: &str) -> Result<Vec<u8>, Error
 
 /// Whether a relative path, written with slashes, stays inside the folder that it starts from.
 #[must_use]
-pub fn stays_inside(path: &str) -> bool {
+pub(crate) fn stays_inside(path: &str) -> bool {
     let mut depth = 0_i32;
     for step in path.split(['/', '\\']) {
         match step {
@@ -74,12 +74,12 @@ pub(crate) struct ModelFolder {
 
 impl ModelFolder {
     /// Starts with no folder listed.
-    pub fn of(model: &Path) -> Self {
+    pub(crate) fn of(model: &Path) -> Self {
         Self { folder: folder_of(model).to_path_buf(), listed: RefCell::default() }
     }
 
     /// Whether a path relative to the model, written with slashes, is a file inside its folder.
-    pub fn has(&self, path: &str) -> bool {
+    pub(crate) fn has(&self, path: &str) -> bool {
         let file = self.folder.join(path);
         stays_inside(path) && file.is_file() && is_within(&self.folder, &file)
     }
@@ -91,7 +91,7 @@ impl ModelFolder {
     /// `maps/wall.png`, or else `wall.png`. The search begins in `below`, the folder of the file that
     /// contains the name (empty, or ending with a slash), and continues next to the model. Of several names
     /// that differ only in case, it takes the first in alphabetical order.
-    pub fn find(&self, below: &str, name: &str) -> Option<String> {
+    pub(crate) fn find(&self, below: &str, name: &str) -> Option<String> {
         let mut steps: Vec<&str> = Vec::new();
         for step in name.split(['/', '\\']) {
             match step {

@@ -38,7 +38,7 @@ impl Scene {
 
 /// Whether the pattern matches the whole name.
 #[must_use]
-pub fn glob_matches(glob: &str, name: &str) -> bool {
+pub(crate) fn glob_matches(glob: &str, name: &str) -> bool {
     let (glob, name): (Vec<char>, Vec<char>) = (glob.chars().collect(), name.chars().collect());
     let (mut g, mut n) = (0, 0);
     // After a mismatch the last star takes one more character. Earlier choices never need to be undone.

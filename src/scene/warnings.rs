@@ -67,7 +67,7 @@ pub(crate) struct WarningExamples {
 
 impl WarningExamples {
     /// Adds a defect; the sentence is built only for the first.
-    pub fn add(&mut self, sentence: impl FnOnce() -> String) {
+    pub(crate) fn add(&mut self, sentence: impl FnOnce() -> String) {
         match self.first {
             None => self.first = Some(sentence()),
             Some(_) => self.others += 1,
@@ -75,7 +75,7 @@ impl WarningExamples {
     }
 
     /// Description of the defects, if there are any.
-    pub fn sentence(self) -> Option<String> {
+    pub(crate) fn sentence(self) -> Option<String> {
         let first = self.first?;
         Some(match self.others {
             0 => first,
@@ -84,7 +84,7 @@ impl WarningExamples {
     }
 
     /// Adds the description to warnings, if there are any defects.
-    pub fn warn(self, warnings: &mut Warnings) {
+    pub(crate) fn warn(self, warnings: &mut Warnings) {
         if let Some(sentence) = self.sentence() {
             warnings.note(sentence);
         }

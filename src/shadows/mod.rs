@@ -18,7 +18,7 @@ mod cast_edges;
 mod face_orientation;
 mod light_views;
 mod point_shadows;
-pub mod shadow_lines;
+pub(crate) mod shadow_lines;
 mod shadow_receivers;
 mod tolerances;
 mod upper_envelope;
@@ -27,7 +27,7 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::light::Caster;
-pub use shadow_lines::{ShadowLines, ShadowSegment};
+pub(crate) use shadow_lines::ShadowLines;
 
 use crate::lines::Surface;
 use crate::mesh::Mesh;
@@ -35,7 +35,7 @@ use face_orientation::FaceOrientation;
 use light_views::LightView;
 
 /// Largest number of lights that cast shadows: the number of bits in a mask.
-pub const MAX_CASTERS: usize = 32;
+pub(crate) const MAX_CASTERS: usize = 32;
 
 /// Shadows of some lights on a mesh.
 #[derive(Debug, Clone, Default)]

@@ -11,30 +11,33 @@
 //! [`tolerances`] all thresholds for rounding.
 
 mod axes;
-pub mod brushes;
+pub(crate) mod brushes;
 pub(crate) mod fraction;
-pub mod gaps;
+pub(crate) mod gaps;
 mod inking;
 mod outlines;
-pub mod pens;
+pub(crate) mod pens;
 mod tolerances;
-pub mod travel_order;
-pub mod widths;
+pub(crate) mod travel_order;
+pub(crate) mod widths;
 
 use std::sync::Arc;
 
 use crate::parallel::prelude::*;
 use kurbo::BezPath;
 
-pub use brushes::brush::{Brush, BrushShape, TurnShapes};
-pub use brushes::brush_source::{BrushChange, BrushSource, PictureInside, ShapeSource, TurnSources};
-pub use brushes::brush_strip::BrushStrip;
-pub use pens::hand::{Hand, HandChange};
-pub use pens::ink_context::{InkContext, Parting};
-pub use pens::ink_widths::InkWidths;
-pub use pens::pen::{Ink, Pen, PenChange};
-pub use pens::pen_rules::{Condition, LayerOptions, LayersBy, MarkOrder, Rule, StrokeOptions};
-pub use widths::swell::{Swell, SwellChange};
+pub(crate) use brushes::brush::BrushShape;
+pub(crate) use brushes::brush_source::{BrushChange, ShapeSource};
+
+pub(crate) use pens::hand::HandChange;
+pub(crate) use pens::ink_context::{InkContext, Parting};
+pub(crate) use pens::ink_widths::InkWidths;
+pub(crate) use pens::pen::PenChange;
+pub use pens::pen::{Ink, Pen};
+pub use pens::pen_choice::LineInfo;
+pub(crate) use pens::pen_choice::PenChoice;
+pub(crate) use pens::pen_rules::{Condition, LayerOptions, LayersBy, MarkOrder, Rule, StrokeOptions};
+pub(crate) use widths::swell::SwellChange;
 
 use crate::chains::{Chain, LineBackdrop};
 use crate::colour::srgb::Colour;
@@ -55,7 +58,7 @@ use outlines::stroke_outline::Nib;
 /// Weaker kinds come first, so that outlines paint over the lines that end at them. Lines of one kind keep
 /// their order.
 #[must_use]
-pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> Vec<Layer> {
+pub(crate) fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> Vec<Layer> {
     let selection = options.selection(context);
     let mut hidden: Vec<&Chain> = Vec::new();
     let mut visible: Vec<&Chain> = Vec::new();
@@ -80,7 +83,7 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
 /// Turns chains of motion lines into the layer `motion`. `pen` gives the pen of each chain. Only rules that
 /// name this kind of line change it.
 #[must_use]
-pub fn ink_motion(
+pub(crate) fn ink_motion(
     chains: &[Chain],
     context: &InkContext,
     options: &StrokeOptions,

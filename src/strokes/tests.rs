@@ -34,7 +34,7 @@ fn chain(kind: LineKind, x: f64) -> Chain {
 
 fn layers(chains: &[Chain], style: &str, sets: &[&str]) -> Vec<Layer> {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let style = Style::load(style, &sets).unwrap();
+    let style = Style::load_with(style, &sets).unwrap();
     let parts: Vec<Arc<str>> = vec!["body".into(), "bolt-1".into(), "".into()];
     let materials = [("steel".into(), Colour::rgb(100, 200, 50)), ("brass".into(), Colour::WHITE)];
     let context = InkContext {

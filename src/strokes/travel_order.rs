@@ -11,7 +11,7 @@ use crate::drawing::{Layer, Mark, Paint};
 /// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
 /// layers are unchanged.
 #[must_use]
-pub fn in_travel_order(layer: Layer) -> Layer {
+pub(crate) fn in_travel_order(layer: Layer) -> Layer {
     let colour = |mark: &Mark| match &mark.paint {
         Paint::Stroke(stroke) => Some(stroke.colour),
         _ => None,
@@ -70,7 +70,7 @@ struct PathEnd {
 /// Paths may be reversed. Dashes of reversed paths still end well, because dash patterns are symmetrical or
 /// are reversed too.
 #[must_use]
-pub fn shorten_travel(marks: Vec<Mark>) -> Vec<Mark> {
+pub(crate) fn shorten_travel(marks: Vec<Mark>) -> Vec<Mark> {
     let mut remaining: Vec<PathEnd> = Vec::with_capacity(marks.len() * 2);
     for (mark, paths) in marks.iter().enumerate() {
         let (Some(start), Some(end)) = (first_point(paths), last_point(paths)) else { continue };

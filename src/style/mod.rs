@@ -14,9 +14,9 @@
 //! ```
 //! use ligne::Style;
 //!
-//! let style = Style::load("pencil", &["pen.width=1.2".to_owned(), "hatching.enabled=false".to_owned()])?;
+//! let style = Style::load_with("pencil", &["pen.width=1.2".to_owned(), "hatching.enabled=false".to_owned()])?;
 //! assert!(!style.hatch.enabled);
-//! let error = Style::load("pencil", &["pen.widht=1.2".to_owned()]).unwrap_err();
+//! let error = Style::load_with("pencil", &["pen.widht=1.2".to_owned()]).unwrap_err();
 //! assert!(error.to_string().contains("did you mean `width`?"), "{error}");
 //! # Ok::<(), ligne::Error>(())
 //! ```
@@ -32,6 +32,9 @@ pub(crate) mod toml_reader;
 mod unitless_lengths;
 
 pub use keys::{KeyType, StyleKey};
+// Types of the public interface that other areas define.
+pub use crate::lines::LineKind;
+pub use crate::strokes::{Ink, LineInfo, Pen};
 #[cfg(feature = "page")]
 pub(crate) use sheet_loader::placed_change;
 #[cfg(feature = "page")]
@@ -46,41 +49,54 @@ use crate::lines::LineOptions;
 use crate::motion::MotionOptions;
 use crate::regions::RegionOptions;
 use crate::scene::{GlassOptions, TextureOptions};
-use crate::strokes::StrokeOptions;
+use crate::strokes::{PenChoice, StrokeOptions};
 
 /// The options of all stages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Style {
     /// Background colour; `None` for transparent. Default: white.
-    pub background: Option<Colour>,
+    pub(crate) background: Option<Colour>,
     /// Paper texture. Default: plain.
-    pub paper: Paper,
+    pub(crate) paper: Paper,
     /// Kinds of lines to find and draw.
-    pub lines: LineOptions,
+    pub(crate) lines: LineOptions,
     /// Linking, tidying, smoothing and fitting of lines.
-    pub chain: ChainOptions,
+    pub(crate) chain: ChainOptions,
     /// Pens, and the rules that choose them.
-    pub stroke: StrokeOptions,
+    pub(crate) stroke: StrokeOptions,
     /// Lights.
-    pub light: LightOptions,
+    pub(crate) light: LightOptions,
     /// Tones of surfaces and their colours.
-    pub tones: ToneOptions,
+    pub(crate) tones: ToneOptions,
     /// How material textures are painted.
-    pub textures: TextureOptions,
+    pub(crate) textures: TextureOptions,
     /// Patterns over tones.
-    pub patterns: Vec<Pattern>,
+    pub(crate) patterns: Vec<Pattern>,
     /// Whether and how regions of tones are painted.
-    pub region: RegionOptions,
+    pub(crate) region: RegionOptions,
     /// Tone bins of hatched surfaces.
-    pub shade: ShadeOptions,
+    pub(crate) shade: ShadeOptions,
     /// Whether and how surfaces are hatched.
-    pub hatch: HatchOptions,
+    pub(crate) hatch: HatchOptions,
     /// Treatment of transparent materials.
-    pub glass: GlassOptions,
+    pub(crate) glass: GlassOptions,
     /// Bodies with motion lines, and how these are drawn.
-    pub motion: MotionOptions,
+    pub(crate) motion: MotionOptions,
     /// Random seed for hand-drawn effects. The same seed gives the same drawing. Default: 0.
-    pub seed: u64,
+    pub(crate) seed: u64,
+    /// The keys that the style was made from, for [`Style::set`].
+    pub(crate) keys: SheetKeys,
+}
+
+/// Merged keys of the sheets and changes of a style. Ignored when styles are compared, because different
+/// sheets can describe the same style.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SheetKeys(pub toml::Table);
+
+impl PartialEq for SheetKeys {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Default for Style {
@@ -123,7 +139,7 @@ impl Style {
     #[must_use]
     pub fn preset(name: &str) -> Option<Self> {
         Self::sheet_text(name)?;
-        Self::load(name, &[]).ok()
+        Self::load(name).ok()
     }
 
     /// The names of the built-in styles, in alphabetical order.
@@ -143,13 +159,60 @@ impl Style {
         Some(Self::sheet_text(name)?.lines().next()?.trim_start_matches('#').trim())
     }
 
-    /// Loads a style by name or path, then applies changes. Each is `KEY=VALUE` with a dotted key such as
-    /// `pen.contour.width=2`.
+    /// Loads a built-in style by name, or a style sheet by path.
     ///
     /// # Errors
-    /// Returns an error with the file or change, the line, the wrong key and the nearest known key.
-    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
+    /// Returns an error with the file, the line, the wrong key and the nearest known key.
+    pub fn load(name_or_path: &str) -> Result<Self, Error> {
+        Self::load_with(name_or_path, &[])
+    }
+
+    /// Loads a style by name or path, then applies changes. Each is `KEY=VALUE` with a dotted key such as
+    /// `pen.contour.width=2`.
+    pub(crate) fn load_with(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
         sheet_loader::load_style(name_or_path, sets)
+    }
+
+    /// Sets a key of the style sheet, as `--set KEY=VALUE` does. Keys are dotted; `ligne styles --keys` lists
+    /// them. A list of rules or materials is appended to the present one.
+    ///
+    /// ```
+    /// use ligne::Style;
+    ///
+    /// let mut style = Style::load("technical")?;
+    /// style.set("lines.crease_deg", 20)?.set("pen.thick.width", "0.35mm")?;
+    /// assert!(style.set("lines.crease_dg", 20).is_err());
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the wrong key with the nearest known key, or the wrong value. The style is then unchanged.
+    pub fn set(&mut self, key: &str, value: impl std::fmt::Display) -> Result<&mut Self, Error> {
+        *self = sheet_loader::changed(self, &format!("{key}={value}"))?;
+        Ok(self)
+    }
+
+    /// Lets a function change the pen of each line, after all rules of the style. A width of 0 leaves the line
+    /// out. The function must give the same pen for the same line, and may be called from several threads.
+    ///
+    /// ```
+    /// use ligne::drawing::Length;
+    /// use ligne::style::LineKind;
+    /// use ligne::{Camera, Scene, Style, render};
+    ///
+    /// let scene = Scene::open("examples/models/gear.obj")?;
+    /// let style = Style::load("ink")?.with_pens(|line, pen| {
+    ///     pen.width = Length::px(if line.kind == LineKind::Contour { 3.0 } else { 1.5 - line.depth });
+    ///     pen.opacity = 1.0 - 0.5 * line.light;
+    /// });
+    /// let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &style)?;
+    /// # assert!(drawing.to_svg(&Default::default()).contains("stroke-width=\"3\""));
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_pens(mut self, choose: impl Fn(&LineInfo, &mut Pen) + Send + Sync + 'static) -> Self {
+        self.stroke.choice = Some(PenChoice(std::sync::Arc::new(choose)));
+        self
     }
 
     /// A complete sheet of a style: every key with its value or default, and a line of help. It loads as the
@@ -172,7 +235,7 @@ impl Style {
     ///
     /// ```
     /// let style = ligne::Style::from_toml("extends = 'ink'\nlines.crease_deg = 25")?;
-    /// assert_eq!(style.lines.crease_deg, 25.0);
+    /// assert_eq!(style, *ligne::Style::load("ink")?.set("lines.crease_deg", 25)?);
     /// # Ok::<(), ligne::Error>(())
     /// ```
     ///

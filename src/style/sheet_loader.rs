@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::Style;
 use super::key_spelling::to_british;
 use super::sheet_errors;
 use super::toml_reader::{self, TomlFault};
+use super::{SheetKeys, Style};
 use crate::error::Error;
 use crate::error::nearest::nearest;
 use crate::style::files::artist_file::{place_artist_textures, read_artist_textures};
@@ -45,15 +45,29 @@ pub(crate) fn load_text(text: &str) -> Result<Style, Error> {
 
 /// The style of a sheet, the sheets it extends, and changes.
 fn merged_style(source: SheetSource, sets: &[String]) -> Result<Style, Error> {
-    let merged = merged_table(source, sets)?;
+    style_of(merged_table(source, sets)?)
+}
+
+/// A style with one more change.
+pub(crate) fn changed(style: &Style, set: &str) -> Result<Style, Error> {
+    let mut merged = style.keys.0.clone();
+    merge(&mut merged, change(set)?);
+    let mut changed = style_of(merged)?;
+    changed.stroke.choice = style.stroke.choice.clone();
+    let was_to_scale = style.clone().to_scale() == *style;
+    Ok(if was_to_scale { changed.to_scale() } else { changed })
+}
+
+/// The style of merged keys. Reads the files that they name.
+fn style_of(merged: Table) -> Result<Style, Error> {
     let mut sheet: StyleSheet =
-        toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
+        toml_reader::from_table(merged.clone()).map_err(|fault| Error::new(fault.message()))?;
     sheet.fills.read_pictures()?;
     sheet.fills.read_tiles()?;
     sheet.read_brushes()?;
     sheet.read_paper()?;
     read_artist_textures(&mut sheet.lines.artist_texture)?;
-    Ok(sheet.into_style())
+    Ok(Style { keys: SheetKeys(merged), ..sheet.into_style() })
 }
 
 /// The keys that a style sets, including those of the sheets it extends.

@@ -11,20 +11,20 @@
 //! Folders, in reading order: [`creases`], [`patches`], [`normals`], [`curvature`], [`refine`],
 //! [`cylinders`](mod@cylinders). File: `tolerances`.
 
-pub mod creases;
-pub mod curvature;
-pub mod cylinders;
-pub mod normals;
-pub mod patches;
-pub mod refine;
+pub(crate) mod creases;
+pub(crate) mod curvature;
+pub(crate) mod cylinders;
+pub(crate) mod normals;
+pub(crate) mod patches;
+pub(crate) mod refine;
 mod tolerances;
 
-pub use creases::hard_edges::HardEdges;
-pub use curvature::principal_curvatures::PrincipalCurvatures;
-pub use curvature::surface_curvature::Curvature;
-pub use cylinders::cylinder::Cylinder;
-pub use cylinders::strip_cylinders::cylinders;
-pub use normals::smooth_normals::SmoothNormals;
-pub use patches::patch_layout::Patches;
-pub use patches::surface_class::MeshSource;
-pub use refine::edge_arc::EdgeArc;
+pub(crate) use creases::hard_edges::HardEdges;
+
+pub(crate) use curvature::surface_curvature::Curvature;
+pub(crate) use cylinders::cylinder::Cylinder;
+pub(crate) use cylinders::strip_cylinders::cylinders;
+pub(crate) use normals::smooth_normals::SmoothNormals;
+pub(crate) use patches::patch_layout::Patches;
+pub(crate) use patches::surface_class::MeshSource;
+pub(crate) use refine::edge_arc::EdgeArc;

@@ -44,7 +44,7 @@ pub(crate) struct FontChain {
 }
 
 impl FontChain {
-    pub fn new(asked: &Font) -> Self {
+    pub(crate) fn new(asked: &Font) -> Self {
         Self { fonts: vec![asked.clone()], known: BTreeMap::new() }
     }
 
@@ -60,7 +60,7 @@ impl FontChain {
     }
 
     /// The index of the first font that has a letter with its combining marks.
-    pub fn font_of(&mut self, letter: &str) -> Result<usize, Error> {
+    pub(crate) fn font_of(&mut self, letter: &str) -> Result<usize, Error> {
         if let Some(number) = self.known.get(letter) {
             return Ok(*number);
         }
@@ -96,7 +96,7 @@ impl FontChain {
     }
 
     /// The letters that the requested font lacks.
-    pub fn fallbacks(&self) -> Vec<FontFallback> {
+    pub(crate) fn fallbacks(&self) -> Vec<FontFallback> {
         let name =
             |number: usize| self.fonts.get(number).map(|font| font.name().to_owned()).unwrap_or_default();
         let others = self.known.iter().filter(|(_, number)| **number > 0);

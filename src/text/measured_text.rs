@@ -41,7 +41,7 @@ impl<'a> MeasuredText<'a> {
     ///
     /// # Errors
     /// If the letter size or line spacing is invalid, the language is unknown, or a glyph is missing.
-    pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
+    pub(crate) fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
         let em = setting.em();
         if !(em.is_finite() && em > 0.0 && setting.leading.is_finite() && setting.leading >= 0.0) {
             return Err(
@@ -79,18 +79,18 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// Returns the error that occurred while measuring, if any.
-    pub fn take_fault(&mut self) -> Result<(), Error> {
+    pub(crate) fn take_fault(&mut self) -> Result<(), Error> {
         self.fault.take().map_or(Ok(()), Err)
     }
 
     /// Converts a length from user units to ems.
-    pub fn in_ems(&self, units: f64) -> f64 {
+    pub(crate) fn in_ems(&self, units: f64) -> f64 {
         units / self.setting.em()
     }
 
     /// The parts of a line between two breaks: start byte, end byte, and whether a hyphen follows. Parts
     /// are whole pieces, except at breaks with a hyphen.
-    pub fn parts(&self, from: usize, to: usize) -> Vec<(usize, usize, bool)> {
+    pub(crate) fn parts(&self, from: usize, to: usize) -> Vec<(usize, usize, bool)> {
         let (begin, end) = (self.breaks[from], self.breaks[to]);
         let mut parts = Vec::new();
         let mut at = begin.at;
@@ -107,7 +107,7 @@ impl<'a> MeasuredText<'a> {
 
     /// The width of a line between two breaks, including overhanging ink. `None` if a mandatory break lies
     /// between them, or if a glyph is missing; [`Self::take_fault`] then returns the error.
-    pub fn line_width(&mut self, from: usize, to: usize) -> Option<f64> {
+    pub(crate) fn line_width(&mut self, from: usize, to: usize) -> Option<f64> {
         if (from + 1..to).rev().any(|between| self.breaks[between].must) {
             return None;
         }
@@ -115,7 +115,7 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// The width of a line between two breaks, including overhanging ink.
-    pub fn measure_line(&mut self, from: usize, to: usize) -> Result<f64, Error> {
+    pub(crate) fn measure_line(&mut self, from: usize, to: usize) -> Result<f64, Error> {
         let parts_whole = !self.breaks[from].hyphen && !self.breaks[to].hyphen;
         let at = |source: &Self, number: usize| source.breaks[source.piece_breaks[number]].at;
         let (first, last, sum) = if parts_whole {
@@ -142,7 +142,7 @@ impl<'a> MeasuredText<'a> {
 
     /// Breaks the text greedily into lines of at most `width` user units. Returns the breaks that end
     /// lines, or the break after which nothing fits. `parted` allows hyphens.
-    pub fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
+    pub(crate) fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
         let limit = self.in_ems(width);
         let breaks = self.breaks.clone();
         let mut fits = |from: usize, to: usize| self.line_width(from, to).is_some_and(|width| width <= limit);
@@ -151,7 +151,7 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// The error for a word that is too wide. It starts at the break `begin`; `width` is in user units.
-    pub fn word_too_wide_error(&mut self, begin: usize, width: f64) -> Error {
+    pub(crate) fn word_too_wide_error(&mut self, begin: usize, width: f64) -> Error {
         if let Some(fault) = self.fault.take() {
             return fault;
         }
@@ -164,7 +164,7 @@ impl<'a> MeasuredText<'a> {
     }
 
     /// Returns an error if the search for balanced breaks would be too large.
-    pub fn check_search_size(&self, lines: usize) -> Result<(), Error> {
+    pub(crate) fn check_search_size(&self, lines: usize) -> Result<(), Error> {
         if lines.saturating_mul(self.breaks.len()) <= MAX_LINE_BREAK_PAIRS {
             return Ok(());
         }
@@ -174,7 +174,7 @@ impl<'a> MeasuredText<'a> {
     /// Breaks the text into exactly `lines` lines with the smallest maximum cost. Returns this cost and the
     /// breaks that end lines. `parted` allows hyphens; `cost` takes the line number and the line's two
     /// breaks.
-    pub fn best_ends(
+    pub(crate) fn best_ends(
         &mut self,
         lines: usize,
         parted: bool,
@@ -188,7 +188,7 @@ impl<'a> MeasuredText<'a> {
     /// Breaks the text so that it fits in the smallest ellipse of an aspect ratio (height by width).
     /// Returns half the width of the ellipse and the breaks that end lines. Numbers of lines are tried from 1
     /// up, until no larger number can give a smaller ellipse.
-    pub fn smallest_ellipse(&mut self, aspect: f64, parted: bool) -> Result<(f64, Vec<usize>), Error> {
+    pub(crate) fn smallest_ellipse(&mut self, aspect: f64, parted: bool) -> Result<(f64, Vec<usize>), Error> {
         let [above, below] = self.reach;
         let leading = self.setting.leading;
         let mut best: Option<(f64, Vec<usize>)> = None;

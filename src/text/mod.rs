@@ -14,21 +14,21 @@
 //! let setting = Setting::new(Font::named("comic")?).with_em(4.0).upper_case();
 //! let block = TextBlock::balanced("Nothing to see here, move along!", &setting, 30.0)?;
 //! assert!(block.lines.len() > 1 && block.width <= 30.0);
-//! let marks = block.marks(ligne::kurbo::Point::new(10.0, 10.0), ligne::colour::srgb::Colour::BLACK);
+//! let marks = block.marks(ligne::kurbo::Point::new(10.0, 10.0), ligne::Colour::BLACK);
 //! assert_eq!(marks[0].provenance.text.as_ref().unwrap().words.as_ref(), block.lines[0].words);
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
 mod bidi;
 mod break_opportunities;
-pub mod font;
+pub(crate) mod font;
 mod font_fallback;
 mod line_breaking;
 mod measured_text;
-pub mod setting;
+pub(crate) mod setting;
 mod shaped_pieces;
 mod shaping;
-pub mod text_block;
+pub(crate) mod text_block;
 
 pub use font::Font;
 pub use font_fallback::FontFallback;

@@ -58,7 +58,7 @@ pub(crate) struct ShapedPieces<'a> {
 }
 
 impl<'a> ShapedPieces<'a> {
-    pub fn new(text: &'a str, setting: &'a Setting) -> Self {
+    pub(crate) fn new(text: &'a str, setting: &'a Setting) -> Self {
         let runs_left = runs_left(text);
         let levels = embedding_levels(text, u8::from(runs_left));
         let levels = text.char_indices().map(|(at, _)| at).zip(levels).collect();
@@ -67,7 +67,7 @@ impl<'a> ShapedPieces<'a> {
     }
 
     /// The piece between two bytes of the text, with or without a hyphen at its end.
-    pub fn piece(&mut self, from: usize, to: usize, hyphen: bool) -> Result<Arc<ShapedPiece>, Error> {
+    pub(crate) fn piece(&mut self, from: usize, to: usize, hyphen: bool) -> Result<Arc<ShapedPiece>, Error> {
         if let Some(piece) = self.known.get(&(from, to, hyphen)) {
             return Ok(Arc::clone(piece));
         }
@@ -96,7 +96,7 @@ impl<'a> ShapedPieces<'a> {
     }
 
     /// The letters that the requested font lacks.
-    pub fn fallbacks(&self) -> Vec<FontFallback> {
+    pub(crate) fn fallbacks(&self) -> Vec<FontFallback> {
         self.chain.fallbacks()
     }
 

@@ -7,7 +7,7 @@ use crate::mesh::{FaceId, Mesh};
 
 /// Triangle of the part of a face that the near plane leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClippedFace {
+pub(crate) struct ClippedFace {
     /// Face it is part of.
     pub face: FaceId,
     /// Its corners in image space.

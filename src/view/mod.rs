@@ -11,16 +11,16 @@
 //! Files, in reading order: [`frame`] the camera's axes and projection; [`edge_on_faces`] step 2;
 //! [`clipping`] step 3; [`raster`] pixel buffers of a view.
 
-pub mod clipping;
+pub(crate) mod clipping;
 mod edge_on_faces;
-pub mod frame;
-pub mod raster;
-pub mod tolerances;
+pub(crate) mod frame;
+pub(crate) mod raster;
+pub(crate) mod tolerances;
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-pub use clipping::ClippedFace;
+pub(crate) use clipping::ClippedFace;
 pub use frame::Frame;
 
 use crate::mesh::Mesh;
@@ -31,17 +31,17 @@ use crate::scene::Camera;
 #[derive(Debug, Clone)]
 pub struct View {
     /// Camera frame, relative to the mesh's origin.
-    pub frame: Frame,
+    pub(crate) frame: Frame,
     /// Image-space point (x, y, q) of each vertex; q is NaN where the vertex is nearer than the near plane or
     /// behind the eye.
-    pub points: Vec<DVec3>,
+    pub(crate) points: Vec<DVec3>,
     /// Whether each face turns its outside to the eye; false for faces seen edge-on.
-    pub facing: Vec<bool>,
+    pub(crate) facing: Vec<bool>,
     /// Faces, ascending, that follow other faces of their plane, because their own angle to the line of sight
     /// is unknown.
-    pub unsure: Vec<u32>,
+    pub(crate) unsure: Vec<u32>,
     /// Remaining parts of the faces that the near plane cuts.
-    pub clipped: Vec<ClippedFace>,
+    pub(crate) clipped: Vec<ClippedFace>,
 }
 
 impl View {

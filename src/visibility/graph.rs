@@ -44,7 +44,7 @@ pub struct ViewVertex {
     /// Distance from the eye along the optical axis, world units.
     pub depth: f64,
     /// Strength of the lines here, 0 to 1. Only interior lines are ever weaker than 1.
-    pub strength: f32,
+    pub(crate) strength: f32,
     /// Reason for the vertex.
     pub kind: ViewVertexKind,
 }
@@ -64,20 +64,20 @@ pub struct ViewEdge {
     pub silhouette: bool,
     /// Whether both surfaces that meet in the line face the eye. The thick-and-thin rule draws such lines
     /// thin.
-    pub both_seen: bool,
+    pub(crate) both_seen: bool,
     /// Whether the line lies on a smooth surface, as contours of rounded surfaces do. The corners of the mesh
     /// along it are then artefacts of tessellation.
-    pub smooth: bool,
+    pub(crate) smooth: bool,
     /// Origin of the surface under the line.
-    pub origin: MeshSource,
+    pub(crate) origin: MeshSource,
     /// Strength of the line: for a crease its dihedral angle in degrees (0 to 180), for other kinds 180.
-    pub strength: f32,
+    pub(crate) strength: f32,
     /// Part of its nearer surface.
     pub part: PartId,
     /// Material of its nearer surface.
     pub material: MaterialId,
     /// Feature segment it was cut from; pieces of one segment share it.
-    pub segment: u32,
+    pub(crate) segment: u32,
 }
 
 /// Planar graph of all feature lines in the image.
@@ -90,21 +90,21 @@ pub struct ViewMap {
     /// Edges, in the order of the feature segments they were cut from.
     pub edges: Vec<ViewEdge>,
     /// Number of comparisons between a feature segment and a triangle.
-    pub tests: u64,
+    pub(crate) tests: u64,
     /// Agreement between smooth contours and mesh contours.
-    pub contours: ContourCounts,
+    pub(crate) contours: ContourCounts,
     /// Visible parts of the mesh contours of rounded surfaces, drawn or not.
-    pub visible_contours: Vec<VisibleContour>,
+    pub(crate) visible_contours: Vec<VisibleContour>,
     /// Feature segments that are sides of folds thinner than a pen stroke, ascending. They show nothing
     /// useful.
-    pub thin_folds: Vec<u32>,
+    pub(crate) thin_folds: Vec<u32>,
     /// First part of each part's body, as in [`Mesh::bodies`](crate::mesh::Mesh::bodies).
-    pub bodies: Vec<PartId>,
+    pub(crate) bodies: Vec<PartId>,
 }
 
 /// Visible piece of the mesh contour of a rounded surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VisibleContour {
+pub(crate) struct VisibleContour {
     /// Start and end in the camera's frame, user units.
     pub ends: [DVec2; 2],
     /// Its feature segment.
@@ -114,7 +114,7 @@ pub struct VisibleContour {
 /// Agreement between smooth contours and mesh contours. Where they disagree, the mesh contour is drawn and
 /// counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct ContourCounts {
+pub(crate) struct ContourCounts {
     /// Smooth contours on the page.
     pub curves: u64,
     /// Visible edges of the mesh contour, or parts of them, that are drawn because no smooth contour is near.

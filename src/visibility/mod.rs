@@ -15,22 +15,23 @@
 //!
 //! Source: Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.
 
-pub mod assembly;
+pub(crate) mod assembly;
 mod contours;
-pub mod culling;
-pub mod graph;
-pub mod occlusion;
-pub mod overlap;
-pub mod projection;
-pub mod queries;
-pub mod sweep;
-pub mod tiles;
-pub mod tolerances;
-pub mod view_tolerances;
+pub(crate) mod culling;
+pub(crate) mod graph;
+pub(crate) mod occlusion;
+pub(crate) mod overlap;
+pub(crate) mod projection;
+pub(crate) mod queries;
+pub(crate) mod sweep;
+pub(crate) mod tiles;
+pub(crate) mod tolerances;
+pub(crate) mod view_tolerances;
 
-pub use assembly::map_builder::{build, build_through, build_with};
-pub use assembly::motion_lines::{BodyLines, build_motion_lines};
-pub use culling::view_occlusion::ViewOcclusionBuffer;
-pub use graph::{ContourCounts, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind, VisibleContour};
-pub use queries::gap_occlusion::{GapOcclusion, GapSegment};
-pub use queries::nearest_faces::{FrontFace, front_faces};
+pub(crate) use assembly::map_builder::build;
+pub(crate) use assembly::map_builder::{build_through, build_with};
+pub(crate) use assembly::motion_lines::{BodyLines, build_motion_lines};
+pub(crate) use culling::view_occlusion::ViewOcclusionBuffer;
+pub use graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub(crate) use queries::gap_occlusion::{GapOcclusion, GapSegment};
+pub(crate) use queries::nearest_faces::{FrontFace, front_faces};

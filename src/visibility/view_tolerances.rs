@@ -6,7 +6,7 @@ use crate::view::Frame;
 
 /// Tolerances of one view, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ViewTolerances {
+pub(crate) struct ViewTolerances {
     /// Distance outside a triangle's border that still counts as inside, user units.
     pub cover: f64,
     /// Height in the image below which a triangle covers nothing, user units.
@@ -29,7 +29,7 @@ pub struct ViewTolerances {
 impl ViewTolerances {
     /// Tolerances for a frame. A px here is a thousandth of the frame's longer side, for any user unit.
     #[must_use]
-    pub fn new(frame: &Frame) -> Self {
+    pub(crate) fn new(frame: &Frame) -> Self {
         let px = frame.px();
         Self {
             cover: crate::geometry::tolerances::TRIANGLE_BORDER_PX * px,
@@ -46,7 +46,7 @@ impl ViewTolerances {
     /// Difference in nearness required for a triangle to hide a line at nearness `q`.
     #[inline]
     #[must_use]
-    pub fn step(&self, q: f64, own: &FaceTolerances, shares_vertex: bool, frame: &Frame) -> f64 {
+    pub(crate) fn step(&self, q: f64, own: &FaceTolerances, shares_vertex: bool, frame: &Frame) -> f64 {
         let (in_image, in_space) =
             if shares_vertex { (self.neighbour, own.neighbour) } else { (self.contact, own.contact) };
         frame.nearness_across(q, in_image).max(frame.nearness_step(q, in_space))
@@ -55,7 +55,7 @@ impl ViewTolerances {
 
 /// Tolerances of a triangle that do not depend on the view: depth differences within rounding, world units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FaceTolerances {
+pub(crate) struct FaceTolerances {
     /// Distance that counts as touching.
     pub contact: f64,
     /// Distance that counts as touching for lines that share a vertex with the triangle.
@@ -68,7 +68,7 @@ impl FaceTolerances {
     /// Tolerances for the triangles of a part.
     #[inline]
     #[must_use]
-    pub fn of(extent: &PartMetrics) -> Self {
+    pub(crate) fn of(extent: &PartMetrics) -> Self {
         Self {
             contact: extent.contact,
             neighbour: tolerances::NEIGHBOUR_OF_PART * extent.scale,

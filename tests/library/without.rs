@@ -3,7 +3,7 @@
 
 use std::io::Write as _;
 
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::shared_folder;
 
 #[test]
 fn missing_shared_models_are_reported() {

@@ -89,11 +89,11 @@ fn towers(parts: &mut Vec<Part>) {
         parts.push(Part::new(&format!("tower-{name}"), STONE, at_corner(tower.stone)));
         parts.push(Part::new(&format!("tower-{name}-trim"), SANDSTONE, at_corner(tower.trim)));
         parts.push(Part::new(&format!("tower-{name}-roof"), ROOF, at_corner(tower.roof)));
-        let outward = ligne::geometry::numbers::portable_math::atan2(y, x);
+        let outward = libm::atan2(y, x);
         let windows =
             [(-0.75, 3.0), (0.75, 3.0), (0.0, 5.6), (-1.5, 5.6), (1.5, 5.6)].map(|(aside, height)| {
-                let way = ligne::geometry::numbers::portable_math::cos(outward + aside);
-                let across = ligne::geometry::numbers::portable_math::sin(outward + aside);
+                let way = libm::cos(outward + aside);
+                let across = libm::sin(outward + aside);
                 window(0.5, 1.1).0.moved(turn(outward + aside)).shifted(2.12 * way, 2.12 * across, height)
             });
         parts.push(Part::new(&format!("tower-{name}-windows"), GLASS, at_corner(together(windows))));
@@ -106,10 +106,7 @@ fn towers(parts: &mut Vec<Part>) {
 
 /// Like [`facing`], with a direction given by its angle from x.
 fn facing_angle(angle: f64) -> DAffine3 {
-    facing(
-        ligne::geometry::numbers::portable_math::cos(angle),
-        ligne::geometry::numbers::portable_math::sin(angle),
-    )
+    facing(libm::cos(angle), libm::sin(angle))
 }
 
 /// Gatehouse: two half-round turrets, the arch between them, the gate with its bands, and the steps.

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::sin;
+use libm::sin;
 
 use crate::geometry::outline::{arc, arch, at};
 use crate::geometry::part::{Material, together};

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::turned;

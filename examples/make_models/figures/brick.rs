@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::part::{Material, Part, together, y_up_from_z_up};
 use crate::geometry::solid::Solid;

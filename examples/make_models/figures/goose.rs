@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::part::{Material, Part};
 use crate::geometry::solid::Solid;

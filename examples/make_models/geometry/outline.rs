@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
-use ligne::geometry::numbers::portable_math::{acos, cos, sin, tan};
+use libm::{acos, cos, sin, tan};
 
 /// Point from two numbers.
 pub fn at(x: f64, y: f64) -> DVec2 {
@@ -41,7 +41,7 @@ pub fn rounded(corners: &[(DVec2, f64)]) -> Vec<DVec2> {
             outline.push(corner);
             continue;
         }
-        let half = acos(back.dot(ahead)) / 2.0;
+        let half = acos(back.dot(ahead).clamp(-1.0, 1.0)) / 2.0;
         let centre = corner + (back + ahead).normalize() * (radius / sin(half));
         let foot = corner + back * (radius / tan(half));
         let sweep = (PI - 2.0 * half) * if back.perp_dot(ahead) < 0.0 { 1.0 } else { -1.0 };

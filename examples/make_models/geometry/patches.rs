@@ -60,8 +60,7 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
     for face in &solid.faces {
         let [a, b, c] = [0, 1, 2].map(|k| solid.points[face[k] as usize]);
         for (here, ahead, back) in [(0, b - a, c - a), (1, c - b, a - b), (2, a - c, b - c)] {
-            let angle =
-                ligne::geometry::numbers::portable_math::acos(ahead.normalize().dot(back.normalize()));
+            let angle = libm::acos(ahead.normalize().dot(back.normalize()).clamp(-1.0, 1.0));
             normals[face[here] as usize] += angle * ahead.cross(back).normalize();
         }
     }

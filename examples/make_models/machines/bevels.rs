@@ -8,7 +8,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::outline::{arc, at};
 use crate::geometry::part::{Material, Part};

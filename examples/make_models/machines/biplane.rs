@@ -2,7 +2,7 @@
 //! parts share.
 
 use glam::{DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::outline::circle;
 use crate::geometry::part::{Material, Part};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::part::{Material, Part, together};
 use crate::geometry::solid::Solid;

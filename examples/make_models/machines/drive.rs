@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
+use libm::{atan2, cos, sin};
 
 use super::workshop::{BLUE, BRASS, DARK, GREEN, ORANGE, STEEL, Shop, UP, ZINC, around, place, several};
 use crate::geometry::outline::{arc, at, circle, polar};

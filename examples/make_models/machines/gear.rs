@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{acos, cos, tan};
+use libm::{acos, cos, tan};
 
 use crate::geometry::outline::{arc, at, circle, polar};
 use crate::geometry::solid::Solid;
@@ -40,7 +40,7 @@ fn flank() -> Vec<(f64, f64)> {
     let fillet = (0..18).map(|i| {
         let angle = PI / 2.0 * f64::from(i) / 18.0;
         let out = 1.0 - cos(angle);
-        let aside = 1.0 - ligne::geometry::numbers::portable_math::sin(angle);
+        let aside = 1.0 - libm::sin(angle);
         (root + FILLET * out, angle_at(start) + FILLET * aside / root)
     });
     // Equal steps of the roll angle turn the flank by equal angles.

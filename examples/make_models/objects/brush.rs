@@ -1,6 +1,6 @@
 //! Picture of a stroke with a drying brush: full ink at the start, streaks of bristles at the end.
 
-use ligne::geometry::numbers::noise::{hash, unit_interval, value_noise};
+use ligne::internals::geometry::{hash, unit_interval, value_noise};
 
 const WIDTH: usize = 640;
 const HEIGHT: usize = 64;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 const AROUND: usize = 28;
 const UP: usize = 18;

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, pow, sin};
+use libm::{cos, pow, sin};
 
 use crate::geometry::outline::circle;
 use crate::geometry::part::{Material, Part};

@@ -1,7 +1,7 @@
 //! A glass jar with three marbles, on a board between two boxes. The material library defines its opacity.
 
 use glam::DVec3;
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::part::{Material, Part};
 use crate::geometry::solid::Solid;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 /// Number of meridians and parallels of the ball.
 const ROUND: u32 = 64;

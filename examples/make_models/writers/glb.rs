@@ -72,11 +72,7 @@ const INDICES: u32 = 34963;
 
 /// Linear value of an sRGB colour channel, as glTF requires, rounded to keep the text short.
 fn linear(channel: f64) -> f64 {
-    let value = if channel <= 0.04045 {
-        channel / 12.92
-    } else {
-        ligne::geometry::numbers::portable_math::pow((channel + 0.055) / 1.055, 2.4)
-    };
+    let value = if channel <= 0.04045 { channel / 12.92 } else { libm::pow((channel + 0.055) / 1.055, 2.4) };
     (value * 1e4).round() / 1e4
 }
 

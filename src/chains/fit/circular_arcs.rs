@@ -64,12 +64,12 @@ pub(crate) struct CircularArc {
 
 impl CircularArc {
     /// Whether the arc is a whole circle.
-    pub fn is_circle(&self) -> bool {
+    pub(crate) fn is_circle(&self) -> bool {
         self.turn.abs() >= TAU
     }
 
     /// Appends the arc to a path that ends at its first corner; `end` is its last corner.
-    pub fn add(&self, start: Point, end: Point, path: &mut BezPath) {
+    pub(crate) fn add(&self, start: Point, end: Point, path: &mut BezPath) {
         let count = (self.turn.abs() / FRAC_PI_4 - tolerances::ARC_COUNT_ROUNDING).ceil().max(1.0);
         let step = self.turn / count;
         // Handle length for a circle of radius 1.

@@ -44,7 +44,7 @@ type CurvePosition = (usize, f64);
 
 impl PartRuns {
     /// Runs of a raw line; `None` if all of it lies in one part.
-    pub fn of(line: &SampledLine) -> Option<Self> {
+    pub(crate) fn of(line: &SampledLine) -> Option<Self> {
         let n = line.len();
         let sides = if line.closed { n } else { n.saturating_sub(1) };
         let first = line.part.first()?;
@@ -66,7 +66,7 @@ impl PartRuns {
     }
 
     /// Pieces of the finished line. Points are left out if the line has none.
-    pub fn cut(mut self, line: &SampledLine, path: &BezPath, px: f64) -> Vec<PartPiece> {
+    pub(crate) fn cut(mut self, line: &SampledLine, path: &BezPath, px: f64) -> Vec<PartPiece> {
         let curve: Vec<PathSeg> = path.segments().collect();
         if self.closed {
             let start = curve.first().map_or(self.points[0], PathSeg::start);

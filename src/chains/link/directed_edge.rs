@@ -14,23 +14,23 @@ pub(crate) struct DirectedEdge {
 
 impl DirectedEdge {
     /// The same edge in the other direction.
-    pub fn turned(self) -> Self {
+    pub(crate) fn turned(self) -> Self {
         Self { reversed: !self.reversed, ..self }
     }
 
     /// View vertex where the route enters the edge.
-    pub fn from(self, map: &ViewMap) -> ViewVertexId {
+    pub(crate) fn from(self, map: &ViewMap) -> ViewVertexId {
         let edge = &map.edges[self.edge as usize];
         if self.reversed { edge.end } else { edge.start }
     }
 
     /// View vertex where the route leaves the edge.
-    pub fn to(self, map: &ViewMap) -> ViewVertexId {
+    pub(crate) fn to(self, map: &ViewMap) -> ViewVertexId {
         self.turned().from(map)
     }
 
     /// Distance between its ends in the image, user units.
-    pub fn length(self, map: &ViewMap) -> f64 {
+    pub(crate) fn length(self, map: &ViewMap) -> f64 {
         let at = |v: ViewVertexId| map.vertices[v.index()].position;
         length(at(self.to(map)) - at(self.from(map)))
     }

@@ -22,7 +22,7 @@ pub(crate) struct EdgeClass {
 impl EdgeClass {
     /// Class of an edge in the view map. All hidden edges are equal in this respect, for any invisibility
     /// above 0.
-    pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
+    pub(crate) fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         Self {
             kind: edge.kind,
             body: body_of(&map.bodies, edge.part),
@@ -35,7 +35,7 @@ impl EdgeClass {
     }
 
     /// Class without the properties that may change along one line of the surface.
-    pub fn of_source(map: &ViewMap, edge: &ViewEdge) -> Self {
+    pub(crate) fn of_source(map: &ViewMap, edge: &ViewEdge) -> Self {
         Self { hidden: false, silhouette: false, both_seen: false, ..Self::of(map, edge) }
     }
 }

@@ -31,17 +31,17 @@ struct Span {
 }
 
 impl Routes {
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.spans.len()
     }
 
     /// Steps of a route, and whether it is closed.
-    pub fn get(&self, route: usize) -> (&[DirectedEdge], bool) {
+    pub(crate) fn get(&self, route: usize) -> (&[DirectedEdge], bool) {
         let span = self.spans[route];
         (&self.steps[span.first as usize..span.end as usize], span.closed)
     }
 
-    pub fn iter(
+    pub(crate) fn iter(
         &self,
     ) -> Parallel<Range<usize>, impl parallel::Step<Range<usize>, Item = (&[DirectedEdge], bool)>> {
         (0..self.len()).into_par_iter().with_min_len(ROUTES_PER_TASK).map(|route| self.get(route))

@@ -18,7 +18,7 @@ mod hidden_gaps;
 mod oriented_line;
 mod piece_grid;
 pub(crate) mod raw_line;
-pub mod removed_lines;
+pub(crate) mod removed_lines;
 mod short_lines;
 mod silhouette_runs;
 mod stitching;

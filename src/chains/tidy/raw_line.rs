@@ -37,7 +37,7 @@ pub(crate) struct RawLine {
 impl RawLine {
     /// Line of a route; `None` if the route projects to a point. Contours and creases of scans count as
     /// smooth.
-    pub fn of_route(
+    pub(crate) fn of_route(
         map: &ViewMap,
         routes: &Routes,
         route: usize,
@@ -78,7 +78,7 @@ impl RawLine {
     }
 
     /// Length in the image.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         let points = &self.line.points;
         let open: f64 = points.windows(2).map(|pair| length(pair[1] - pair[0])).sum();
         match (points.first(), points.last()) {
@@ -88,14 +88,14 @@ impl RawLine {
     }
 
     /// Share of its length that is silhouette, 0 to 1.
-    pub fn silhouette_part(&self) -> f64 {
+    pub(crate) fn silhouette_part(&self) -> f64 {
         let sides = || self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
         let silhouette = sides().zip(&self.line.silhouette).filter(|(_, is)| **is);
         silhouette.map(|(side, _)| side).sum::<f64>() / sides().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 
     /// Whether it ends where it starts.
-    pub fn is_ring(&self) -> bool {
+    pub(crate) fn is_ring(&self) -> bool {
         self.line.closed || self.ends[0] == self.ends[1]
     }
 }
@@ -104,7 +104,7 @@ impl RawLine {
 pub(crate) struct VertexDegrees(Vec<u32>);
 
 impl VertexDegrees {
-    pub fn new(map: &ViewMap, classes: &[Option<EdgeClass>]) -> Self {
+    pub(crate) fn new(map: &ViewMap, classes: &[Option<EdgeClass>]) -> Self {
         let mut degrees = vec![0; map.vertices.len()];
         for (edge, class) in map.edges.iter().zip(classes) {
             if class.is_some_and(|class| !class.hidden) {
@@ -116,22 +116,22 @@ impl VertexDegrees {
     }
 
     /// Whether at most one line ends at the vertex.
-    pub fn is_free(&self, vertex: ViewVertexId) -> bool {
+    pub(crate) fn is_free(&self, vertex: ViewVertexId) -> bool {
         self.0[vertex.index()] <= 1
     }
 
     /// Whether more than two edge ends meet at the vertex.
-    pub fn is_junction(&self, vertex: ViewVertexId) -> bool {
+    pub(crate) fn is_junction(&self, vertex: ViewVertexId) -> bool {
         self.0[vertex.index()] > 2
     }
 
     /// Removes one edge end at the vertex.
-    pub fn cut_off(&mut self, vertex: ViewVertexId) {
+    pub(crate) fn cut_off(&mut self, vertex: ViewVertexId) {
         self.0[vertex.index()] = self.0[vertex.index()].saturating_sub(1);
     }
 
     /// Removes all edges of a line that is dropped.
-    pub fn remove_line(&mut self, raw: &RawLine) {
+    pub(crate) fn remove_line(&mut self, raw: &RawLine) {
         raw.vertices.iter().for_each(|vertex| self.cut_off(*vertex));
     }
 }

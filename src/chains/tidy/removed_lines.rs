@@ -8,7 +8,7 @@ use crate::surface::MeshSource;
 
 /// Why a line was dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum RemovalReason {
+pub(crate) enum RemovalReason {
     /// Short and isolated.
     Crumb,
     /// Short, with one dangling end.
@@ -28,13 +28,9 @@ pub enum RemovalReason {
 }
 
 impl RemovalReason {
-    /// All reasons.
-    pub const ALL: [Self; 8] =
-        [Self::Crumb, Self::Spur, Self::Stub, Self::Loop, Self::Double, Self::Noise, Self::Weak, Self::Point];
-
     /// Class name in SVG.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Crumb => "crumb",
             Self::Spur => "spur",
@@ -62,7 +58,7 @@ impl RemovalReason {
 
 /// A dropped line, or a dropped part of one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RemovedLine {
+pub(crate) struct RemovedLine {
     /// Points in user units of the page.
     pub points: Vec<Point>,
     /// Whether the last point joins the first.
@@ -79,12 +75,12 @@ pub(crate) struct RemovalLog(Option<Vec<RemovedLine>>);
 
 impl RemovalLog {
     /// A log that records lines.
-    pub fn recording() -> Self {
+    pub(crate) fn recording() -> Self {
         Self(Some(Vec::new()))
     }
 
     /// Records a whole line.
-    pub fn record(&mut self, raw: &RawLine, reason: impl FnOnce() -> RemovalReason) {
+    pub(crate) fn record(&mut self, raw: &RawLine, reason: impl FnOnce() -> RemovalReason) {
         if let Some(kept) = &mut self.0 {
             let (points, closed) = (raw.line.points.clone(), raw.line.closed);
             kept.push(RemovedLine { points, closed, kind: raw.class.kind, reason: reason() });
@@ -92,21 +88,26 @@ impl RemovalLog {
     }
 
     /// Records a part of a line.
-    pub fn record_part(&mut self, raw: &RawLine, reason: RemovalReason, points: impl FnOnce() -> Vec<Point>) {
+    pub(crate) fn record_part(
+        &mut self,
+        raw: &RawLine,
+        reason: RemovalReason,
+        points: impl FnOnce() -> Vec<Point>,
+    ) {
         if let Some(kept) = &mut self.0 {
             kept.push(RemovedLine { points: points(), closed: false, kind: raw.class.kind, reason });
         }
     }
 
     /// Records a single edge that became part of no line.
-    pub fn record_piece(&mut self, kind: LineKind, reason: RemovalReason, ends: [Point; 2]) {
+    pub(crate) fn record_piece(&mut self, kind: LineKind, reason: RemovalReason, ends: [Point; 2]) {
         if let Some(kept) = &mut self.0 {
             kept.push(RemovedLine { points: ends.to_vec(), closed: false, kind, reason });
         }
     }
 
     /// All records, in order.
-    pub fn into_removed(self) -> Vec<RemovedLine> {
+    pub(crate) fn into_removed(self) -> Vec<RemovedLine> {
         self.0.unwrap_or_default()
     }
 }

@@ -109,7 +109,7 @@ fn check(command: &Command, variables: &[ConfiguredOption]) -> Result<(), Error>
             });
         }
         if given.option == "style" {
-            Style::load(value.unwrap_or_default(), &[]).map_err(|error| match error.place {
+            Style::load(value.unwrap_or_default()).map_err(|error| match error.place {
                 Some(_) => error,
                 None => error.at(name),
             })?;

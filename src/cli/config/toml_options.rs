@@ -343,7 +343,7 @@ fn resolve_paths(
             let is_path = value.ends_with(".toml") || value.contains(['/', '\\']) || beside.is_file();
             let style = if Style::sheet_text(&value).is_none() && is_path { beside_text() } else { value };
             // An error inside a style sheet keeps the position in that sheet.
-            Style::load(&style, &[]).map_err(|error| match error.place {
+            Style::load(&style).map_err(|error| match error.place {
                 Some(_) => error,
                 None => file.with_position(&error, span),
             })?;

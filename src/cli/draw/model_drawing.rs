@@ -21,7 +21,7 @@ use crate::cli::{library_calls, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::encoding::gzip;
-use crate::pipeline::{MapFiles, Prepared, Report, Stopwatch, with_cut_hatching_for, with_trail_lines};
+use crate::pipeline::{MapFiles, Renderer, Report, Stopwatch, with_cut_hatching_for, with_trail_lines};
 use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
@@ -170,12 +170,12 @@ pub(crate) fn draw_model(
     watch.lap_ms();
     // The scene is kept if hotspots or several views need it.
     let prepared = match eyes.as_slice() {
-        [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
+        [eye] if !request.web.hotspots => Renderer::for_camera(Cow::Owned(scene), &style, &eye.camera),
         eyes => {
             let scene = &*of_scene.scene.insert(retained_scene.insert(scene));
             match eyes {
-                [eye] => Prepared::for_camera(scene, &style, &eye.camera),
-                _ => Prepared::new(scene, &style),
+                [eye] => Renderer::for_camera(Cow::Borrowed(scene), &style, &eye.camera),
+                _ => Renderer::new(scene, &style),
             }
         }
     };
@@ -209,12 +209,12 @@ fn draw_view(
     request: &DrawRequest,
     (Viewpoint { camera, paper, warning }, page, enclosed): (Viewpoint, Page, Option<String>),
     of_scene: &SceneReport,
-    (style, prepared): (&Style, &Prepared),
+    (style, prepared): (&Style, &Renderer),
     watch: &mut Stopwatch,
     progress: &Progress,
 ) -> Result<EncodedDrawing, Error> {
     watch.lap_ms();
-    let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let (mut drawing, mut report) = prepared.draw_stage(&camera, page, request.stage)?;
     let bare = web_output::complete(request, &mut drawing, of_scene.scene, &camera, style)?;
     let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
     report.counts.triangles = of_scene.triangles;

@@ -44,7 +44,7 @@ pub(crate) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
 
 impl LeftOutInfo {
     /// Entries of the parts with excluded elements.
-    pub fn of(scene: &Scene, left_out: &[DegenerateCounts]) -> Vec<Self> {
+    pub(crate) fn of(scene: &Scene, left_out: &[DegenerateCounts]) -> Vec<Self> {
         let parts = scene.parts.iter().zip(left_out).filter(|(_, own)| !own.is_none());
         let info = parts.map(|(part, own)| Self {
             part: part.name.clone(),

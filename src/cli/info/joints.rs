@@ -25,7 +25,7 @@ pub(crate) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
 
 impl JointInfo {
     /// Entry of the joint in the text.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         let parent =
             self.parent.as_deref().map_or_else(String::new, |parent| format!(", below {}", named(parent)));
         format!("{}{parent}", named(&self.name))

@@ -34,7 +34,7 @@ pub(crate) struct ClipInfo {
 
 impl LightInfo {
     /// Name and kind of a light.
-    pub fn of(light: &Light) -> Self {
+    pub(crate) fn of(light: &Light) -> Self {
         let kind = match light.kind {
             LightKind::Directional { .. } => "directional",
             LightKind::Point { .. } => "point",
@@ -44,14 +44,14 @@ impl LightInfo {
     }
 
     /// Entry of the light in the text.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         aside(&self.name, self.kind)
     }
 }
 
 impl CameraInfo {
     /// Name and projection of a camera.
-    pub fn of(named: &NamedCamera) -> Self {
+    pub(crate) fn of(named: &NamedCamera) -> Self {
         let r#type = match named.camera.projection {
             Projection::Perspective { .. } => "perspective",
             Projection::Orthographic { .. } => "orthographic",
@@ -60,20 +60,20 @@ impl CameraInfo {
     }
 
     /// Entry of the camera in the text.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         aside(&self.name, self.r#type)
     }
 }
 
 impl ClipInfo {
     /// Name, time span and key rate of an animation.
-    pub fn of(clip: &Clip) -> Self {
+    pub(crate) fn of(clip: &Clip) -> Self {
         let [from, to] = clip.span();
         Self { name: clip.name.clone(), from, to, rate: clip.rate() }
     }
 
     /// Entry of the animation in the text.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         let begins = if self.from == 0.0 { String::new() } else { format!(", from {} s", short(self.from)) };
         let keys = |rate: f64| {
             let rate = short(rate);

@@ -32,7 +32,7 @@ pub(crate) struct MaterialInfo {
 
 impl MaterialInfo {
     /// Describes a material of a scene.
-    pub fn of(scene: &Scene, material: &Material) -> Self {
+    pub(crate) fn of(scene: &Scene, material: &Material) -> Self {
         let (alpha, cutoff) = match material.alpha {
             Alpha::Mask { cutoff } => ("mask", Some(cutoff)),
             Alpha::Blend => ("blend", None),
@@ -53,7 +53,7 @@ impl MaterialInfo {
     }
 
     /// Entry of the material in the text.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         let texture = match (&self.texture, self.texture_size) {
             (Some(file), Some([width, height])) => format!(", texture {file}, {width} x {height} px"),
             (Some(file), None) => format!(", texture {file}"),

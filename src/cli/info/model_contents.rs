@@ -59,7 +59,7 @@ pub(crate) struct BoundsInfo {
 
 impl ModelInfo {
     /// Collects contents and defects of a scene.
-    pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
+    pub(crate) fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
         let unused = |geometry: &Geometry| (geometry.positions.len() - used_points(geometry).len()) as u64;
         let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();

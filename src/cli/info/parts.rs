@@ -48,7 +48,7 @@ impl PartInfo {
     /// Describes part `number` of a scene; `None` if there is no such part.
     ///
     /// `left_out` counts the degenerate elements of the part, which are not drawn. `turned` covers all parts.
-    pub fn of(
+    pub(crate) fn of(
         scene: &Scene,
         number: usize,
         left_out: &DegenerateCounts,
@@ -74,7 +74,7 @@ impl PartInfo {
     }
 
     /// Line of the part in the text output. A full line includes bounds and precision.
-    pub fn line(&self, is_full: bool) -> String {
+    pub(crate) fn line(&self, is_full: bool) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
         let painted = match (self.texture_coordinates, self.vertex_colours) {
             (true, true) => ", texture coordinates, coloured vertices",
@@ -102,7 +102,7 @@ impl PartBounds {
 
 impl TurnedInfo {
     /// Sums the counts of several parts.
-    pub fn of<'a>(parts: impl IntoIterator<Item = &'a TurnedFaces>) -> Self {
+    pub(crate) fn of<'a>(parts: impl IntoIterator<Item = &'a TurnedFaces>) -> Self {
         parts.into_iter().fold(Self::default(), |sum, own| Self {
             triangles: sum.triangles + own.faces,
             surfaces: sum.surfaces + own.surfaces,
@@ -110,7 +110,7 @@ impl TurnedInfo {
     }
 
     /// The counts as text; `None` if no triangle was reversed.
-    pub fn words(&self) -> Option<String> {
+    pub(crate) fn words(&self) -> Option<String> {
         let Self { triangles, surfaces } = *self;
         let is_any = triangles > 0;
         is_any

@@ -67,7 +67,7 @@ impl PrecisionInfo {
     }
 
     /// The step, its source and the rounding as text; none for a part that is not drawn.
-    pub fn words(&self) -> Option<String> {
+    pub(crate) fn words(&self) -> Option<String> {
         let (step, rounding) = (self.step?, self.rounding?);
         let Some(source) = self.step_from else { return Some("exact coordinates".to_owned()) };
         let source = match source {

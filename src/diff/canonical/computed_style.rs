@@ -48,7 +48,7 @@ pub(crate) struct DocumentContext<'a> {
 
 impl<'a> DocumentContext<'a> {
     /// Collects style sheets, scripts and references of a document.
-    pub fn of(document: &'a Document) -> Self {
+    pub(crate) fn of(document: &'a Document) -> Self {
         let mut afar = Self::default();
         for node in document.descendants() {
             let sheet = match node.node_type() {
@@ -98,7 +98,7 @@ pub(crate) struct ComputedStyle<'a> {
 
 impl<'a> ComputedStyle<'a> {
     /// Initial style at the root.
-    pub fn new(afar: &DocumentContext) -> Self {
+    pub(crate) fn new(afar: &DocumentContext) -> Self {
         Self {
             fill: "black",
             stroke: "none",
@@ -110,7 +110,7 @@ impl<'a> ComputedStyle<'a> {
     }
 
     /// Style of a child element of this one.
-    pub fn child_style(&self, node: Node<'a, '_>, afar: &DocumentContext) -> Self {
+    pub(crate) fn child_style(&self, node: Node<'a, '_>, afar: &DocumentContext) -> Self {
         let mut look = self.clone();
         look.is_referenced |= INDIRECT_ELEMENTS.contains(&node.tag_name().name());
         look.ordered |= node.attribute("data-order").is_some();
@@ -164,7 +164,7 @@ impl<'a> ComputedStyle<'a> {
     }
 
     /// Rewrites allowed for a path of this style.
-    pub fn allowed_rewrite(&self, path: Node) -> PathRewrite {
+    pub(crate) fn allowed_rewrite(&self, path: Node) -> PathRewrite {
         let bears = path.children().filter(Node::is_element).any(|child| !describes(&child));
         let all_points = self.is_referenced || bears;
         let (filled, stroked) = (self.fill != "none", self.stroke != "none");
@@ -180,7 +180,7 @@ impl<'a> ComputedStyle<'a> {
 
     /// Whether a path of this style may change places with a neighbour of equal paint. It must be painted
     /// in one flat colour and have no attribute that depends on the order.
-    pub fn may_be_exchanged(&self, path: Node) -> bool {
+    pub(crate) fn may_be_exchanged(&self, path: Node) -> bool {
         let parent = path.parent_element().is_some_and(|p| matches!(p.tag_name().name(), "svg" | "g" | "a"));
         let one_colour = match (self.fill, self.stroke) {
             ("none", colour) | (colour, "none") => is_flat(colour),

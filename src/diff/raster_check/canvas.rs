@@ -26,12 +26,17 @@ pub(crate) struct CanvasWindow {
 }
 
 impl<'a> Canvas<'a> {
-    pub fn new(picture: &'a Picture, ignore: Ignore) -> Self {
+    pub(crate) fn new(picture: &'a Picture, ignore: Ignore) -> Self {
         Self { picture, ignore }
     }
 
     /// Rasterises the whole drawing with anti-aliasing.
-    pub fn coarse(&self, columns: usize, rows: usize, scale: f64) -> Option<Vec<PremultipliedColorU8>> {
+    pub(crate) fn coarse(
+        &self,
+        columns: usize,
+        rows: usize,
+        scale: f64,
+    ) -> Option<Vec<PremultipliedColorU8>> {
         let mut pixmap = Pixmap::new(u32::try_from(columns).ok()?, u32::try_from(rows).ok()?)?;
         let to = Transform::from_scale(scale as f32, scale as f32);
         self.paint(
@@ -44,7 +49,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Rasterises a window without anti-aliasing: each pixel is covered completely or not at all.
-    pub fn spot(&self, spot: CanvasWindow) -> Option<Vec<PremultipliedColorU8>> {
+    pub(crate) fn spot(&self, spot: CanvasWindow) -> Option<Vec<PremultipliedColorU8>> {
         let size = u32::try_from(spot.size).ok()?;
         let mut pixmap = Pixmap::new(size, size)?;
         let side = spot.size as f64 / spot.scale;

@@ -50,7 +50,7 @@ pub(crate) struct ExplainedPixels {
 
 impl ExplainedPixels {
     /// Marks the pixels near all visible findings.
-    pub fn new(
+    pub(crate) fn new(
         findings: &[Finding],
         pictures: [&Picture; 2],
         columns: usize,
@@ -83,7 +83,7 @@ impl ExplainedPixels {
     }
 
     /// Whether geometry found any visible change.
-    pub fn has_claims(&self) -> bool {
+    pub(crate) fn has_claims(&self) -> bool {
         self.claims
     }
 
@@ -115,7 +115,7 @@ impl ExplainedPixels {
     }
 
     /// Tiles with unexplained differing pixels, or with `any` all differing pixels, largest difference first.
-    pub fn candidates(&self, coarse: &CoarseComparison, any: bool) -> Vec<CandidateTile> {
+    pub(crate) fn candidates(&self, coarse: &CoarseComparison, any: bool) -> Vec<CandidateTile> {
         let across = self.columns.div_ceil(TILE_SIDE_PIXELS);
         let mut tiles: Vec<Vec<(u8, usize)>> = Vec::new();
         tiles.resize_with(across * self.rows.div_ceil(TILE_SIDE_PIXELS), Vec::new);
@@ -153,7 +153,7 @@ impl ExplainedPixels {
     }
 
     /// One finding for each connected group of tiles.
-    pub fn findings(&self, tiles: &[CandidateTile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
+    pub(crate) fn findings(&self, tiles: &[CandidateTile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
         let by_place: FxHashMap<[usize; 2], usize> =
             tiles.iter().enumerate().map(|(index, tile)| ([tile.column, tile.row], index)).collect();
         let mut taken = vec![false; tiles.len()];

@@ -41,7 +41,7 @@ pub(crate) struct CoarseComparison {
 
 impl CoarseComparison {
     /// Whether any pixel differs.
-    pub fn has_any(&self) -> bool {
+    pub(crate) fn has_any(&self) -> bool {
         self.difference.iter().any(|difference| *difference > MAX_CHANNEL_DIFFERENCE)
     }
 }
@@ -147,7 +147,7 @@ pub(crate) struct FineComparison {
 
 impl FineComparison {
     /// Inspection of a pixel in a picture with `coarse` pixels per px.
-    pub fn new(coarse: f64, tolerance: f64) -> Self {
+    pub(crate) fn new(coarse: f64, tolerance: f64) -> Self {
         let scale = PIXELS_PER_TOLERANCE / tolerance.max(tolerances::MIN_DIVISOR_PX);
         let scale = scale.max(MIN_FINE_SCALE).max(coarse);
         let scale = scale.min(MAX_CORE_PIXELS * coarse);
@@ -156,7 +156,7 @@ impl FineComparison {
     }
 
     /// Whether the core differs: in any pixel, or with `needs_square` in a square as wide as the tolerance.
-    pub fn differs(self, pictures: [&[Pixel]; 2], needs_square: bool) -> bool {
+    pub(crate) fn differs(self, pictures: [&[Pixel]; 2], needs_square: bool) -> bool {
         let size = self.core + 2 * self.reach;
         let [a, b] = pictures;
         if a.len() != size * size || b.len() != a.len() {

@@ -23,7 +23,7 @@ const MAX_DISTINCT_AXES: usize = 256;
 
 impl Assembly<'_> {
     /// Axes that at least two of the bodies share, most common first.
-    pub fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
+    pub(crate) fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
         let mut counted_axes: Vec<(DVec3, usize)> = Vec::new();
         for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
             match counted_axes.iter().position(|(known_axis, _)| is_parallel(*known_axis, *axis)) {

@@ -24,14 +24,19 @@ pub(crate) struct AxisBlocking {
 
 impl AxisBlocking {
     /// Computes the relations of bodies along an axis.
-    pub fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
+    pub(crate) fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
         let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: PairContacts::new() };
         Self::with_held_limit(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
     }
 
     /// Computes the relations of bodies along an axis, if at most `most_held` pairs interlock. The limit has
     /// no effect at present, because the counter `held` is never increased.
-    pub fn with_held_limit(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
+    pub(crate) fn with_held_limit(
+        assembly: &Assembly,
+        of: &[usize],
+        axis: DVec3,
+        most_held: usize,
+    ) -> Option<Self> {
         let axes = frame(axis);
         let shadows: Vec<AxisProjection> =
             of.par_iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
@@ -56,7 +61,7 @@ impl AxisBlocking {
     }
 
     /// The same relations for a subset of the bodies.
-    pub fn of_some(&self, of: &[usize]) -> Self {
+    pub(crate) fn of_some(&self, of: &[usize]) -> Self {
         let new_index: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
         let renumbered_pair = |(pair, meeting): (&[usize; 2], &PairContact)| {
             Some(([new_index[pair[0]]?, new_index[pair[1]]?], *meeting))
@@ -80,24 +85,24 @@ impl AxisBlocking {
     }
 
     /// Number of pairs that interlock.
-    pub fn held_pairs(&self) -> usize {
+    pub(crate) fn held_pairs(&self) -> usize {
         self.pairs().filter(|pair| self.standing(*pair) == AxisRelation::Held).count()
     }
 
     /// Number of pairs in contact that can be separated.
-    pub fn separable_pairs(&self) -> usize {
+    pub(crate) fn separable_pairs(&self) -> usize {
         self.meetings.len() - self.held_pairs()
     }
 
     /// Groups of interlocking bodies, each group at the position of its lowest body.
-    pub fn held(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn held(&self) -> Vec<Vec<usize>> {
         self.grouped((0..self.of.len()).collect())
     }
 
     /// Groups of interlocking bodies, where sub-assemblies at an angle also form groups. They consist of
     /// bodies without an axis along this one. Two of them are joined if they share another axis and are in
     /// contact along it.
-    pub fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
+    pub(crate) fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
         let has =
             |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| body_axes::is_parallel(*own, axis));
         let askew: Vec<usize> = self
@@ -132,7 +137,7 @@ impl AxisBlocking {
     }
 
     /// Displacement of each group along the axis.
-    pub fn offsets(&self, assembly: &Assembly, groups: &[Vec<usize>]) -> Vec<f64> {
+    pub(crate) fn offsets(&self, assembly: &Assembly, groups: &[Vec<usize>]) -> Vec<f64> {
         let index_of = |unit: &usize| self.of.binary_search(unit).ok();
         let mut group_of = vec![0; self.of.len()];
         for (number, group) in groups.iter().enumerate() {

@@ -21,7 +21,7 @@ pub(crate) enum AxisRelation {
 
 impl PairContact {
     /// Relation of the first body to the second.
-    pub fn standing(self) -> AxisRelation {
+    pub(crate) fn standing(self) -> AxisRelation {
         match (self.meets, self.blocks_up, self.blocks_down) {
             // A surrounded body, such as a bearing in its bore, is hidden unless it moves.
             (false, ..) if self.is_within => AxisRelation::Free,
@@ -50,7 +50,7 @@ pub(crate) struct AxisExtent {
 
 impl AxisExtent {
     /// Combined extent of several bodies.
-    pub fn joined(all: impl Iterator<Item = Self>) -> Self {
+    pub(crate) fn joined(all: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, size: 0.0, order: None };
         all.fold(nothing, |sum, own| Self {
             low: sum.low.min(own.low),
@@ -61,7 +61,7 @@ impl AxisExtent {
     }
 
     /// Relation given by the orders of both bodies, if they have different ones. It overrides blocking.
-    pub fn given_relation(&self, other: &Self) -> Option<AxisRelation> {
+    pub(crate) fn given_relation(&self, other: &Self) -> Option<AxisRelation> {
         let (own, its) = (self.order?, other.order?);
         (own != its).then_some(if own > its { AxisRelation::Above } else { AxisRelation::Below })
     }

@@ -66,12 +66,12 @@ pub(crate) struct PairContact {
 
 impl PairContact {
     /// The contact as seen from the other body.
-    pub fn turned(self) -> Self {
+    pub(crate) fn turned(self) -> Self {
         Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
     }
 
     /// Union of two contacts.
-    pub fn or(self, other: Self) -> Self {
+    pub(crate) fn or(self, other: Self) -> Self {
         Self {
             meets: self.meets | other.meets,
             blocks_up: self.blocks_up | other.blocks_up,
@@ -83,7 +83,7 @@ impl PairContact {
 
 impl AxisProjection {
     /// Projects a body along the third vector of a right-handed orthonormal basis.
-    pub fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
+    pub(crate) fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
         let mut shadow =
             Self { bounds: EMPTY_RECT, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
         let mut boxes = Vec::new();
@@ -116,7 +116,7 @@ impl AxisProjection {
     }
 
     /// Contact with another body. Surfaces within `touch` of each other touch.
-    pub fn contact_with(&self, other: &Self, touch: f64) -> PairContact {
+    pub(crate) fn contact_with(&self, other: &Self, touch: f64) -> PairContact {
         if !overlap(&self.bounds, &other.bounds) {
             return PairContact::default();
         }

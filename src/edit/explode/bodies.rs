@@ -16,7 +16,7 @@ pub(crate) struct Body {
 
 impl Body {
     /// Lowest and highest corner of the bounding box, world space; none without triangles.
-    pub fn bounds(&self) -> Option<[DVec3; 2]> {
+    pub(crate) fn bounds(&self) -> Option<[DVec3; 2]> {
         let corners = self.triangles.as_flattened().iter();
         let grow = |[low, high]: [DVec3; 2], p: &DVec3| [low.min(*p), high.max(*p)];
         (!self.triangles.is_empty()).then(|| corners.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], grow))

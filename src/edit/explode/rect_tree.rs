@@ -24,7 +24,7 @@ struct RectTreeNode {
 
 impl RectTree {
     /// Builds the tree.
-    pub fn new(boxes: &[Rect]) -> Self {
+    pub(crate) fn new(boxes: &[Rect]) -> Self {
         let mut tree = Self { boxes: boxes.iter().copied().zip(0..).collect(), nodes: Vec::new() };
         if !boxes.is_empty() {
             tree.grow(0, boxes.len());
@@ -51,7 +51,7 @@ impl RectTree {
 
     /// Calls `found` with the index of each overlapping box until it returns false. Returns whether it never
     /// did.
-    pub fn overlapping(&self, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn overlapping(&self, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
         self.nodes.is_empty() || self.visit(0, probe, found)
     }
 

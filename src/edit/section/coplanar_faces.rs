@@ -20,7 +20,7 @@ pub(crate) struct CoplanarFaces {
 }
 
 impl CoplanarFaces {
-    pub fn new(cut: &Clipped, plane: &Plane) -> Self {
+    pub(crate) fn new(cut: &Clipped, plane: &Plane) -> Self {
         let place = |node: u32| plane.flat(cut.geometry.positions[cut.nodes[node as usize] as usize]);
         let faces = cut.flat.iter().map(|flat| (flat.triangle, flat.nodes.map(place)));
         let mut list: Vec<_> = faces.filter(|(_, [a, b, c])| turn(*a, *b, *c) > 0.0).collect();
@@ -32,7 +32,7 @@ impl CoplanarFaces {
     }
 
     /// Triangle index of a face.
-    pub fn triangle(&self, face: usize) -> usize {
+    pub(crate) fn triangle(&self, face: usize) -> usize {
         self.list[face].0
     }
 
@@ -62,7 +62,7 @@ pub(crate) struct RemainingFaces {
 }
 
 impl RemainingFaces {
-    pub fn new(
+    pub(crate) fn new(
         faces: &PlaneTriangles,
         outlines: &CutOutlines,
         owner: &[Option<TriangleOwner>],
@@ -94,17 +94,17 @@ impl RemainingFaces {
     }
 
     /// Solid and face that a triangle is a piece of.
-    pub fn of(&self, triangle: usize) -> Option<[usize; 2]> {
+    pub(crate) fn of(&self, triangle: usize) -> Option<[usize; 2]> {
         self.of[triangle]
     }
 
     /// Whether a face of a solid is kept as a whole.
-    pub fn is_whole(&self, [solid, face]: [usize; 2]) -> bool {
+    pub(crate) fn is_whole(&self, [solid, face]: [usize; 2]) -> bool {
         self.whole[solid][face] == Some(true)
     }
 
     /// Triangle indices of the faces kept as a whole, ascending, one list per solid.
-    pub fn whole(&self, flats: &[CoplanarFaces]) -> Vec<Vec<usize>> {
+    pub(crate) fn whole(&self, flats: &[CoplanarFaces]) -> Vec<Vec<usize>> {
         let of_solid = |(solid, flats): (usize, &CoplanarFaces)| {
             let faces = (0..flats.list.len()).filter(|face| self.is_whole([solid, *face]));
             let mut triangles: Vec<usize> = faces.map(|face| flats.triangle(face)).collect();

@@ -54,12 +54,12 @@ const MAX_SPLIT_ROUNDS: usize = 8;
 
 impl CutOutlines {
     /// Empty set with the distance within which points coincide.
-    pub fn new(reach: f64) -> Self {
+    pub(crate) fn new(reach: f64) -> Self {
         Self { reach: reach.max(f64::MIN_POSITIVE), ..Self::default() }
     }
 
     /// Index of the point at a position, added if necessary.
-    pub fn point(&mut self, p: DVec2, place: DVec3) -> u32 {
+    pub(crate) fn point(&mut self, p: DVec2, place: DVec3) -> u32 {
         let field = (p / (2.0 * self.reach)).to_array().map(|x| x.floor() as i64);
         for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
             let near = self.points_by_cell.get(&[field[0].saturating_add(i), field[1].saturating_add(j)]);
@@ -75,11 +75,11 @@ impl CutOutlines {
         number
     }
 
-    pub fn at(&self, v: u32) -> DVec2 {
+    pub(crate) fn at(&self, v: u32) -> DVec2 {
         self.points[v as usize]
     }
 
-    pub fn place(&self, v: u32) -> DVec3 {
+    pub(crate) fn place(&self, v: u32) -> DVec3 {
         self.world_positions[v as usize]
     }
 
@@ -172,7 +172,7 @@ impl CutOutlines {
     }
 
     /// Triangulates the plane between the outlines. All outlines then consist of triangle sides.
-    pub fn triangulate(&mut self, plane: &Plane) -> Option<PlaneTriangles> {
+    pub(crate) fn triangulate(&mut self, plane: &Plane) -> Option<PlaneTriangles> {
         for round in 0..MAX_SPLIT_ROUNDS {
             self.split_at_points();
             let corners = self.points.iter().map(|p| PlanePoint(Point2::new(p.x, p.y))).collect();

@@ -18,7 +18,7 @@ pub(crate) struct CutTolerances {
 
 impl CutTolerances {
     /// Distances for a shape, from its size and the precision of its coordinates.
-    pub fn of(geometry: &Geometry, place: &DAffine3) -> Self {
+    pub(crate) fn of(geometry: &Geometry, place: &DAffine3) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for corner in geometry.triangles.as_flattened() {
             let Some(p) = geometry.positions.get(*corner as usize) else { continue };

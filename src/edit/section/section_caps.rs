@@ -52,7 +52,7 @@ pub(crate) struct CutSolid {
 
 impl CutSolid {
     /// Bounding box of the outlines along the axes of the plane.
-    pub fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
+    pub(crate) fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
         let place = |node: &u32| plane.flat(self.cut.geometry.positions[*node as usize]);
         let of = |p: DVec2| [p, p];
         let nodes = self.cut.nodes.iter().map(|node| of(place(node)));

@@ -53,7 +53,7 @@ pub(crate) struct CollapseRecord {
 
 impl CollapseRecord {
     /// Changes and removed faces of a step.
-    pub fn of_step(&self, step: usize) -> (&[WedgeChange], &[u32]) {
+    pub(crate) fn of_step(&self, step: usize) -> (&[WedgeChange], &[u32]) {
         let before = step.checked_sub(1).map(|before| self.steps[before]);
         let (changes, removed) = before.map_or((0, 0), |step| (step.changes_end, step.removed_end));
         let Collapse { changes_end, removed_end, .. } = self.steps[step];

@@ -23,7 +23,7 @@ fn before(a: (f64, u32), b: (f64, u32)) -> bool {
 
 impl CostHeap {
     /// Builds a heap of the points that have a cost.
-    pub fn new(costs: &[Option<f64>]) -> Self {
+    pub(crate) fn new(costs: &[Option<f64>]) -> Self {
         let nodes: Vec<(f64, u32)> = costs
             .iter()
             .enumerate()
@@ -40,19 +40,19 @@ impl CostHeap {
     }
 
     /// Removes and returns the first point.
-    pub fn pop(&mut self) -> Option<(f64, u32)> {
+    pub(crate) fn pop(&mut self) -> Option<(f64, u32)> {
         let first = *self.nodes.first()?;
         self.remove(first.1);
         Some(first)
     }
 
     /// Cost of a point in the heap.
-    pub fn cost(&self, point: u32) -> Option<f64> {
+    pub(crate) fn cost(&self, point: u32) -> Option<f64> {
         self.nodes.get(self.node_of_point[point as usize] as usize).map(|node| node.0)
     }
 
     /// Inserts a point, or changes its cost.
-    pub fn set(&mut self, point: u32, cost: f64) {
+    pub(crate) fn set(&mut self, point: u32, cost: f64) {
         let mut place = self.node_of_point[point as usize] as usize;
         if place == NOT_QUEUED as usize {
             place = self.nodes.len();
@@ -66,7 +66,7 @@ impl CostHeap {
     }
 
     /// Removes a point if it is in the heap.
-    pub fn remove(&mut self, point: u32) {
+    pub(crate) fn remove(&mut self, point: u32) {
         let old_index = self.node_of_point[point as usize];
         if old_index == NOT_QUEUED {
             return;

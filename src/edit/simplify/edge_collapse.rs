@@ -43,7 +43,7 @@ pub(crate) struct Collapser {
 
 impl Collapser {
     /// The surface before any collapse. A first step removes faces with two corners at one point.
-    pub fn new(flat: IndexedSurface) -> Self {
+    pub(crate) fn new(flat: IndexedSurface) -> Self {
         let mut corners = flat.corners();
         let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
         let fans = PointFaces::new(flat.points.len(), &corners, |face| is_none(corners[face]));
@@ -75,7 +75,7 @@ impl Collapser {
     }
 
     /// Collects the neighbours of a point, each once, in the order of its faces.
-    pub fn neighbours(&mut self, point: u32, into: &mut Vec<u32>) {
+    pub(crate) fn neighbours(&mut self, point: u32, into: &mut Vec<u32>) {
         into.clear();
         self.question += 1;
         for &face in self.fans.about(point) {
@@ -91,7 +91,7 @@ impl Collapser {
 
     /// Whether a point may collapse onto a neighbour: the topology stays the same, no face flips, and each
     /// corner has a matching wedge at the other point.
-    pub fn can_collapse(&mut self, from: u32, to: u32) -> bool {
+    pub(crate) fn can_collapse(&mut self, from: u32, to: u32) -> bool {
         self.satisfies_link_condition(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
     }
 
@@ -235,7 +235,7 @@ impl Collapser {
     }
 
     /// Repeats a collapse that was read from a file; false if the points are not neighbours.
-    pub fn replay(&mut self, from: u32, to: u32) -> bool {
+    pub(crate) fn replay(&mut self, from: u32, to: u32) -> bool {
         let fits = self.find_changes(from, to) && !self.removed.is_empty();
         if fits {
             self.collapse(from, to);
@@ -244,7 +244,7 @@ impl Collapser {
     }
 
     /// Applies the collapse that [`Self::can_collapse`] checked last.
-    pub fn collapse(&mut self, from: u32, to: u32) {
+    pub(crate) fn collapse(&mut self, from: u32, to: u32) {
         for change in &self.changes {
             let (face, k) = ((change.corner / 3) as usize, (change.corner % 3) as usize);
             self.flat.faces[face][k] = change.after;
@@ -305,7 +305,7 @@ impl Collapser {
     }
 
     /// Faces removed by the last collapse, or by the collapse checked last.
-    pub fn removed(&self) -> &[u32] {
+    pub(crate) fn removed(&self) -> &[u32] {
         &self.removed
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct Quadric {
 impl Quadric {
     /// Squared distance from the plane through a point with a unit normal, times `weight`.
     #[inline]
-    pub fn of_plane(normal: DVec3, through: DVec3, weight: f64) -> Self {
+    pub(crate) fn of_plane(normal: DVec3, through: DVec3, weight: f64) -> Self {
         let distance = -normal.dot(through);
         let scaled = normal * weight;
         let [x, y, z] = normal.to_array();
@@ -30,7 +30,7 @@ impl Quadric {
 
     /// Adds the planes of another quadric.
     #[inline]
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         for (coefficient, addend) in self.a.iter_mut().zip(other.a) {
             *coefficient += addend;
         }
@@ -39,19 +39,19 @@ impl Quadric {
     }
 
     /// The same planes with all weights scaled.
-    pub fn scaled(&self, by: f64) -> Self {
+    pub(crate) fn scaled(&self, by: f64) -> Self {
         Self { a: self.a.map(|a| a * by), b: self.b * by, c: self.c * by }
     }
 
     /// Total weight of the planes.
-    pub fn weight(&self) -> f64 {
+    pub(crate) fn weight(&self) -> f64 {
         let [xx, _, _, yy, _, zz] = self.a;
         xx + yy + zz
     }
 
     /// Value at a point, never negative.
     #[inline]
-    pub fn at(&self, p: DVec3) -> f64 {
+    pub(crate) fn at(&self, p: DVec3) -> f64 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
         let x = xx * p.x + 2.0 * (xy * p.y + xz * p.z + self.b.x);
         let y = yy * p.y + 2.0 * (yz * p.z + self.b.y);

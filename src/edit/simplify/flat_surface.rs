@@ -50,7 +50,7 @@ pub(crate) struct IndexedSurface {
 
 impl IndexedSurface {
     /// Builds the surface of a scene.
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let shown = shown(scene);
         let frame = SpatialFrame::of(scene, &shown);
         let textured = scene.materials.iter().any(is_textured);
@@ -171,7 +171,7 @@ impl IndexedSurface {
     }
 
     /// Points of the corners of each face; [`NO_INDEX`] for faces that are not drawn.
-    pub fn corners(&self) -> Vec<[u32; 3]> {
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
         let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NO_INDEX);
         self.faces.iter().map(|wedges| wedges.map(point)).collect()
     }

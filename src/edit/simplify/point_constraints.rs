@@ -51,7 +51,7 @@ pub(crate) struct Site {
 
 impl Site {
     /// Adds the quadric of a point that collapses onto this one.
-    pub fn take(&mut self, quadric: &Quadric) {
+    pub(crate) fn take(&mut self, quadric: &Quadric) {
         self.quadric.add(quadric);
         self.error = self.quadric.at(self.place);
     }

@@ -17,7 +17,7 @@ struct List {
 
 impl PointFaces {
     /// Builds the lists of `count` points, in face order, without the faces for which `left` holds.
-    pub fn new(count: usize, corners: &[[u32; 3]], left: impl Fn(usize) -> bool) -> Self {
+    pub(crate) fn new(count: usize, corners: &[[u32; 3]], left: impl Fn(usize) -> bool) -> Self {
         let mut lists = vec![List::default(); count];
         let faces = || corners.iter().enumerate().filter(|(face, _)| !left(*face));
         for (_, corners) in faces() {
@@ -40,20 +40,26 @@ impl PointFaces {
     }
 
     /// Number of points.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.lists.len()
     }
 
     /// Faces around a point; may contain removed faces.
     #[inline]
-    pub fn about(&self, point: u32) -> &[u32] {
+    pub(crate) fn about(&self, point: u32) -> &[u32] {
         let List { start, len, .. } = self.lists[point as usize];
         &self.pool[start as usize..(start + len) as usize]
     }
 
     /// Moves the faces of `from` for which `moves` holds to `to`, and drops faces of `to` that are not
     /// `alive`.
-    pub fn merge(&mut self, from: u32, to: u32, moves: impl Fn(u32) -> bool, alive: impl Fn(u32) -> bool) {
+    pub(crate) fn merge(
+        &mut self,
+        from: u32,
+        to: u32,
+        moves: impl Fn(u32) -> bool,
+        alive: impl Fn(u32) -> bool,
+    ) {
         let source = std::mem::take(&mut self.lists[from as usize]);
         let mut list = self.lists[to as usize];
         let mut kept = list.start;

@@ -17,7 +17,7 @@ pub(crate) struct Weld {
 
 impl Weld {
     /// A table for at most `count` points.
-    pub fn with_room(count: usize) -> Self {
+    pub(crate) fn with_room(count: usize) -> Self {
         let slots = (count * 2).max(4).next_power_of_two();
         Self {
             slots: vec![FREE_SLOT; slots],
@@ -27,7 +27,7 @@ impl Weld {
     }
 
     /// Number of the point at a position, added if it is new.
-    pub fn point(&mut self, group: u32, place: DVec3) -> u32 {
+    pub(crate) fn point(&mut self, group: u32, place: DVec3) -> u32 {
         // Positive and negative zero are the same coordinate.
         let place = place + 0.0;
         let mask = self.slots.len() - 1;
@@ -49,12 +49,12 @@ impl Weld {
     }
 
     /// Number of points.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
 
     /// Positions of the points.
-    pub fn into_points(self) -> Vec<DVec3> {
+    pub(crate) fn into_points(self) -> Vec<DVec3> {
         self.points
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct PathSteps {
 
 impl PathSteps {
     /// Subpaths of a path; curves other than arcs are flattened within `tolerance`.
-    pub fn of(path: &[PathEl], tolerance: f64) -> Vec<Self> {
+    pub(crate) fn of(path: &[PathEl], tolerance: f64) -> Vec<Self> {
         let mut all: Vec<Self> = Vec::new();
         let mut own = Self { start: Point::ZERO, steps: Vec::new(), closed: false };
         let mut take = |own: &mut Self, closed: bool, start: Point| {
@@ -68,12 +68,12 @@ impl PathSteps {
     }
 
     /// Whether any step is an arc.
-    pub fn has_arcs(&self) -> bool {
+    pub(crate) fn has_arcs(&self) -> bool {
         self.steps.iter().any(|step| step.arc.is_some())
     }
 
     /// All points of a subpath without arcs.
-    pub fn points(&self) -> Vec<Point> {
+    pub(crate) fn points(&self) -> Vec<Point> {
         std::iter::once(self.start).chain(self.steps.iter().map(|step| step.end)).collect()
     }
 
@@ -130,7 +130,7 @@ impl PathSteps {
     }
 
     /// The full circle that the subpath is, if any.
-    pub fn circle(&self) -> Option<(Point, f64)> {
+    pub(crate) fn circle(&self) -> Option<(Point, f64)> {
         match self.steps.as_slice() {
             [PathStep { arc: Some((centre, turn)), .. }]
                 if self.closed && (turn.abs() - TAU).abs() < MAX_ARC_FORM_ERROR =>
@@ -142,7 +142,7 @@ impl PathSteps {
     }
 
     /// End points and bulges of an arc. An arc that nearly closes is split into two halves.
-    pub fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
+    pub(crate) fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
         if turn.abs() < MAX_BULGE_RAD {
             return vec![(end, tan(turn / 4.0))];
         }

@@ -16,7 +16,7 @@ pub(crate) struct Decimals {
 
 impl Decimals {
     /// Grid of numbers with at most `count` decimals.
-    pub fn new(count: u8) -> Self {
+    pub(crate) fn new(count: u8) -> Self {
         let count = count.min(MAX_DECIMALS);
         let one = 10i64.pow(u32::from(count));
         Self { count: usize::from(count), scale: one as f64, one }
@@ -24,13 +24,13 @@ impl Decimals {
 
     /// Number of steps in 1.
     #[cfg(feature = "diff")]
-    pub fn scale(self) -> f64 {
+    pub(crate) fn scale(self) -> f64 {
         self.scale
     }
 
     /// Nearest number of the grid as a multiple of its step; 0 for NaN.
     #[inline]
-    pub fn round(self, value: f64) -> i64 {
+    pub(crate) fn round(self, value: f64) -> i64 {
         let scaled = value * self.scale;
         // The limit keeps the difference of two such numbers within an i64.
         (scaled + 0.5f64.copysign(scaled)).clamp(-1e18, 1e18) as i64
@@ -39,7 +39,7 @@ impl Decimals {
     /// Writes a multiple of the step without superfluous zeros, such as `.5`, `-12`, `3.25`. Returns whether
     /// it has a point.
     #[inline]
-    pub fn write(self, out: &mut Vec<u8>, number: i64) -> bool {
+    pub(crate) fn write(self, out: &mut Vec<u8>, number: i64) -> bool {
         let mut text = [0u8; 24];
         let mut at = text.len();
         let mut rest = number.unsigned_abs();
@@ -79,12 +79,12 @@ impl Decimals {
 
     /// Whether a multiple of the step is written with a leading point.
     #[inline]
-    pub fn starts_with_point(self, number: i64) -> bool {
+    pub(crate) fn starts_with_point(self, number: i64) -> bool {
         number > 0 && number < self.one
     }
 
     /// A rounded value as text.
-    pub fn text(self, value: f64) -> String {
+    pub(crate) fn text(self, value: f64) -> String {
         let mut out = Vec::new();
         self.write(&mut out, self.round(value));
         out.iter().map(|byte| char::from(*byte)).collect()

@@ -39,7 +39,7 @@ pub(crate) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePai
 
 impl<'a> EmbeddedPictures<'a> {
     /// Collects the pictures of a drawing and their inks.
-    pub fn of(drawing: &'a Drawing) -> Self {
+    pub(crate) fn of(drawing: &'a Drawing) -> Self {
         let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default(), inks: Vec::new() };
         for (_, image) in marks(drawing) {
             let picture: &Picture = &image.picture;
@@ -72,12 +72,12 @@ impl<'a> EmbeddedPictures<'a> {
 
     /// Opaque ink of a picture that is shown through a mask: one colour, half-transparent, with overlapping
     /// pieces. Drawn directly, such pieces would be darker where they overlap.
-    pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
+    pub(crate) fn ink(&self, image: &ImagePaint) -> Option<Colour> {
         self.inks.get(self.number(image)).copied().flatten()
     }
 
     /// Number of the picture that a mark shows.
-    pub fn number(&self, image: &ImagePaint) -> usize {
+    pub(crate) fn number(&self, image: &ImagePaint) -> usize {
         self.numbers.get(&address(&image.picture)).copied().unwrap_or_default()
     }
 }
@@ -92,7 +92,7 @@ pub(crate) struct PictureIds<'a> {
 
 impl<'a> PictureIds<'a> {
     /// Assigns ids to all pictures and to the marks that show them.
-    pub fn of(drawing: &'a Drawing, ids: &mut UniqueIds) -> Self {
+    pub(crate) fn of(drawing: &'a Drawing, ids: &mut UniqueIds) -> Self {
         let pictures = EmbeddedPictures::of(drawing);
         let numbered = |name: &str, number: usize| format!("{name}-{}", number + 1);
         let names = (0..pictures.list.len()).map(|number| ids.take(&numbered("picture", number))).collect();
@@ -106,27 +106,27 @@ impl<'a> PictureIds<'a> {
     }
 
     /// Whether there are no pictures.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }
 
     /// Id of the picture that a mark shows.
-    pub fn picture(&self, image: &ImagePaint) -> &str {
+    pub(crate) fn picture(&self, image: &ImagePaint) -> &str {
         self.ids.get(self.pictures.number(image)).map_or("", String::as_str)
     }
 
     /// Ink of a picture shown through a mask.
-    pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
+    pub(crate) fn ink(&self, image: &ImagePaint) -> Option<Colour> {
         self.pictures.ink(image)
     }
 
     /// Id of a mark.
-    pub fn mark(&self, mark: &Mark) -> &str {
+    pub(crate) fn mark(&self, mark: &Mark) -> &str {
         self.marks.get(&std::ptr::from_ref(mark).addr()).map_or("", String::as_str)
     }
 
     /// Writes the definitions of the pictures.
-    pub fn write(&self, out: &mut Vec<u8>) {
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"<defs>\n");
         let EmbeddedPictures { list, inks, .. } = &self.pictures;
         let encode = |(picture, ink): (&&Picture, &Option<Colour>)| {

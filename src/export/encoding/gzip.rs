@@ -15,7 +15,7 @@ const GZIP_HEADER: [u8; 10] = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 2, 255];
 
 /// Compresses bytes as gzip.
 #[must_use]
-pub fn packed(bytes: &[u8]) -> Vec<u8> {
+pub(crate) fn packed(bytes: &[u8]) -> Vec<u8> {
     let mut out = GZIP_HEADER.to_vec();
     out.extend_from_slice(&compress_to_vec(bytes, DEFLATE_LEVEL));
     out.extend_from_slice(&crc32(bytes).to_le_bytes());
@@ -26,7 +26,7 @@ pub fn packed(bytes: &[u8]) -> Vec<u8> {
 
 /// Whether bytes are gzip.
 #[must_use]
-pub fn is_packed(bytes: &[u8]) -> bool {
+pub(crate) fn is_packed(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x1f, 0x8b])
 }
 
@@ -34,7 +34,7 @@ pub fn is_packed(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// If the gzip data is damaged, or contains more than `most` bytes.
-pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
+pub(crate) fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
     if !is_packed(&bytes) {
         return Ok(bytes);
     }
@@ -45,7 +45,7 @@ pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
 
 /// Decompresses gzip; `None` if it is damaged or contains more than `most` bytes.
 #[must_use]
-pub fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
+pub(crate) fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
     let (head, rest) = bytes.split_at_checked(GZIP_HEADER.len())?;
     let [0x1f, 0x8b, 8, flags, ..] = *head else { return None };
     let (body, tail) = rest.split_at_checked(rest.len().checked_sub(8)?)?;

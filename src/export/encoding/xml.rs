@@ -55,18 +55,18 @@ pub(crate) struct UniqueIds {
 
 impl UniqueIds {
     /// Creates a generator with a prefix, which may be empty.
-    pub fn new(prefix: &str) -> Self {
+    pub(crate) fn new(prefix: &str) -> Self {
         Self { base: safe(prefix), prefix: safe(prefix), used_ids: FxHashSet::default() }
     }
 
     /// Adds a name to the prefix of the following ids, or removes it if the name is empty.
-    pub fn within(&mut self, name: &str) {
+    pub(crate) fn within(&mut self, name: &str) {
         let parted = if name.is_empty() { String::new() } else { format!("{}-", safe(name)) };
         self.prefix = format!("{}{parted}", self.base);
     }
 
     /// A unique id made from a name, with a number if the name is taken.
-    pub fn take(&mut self, name: &str) -> String {
+    pub(crate) fn take(&mut self, name: &str) -> String {
         let wished = format!("{}{}", self.prefix, safe(name));
         // An XML name must not start with a digit.
         let wished = if wished.starts_with(|c: char| !c.is_alphabetic() && c != '_') {

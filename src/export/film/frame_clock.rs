@@ -10,13 +10,13 @@ pub(crate) struct FrameClock {
 
 impl FrameClock {
     /// Start of a film with `fps` ticks per second.
-    pub fn new(fps: f64) -> Self {
+    pub(crate) fn new(fps: f64) -> Self {
         Self { fps, ticks: 0 }
     }
 
     /// Display time of the next frame in units of 1/`per_second` s, at least one. `ticks` is its number of
     /// ticks.
-    pub fn next(&mut self, ticks: u32, per_second: f64) -> u32 {
+    pub(crate) fn next(&mut self, ticks: u32, per_second: f64) -> u32 {
         let at = |ticks: u64| (ticks as f64 / self.fps * per_second).round();
         let after = self.ticks + u64::from(ticks);
         let delay = at(after) - at(self.ticks);
@@ -25,7 +25,7 @@ impl FrameClock {
     }
 
     /// Display time of all frames so far in seconds.
-    pub fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         self.ticks as f64 / self.fps
     }
 }

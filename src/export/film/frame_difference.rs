@@ -13,12 +13,12 @@ pub(crate) struct ChangedRect {
 
 impl ChangedRect {
     /// The whole picture.
-    pub fn whole(pixels: &Pixels) -> Self {
+    pub(crate) fn whole(pixels: &Pixels) -> Self {
         Self { left: 0, top: 0, width: pixels.width, height: pixels.height }
     }
 
     /// Bounding box of all differing pixels of two pictures of equal size; one pixel if there are none.
-    pub fn between(before: &Pixels, after: &Pixels) -> Self {
+    pub(crate) fn between(before: &Pixels, after: &Pixels) -> Self {
         let row = (after.width as usize * 4).max(1);
         let (mut top, mut bottom, mut left, mut right) = (u32::MAX, 0, u32::MAX, 0);
         for (y, (old, new)) in (0_u32..).zip(before.rgba.chunks(row).zip(after.rgba.chunks(row))) {
@@ -39,7 +39,7 @@ impl ChangedRect {
     }
 
     /// Bounding box of two rectangles.
-    pub fn around(self, other: Self) -> Self {
+    pub(crate) fn around(self, other: Self) -> Self {
         let (left, top) = (self.left.min(other.left), self.top.min(other.top));
         let right = (self.left + self.width).max(other.left + other.width);
         let bottom = (self.top + self.height).max(other.top + other.height);
@@ -47,13 +47,13 @@ impl ChangedRect {
     }
 
     /// The rectangle extended to even left and top coordinates.
-    pub fn even(self) -> Self {
+    pub(crate) fn even(self) -> Self {
         let (left, top) = (self.left & !1, self.top & !1);
         Self { left, top, width: self.left + self.width - left, height: self.top + self.height - top }
     }
 
     /// Rows of the rectangle as bytes.
-    pub fn rows<'a>(&self, pixels: &'a Pixels) -> impl Iterator<Item = &'a [u8]> {
+    pub(crate) fn rows<'a>(&self, pixels: &'a Pixels) -> impl Iterator<Item = &'a [u8]> {
         let Self { left, top, width, height } = *self;
         let row = pixels.width as usize * 4;
         let of = move |y: u32| {

@@ -38,7 +38,7 @@ pub(crate) struct FrameTokens {
 
 impl FrameTokens {
     /// Numbers the lines of a frame.
-    pub fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<FrameToken> {
+    pub(crate) fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<FrameToken> {
         lines.map(|line| self.token(line)).collect()
     }
 

@@ -76,7 +76,7 @@ impl<W: Write> GifFilm<W> {
     }
 
     /// Number of frames left out because they would be shown for less than two hundredths of a second.
-    pub fn left_out(&self) -> u64 {
+    pub(crate) fn left_out(&self) -> u64 {
         self.left_out + u64::from(self.is_last_too_short())
     }
 

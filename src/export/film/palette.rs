@@ -20,7 +20,7 @@ pub(crate) struct Palette {
 
 impl Palette {
     /// Computes the palette of some pixels.
-    pub fn of(pixels: impl Iterator<Item = [u8; 3]>) -> Self {
+    pub(crate) fn of(pixels: impl Iterator<Item = [u8; 3]>) -> Self {
         let mut counts: FxHashMap<[u8; 3], u64> = FxHashMap::default();
         for pixel in pixels {
             *counts.entry(pixel).or_default() += 1;
@@ -35,7 +35,7 @@ impl Palette {
     }
 
     /// Number of the nearest colour.
-    pub fn number(&mut self, colour: [u8; 3]) -> u8 {
+    pub(crate) fn number(&mut self, colour: [u8; 3]) -> u8 {
         let nearest = || {
             let squared_difference = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
             let distance = |palette_colour: &[u8; 3]| {
@@ -57,12 +57,12 @@ impl Palette {
     }
 
     /// Number that marks unchanged pixels.
-    pub fn unchanged(&self) -> u8 {
+    pub(crate) fn unchanged(&self) -> u8 {
         self.colours.len().min(MAX_COLOURS) as u8
     }
 
     /// All colours with three bytes each, and one entry for unchanged pixels.
-    pub fn bytes(&self) -> Vec<u8> {
+    pub(crate) fn bytes(&self) -> Vec<u8> {
         self.colours.iter().flatten().copied().chain([0, 0, 0]).collect()
     }
 }

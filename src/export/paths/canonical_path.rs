@@ -48,7 +48,7 @@ pub(crate) struct CanonicalWriter {
 }
 
 impl CanonicalWriter {
-    pub fn new(decimals: Decimals) -> Self {
+    pub(crate) fn new(decimals: Decimals) -> Self {
         Self {
             decimals,
             form: PathForm::Kept,
@@ -62,13 +62,13 @@ impl CanonicalWriter {
     }
 
     /// Rounds a point to the written precision.
-    pub fn step(&self, point: Point) -> PathPoint {
+    pub(crate) fn step(&self, point: Point) -> PathPoint {
         PathPoint { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
     }
 
     /// Writes the path data (`d`) of a path, and returns the start point as written; `None` for an empty
     /// path.
-    pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: PathForm) -> Option<PathPoint> {
+    pub(crate) fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: PathForm) -> Option<PathPoint> {
         let mut writer = PathWriter::new(out, self.decimals);
         self.form = form;
         (self.begun, self.first, self.lost, self.pen) = (None, None, false, PathPoint::default());
@@ -94,7 +94,7 @@ impl CanonicalWriter {
 
     /// Whether points of the last path were dropped. A file may have had markers there.
     #[cfg(feature = "diff")]
-    pub fn has_lost_points(&self) -> bool {
+    pub(crate) fn has_lost_points(&self) -> bool {
         self.lost
     }
 

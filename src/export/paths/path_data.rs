@@ -24,13 +24,13 @@ pub(crate) struct PathWriter<'a> {
 }
 
 impl<'a> PathWriter<'a> {
-    pub fn new(out: &'a mut Vec<u8>, decimals: Decimals) -> Self {
+    pub(crate) fn new(out: &'a mut Vec<u8>, decimals: Decimals) -> Self {
         let start = PathPoint::default();
         Self { out, decimals, pen: start, mirrored: None, command: 0, point_before: false, moved: false }
     }
 
     /// Writes a subpath of pieces with nonzero length. Pieces of a closed subpath return to its start.
-    pub fn subpath(&mut self, start: PathPoint, pieces: &[PathPiece], closed: bool) {
+    pub(crate) fn subpath(&mut self, start: PathPoint, pieces: &[PathPiece], closed: bool) {
         self.move_to(start);
         let drawn = match pieces {
             // Closing draws this line.

@@ -31,13 +31,13 @@ pub(crate) struct PathPiece {
 
 impl PathPiece {
     /// The segment in the opposite direction.
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         let (c1, c2) = if self.kind == PieceKind::Cubic { (self.c2, self.c1) } else { (self.c1, self.c2) };
         Self { from: self.to, to: self.from, kind: self.kind, c1, c2 }
     }
 
     /// Whether all its points are equal.
-    pub fn has_no_length(&self) -> bool {
+    pub(crate) fn has_no_length(&self) -> bool {
         let at = |c: PathPoint| c == self.from;
         self.from == self.to
             && match self.kind {

@@ -41,7 +41,7 @@ pub(crate) enum ContentSegment<'a> {
 
 impl ContentSegment<'_> {
     /// Writes the segment as deflated content.
-    pub fn write(&self, press: PressSettings) -> Vec<u8> {
+    pub(crate) fn write(&self, press: PressSettings) -> Vec<u8> {
         match self {
             Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
             Self::Marks { dots, marks, crops, first_picture, first_pattern, decimals } => {
@@ -69,13 +69,19 @@ pub(crate) struct DocumentContent<'a> {
 }
 
 impl<'a> DocumentContent<'a> {
-    pub fn new(press: PressSettings<'a>, screen: Option<Screen>) -> Self {
+    pub(crate) fn new(press: PressSettings<'a>, screen: Option<Screen>) -> Self {
         let (groups, segments, titles, gradients) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { press, screen, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
     }
 
     /// Collects the content of a page; `crops` holds the pictures of all drawings of all pages.
-    pub fn page(&mut self, page: &'a Composition, sheet: &PrintedPage, crops: &'a [Crops<'a>], marks: bool) {
+    pub(crate) fn page(
+        &mut self,
+        page: &'a Composition,
+        sheet: &PrintedPage,
+        crops: &'a [Crops<'a>],
+        marks: bool,
+    ) {
         let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
         self.segments.push(Vec::new());
         self.titles.push(page.title.clone());
@@ -185,7 +191,7 @@ impl<'a> DocumentContent<'a> {
     }
 
     /// Writes the layer list: by page, front layers first, with the layers of a drawing below it.
-    pub fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
+    pub(crate) fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
         if ids.is_empty() {
             return;
         }

@@ -44,7 +44,7 @@ pub(crate) struct Fonts {
 
 impl Fonts {
     /// Records the glyphs of a text run.
-    pub fn note(&mut self, run: &TextRun) {
+    pub(crate) fn note(&mut self, run: &TextRun) {
         if !run.font.embeddable {
             return;
         }
@@ -65,7 +65,7 @@ impl Fonts {
     }
 
     /// Subsets the fonts, and drops those for which this fails.
-    pub fn cut(&mut self) {
+    pub(crate) fn cut(&mut self) {
         for font in &mut self.list {
             for id in font.glyphs.keys() {
                 font.numbers.remap(*id);
@@ -80,12 +80,12 @@ impl Fonts {
     }
 
     /// Number of a font.
-    pub fn position(&self, file: &Arc<FontFile>) -> Option<usize> {
+    pub(crate) fn position(&self, file: &Arc<FontFile>) -> Option<usize> {
         self.list.iter().position(|font| Arc::ptr_eq(&font.file, file) || font.file == *file)
     }
 
     /// Writes a run in its font with the current fill. Returns whether it did.
-    pub fn set(&self, out: &mut Vec<u8>, run: &TextRun, decimals: Decimals) -> bool {
+    pub(crate) fn set(&self, out: &mut Vec<u8>, run: &TextRun, decimals: Decimals) -> bool {
         let Some(number) = self.position(&run.font) else { return false };
         let Some(font) = self.list.get(number) else { return false };
         let fine = Decimals::new(THOUSANDTH_DECIMALS);
@@ -131,7 +131,7 @@ impl Fonts {
     }
 
     /// Writes the fonts, five objects for each.
-    pub fn write(&self, pdf: &mut Pdf, ids: &[Ref]) {
+    pub(crate) fn write(&self, pdf: &mut Pdf, ids: &[Ref]) {
         for (number, (font, ids)) in self.list.iter().zip(ids.chunks(OBJECTS_PER_FONT)).enumerate() {
             if let [font_id, cid, descriptor, data, unicode] = *ids {
                 font.write(pdf, number, [font_id, cid, descriptor, data, unicode]);

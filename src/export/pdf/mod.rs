@@ -12,13 +12,13 @@
 //! `halftone_fills` fills as dots; `page_boxes` trim, bleed and printer's marks.
 
 #[cfg(feature = "pdf")]
-pub mod composition_pages;
+pub(crate) mod composition_pages;
 #[cfg(feature = "pdf")]
 mod content_stream;
 #[cfg(feature = "pdf")]
 mod document_content;
 #[cfg(feature = "pdf")]
-pub mod drawing_page;
+pub(crate) mod drawing_page;
 #[cfg(feature = "pdf")]
 mod fonts;
 #[cfg(feature = "pdf")]
@@ -29,7 +29,7 @@ mod page_boxes;
 mod paint_objects;
 #[cfg(feature = "pdf")]
 mod picture_crops;
-pub mod press;
+pub(crate) mod press;
 #[cfg(feature = "pdf")]
 mod resources;
 #[cfg(feature = "pdf")]

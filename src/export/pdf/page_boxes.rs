@@ -44,7 +44,7 @@ impl PrintedPage {
     ///
     /// # Errors
     /// If the page has no size or its boxes are not nested.
-    pub fn new(page: &Composition, marks: bool) -> Result<Self, Error> {
+    pub(crate) fn new(page: &Composition, marks: bool) -> Result<Self, Error> {
         let (width, height) = (page.page.width, page.page.height);
         if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
             return Err(
@@ -76,20 +76,20 @@ impl PrintedPage {
     }
 
     /// Transform from page units to paper units, y up.
-    pub fn matrix(&self) -> Affine {
+    pub(crate) fn matrix(&self) -> Affine {
         let s = self.scale;
         Affine::new([s, 0.0, 0.0, -s, -self.media.x0 * s, self.media.y1 * s])
     }
 
     /// A box in paper units.
-    pub fn on_paper(&self, rect: Rect) -> pdf_writer::Rect {
+    pub(crate) fn on_paper(&self, rect: Rect) -> pdf_writer::Rect {
         let rect = self.matrix().transform_rect_bbox(rect);
         let [x0, y0, x1, y1] = [rect.x0, rect.y0, rect.x1, rect.y1].map(|x| x as f32);
         pdf_writer::Rect::new(x0, y0, x1, y1)
     }
 
     /// Content stream of the printer's marks in all inks, in page units.
-    pub fn paint_marks(&self, decimals: Decimals) -> Vec<u8> {
+    pub(crate) fn paint_marks(&self, decimals: Decimals) -> Vec<u8> {
         let mut out = format!("q\n/{ALL_INKS} CS\n1 SCN\n/A255 gs\n0 J\n").into_bytes();
         let value = |out: &mut Vec<u8>, value: f64| {
             decimals.write(out, decimals.round(value));

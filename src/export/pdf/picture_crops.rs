@@ -45,7 +45,7 @@ pub(crate) struct Crops<'a> {
 
 impl<'a> Crops<'a> {
     /// Divides the pictures of a drawing into parts.
-    pub fn of(drawing: &'a Drawing) -> Self {
+    pub(crate) fn of(drawing: &'a Drawing) -> Self {
         let pictures = EmbeddedPictures::of(drawing);
         let mut shown: Vec<Vec<(usize, Rect)>> = vec![Vec::new(); pictures.list.len()];
         for (_, image) in marks(drawing) {
@@ -102,12 +102,12 @@ impl<'a> Crops<'a> {
     }
 
     /// Number of the mask of a picture, and the ink it lets through; `None` without a mask.
-    pub fn mask(&self, image: &ImagePaint) -> Option<(usize, Colour)> {
+    pub(crate) fn mask(&self, image: &ImagePaint) -> Option<(usize, Colour)> {
         self.inks.get(&std::ptr::from_ref(image).addr()).copied()
     }
 
     /// Number of the part that a piece shows, and the part.
-    pub fn shown(&self, piece: &ImagePiece) -> Option<(usize, &Crop<'a>)> {
+    pub(crate) fn shown(&self, piece: &ImagePiece) -> Option<(usize, &Crop<'a>)> {
         let number = *self.of_piece.get(&address(piece))?;
         Some((number, self.list.get(number)?))
     }
@@ -115,7 +115,10 @@ impl<'a> Crops<'a> {
 
 impl Crop<'_> {
     /// Samples of each pixel, row by row.
-    pub fn samples<T, const N: usize>(&self, of: impl Fn(crate::colour::srgb::Colour) -> [T; N]) -> Vec<T> {
+    pub(crate) fn samples<T, const N: usize>(
+        &self,
+        of: impl Fn(crate::colour::srgb::Colour) -> [T; N],
+    ) -> Vec<T> {
         let pixels = (0..self.width * self.height)
             .map(|k| self.picture.at(self.left + k % self.width, self.top + k / self.width));
         pixels.flat_map(of).collect()
@@ -123,7 +126,7 @@ impl Crop<'_> {
 
     /// Transform from the unit square of the image object, whose last row is at y = 0, to pixels of the
     /// picture.
-    pub fn pixels_from_object(&self) -> Affine {
+    pub(crate) fn pixels_from_object(&self) -> Affine {
         let [width, height] = [self.width, self.height].map(|count| count as f64);
         let (left, bottom) = (self.left as f64, (self.top + self.height) as f64);
         Affine::new([width, 0.0, 0.0, -height, left, bottom])

@@ -28,7 +28,7 @@ pub(crate) struct SoftMask<'a> {
 
 impl<'a> SoftMask<'a> {
     /// Masks of a drawing in the order of their numbers.
-    pub fn all(drawing: &Drawing, crops: &'a Crops<'a>, first_picture: usize) -> Vec<Self> {
+    pub(crate) fn all(drawing: &Drawing, crops: &'a Crops<'a>, first_picture: usize) -> Vec<Self> {
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + 1);
         let size = [drawing.page.width, drawing.page.height];
         let of = |(number, image): (usize, &&'a ImagePaint)| Self {
@@ -43,7 +43,7 @@ impl<'a> SoftMask<'a> {
     }
 
     /// Writes the graphics state and its form; `pictures` are the pictures of the whole document.
-    pub fn write(&self, pdf: &mut Pdf, [state, form]: [Ref; 2], pictures: &[Ref]) {
+    pub(crate) fn write(&self, pdf: &mut Pdf, [state, form]: [Ref; 2], pictures: &[Ref]) {
         let mut writer = ContentWriter::new(self.decimals, 0, None);
         writer.opacities(self.image, self.crops, self.first_picture);
         let content = compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL);

@@ -50,12 +50,12 @@ pub(crate) struct Coverage {
 
 impl Coverage {
     /// Creates an empty coverage for a canvas in pixels.
-    pub fn new(width: u32, height: u32) -> Self {
+    pub(crate) fn new(width: u32, height: u32) -> Self {
         Self { width: f64::from(width), height: f64::from(height), cells: Vec::new() }
     }
 
     /// Adds the edges of a path and closes open contours. `to` transforms the path to pixels.
-    pub fn add(&mut self, path: &Path, to: Transform) {
+    pub(crate) fn add(&mut self, path: &Path, to: Transform) {
         let [sx, kx, ky, sy, tx, ty] = [to.sx, to.kx, to.ky, to.sy, to.tx, to.ty].map(f64::from);
         let place = |p: Point| {
             let [x, y] = [p.x, p.y].map(f64::from);
@@ -199,7 +199,7 @@ impl Coverage {
     }
 
     /// Paints the covered pixels. The canvas must have the size given to [`Self::new`].
-    pub fn paint(mut self, ink: CoverageInk, winding: Winding, pixmap: &mut PixmapMut) {
+    pub(crate) fn paint(mut self, ink: CoverageInk, winding: Winding, pixmap: &mut PixmapMut) {
         self.cells.sort_by_key(|cell| (cell.row, cell.column));
         let columns = pixmap.width() as usize;
         let pixels = pixmap.pixels_mut();
@@ -247,12 +247,12 @@ pub(crate) struct CoverageInk {
 
 impl CoverageInk {
     /// Ink with channels from 0 to 255 and an opacity from 0 to 1.
-    pub fn new(rgb: [u8; 3], opacity: f64) -> Self {
+    pub(crate) fn new(rgb: [u8; 3], opacity: f64) -> Self {
         Self { rgb: rgb.map(f64::from), opacity: opacity.clamp(0.0, 1.0), is_crisp: false }
     }
 
     /// The same ink without anti-aliasing.
-    pub fn crisp(self) -> Self {
+    pub(crate) fn crisp(self) -> Self {
         Self { is_crisp: true, ..self }
     }
 

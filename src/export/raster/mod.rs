@@ -15,6 +15,6 @@ mod picture_painter;
 #[cfg(feature = "png")]
 mod png_composition;
 #[cfg(feature = "png")]
-pub mod png_drawing;
+pub(crate) mod png_drawing;
 #[cfg(feature = "png")]
 pub(crate) mod tree_painter;

@@ -48,7 +48,7 @@ pub(crate) struct TreePainter<'a> {
 
 impl TreePainter<'_> {
     /// Paints all children of a group.
-    pub fn nodes(self, parent: &Group, to: Transform, pixmap: &mut PixmapMut) {
+    pub(crate) fn nodes(self, parent: &Group, to: Transform, pixmap: &mut PixmapMut) {
         for node in parent.children().iter().filter(|node| self.touches(node)) {
             let painted = match node {
                 Node::Group(group) => self.group(group, to.pre_concat(group.transform()), pixmap),

@@ -50,7 +50,7 @@ struct PathRange {
 
 impl MarkPaths {
     /// Writes the paths of marks. If these are ordered, each path keeps its direction.
-    pub fn of(marks: &[&Mark], ordered: bool, decimals: Decimals) -> Self {
+    pub(crate) fn of(marks: &[&Mark], ordered: bool, decimals: Decimals) -> Self {
         let write = |chunk: &[&Mark]| {
             let mut text = Vec::with_capacity(chunk.len() * 64);
             let mut canonical = CanonicalWriter::new(decimals);
@@ -78,12 +78,12 @@ impl MarkPaths {
     }
 
     /// The `d` of a mark.
-    pub fn data(&self, mark: usize) -> &[u8] {
+    pub(crate) fn data(&self, mark: usize) -> &[u8] {
         self.text(mark, |place| place.axis_end..place.end)
     }
 
     /// Axis of a line drawn as an outline, as path data.
-    pub fn axis(&self, mark: usize) -> &[u8] {
+    pub(crate) fn axis(&self, mark: usize) -> &[u8] {
         self.text(mark, |place| place.begin..place.axis_end)
     }
 

@@ -19,6 +19,6 @@ mod page_cells;
 mod paint_attributes;
 mod part_groups;
 mod svg_composition;
-pub mod svg_drawing;
+pub(crate) mod svg_drawing;
 mod svg_images;
 pub(crate) mod svg_options;

@@ -27,7 +27,7 @@ pub(crate) struct PageCells {
 
 impl PageCells {
     /// The cells of a page.
-    pub fn of(page: &Page) -> Self {
+    pub(crate) fn of(page: &Page) -> Self {
         let px = match page.unit {
             Unit::Px => 1.0,
             Unit::Mm => 25.4 / 96.0,
@@ -38,7 +38,7 @@ impl PageCells {
     }
 
     /// Cells that a mark may paint, sorted and unique.
-    pub fn cells_of(&self, mark: &Mark) -> Vec<u32> {
+    pub(crate) fn cells_of(&self, mark: &Mark) -> Vec<u32> {
         let (reach, filled) = match &mark.paint {
             Paint::Stroke(stroke) => (MITER_LIMIT * stroke.width / 2.0, false),
             Paint::Fill(_) | Paint::Gradient(_) | Paint::Outline(_) | Paint::Image(_) => (0.0, true),

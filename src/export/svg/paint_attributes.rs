@@ -50,7 +50,7 @@ pub(crate) struct Attributes([AttributeValue; 7]);
 
 impl Attributes {
     /// The attributes that a mark needs.
-    pub fn of(mark: &Mark) -> Self {
+    pub(crate) fn of(mark: &Mark) -> Self {
         use AttributeValue::Any;
         match &mark.paint {
             Paint::Stroke(stroke) => Self([
@@ -86,7 +86,7 @@ impl Attributes {
 
     /// Attributes for a group: for each attribute, the most frequent value; of equally frequent values, the
     /// first. `runs` holds attributes and the number of consecutive marks with them.
-    pub fn common(runs: &[(Self, usize)]) -> Self {
+    pub(crate) fn common(runs: &[(Self, usize)]) -> Self {
         let mut common = INITIAL_ATTRIBUTES;
         for (index, best) in common.0.iter_mut().enumerate() {
             let mut counts: FxHashMap<AttributeValue, usize> = FxHashMap::default();
@@ -110,7 +110,7 @@ impl Attributes {
     }
 
     /// Writes the attributes of an outermost group; `ink` is the colour written as `currentColor`.
-    pub fn write(&self, out: &mut Vec<u8>, ink: Option<Colour>) {
+    pub(crate) fn write(&self, out: &mut Vec<u8>, ink: Option<Colour>) {
         let mut outer = INITIAL_ATTRIBUTES;
         if ink == Some(Colour::BLACK)
             && let Some(fill) = outer.0.first_mut()
@@ -122,7 +122,7 @@ impl Attributes {
     }
 
     /// Writes the attributes that differ from an outer group.
-    pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>, ink: Option<Colour>) {
+    pub(crate) fn write_over(&self, outer: &Self, out: &mut Vec<u8>, ink: Option<Colour>) {
         for ((name, value), outer) in ATTRIBUTE_NAMES.iter().zip(&self.0).zip(&outer.0) {
             if value == outer || *value == AttributeValue::Any {
                 continue;
@@ -159,7 +159,7 @@ impl Attributes {
     }
 
     /// Whether a mark inside `outer` needs no attributes.
-    pub fn fits(&self, outer: &Self) -> bool {
+    pub(crate) fn fits(&self, outer: &Self) -> bool {
         self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == AttributeValue::Any)
     }
 }

@@ -7,7 +7,7 @@ use crate::parallel::prelude::*;
 
 /// Lists of values, one per group, in CSR form. Values of a group keep their order of insertion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CsrLists<T> {
+pub(crate) struct CsrLists<T> {
     /// Start of each group in `values`, and the end of the last; empty without groups.
     starts: Vec<u32>,
     values: Vec<T>,
@@ -22,7 +22,7 @@ impl<T> Default for CsrLists<T> {
 /// Builds the lists of `count` groups from the pairs (group, value) that `fill` passes to its argument.
 ///
 /// `fill` is called twice and must pass the same pairs both times.
-pub fn csr_lists<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> CsrLists<T> {
+pub(crate) fn csr_lists<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> CsrLists<T> {
     // Counting sort in one array: counts are stored two places ahead and become starts one place ahead.
     // Filling a group advances its start to its end, which is the start of the next group.
     let mut starts = vec![0u32; count + 2];
@@ -45,7 +45,7 @@ pub fn csr_lists<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T)))
 }
 
 /// Builds the lists of `count` groups from an iterator of pairs, twice as fast as [`csr_lists`].
-pub fn csr_lists_from_pairs<T: Copy>(
+pub(crate) fn csr_lists_from_pairs<T: Copy>(
     count: usize,
     pairs: impl Iterator<Item = (usize, T)> + Clone,
 ) -> CsrLists<T> {
@@ -73,46 +73,41 @@ const LISTS_PER_TASK: usize = 1 << 13;
 
 impl<T: Copy> CsrLists<T> {
     /// Number of groups.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
     /// Number of values in all groups.
-    pub fn value_count(&self) -> usize {
+    pub(crate) fn value_count(&self) -> usize {
         self.values.len()
     }
 
     /// Values of a group.
     #[inline]
-    pub fn of(&self, group: usize) -> &[T] {
+    pub(crate) fn of(&self, group: usize) -> &[T] {
         &self.values[self.range(group)]
     }
 
     /// Mutable values of a group.
-    pub fn of_mut(&mut self, group: usize) -> &mut [T] {
+    pub(crate) fn of_mut(&mut self, group: usize) -> &mut [T] {
         let range = self.range(group);
         &mut self.values[range]
     }
 
     /// Values of consecutive groups.
-    pub fn of_all(&self, groups: Range<usize>) -> &[T] {
+    pub(crate) fn of_all(&self, groups: Range<usize>) -> &[T] {
         &self.values[self.starts[groups.start] as usize..self.starts[groups.end] as usize]
-    }
-
-    /// Mutable value at an index into all values.
-    pub fn at_mut(&mut self, at: usize) -> &mut T {
-        &mut self.values[at]
     }
 
     /// Range of a group's values within all values.
     #[inline]
-    pub fn range(&self, group: usize) -> Range<usize> {
+    pub(crate) fn range(&self, group: usize) -> Range<usize> {
         self.starts[group] as usize..self.starts[group + 1] as usize
     }
 
     /// Rewrites each list that is not empty with `tidy`, which may sort, merge or remove values. Runs in
     /// parallel if there are many groups.
-    pub fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>) + Sync) -> Self
+    pub(crate) fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>) + Sync) -> Self
     where
         T: Send + Sync,
     {

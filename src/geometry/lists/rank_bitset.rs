@@ -2,7 +2,7 @@
 
 /// Set of numbers below a bound, with constant-time rank queries.
 #[derive(Debug, Clone, Default)]
-pub struct RankBitset {
+pub(crate) struct RankBitset {
     /// One bit per number: whether it is a member.
     words: Vec<u64>,
     /// Number of members before each word of `words`, and in total.
@@ -12,7 +12,7 @@ pub struct RankBitset {
 impl RankBitset {
     /// Builds the set of the `listed` numbers, all below `bound`. They may be in any order and repeat.
     #[must_use]
-    pub fn new(bound: usize, listed: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn new(bound: usize, listed: impl IntoIterator<Item = usize>) -> Self {
         let mut words = vec![0_u64; bound.div_ceil(64)];
         listed.into_iter().for_each(|number| words[number / 64] |= 1 << (number % 64));
         let mut before = Vec::with_capacity(words.len() + 1);
@@ -28,21 +28,21 @@ impl RankBitset {
     /// Number of members.
     #[inline]
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.before.last().copied().unwrap_or_default() as usize
     }
 
     /// Whether a number below the bound is a member.
     #[inline]
     #[must_use]
-    pub fn contains(&self, number: usize) -> bool {
+    pub(crate) fn contains(&self, number: usize) -> bool {
         self.words[number / 64] >> (number % 64) & 1 == 1
     }
 
     /// Rank of a number below the bound: how many members are smaller.
     #[inline]
     #[must_use]
-    pub fn of(&self, number: usize) -> u32 {
+    pub(crate) fn of(&self, number: usize) -> u32 {
         let word = number / 64;
         self.before[word] + (self.words[word] & ((1 << (number % 64)) - 1)).count_ones()
     }
@@ -50,7 +50,7 @@ impl RankBitset {
     /// Whether any number in `first..=last` is a member. Both are below the bound, and `first <= last`.
     #[inline]
     #[must_use]
-    pub fn any_within(&self, first: usize, last: usize) -> bool {
+    pub(crate) fn any_within(&self, first: usize, last: usize) -> bool {
         let (from, to) = (first / 64, last / 64);
         let (head, tail) = (u64::MAX << (first % 64), u64::MAX >> (63 - last % 64));
         if from == to {
@@ -62,7 +62,7 @@ impl RankBitset {
     }
 
     /// All members, ascending.
-    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
             let mut rest = *word;
             std::iter::from_fn(move || {

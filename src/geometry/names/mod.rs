@@ -2,5 +2,5 @@
 //!
 //! Files: [`glob`] patterns with `*` and `?`; [`name_ids`] a stable number for each of several named things.
 
-pub mod glob;
-pub mod name_ids;
+pub(crate) mod glob;
+pub(crate) mod name_ids;

@@ -7,7 +7,7 @@ use crate::geometry::numbers::noise::hash;
 /// Returns a number for each name, in their order: a hash of the name and its occurrence count among equal
 /// names.
 #[must_use]
-pub fn stable_ids<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
+pub(crate) fn stable_ids<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
     let mut counts: FxHashMap<&str, u64> = FxHashMap::default();
     let of = |name: &'a str| {
         let count = counts.entry(name).or_default();

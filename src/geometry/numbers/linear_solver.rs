@@ -8,7 +8,7 @@ use crate::geometry::tolerances;
 /// Source: the square-root-free form of Cholesky's method, Golub and Van Loan, Matrix Computations, section
 /// 4.1.
 #[must_use]
-pub fn solve<const N: usize>(matrix: [[f64; N]; N], right: [f64; N]) -> Option<[f64; N]> {
+pub(crate) fn solve<const N: usize>(matrix: [[f64; N]; N], right: [f64; N]) -> Option<[f64; N]> {
     let mut l = matrix;
     let mut d = [0.0; N];
     let trace: f64 = (0..N).map(|i| matrix[i][i]).sum();

@@ -4,7 +4,7 @@
 //! machine; [`powers_of_two`] the powers of two around a number; [`linear_solver`] small symmetric systems of
 //! equations; [`noise`] hashes and value noise in place of a random generator.
 
-pub mod linear_solver;
-pub mod noise;
-pub mod portable_math;
-pub mod powers_of_two;
+pub(crate) mod linear_solver;
+pub(crate) mod noise;
+pub(crate) mod portable_math;
+pub(crate) mod powers_of_two;

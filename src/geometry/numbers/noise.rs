@@ -47,7 +47,7 @@ pub fn value_noise(seed: u64, x: f64) -> f64 {
 ///
 /// Returns 0 for NaN and infinity.
 #[must_use]
-pub fn value_noise_3d(seed: u64, place: [f64; 3]) -> f64 {
+pub(crate) fn value_noise_3d(seed: u64, place: [f64; 3]) -> f64 {
     if !place.iter().all(|x| x.is_finite()) {
         return 0.0;
     }

@@ -4,13 +4,13 @@
 
 /// Greatest power of two that is at most `x`; 1 if there is none.
 #[must_use]
-pub fn power_of_two_below(x: f64) -> f64 {
+pub(crate) fn power_of_two_below(x: f64) -> f64 {
     if x.is_normal() && x > 0.0 { f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
 }
 
 /// Least power of two that is greater than `x`; 1 if there is none.
 #[must_use]
-pub fn power_of_two_above(x: f64) -> f64 {
+pub(crate) fn power_of_two_above(x: f64) -> f64 {
     let above = 2.0 * power_of_two_below(x);
     if x.is_normal() && x > 0.0 && above.is_finite() { above } else { 1.0 }
 }

@@ -15,7 +15,7 @@ type GridEdge = (u32, u32, bool);
 /// Positive values are on the left of a line (x to the right, y upwards). Where a line is curved it gets
 /// extra points, until the deviation from the exact hyperbola is at most `straight` times the length of a
 /// segment. Returns `None` if the grid has more than `most` crossings.
-pub fn marching_squares(
+pub(crate) fn marching_squares(
     value: &impl Fn(i64, i64) -> f64,
     [columns, rows]: [usize; 2],
     straight: f64,

@@ -5,5 +5,5 @@
 //! (Lorensen and Cline 1987, Nielson and Hamann 1991).
 
 pub(crate) mod convex_hull;
-pub mod marching_squares;
-pub mod planar_distance;
+pub(crate) mod marching_squares;
+pub(crate) mod planar_distance;

@@ -4,13 +4,13 @@ use kurbo::{Point, Vec2};
 
 /// Length of a vector. The platform's `hypot` differs between machines.
 #[must_use]
-pub fn length(v: Vec2) -> f64 {
+pub(crate) fn length(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }
 
 /// Squared distance from a point to a segment.
 #[must_use]
-pub fn segment_distance_squared(p: Point, a: Point, b: Point) -> f64 {
+pub(crate) fn segment_distance_squared(p: Point, a: Point, b: Point) -> f64 {
     let way = b - a;
     let length2 = way.hypot2();
     let t = if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
@@ -21,7 +21,7 @@ pub fn segment_distance_squared(p: Point, a: Point, b: Point) -> f64 {
 ///
 /// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
 #[must_use]
-pub fn fit_circle_centre(points: &[Point]) -> Option<Point> {
+pub(crate) fn fit_circle_centre(points: &[Point]) -> Option<Point> {
     let mean = points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / points.len() as f64;
     let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, Vec2::ZERO);
     for p in points {

@@ -32,7 +32,7 @@ impl Disc {
     ///
     /// Pieces that do not touch the disc have no effect. If no piece touches it, `inside` says whether the
     /// centre is in the domain. `px` is the length of a px in user units.
-    pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> ClippedDisc {
+    pub(crate) fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> ClippedDisc {
         for attempt in 0..MAX_ATTEMPTS {
             let radius = self.radius * (1.0 - f64::from(attempt) * tolerances::DOT_SHRINK_OF_RADIUS);
             let disc = Self { radius, ..self };

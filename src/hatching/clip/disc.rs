@@ -16,7 +16,7 @@ pub(crate) struct Disc {
 
 impl Disc {
     /// Adds the whole circle to a path, turning from x to y. `px` is the length of a px in user units.
-    pub fn draw(self, path: &mut BezPath, px: f64) {
+    pub(crate) fn draw(self, path: &mut BezPath, px: f64) {
         let start = Vec2::new(self.radius, 0.0);
         path.move_to(self.centre + start);
         self.arc(path, 0.0, TAU, start, px);
@@ -25,7 +25,7 @@ impl Disc {
 
     /// Adds an arc to a path whose current point is the start of the arc. It starts at angle `from` and ends
     /// at `end`, relative to the centre.
-    pub fn arc(self, path: &mut BezPath, from: f64, sweep: f64, end: Vec2, px: f64) {
+    pub(crate) fn arc(self, path: &mut BezPath, from: f64, sweep: f64, end: Vec2, px: f64) {
         let near = |n: &f64| self.radius * off_circle(*n) < tolerances::MAX_DOT_OUTLINE_ERROR_PX * px;
         let a_turn = [3.0, 4.0, 6.0].into_iter().find(near).unwrap_or(8.0);
         let count = (sweep / TAU * a_turn - tolerances::ARC_COUNT_ROUNDING).ceil().max(1.0);

@@ -18,14 +18,14 @@ pub(crate) struct Domains {
 
 impl Domains {
     /// Joins the inked cells of each facet.
-    pub fn of_facets(ground: &HatchRegions, inked: &[bool]) -> Self {
+    pub(crate) fn of_facets(ground: &HatchRegions, inked: &[bool]) -> Self {
         let of =
             |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { NO_DOMAIN };
         Self { domain_of_cell: (0u32..).zip(inked).map(of).collect() }
     }
 
     /// Makes each inked cell its own domain.
-    pub fn of_cells(inked: &[bool]) -> Self {
+    pub(crate) fn of_cells(inked: &[bool]) -> Self {
         Self {
             domain_of_cell: (0u32..)
                 .zip(inked)
@@ -35,7 +35,7 @@ impl Domains {
     }
 
     /// Joins the inked cells of one part, material and tone.
-    pub fn by_label(ground: &HatchRegions, inked: &[bool]) -> Self {
+    pub(crate) fn by_label(ground: &HatchRegions, inked: &[bool]) -> Self {
         let mut numbers = BTreeMap::new();
         let of = |(cell, inked): (u32, &bool)| {
             let look = ground.cells[cell as usize].look;
@@ -49,12 +49,12 @@ impl Domains {
     }
 
     /// The domain of a cell, or [`NO_DOMAIN`].
-    pub fn domain(&self, cell: u32) -> u32 {
+    pub(crate) fn domain(&self, cell: u32) -> u32 {
         self.domain_of_cell.get(cell as usize).copied().unwrap_or(NO_DOMAIN)
     }
 
     /// The domains on the two sides of a border piece, if they differ.
-    pub fn differing_domains(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
+    pub(crate) fn differing_domains(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
         let sides = piece.sides.map(|cell| self.domain(cell));
         (sides[0] != sides[1]).then_some(sides)
     }

@@ -8,11 +8,11 @@ use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
 /// Position on a polyline: the number of a segment plus the fraction of that segment already passed.
-pub type LinePosition = f64;
+pub(crate) type LinePosition = f64;
 
 /// Span of a polyline that may be drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LineSpan {
+pub(crate) struct LineSpan {
     /// Start of the span.
     pub from: LinePosition,
     /// End of the span.
@@ -25,7 +25,7 @@ pub struct LineSpan {
 
 /// The spans of a polyline in wanted cells. No span crosses the border of a surface.
 #[must_use]
-pub fn clip_to_cells(
+pub(crate) fn clip_to_cells(
     ground: &HatchRegions,
     line: &[Point],
     is_wanted: impl Fn(u32) -> bool,
@@ -94,7 +94,7 @@ pub fn clip_to_cells(
 
 /// The point at a position of a polyline. The position is clamped to the line.
 #[must_use]
-pub fn point_at(line: &[Point], place: LinePosition) -> Point {
+pub(crate) fn point_at(line: &[Point], place: LinePosition) -> Point {
     let k = (place.max(0.0) as usize).min(line.len().saturating_sub(2));
     match (line.get(k), line.get(k + 1)) {
         (Some(a), Some(b)) => a.lerp(*b, (place - k as f64).clamp(0.0, 1.0)),
@@ -105,7 +105,7 @@ pub fn point_at(line: &[Point], place: LinePosition) -> Point {
 
 /// The part of a polyline between two positions.
 #[must_use]
-pub fn sub_polyline(line: &[Point], from: LinePosition, to: LinePosition) -> Vec<Point> {
+pub(crate) fn sub_polyline(line: &[Point], from: LinePosition, to: LinePosition) -> Vec<Point> {
     let mut points = vec![point_at(line, from)];
     let first = from.floor() as usize + 1;
     points.extend((first..line.len()).take_while(|k| (*k as f64) < to).map(|k| line[k]));
@@ -116,7 +116,7 @@ pub fn sub_polyline(line: &[Point], from: LinePosition, to: LinePosition) -> Vec
 
 /// Length of a polyline.
 #[must_use]
-pub fn length(line: &[Point]) -> f64 {
+pub(crate) fn length(line: &[Point]) -> f64 {
     line.windows(2).map(|pair| norm(pair[1] - pair[0])).sum()
 }
 
@@ -134,7 +134,7 @@ pub(crate) mod tests {
     use crate::regions::hatch_regions::hatch_map::HatchCell;
 
     /// Two squares of side 10 side by side from (0, 0), in bins 0 and 1, on one facet or on two.
-    pub fn two_squares(parts_surfaces: bool) -> HatchRegions {
+    pub(crate) fn two_squares(parts_surfaces: bool) -> HatchRegions {
         let look = |bin: u16| SurfaceLabel {
             part: PartId(0),
             material: MaterialId(0),

@@ -14,6 +14,6 @@
 pub(crate) mod circle_clip;
 pub(crate) mod disc;
 pub(crate) mod domain;
-pub mod line_clip;
+pub(crate) mod line_clip;
 mod polygon_boolean;
 pub(crate) mod polygon_clip;

@@ -30,7 +30,7 @@ pub(crate) struct BoundaryEdges(Vec<BoundaryEdge>);
 
 impl BoundaryEdges {
     /// Adds an edge of the shape with a winding, or an edge of the domain.
-    pub fn add(&mut self, [a, b]: [ClipGridPoint; 2], winding: i64, parts: bool) {
+    pub(crate) fn add(&mut self, [a, b]: [ClipGridPoint; 2], winding: i64, parts: bool) {
         if a != b {
             let (ends, winding) = if a < b { ([a, b], winding) } else { ([b, a], -winding) };
             self.0.push(BoundaryEdge { ends, winding, parts });
@@ -39,7 +39,7 @@ impl BoundaryEdges {
 
     /// Splits the edges until they meet at their ends only and are all distinct. `None` if that takes too
     /// many rounds.
-    pub fn cut(mut self) -> Option<Self> {
+    pub(crate) fn cut(mut self) -> Option<Self> {
         for _ in 0..MAX_ROUNDS {
             self.merge();
             let mut cuts: Vec<Vec<ClipGridPoint>> = vec![Vec::new(); self.0.len()];
@@ -86,7 +86,7 @@ impl BoundaryEdges {
     }
 
     /// The closed rings around the intersection of shape and domain.
-    pub fn intersection_rings(&self) -> Vec<Vec<ClipGridPoint>> {
+    pub(crate) fn intersection_rings(&self) -> Vec<Vec<ClipGridPoint>> {
         let mut leads: BTreeMap<ClipGridPoint, Vec<ClipGridPoint>> = BTreeMap::new();
         for edge in &self.0 {
             let (winding, within) = self.winding_right_of(edge);

@@ -55,7 +55,7 @@ pub(crate) fn clip_polygon(
 
 /// Fill rule of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WindingRule {
+pub(crate) enum WindingRule {
     /// Nonzero: inside where the winding number is not 0.
     NonZero,
     /// Even-odd: inside where the winding number is odd.

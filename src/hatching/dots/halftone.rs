@@ -21,7 +21,7 @@ use crate::regions::hatch_regions::border_piece::PAPER;
 
 /// Half-tone screen of dots. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DotScreen {
+pub(crate) struct DotScreen {
     /// Distance between neighbouring dots.
     pub pitch: f64,
     /// Angle of the rows from the x axis, radians, turning from x to y.
@@ -36,7 +36,7 @@ pub struct DotScreen {
 
 /// Treatment of dots on the border between two tones of one surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ToneBorders {
+pub(crate) enum ToneBorders {
     /// Dots stay whole, sized by the tone at their centre. Only a border to blank paper clips them.
     #[default]
     Whole,
@@ -46,7 +46,7 @@ pub enum ToneBorders {
 
 /// The dots of one cell.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CellDots {
+pub(crate) struct CellDots {
     /// The cell that contains the dot centres, or whose dots were clipped.
     pub cell: u32,
     /// All dots as one path that turns from x to y. Fill it by the nonzero rule.
@@ -59,7 +59,7 @@ pub struct CellDots {
 /// centres inside the cell, and for dots that reach in from outside, at the nearest point of the cell's
 /// border. A cell whose samples are all 0 stays blank.
 #[must_use]
-pub fn dots(
+pub(crate) fn dots(
     ground: &HatchRegions,
     screen: &DotScreen,
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),

@@ -24,18 +24,18 @@ pub(crate) struct Lattice {
 
 impl Lattice {
     /// A lattice whose rows run at `angle` radians from the x axis, turning from x to y.
-    pub fn new(origin: Point, angle: f64, step: f64) -> Self {
+    pub(crate) fn new(origin: Point, angle: f64, step: f64) -> Self {
         Self { origin, along: Vec2::new(cos(angle), sin(angle)), step }
     }
 
     /// Lattice coordinates of a page point, in steps along rows and columns.
-    pub fn place(&self, p: Point) -> Point {
+    pub(crate) fn place(&self, p: Point) -> Point {
         let from = p - self.origin;
         Point::new(self.along.dot(from) / self.step, self.along.cross(from) / self.step)
     }
 
     /// The page point at lattice coordinates.
-    pub fn point(&self, x: f64, y: f64) -> Point {
+    pub(crate) fn point(&self, x: f64, y: f64) -> Point {
         let across = Vec2::new(-self.along.y, self.along.x);
         self.origin + (self.along * x + across * y) * self.step
     }
@@ -61,7 +61,7 @@ pub(crate) struct LatticeScan {
 
 impl LatticeScan {
     /// Scans a ground along the rows of a lattice.
-    pub fn new(ground: &HatchRegions, grid: &Lattice) -> Self {
+    pub(crate) fn new(ground: &HatchRegions, grid: &Lattice) -> Self {
         let placed: Vec<[Point; 2]> = ground
             .pieces
             .par_iter()
@@ -100,12 +100,12 @@ impl LatticeScan {
     }
 
     /// Number of rows.
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.crossings.count()
     }
 
     /// The stretches of a row in cells other than paper: start, end and cell.
-    pub fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+    pub(crate) fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
         let own = self.crossings.of(row);
         let pairs = own.windows(2).map(|pair| (pair[0].x, pair[1].x, pair[0].after));
         pairs.filter(|(from, to, cell)| *cell != PAPER && from < to)

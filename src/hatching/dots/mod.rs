@@ -9,7 +9,7 @@
 //!
 //! Files, in reading order: [`lattice_scan`]; [`halftone`]; [`weighted_voronoi`]; [`stipple`].
 
-pub mod halftone;
+pub(crate) mod halftone;
 mod lattice_scan;
-pub mod stipple;
+pub(crate) mod stipple;
 mod weighted_voronoi;

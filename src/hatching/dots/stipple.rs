@@ -28,7 +28,7 @@ use crate::regions::HatchRegions;
 
 /// Options of stippling. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stipple {
+pub(crate) struct Stipple {
     /// Mean radius of a dot.
     pub radius: f64,
     /// Random variation of dot areas, as a share of the area.
@@ -46,7 +46,7 @@ pub struct Stipple {
 /// `coverage` returns the share of the area (0 to 1) to be inked in a cell at a point inside it. Nothing is
 /// inked where it is 0.
 #[must_use]
-pub fn stipple(
+pub(crate) fn stipple(
     ground: &HatchRegions,
     options: &Stipple,
     coverage: &(dyn Fn(u32, Point) -> f64 + Sync),

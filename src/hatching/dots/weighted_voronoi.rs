@@ -39,7 +39,7 @@ struct CentroidSum {
 
 impl InkGrid {
     /// All wanted ink, in fully black squares.
-    pub fn total(&self) -> f64 {
+    pub(crate) fn total(&self) -> f64 {
         self.ink.iter().map(|ink| u64::from(*ink)).sum::<u64>() as f64 / f64::from(FULL_INK)
     }
 
@@ -47,7 +47,7 @@ impl InkGrid {
     ///
     /// The squares are ordered along a Hilbert curve, which keeps neighbours together. `random_triple` (0 to 1)
     /// places each position inside its stretch of ink and inside its square.
-    pub fn place_sites(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
+    pub(crate) fn place_sites(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
         let levels = self.width.max(self.height).next_power_of_two().trailing_zeros();
         let mut squares: Vec<(u64, u32)> = (0..self.ink.len())
             .into_par_iter()
@@ -79,7 +79,7 @@ impl InkGrid {
 
     /// Moves sites towards the weighted centroids of their Voronoi cells, `rounds` times. Sites without ink
     /// stay.
-    pub fn relax(&self, sites: &mut [[f64; 2]], rounds: u32) {
+    pub(crate) fn relax(&self, sites: &mut [[f64; 2]], rounds: u32) {
         for _ in 0..rounds {
             let owners = self.owners(sites);
             let sums = self.sums(&owners, sites.len());
@@ -94,7 +94,7 @@ impl InkGrid {
     }
 
     /// The ink in the Voronoi cell of each site, in fully black squares.
-    pub fn inks(&self, owners: &[u32], sites: usize) -> Vec<f64> {
+    pub(crate) fn inks(&self, owners: &[u32], sites: usize) -> Vec<f64> {
         let mut inks = vec![0u64; sites];
         for (owner, ink) in owners.iter().zip(&self.ink) {
             if *owner != NO_OWNER {
@@ -137,7 +137,7 @@ impl InkGrid {
     }
 
     /// The site closest to the centre of each square where ink is wanted.
-    pub fn owners(&self, sites: &[[f64; 2]]) -> Vec<u32> {
+    pub(crate) fn owners(&self, sites: &[[f64; 2]]) -> Vec<u32> {
         let mut owners = vec![NO_OWNER; self.ink.len()];
         if sites.is_empty() || self.width == 0 {
             return owners;

@@ -15,7 +15,7 @@ use crate::regions::HatchRegions;
 
 /// The cells that a guide may ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GuideScope {
+pub(crate) enum GuideScope {
     /// All cells of one part.
     Part(PartId),
     /// One connected stretch of visible surface.
@@ -24,7 +24,7 @@ pub enum GuideScope {
 
 /// Line along which strokes are laid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Guide {
+pub(crate) struct Guide {
     /// Polyline in page units.
     pub line: Vec<Point>,
     /// Share of all guides, 0 to 1. The guide is inked where more than this share is wanted.
@@ -41,13 +41,13 @@ pub struct Guide {
 /// Rank of a line by its number: the radical inverse in base 2 (van der Corput 1935). Among consecutive
 /// lines, those below any rank are spread evenly.
 #[must_use]
-pub fn rank(number: i64) -> f64 {
+pub(crate) fn rank(number: i64) -> f64 {
     f64::from((number as u32).reverse_bits()) / 4_294_967_296.0
 }
 
 /// Unit vectors along and across lines at an angle, radians, counter-clockwise as the page is seen.
 #[must_use]
-pub fn axes(angle: f64) -> [Vec2; 2] {
+pub(crate) fn axes(angle: f64) -> [Vec2; 2] {
     let (s, c) = (sin(angle), cos(angle));
     [Vec2::new(c, -s), Vec2::new(s, c)]
 }
@@ -57,7 +57,7 @@ pub fn axes(angle: f64) -> [Vec2; 2] {
 /// Each part has its own lines, turned at random by up to `turn_parts` radians. `identities` holds a stable
 /// number for each part.
 #[must_use]
-pub fn straight(
+pub(crate) fn straight(
     ground: &HatchRegions,
     wanted: impl Fn(u32) -> bool,
     identities: &[u64],

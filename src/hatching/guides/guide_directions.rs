@@ -15,7 +15,7 @@ use crate::regions::sampling::direction_field::{DirectionField, LineDirection};
 
 /// Direction field of strokes over a page.
 #[derive(Debug, Clone)]
-pub struct GuideDirections<'a> {
+pub(crate) struct GuideDirections<'a> {
     samples: &'a LightLattice,
     axes: Vec<LineDirection>,
 }
@@ -29,7 +29,7 @@ const NEIGHBOUR_WEIGHT: f32 = 3.0;
 impl<'a> GuideDirections<'a> {
     /// The field that smooths the axes given at the points of a lattice.
     #[must_use]
-    pub fn new(samples: &'a LightLattice, axes: &DirectionField) -> Self {
+    pub(crate) fn new(samples: &'a LightLattice, axes: &DirectionField) -> Self {
         let initial = &axes.directions;
         let axes = samples.spread(initial.clone(), SPREAD_ROUNDS, |k, own, around| {
             if samples.facets[k] == 0 || axes.is_independent[k] {
@@ -48,14 +48,14 @@ impl<'a> GuideDirections<'a> {
 
     /// The lattice of the field.
     #[must_use]
-    pub const fn samples(&self) -> &LightLattice {
+    pub(crate) const fn samples(&self) -> &LightLattice {
         self.samples
     }
 
     /// The direction on a facet at a point of the page, of unit length and either sense. Returns `None` if
     /// the facet is not visible nearby or has no direction there.
     #[must_use]
-    pub fn at(&self, facet: u32, p: Point) -> Option<Vec2> {
+    pub(crate) fn at(&self, facet: u32, p: Point) -> Option<Vec2> {
         let mut sum = [0.0_f64; 2];
         for (k, weight) in self.samples.around(p) {
             if self.samples.facets[k] == facet {

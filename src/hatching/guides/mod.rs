@@ -11,8 +11,8 @@
 //! Files, in reading order: [`guide`]; [`guide_directions`]; [`streamlines`]; [`section_guides`];
 //! [`stroke_layout`].
 
-pub mod guide;
-pub mod guide_directions;
-pub mod section_guides;
-pub mod streamlines;
-pub mod stroke_layout;
+pub(crate) mod guide;
+pub(crate) mod guide_directions;
+pub(crate) mod section_guides;
+pub(crate) mod streamlines;
+pub(crate) mod stroke_layout;

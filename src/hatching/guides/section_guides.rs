@@ -24,7 +24,7 @@ use crate::regions::surface_curves::level_curves::LevelCurve;
 /// `are_seen` takes page points, each with a nearness. For each it returns whether nothing is in front.
 /// `place_of` returns a number for a part and a rough position in it.
 #[must_use]
-pub fn guides_along_curves(
+pub(crate) fn guides_along_curves(
     ground: &HatchRegions,
     curves: &[LevelCurve],
     are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,

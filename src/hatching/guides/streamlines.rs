@@ -24,7 +24,7 @@ use crate::regions::HatchRegions;
 
 /// Spacing of streamlines. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
-pub struct Spacing {
+pub(crate) struct Spacing {
     /// Distance between lines where they are densest.
     pub pitch: f64,
     /// Number of wider sets, each at twice the spacing of the next. 0: all lines have one rank.
@@ -52,7 +52,7 @@ const MAX_LINE_POINTS: usize = 20_000;
 
 /// Guides along a direction field on all facets with wanted cells.
 #[must_use]
-pub fn streamlines(
+pub(crate) fn streamlines(
     ground: &HatchRegions,
     flow: &GuideDirections,
     wanted: impl Fn(u32) -> bool,

@@ -11,7 +11,7 @@ use crate::regions::HatchRegions;
 
 /// Stroke of a hatching.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HatchStroke {
+pub(crate) struct HatchStroke {
     /// Centre line in page units.
     pub points: Vec<Point>,
     /// The cell where it starts.
@@ -27,7 +27,7 @@ pub struct HatchStroke {
 
 /// Parameters of laying strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct StrokeLayout {
+pub(crate) struct StrokeLayout {
     /// Length of a stroke; 0 means unbroken.
     pub length: f64,
     /// Gap between consecutive strokes of one line.
@@ -82,7 +82,7 @@ impl StrokeLayout {
     /// Lays strokes along a guide where the `density` of a cell, the share of all guides wanted there,
     /// exceeds the guide's rank.
     #[must_use]
-    pub fn lay(&self, guide: &Guide, ground: &HatchRegions, density: &[f64]) -> Vec<HatchStroke> {
+    pub(crate) fn lay(&self, guide: &Guide, ground: &HatchRegions, density: &[f64]) -> Vec<HatchStroke> {
         let in_scope = |cell: u32| match guide.scope {
             GuideScope::Part(part) => {
                 let hatch_cell = &ground.cells[cell as usize];

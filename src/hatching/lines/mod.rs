@@ -9,4 +9,4 @@
 //! Files, in reading order: [`stroke_path`] a stroke as a path; [`line_layer`] a layer as marks.
 
 pub(crate) mod line_layer;
-pub mod stroke_path;
+pub(crate) mod stroke_path;

@@ -13,7 +13,7 @@ use crate::hatching::options::HatchLayer;
 
 /// Pen of hatching strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
-pub struct HatchNib {
+pub(crate) struct HatchNib {
     /// Width of a stroke at full pressure.
     pub width: f64,
     /// Share of the width lost at the ends, 0 to 1.
@@ -23,14 +23,14 @@ pub struct HatchNib {
 }
 
 /// Number of pressure steps. Finer steps would not be visible.
-pub const PRESSURE_STEPS: usize = 4;
+pub(crate) const PRESSURE_STEPS: usize = 4;
 
 /// Length of a taper in stroke widths. Shorter strokes taper to their middle.
 const TAPER_LENGTH_WIDTHS: f64 = 24.0;
 
 /// Mean width of a layer's strokes as a share of the width at full pressure.
 #[must_use]
-pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
+pub(crate) fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
     let [length, width] = [layer.length, layer.width].map(|length| length.in_unit(unit));
     let tapered = if length > 0.0 { (2.0 * TAPER_LENGTH_WIDTHS * width / length).min(1.0) } else { 0.0 };
     // Mean of 1 - taper (1 - x (2 - x)) over the taper, and mean over the pressure steps.
@@ -51,18 +51,18 @@ const FIT_TOLERANCE_PX: f64 = 0.05;
 
 /// The step of a pressure, 0 to [`PRESSURE_STEPS`] - 1.
 #[must_use]
-pub fn degree(pressure: f64) -> usize {
+pub(crate) fn degree(pressure: f64) -> usize {
     ((pressure * PRESSURE_STEPS as f64) as usize).min(PRESSURE_STEPS - 1)
 }
 
 /// The pressure that a step stands for.
 #[must_use]
-pub fn pressure(degree: usize) -> f64 {
+pub(crate) fn pressure(degree: usize) -> f64 {
     (degree as f64 + 1.0) / PRESSURE_STEPS as f64
 }
 
 /// Adds the centre line of a stroke to a path.
-pub fn add_line(stroke: &HatchStroke, px: f64, path: &mut BezPath) {
+pub(crate) fn add_line(stroke: &HatchStroke, px: f64, path: &mut BezPath) {
     let points = &stroke.points;
     path.move_to(points[0]);
     add_curve(points, px, path);
@@ -83,7 +83,7 @@ fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
 /// Adds the outline of a stroke of varying width.
 ///
 /// The width is that of the nib, or the value of `width` at each point. `tapers` selects the ends that taper.
-pub fn add_outline(
+pub(crate) fn add_outline(
     stroke: &HatchStroke,
     nib: &HatchNib,
     tapers: [bool; 2],

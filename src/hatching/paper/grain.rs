@@ -12,7 +12,7 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 
 /// Specks on the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grain {
+pub(crate) struct Grain {
     /// Number of specks in a square of 100 px. Default: 24.
     pub density: f64,
     /// How much darker than the paper the darkest specks are, 0 to 1. Default: 0.5.
@@ -30,7 +30,7 @@ impl Default for Grain {
 /// The layer of specks on a page. It has one mark for each of three tints, one of them lighter than the paper
 /// unless the paper is white. `None` if there are no specks.
 #[must_use]
-pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
+pub(crate) fn grain(page: &Page, options: &Grain) -> Option<Layer> {
     let paths = specks(page, options)?;
     let paper = page.background.unwrap_or(Colour::WHITE);
     let [dark, darker] = [0.5, 1.0].map(|part| paper.darker(1.0 - options.contrast * part));
@@ -81,7 +81,7 @@ const MAX_SPECK_PX: f64 = 1.8;
 
 /// Gaps in pencil strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tooth {
+pub(crate) struct Tooth {
     /// Share of the stroke area that is left out, 0 to about 0.3.
     pub amount: f64,
     /// Random seed of the sheet.
@@ -93,7 +93,7 @@ pub struct Tooth {
 /// Specks along strokes, given by their centre lines and widths. Fill them with the paper's colour over the
 /// strokes.
 #[must_use]
-pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
+pub(crate) fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     let side = TOOTH_SQUARE_PX * tooth.px;
     let mut path = BezPath::new();
     if side.is_nan() || side <= 0.0 || tooth.amount <= 0.0 {

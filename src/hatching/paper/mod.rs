@@ -7,5 +7,5 @@
 //!
 //! Files, in reading order: [`grain`] specks; [`sheet`] the layers behind and over the drawing.
 
-pub mod grain;
-pub mod sheet;
+pub(crate) mod grain;
+pub(crate) mod sheet;

@@ -19,7 +19,7 @@ use crate::drawing::{
 
 /// Sheet of paper.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Paper {
+pub(crate) struct Paper {
     /// Picture of the paper, tiled over the page. Default: none, a plain colour.
     pub picture: Option<Arc<Picture>>,
     /// Width of one tile. Default: one px for each pixel.
@@ -32,7 +32,7 @@ pub struct Paper {
 
 /// The layer behind the model: the picture, and the grain over it. `None` if the sheet is plain.
 #[must_use]
-pub fn paper(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
+pub(crate) fn paper(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     let mut marks = Vec::new();
     if let Some(picture) = &sheet.picture {
         // A plain fill below the tiles hides the seams between them.
@@ -49,7 +49,7 @@ pub fn paper(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
 
 /// The layer of paper that shows through everything drawn on it. `None` if there is none.
 #[must_use]
-pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
+pub(crate) fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     if sheet.tooth.is_nan() || sheet.tooth <= 0.0 {
         return None;
     }

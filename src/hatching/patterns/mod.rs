@@ -10,6 +10,6 @@
 //! [`pattern_marks`].
 
 pub(crate) mod pattern_marks;
-pub mod pattern_options;
+pub(crate) mod pattern_options;
 mod pattern_shapes;
-pub mod tile;
+pub(crate) mod tile;

@@ -31,7 +31,7 @@ const CROSS_ARM_OF_SQUARE: f64 = 0.3;
 
 /// Content of a pattern that is fixed to the surface.
 #[derive(Debug, Clone)]
-pub enum SurfacePattern {
+pub(crate) enum SurfacePattern {
     /// Lines and crosses.
     Guides(Vec<Guide>),
     /// Dots and tiles as they appear on the page, and whether each figure is filled.
@@ -43,7 +43,7 @@ pub enum SurfacePattern {
 /// `tones` returns the number of tones of a surface with a given look. `fixed` is the content that is fixed
 /// to the surface.
 #[must_use]
-pub fn pattern(
+pub(crate) fn pattern(
     ground: &HatchRegions,
     context: &HatchContext,
     settings: &Pattern,

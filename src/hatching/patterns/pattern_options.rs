@@ -16,7 +16,7 @@ use crate::strokes::Ink;
 /// Content of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum PatternKind {
+pub(crate) enum PatternKind {
     /// Round dots in rows.
     #[default]
     Dots,
@@ -31,7 +31,7 @@ pub enum PatternKind {
 /// Frame of reference of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum PatternFixed {
+pub(crate) enum PatternFixed {
     /// The page: the pattern has the same size and direction everywhere.
     #[default]
     Page,
@@ -45,7 +45,7 @@ pub enum PatternFixed {
 /// 2001, section 3.4 and figure 5d, where a texture replaces the colour of a tone.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Pattern {
+pub(crate) struct Pattern {
     /// Glob for the names of the materials that it covers. Default: all.
     pub material: Glob,
     /// The tones that it covers: 0 is the darkest, −1 the lightest; empty means all. Default: all.
@@ -114,7 +114,7 @@ impl Default for Pattern {
 impl Pattern {
     /// Whether it covers a tone of a material with `count` tones. Tone 0 is the darkest.
     #[must_use]
-    pub fn is_for(&self, material: &str, tone: u16, count: u16) -> bool {
+    pub(crate) fn is_for(&self, material: &str, tone: u16, count: u16) -> bool {
         let (tone, count) = (i32::from(tone), i32::from(count));
         let of = |own: &i32| *own == tone || *own + count == tone;
         self.material.matches(material) && (self.tones.is_empty() || self.tones.iter().any(of))

@@ -9,7 +9,7 @@ use crate::hatching::tolerances;
 
 /// Tile of a pattern. Its width is 1; y points down.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Tile {
+pub(crate) struct Tile {
     /// Lines drawn with the pattern's width.
     pub lines: Vec<Vec<Point>>,
     /// Filled shapes. Each is an island and its holes. All islands have one orientation, and holes the other.
@@ -43,7 +43,7 @@ impl Tile {
     ///
     /// # Errors
     /// Describes the fault of the path.
-    pub fn of_path(path: &BezPath, filling: Option<WindingRule>) -> Result<Self, String> {
+    pub(crate) fn of_path(path: &BezPath, filling: Option<WindingRule>) -> Result<Self, String> {
         if let Some(filling) = filling {
             return Self::of_shapes(&[(path.clone(), filling)], [PATH_SQUARE_SIDE; 2]);
         }
@@ -59,7 +59,10 @@ impl Tile {
     ///
     /// # Errors
     /// Describes the fault of the shapes.
-    pub fn of_shapes(shapes: &[(BezPath, WindingRule)], [width, height]: [f64; 2]) -> Result<Self, String> {
+    pub(crate) fn of_shapes(
+        shapes: &[(BezPath, WindingRule)],
+        [width, height]: [f64; 2],
+    ) -> Result<Self, String> {
         if !(width > 0.0
             && height > 0.0
             && (tolerances::MIN_TILE_ASPECT..=tolerances::MAX_TILE_ASPECT).contains(&(height / width)))
@@ -96,7 +99,7 @@ impl Tile {
     ///
     /// # Errors
     /// Describes the fault of the picture.
-    pub fn of_picture(picture: &Picture, level: f64) -> Result<Self, String> {
+    pub(crate) fn of_picture(picture: &Picture, level: f64) -> Result<Self, String> {
         let whole = DarknessMap::of(picture);
         let times = (MAX_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
         let [width, height] =

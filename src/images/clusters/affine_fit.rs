@@ -22,17 +22,17 @@ pub(crate) struct AffineFit {
 
 impl AffineFit {
     /// Place in the image that is shown at a point of the page.
-    pub fn place(&self, page: DVec2) -> DVec2 {
+    pub(crate) fn place(&self, page: DVec2) -> DVec2 {
         self.centre[1] + self.place_from_page * (page - self.centre[0])
     }
 
     /// Map from places to the page: its matrix, and the page position of the image's origin.
-    pub fn to_page(self) -> (DMat2, DVec2) {
+    pub(crate) fn to_page(self) -> (DMat2, DVec2) {
         (self.page_from_place, self.centre[0] - self.page_from_place * self.centre[1])
     }
 
     /// Error of the map at a corner: distance on the page, and in texels.
-    pub fn error(&self, corner: &FacetCorner) -> (f64, f64) {
+    pub(crate) fn error(&self, corner: &FacetCorner) -> (f64, f64) {
         let off = corner.place - self.place(corner.image.truncate());
         ((self.page_from_place * off).length(), off.length())
     }
@@ -57,12 +57,12 @@ const MIN_SPAN_TEXELS: f64 = 0.25;
 
 impl AffineSums {
     /// Empty sums with a corner as origin. Small offsets keep the precision of the sums.
-    pub fn about(corner: &FacetCorner) -> Self {
+    pub(crate) fn about(corner: &FacetCorner) -> Self {
         Self { origin: [corner.image.truncate(), corner.place], ..Self::default() }
     }
 
     /// Adds a corner.
-    pub fn add(&mut self, corner: &FacetCorner) {
+    pub(crate) fn add(&mut self, corner: &FacetCorner) {
         let (p, t) = (corner.image.truncate() - self.origin[0], corner.place - self.origin[1]);
         self.count += 1.0;
         self.page += p;
@@ -72,7 +72,7 @@ impl AffineSums {
     }
 
     /// Solves for the map; `None` if the corners are collinear on the page.
-    pub fn solved(&self) -> Option<AffineFit> {
+    pub(crate) fn solved(&self) -> Option<AffineFit> {
         let (page, place) = (self.page / self.count, self.place / self.count);
         let n = self.count;
         let (xx, xy, yy) = (

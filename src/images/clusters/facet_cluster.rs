@@ -19,7 +19,7 @@ pub(crate) struct FacetCluster {
 
 impl FacetCluster {
     /// Area on the page.
-    pub fn area(&self, facets: &[Facet]) -> f64 {
+    pub(crate) fn area(&self, facets: &[Facet]) -> f64 {
         self.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
     }
 }
@@ -63,7 +63,7 @@ const NO_FACET: u32 = u32::MAX;
 
 impl FacetNeighbours {
     /// Two facets of one part are neighbours if they share two corners and no other face passes between them.
-    pub fn of(facets: &[Facet]) -> Self {
+    pub(crate) fn of(facets: &[Facet]) -> Self {
         let mut points: FxHashMap<[u64; 3], u32> = FxHashMap::default();
         let mut point = |p: DVec3| {
             let next = points.len() as u32;
@@ -93,7 +93,7 @@ impl FacetNeighbours {
     }
 
     /// The facet across a side.
-    pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
+    pub(crate) fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
         Some(self.across[facet as usize][side]).filter(|neighbour| *neighbour != NO_FACET)
     }
 

@@ -26,7 +26,7 @@ pub(crate) struct FaceCrossings {
 
 impl FaceCrossings {
     /// Collects the crossings among the lines of a view.
-    pub fn of(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Self {
+    pub(crate) fn of(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Self {
         let mut of_face: FxHashMap<u32, Vec<[DVec2; 2]>> = FxHashMap::default();
         for segment in lines.segments.iter().filter(|segment| segment.kind == LineKind::Intersection) {
             let ends = segment.ends.map(|end| view.frame.image_from_local(lines.position(mesh, end)));

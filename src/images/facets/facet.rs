@@ -31,14 +31,14 @@ pub(crate) struct Facet {
 
 impl Facet {
     /// Facet that is separated from nothing.
-    pub const fn new(corners: [FacetCorner; 3], part: PartId) -> Self {
+    pub(crate) const fn new(corners: [FacetCorner; 3], part: PartId) -> Self {
         Self { corners, part, colour: None, parted: 0, walls: 0 }
     }
 }
 
 impl Facet {
     /// Twice its area on the page, positive where it turns from x to y.
-    pub fn area2(&self) -> f64 {
+    pub(crate) fn area2(&self) -> f64 {
         let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
         (b - a).perp_dot(c - a)
     }
@@ -46,7 +46,7 @@ impl Facet {
     /// Four points at distance `reach` around its centre, with the places they would show.
     ///
     /// The corners of a narrow facet alone determine the map poorly across the facet.
-    pub fn around(&self, reach: f64, perspective: bool) -> Option<[FacetCorner; 4]> {
+    pub(crate) fn around(&self, reach: f64, perspective: bool) -> Option<[FacetCorner; 4]> {
         let [a, b, c] = self.corners;
         let weight = |corner: &FacetCorner| if perspective { corner.image.z } else { 1.0 };
         let (qa, qb, qc) = (weight(&a), weight(&b), weight(&c));
@@ -68,41 +68,41 @@ impl Facet {
     }
 
     /// Smallest and largest place that it shows.
-    pub fn places(&self) -> [DVec2; 2] {
+    pub(crate) fn places(&self) -> [DVec2; 2] {
         let [a, b, c] = self.corners.map(|corner| corner.place);
         [a.min(b).min(c), a.max(b).max(c)]
     }
 
     /// Whether its bounding box meets the page.
-    pub fn is_on(&self, frame: &Frame) -> bool {
+    pub(crate) fn is_on(&self, frame: &Frame) -> bool {
         let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
     }
 
     /// Whether another face passes through at a side.
-    pub fn is_wall(&self, side: usize) -> bool {
+    pub(crate) fn is_wall(&self, side: usize) -> bool {
         self.walls >> side & 1 == 1
     }
 
     /// Whether any side is separated.
-    pub fn is_cut(&self) -> bool {
+    pub(crate) fn is_cut(&self) -> bool {
         self.parted != 0
     }
 
     /// Whether a side is separated from the next facet: by another face there, or farther along the line of
     /// the side.
-    pub fn is_parted(&self, side: usize) -> bool {
+    pub(crate) fn is_parted(&self, side: usize) -> bool {
         self.parted >> side & 1 == 1
     }
 
     /// Marks a side as separated; another face may pass through there.
-    pub fn with_parted(self, side: usize, wall: bool) -> Self {
+    pub(crate) fn with_parted(self, side: usize, wall: bool) -> Self {
         Self { parted: self.parted | 1 << side, walls: self.walls | u8::from(wall) << side, ..self }
     }
 
     /// The same facet, starting with another corner.
-    pub fn turned(&self, first: usize) -> Self {
+    pub(crate) fn turned(&self, first: usize) -> Self {
         let turned = |bits: u8| (0..3).fold(0, |all, k| all | (bits >> ((first + k) % 3) & 1) << k);
         let corners = [0, 1, 2].map(|k| self.corners[(first + k) % 3]);
         Self { corners, parted: turned(self.parted), walls: turned(self.walls), ..*self }
@@ -110,7 +110,7 @@ impl Facet {
 
     /// Both parts of the facet after a cut at a point of a side. The first keeps the first corner of the
     /// side, the second its second corner.
-    pub fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+    pub(crate) fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
         let rotated = self.turned(side);
         let [a, b, c] = rotated.corners;
         let middle = between(a, b, share, frame);
@@ -122,7 +122,7 @@ impl Facet {
     }
 
     /// Like [`Self::cut`], with the share of the side measured on the page.
-    pub fn cut_on_page(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+    pub(crate) fn cut_on_page(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
         if !frame.perspective {
             return self.cut(side, share, frame);
         }
@@ -134,7 +134,7 @@ impl Facet {
     ///
     /// The bound is the distance on the page between the midpoint of the side and the image of its midpoint
     /// in space. The facet's whole depth range is taken to lie along the side.
-    pub fn miss(&self) -> (usize, f64) {
+    pub(crate) fn miss(&self) -> (usize, f64) {
         let length = |side: usize| (self.corners[side].image - self.corners[(side + 1) % 3].image).truncate();
         let (side, longest) = [0, 1, 2]
             .map(|side| (side, length(side).length()))

@@ -19,7 +19,7 @@ pub(crate) struct VisibleFaces {
 impl VisibleFaces {
     /// Finds the faces in front on a screen. `mesh` is the mesh of the screen, with the faces that hide
     /// nothing made degenerate.
-    pub fn new(mesh: &Mesh, screen: &PixelGrid) -> Self {
+    pub(crate) fn new(mesh: &Mesh, screen: &PixelGrid) -> Self {
         let buffer = FaceBuffer::of(screen, |face| !mesh.is_degenerate(FaceId(face)));
         let mut faces = vec![false; mesh.triangles.len()];
         for pixel in 0..buffer.columns * buffer.rows {
@@ -37,7 +37,7 @@ impl VisibleFaces {
     }
 
     /// Whether some of a face may be visible.
-    pub fn face(&self, face: u32) -> bool {
+    pub(crate) fn face(&self, face: u32) -> bool {
         self.faces[face as usize]
     }
 

@@ -24,7 +24,7 @@ const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F6
 /// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the
 /// result.
 #[must_use]
-pub fn cuts_near_contours(
+pub(crate) fn cuts_near_contours(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     cones: Option<&NormalCones>,

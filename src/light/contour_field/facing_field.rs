@@ -13,7 +13,7 @@ use crate::view::Frame;
 /// Cosine between the normal and the direction to the eye, −1 to 1, one per smooth vertex. Positive where the
 /// surface turns its outside to the eye.
 #[must_use]
-pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
+pub(crate) fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
     let at =
         |(normal, vertex): (&glam::DVec3, &u32)| normal.dot(frame.to_eye(mesh.positions[*vertex as usize]));
     smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(MIN_TASK_ITEMS).map(at).collect()

@@ -22,7 +22,7 @@ const MAX_ROUNDS: u32 = 12;
 const MAX_SMOOTHED_VALUE: f64 = 0.35;
 
 /// Averages `values`, one per smooth vertex, near their zero set.
-pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, values: &mut [f64]) {
+pub(crate) fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, values: &mut [f64]) {
     let rounds_of = rounds(mesh, smooth, frame);
     let most = rounds_of.iter().copied().max().unwrap_or(0);
     if most == 0 {

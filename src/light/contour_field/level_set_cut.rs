@@ -26,7 +26,7 @@ const FACES_PER_TASK: usize = 1 << 13;
 
 /// Piece of a face between two neighbouring levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FacePiece {
+pub(crate) struct FacePiece {
     /// Face it is cut from.
     pub face: u32,
     /// Number of levels below it.
@@ -36,7 +36,7 @@ pub struct FacePiece {
 
 /// Rounded faces of a mesh, cut along levels.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SurfaceCut {
+pub(crate) struct SurfaceCut {
     /// Points where levels cross edges, local space; sorted by the smooth vertices of the edge, then by
     /// level.
     pub points: Vec<DVec3>,
@@ -65,7 +65,7 @@ type LevelCrossing = ([u32; 2], u16);
 /// A value on a level belongs to the band above it, as zero counts as positive where curves are traced. Every
 /// rounded face is covered by its pieces; flat faces have none.
 #[must_use]
-pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) -> SurfaceCut {
+pub(crate) fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) -> SurfaceCut {
     let faces = smooth.corners.len();
     let chunks: Vec<Vec<(u32, u16, Vec<CutCorner>)>> = (0..faces.div_ceil(FACES_PER_TASK))
         .into_par_iter()
@@ -149,21 +149,21 @@ impl SurfaceCut {
     /// Corners of a piece, in the winding of its face: vertices of the mesh, followed by
     /// [`SurfaceCut::points`].
     #[must_use]
-    pub fn corners(&self, piece: &FacePiece) -> &[u32] {
+    pub(crate) fn corners(&self, piece: &FacePiece) -> &[u32] {
         &self.corners[piece.corners.start as usize..piece.corners.end as usize]
     }
 
     /// Local position of a corner.
     #[inline]
     #[must_use]
-    pub fn position(&self, mesh: &Mesh, corner: u32) -> DVec3 {
+    pub(crate) fn position(&self, mesh: &Mesh, corner: u32) -> DVec3 {
         let corner = corner as usize;
         if corner < self.vertices { mesh.positions[corner] } else { self.points[corner - self.vertices] }
     }
 
     /// Pieces of a face.
     #[must_use]
-    pub fn of_face(&self, face: u32) -> &[FacePiece] {
+    pub(crate) fn of_face(&self, face: u32) -> &[FacePiece] {
         let first = self.pieces.partition_point(|piece| piece.face < face);
         let rest = &self.pieces[first..];
         &rest[..rest.partition_point(|piece| piece.face == face)]
@@ -171,7 +171,7 @@ impl SurfaceCut {
 
     /// Border between the band of a level and the one below it. Each face that the level crosses gives the
     /// face and two corners, with the upper band on the left.
-    pub fn border(&self, level: u16) -> impl Iterator<Item = (u32, [u32; 2])> + '_ {
+    pub(crate) fn border(&self, level: u16) -> impl Iterator<Item = (u32, [u32; 2])> + '_ {
         let on = move |corner: u32| {
             let point = (corner as usize).checked_sub(self.vertices);
             point.is_some_and(|point| self.levels[point] == level)

@@ -8,8 +8,8 @@
 //! Files, in reading order: [`facing_field`] step 1; [`field_smoothing`] step 2; [`contour_refinement`] step
 //! 3; [`level_set_cut`] step 4; [`culling`] bounds that skip edges without a contour.
 
-pub mod contour_refinement;
+pub(crate) mod contour_refinement;
 pub(crate) mod culling;
-pub mod facing_field;
-pub mod field_smoothing;
-pub mod level_set_cut;
+pub(crate) mod facing_field;
+pub(crate) mod field_smoothing;
+pub(crate) mod level_set_cut;

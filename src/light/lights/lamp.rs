@@ -79,13 +79,13 @@ pub(crate) struct SpotCone {
 
 impl Lamp {
     /// Parallel light.
-    pub fn parallel(towards: DVec3, brightness: f64, colour: [f64; 3]) -> Self {
+    pub(crate) fn parallel(towards: DVec3, brightness: f64, colour: [f64; 3]) -> Self {
         let reach = LampSource::Parallel { towards };
         Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
     /// Light from a point that halves at a distance.
-    pub fn point(position: DVec3, half_at: Option<f64>, brightness: f64, colour: [f64; 3]) -> Self {
+    pub(crate) fn point(position: DVec3, half_at: Option<f64>, brightness: f64, colour: [f64; 3]) -> Self {
         let falloff = half_at.map_or(FallOff::None, FallOff::Half);
         let reach = LampSource::Point { position, falloff, cone: None };
         Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
@@ -96,7 +96,7 @@ impl Lamp {
     /// A file's lux and candela suit the exposure of its renderer, not drawings. Lights without intensity are
     /// left out. A lamp near the target counts as a quarter of the frame's longer side away, and a lamp aimed
     /// elsewhere as if aimed at the target. Otherwise small changes would alter the scale of all lights.
-    pub fn of_model(lights: &[Light], origin: DVec3, frame: &Frame) -> Vec<Self> {
+    pub(crate) fn of_model(lights: &[Light], origin: DVec3, frame: &Frame) -> Vec<Self> {
         let shines = |light: &&Light| light.intensity.is_finite() && light.intensity > 0.0;
         let mut lamps: Vec<Self> =
             lights.iter().filter(shines).filter_map(|light| of_light(light, origin, frame)).collect();
@@ -112,13 +112,13 @@ impl Lamp {
     }
 
     /// Whether its bit is set in a shadow mask.
-    pub fn is_shadowed(&self, shadowed: u32) -> bool {
+    pub(crate) fn is_shadowed(&self, shadowed: u32) -> bool {
         self.caster.is_some_and(|bit| shadowed >> bit & 1 == 1)
     }
 
     /// Light at a point, with bounds within `extent` of it. `None` where the light is too near, has a cone,
     /// or ends at a range.
-    pub fn near(&self, point: DVec3, extent: f64) -> Option<LocalLight> {
+    pub(crate) fn near(&self, point: DVec3, extent: f64) -> Option<LocalLight> {
         let (towards, amount) = self.at(point);
         match &self.reach {
             LampSource::Parallel { .. } => Some(LocalLight { towards, amount, turn: 0.0, factor: 1.0 }),
@@ -138,7 +138,7 @@ impl Lamp {
     }
 
     /// Unit vector from a point to the light, and the amount that reaches the point.
-    pub fn at(&self, point: DVec3) -> (DVec3, f64) {
+    pub(crate) fn at(&self, point: DVec3) -> (DVec3, f64) {
         match &self.reach {
             LampSource::Parallel { towards } => (*towards, self.brightness),
             LampSource::Point { position, falloff, cone } => {

@@ -13,7 +13,7 @@ use crate::colour::srgb::Colour;
 /// from the upper left.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LightOptions {
+pub(crate) struct LightOptions {
     /// Whether the model file's lights shine, if it has any. Default: true.
     pub from_model: bool,
     /// Further lights. Default: none.
@@ -38,7 +38,7 @@ impl Default for LightOptions {
 /// A light of a style sheet.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "SourceTable")]
-pub struct LightSource {
+pub(crate) struct LightSource {
     /// Directional or point, with direction or position.
     pub kind: SourceKind,
     /// Space of its direction or position.
@@ -53,7 +53,7 @@ pub struct LightSource {
 
 /// Direction or position of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SourceKind {
+pub(crate) enum SourceKind {
     /// Parallel light.
     Directional {
         /// Towards the light, any length.
@@ -71,7 +71,7 @@ pub enum SourceKind {
 /// Space of directions and positions of lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Space {
+pub(crate) enum Space {
     /// The model's own axes and origin.
     #[default]
     World,

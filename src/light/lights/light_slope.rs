@@ -8,7 +8,7 @@ pub(crate) const TURN_PER_CHORD: f64 = 1.12;
 /// Each light gives max(L·n, 0). This is linear in the normal, apart from the curvature of the sphere, and
 /// convex where the light ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LightSlope {
+pub(crate) struct LightSlope {
     /// Largest change of light per radian of the normal.
     pub most: f64,
     /// Whether one light may end where another begins, so that there is less light between two points than at
@@ -21,7 +21,7 @@ impl LightSlope {
     /// farther apart than `turn` (distance of unit vectors).
     #[inline]
     #[must_use]
-    pub fn between(&self, [low, high]: [f64; 2], turn: f64) -> [f64; 2] {
+    pub(crate) fn between(&self, [low, high]: [f64; 2], turn: f64) -> [f64; 2] {
         // Light in between differs from that at one end by at most the turn of the normals. It differs from
         // the linear interpolation by at most a part of the square of that.
         let near = turn * TURN_PER_CHORD;

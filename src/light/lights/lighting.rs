@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::view::Frame;
 
 /// Largest number of lights that cast shadows.
-pub const MAX_SHADOW_LIGHTS: usize = 8;
+pub(crate) const MAX_SHADOW_LIGHTS: usize = 8;
 
 /// A light that casts shadows, in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +34,7 @@ pub enum Caster {
 
 /// Point of the surface where light is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePoint {
+pub(crate) struct SurfacePoint {
     /// Position, local space.
     pub position: DVec3,
     /// Unit normal of the visible side, local space. A surface without normal counts as turned to the eye.
@@ -80,7 +80,7 @@ fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
 
 /// Lights of a drawing in local space.
 #[derive(Debug, Clone)]
-pub struct Lighting {
+pub(crate) struct Lighting {
     lamps: Vec<Lamp>,
     /// Tints of the lights; similar ones are merged.
     hues: Vec<[f64; 3]>,
@@ -97,7 +97,7 @@ impl Lighting {
     /// Lights of a model and a style sheet, for a mesh seen by a camera. With `cast_shadows`, the first eight
     /// lights that may do so cast shadows.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         scene: &Scene,
         mesh: &Mesh,
         frame: &Frame,
@@ -143,51 +143,34 @@ impl Lighting {
     /// Moves the eye and parallel lights to `sides` frame sides from the camera's target, for highlights
     /// only; 0 leaves them in place.
     #[must_use]
-    pub fn near_for_highlights(self, sides: f64) -> Self {
+    pub(crate) fn near_for_highlights(self, sides: f64) -> Self {
         let near_distance =
             self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
         Self { highlight_distance: near_distance, ..self }
     }
 
-    /// One parallel white light, with shadows and without highlights.
-    #[must_use]
-    pub fn from_direction(towards_light: DVec3) -> Self {
-        let towards = towards_light.normalize_or_zero();
-        let lamp = Lamp { caster: Some(0), ..Lamp::parallel(towards, 1.0, [1.0; 3]) };
-        let casters = vec![Caster::Directional { towards }];
-        Self {
-            lamps: vec![lamp],
-            hues: vec![[1.0; 3]],
-            casters,
-            frame: None,
-            wrap: 0.0,
-            occlusion: 0.0,
-            highlight_distance: None,
-        }
-    }
-
     /// Lights that cast shadows; the index of each is its bit in `shadowed`.
     #[must_use]
-    pub fn casters(&self) -> &[Caster] {
+    pub(crate) fn casters(&self) -> &[Caster] {
         &self.casters
     }
 
     /// Number of lights.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.lamps.len()
     }
 
     /// Whether light varies over a flat surface.
     #[must_use]
-    pub fn is_local(&self) -> bool {
+    pub(crate) fn is_local(&self) -> bool {
         self.occlusion > 0.0
             || self.lamps.iter().any(|lamp| !matches!(lamp.reach, LampSource::Parallel { .. }))
     }
 
     /// Bounds for the change of parallel light with the normal.
     #[must_use]
-    pub fn slope(&self) -> LightSlope {
+    pub(crate) fn slope(&self) -> LightSlope {
         let most = self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum();
         LightSlope { most, dips: self.lamps.len() > 1 }
     }
@@ -196,7 +179,7 @@ impl Lighting {
     ///
     /// Tinting each point by the light that reaches it would spoil the steps (Ishaya 2003).
     #[must_use]
-    pub fn tint(&self) -> [f64; 3] {
+    pub(crate) fn tint(&self) -> [f64; 3] {
         let total: f64 = self.lamps.iter().map(|lamp| lamp.weight).sum();
         if total <= 0.0 {
             return [1.0; 3];
@@ -207,7 +190,7 @@ impl Lighting {
 
     /// Tints of the lights; similar ones are merged.
     #[must_use]
-    pub fn hues(&self) -> &[[f64; 3]] {
+    pub(crate) fn hues(&self) -> &[[f64; 3]] {
         &self.hues
     }
 
@@ -235,7 +218,7 @@ impl Lighting {
     /// Strength of the highlight: the sum of brightness · fall-off · (n·h)^exponent over the lights that are
     /// not `shadowed`; see [`specular::blinn_phong`].
     #[must_use]
-    pub fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
+    pub(crate) fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
         let Some(frame) = &self.frame else { return 0.0 };
         let (to_eye, _) = self.eye_of_highlights(frame, point.position);
         let normal = self.normal(point);

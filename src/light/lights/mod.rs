@@ -9,7 +9,7 @@
 //! highlights; [`light_slope`] the change of light with the normal; [`lighting`] all lights together.
 
 mod lamp;
-pub mod light_options;
+pub(crate) mod light_options;
 pub(crate) mod light_slope;
-pub mod lighting;
-pub mod specular;
+pub(crate) mod lighting;
+pub(crate) mod specular;

@@ -9,7 +9,7 @@ use crate::geometry::numbers::portable_math::pow;
 /// Source: Blinn, Models of light reflection for computer synthesized pictures, 1977; for cartoons
 /// as in Lake et al. 2000, section 3.2.
 #[must_use]
-pub fn blinn_phong(normal: DVec3, towards_light: DVec3, to_eye: DVec3, exponent: f64) -> f64 {
+pub(crate) fn blinn_phong(normal: DVec3, towards_light: DVec3, to_eye: DVec3, exponent: f64) -> f64 {
     let half = (towards_light + to_eye).normalize_or_zero();
     pow(normal.dot(half).clamp(0.0, 1.0), exponent)
 }

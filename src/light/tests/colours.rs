@@ -6,9 +6,10 @@ use super::{assert_near, empty_mesh, frame, shading_and_warnings, surface_point}
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
+use crate::light::lights::light_options::{LightSource, SourceKind, Space};
 use crate::light::tones::tone_options::{Colours, Gooch, HighlightChange, MaterialChange, ToneScale};
 use crate::light::tones::tone_ramps::{Strip, Table};
-use crate::light::{LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
+use crate::light::{LightOptions, Shading, ToneOptions};
 use crate::mesh::{MaterialId, PaintId};
 use crate::scene::{Material, MaterialPaint, Scene};
 

@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::{assert_near, empty_mesh, frame, shading_and_warnings, surface_point};
 use crate::geometry::numbers::portable_math::{cos, sin};
-use crate::light::{Caster, LightOptions, LightSource, Shading, SourceKind, Space, ToneOptions};
+use crate::light::lights::light_options::{LightSource, SourceKind, Space};
+use crate::light::{Caster, LightOptions, Shading, ToneOptions};
 use crate::mesh::PaintId;
 use crate::scene::{Light, LightKind, Scene};
 

@@ -68,7 +68,7 @@ pub(crate) struct Tones {
 
 impl Tones {
     /// Tones of a material, with levels for these channels.
-    pub fn new(options: &ToneOptions, surface: &ToneSurface, channels: &[ToneChannel]) -> Self {
+    pub(crate) fn new(options: &ToneOptions, surface: &ToneSurface, channels: &[ToneChannel]) -> Self {
         let mixture = HueMixture::of(options, surface.hues);
         let mut colours = match &mixture {
             Some(mixture) => {
@@ -99,17 +99,17 @@ impl Tones {
     }
 
     /// Adds the levels of one more channel.
-    pub fn add_levels(&mut self, levels: Vec<f64>) {
+    pub(crate) fn add_levels(&mut self, levels: Vec<f64>) {
         self.levels.push(levels);
     }
 
     /// Rising levels of a channel.
-    pub fn levels(&self, channel: usize) -> &[f64] {
+    pub(crate) fn levels(&self, channel: usize) -> &[f64] {
         self.levels.get(channel).map_or(&[], Vec::as_slice)
     }
 
     /// Tone of a point, from the number of levels that it reaches in each channel.
-    pub fn tone(&self, channels: &[ToneChannel], bands: &[u16]) -> u16 {
+    pub(crate) fn tone(&self, channels: &[ToneChannel], bands: &[u16]) -> u16 {
         let band = |wanted: ToneChannel| {
             let index = channels.iter().position(|channel| *channel == wanted);
             index.and_then(|index| bands.get(index)).copied().unwrap_or_default()
@@ -126,13 +126,13 @@ impl Tones {
     }
 
     /// Number of tones, including highlights.
-    pub fn count(&self) -> u16 {
+    pub(crate) fn count(&self) -> u16 {
         self.colours.len() as u16
     }
 
     /// Number of shades that the tones without highlights run through: steps of 1/255 in the channel that
     /// changes most.
-    pub fn shades(&self) -> usize {
+    pub(crate) fn shades(&self) -> usize {
         let plain = &self.colours[..self.plain.min(self.colours.len())];
         let total_change = |channel: fn(&Colour) -> u8| -> usize {
             plain.windows(2).map(|pair| usize::from(channel(&pair[0]).abs_diff(channel(&pair[1])))).sum()
@@ -141,7 +141,7 @@ impl Tones {
     }
 
     /// Colour of a tone; the last one for an index out of range.
-    pub fn colour(&self, tone: u16) -> Colour {
+    pub(crate) fn colour(&self, tone: u16) -> Colour {
         let colour = self.colours.get(usize::from(tone)).or(self.colours.last());
         colour.copied().unwrap_or(Colour::WHITE)
     }

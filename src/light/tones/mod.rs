@@ -10,7 +10,7 @@
 //! [`shading`] all channels of a view.
 
 mod material_tones;
-pub mod shade_options;
-pub mod shading;
-pub mod tone_options;
-pub mod tone_ramps;
+pub(crate) mod shade_options;
+pub(crate) mod shading;
+pub(crate) mod tone_options;
+pub(crate) mod tone_ramps;

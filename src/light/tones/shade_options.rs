@@ -9,7 +9,7 @@ use crate::geometry::names::glob::Glob;
 /// animation, 2000, section 3.3: the edges of the bins are free, so light and dark can be weighted against
 /// each other.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShadeOptions {
+pub(crate) struct ShadeOptions {
     /// Rising edges of the bins on the diffuse light, which is 0 in shadow and 1 where one light falls
     /// straight on. n edges give n + 1 bins. Default: 0.25, 0.5, 0.75.
     pub thresholds: Vec<f64>,
@@ -29,7 +29,7 @@ impl Default for ShadeOptions {
 impl ShadeOptions {
     /// Edges of the bins for a material with this name and colour.
     #[must_use]
-    pub fn levels(&self, material: &str, colour: Colour) -> Vec<f64> {
+    pub(crate) fn levels(&self, material: &str, colour: Colour) -> Vec<f64> {
         let own = self.materials.iter().rev().find(|(name, _)| name.matches(material));
         let edges = own.map_or(&self.thresholds, |(_, edges)| edges);
         let [r, g, b] = colour.channels();

@@ -1,7 +1,5 @@
 //! [`Shading`]: the lighting of a view, and the tones of its surface.
 
-use glam::DVec3;
-
 use super::material_tones::{ToneChannel, ToneSurface, Tones};
 use super::tone_options::{ToneOptions, ToneScale};
 use crate::colour::srgb::Colour;
@@ -24,7 +22,7 @@ use crate::view::Frame;
 /// - if a material has highlights: their strength;
 /// - if surfaces are hatched: the diffuse light again, with the bins of hatching as its levels.
 #[derive(Debug, Clone)]
-pub struct Shading {
+pub(crate) struct Shading {
     lighting: Lighting,
     channels: Vec<ToneChannel>,
     /// Tones of each paint.
@@ -36,7 +34,7 @@ impl Shading {
     /// Creates the shading of a scene for a camera. If `paints` is empty, each material is a paint. Problems
     /// with lights and options are reported in `warnings`.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         scene: &Scene,
         paints: &[MaterialPaint],
         mesh: &Mesh,
@@ -102,7 +100,12 @@ impl Shading {
 
     /// Adds the bins of hatching. `paints` are the same as in [`Shading::new`].
     #[must_use]
-    pub fn with_bins(mut self, scene: &Scene, paints: &[MaterialPaint], options: &ShadeOptions) -> Self {
+    pub(crate) fn with_bins(
+        mut self,
+        scene: &Scene,
+        paints: &[MaterialPaint],
+        options: &ShadeOptions,
+    ) -> Self {
         self.channels.push(ToneChannel::Shade);
         let without = Material::default();
         for (k, tones) in self.tones.iter_mut().enumerate() {
@@ -117,58 +120,44 @@ impl Shading {
 
     /// Channel whose levels are the bins of hatching, if there is one.
     #[must_use]
-    pub fn bin_channel(&self) -> Option<usize> {
+    pub(crate) fn bin_channel(&self) -> Option<usize> {
         self.channels.iter().position(|channel| *channel == ToneChannel::Shade)
     }
 
     /// Largest number of levels of a paint in any channel except the bins of hatching; 0 if no paint has
     /// several tones.
     #[must_use]
-    pub fn most_levels(&self) -> usize {
+    pub(crate) fn most_levels(&self) -> usize {
         let other_channels =
             || (0..self.channels.len()).filter(|channel| self.bin_channel() != Some(*channel));
         let of = |tones: &Tones| other_channels().map(|channel| tones.levels(channel).len()).max();
         self.tones.iter().filter_map(of).max().unwrap_or_default()
     }
 
-    /// Shading of a light grey surface by one directional light, with the given levels of max(L·n, 0).
-    #[must_use]
-    pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
-        let lighting = Lighting::from_direction(towards_light);
-        let channels = vec![ToneChannel::Diffuse];
-        let options = ToneOptions { scale: ToneScale::Thresholds(levels), ..ToneOptions::default() };
-        let Material { colour, emissive, .. } = Material::default();
-        let ambient = LightOptions::default().ambient;
-        let surface =
-            ToneSurface { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
-        let tones = vec![Tones::new(&options, &surface, &channels)];
-        Self { lighting, channels, tones }
-    }
-
     /// Lights that cast shadows, at most 8, local space. The index of each is its bit in `shadowed` of
     /// [`Shading::value`].
     #[must_use]
-    pub fn casters(&self) -> &[Caster] {
+    pub(crate) fn casters(&self) -> &[Caster] {
         self.lighting.casters()
     }
 
     /// Number of channels.
     #[must_use]
-    pub fn channels(&self) -> usize {
+    pub(crate) fn channels(&self) -> usize {
         self.channels.len()
     }
 
     /// Whether a channel varies over a flat face: with the distance from a light, the direction to the
     /// camera, or the visible share of the sky. Other channels depend on the normal alone.
     #[must_use]
-    pub fn is_local(&self, channel: usize) -> bool {
+    pub(crate) fn is_local(&self, channel: usize) -> bool {
         matches!(self.channels.get(channel), Some(ToneChannel::Highlight)) || self.lighting.is_local()
     }
 
     /// Smallest and largest value that a channel may have within `extent` of a point, where the normal turns
     /// by at most `turn` radians.
     #[must_use]
-    pub fn range(
+    pub(crate) fn range(
         &self,
         channel: usize,
         paint: PaintId,
@@ -197,19 +186,19 @@ impl Shading {
 
     /// Bounds for how fast a channel that is not local changes with the normal.
     #[must_use]
-    pub fn slope(&self) -> LightSlope {
+    pub(crate) fn slope(&self) -> LightSlope {
         self.lighting.slope()
     }
 
     /// Rising levels of a channel on a paint.
     #[must_use]
-    pub fn levels(&self, paint: PaintId, channel: usize) -> &[f64] {
+    pub(crate) fn levels(&self, paint: PaintId, channel: usize) -> &[f64] {
         self.tones_of(paint).map_or(&[], |tones| tones.levels(channel))
     }
 
     /// Value of a channel at a point. Lights whose bits are set in `shadowed` do not reach it.
     #[must_use]
-    pub fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
+    pub(crate) fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
             Some(ToneChannel::Diffuse | ToneChannel::Shade) => {
                 self.lighting.diffuse(LampFilter::All, point, shadowed)
@@ -223,19 +212,19 @@ impl Shading {
 
     /// Tone of a point, 0 the darkest, from the number of levels that it reaches in each channel.
     #[must_use]
-    pub fn tone(&self, paint: PaintId, bands: &[u16]) -> u16 {
+    pub(crate) fn tone(&self, paint: PaintId, bands: &[u16]) -> u16 {
         self.tones_of(paint).map_or(0, |tones| tones.tone(&self.channels, bands))
     }
 
     /// Number of tones of a paint, including highlights.
     #[must_use]
-    pub fn tone_count(&self, paint: PaintId) -> u16 {
+    pub(crate) fn tone_count(&self, paint: PaintId) -> u16 {
         self.tones_of(paint).map_or(1, Tones::count)
     }
 
     /// Colour of a tone on a paint.
     #[must_use]
-    pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {
+    pub(crate) fn colour(&self, paint: PaintId, tone: u16) -> Colour {
         self.tones_of(paint).map_or(Colour::WHITE, |tones| tones.colour(tone))
     }
 

@@ -21,7 +21,7 @@ use crate::scene::material::Gloss;
 
 /// Tones of the surface of a material, and their colours.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToneOptions {
+pub(crate) struct ToneOptions {
     /// Light levels between tones. Default: one threshold at 0.5.
     pub scale: ToneScale,
     /// Source of the colours of tones. Default: the material.
@@ -48,7 +48,7 @@ pub struct ToneOptions {
 
 /// Light levels between tones.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ToneScale {
+pub(crate) enum ToneScale {
     /// At rising thresholds of the diffuse light.
     Thresholds(Vec<f64>),
     /// At this many even steps of the diffuse light from 0 to 1. A gradient gets fewer if its colours have
@@ -65,7 +65,7 @@ impl ToneScale {
     /// Limits the steps of a gradient to the number of distinct 8-bit colours in it, `shades`, plus one.
     /// Scales with few steps are unchanged.
     #[must_use]
-    pub fn for_shades(self, shades: usize) -> Self {
+    pub(crate) fn for_shades(self, shades: usize) -> Self {
         match self {
             Self::Steps(steps) if steps > tolerances::MAX_SEPARATE_LEVELS + 2 => {
                 Self::Steps(steps.min((shades + 1).max(tolerances::MAX_SEPARATE_LEVELS + 2)))
@@ -77,7 +77,7 @@ impl ToneScale {
 
 /// Source of the colours of tones. Not used with a ramp or a table, which bring their colours.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Colours {
+pub(crate) enum Colours {
     /// The material, by eq. 1 of Lake et al. 2000.
     Material,
     /// A list, darkest first, interpolated over the tones.
@@ -92,7 +92,7 @@ pub enum Colours {
 /// Source: Gooch et al., A non-photorealistic lighting model for automatic technical illustration, 1998.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Gooch {
+pub(crate) struct Gooch {
     /// Whether colours go from cool to warm. Default: false.
     pub enabled: bool,
     /// Colour of the shadow, k_blue. Default: `#00008c`.
@@ -109,7 +109,7 @@ pub struct Gooch {
 
 /// Specular highlights, where a surface mirrors a light towards the camera.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Highlight {
+pub(crate) struct Highlight {
     /// Whether highlights are drawn. Default: false.
     pub enabled: bool,
     /// Rising thresholds of (n·h)^exponent, with h the half vector (Blinn 1977). Default: 0.5.
@@ -133,7 +133,7 @@ pub struct Highlight {
 
 /// Changes of the highlights of some materials.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct HighlightChange {
+pub(crate) struct HighlightChange {
     /// Whether highlights are drawn.
     pub enabled: Option<bool>,
     /// Rising thresholds of (n·h)^exponent.
@@ -152,7 +152,7 @@ pub struct HighlightChange {
 
 impl Highlight {
     /// Applies a change. If it sets exponent or strength, the values of the material's file are ignored.
-    pub fn change(&mut self, change: HighlightChange) {
+    pub(crate) fn change(&mut self, change: HighlightChange) {
         let HighlightChange { enabled, thresholds, exponent, colour, strength, ramp, material } = change;
         self.enabled = enabled.unwrap_or(self.enabled);
         self.material = material.unwrap_or(self.material && exponent.is_none() && strength.is_none());
@@ -168,7 +168,7 @@ impl Highlight {
 
     /// Highlights of a material with this gloss; `None` if it has none.
     #[must_use]
-    pub fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
+    pub(crate) fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
         let mut own = self.clone();
         if let Some(gloss) = gloss.filter(|_| self.material) {
             own.exponent = f64::from(gloss.exponent).clamp(MIN_EXPONENT, MAX_EXPONENT);
@@ -184,7 +184,7 @@ const MAX_EXPONENT: f64 = 10_000.0;
 
 /// Changes for the materials whose name matches a pattern: `[[fills.material]]`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MaterialChange {
+pub(crate) struct MaterialChange {
     /// The pattern.
     pub name: Glob,
     /// Colour that replaces the material's.
@@ -251,7 +251,7 @@ impl Default for Highlight {
 impl ToneOptions {
     /// Options of a material of this name with its changes applied, and the colour that replaces its own.
     #[must_use]
-    pub fn for_material(&self, name: &str) -> (Self, Option<Colour>) {
+    pub(crate) fn for_material(&self, name: &str) -> (Self, Option<Colour>) {
         let mut own = Self { materials: Vec::new(), ..self.clone() };
         let mut colour = None;
         for change in self.materials.iter().filter(|change| change.name.matches(name)) {
@@ -277,7 +277,7 @@ impl ToneOptions {
 ///
 /// # Errors
 /// Describes valid thresholds.
-pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+pub(crate) fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
     let rising = list.windows(2).all(|pair| pair[0] < pair[1]);
     if list.iter().all(|t| t.is_finite() && *t > 0.0) && rising && list.len() < MAX_TONES {
@@ -290,7 +290,7 @@ pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>
 ///
 /// # Errors
 /// Describes valid exponents.
-pub fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub(crate) fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (MIN_EXPONENT..=MAX_EXPONENT).contains(&value) {
         return Ok(value);

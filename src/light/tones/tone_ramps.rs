@@ -8,11 +8,11 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
 /// Largest number of tones of a scale. Lists in style sheets are no longer either.
-pub const MAX_TONES: usize = 1024;
+pub(crate) const MAX_TONES: usize = 1024;
 
 /// Colours over the light from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strip {
+pub(crate) struct Strip {
     /// Light level where each colour except the first begins.
     pub levels: Vec<f64>,
     /// The colours, one more than there are levels.
@@ -21,7 +21,7 @@ pub struct Strip {
 
 /// Colours over the light of a first and of a second light, each from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
+pub(crate) struct Table {
     /// Level of the first light where each column except the first begins.
     pub columns: Vec<f64>,
     /// Level of the second light where each row except the first begins.
@@ -37,7 +37,7 @@ impl Strip {
     ///
     /// # Errors
     /// Returns an error if there is no colour, or more colours than [`MAX_TONES`].
-    pub fn of_columns(columns: &[Colour]) -> Result<Self, String> {
+    pub(crate) fn of_columns(columns: &[Colour]) -> Result<Self, String> {
         let (Some(first), count) = (columns.first(), columns.len()) else {
             return Err("has no colour".to_owned());
         };
@@ -58,7 +58,7 @@ impl Strip {
     ///
     /// # Errors
     /// As [`Strip::of_columns`].
-    pub fn of_picture(picture: &Picture) -> Result<Self, String> {
+    pub(crate) fn of_picture(picture: &Picture) -> Result<Self, String> {
         Self::of_columns(picture.row(picture.height / 2))
     }
 }
@@ -69,7 +69,7 @@ impl Table {
     ///
     /// # Errors
     /// Returns an error if a row is empty or of another length, or if there are too many colours.
-    pub fn of_rows(rows: &[Vec<Colour>]) -> Result<Self, String> {
+    pub(crate) fn of_rows(rows: &[Vec<Colour>]) -> Result<Self, String> {
         let width = rows.first().map_or(0, Vec::len);
         if width == 0 || rows.iter().any(|row| row.len() != width) {
             return Err("needs rows of the same number of colours".to_owned());
@@ -105,14 +105,14 @@ impl Table {
     ///
     /// # Errors
     /// As [`Table::of_rows`].
-    pub fn of_picture(picture: &Picture) -> Result<Self, String> {
+    pub(crate) fn of_picture(picture: &Picture) -> Result<Self, String> {
         let rows: Vec<Vec<Colour>> = (0..picture.height).map(|row| picture.row(row).to_vec()).collect();
         Self::of_rows(&rows)
     }
 
     /// Tone of a cell: the index of its colour.
     #[must_use]
-    pub fn tone(&self, column: u16, row: u16) -> u16 {
+    pub(crate) fn tone(&self, column: u16, row: u16) -> u16 {
         let column = usize::from(column).min(self.columns.len());
         let row = usize::from(row).min(self.rows.len());
         self.cells.get(row * (self.columns.len() + 1) + column).copied().unwrap_or_default()

@@ -13,7 +13,7 @@
 //! [`free_wires`]; [`culling`] shortcuts for many views of one surface.
 
 pub(crate) mod coplanar_overlaps;
-pub mod culling;
+pub(crate) mod culling;
 mod edge_fans;
 pub mod edge_lines;
 pub(crate) mod free_wires;

@@ -18,7 +18,7 @@ use crate::view::raster::NormalDepthMaps;
 
 /// Point of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImagePoint {
+pub(crate) struct ImagePoint {
     /// Position in the camera's frame, user units.
     pub position: DVec2,
     /// Depth of the nearer side along the optical axis, world units.
@@ -27,7 +27,7 @@ pub struct ImagePoint {
 
 /// Straight piece of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImageLinePiece {
+pub(crate) struct ImageLinePiece {
     /// Ends, as indices into [`ImageLines::points`].
     pub ends: [u32; 2],
     /// Part of the nearer surface.
@@ -44,7 +44,7 @@ pub struct ImageLinePiece {
 
 /// Lines found in the image. Pieces that meet share a point.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ImageLines {
+pub(crate) struct ImageLines {
     /// Ends of pieces.
     pub points: Vec<ImagePoint>,
     /// Pieces, line by line.
@@ -55,7 +55,12 @@ pub struct ImageLines {
 
 /// Traces lines through the edge pixels, along the cracks with the largest jumps.
 #[must_use]
-pub fn trace(mesh: &Mesh, maps: &NormalDepthMaps, edges: &[bool], options: &ImageOptions) -> ImageLines {
+pub(crate) fn trace(
+    mesh: &Mesh,
+    maps: &NormalDepthMaps,
+    edges: &[bool],
+    options: &ImageOptions,
+) -> ImageLines {
     let jumps = PixelJumps::new(mesh, maps, options);
     let jump_map = jumps.map(edges);
     let mut lattice = CrackLattice::local_maxima(&jump_map);

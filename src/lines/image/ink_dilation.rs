@@ -12,7 +12,7 @@ use super::{Dilation, ImageOptions};
 ///
 /// No pass removes ink. There is none outside the image.
 #[must_use]
-pub fn dilate_ink(edges: &[bool], columns: usize, options: &ImageOptions) -> Vec<f32> {
+pub(crate) fn dilate_ink(edges: &[bool], columns: usize, options: &ImageOptions) -> Vec<f32> {
     let mut ink: Vec<f32> = edges.iter().map(|edge| f32::from(u8::from(*edge))).collect();
     let rows = edges.len().checked_div(columns).unwrap_or(0);
     for _ in 0..options.passes {

@@ -9,21 +9,21 @@
 //! `edges.png`.
 
 mod cracks;
-pub mod edge_tests;
+pub(crate) mod edge_tests;
 mod image_lines;
-pub mod image_options;
-pub mod ink_dilation;
-pub mod soup_normals;
+pub(crate) mod image_options;
+pub(crate) mod ink_dilation;
+pub(crate) mod soup_normals;
 
-pub use image_lines::{ImageLinePiece, ImageLines, ImagePoint, trace};
-pub use image_options::{Dilation, EdgeTest, ImageOptions, Source};
-pub use soup_normals::SoupNormals;
+pub(crate) use image_lines::{ImageLinePiece, ImageLines, ImagePoint, trace};
+pub(crate) use image_options::{Dilation, EdgeTest, ImageOptions, Source};
+pub(crate) use soup_normals::SoupNormals;
 
 use crate::view::raster::NormalDepthMaps;
 
 /// Edge flags of the maps' pixels by the test in the options, row by row.
 #[must_use]
-pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
+pub(crate) fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     match options.test {
         EdgeTest::Gradient => edge_tests::gradient_test::edges(maps, options),
         EdgeTest::Opposite => edge_tests::opposite_test::edges(maps, options),

@@ -19,7 +19,7 @@ const MAX_CORNERS_PER_CELL: usize = 16;
 
 /// Faces with corners at open edges, and the normals at their corners.
 #[derive(Debug, Clone, Default)]
-pub struct SoupNormals {
+pub(crate) struct SoupNormals {
     /// Index of each face into `normals`, or [`NO_NORMALS`]; empty if there is no such face.
     number: Vec<u32>,
     normals: Vec<[DVec3; 3]>,
@@ -43,7 +43,7 @@ impl SoupNormals {
     /// `normals` returns a face's own corner normals on its outer side, which are kept at corners that are
     /// not open.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         mesh: &Mesh,
         view: &View,
         crease_deg: f64,
@@ -100,7 +100,7 @@ impl SoupNormals {
     /// Corner normals of a face on its outer side, local space; none if it is not loose.
     #[inline]
     #[must_use]
-    pub fn normals(&self, face: u32) -> Option<[DVec3; 3]> {
+    pub(crate) fn normals(&self, face: u32) -> Option<[DVec3; 3]> {
         let number = *self.number.get(face as usize)?;
         self.normals.get(number as usize).copied()
     }
@@ -108,13 +108,13 @@ impl SoupNormals {
     /// Whether a face has corners at open edges.
     #[inline]
     #[must_use]
-    pub fn is_loose(&self, face: u32) -> bool {
+    pub(crate) fn is_loose(&self, face: u32) -> bool {
         self.number.get(face as usize).is_some_and(|number| *number != NO_NORMALS)
     }
 
     /// Whether no face is loose.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.normals.is_empty()
     }
 }

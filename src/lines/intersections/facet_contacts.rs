@@ -18,7 +18,7 @@ use crate::mesh::{Dihedral, FaceId, Mesh};
 
 /// The intersection curves of a mesh, without contacts.
 #[must_use]
-pub fn remove_contacts(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
+pub(crate) fn remove_contacts(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
     let is_flat: Vec<bool> = curves.segments.iter().map(|segment| is_flat(mesh, segment)).collect();
     if !is_flat.contains(&true) {
         return curves;

@@ -25,17 +25,17 @@ use crate::view::View;
 use crate::view::raster::{FaceBuffer, PixelGrid, intersecting_candidates};
 
 /// Maximum number of triangles for the full search, which is fast enough for these.
-pub const MAX_FULL_SEARCH_TRIANGLES: usize = 300_000;
+pub(crate) const MAX_FULL_SEARCH_TRIANGLES: usize = 300_000;
 
 /// Intersection curves of all faces with area; without hidden lines, at least those visible in the view.
 #[must_use]
-pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines) -> IntersectionCurves {
+pub(crate) fn find(mesh: &Mesh, view: &View, hidden: HiddenLines) -> IntersectionCurves {
     if is_searched_in_full(mesh, hidden) { all_curves(mesh) } else { visible_curves(mesh, view) }
 }
 
 /// Whether [`all_curves`] is used, and not only the curves visible in a view.
 #[must_use]
-pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
+pub(crate) fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
     hidden != HiddenLines::None || mesh.triangles.len() <= MAX_FULL_SEARCH_TRIANGLES
 }
 
@@ -80,7 +80,7 @@ fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
 
 /// All intersection curves of a mesh.
 #[must_use]
-pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
+pub(crate) fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
     let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
     facet_contacts::remove_contacts(
@@ -91,7 +91,7 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
 
 /// Intersection curves between faces that are not `out_of_sight`: every visible segment of [`all_curves`].
 #[must_use]
-pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
+pub(crate) fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
     out_of_sight.par_iter_mut().enumerate().with_min_len(MIN_TASK_ITEMS).for_each(|(face, out)| {
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
@@ -105,7 +105,7 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
 
 /// Search of all curves of a mesh, to be reused for refined meshes in [`curves_of_finer`].
 #[must_use]
-pub fn search(mesh: &Mesh) -> IntersectionCache {
+pub(crate) fn search(mesh: &Mesh) -> IntersectionCache {
     let active = active(mesh);
     IntersectionCache::new(&input(mesh, &active, &mesh.face_bodies()), |face| {
         PairTolerance::of_part(mesh.extent(FaceId(face)))
@@ -115,7 +115,7 @@ pub fn search(mesh: &Mesh) -> IntersectionCache {
 /// All curves of a refined surface, from a [`search`] of the original mesh. The result is that of
 /// [`all_curves`].
 #[must_use]
-pub fn curves_of_finer(search: &IntersectionCache, finer: &RefinedSurface) -> IntersectionCurves {
+pub(crate) fn curves_of_finer(search: &IntersectionCache, finer: &RefinedSurface) -> IntersectionCurves {
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
     let hosts = FaceHosts { faces: &finer.hosts, kept_count: finer.kept_count };
@@ -140,7 +140,7 @@ fn input<'a>(mesh: &'a Mesh, active: &'a [bool], bodies: &'a [PartId]) -> Inters
 
 /// All curves with a visible part, complete, and possibly others.
 #[must_use]
-pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
+pub(crate) fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
     let buffer = FaceBuffer::new(&PixelGrid::new(mesh, view));
     let active = intersecting_candidates::find(mesh, &buffer);
     let tracer = CurveTracer::new(mesh);

@@ -9,4 +9,4 @@
 //! Files, in reading order: [`intersection_lines`]; [`facet_contacts`].
 
 mod facet_contacts;
-pub mod intersection_lines;
+pub(crate) mod intersection_lines;

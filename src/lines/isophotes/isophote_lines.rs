@@ -23,7 +23,12 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 ///
 /// With `sees_through` gradients get steps on covered faces too. Returns the reason for each added segment,
 /// in order.
-pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<TraceReason> {
+pub(crate) fn find(
+    lit: &Lit,
+    shadowed: &[u32],
+    sees_through: bool,
+    lines: &mut FeatureLines,
+) -> Vec<TraceReason> {
     const FACES_PER_TASK: usize = 1 << 9;
     let count = lit.mesh.triangles.len();
     let ready = ShadingTables::new(lit, shadowed, sees_through);

@@ -72,7 +72,7 @@ struct PieceSide {
 
 impl LevelTracer<'_> {
     /// Light at the point with the given weights.
-    pub fn node(&self, weights: [f64; 3]) -> FaceSample {
+    pub(crate) fn node(&self, weights: [f64; 3]) -> FaceSample {
         FaceSample {
             weights,
             value: self.lit.shading.value(self.channel, self.paint, &self.point(weights), self.shadowed),
@@ -92,7 +92,7 @@ impl LevelTracer<'_> {
     }
 
     /// Traces the levels through the face, given its corners.
-    pub fn trace(&self, corners: [FaceSample; 3], found: &mut Vec<LevelSegment>) {
+    pub(crate) fn trace(&self, corners: [FaceSample; 3], found: &mut Vec<LevelSegment>) {
         self.cut(corners, 0, found);
     }
 

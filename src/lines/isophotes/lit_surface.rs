@@ -10,7 +10,7 @@ use crate::view::View;
 
 /// Lit surface in a view.
 #[derive(Debug, Clone, Copy)]
-pub struct Lit<'a> {
+pub(crate) struct Lit<'a> {
     /// Faces.
     pub mesh: &'a Mesh,
     /// Camera view.
@@ -30,14 +30,14 @@ pub struct Lit<'a> {
 impl Lit<'_> {
     /// Paint at a point of a face.
     #[must_use]
-    pub fn paint(&self, face: u32, at: DVec3) -> PaintId {
+    pub(crate) fn paint(&self, face: u32, at: DVec3) -> PaintId {
         self.textures.paint(self.mesh, face, at)
     }
 
     /// Surface point with the given barycentric weights, lit on the side that the camera sees. Faces that
     /// share normals along an edge return the same points there.
     #[must_use]
-    pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
+    pub(crate) fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
         let t = self.mesh.triangles[face as usize];
         let openness = if self.ambient_visibility.is_empty() {
             1.0
@@ -88,19 +88,19 @@ impl Lit<'_> {
 
     /// Tone of a point, given a mask of the shadowed lights.
     #[must_use]
-    pub fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
+    pub(crate) fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
         self.tone_and_bin(paint, point, shadowed).0
     }
 
     /// Tone and hatching bin of a point; 0 is the darkest.
     #[must_use]
-    pub fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
+    pub(crate) fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
         self.tone_and_bin_at(paint, point, shadowed, |_, _, band| band)
     }
 
     /// Tone and hatching bin of a point of a face as drawn, where narrow steps of a gradient are merged.
     #[must_use]
-    pub fn tone_and_bin_shown(
+    pub(crate) fn tone_and_bin_shown(
         &self,
         face: u32,
         paint: PaintId,

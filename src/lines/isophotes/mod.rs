@@ -16,8 +16,8 @@
 //! [`level_tracer`]; [`level_strides`]; [`culling`] faces that may be seen; [`tone_changes`].
 
 pub(crate) mod culling;
-pub mod isophote_lines;
+pub(crate) mod isophote_lines;
 mod level_strides;
 pub(crate) mod level_tracer;
-pub mod lit_surface;
-pub mod tone_changes;
+pub(crate) mod lit_surface;
+pub(crate) mod tone_changes;

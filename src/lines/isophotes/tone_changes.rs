@@ -21,7 +21,7 @@ use crate::mesh::{FaceId, PaintId};
 
 /// Reason why an isophote was traced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TraceReason {
+pub(crate) struct TraceReason {
     /// Channel of the shading.
     pub channel: usize,
     /// Mask of the shadowed lights.
@@ -30,7 +30,7 @@ pub struct TraceReason {
 
 /// Positions of the tone borders among all segments.
 #[derive(Debug, Clone, Default)]
-pub struct ToneBorderRanges {
+pub(crate) struct ToneBorderRanges {
     /// Uncut edges between tones.
     pub edges: Range<usize>,
     /// Isophotes.
@@ -45,7 +45,7 @@ pub struct ToneBorderRanges {
 
 /// Effects of cast shadows.
 #[derive(Debug, Clone, Copy)]
-pub struct ShadowEffects {
+pub(crate) struct ShadowEffects {
     /// Tones of fills.
     pub tones: bool,
     /// Hatching bins.
@@ -65,7 +65,7 @@ enum ToneBorderClass {
 ///
 /// `shadowed` returns a mask of the lights that do not reach each point.
 #[must_use]
-pub fn unchanged(
+pub(crate) fn unchanged(
     lit: &Lit,
     borders: &ToneBorderRanges,
     darkens: ShadowEffects,

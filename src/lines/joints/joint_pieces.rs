@@ -53,7 +53,7 @@ struct ReachingFace {
 
 impl<'a> JointFaces<'a> {
     /// Builds the tree; none if no kind has two parts, so that there are no joints.
-    pub fn new(mesh: &'a Mesh, kinds: &'a [u32]) -> Option<Self> {
+    pub(crate) fn new(mesh: &'a Mesh, kinds: &'a [u32]) -> Option<Self> {
         let of = |face: u32| kind(mesh, kinds, face);
         let mut owners: Vec<(u32, PartId)> =
             (0..mesh.triangles.len() as u32).map(|face| (of(face), mesh.face_part[face as usize])).collect();
@@ -73,7 +73,12 @@ impl<'a> JointFaces<'a> {
 
     /// Pieces of a line of a part, in order; `None` if none is a joint, or if more than `max_faces` faces are
     /// near.
-    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], max_faces: usize) -> Option<Vec<JointPiece>> {
+    pub(crate) fn pieces(
+        &self,
+        part: PartId,
+        [from, to]: [DVec3; 2],
+        max_faces: usize,
+    ) -> Option<Vec<JointPiece>> {
         let along = (to - from).try_normalize()?;
         let joint_line = JointLine { from, to, along, length: from.distance(to) };
         let mut near = self.near(&joint_line, max_faces)?;

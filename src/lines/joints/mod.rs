@@ -36,7 +36,7 @@ const MIN_TESTS_PER_LINE: usize = 1000;
 ///
 /// With `keep` joints stay as borders between regions, of kind [`LineKind::Isophote`]. Their indices are
 /// returned, ascending.
-pub fn remove_joints(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
+pub(crate) fn remove_joints(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
     let Some(faces) = JointFaces::new(mesh, kinds) else { return Vec::new() };
     let most = (MAX_FACE_TESTS / lines.segments.len().max(1)).max(MIN_TESTS_PER_LINE);
     let pieces: Vec<Option<Vec<JointPiece>>> = lines

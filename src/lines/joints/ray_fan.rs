@@ -35,7 +35,7 @@ pub(crate) struct RayFan {
 
 impl RayFan {
     /// Sorts rays in the plane of `right` and `up`, and groups those that coincide.
-    pub fn new(mut rays: Vec<FaceRay>, right: DVec3, up: DVec3) -> Self {
+    pub(crate) fn new(mut rays: Vec<FaceRay>, right: DVec3, up: DVec3) -> Self {
         rays.sort_by(|a, b| turn(a.direction, right, up).total_cmp(&turn(b.direction, right, up)));
         let is_one = |a: &FaceRay, b: &FaceRay| {
             a.direction.cross(b.direction).length() <= a.angle_error + b.angle_error
@@ -65,7 +65,7 @@ impl RayFan {
     }
 
     /// Whether parts of one kind meet here, and no surface ends or turns.
-    pub fn is_joint(&self) -> bool {
+    pub(crate) fn is_joint(&self) -> bool {
         let mut kinds: Vec<u32> = self.rays.iter().map(|(ray, _)| ray.kind).collect();
         kinds.sort_unstable();
         kinds.dedup();

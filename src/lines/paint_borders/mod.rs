@@ -13,6 +13,6 @@
 
 mod colour_voronoi;
 mod face_borders;
-pub mod paint_lines;
-pub mod tone_edges;
+pub(crate) mod paint_lines;
+pub(crate) mod tone_edges;
 mod vertex_colour_borders;

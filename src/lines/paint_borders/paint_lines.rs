@@ -12,7 +12,7 @@ use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
 use crate::mesh::FaceId;
 
 /// Adds the borders on faces, and the edges that separate two colours along a part only.
-pub fn find(lit: &Lit, seams: Vec<ToneEdge>, lines: &mut FeatureLines) {
+pub(crate) fn find(lit: &Lit, seams: Vec<ToneEdge>, lines: &mut FeatureLines) {
     if lit.textures.is_empty() {
         return;
     }

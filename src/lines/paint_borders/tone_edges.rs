@@ -20,7 +20,7 @@ const SAMPLE_PARAMETERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 ///
 /// These are edges where parts, materials, normals, texture coordinates or vertex colours differ.
 #[must_use]
-pub fn candidates(mesh: &Mesh, normals: &ShadingNormals, paints: &Paints) -> EdgeSet {
+pub(crate) fn candidates(mesh: &Mesh, normals: &ShadingNormals, paints: &Paints) -> EdgeSet {
     let mut varies = vec![false; paints.list.len()];
     for (paint, _) in &paints.varied {
         if let Some(varies) = varies.get_mut(paint.index()) {
@@ -61,7 +61,7 @@ pub fn candidates(mesh: &Mesh, normals: &ShadingNormals, paints: &Paints) -> Edg
 
 /// Edge that has different kinds along its length.
 #[derive(Debug, Clone)]
-pub struct ToneEdge {
+pub(crate) struct ToneEdge {
     /// The whole edge.
     pub(crate) segment: FeatureSegment,
     /// Pieces from end to end: start and end in barycentric weights of the first face (none at the ends of
@@ -71,7 +71,12 @@ pub struct ToneEdge {
 
 /// Adds the candidates that separate two looks, under any of the given sets of shadowed lights, unless they
 /// are lines already. Returns the edges with several kinds, which are not added.
-pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<ToneEdge> {
+pub(crate) fn find(
+    lit: &Lit,
+    candidates: &EdgeSet,
+    shadowed: &[u32],
+    lines: &mut FeatureLines,
+) -> Vec<ToneEdge> {
     let edges: Vec<usize> = candidates.iter().collect();
     let mut found: Vec<ToneEdge> = edges
         .par_iter()

@@ -41,7 +41,13 @@ struct TintSample {
 
 impl<'a> TintedFace<'a> {
     /// A face with the given light at its corners; `px` is a px in user units.
-    pub fn new(lit: &Lit, face: u32, tints: &'a VertexColourPalette, light: [[f32; 3]; 3], px: f64) -> Self {
+    pub(crate) fn new(
+        lit: &Lit,
+        face: u32,
+        tints: &'a VertexColourPalette,
+        light: [[f32; 3]; 3],
+        px: f64,
+    ) -> Self {
         let vertices = lit.mesh.triangles[face as usize];
         let mut order = [0, 1, 2];
         order.sort_by_key(|k| vertices[*k]);
@@ -57,7 +63,7 @@ impl<'a> TintedFace<'a> {
     }
 
     /// Borders on the face, in its barycentric weights.
-    pub fn borders(&self) -> Vec<ColourBorder> {
+    pub(crate) fn borders(&self) -> Vec<ColourBorder> {
         let mut found = Vec::new();
         self.cut([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|w| self.node(w)), 0, &mut found);
         let in_place = |ordered: [f64; 3]| {

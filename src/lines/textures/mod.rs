@@ -10,4 +10,4 @@
 pub(crate) mod picture_levels;
 mod texel_scale;
 pub(crate) mod textured_face;
-pub mod view_textures;
+pub(crate) mod view_textures;

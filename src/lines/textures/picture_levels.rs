@@ -35,7 +35,7 @@ impl PictureLevels {
     /// is too much detail.
     ///
     /// With several levels, `densities` is evaluated.
-    pub fn new(
+    pub(crate) fn new(
         painted: &PaintedTexture,
         scale: &Scale,
         smooth: f64,
@@ -65,7 +65,7 @@ impl PictureLevels {
     }
 
     /// A face on the picture, with the given texture coordinates; none if these are invalid.
-    pub fn on(&self, face: u32, uvs: [[f32; 2]; 3]) -> Option<PictureFace<'_>> {
+    pub(crate) fn on(&self, face: u32, uvs: [[f32; 2]; 3]) -> Option<PictureFace<'_>> {
         let densities = self.densities.get(face as usize).copied().unwrap_or_default();
         let on = PictureFace { drawn: self, uvs, densities };
         self.levels.iter().enumerate().all(|(level, _)| on.corners(level).is_some()).then_some(on)
@@ -83,13 +83,13 @@ pub(crate) struct PictureFace<'a> {
 
 impl PictureFace<'_> {
     /// Corners of the face in texel coordinates of a level.
-    pub fn corners(&self, level: usize) -> Option<[DVec2; 3]> {
+    pub(crate) fn corners(&self, level: usize) -> Option<[DVec2; 3]> {
         let [a, b, c] = self.uvs.map(|uv| self.drawn.levels[level].map.labels.texels.place(uv));
         Some([a?, b?, c?])
     }
 
     /// Level at a point of the face: the coarser one of those that the two densities select.
-    pub fn level(&self, weights: [f64; 3]) -> usize {
+    pub(crate) fn level(&self, weights: [f64; 3]) -> usize {
         let of = |which: usize| {
             let density = self.density(which, weights);
             self.drawn.ends.partition_point(|end| end[which] <= density)
@@ -103,7 +103,7 @@ impl PictureFace<'_> {
     }
 
     /// Range of levels that may occur on the face.
-    pub fn levels(&self) -> std::ops::RangeInclusive<usize> {
+    pub(crate) fn levels(&self) -> std::ops::RangeInclusive<usize> {
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|at| self.level(at));
         // The largest level occurs at a corner. The smallest may occur between corners, so the two densities
         // are bounded separately.
@@ -115,7 +115,7 @@ impl PictureFace<'_> {
     }
 
     /// Parameters between two points of the face where the level may change.
-    pub fn level_ends(&self, ends: [[f64; 3]; 2]) -> Vec<f64> {
+    pub(crate) fn level_ends(&self, ends: [[f64; 3]; 2]) -> Vec<f64> {
         let mut found = Vec::new();
         for which in 0..2 {
             let [a, b] = ends.map(|end| self.density(which, end));
@@ -128,7 +128,7 @@ impl PictureFace<'_> {
 
     /// Lines on the face along which the level may change. Each runs between two of the given sides: the
     /// side's index, and the parameter on it.
-    pub fn level_lines(&self, sides: &[[usize; 2]; 3]) -> Vec<[(usize, f64); 2]> {
+    pub(crate) fn level_lines(&self, sides: &[[usize; 2]; 3]) -> Vec<[(usize, f64); 2]> {
         let levels = self.levels();
         let mut found = Vec::new();
         for end in self.drawn.ends.get(*levels.start()..*levels.end()).unwrap_or_default() {
@@ -146,20 +146,20 @@ impl PictureFace<'_> {
     }
 
     /// Palette index at a point of the face.
-    pub fn colour(&self, weights: [f64; 3]) -> Option<u8> {
+    pub(crate) fn colour(&self, weights: [f64; 3]) -> Option<u8> {
         let level = self.level(weights);
         let [a, b, c] = self.corners(level)?;
         Some(self.drawn.levels[level].map.labels.at(a * weights[0] + b * weights[1] + c * weights[2]))
     }
 
     /// Palette index at the centre of the face on a given level.
-    pub fn middle_colour(&self, level: usize) -> Option<u8> {
+    pub(crate) fn middle_colour(&self, level: usize) -> Option<u8> {
         let [a, b, c] = self.corners(level)?;
         Some(self.drawn.levels[level].map.labels.at((a + b + c) / 3.0))
     }
 
     /// Colour borders of a level that may lie on the face, and the palette indices on both sides.
-    pub fn borders(&self, level: usize) -> Vec<(BorderSegment, [u8; 2])> {
+    pub(crate) fn borders(&self, level: usize) -> Vec<(BorderSegment, [u8; 2])> {
         let Some([a, b, c]) = self.corners(level) else { return Vec::new() };
         let make = |segment: BorderSegment, parted: [u8; 2]| (segment, parted);
         let borders = &self.drawn.levels[level].borders;

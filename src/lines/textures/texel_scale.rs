@@ -84,7 +84,7 @@ pub(crate) fn texels(
 
 impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
     /// Scale of each picture in the view.
-    pub fn scales(&self) -> Vec<Scale> {
+    pub(crate) fn scales(&self) -> Vec<Scale> {
         let means = self.means();
         let single = |mean: f64| Scale { mean, range: None };
         if !self.view.frame.perspective {
@@ -232,7 +232,7 @@ impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
 
     /// Texel densities at the corners of all faces that show a picture; see [`density_of`]. Faces share
     /// values along edges that turn by less than `crease_deg`.
-    pub fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[Density; 3]> {
+    pub(crate) fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[Density; 3]> {
         let mesh = self.mesh;
         let count = mesh.triangles.len();
         let shares: Vec<Option<TexelAreas>> = (0..count as u32)

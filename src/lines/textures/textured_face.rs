@@ -16,7 +16,7 @@ pub(crate) struct TexturedFace<'a> {
 
 impl TexturedFace<'_> {
     /// Paint at a point of the face.
-    pub fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
+    pub(crate) fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
         self.paints.paint(self.colour(weights), self.tint(weights))
     }
 
@@ -33,26 +33,26 @@ impl TexturedFace<'_> {
     }
 
     /// Paints on both sides of a border between two colours of the picture, near a point of the face.
-    pub fn border_paints(&self, colours: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
+    pub(crate) fn border_paints(&self, colours: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let tint = self.tint(near);
         let [a, b] = colours.map(|colour| self.paints.paint(Some(colour), tint));
         Some([a?, b?])
     }
 
     /// Paints on both sides of a border between two tints, near a point of the face.
-    pub fn tint_border_paints(&self, tints: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
+    pub(crate) fn tint_border_paints(&self, tints: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let colour = self.colour(near);
         let [a, b] = tints.map(|tint| self.paints.paint(colour, Some(tint)));
         Some([a?, b?])
     }
 
     /// All paints that any such face may have.
-    pub fn palette(&self) -> &[PaintId] {
+    pub(crate) fn palette(&self) -> &[PaintId] {
         &self.paints.paints
     }
 
     /// Paints that may be visible on the face.
-    pub fn paints(&self) -> Vec<PaintId> {
+    pub(crate) fn paints(&self) -> Vec<PaintId> {
         let Some(on) = self.picture.filter(|_| self.tints.is_none()) else {
             return self.paints.paints.clone();
         };

@@ -17,7 +17,7 @@ use crate::view::View;
 
 /// Pictures and vertex colours that a view shows, reduced to the few colours that are painted.
 #[derive(Debug, Default)]
-pub struct Textures {
+pub(crate) struct Textures {
     /// Indexed by the paint that shows them.
     of_paint: Vec<Option<ShownPaint>>,
     /// Criteria for artist lines, if these are drawn.
@@ -50,7 +50,7 @@ const DEFAULT_SMOOTHING_PX: f64 = 0.7;
 impl Textures {
     /// The textures as seen on a mesh; `px` is a px in user units.
     #[must_use]
-    pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
+    pub(crate) fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
         let mut textures = Self::default();
         let has_artist = options.enabled && options.kinds.contains(&LineKind::Artist);
         let smooth = if has_artist { options.artist_smooth / DEFAULT_SMOOTHING_PX } else { 1.0 };
@@ -89,13 +89,13 @@ impl Textures {
     }
 
     /// Warnings about textures that could not be painted.
-    pub fn warnings(&self) -> &[String] {
+    pub(crate) fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
     /// Paint at a point of a face.
     #[must_use]
-    pub fn paint(&self, mesh: &Mesh, face: u32, at: DVec3) -> PaintId {
+    pub(crate) fn paint(&self, mesh: &Mesh, face: u32, at: DVec3) -> PaintId {
         let shown = self.face_texture(mesh, face);
         let shown = shown.and_then(|shown| shown.paint(mesh.weights(FaceId(face), at)));
         shown.unwrap_or_else(|| mesh.paint(FaceId(face)))

@@ -9,6 +9,6 @@
 //! Files, in reading order: [`zero_set`] the tracer; [`smooth_contours`]; [`interior`] suggestive contours,
 //! ridges and valleys.
 
-pub mod interior;
-pub mod smooth_contours;
-pub mod zero_set;
+pub(crate) mod interior;
+pub(crate) mod smooth_contours;
+pub(crate) mod zero_set;

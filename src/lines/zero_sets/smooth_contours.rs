@@ -31,7 +31,7 @@ struct ContourPiece {
 
 /// Smooth contours of all rounded surfaces, and no other lines. `facing` is n·v, one per smooth vertex.
 #[must_use]
-pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) -> FeatureLines {
+pub(crate) fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) -> FeatureLines {
     // Degenerate faces have no side, but curves pass through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = mesh.positions.len() as u32;

@@ -19,7 +19,7 @@ const FACES_PER_TASK: usize = 1 << 12;
 
 /// Point on an edge of the mesh, between two smooth vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EdgePoint {
+pub(crate) struct EdgePoint {
     /// Smooth vertices at the ends of the edge, smaller id first. Faces on both sides of an edge that is not
     /// hard have the same ones, and so share the point.
     pub between: [u32; 2],
@@ -31,7 +31,7 @@ impl EdgePoint {
     /// Local position.
     #[inline]
     #[must_use]
-    pub fn position(&self, mesh: &Mesh, smooth: &SmoothNormals) -> DVec3 {
+    pub(crate) fn position(&self, mesh: &Mesh, smooth: &SmoothNormals) -> DVec3 {
         let [a, b] = self.between.map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
         a + (b - a) * self.t
     }
@@ -39,7 +39,7 @@ impl EdgePoint {
     /// Field value at the point, interpolated linearly along the edge.
     #[inline]
     #[must_use]
-    pub fn value(&self, field: &[f64]) -> f64 {
+    pub(crate) fn value(&self, field: &[f64]) -> f64 {
         let [a, b] = self.between.map(|v| field[v as usize]);
         a + (b - a) * self.t
     }
@@ -47,7 +47,7 @@ impl EdgePoint {
 
 /// Straight piece of a zero set inside one face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ZeroSegment {
+pub(crate) struct ZeroSegment {
     /// Face that it crosses.
     pub face: u32,
     /// Ends, as indices into [`ZeroSet::points`].
@@ -56,7 +56,7 @@ pub struct ZeroSegment {
 
 /// Curves over a mesh. Pieces that meet share a point.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ZeroSet {
+pub(crate) struct ZeroSet {
     /// Crossings of the curves with edges, ordered by the smooth vertices of the edge.
     pub points: Vec<EdgePoint>,
     /// Pieces, in the order of their faces.
@@ -68,7 +68,7 @@ pub struct ZeroSet {
 /// Zero counts as positive, so that curves neither branch nor end at vertices. Each piece has the positive
 /// side on its left, seen from the side where the face is counter-clockwise.
 #[must_use]
-pub fn trace(
+pub(crate) fn trace(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     field: &[f64],
@@ -91,7 +91,7 @@ pub fn trace(
 
 /// Crossing of a curve with an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// Parameter from one end to the other, 0 to 1.
     pub t: f64,
     /// Whether the field grows in that direction; false where it has no sign.
@@ -101,7 +101,7 @@ pub struct Crossing {
 /// Curves from their crossings with edges: `crossing(a, b)` is called with smooth vertices a < b. A face with
 /// two crossings has a piece between them; other faces have none.
 #[must_use]
-pub fn trace_crossings(
+pub(crate) fn trace_crossings(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     wanted: impl Fn(u32) -> bool + Sync,

@@ -19,7 +19,7 @@ const IMAGE_HEAD_BYTES: usize = 32;
 
 /// Access to the files next to a model.
 #[derive(Clone, Copy)]
-pub struct ModelFiles<'a> {
+pub(crate) struct ModelFiles<'a> {
     /// Reads the beginning of a file.
     pub fetch: &'a Fetch<'a>,
     /// Index of all files; `None` if the model is not a file.
@@ -47,7 +47,7 @@ impl ModelFiles<'_> {
 }
 
 /// Reads all materials of a file; problems with textures are only warnings.
-pub fn materials(buffers: &Buffers, files: ModelFiles, warnings: &mut Warnings) -> Vec<Material> {
+pub(crate) fn materials(buffers: &Buffers, files: ModelFiles, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
         let texture =
             base_texture(material).and_then(|texture| image(texture, material, buffers, files, warnings));
@@ -68,7 +68,7 @@ pub fn materials(buffers: &Buffers, files: ModelFiles, warnings: &mut Warnings) 
 }
 
 /// Values of a material as stored in the file.
-pub fn factors(material: &json::Material) -> MaterialFactors {
+pub(crate) fn factors(material: &json::Material) -> MaterialFactors {
     let transmission = material.extensions.transmission.as_ref();
     MaterialFactors {
         base: base_colour(material),
@@ -86,14 +86,14 @@ pub fn factors(material: &json::Material) -> MaterialFactors {
 
 /// Whether the base colour comes from KHR_materials_pbrSpecularGlossiness; animation pointers to the metallic
 /// base colour then have no effect.
-pub fn is_glossy(material: &json::Material) -> bool {
+pub(crate) fn is_glossy(material: &json::Material) -> bool {
     let glossy = material.extensions.specular_glossiness.as_ref();
     material.pbr_metallic_roughness.base_color_factor.is_none()
         && glossy.is_some_and(|glossy| glossy.diffuse_factor.is_some())
 }
 
 /// Base-colour texture of a material.
-pub fn base_texture(material: &json::Material) -> Option<&json::TextureUse> {
+pub(crate) fn base_texture(material: &json::Material) -> Option<&json::TextureUse> {
     let glossy = material.extensions.specular_glossiness.as_ref();
     let metallic = material.pbr_metallic_roughness.base_color_texture.as_ref();
     metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_texture.as_ref()))

@@ -5,7 +5,7 @@ use crate::scene::warnings::WarningExamples;
 
 /// Missing things by kind: the first location, and the number of others.
 #[derive(Debug, Clone, Default)]
-pub struct MissingReferences {
+pub(crate) struct MissingReferences {
     /// Meshes of nodes; their parts are left out.
     pub meshes: WarningExamples,
     /// Skins of nodes; their meshes are drawn without a skin.
@@ -18,7 +18,7 @@ pub struct MissingReferences {
 
 impl MissingReferences {
     /// Adds one warning for each kind.
-    pub fn warn(self, warnings: &mut Warnings) {
+    pub(crate) fn warn(self, warnings: &mut Warnings) {
         for spots in [self.meshes, self.skins, self.materials, self.uvs] {
             spots.warn(warnings);
         }

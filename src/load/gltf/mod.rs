@@ -41,7 +41,7 @@ use crate::scene::{Scene, UpAxis, Warnings};
 ///
 /// # Errors
 /// Names the file, the place in it (chunk, accessor, mesh, node ...) and what is wrong.
-pub fn read(path: &Path) -> Result<Scene, Error> {
+pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
     Ok(read_file(path, false)?.scene)
 }
 
@@ -49,7 +49,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_rigged(path: &Path) -> Result<Rigged, Error> {
+pub(crate) fn read_rigged(path: &Path) -> Result<Rigged, Error> {
     read_file(path, true)
 }
 
@@ -71,7 +71,7 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
 ///
 /// # Errors
 /// As [`read`], without the name of the file.
-pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
+pub(crate) fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
     Ok(read_all(bytes, ModelFiles { fetch, all: None }, false)?.scene)
 }
 
@@ -79,7 +79,7 @@ pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// As [`read_bytes`].
-pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
+pub(crate) fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
     read_all(bytes, ModelFiles { fetch, all: None }, true)
 }
 

@@ -36,7 +36,7 @@ const IGNORED_EXTENSIONS: [&str; 14] = [
 ];
 
 /// Returns an error for a file that requires an unsupported extension, naming it.
-pub fn check(required: &[String]) -> Result<(), Error> {
+pub(crate) fn check(required: &[String]) -> Result<(), Error> {
     let harmless = |name: &str| {
         IGNORED_EXTENSIONS.iter().any(|known| match known.strip_suffix('*') {
             Some(start) => name.starts_with(start),

@@ -14,7 +14,7 @@ const LENIENT_BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// Bytes of a `data:` URI; `None` for other URIs. The error describes what is wrong.
-pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
+pub(crate) fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let rest = uri.get(..5).filter(|head| head.eq_ignore_ascii_case("data:")).and(uri.get(5..))?;
     let Some((head, body)) = rest.split_once(',') else {
         return Some(Err("the data URI has no comma".to_owned()));
@@ -33,7 +33,7 @@ pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
 
 /// Path of a relative URI, with `/` as separator and without `.` and `..`. Returns an error if it leads out
 /// of the model's folder.
-pub fn inside_folder(uri: &str) -> Result<String, String> {
+pub(crate) fn inside_folder(uri: &str) -> Result<String, String> {
     let decoded = percent_decoded(uri);
     let Ok(path) = std::str::from_utf8(&decoded) else {
         return Err(format!("`{}` is not UTF-8", shortened(uri)));
@@ -60,12 +60,12 @@ pub fn inside_folder(uri: &str) -> Result<String, String> {
 }
 
 /// Text of a URI with escapes decoded.
-pub fn decoded(uri: &str) -> String {
+pub(crate) fn decoded(uri: &str) -> String {
     String::from_utf8_lossy(&percent_decoded(uri)).into_owned()
 }
 
 /// A URI shortened for messages.
-pub fn shortened(uri: &str) -> Cow<'_, str> {
+pub(crate) fn shortened(uri: &str) -> Cow<'_, str> {
     match uri.char_indices().nth(80) {
         Some((end, _)) => Cow::Owned(format!("{}...", uri.get(..end).unwrap_or_default())),
         None => Cow::Borrowed(uri),

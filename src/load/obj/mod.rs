@@ -25,7 +25,7 @@ use crate::scene::model_folder::{ModelFolder, read_from_model_folder};
 ///
 /// # Errors
 /// Names the file and the line if an index is out of range, or reports that nothing can be drawn.
-pub fn read(path: &Path) -> Result<Scene, Error> {
+pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
     let files = ModelFolder::of(path);
     super::read_with(path, |bytes, stem| {
         read_with_files(bytes, stem, |name| read_from_model_folder(path, name).ok(), Some(&files))
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_bytes(
+pub(crate) fn read_bytes(
     bytes: &[u8],
     stem: &str,
     library: impl FnMut(&str) -> Option<Vec<u8>>,

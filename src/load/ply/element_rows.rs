@@ -15,14 +15,14 @@ pub(crate) struct RowValues {
 
 impl RowValues {
     /// Values of a property.
-    pub fn list(&self, property: usize) -> &[f64] {
+    pub(crate) fn list(&self, property: usize) -> &[f64] {
         let start = property.checked_sub(1).and_then(|p| self.ends.get(p)).copied().unwrap_or(0);
         let end = self.ends.get(property).copied().unwrap_or(start);
         self.values.get(start..end).unwrap_or_default()
     }
 
     /// Value of a property that is not a list.
-    pub fn value(&self, property: usize) -> f64 {
+    pub(crate) fn value(&self, property: usize) -> f64 {
         self.list(property).first().copied().unwrap_or(0.0)
     }
 }
@@ -35,13 +35,13 @@ pub(crate) struct ElementReader<'a> {
 
 impl<'a> ElementReader<'a> {
     /// Bytes not yet read.
-    pub fn rest(&self) -> &'a [u8] {
+    pub(crate) fn rest(&self) -> &'a [u8] {
         self.cursor.bytes.get(self.cursor.at..).unwrap_or_default()
     }
 
     /// Returns an error if the rest of the file is too short for the announced rows. Call it before
     /// allocating memory.
-    pub fn check_count(&self, element: &Element) -> Result<usize, Error> {
+    pub(crate) fn check_count(&self, element: &Element) -> Result<usize, Error> {
         let least = element.least_size(self.encoding) as u64;
         let rest = self.rest().len() as u64 + u64::from(self.encoding == Encoding::Text);
         if element.count.checked_mul(least).is_none_or(|needed| needed > rest) {
@@ -55,7 +55,7 @@ impl<'a> ElementReader<'a> {
     }
 
     /// Reads the next row; `number` counts from 0 and is used in errors.
-    pub fn row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
+    pub(crate) fn row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
         row.values.clear();
         row.ends.clear();
         if self.encoding == Encoding::Text {

@@ -40,7 +40,7 @@ pub(crate) struct FaceReader<'a> {
 
 impl<'a> FaceReader<'a> {
     /// Starts without faces.
-    pub fn new(positions: &'a [DVec3]) -> Self {
+    pub(crate) fn new(positions: &'a [DVec3]) -> Self {
         Self {
             positions,
             has_bad_positions: !positions.par_iter().with_min_len(MIN_TASK_ROWS).all(|&p| is_drawable(p)),
@@ -57,7 +57,7 @@ impl<'a> FaceReader<'a> {
     }
 
     /// Reads the element `face`.
-    pub fn polygons(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
+    pub(crate) fn polygons(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
         let count = body.check_count(element)?;
         let Some(list) = element.find(&LIST_NAMES).filter(|&p| is_list(element, p)) else {
             self.warnings.note("faces without a list of vertices left out");
@@ -133,7 +133,7 @@ impl<'a> FaceReader<'a> {
     }
 
     /// Reads the element `tristrips`; −1 starts a new strip.
-    pub fn strips(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
+    pub(crate) fn strips(&mut self, body: &mut ElementReader, element: &Element) -> Result<(), Error> {
         let count = body.check_count(element)?;
         let Some(list) = element.find(&LIST_NAMES).filter(|&p| is_list(element, p)) else {
             return skip(body, element);

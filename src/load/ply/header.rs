@@ -46,7 +46,7 @@ impl ScalarType {
     }
 
     /// Bytes of one number in a binary body.
-    pub fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -56,7 +56,7 @@ impl ScalarType {
     }
 
     /// Value that represents 1 in a colour.
-    pub fn full(self) -> f64 {
+    pub(crate) fn full(self) -> f64 {
         match self {
             Self::I8 => 127.0,
             Self::U8 => 255.0,
@@ -70,7 +70,7 @@ impl ScalarType {
 
     /// Reads a number of this type at the start of some bytes; 0 if they are too few.
     #[inline]
-    pub fn read(self, bytes: &[u8], encoding: Encoding) -> f64 {
+    pub(crate) fn read(self, bytes: &[u8], encoding: Encoding) -> f64 {
         macro_rules! number {
             ($kind:ty) => {{
                 let array = bytes.first_chunk().copied().unwrap_or_default();
@@ -114,12 +114,12 @@ pub(crate) struct Element {
 
 impl Element {
     /// First property with one of these names.
-    pub fn find(&self, names: &[&str]) -> Option<usize> {
+    pub(crate) fn find(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|p| names.contains(&p.name.as_str()))
     }
 
     /// Minimum bytes of a row.
-    pub fn least_size(&self, encoding: Encoding) -> usize {
+    pub(crate) fn least_size(&self, encoding: Encoding) -> usize {
         match encoding {
             // A digit and a blank.
             Encoding::Text => 2 * self.properties.len(),
@@ -128,7 +128,7 @@ impl Element {
     }
 
     /// Byte offset of a property in a row, if no list comes before it.
-    pub fn offset(&self, property: usize) -> Option<usize> {
+    pub(crate) fn offset(&self, property: usize) -> Option<usize> {
         self.properties.iter().take(property).map(|p| p.list.is_none().then(|| p.kind.size())).sum()
     }
 }
@@ -146,7 +146,7 @@ pub(crate) struct Header {
 
 impl Header {
     /// Parses the header at the start of a file.
-    pub fn parse(bytes: &[u8]) -> Result<Self, Error> {
+    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, Error> {
         let mut cursor = Cursor::new(bytes);
         if cursor.rest_of_line() != b"ply" {
             return Err(Error::new("the file does not begin with `ply`")

@@ -39,7 +39,7 @@ use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings};
 /// # Errors
 /// Names the file and the place if the header is wrong, rows are missing, an index is out of range, or
 /// nothing can be drawn.
-pub fn read(path: &Path) -> Result<Scene, Error> {
+pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
     read_with(path, read_bytes)
 }
 
@@ -47,7 +47,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
+pub(crate) fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let header = Header::parse(bytes)?;
     let mut body = ElementReader { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
     let mut model = Model { warnings: header.warnings, ..Model::default() };

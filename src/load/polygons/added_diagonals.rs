@@ -8,7 +8,7 @@ use crate::mesh::EdgeMark;
 /// consecutive. Corners at the position of the previous one count as the same corner. A triangle has no
 /// diagonals.
 #[derive(Debug, Default)]
-pub struct Diagonals {
+pub(crate) struct Diagonals {
     /// For each corner, the number of distinct positions before it.
     numbers: Vec<u32>,
     /// Number of distinct consecutive positions.
@@ -17,7 +17,7 @@ pub struct Diagonals {
 
 impl Diagonals {
     /// Prepares for a polygon with these corners.
-    pub fn of(&mut self, points: &[DVec3]) {
+    pub(crate) fn of(&mut self, points: &[DVec3]) {
         self.numbers.clear();
         self.count = 0;
         let mut last = None;
@@ -42,7 +42,7 @@ impl Diagonals {
     }
 
     /// Marks of the sides of a triangle.
-    pub fn marks(&self, triangle: [u32; 3]) -> [EdgeMark; 3] {
+    pub(crate) fn marks(&self, triangle: [u32; 3]) -> [EdgeMark; 3] {
         let [a, b, c] = triangle.map(|corner| self.numbers.get(corner as usize).copied().unwrap_or_default());
         [(a, b), (b, c), (c, a)].map(|(from, to)| {
             let is_side = |from: u32, to: u32| to == if from + 1 == self.count { 0 } else { from + 1 };

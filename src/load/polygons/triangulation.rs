@@ -19,7 +19,7 @@ const MAX_APEX_CORNERS: usize = 512;
 
 /// Quality of a triangulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CutOutcome {
+pub(crate) enum CutOutcome {
     /// Complete.
     Sound,
     /// Fanned, at least in part, because the polygon has too many corners.
@@ -35,7 +35,7 @@ pub enum CutOutcome {
 ///
 /// No diagonal runs along collinear corners. A polygon of n corners gives n − 2 triangles; very large ones
 /// lose repeated corners first.
-pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
+pub(crate) fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     match *points {
         [] | [_] | [_, _] => CutOutcome::Sound,
         [_, _, _] => {
@@ -52,7 +52,7 @@ pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcom
 
 /// Splits a quad into two triangles.
 #[must_use]
-pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
+pub(crate) fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     let (u, v, w) = (b - a, c - a, d - a);
     // The two halves face opposite ways if the diagonal 0-2 is outside.
     let runs_outside = u.cross(v).dot(v.cross(w)) < 0.0;

@@ -33,7 +33,7 @@ const RECORD_BYTES: usize = 50;
 ///
 /// # Errors
 /// Names the file and the place if it is cut off or nothing can be drawn.
-pub fn read(path: &Path) -> Result<Scene, Error> {
+pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
     read_with(path, read_bytes)
 }
 
@@ -41,7 +41,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
+pub(crate) fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let mut scene = Scene { format: "STL", up: UpAxis::Z, ..Scene::default() };
     if is_text(bytes) {
         read_text(bytes, stem, &mut scene)?

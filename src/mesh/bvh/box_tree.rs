@@ -19,7 +19,7 @@ use crate::mesh::PartId;
 
 /// Eight-fold tree of bounding boxes over triangles of a mesh.
 #[derive(Debug, Clone)]
-pub struct BoxTree {
+pub(crate) struct BoxTree {
     cells: QuantizationGrid,
     /// Face at each rank along the Morton curve.
     faces: Vec<u32>,
@@ -35,7 +35,7 @@ impl BoxTree {
     ///
     /// Every index of `triangles` must be one of `positions`.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
         active: &[bool],
@@ -93,7 +93,7 @@ impl BoxTree {
     /// was built from.
     ///
     /// Runs in parallel; the order of the result does not depend on the number of threads.
-    pub fn overlaps<T, F>(&self, faces: TreeFaces, visit: F) -> Vec<T>
+    pub(crate) fn overlaps<T, F>(&self, faces: TreeFaces, visit: F) -> Vec<T>
     where
         T: Send,
         F: Fn(u32, &[u32], &mut Vec<T>) + Sync,
@@ -162,7 +162,7 @@ impl BoxTree {
     }
 
     /// Calls `visit` for the faces whose boxes come near a box given by its corners.
-    pub fn near_box(&self, low: DVec3, high: DVec3, visit: impl FnMut(u32)) {
+    pub(crate) fn near_box(&self, low: DVec3, high: DVec3, visit: impl FnMut(u32)) {
         self.near(self.box_of([low, high, high]), &mut Vec::new(), visit);
     }
 
@@ -274,7 +274,7 @@ impl BoxTree {
 
 /// Triangles, and their bodies.
 #[derive(Debug, Clone, Copy)]
-pub struct TreeFaces<'a> {
+pub(crate) struct TreeFaces<'a> {
     /// Vertices of each triangle.
     pub triangles: &'a [[u32; 3]],
     /// Body of each triangle, or empty if there is only one.

@@ -10,12 +10,13 @@
 //! Files, in reading order: [`box_tree`] (8-wide tree), [`packed_boxes`] (eight boxes in machine words),
 //! [`quantized_box`] (box of one triangle), [`nearest_tree`] (closest point). Folders: [`rays`], [`dual`].
 
-pub mod box_tree;
-pub mod dual;
-pub mod nearest_tree;
+pub(crate) mod box_tree;
+pub(crate) mod dual;
+pub(crate) mod nearest_tree;
 mod packed_boxes;
 pub(crate) mod quantized_box;
-pub mod rays;
+pub(crate) mod rays;
 
-pub use dual::dual_boxes::DualCandidates;
-pub use dual::dual_tree::{DualTree, ToneTree};
+pub(crate) use dual::dual_boxes::DualCandidates;
+pub(crate) use dual::dual_tree::DualTree;
+pub use dual::dual_tree::ToneTree;

@@ -7,7 +7,7 @@ const MAX_TRIANGLES_PER_LEAF: usize = 4;
 
 /// Binary tree of bounding boxes over triangles, for nearest-point queries.
 #[derive(Debug, Clone, Default)]
-pub struct NearestTree {
+pub(crate) struct NearestTree {
     nodes: Vec<NearestNode>,
     /// Triangles in leaf order, and the original number of each.
     corners: Vec<[DVec3; 3]>,
@@ -27,7 +27,7 @@ struct NearestNode {
 
 /// Point on a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearestPoint {
+pub(crate) struct NearestPoint {
     /// Number of the triangle.
     pub triangle: u32,
     /// Barycentric weights; the sum is 1.
@@ -37,7 +37,7 @@ pub struct NearestPoint {
 impl NearestTree {
     /// Builds the tree. Triangles with corners that are not finite are ignored.
     #[must_use]
-    pub fn new(triangles: &[[DVec3; 3]]) -> Self {
+    pub(crate) fn new(triangles: &[[DVec3; 3]]) -> Self {
         let finite = |corners: &[DVec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let mut order: Vec<u32> = (0..triangles.len() as u32)
             .filter(|number| triangles.get(*number as usize).is_some_and(finite))
@@ -54,7 +54,7 @@ impl NearestTree {
     /// The nearest point on any triangle; at equal distance, on the triangle of lowest number. `None` without
     /// triangles.
     #[must_use]
-    pub fn nearest(&self, point: DVec3) -> Option<NearestPoint> {
+    pub(crate) fn nearest(&self, point: DVec3) -> Option<NearestPoint> {
         let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO);
         let mut open: Vec<(f64, usize)> =
             self.nodes.first().map(|root| (root.away(point), 0)).into_iter().collect();

@@ -104,7 +104,7 @@ fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
 /// The body of a part, from the result of [`bodies`].
 #[inline]
 #[must_use]
-pub fn body_of(bodies: &[PartId], part: PartId) -> PartId {
+pub(crate) fn body_of(bodies: &[PartId], part: PartId) -> PartId {
     bodies.get(part.index()).copied().unwrap_or(part)
 }
 

@@ -15,14 +15,14 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Disjoint sets of faces, each identified by its smallest face.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct DisjointSets {
+pub(crate) struct DisjointSets {
     first: Vec<u32>,
 }
 
 impl DisjointSets {
     /// The sets of `count` faces. `joins` calls its argument with pairs, on any threads and in any order.
     #[must_use]
-    pub fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
+    pub(crate) fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
         let parents: Vec<AtomicU32> =
             (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(AtomicU32::new).collect();
         joins(&|a, b| join(&parents, a, b));
@@ -34,14 +34,14 @@ impl DisjointSets {
     /// The smallest face in the set of a face.
     #[inline]
     #[must_use]
-    pub fn representative(&self, face: u32) -> u32 {
+    pub(crate) fn representative(&self, face: u32) -> u32 {
         self.first[face as usize]
     }
 
     /// Numbers the sets in the order of their first faces. Where `instead` returns a value for the first face
     /// of a set, that value is stored and the set gets no number.
     #[must_use]
-    pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> NumberedSets {
+    pub(crate) fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> NumberedSets {
         let Self { first: mut of_face } = self;
         let counted = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
             let faces = (chunk * MIN_TASK_ITEMS) as u32..;
@@ -59,7 +59,7 @@ impl DisjointSets {
 
 /// Disjoint sets with consecutive numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct NumberedSets {
+pub(crate) struct NumberedSets {
     /// Set number of each face.
     pub set_of_face: Vec<u32>,
     /// The smallest face of each set.

@@ -13,4 +13,4 @@ pub(crate) mod bodies;
 pub(crate) mod disjoint_sets;
 pub(crate) mod orientation;
 mod parity_union_find;
-pub mod solid_parts;
+pub(crate) mod solid_parts;

@@ -24,7 +24,7 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Faces that were wound inward, or against their neighbours, in one part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TurnedFaces {
+pub(crate) struct TurnedFaces {
     /// The part.
     pub part: PartId,
     /// Number of faces that were turned.
@@ -55,7 +55,7 @@ pub(crate) struct OrientedSurfaces {
 
 impl OrientedSurfaces {
     /// Finds the surfaces of a mesh.
-    pub fn new(mesh: &ConnectedTriangles) -> Self {
+    pub(crate) fn new(mesh: &ConnectedTriangles) -> Self {
         let of_face = mesh.connected();
         let count = of_face.first.len();
         let SurfaceFlags { open, mixed } = mesh.joints(&of_face);
@@ -86,13 +86,13 @@ impl OrientedSurfaces {
     }
 
     /// Whether any surface is open.
-    pub fn has_open(&self) -> bool {
+    pub(crate) fn has_open(&self) -> bool {
         self.is_closed.contains(&false)
     }
 
     /// Restricts the turns to closed surfaces. Returns the turns of faces of open surfaces; empty if there
     /// are none.
-    pub fn turn_closed_only(&mut self) -> Vec<bool> {
+    pub(crate) fn turn_closed_only(&mut self) -> Vec<bool> {
         let is_open = |surface: &u32| !self.is_closed[*surface as usize];
         let of_face = &self.surface_of_face.set_of_face;
         let mut of_open: Vec<bool> =
@@ -107,7 +107,7 @@ impl OrientedSurfaces {
     }
 
     /// Adds the turned faces to the counts per part, which are in part order.
-    pub fn count(&self, parts: &[PartId], counts: &mut Vec<TurnedFaces>) {
+    pub(crate) fn count(&self, parts: &[PartId], counts: &mut Vec<TurnedFaces>) {
         let part = |face: usize| parts.get(face).copied().unwrap_or_default();
         let faces = (0..self.is_turned.len()).filter(|face| self.is_turned[*face]);
         let mut found: Vec<(PartId, u32)> =

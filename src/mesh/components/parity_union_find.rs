@@ -8,12 +8,12 @@ pub(crate) struct ParityUnionFind {
 
 impl ParityUnionFind {
     /// One set per face.
-    pub fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self { above: (0..count as u32).map(|face| (face, false)).collect() }
     }
 
     /// Root of a face, and whether their windings disagree.
-    pub fn root(&mut self, face: u32) -> (u32, bool) {
+    pub(crate) fn root(&mut self, face: u32) -> (u32, bool) {
         let (mut at, mut disagree) = (face, false);
         while self.above[at as usize].0 != at {
             let (next, odd) = self.above[at as usize];
@@ -27,7 +27,7 @@ impl ParityUnionFind {
     }
 
     /// Joins two faces. Returns false if the new relation contradicts the known one.
-    pub fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
+    pub(crate) fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
         let ((a, odd_a), (b, odd_b)) = (self.root(a), self.root(b));
         let odd = odd_a ^ odd_b ^ disagree;
         if a != b {

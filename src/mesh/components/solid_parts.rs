@@ -6,7 +6,7 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
 /// For each part, whether its body is closed and has a positive volume. In a closed body, all edges have two
 /// consistently wound faces. A hole of any size makes a body open.
 #[must_use]
-pub fn solid_parts(mesh: &Mesh) -> Vec<bool> {
+pub(crate) fn solid_parts(mesh: &Mesh) -> Vec<bool> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
     let mut closed = vec![true; parts];
     for edge in 0..mesh.edges.len() {

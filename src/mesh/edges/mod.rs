@@ -10,9 +10,9 @@
 //! [`edge_splice`] and [`edge_update`] (step 3), [`vertex_edges`] (edge between two vertices), [`edge_set`]
 //! (bit set of edges).
 
-pub mod edge_set;
+pub(crate) mod edge_set;
 mod edge_splice;
-pub mod edge_table;
+pub(crate) mod edge_table;
 mod edge_update;
 pub(crate) mod vertex_edges;
 pub(crate) mod vertex_ranges;

@@ -18,7 +18,7 @@ pub(crate) struct VertexEdges<'a> {
 
 impl<'a> VertexEdges<'a> {
     /// Indexes edges between `vertices` vertices.
-    pub fn of(edges: &'a Edges, vertices: usize) -> Self {
+    pub(crate) fn of(edges: &'a Edges, vertices: usize) -> Self {
         let mut first = vec![0; vertices + 1];
         first.par_chunks_mut(VERTICES_PER_TASK).enumerate().for_each(|(k, first)| {
             let least = (k * VERTICES_PER_TASK) as u32;
@@ -35,7 +35,7 @@ impl<'a> VertexEdges<'a> {
 
     /// The edge between two vertices.
     #[inline]
-    pub fn between(&self, u: u32, v: u32) -> Option<usize> {
+    pub(crate) fn between(&self, u: u32, v: u32) -> Option<usize> {
         let (lo, hi) = (u.min(v), u.max(v));
         let [start, end] = [lo, lo + 1].map(|v| self.first[v as usize] as usize);
         let found = self.edges.vertices[start..end].binary_search_by_key(&hi, |[_, hi]| *hi);

@@ -12,20 +12,20 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Follows the intersection curves of a mesh.
 #[derive(Debug, Clone, Copy)]
-pub struct CurveTracer<'a> {
+pub(crate) struct CurveTracer<'a> {
     mesh: &'a Mesh,
 }
 
 impl<'a> CurveTracer<'a> {
     /// The tracer of a mesh.
     #[must_use]
-    pub fn new(mesh: &'a Mesh) -> Self {
+    pub(crate) fn new(mesh: &'a Mesh) -> Self {
         Self { mesh }
     }
 
     /// The pairs among the active faces that pass through each other, lesser face first.
     #[must_use]
-    pub fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
+    pub(crate) fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
         let Mesh { positions, triangles, .. } = self.mesh;
         let (middle, radius) = self.mesh.extents.ball();
         let bodies = self.mesh.face_bodies();
@@ -38,7 +38,7 @@ impl<'a> CurveTracer<'a> {
     /// The complete curves through the given pairs of faces, as far as triangles without common vertices form
     /// them. The order of the pairs has no effect.
     #[must_use]
-    pub fn curves(&self, seeds: &[[u32; 2]]) -> IntersectionCurves {
+    pub(crate) fn curves(&self, seeds: &[[u32; 2]]) -> IntersectionCurves {
         let mut tested: FxHashSet<[u32; 2]> = seeds.iter().copied().collect();
         let mut waiting = seeds.to_vec();
         let mut found = Vec::new();

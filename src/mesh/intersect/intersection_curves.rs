@@ -75,7 +75,7 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
 /// Intersections of triangles of several parts. `tolerance` returns that of the part of a face; the larger of
 /// two applies.
 #[must_use]
-pub fn intersections_of_parts(
+pub(crate) fn intersections_of_parts(
     input: &IntersectionInput,
     tolerance: impl Fn(u32) -> PairTolerance + Sync,
 ) -> IntersectionCurves {

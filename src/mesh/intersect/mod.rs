@@ -9,7 +9,7 @@
 //! Files, in reading order: [`triangle_pair`] (step 2), [`intersection_curves`] (steps 1 and 3),
 //! [`curve_tracer`] (follows a curve from given pairs), [`cache`] (step 4).
 
-pub mod cache;
-pub mod curve_tracer;
-pub mod intersection_curves;
-pub mod triangle_pair;
+pub(crate) mod cache;
+pub(crate) mod curve_tracer;
+pub(crate) mod intersection_curves;
+pub(crate) mod triangle_pair;

@@ -15,7 +15,7 @@ use crate::mesh::tolerances::{self, OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALL
 
 /// Tolerances for the intersection of two triangles, world units.
 #[derive(Debug, Clone, Copy)]
-pub struct PairTolerance {
+pub(crate) struct PairTolerance {
     /// Maximum distance of a vertex that counts as in the plane.
     pub plane: f64,
     /// Maximum length of an overlap that counts as a point.
@@ -28,14 +28,14 @@ impl PairTolerance {
     /// Tolerance for triangles with exact coordinates of a part with this scale.
     #[inline]
     #[must_use]
-    pub fn of_exact(scale: f64) -> Self {
+    pub(crate) fn of_exact(scale: f64) -> Self {
         Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale, rounding: 0.0 }
     }
 
     /// Tolerance for triangles of a part.
     #[inline]
     #[must_use]
-    pub fn of_part(part: &PartMetrics) -> Self {
+    pub(crate) fn of_part(part: &PartMetrics) -> Self {
         let exact = Self::of_exact(part.scale);
         let overlap = exact.overlap.max(OVERLAP_OF_ROUNDING * part.rounding);
         Self { overlap, rounding: part.rounding, ..exact }
@@ -44,7 +44,7 @@ impl PairTolerance {
     /// Tolerance for triangles of two parts: the larger of both.
     #[inline]
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub(crate) fn and(self, other: Self) -> Self {
         Self {
             plane: self.plane.max(other.plane),
             overlap: self.overlap.max(other.overlap),
@@ -55,7 +55,7 @@ impl PairTolerance {
 
 /// Triangle with its corners in mesh order.
 #[derive(Debug, Clone, Copy)]
-pub struct Triangle {
+pub(crate) struct Triangle {
     /// Vertices of the mesh.
     pub vertices: [u32; 3],
     /// Their positions.
@@ -70,7 +70,7 @@ impl Triangle {
     /// The triangle of three vertices.
     #[inline]
     #[must_use]
-    pub fn new(positions: &[DVec3], vertices: [u32; 3]) -> Self {
+    pub(crate) fn new(positions: &[DVec3], vertices: [u32; 3]) -> Self {
         let corners = vertices.map(|v| positions[v as usize]);
         let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = e1.cross(e2);
@@ -87,7 +87,7 @@ impl Triangle {
     /// be in the plane.
     #[inline]
     #[must_use]
-    pub fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
+    pub(crate) fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
         let [a, b, c] = points.map(|p| self.normal.dot(p - self.corners[0]));
         let is_on_one = a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0;
         let [x, y, z] = [a.abs(), b.abs(), c.abs()];
@@ -174,11 +174,11 @@ fn coordinates(p: DVec3) -> Coord3D<f64> {
 }
 
 /// Part of a triangle that meets the other plane: an edge (lesser vertex first), or a vertex (twice).
-pub type Feature = [u32; 2];
+pub(crate) type Feature = [u32; 2];
 
 /// Point where the border of one triangle meets the other triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piercing {
+pub(crate) struct Piercing {
     /// The edge or vertex that pierces.
     pub feature: Feature,
     /// The point, bit-identical for every triangle with the feature.
@@ -187,11 +187,11 @@ pub struct Piercing {
 
 /// End of the common part of two triangles: a piercing by the border of the first, of the second, or (within
 /// the tolerance) of both.
-pub type SegmentEnd = [Option<Piercing>; 2];
+pub(crate) type SegmentEnd = [Option<Piercing>; 2];
 
 /// Common part of two triangles. Its ends are ordered along the cross product of their normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PairIntersection {
+pub(crate) enum PairIntersection {
     /// A segment.
     Segment([SegmentEnd; 2]),
     /// A segment that is too short to count; both ends are one point. Segments of neighbours may end there.
@@ -207,7 +207,7 @@ pub enum PairIntersection {
 impl PairIntersection {
     /// First and last end.
     #[must_use]
-    pub fn ends(&self) -> [SegmentEnd; 2] {
+    pub(crate) fn ends(&self) -> [SegmentEnd; 2] {
         match self {
             Self::Segment(ends) | Self::Point(ends) => *ends,
             Self::Touch(touch) => touch.ends,
@@ -218,7 +218,7 @@ impl PairIntersection {
 
 /// Edge of one triangle in the plane of the other, clipped to the other triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub(crate) struct Touch {
     /// First and last end along the cross product of the normals.
     pub ends: [SegmentEnd; 2],
     /// The edge, lesser vertex first.
@@ -231,7 +231,7 @@ pub struct Touch {
 
 /// Overlap of two collinear edges, one of each triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along {
+pub(crate) struct Along {
     /// First and last end along the cross product of the normals.
     pub ends: [SegmentEnd; 2],
     /// The edges of both triangles, lesser vertex first.
@@ -245,7 +245,7 @@ pub struct Along {
 /// Coplanar triangles have no common part; neither have triangles that touch the other plane with a vertex
 /// only.
 #[must_use]
-pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<PairIntersection> {
+pub(crate) fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<PairIntersection> {
     if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
         return None;
     }

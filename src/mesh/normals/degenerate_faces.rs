@@ -11,7 +11,7 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Result of a lookup across an edge, through needles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OppositeFace {
+pub(crate) enum OppositeFace {
     /// A face with area.
     Face(u32),
     /// The edge is the long one of a needle, or collinear with others: shorter edges represent it.
@@ -22,7 +22,7 @@ pub enum OppositeFace {
 
 /// The face at an edge (`lo` < `hi`) on the side of `face`, looking through needles.
 #[must_use]
-pub fn opposite_face(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> OppositeFace {
+pub(crate) fn opposite_face(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> OppositeFace {
     if mesh.is_degenerate(FaceId(face)) {
         across_needle(mesh, face, lo, hi)
     } else {

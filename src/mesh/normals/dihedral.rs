@@ -13,7 +13,7 @@ use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh};
 
 /// Two faces with area that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dihedral {
+pub(crate) struct Dihedral {
     /// The two faces.
     pub faces: [u32; 2],
     /// Whether both run along the edge in the same direction, which does not occur on a consistently wound
@@ -28,7 +28,7 @@ impl Dihedral {
     /// edge of a needle, which shorter edges represent.
     #[inline]
     #[must_use]
-    pub fn at(mesh: &Mesh, edge: usize) -> Option<Self> {
+    pub(crate) fn at(mesh: &Mesh, edge: usize) -> Option<Self> {
         match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way } => {
                 if faces.iter().any(|f| mesh.is_degenerate(FaceId(*f))) {
@@ -49,7 +49,7 @@ impl Dihedral {
     /// Two faces known to be adjacent.
     #[inline]
     #[must_use]
-    pub fn of(mesh: &Mesh, faces: [u32; 2], same_way: bool) -> Self {
+    pub(crate) fn of(mesh: &Mesh, faces: [u32; 2], same_way: bool) -> Self {
         let [a, b] = faces.map(|f| mesh.face_normals[f as usize]);
         let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         Self { faces, same_way, cosine: if same_way { -dot } else { dot } }
@@ -57,14 +57,14 @@ impl Dihedral {
 
     /// Turn of the surface, degrees: 0 where it is flat, 180 where it folds back on itself.
     #[must_use]
-    pub fn turn(&self) -> f32 {
+    pub(crate) fn turn(&self) -> f32 {
         turn_degrees(self.cosine)
     }
 
     /// Turn of the surface minus its error bound, degrees. Compare angle limits with this value, so that a
     /// turn equal to the limit never exceeds it because of rounding.
     #[must_use]
-    pub fn sure_turn(&self, mesh: &Mesh) -> f32 {
+    pub(crate) fn sure_turn(&self, mesh: &Mesh) -> f32 {
         self.turn() - self.angle_error(mesh)
     }
 
@@ -76,7 +76,7 @@ impl Dihedral {
 
     /// Error bound of a face normal due to rounding, degrees.
     #[must_use]
-    pub fn normal_error(mesh: &Mesh, face: u32) -> f64 {
+    pub(crate) fn normal_error(mesh: &Mesh, face: u32) -> f64 {
         let least = tolerances::DIHEDRAL_ROUNDING_DEG / 2.0;
         let rounding = mesh.extent(FaceId(face)).rounding;
         if rounding == 0.0 {
@@ -95,7 +95,7 @@ impl Dihedral {
     /// Whether the surface is flat at an edge, within the rounding of the file. The opposite corners of both
     /// faces must lie within `contact` of a plane through the edge.
     #[must_use]
-    pub fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
+    pub(crate) fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
         let [first, second] = self.faces;
         let ends = mesh.edges.vertices[edge];
         let [a, b] = ends.map(|v| mesh.positions[v as usize]);
@@ -116,7 +116,7 @@ impl Dihedral {
 
     /// The normals of the two faces, both on the front side of the first.
     #[must_use]
-    pub fn normals(&self, mesh: &Mesh) -> [DVec3; 2] {
+    pub(crate) fn normals(&self, mesh: &Mesh) -> [DVec3; 2] {
         let [a, b] = self.faces.map(|f| DVec3::from(mesh.face_normals[f as usize].map(f64::from)));
         [a, if self.same_way { -b } else { b }]
     }
@@ -124,7 +124,7 @@ impl Dihedral {
 
 /// Angle with a cosine, degrees.
 #[must_use]
-pub fn turn_degrees(cosine: f32) -> f32 {
+pub(crate) fn turn_degrees(cosine: f32) -> f32 {
     acos(f64::from(cosine)).to_degrees() as f32
 }
 
@@ -141,13 +141,13 @@ fn dihedral_across_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<D
 
 /// Whether an edge is a diagonal of a polygon of the file whose turn (degrees) is too small for a fold.
 #[must_use]
-pub fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
+pub(crate) fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
     mark == EdgeMark::Diagonal && f64::from(turn) <= tolerances::FOLDED_POLYGON_DEG
 }
 
 /// Whether a face runs along one of its edges from the smaller vertex to the larger one.
 #[must_use]
-pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
+pub(crate) fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
     let [lo, hi] = mesh.edges.vertices[edge];
     let [a, b, c] = mesh.triangles[face as usize];
     [(a, b), (b, c), (c, a)].contains(&(lo, hi))
@@ -156,7 +156,7 @@ pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
 /// The strongest mark that the file gives an edge through some of its faces. It is a diagonal only if all of
 /// these faces say so, because the diagonal of one polygon may be a side of another.
 #[must_use]
-pub fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32>) -> EdgeMark {
+pub(crate) fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32>) -> EdgeMark {
     if mesh.edge_marks.is_empty() {
         return EdgeMark::Unmarked;
     }

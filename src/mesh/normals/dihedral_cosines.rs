@@ -7,7 +7,7 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Cosines of the turns of the surface at the edges of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct DihedralCosines {
+pub(crate) struct DihedralCosines {
     /// Cosine between the two faces of each edge; NaN where there are not two, 0 next to faces without area.
     cosines: Vec<f32>,
 }
@@ -15,7 +15,7 @@ pub struct DihedralCosines {
 impl DihedralCosines {
     /// Computes the cosines of a mesh.
     #[must_use]
-    pub fn of(mesh: &Mesh) -> Self {
+    pub(crate) fn of(mesh: &Mesh) -> Self {
         let cosine = |edge: usize| match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way } => Dihedral::of(mesh, faces, same_way).cosine,
             _ => f32::NAN,
@@ -28,14 +28,14 @@ impl DihedralCosines {
     /// Cosine at an edge with exactly two faces, NaN elsewhere. Not meaningful next to faces without area.
     #[inline]
     #[must_use]
-    pub fn of_two(&self, edge: usize) -> f32 {
+    pub(crate) fn of_two(&self, edge: usize) -> f32 {
         self.cosines[edge]
     }
 
     /// Cosine of [`Dihedral::at`], which skips faces without area; NaN where that is `None`.
     #[inline]
     #[must_use]
-    pub fn at(&self, mesh: &Mesh, edge: usize) -> f32 {
+    pub(crate) fn at(&self, mesh: &Mesh, edge: usize) -> f32 {
         let cosine = self.cosines[edge];
         if cosine.abs() > 0.0 { cosine } else { cosine_across_needle(mesh, edge) }
     }
@@ -43,7 +43,7 @@ impl DihedralCosines {
     /// Same as [`Dihedral::at`], but in most cases without access to the faces.
     #[inline]
     #[must_use]
-    pub fn dihedral(&self, mesh: &Mesh, edge: usize) -> Option<Dihedral> {
+    pub(crate) fn dihedral(&self, mesh: &Mesh, edge: usize) -> Option<Dihedral> {
         let cosine = self.cosines[edge];
         match mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way } if cosine.abs() > 0.0 => {

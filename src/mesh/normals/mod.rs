@@ -10,9 +10,9 @@
 //! Files, in reading order: [`triangle_area`] (step 1), [`face_normals`], [`normal_carriers`] (step 2),
 //! [`degenerate_faces`] (step 3), [`dihedral`] (step 4), [`dihedral_cosines`] (the cosine at every edge).
 
-pub mod degenerate_faces;
-pub mod dihedral;
-pub mod dihedral_cosines;
+pub(crate) mod degenerate_faces;
+pub(crate) mod dihedral;
+pub(crate) mod dihedral_cosines;
 pub(crate) mod face_normals;
-pub mod normal_carriers;
+pub(crate) mod normal_carriers;
 pub(crate) mod triangle_area;

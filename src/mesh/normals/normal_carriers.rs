@@ -136,7 +136,7 @@ impl<'a> CoplanarSearch<'a> {
 /// At the point, the plane moves by the displacements of its corners, weighted by the barycentric coordinates
 /// of the point.
 #[must_use]
-pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
+pub(crate) fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
     let normal = (*b - *a).cross(*c - *a);
     let area = normal.length_squared();
     let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(normal).abs();
@@ -147,7 +147,7 @@ pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool 
 
 /// Smallest height of a triangle: its distance from a line.
 #[must_use]
-pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
+pub(crate) fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
     let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
     if longest > 0.0 { (b - a).cross(c - a).length() / longest.sqrt() } else { 0.0 }
 }

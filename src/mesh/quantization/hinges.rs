@@ -34,7 +34,7 @@ pub(crate) struct FaceTilts {
 impl FaceTilts {
     /// Bounds the tilt: one corner may be off by half a step in one direction along each axis, and the
     /// opposite side by half a step in the other.
-    pub fn of(places: &[DVec3], faces: &[[u32; 3]], half_step: f64) -> Self {
+    pub(crate) fn of(places: &[DVec3], faces: &[[u32; 3]], half_step: f64) -> Self {
         let tangent = |face: &[u32; 3]| {
             let at = |corner: usize| places[face[corner] as usize];
             let (a, b, c) = (at(0), at(1), at(2));
@@ -51,7 +51,7 @@ impl FaceTilts {
     }
 
     /// Whether each position is free to move: all its faces may tilt by more than the limit.
-    pub fn movable_positions(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
+    pub(crate) fn movable_positions(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
         let mut doubted = vec![false; places];
         for is_doubted in [true, false] {
             let such = faces
@@ -88,14 +88,14 @@ impl Hinge {
     /// Coefficients of the four corners in the gap. Both ends count negatively, both opposite corners
     /// positively.
     #[inline]
-    pub fn corner_coefficients(&self) -> [f32; 4] {
+    pub(crate) fn corner_coefficients(&self) -> [f32; 4] {
         let [end, far] = self.halves;
         [end - 1.0, -end, far, 1.0 - far]
     }
 
     /// Gap after displacements, in half steps.
     #[inline]
-    pub fn gap_at(&self, moved: &[Vec3]) -> Vec3 {
+    pub(crate) fn gap_at(&self, moved: &[Vec3]) -> Vec3 {
         let ([a, b, c, d], [of_a, of_b, of_c, of_d]) = (self.corners, self.corner_coefficients());
         let at = |v: u32| moved[v as usize];
         self.gap + at(a) * of_a + at(b) * of_b + at(c) * of_c + at(d) * of_d
@@ -104,7 +104,7 @@ impl Hinge {
     /// Bound for the slope of the energy along the displacement of a corner with coefficient `share`, for any
     /// displacements of the others.
     #[inline]
-    pub fn steepest(&self, share: f32) -> f32 {
+    pub(crate) fn steepest(&self, share: f32) -> f32 {
         let [a, b, c, d] = self.corner_coefficients();
         self.weight * share.abs() * (a.abs() + b.abs() + c.abs() + d.abs())
     }

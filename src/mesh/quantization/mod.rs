@@ -31,7 +31,7 @@ const MAX_OFFSET_STEPS: f64 = 0.02;
 
 /// Lattice over the box of some vertices, with 2ᵇ − 1 steps along its longest side, for a whole number b.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct QuantizationLattice {
+pub(crate) struct QuantizationLattice {
     /// Lower corner of the box, a point of the lattice.
     low: DVec3,
     /// Length of a step, the same on all axes, in the unit of the vertices.
@@ -40,19 +40,8 @@ pub struct QuantizationLattice {
 
 impl QuantizationLattice {
     /// The coarsest lattice that contains all of these vertices; `None` if there is none.
-    ///
-    /// ```
-    /// use glam::DVec3;
-    /// use ligne::mesh::quantization::QuantizationLattice;
-    ///
-    /// let on = |i: u32| DVec3::new(f64::from(i * 7 % 1024), f64::from(i * 5 % 256), 3.0) / 1023.0;
-    /// let vertices: Vec<DVec3> = (0..1024).map(on).collect();
-    /// assert!((QuantizationLattice::of(&vertices).expect("ten bits").step() - 1.0 / 1023.0).abs() < 1e-12);
-    /// let off: Vec<DVec3> = vertices.iter().map(|p| *p * p.x).collect();
-    /// assert_eq!(QuantizationLattice::of(&off), None);
-    /// ```
     #[must_use]
-    pub fn of(vertices: &[DVec3]) -> Option<Self> {
+    pub(crate) fn of(vertices: &[DVec3]) -> Option<Self> {
         let low = vertices.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
         let high = vertices.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
         let side = (high - low).max_element();
@@ -61,12 +50,6 @@ impl QuantizationLattice {
         }
         let lattices = LATTICE_BITS.map(|bits| Self { low, step: side / f64::from((1 << bits) - 1) });
         lattices.into_iter().find(|lattice| vertices.iter().all(|p| lattice.has(*p)))
-    }
-
-    /// Length of a step, in the unit of the vertices.
-    #[must_use]
-    pub fn step(&self) -> f64 {
-        self.step
     }
 
     fn has(&self, p: DVec3) -> bool {
@@ -87,7 +70,7 @@ impl QuantizationLattice {
 /// Vertices at the same position stay together. `normals` are those of the vertices, or empty. An edge whose
 /// faces have different normals is a crease and may bend freely. Vertices on no lattice, and those of wide
 /// faces, stay unchanged.
-pub fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
+pub(crate) fn dequantize(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
     let Some(lattice) = QuantizationLattice::of(vertices) else { return };
     if triangles.as_flattened().iter().any(|v| *v as usize >= vertices.len()) {
         return;

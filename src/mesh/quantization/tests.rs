@@ -283,3 +283,13 @@ fn dequantize_leaves_invalid_input_unchanged() {
     dequantize(&mut vertices, &[[0, 1, 2]], &[[0.0; 3]; 2]);
     assert_eq!(vertices[..3], on[..3]);
 }
+
+#[test]
+fn a_lattice_of_ten_bits_is_found_and_others_are_not() {
+    let on = |i: u32| DVec3::new(f64::from(i * 7 % 1024), f64::from(i * 5 % 256), 3.0) / 1023.0;
+    let vertices: Vec<DVec3> = (0..1024).map(on).collect();
+    let step = QuantizationLattice::of(&vertices).map(|lattice| lattice.step);
+    assert!(step.is_some_and(|step| (step - 1.0 / 1023.0).abs() < 1e-12));
+    let off: Vec<DVec3> = vertices.iter().map(|p| *p * p.x).collect();
+    assert_eq!(QuantizationLattice::of(&off), None);
+}

@@ -83,22 +83,22 @@ pub(crate) fn painted(soup: &Soup, face: u32, vertex: u32) -> CornerPaint {
 
 impl OpenEdge {
     /// Whether another open edge of the part runs in the opposite direction.
-    pub fn runs_against(&self, other: &Self) -> bool {
+    pub(crate) fn runs_against(&self, other: &Self) -> bool {
         other.face != self.face && other.part == self.part && other.along.dot(self.along) < -MIN_SEAM_COSINE
     }
 
     /// Whether the surface would fold back across a seam with another open edge.
-    pub fn folds(&self, other: &Self) -> bool {
+    pub(crate) fn folds(&self, other: &Self) -> bool {
         other.normal.dot(self.normal) <= MAX_FOLD_COSINE
     }
 
     /// Whether another open edge may be the other side of a seam: opposite in direction, without a fold.
-    pub fn faces_across(&self, other: &Self) -> bool {
+    pub(crate) fn faces_across(&self, other: &Self) -> bool {
         self.runs_against(other) && !self.folds(other)
     }
 
     /// Whether the paint of a corner at parameter `t` matches the paint interpolated between both ends.
-    pub fn matches_paint(&self, t: f64, corner: CornerPaint) -> bool {
+    pub(crate) fn matches_paint(&self, t: f64, corner: CornerPaint) -> bool {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
                 ([Some(a), Some(b)], Some(c)) => {

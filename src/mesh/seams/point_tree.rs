@@ -34,7 +34,7 @@ pub(crate) struct PointTree {
 
 impl PointTree {
     /// Builds the tree. Points are numbered from 0.
-    pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
+    pub(crate) fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
         let mut places: Vec<IndexedPoint> = points.into_iter().zip(0..).collect();
         part(&mut places);
         let of_points =
@@ -51,7 +51,7 @@ impl PointTree {
 
     /// Visits all points within `reach` of the segment from `start` to `start + way`, and some others, each
     /// once.
-    pub fn visit_near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
+    pub(crate) fn visit_near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
         let line = QuerySegment { start, per_way: way.recip(), reach };
         let top = self.levels.len() - 1;
         for k in 0..self.levels[top].len() {

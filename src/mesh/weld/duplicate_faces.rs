@@ -15,7 +15,7 @@ use crate::mesh::soup::Soup;
 
 /// Counts of defects that were repaired or found while a mesh was built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct RepairCounts {
+pub(crate) struct RepairCounts {
     /// Vertices joined to another at the same position.
     pub welded: u64,
     /// Faces dropped because two of their corners coincide.

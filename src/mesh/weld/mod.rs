@@ -10,5 +10,5 @@
 //! counts), [`doubled_sheets`] (step 3).
 
 mod doubled_sheets;
-pub mod duplicate_faces;
-pub mod nearby_vertices;
+pub(crate) mod duplicate_faces;
+pub(crate) mod nearby_vertices;

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 /// Only `candidates` (ascending) are examined. Two of them are joined if their distance is at most the
 /// greater of their `reaches`. Joins are transitive.
 #[must_use]
-pub fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
+pub(crate) fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
     let tolerance = reaches.iter().copied().fold(0.0, f64::max);
     if tolerance <= 0.0 {
         return None;

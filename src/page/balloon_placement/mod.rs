@@ -14,7 +14,7 @@
 
 mod candidate;
 mod cost;
-pub mod request;
+pub(crate) mod request;
 mod tail;
 
 use kurbo::Rect;
@@ -23,7 +23,7 @@ use super::layout::Reading;
 use candidate::{BalloonCandidate, candidates};
 use tail::is_clear;
 
-pub use request::{PlacedBalloon, PlacementArea, PlacementRequest};
+pub(crate) use request::{PlacedBalloon, PlacementArea, PlacementRequest};
 
 /// Maximum number of candidate pairs that the search compares.
 const MAX_CHECKED_PAIRS: usize = 400_000;
@@ -32,7 +32,7 @@ const MAX_CHECKED_PAIRS: usize = 400_000;
 ///
 /// # Errors
 /// Returns the index of a balloon that does not fit.
-pub fn place_balloons(
+pub(crate) fn place_balloons(
     requests: &[PlacementRequest],
     area: &PlacementArea,
 ) -> Result<Vec<PlacedBalloon>, usize> {

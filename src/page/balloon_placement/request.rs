@@ -10,7 +10,7 @@ use crate::page::layout::{ConvexPolygon, Reading};
 
 /// A speech balloon or caption to be placed.
 #[derive(Debug, Clone)]
-pub struct PlacementRequest {
+pub(crate) struct PlacementRequest {
     /// Convex hulls of its possible shapes, preferred first, centred at the origin.
     pub hulls: Vec<ConvexPolygon>,
     /// Convex hull of the part that its tail points at, and the exact point. `None` for a balloon without a
@@ -30,7 +30,7 @@ pub struct PlacementRequest {
 
 /// The area for balloons in a panel.
 #[derive(Debug, Clone)]
-pub struct PlacementArea {
+pub(crate) struct PlacementArea {
     /// The outline that contains all balloons.
     pub outline: ConvexPolygon,
     /// Areas that no balloon may cover, such as faces and parts in the key `keep`. A tail may cover only
@@ -48,7 +48,7 @@ pub struct PlacementArea {
 
 /// A placed balloon.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlacedBalloon {
+pub(crate) struct PlacedBalloon {
     /// Index of the chosen shape in [`PlacementRequest::hulls`].
     pub shape: usize,
     /// Its centre.

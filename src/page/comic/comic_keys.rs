@@ -21,7 +21,7 @@ use crate::page::print_inks::{PrintKeys, SpotColours};
 /// A comic page in a page file.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct ComicPage {
+pub(crate) struct ComicPage {
     /// Title for viewers. Default: the name of the file.
     pub title: Option<String>,
     /// Size after trimming. Default: A4.
@@ -69,7 +69,7 @@ pub struct ComicPage {
 /// Reading direction of a page.
 #[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum ReadingKey {
+pub(crate) enum ReadingKey {
     /// From left to right.
     #[default]
     Ltr,
@@ -89,7 +89,7 @@ impl From<ReadingKey> for Reading {
 /// Gaps between panels.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(untagged, expecting = "this is not a gutter; write one length, or [between columns, between rows]")]
-pub enum Gutter {
+pub(crate) enum Gutter {
     /// The same gap everywhere.
     All(Mm),
     /// The gap between columns, and the gap between rows.
@@ -99,7 +99,7 @@ pub enum Gutter {
 /// Settings of all letters of a page.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct LetteringKeys {
+pub(crate) struct LetteringKeys {
     /// Name of a bundled font, or a font file. Default: comic.
     pub font: Spanned<String>,
     /// Em size of the letters. Default: 3.4 mm.
@@ -120,7 +120,7 @@ pub struct LetteringKeys {
 /// A panel of a comic page.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct PanelKeys {
+pub(crate) struct PanelKeys {
     /// Name of its layers. Default: `panel-1` and so on.
     pub name: Option<Spanned<String>>,
     /// Position outside the layout: left, top, width and height, from the corner of the trimmed page.
@@ -159,7 +159,7 @@ pub struct PanelKeys {
 /// A balloon or caption.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct BalloonKeys {
+pub(crate) struct BalloonKeys {
     /// Text of the balloon.
     pub text: Spanned<String>,
     /// Kind of balloon. Default: speech.
@@ -178,7 +178,7 @@ pub struct BalloonKeys {
 /// Kind of balloon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum BalloonKind {
+pub(crate) enum BalloonKind {
     /// An ellipse with a tail.
     #[default]
     Speech,
@@ -195,7 +195,7 @@ pub enum BalloonKind {
 /// A sound effect.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SoundKeys {
+pub(crate) struct SoundKeys {
     /// Text of the sound.
     pub text: Spanned<String>,
     /// Position of the centre, as shares of the panel's width and height. Default: 0.5, 0.75.
@@ -279,14 +279,14 @@ impl Default for LetteringKeys {
 impl ComicPage {
     /// The keys that set the inks of the page.
     #[must_use]
-    pub fn print(&self) -> PrintKeys {
+    pub(crate) fn print(&self) -> PrintKeys {
         let Self { ink, icc, ink_limit, spot, .. } = self.clone();
         PrintKeys { ink, icc, ink_limit, spot }
     }
 
     /// The files that the page is made from: models, styles, cameras and the ICC profile.
     #[must_use]
-    pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
+    pub(crate) fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = style_file(&self.style, source).into_iter().collect();
         files.extend(self.icc.as_ref().map(|icc| source.resolve(icc.get_ref())));
         for panel in self.panel.iter().map(Spanned::get_ref) {

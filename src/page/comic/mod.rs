@@ -10,7 +10,7 @@
 //! Files, in reading order: [`comic_keys`], the keys of a page file; `panel_outlines`; `panel_drawing`;
 //! `panel_border`; then the folder `lettering`.
 
-pub mod comic_keys;
+pub(crate) mod comic_keys;
 mod lettering;
 mod panel_border;
 mod panel_drawing;
@@ -25,14 +25,14 @@ use crate::drawing::{Composition, Page, PrintBoxes, Unit};
 use crate::error::Error;
 use panel_outlines::PageBoxes;
 
-pub use comic_keys::ComicPage;
+pub(crate) use comic_keys::ComicPage;
 
 /// Draws a comic page. Panels come first in their order, then parts that break out of borders, then all
 /// letters.
 ///
 /// # Errors
 /// Returns an error with the line of the wrong key.
-pub fn compose(comic: &ComicPage, source: &PageSource) -> Result<ComposedPage, Error> {
+pub(crate) fn compose(comic: &ComicPage, source: &PageSource) -> Result<ComposedPage, Error> {
     let sheet = PageBoxes::of(comic, source)?;
     let shapes = panel_outlines::panel_outlines(comic, &sheet, source)?;
     let lettering = lettering::Lettering::new(&comic.lettering, comic.reading.into(), source)?;

@@ -56,7 +56,7 @@ impl PanelScene {
     ///
     /// `parts` holds part names. Names of the form `model/part` select the models that count as figures,
     /// which weigh more than other models. Without such a name, all models are figures.
-    pub fn coverage(&self, parts: &[&str]) -> CoverageGrid {
+    pub(crate) fn coverage(&self, parts: &[&str]) -> CoverageGrid {
         let models: Vec<&str> =
             parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
         let is_figure = |part: &Part| {
@@ -70,7 +70,11 @@ impl PanelScene {
     ///
     /// # Errors
     /// Returns an error if no part matches.
-    pub fn part_bounds(&self, glob: &Spanned<String>, source: &PageSource) -> Result<Vec<PartExtent>, Error> {
+    pub(crate) fn part_bounds(
+        &self,
+        glob: &Spanned<String>,
+        source: &PageSource,
+    ) -> Result<Vec<PartExtent>, Error> {
         let mut places = figure::find_part_bounds(&self.scene, &self.camera, glob.get_ref());
         if !self.scene.parts.iter().any(|part| name_matches(glob.get_ref(), &part.name)) {
             return Err(camera_spec::unknown_part(glob, &self.scene, source));

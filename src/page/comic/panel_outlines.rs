@@ -46,7 +46,7 @@ impl PageBoxes {
     ///
     /// # Errors
     /// Returns an error if a length is negative, or a margin leaves no space.
-    pub fn of(page: &ComicPage, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn of(page: &ComicPage, source: &PageSource) -> Result<Self, Error> {
         for length in [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line]
         {
             if length.get_ref().0 < 0.0 {

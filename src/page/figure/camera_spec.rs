@@ -31,7 +31,7 @@ const CLOSE_ZOOM: f64 = 1.7;
 
 /// The camera of a figure: a word or a table.
 #[derive(Debug, Clone)]
-pub enum CameraSpec {
+pub(crate) enum CameraSpec {
     /// A named view, the file of a camera record, or a camera of the model.
     Word(String),
     /// A table of keys.
@@ -47,7 +47,7 @@ impl Default for CameraSpec {
 /// The keys of a camera.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct CameraKeys {
+pub(crate) struct CameraKeys {
     /// A named view. It is orthographic unless `fov` is given.
     pub view: Option<Spanned<String>>,
     /// The file of a camera record, or a camera of the model. With `look_at` only its direction is used.
@@ -75,7 +75,7 @@ pub struct CameraKeys {
 /// The section of the parts that fills the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum FramedPart {
+pub(crate) enum FramedPart {
     /// The whole parts.
     #[default]
     Full,
@@ -112,7 +112,7 @@ impl<'de> Visitor<'de> for CameraSpecVisitor {
 impl CameraSpec {
     /// The file of a camera record, if one is named.
     #[must_use]
-    pub fn file(&self, source: &PageSource) -> Option<PathBuf> {
+    pub(crate) fn file(&self, source: &PageSource) -> Option<PathBuf> {
         let name = match self {
             Self::Word(word) => word,
             Self::Keys(keys) => keys.record.as_ref()?.get_ref(),
@@ -125,7 +125,7 @@ impl CameraSpec {
 ///
 /// # Errors
 /// Returns an error if there is no such camera, view or part, or a number is out of range.
-pub fn camera(
+pub(crate) fn camera(
     aim: &Spanned<CameraSpec>,
     scene: &Scene,
     [width, height]: [f64; 2],
@@ -230,7 +230,7 @@ fn fit_camera(
 
 /// The error that no part matches a pattern; it names the nearest part or all parts.
 #[must_use]
-pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &PageSource) -> Error {
+pub(crate) fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &PageSource) -> Error {
     let mut known: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
     known.dedup();
     let near = nearest(glob.get_ref(), &known).filter(|near| !name_matches(glob.get_ref(), near));

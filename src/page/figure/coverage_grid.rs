@@ -18,7 +18,7 @@ const OTHER_WEIGHT: u32 = 1;
 
 /// The covered area of a frame on a grid of squares.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CoverageGrid {
+pub(crate) struct CoverageGrid {
     /// The frame on the page.
     frame: Rect,
     /// Weight of each square, row by row; 0 for free squares.
@@ -31,7 +31,12 @@ impl CoverageGrid {
     /// Rasterises a scene into the frame of a camera, which is placed at `corner`. `is_figure` selects the
     /// parts with the higher weight.
     #[must_use]
-    pub fn of(scene: &Scene, camera: &Camera, corner: Point, is_figure: &dyn Fn(&Part) -> bool) -> Self {
+    pub(crate) fn of(
+        scene: &Scene,
+        camera: &Camera,
+        corner: Point,
+        is_figure: &dyn Fn(&Part) -> bool,
+    ) -> Self {
         let frame = Frame::new(camera, DVec3::ZERO);
         let mut squares = vec![0; SQUARES_PER_SIDE * SQUARES_PER_SIDE];
         let scale =
@@ -62,7 +67,7 @@ impl CoverageGrid {
 
     /// Whether a figure covers the square at a point.
     #[must_use]
-    pub fn is_figure(&self, p: Point) -> bool {
+    pub(crate) fn is_figure(&self, p: Point) -> bool {
         let square =
             |at: f64, from: f64, length: f64| ((at - from) / length * SQUARES_PER_SIDE as f64).floor();
         let x = square(p.x, self.frame.x0, self.frame.width());
@@ -74,7 +79,7 @@ impl CoverageGrid {
 
     /// Covered share of a box, in whole squares. Parts that are not figures count one third.
     #[must_use]
-    pub fn covered_share(&self, of: Rect) -> f64 {
+    pub(crate) fn covered_share(&self, of: Rect) -> f64 {
         let square = |at: f64, from: f64, length: f64| {
             ((at - from) / length * SQUARES_PER_SIDE as f64).round().clamp(0.0, SQUARES_PER_SIDE as f64)
                 as usize

@@ -13,7 +13,11 @@ use crate::style::{Style, placed_change, unitless_length_warning};
 ///
 /// # Errors
 /// Returns an error if there is no such style, or a change is invalid.
-pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSource) -> Result<Style, Error> {
+pub(crate) fn style(
+    name: &Spanned<String>,
+    sets: &[Spanned<String>],
+    source: &PageSource,
+) -> Result<Style, Error> {
     let known: Vec<&str> = Style::names().collect();
     let sheet = match style_file(name, source) {
         None => name.get_ref().clone(),
@@ -34,13 +38,17 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSour
         let change = placed_change(set.get_ref(), source.folder());
         changes.push(change.map_err(|error| source.about(&set.span(), without_place(error)))?);
     }
-    Style::load(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
+    Style::load_with(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
 }
 
 /// The warning about lengths without a unit in the page file or its own sheets; the default unit of a page is
 /// mm.
 #[must_use]
-pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &PageSource) -> Option<String> {
+pub(crate) fn unit_warning(
+    name: &Spanned<String>,
+    sets: &[Spanned<String>],
+    source: &PageSource,
+) -> Option<String> {
     let sheet = style_file(name, source)
         .map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
     let sets: Vec<String> = sets.iter().map(|set| set.get_ref().clone()).collect();
@@ -56,6 +64,6 @@ fn without_place(mut error: Error) -> Error {
 
 /// The file of a style, unless it is built in.
 #[must_use]
-pub fn style_file(name: &Spanned<String>, source: &PageSource) -> Option<PathBuf> {
+pub(crate) fn style_file(name: &Spanned<String>, source: &PageSource) -> Option<PathBuf> {
     Style::sheet_text(name.get_ref()).is_none().then(|| source.resolve(name.get_ref()))
 }

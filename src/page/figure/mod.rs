@@ -13,23 +13,25 @@
 //!
 //! Helpers: [`part_colours`] replaces materials by colours; `scene_assembly` moves and joins scenes.
 
-pub mod camera_spec;
-pub mod coverage_grid;
-pub mod figure_style;
-pub mod models;
-pub mod part_bounds;
-pub mod part_colours;
+pub(crate) mod camera_spec;
+pub(crate) mod coverage_grid;
+pub(crate) mod figure_style;
+pub(crate) mod models;
+pub(crate) mod part_bounds;
+pub(crate) mod part_colours;
 mod scene_assembly;
 
-pub use camera_spec::{CameraKeys, CameraSpec, FramedPart, camera};
-pub use coverage_grid::CoverageGrid;
-pub use figure_style::style;
-pub use models::{ModelKeys, Models, assemble_scene};
-pub use part_bounds::{PartExtent, find_part_bounds, name_matches};
+pub(crate) use camera_spec::{CameraSpec, camera};
+pub(crate) use coverage_grid::CoverageGrid;
+pub(crate) use figure_style::style;
+pub(crate) use models::{Models, assemble_scene};
+pub(crate) use part_bounds::{PartExtent, find_part_bounds, name_matches};
+
+use std::borrow::Cow;
 
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
-use crate::pipeline::render_reported;
+use crate::pipeline::Renderer;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
@@ -38,13 +40,13 @@ use crate::style::Style;
 ///
 /// # Errors
 /// Returns an error if the camera is invalid.
-pub fn draw(
+pub(crate) fn draw(
     scene: &Scene,
     camera: &Camera,
     style: &Style,
     page: Page,
 ) -> Result<(Drawing, Vec<String>), Error> {
-    let (drawing, report) = render_reported(scene, camera, style, page, None)?;
+    let (drawing, report) = Renderer::for_camera(Cow::Borrowed(scene), style, camera).draw(camera, page)?;
     let mut warnings = scene.warnings.lines();
     warnings.extend(report.warnings.into_iter().filter(|warning| !scene.warnings.lines().contains(warning)));
     Ok((drawing, warnings))

@@ -25,7 +25,7 @@ use crate::style::Style;
 /// The keys of a model.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ModelKeys {
+pub(crate) struct ModelKeys {
     /// File of the model, relative to the page file.
     pub file: Spanned<String>,
     /// Prefix of its part names: `hero` makes them `hero/head` and so on. Default: none.
@@ -57,11 +57,11 @@ pub struct ModelKeys {
 
 /// The models of a figure: a path, a table of keys, or a list of these.
 #[derive(Debug, Clone, Default)]
-pub struct Models(pub Vec<ModelKeys>);
+pub(crate) struct Models(pub Vec<ModelKeys>);
 
 impl Models {
     /// The files of all models.
-    pub fn files<'a>(&'a self, source: &'a PageSource) -> impl Iterator<Item = PathBuf> + 'a {
+    pub(crate) fn files<'a>(&'a self, source: &'a PageSource) -> impl Iterator<Item = PathBuf> + 'a {
         self.0.iter().map(|model| source.resolve(model.file.get_ref()))
     }
 }
@@ -141,7 +141,7 @@ fn add(written: Spanned<ModelValue>, models: &mut Vec<ModelKeys>) -> Result<(), 
 ///
 /// # Errors
 /// Returns an error if a model cannot be read, lacks the animation or parts, or has an invalid position.
-pub fn assemble_scene(
+pub(crate) fn assemble_scene(
     models: &Models,
     time: Option<&Spanned<f64>>,
     animation: Option<&Spanned<String>>,

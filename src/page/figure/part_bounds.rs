@@ -11,7 +11,7 @@ use crate::view::Frame;
 
 /// The bounds of a part in the frame of a camera, hidden or not.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PartExtent {
+pub(crate) struct PartExtent {
     /// Name of the part.
     pub part: String,
     /// Bounding box, in units of the frame.
@@ -25,7 +25,7 @@ pub struct PartExtent {
 /// It may match the whole name, the name without its model (`head` for `hero/head`), or the model (`hero` for
 /// all its parts).
 #[must_use]
-pub fn name_matches(glob: &str, name: &str) -> bool {
+pub(crate) fn name_matches(glob: &str, name: &str) -> bool {
     let own = || {
         name.split_once('/')
             .is_some_and(|(model, part)| glob_matches(glob, part) || glob_matches(glob, model))
@@ -40,7 +40,7 @@ pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
 
 /// The bounds of the parts that match a pattern and are in front of the camera.
 #[must_use]
-pub fn find_part_bounds(scene: &Scene, camera: &Camera, glob: &str) -> Vec<PartExtent> {
+pub(crate) fn find_part_bounds(scene: &Scene, camera: &Camera, glob: &str) -> Vec<PartExtent> {
     let frame = Frame::new(camera, DVec3::ZERO);
     let mut places = Vec::new();
     let drawn = DrawnPoints::of_parts(scene, |part| name_matches(glob, &part.name));

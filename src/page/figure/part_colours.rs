@@ -17,7 +17,7 @@ use crate::scene::{Material, Scene};
     untagged,
     expecting = "this is not a colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
 )]
-pub enum PartColours {
+pub(crate) enum PartColours {
     /// One colour for all parts.
     All(Colour),
     /// Colours by pattern; the longest matching pattern applies.

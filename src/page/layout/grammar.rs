@@ -10,14 +10,14 @@
 use std::ops::Range;
 
 /// Maximum number of panels.
-pub const MAX_PANELS: usize = 10_000;
+pub(crate) const MAX_PANELS: usize = 10_000;
 
 /// Maximum nesting depth of brackets.
 const MAX_BRACKET_DEPTH: usize = 32;
 
 /// An error in a layout.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LayoutFault {
+pub(crate) struct LayoutFault {
     /// Position in the text, bytes.
     pub span: Range<usize>,
     /// Description of the error.
@@ -28,7 +28,7 @@ pub struct LayoutFault {
 
 /// Direction of a stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StackAxis {
+pub(crate) enum StackAxis {
     /// Items below each other.
     Rows,
     /// Items side by side.
@@ -37,7 +37,7 @@ pub enum StackAxis {
 
 /// The share of a stack that an item takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PanelShare {
+pub(crate) enum PanelShare {
     /// Percent if another item takes the rest, otherwise a proportion.
     Number(f64),
     /// The rest that other items leave.
@@ -46,7 +46,7 @@ pub enum PanelShare {
 
 /// A stack of rows or columns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stack {
+pub(crate) struct Stack {
     /// Direction of the stack.
     pub axis: StackAxis,
     /// The items in reading order.
@@ -58,7 +58,7 @@ pub struct Stack {
 
 /// A row or column of a stack.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StackItem {
+pub(crate) struct StackItem {
     /// Share of the stack.
     pub share: PanelShare,
     /// The stack inside; `None` for a panel.
@@ -71,7 +71,7 @@ pub struct StackItem {
 ///
 /// # Errors
 /// Returns an error at the position of the wrong character.
-pub fn parse(text: &str) -> Result<Stack, LayoutFault> {
+pub(crate) fn parse(text: &str) -> Result<Stack, LayoutFault> {
     let mut parser = LayoutParser { text, at: 0, panels: 0 };
     let stack = parser.stack(0)?;
     match parser.peek() {

@@ -19,10 +19,9 @@
 //! assert_eq!(cells[2].nominal, Rect::new(0.0, 34.2, 100.0, 100.0));
 //! ```
 
-pub mod grammar;
-pub mod panel_cells;
-pub mod polygon;
+pub(crate) mod grammar;
+pub(crate) mod panel_cells;
+pub(crate) mod polygon;
 
-pub use grammar::LayoutFault;
-pub use panel_cells::{LayoutGrid, PanelCell, Reading, cells};
-pub use polygon::ConvexPolygon;
+pub(crate) use panel_cells::{LayoutGrid, Reading, cells};
+pub(crate) use polygon::ConvexPolygon;

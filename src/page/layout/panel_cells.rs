@@ -16,7 +16,7 @@ const MIN_PANEL_SIDE_MM: f64 = 2.0;
 
 /// Reading direction of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Reading {
+pub(crate) enum Reading {
     /// From left to right.
     #[default]
     Ltr,
@@ -26,7 +26,7 @@ pub enum Reading {
 
 /// The area that a layout divides.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LayoutGrid {
+pub(crate) struct LayoutGrid {
     /// The rectangle to divide.
     pub frame: Rect,
     /// Gap between columns, and between rows.
@@ -37,7 +37,7 @@ pub struct LayoutGrid {
 
 /// A panel of a layout.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PanelCell {
+pub(crate) struct PanelCell {
     /// Its rectangle if no gutter is slanted.
     pub nominal: Rect,
     /// The half planes of the gutters around it.
@@ -49,7 +49,7 @@ pub struct PanelCell {
 impl PanelCell {
     /// The outline within a frame: the divided area, or a larger one for panels with bleed.
     #[must_use]
-    pub fn outline(&self, frame: Rect) -> ConvexPolygon {
+    pub(crate) fn outline(&self, frame: Rect) -> ConvexPolygon {
         self.sides.iter().fold(ConvexPolygon::from(frame), |rest, side| rest.cut(side))
     }
 }
@@ -58,7 +58,7 @@ impl PanelCell {
 ///
 /// # Errors
 /// Returns an error at the position of a syntax error or of a panel that is too small.
-pub fn cells(layout: &str, grid: &LayoutGrid) -> Result<Vec<PanelCell>, LayoutFault> {
+pub(crate) fn cells(layout: &str, grid: &LayoutGrid) -> Result<Vec<PanelCell>, LayoutFault> {
     let stack = parse(layout)?;
     let mut cells = Vec::new();
     split_stack(&stack, grid.frame, &[], grid, &mut cells)?;

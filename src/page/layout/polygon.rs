@@ -8,7 +8,7 @@ use crate::page::tolerances::MAX_OUTWARD_CROSS_PRODUCT_MM2;
 
 /// A half plane: the points `p` with `(p - point) · normal >= 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HalfPlane {
+pub(crate) struct HalfPlane {
     /// A point on the boundary line.
     pub point: Point,
     /// Unit normal into the half plane.
@@ -18,13 +18,13 @@ pub struct HalfPlane {
 impl HalfPlane {
     /// Signed distance of a point from the boundary, positive inside.
     #[must_use]
-    pub fn depth(&self, p: Point) -> f64 {
+    pub(crate) fn depth(&self, p: Point) -> f64 {
         (p - self.point).dot(self.normal)
     }
 
     /// The half plane mirrored at a vertical line.
     #[must_use]
-    pub fn mirrored(self, x: f64) -> Self {
+    pub(crate) fn mirrored(self, x: f64) -> Self {
         let point = Point::new(2.0 * x - self.point.x, self.point.y);
         Self { point, normal: Vec2::new(-self.normal.x, self.normal.y) }
     }
@@ -32,7 +32,7 @@ impl HalfPlane {
 
 /// A convex polygon, clockwise with y down; may be empty.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct ConvexPolygon(pub Vec<Point>);
+pub(crate) struct ConvexPolygon(pub Vec<Point>);
 
 impl From<Rect> for ConvexPolygon {
     fn from(r: Rect) -> Self {
@@ -43,7 +43,7 @@ impl From<Rect> for ConvexPolygon {
 impl ConvexPolygon {
     /// The part of the polygon in a half plane.
     #[must_use]
-    pub fn cut(&self, side: &HalfPlane) -> Self {
+    pub(crate) fn cut(&self, side: &HalfPlane) -> Self {
         let mut kept = Vec::with_capacity(self.0.len() + 1);
         for (a, b) in self.sides() {
             let (from, to) = (side.depth(a), side.depth(b));
@@ -59,7 +59,7 @@ impl ConvexPolygon {
 
     /// The polygon with all sides moved inwards.
     #[must_use]
-    pub fn inset(&self, by: f64) -> Self {
+    pub(crate) fn inset(&self, by: f64) -> Self {
         let sides: Vec<(Point, Point)> = self.sides().collect();
         sides.iter().filter(|(a, b)| a != b).fold(self.clone(), |rest, (a, b)| {
             let way = (*b - *a).normalize();
@@ -69,35 +69,35 @@ impl ConvexPolygon {
     }
 
     /// The sides in order.
-    pub fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+    pub(crate) fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
         let ends = self.0.iter().cycle().skip(1);
         self.0.iter().copied().zip(ends.copied())
     }
 
     /// The area.
     #[must_use]
-    pub fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         let Some(first) = self.0.first() else { return 0.0 };
         self.sides().map(|(a, b)| (a - *first).cross(b - *first)).sum::<f64>() / 2.0
     }
 
     /// The bounding box.
     #[must_use]
-    pub fn bounds(&self) -> Rect {
+    pub(crate) fn bounds(&self) -> Rect {
         let first = self.0.first().copied().unwrap_or_default();
         self.0.iter().fold(Rect::from_points(first, first), |rect, p| rect.union_pt(*p))
     }
 
     /// Whether a point is inside or on the boundary.
     #[must_use]
-    pub fn holds(&self, p: Point) -> bool {
+    pub(crate) fn holds(&self, p: Point) -> bool {
         !self.0.is_empty()
             && self.sides().all(|(a, b)| (b - a).cross(p - a) >= -MAX_OUTWARD_CROSS_PRODUCT_MM2)
     }
 
     /// The intersection of two polygons.
     #[must_use]
-    pub fn common(&self, other: &Self) -> Self {
+    pub(crate) fn common(&self, other: &Self) -> Self {
         other.sides().filter(|(a, b)| a != b).fold(self.clone(), |rest, (a, b)| {
             let way = (b - a).normalize();
             rest.cut(&HalfPlane { point: a, normal: Vec2::new(-way.y, way.x) })
@@ -107,7 +107,7 @@ impl ConvexPolygon {
     /// Whether two polygons are closer than a gap. Only lines along their sides are tested as separators, so
     /// polygons near each other's corners count as closer.
     #[must_use]
-    pub fn meets(&self, other: &Self, gap: f64) -> bool {
+    pub(crate) fn meets(&self, other: &Self, gap: f64) -> bool {
         !self.0.is_empty() && !other.0.is_empty() && !self.parts(other, gap) && !other.parts(self, gap)
     }
 
@@ -121,7 +121,7 @@ impl ConvexPolygon {
 
     /// The closed path of the boundary.
     #[must_use]
-    pub fn path(&self) -> BezPath {
+    pub(crate) fn path(&self) -> BezPath {
         let mut path = BezPath::new();
         for (number, p) in self.0.iter().enumerate() {
             if number == 0 { path.move_to(*p) } else { path.line_to(*p) }
@@ -134,7 +134,7 @@ impl ConvexPolygon {
 
     /// The polygon moved by a vector.
     #[must_use]
-    pub fn moved(&self, by: Vec2) -> Self {
+    pub(crate) fn moved(&self, by: Vec2) -> Self {
         Self(self.0.iter().map(|p| *p + by).collect())
     }
 }

@@ -18,21 +18,19 @@ mod annotations;
 mod arrangement;
 mod canvas;
 mod dimensions;
-pub mod frame;
-pub mod keys;
+pub(crate) mod frame;
+pub(crate) mod keys;
 mod lengths;
-pub mod part_balloons;
-pub mod parts_list;
+pub(crate) mod part_balloons;
+pub(crate) mod parts_list;
 mod sheet_layout;
-pub mod view;
+pub(crate) mod view;
 
 use std::path::PathBuf;
 
 use kurbo::{Affine, Rect};
 
-pub use frame::title_block::TitleKeys;
-pub use keys::sheet_keys::SheetPage;
-pub use view::projection_method::ProjectionMethod;
+pub(crate) use keys::sheet_keys::SheetPage;
 
 use super::composed_page::ComposedPage;
 use super::figure;
@@ -57,7 +55,7 @@ const MARK_CLEARANCE_MM: f64 = 2.0;
 impl SheetPage {
     /// The files that the sheet is made from: models, style and parts list.
     #[must_use]
-    pub fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
+    pub(crate) fn inputs(&self, source: &PageSource) -> Vec<PathBuf> {
         let style = self.style.as_ref().and_then(|style| figure::figure_style::style_file(style, source));
         let list = match self.parts_list.as_ref().map(toml::Spanned::get_ref) {
             Some(ListKeys::File(path)) => Some(source.resolve(path)),
@@ -74,7 +72,7 @@ impl SheetPage {
     /// The size of the sheet, mm. Default: A3. Sizes above A4 are turned to landscape format; smaller ones
     /// keep their orientation.
     #[must_use]
-    pub fn oriented_size(&self) -> PageSize {
+    pub(crate) fn oriented_size(&self) -> PageSize {
         let size = self.size.unwrap_or(PageSize { width: 420.0, height: 297.0 });
         let is_small = size.width.max(size.height) <= 297.0;
         if is_small { size } else { size.landscape() }
@@ -93,7 +91,7 @@ fn size_name(size: PageSize) -> &'static str {
 /// # Errors
 /// Returns an error if the model or style cannot be read, a key names something that does not exist, or the
 /// views do not fit.
-pub fn compose(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
+pub(crate) fn compose(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
     let in_file = |error: Error| if error.file.is_some() { error } else { error.in_file(&source.path) };
     compose_sheet(sheet, source).map_err(in_file)
 }

@@ -22,7 +22,7 @@ use crate::page::sheet::keys::sheet_keys::SheetPage;
 use crate::page::sheet::part_balloons::balloon_anchors::find_anchors;
 use crate::page::sheet::parts_list::parts_list_items::PartsListItem;
 use crate::page::tolerances::LENGTH_ROUNDING_MM;
-use crate::pipeline::Prepared;
+use crate::pipeline::Renderer;
 use crate::surface::Cylinder;
 use crate::text::Font;
 
@@ -58,7 +58,7 @@ impl<'a> SheetLayout<'a> {
     ///
     /// # Errors
     /// Returns an error if the set of dimensions is unknown.
-    pub fn new(sheet: &'a SheetPage, plan: &ViewPlan, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn new(sheet: &'a SheetPage, plan: &ViewPlan, source: &PageSource) -> Result<Self, Error> {
         let dimensions = match &sheet.dimensions {
             None => "overall",
             Some(requested_set) => match &**requested_set.get_ref() {
@@ -99,7 +99,7 @@ impl<'a> SheetLayout<'a> {
     ///
     /// # Errors
     /// Returns an error if the views or their annotations do not fit, or a view cannot be drawn.
-    pub fn settle_layout(
+    pub(crate) fn settle_layout(
         &mut self,
         plan: &mut ViewPlan,
         space_and_reserved: (Rect, &[Rect]),
@@ -111,7 +111,7 @@ impl<'a> SheetLayout<'a> {
         let mut prepared = Vec::new();
         for (number, set) in sets.iter().enumerate() {
             prepared
-                .push(plan.scene_of_view.contains(&number).then(|| Prepared::new(&set.scene, &set.style)));
+                .push(plan.scene_of_view.contains(&number).then(|| Renderer::new(&set.scene, &set.style)));
         }
         let mut drawings = ViewDrawings::new(prepared, plan.views.len());
         let mut anchors: Option<Vec<Option<DVec2>>> = None;

@@ -17,7 +17,7 @@ pub(crate) struct ShadowCache {
 
 impl ShadowCache {
     /// The shadows of these lights on the surface's mesh. Lights that move with the camera get new shadows.
-    pub fn of(&self, mesh: &Mesh, casters: &[Caster]) -> Arc<Shadows> {
+    pub(crate) fn of(&self, mesh: &Mesh, casters: &[Caster]) -> Arc<Shadows> {
         if let Some(first) = self.first.get().filter(|first| first.casters() == casters) {
             return Arc::clone(first);
         }

@@ -49,7 +49,7 @@ impl ViewCache {
     /// waits.
     ///
     /// With `finds`, this view finds all intersections if no earlier one has.
-    pub fn share_with_next_view(
+    pub(crate) fn share_with_next_view(
         &self,
         surface: &Surface,
         options: &LineOptions,
@@ -71,7 +71,7 @@ impl ViewCache {
     /// `None` if a shared result exists, if hidden lines are drawn, or if covers do not pay off. The first
     /// view needs them; later views use the shared intersections, unless the surface has too many faces to
     /// find all.
-    pub fn in_sight(
+    pub(crate) fn in_sight(
         &self,
         surface: &Surface,
         view: &View,
@@ -90,7 +90,7 @@ impl ViewCache {
     }
 
     /// Bounds of the edges of a surface, for one more view that may split its faces.
-    pub fn cones_of_next_view(&self, surface: &Surface) -> Option<&NormalCones> {
+    pub(crate) fn cones_of_next_view(&self, surface: &Surface) -> Option<&NormalCones> {
         let is_asked =
             !surface.refined && surface.mesh.edges.len() >= MIN_SEARCH_EDGES && !surface.smooth.is_empty();
         // Built at the second view: a surface drawn only once gains nothing.
@@ -101,7 +101,7 @@ impl ViewCache {
     }
 
     /// The intersections for one more view that splits faces, if the shared search finds them faster.
-    pub fn share_with_finer_view(
+    pub(crate) fn share_with_finer_view(
         &self,
         surface: &Surface,
         finer: &RefinedSurface,

@@ -12,7 +12,7 @@ use crate::light::tones::tone_options::ToneScale;
 use crate::light::{LightOptions, ShadeOptions, ToneOptions};
 use crate::lines::{LineKind, LineOptions, Source};
 use crate::mesh::{MaterialId, PaintId};
-use crate::pipeline::Prepared;
+use crate::pipeline::Renderer;
 use crate::regions::paint::region_paint;
 use crate::regions::{self, PageBorders, RegionOptions, SurfaceLabel};
 use crate::scene::{Camera, GlassDraw, GlassOptions, Scene, TextureFill, TextureOptions};
@@ -63,9 +63,8 @@ fn one_tone(style: &Style) -> Style {
 /// # Errors
 /// If the camera is invalid: see [`Camera::validate`].
 pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Result<Vec<Hotspot>, Error> {
-    camera.validate()?;
     let style = one_tone(style);
-    let prepared = Prepared::new(scene, &style);
+    let prepared = Renderer::new(scene, &style);
     let by_part = |look: &SurfaceLabel| SurfaceLabel {
         part: look.part,
         material: MaterialId(0),
@@ -75,13 +74,13 @@ pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Re
         cast: false,
     };
     let areas = prepared.with_visibility(camera, page.unit, |on_view| {
-        let fills = on_view.fills?;
+        let Some(fills) = on_view.fills else { return Ok(Vec::new()) };
         let seen = fills.label_page(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
         let regions = regions::gather_relabelled(&seen, by_part, &style.region, &style.chain, page.unit);
         let offset = fills.paint_context(&page, camera).offset;
-        Some(region_paint::outlines(&regions, offset, 0.0, |_| true))
+        Ok(region_paint::outlines(&regions, offset, 0.0, |_| true))
     });
-    let mut areas = areas.unwrap_or_default();
+    let mut areas = areas?;
     areas.sort_by_key(|(_, region)| region.label.part);
     let mut spots: Vec<Hotspot> = Vec::new();
     let mut numbers: FxHashMap<&str, usize> = FxHashMap::default();

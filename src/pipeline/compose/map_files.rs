@@ -12,7 +12,7 @@ use crate::view::raster::{NO_FRONT, NormalDepthMaps};
 /// Maps of a view as PNG files of equal size, with `lines.image.samples` pixels per px of the drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct MapFiles {
+pub(crate) struct MapFiles {
     /// Unit normals of the visible side, -1 to 1 mapped to 0 to 255: red to the right, green up, blue towards
     /// the camera. Black for background.
     pub normal: Vec<u8>,
@@ -26,11 +26,11 @@ pub struct MapFiles {
 
 impl MapFiles {
     /// File names, in the order of the fields.
-    pub const NAMES: [&'static str; 4] = ["normal.png", "depth.png", "edges.png", "parts.png"];
+    pub(crate) const NAMES: [&'static str; 4] = ["normal.png", "depth.png", "edges.png", "parts.png"];
 
     /// The files with their names.
     #[must_use]
-    pub fn named(&self) -> [(&'static str, &[u8]); 4] {
+    pub(crate) fn named(&self) -> [(&'static str, &[u8]); 4] {
         let [normal, depth, edges, parts] = Self::NAMES;
         [(normal, &self.normal), (depth, &self.depth), (edges, &self.edges), (parts, &self.parts)]
     }

@@ -16,7 +16,8 @@ use crate::pipeline::fills::view_hatching::Hatching;
 use crate::pipeline::lines::chain_samples::{self, ChainSampler};
 use crate::pipeline::lines::motion_line_pass::{self, Trails};
 use crate::pipeline::lines::{chain_colours, image_line_pass, view_chains};
-use crate::pipeline::prepare::prepared_scene::Prepared;
+use crate::pipeline::prepare::prepared_scene::Renderer;
+use crate::pipeline::progress::Step;
 use crate::pipeline::report::drawing_report::{self, Report, Stopwatch};
 use crate::pipeline::report::{empty_drawing, mesh_defects};
 use crate::pipeline::stages::stage::Stage;
@@ -24,33 +25,49 @@ use crate::pipeline::stages::{self, StageInputs};
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::pipeline::view::page_transform::{centre_on_page, frame_on_page, margin};
 use crate::pipeline::view::visibility_pass::VisibleView;
-use crate::regions::{HatchRegions, PageBorders};
+use crate::regions::{self, HatchRegions, PageBorders, Regions};
 use crate::scene::{Camera, Scene};
 use crate::strokes::{self, InkContext, InkWidths, Parting};
 use crate::view::View;
 use crate::visibility::{GapOcclusion, ViewMap};
 
-impl Prepared<'_> {
-    /// Draws a view as [`render_reported`](crate::pipeline::render_reported) does. The report has only the times spent
-    /// on this view.
+impl Renderer<'_> {
+    /// Draws a view on a page, with the camera's frame in its centre. The report has the times of this view,
+    /// without loading and writing.
     ///
     /// # Errors
-    /// If the camera is invalid: see [`Camera::validate`].
-    pub fn draw(
+    /// If the camera is invalid: see [`Camera::validate`]; or if the progress function cancels.
+    pub fn draw(&self, camera: &Camera, page: Page) -> Result<(Drawing, Report), Error> {
+        self.draw_stage(camera, page, None)
+    }
+
+    /// Draws a view, or with a stage named the result of that stage.
+    pub(crate) fn draw_stage(
         &self,
         camera: &Camera,
         page: Page,
         stage: Option<Stage>,
     ) -> Result<(Drawing, Report), Error> {
-        camera.validate()?;
-        Ok(self.with_visibility(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
+        self.with_visibility(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage))
+    }
+
+    /// The regions of a view that the style paints, in user units of the page; none if it paints nothing.
+    ///
+    /// # Errors
+    /// If the camera is invalid: see [`Camera::validate`]; or if the progress function cancels.
+    pub fn regions(&self, camera: &Camera, page: Page) -> Result<Regions, Error> {
+        self.with_visibility(camera, page.unit, |on_view| {
+            let Some(fills) = on_view.fills else { return Ok(Regions::default()) };
+            let seen = fills.label_page(&PageBorders::of(&on_view.map, &on_view.view.frame), &page);
+            Ok(regions::gather(&seen, &self.style.region, &self.style.chain, page.unit))
+        })
     }
 
     /// The maps of a view for finding image lines, even if the style draws none. `unit` is that of the page.
     ///
     /// # Errors
     /// If the camera is invalid: see [`Camera::validate`].
-    pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
+    pub(crate) fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
         run_on_pool(|| {
             let refined = self.surface.refined_for(camera, None);
@@ -64,17 +81,21 @@ impl Prepared<'_> {
     /// The ground of a view's hatching, and the strokes of each of its layers with their identities. `None`
     /// if the style hatches nothing or the camera is invalid.
     #[must_use]
-    pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(HatchRegions, Vec<LayerStrokes>)> {
-        camera.validate().ok()?;
-        self.with_visibility(camera, page.unit, |on_view| {
+    pub(crate) fn hatch_strokes(
+        &self,
+        camera: &Camera,
+        page: Page,
+    ) -> Option<(HatchRegions, Vec<LayerStrokes>)> {
+        let strokes = self.with_visibility(camera, page.unit, |on_view| {
             let VisibleView { fills, map, behind, .. } = on_view;
-            let fills = fills.filter(|_| self.style.hatch.enabled)?;
+            let Some(fills) = fills.filter(|_| self.style.hatch.enabled) else { return Ok(None) };
             let (scene, style) = (self.scene.as_ref(), self.style);
             let hatching = Hatching { fills, scene, page: &page, camera, style };
             let see = || fills.label_page(&PageBorders::of(&map, &on_view.view.frame), &page);
             let seen = behind.map_or_else(see, |behind| behind.label_page(fills, &page));
-            Some(hatching.strokes(&seen))
-        })
+            Ok(Some(hatching.strokes(&seen)))
+        });
+        strokes.ok().flatten()
     }
 
     /// The drawing of a view with its report; with a stage named, the result of that stage.
@@ -84,7 +105,8 @@ impl Prepared<'_> {
         camera: &Camera,
         page: Page,
         stage: Option<Stage>,
-    ) -> (Drawing, Report) {
+    ) -> Result<(Drawing, Report), Error> {
+        self.begin(Step::Fills)?;
         let Self { scene, style, paints, .. } = self;
         let VisibleView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
         let VisibleView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
@@ -162,6 +184,7 @@ impl Prepared<'_> {
             }),
             frame: Some(frame_on_page(&view.frame, &page)),
         };
+        self.begin(Step::Strokes)?;
         match stage {
             None => {
                 let clear = behind.as_ref().map_or(&surface.mesh, BehindGlass::clear);
@@ -215,7 +238,7 @@ impl Prepared<'_> {
             report.warnings.push(empty_drawing::empty_reason(scene, viewed_mesh, style, !chains.is_empty()));
         }
         let warnings = report.warnings.clone();
-        (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)
+        Ok((Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report))
     }
 }
 

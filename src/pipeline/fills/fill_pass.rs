@@ -45,7 +45,7 @@ pub(crate) struct FillInputs<'a> {
 
 impl FillPass {
     /// Paints and hatches a surface.
-    pub fn of(on: &FillInputs, page: &Page, camera: &Camera) -> Self {
+    pub(crate) fn of(on: &FillInputs, page: &Page, camera: &Camera) -> Self {
         let FillInputs { scene, style, paints, fills, surface, lines, borders, behind } = *on;
         let mut watch = Stopwatch::start();
         let mut painted = Self::default();

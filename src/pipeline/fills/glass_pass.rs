@@ -55,7 +55,7 @@ pub(crate) struct BehindGlass<'a> {
 
 impl GlassPanes {
     /// The panes of a surface. `None` if it has none, or the style draws them as opaque.
-    pub fn of(surface: &Surface, scene: &Scene, style: &Style) -> Option<Self> {
+    pub(crate) fn of(surface: &Surface, scene: &Scene, style: &Style) -> Option<Self> {
         let opacities = style.glass.opacities(scene, GlassDraw::Glass);
         let is_pane = |material: MaterialId| opacities.get(material.index()).copied().flatten().is_some();
         let mesh = &surface.mesh;
@@ -67,12 +67,12 @@ impl GlassPanes {
     }
 
     /// The mesh with panes that hide nothing.
-    pub fn clear(&self) -> &Mesh {
+    pub(crate) fn clear(&self) -> &Mesh {
         &self.clear
     }
 
     /// Decides what is visible through the panes.
-    pub fn decide_behind(
+    pub(crate) fn decide_behind(
         &self,
         mesh: &Mesh,
         view: &View,
@@ -86,18 +86,18 @@ impl GlassPanes {
 
 impl BehindGlass<'_> {
     /// The mesh with panes that hide nothing.
-    pub fn clear(&self) -> &Mesh {
+    pub(crate) fn clear(&self) -> &Mesh {
         self.panes.clear()
     }
 
     /// The surfaces visible without panes.
-    pub fn label_page(&self, fills: &SurfaceFills, page: &Page) -> regions::LabelledPage {
+    pub(crate) fn label_page(&self, fills: &SurfaceFills, page: &Page) -> regions::LabelledPage {
         fills.label_page_behind(&self.panes.clear, &self.map, page)
     }
 
     /// Paints the panes over the layers behind them. Each region has the colour of its tone and the opacity
     /// of its material.
-    pub fn paint(
+    pub(crate) fn paint(
         &self,
         fills: &SurfaceFills,
         borders: &PageBorders,
@@ -119,7 +119,12 @@ impl BehindGlass<'_> {
     }
 
     /// The chains that are visible through panes only. `prepare` changes their view map first.
-    pub fn chains(&mut self, style: &Style, unit: Unit, prepare: impl FnOnce(&mut ViewMap)) -> Vec<Chain> {
+    pub(crate) fn chains(
+        &mut self,
+        style: &Style,
+        unit: Unit,
+        prepare: impl FnOnce(&mut ViewMap),
+    ) -> Vec<Chain> {
         prepare(&mut self.veiled);
         let mut chains = chains::link(&self.veiled, &style.chain, unit, HiddenLines::None);
         chains.iter_mut().for_each(|chain| chain.veiled = true);

@@ -63,14 +63,14 @@ pub(crate) struct ToneInputs {
 
 impl ToneInputs {
     /// Collects the data. `solid` says whether each part of the mesh is closed.
-    pub fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
+    pub(crate) fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
         let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
         Self { normals, edges, solid }
     }
 
     /// The data of a refined surface. Its parts are as closed as before.
-    pub fn finer(&self, surface: &Surface, paints: &Paints) -> Self {
+    pub(crate) fn finer(&self, surface: &Surface, paints: &Paints) -> Self {
         Self::new(surface, paints, self.solid.clone())
     }
 }
@@ -109,7 +109,7 @@ impl<'a> SurfaceFills<'a> {
     /// `casting` is the mesh that casts shadows: that of the surface, where some faces may hide nothing. If
     /// all views share it, `late` caches its shadows.
     #[expect(clippy::too_many_arguments, reason = "it is called once, and each is another thing")]
-    pub fn new(
+    pub(crate) fn new(
         surface: &'a Surface,
         (casting, late): (&'a Mesh, Option<&ShadowCache>),
         paintable: &'a ToneInputs,
@@ -153,12 +153,12 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// Fixes patterns and strokes through the model to its rest pose.
-    pub fn laid_at(self, anchors: &'a Anchors) -> Self {
+    pub(crate) fn laid_at(self, anchors: &'a Anchors) -> Self {
         Self { rest_pose: RestPose::new(anchors, &self.surface.mesh), ..self }
     }
 
     /// The rest positions of a face's corners, world.
-    pub fn rest_corners(&self, face: u32) -> [DVec3; 3] {
+    pub(crate) fn rest_corners(&self, face: u32) -> [DVec3; 3] {
         let mesh = &self.surface.mesh;
         let rest = self.rest_pose.as_ref().zip(mesh.triangles.get(face as usize));
         let rest = rest.and_then(|(rest, triangle)| rest.corners(*triangle));
@@ -167,7 +167,7 @@ impl<'a> SurfaceFills<'a> {
 
     /// Rough rest position of a surface point in its part, in units of `share` times the part's size. `at` is
     /// relative to the mesh's origin.
-    pub fn rough_rest_position(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
+    pub(crate) fn rough_rest_position(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
         let mesh = &self.surface.mesh;
         let world = at + mesh.origin;
         match self.rest_pose.as_ref().and_then(|rest| rest.anchor(part, world)) {
@@ -177,27 +177,27 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// Number of tones of a paint.
-    pub fn tone_count(&self, paint: PaintId) -> u16 {
+    pub(crate) fn tone_count(&self, paint: PaintId) -> u16 {
         self.shading.tone_count(paint)
     }
 
     /// The paints of the scene.
-    pub fn paints(&self) -> &[MaterialPaint] {
+    pub(crate) fn paints(&self) -> &[MaterialPaint] {
         self.paints
     }
 
     /// Unlit colours of the paints.
-    pub fn paint_colours(&self, scene: &Scene, style: &Style) -> Vec<Colour> {
+    pub(crate) fn paint_colours(&self, scene: &Scene, style: &Style) -> Vec<Colour> {
         paint_colours(self.paints, scene, style)
     }
 
     /// Whether a face approximates a rounded surface.
-    pub fn is_round(&self, face: u32) -> bool {
+    pub(crate) fn is_round(&self, face: u32) -> bool {
         self.surface.smooth.corners_of(face).is_some()
     }
 
     /// The surface with its light.
-    pub fn lit(&self) -> Lit<'_> {
+    pub(crate) fn lit(&self) -> Lit<'_> {
         // Where the near plane cuts a part open, its inside is visible.
         let is_cut = !self.view.clipped.is_empty() || self.view.points.iter().any(|p| p.z.is_nan());
         Lit {
@@ -213,7 +213,7 @@ impl<'a> SurfaceFills<'a> {
 
     /// Adds the lines where the tone may change. If they are `inked`, returns the numbers of those where it
     /// does not change, ascending.
-    pub fn add_tone_borders(&self, lines: &mut FeatureLines, inked: bool) -> Vec<u32> {
+    pub(crate) fn add_tone_borders(&self, lines: &mut FeatureLines, inked: bool) -> Vec<u32> {
         let lit = self.lit();
         let first = lines.segments.len();
         let seams = tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
@@ -242,12 +242,12 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// The visible surface, divided by the given borders.
-    pub fn label_page(&self, borders: &PageBorders, page: &Page) -> LabelledPage {
+    pub(crate) fn label_page(&self, borders: &PageBorders, page: &Page) -> LabelledPage {
         self.label_lit_page(&self.lit(), borders, page)
     }
 
     /// The visible surface with another mesh in front, which has the same faces but hides less.
-    pub fn label_page_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> LabelledPage {
+    pub(crate) fn label_page_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> LabelledPage {
         let borders = PageBorders::of(map, &self.view.frame);
         self.label_lit_page(&Lit { mesh: clear, ..self.lit() }, &borders, page)
     }
@@ -259,7 +259,7 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// Outlines of the regions whose look `pick` accepts, with colour, look and provenance.
-    pub fn outlines(
+    pub(crate) fn outlines(
         &self,
         labelled_page: &LabelledPage,
         page: &Page,
@@ -281,7 +281,7 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// Names, colours and position on the page.
-    pub fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
+    pub(crate) fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
         PaintContext {
             unit: page.unit,
             offset: Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0,
@@ -297,12 +297,12 @@ impl<'a> SurfaceFills<'a> {
     }
 
     /// Which lights do not reach points, for hatching bins. None if the bins have no cast shadows.
-    pub fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
+    pub(crate) fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         if self.darkened.bins { self.shadowed(points) } else { vec![0; points.len()] }
     }
 
     /// The painted layers and their regions.
-    pub fn paint(
+    pub(crate) fn paint(
         &self,
         labelled_page: &LabelledPage,
         page: &Page,

@@ -35,14 +35,14 @@ pub(crate) struct Hatching<'a> {
 
 impl Hatching<'_> {
     /// The layer `hatching`, if anything is hatched.
-    pub fn layer(&self, labelled_page: &LabelledPage) -> Option<Layer> {
+    pub(crate) fn layer(&self, labelled_page: &LabelledPage) -> Option<Layer> {
         let ground = self.ground(labelled_page);
         let blacks = if self.style.hatch.blacks > 0 { self.blacks(labelled_page) } else { Vec::new() };
         self.with_context(&ground, |context| hatching::fill(&ground, context, &self.style.hatch, blacks))
     }
 
     /// The ground, and the strokes of each layer on it.
-    pub fn strokes(&self, labelled_page: &LabelledPage) -> (HatchRegions, Vec<LayerStrokes>) {
+    pub(crate) fn strokes(&self, labelled_page: &LabelledPage) -> (HatchRegions, Vec<LayerStrokes>) {
         let ground = self.ground(labelled_page);
         let strokes =
             self.with_context(&ground, |context| hatching::strokes(&ground, context, &self.style.hatch));
@@ -138,7 +138,7 @@ impl Hatching<'_> {
 
     /// The ground, divided into black and other cells. `None` if nothing is black or blacks are not
     /// separated.
-    pub fn black_ground(&self, labelled_page: &LabelledPage) -> Option<HatchRegions> {
+    pub(crate) fn black_ground(&self, labelled_page: &LabelledPage) -> Option<HatchRegions> {
         let hatch = &self.style.hatch;
         let coarser = |look: &SurfaceLabel| black_or_not(look, self.is_black(look));
         (hatch.parting > 0.0 && labelled_page.shows(|look| self.is_black(look)))

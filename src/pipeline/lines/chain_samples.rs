@@ -56,6 +56,9 @@ struct SampleNeeds {
 
 impl SampleNeeds {
     fn of(options: &StrokeOptions) -> Self {
+        if options.choice.is_some() {
+            return Self { depth: true, sides: true, light: true };
+        }
         let mut wanted = Self::default();
         let mut add = |pen: &Pen| {
             wanted.depth |= pen.halo.value > 0.0 || pen.swell.near > 0.0;

@@ -40,7 +40,7 @@ impl<'a> Trails<'a> {
     /// The trails that a mesh leaves visible; `None` if the style or the scene has none.
     ///
     /// `unit` is the unit of the page. `centre` moves them from the camera's frame to the page.
-    pub fn of(
+    pub(crate) fn of(
         (mesh, view, camera): (&Mesh, &View, &Camera),
         scene: &Scene,
         style: &'a Style,
@@ -83,7 +83,7 @@ impl<'a> Trails<'a> {
     }
 
     /// The layer of motion lines.
-    pub fn ink(&self, context: &InkContext) -> Vec<Layer> {
+    pub(crate) fn ink(&self, context: &InkContext) -> Vec<Layer> {
         let options = &self.style.motion;
         let pen = |chain: &Chain| {
             let rule = self.rules.get(chain.segment as usize).copied().flatten();

@@ -31,14 +31,14 @@ pub(crate) struct PreparedMesh<'a> {
 }
 
 impl<'a> PreparedMesh<'a> {
-    pub fn of(scene: &'a Scene, style: &Style) -> Self {
+    pub(crate) fn of(scene: &'a Scene, style: &Style) -> Self {
         let (scene, paints, warnings) = visible_scene(scene, style);
         let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
         Self { scene, warnings, paints, mesh }
     }
 
     /// Builds the mesh of an owned scene. Its geometry is freed once the mesh is built.
-    pub fn of_all(scene: Scene, style: &Style) -> Self {
+    pub(crate) fn of_all(scene: Scene, style: &Style) -> Self {
         let (left, paints, warnings) = visible_scene(&scene, style);
         let left = match left {
             Cow::Owned(left) => Some(left),

@@ -1,15 +1,17 @@
-//! [`Prepared`]: a scene prepared for a style, ready for drawing views.
+//! [`Renderer`]: a scene prepared for a style, ready for drawing views.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::prepare_mesh::PreparedMesh;
+use crate::error::{Error, ErrorKind};
 use crate::lines::{LineOptions, Surface};
 use crate::mesh::components::solid_parts::solid_parts;
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::cache::view_cache::ViewCache;
 use crate::pipeline::fills::surface_fills::ToneInputs;
 use crate::pipeline::fills::surface_requirements;
+use crate::pipeline::progress::{ProgressFunction, Step};
 use crate::pipeline::rest::chain_anchors::Anchors;
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::Paints;
@@ -19,22 +21,9 @@ use crate::surface::Patches;
 
 /// Scene prepared for a style: everything that its views share.
 ///
-/// ```no_run
-/// use ligne::{drawing::{Page, Unit}, pipeline::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
-///
-/// let scene = Scene::open("gear.obj")?;
-/// let style = Style::preset("toon").unwrap_or_default();
-/// let prepared = Prepared::new(&scene, &style);
-/// for view in [NamedView::Front, NamedView::Top] {
-///     let camera = Camera::named(view, scene.up).fit(&scene);
-///     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-///     let (drawing, _report) = prepared.draw(&camera, page, None)?;
-///     println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
-/// }
-/// # Ok::<(), ligne::Error>(())
-/// ```
+/// See [`crate::pipeline`] for an example.
 #[derive(Debug)]
-pub struct Prepared<'a> {
+pub struct Renderer<'a> {
     /// The drawn part of the scene, without areas that textures cut out.
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) warnings: Warnings,
@@ -51,9 +40,11 @@ pub struct Prepared<'a> {
     pub(crate) shadows: ShadowCache,
     /// Anchors of lines on the model, if strokes have to persist.
     pub(crate) anchors: Option<Anchors>,
+    /// Called at the beginning of each step.
+    pub(crate) progress: ProgressFunction,
 }
 
-impl<'a> Prepared<'a> {
+impl<'a> Renderer<'a> {
     /// Welds the scene into a mesh and finds its creases and rounded areas.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
@@ -61,16 +52,48 @@ impl<'a> Prepared<'a> {
     }
 
     /// Prepares the scene for one camera. The surface is refined for it at once and permanently, which takes
-    /// less memory than a refined copy next to the model.
+    /// less memory than a refined copy next to the model. The geometry of an owned scene is freed once the mesh
+    /// is built.
     #[must_use]
-    pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
-        run_on_pool(|| Self::from_mesh(PreparedMesh::of(scene, style), style, Some(camera)).0)
+    pub(crate) fn for_camera(scene: Cow<'a, Scene>, style: &'a Style, camera: &Camera) -> Self {
+        run_on_pool(|| {
+            let mesh = match scene {
+                Cow::Borrowed(scene) => PreparedMesh::of(scene, style),
+                Cow::Owned(scene) => PreparedMesh::of_all(scene, style),
+            };
+            Self::from_mesh(mesh, style, Some(camera)).0
+        })
     }
 
-    /// Prepares an owned scene for one camera. Its geometry is freed once the mesh is built.
+    /// Calls a function at the beginning of each step of a drawing. If it returns `false`, drawing ends with
+    /// an error of the kind [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+    ///
+    /// ```
+    /// use ligne::drawing::Page;
+    /// use ligne::pipeline::{Renderer, Step};
+    /// use ligne::{Camera, ErrorKind, Scene, Style};
+    ///
+    /// let scene = Scene::open("examples/models/gear.obj")?;
+    /// let style = Style::default();
+    /// let renderer = Renderer::new(&scene, &style).with_progress(|step| step != Step::Strokes);
+    /// let error = renderer.draw(&Camera::three_quarter().fit(&scene), Page::px(600.0, 600.0)).unwrap_err();
+    /// assert_eq!(error.kind, ErrorKind::Cancelled);
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
     #[must_use]
-    pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
-        run_on_pool(|| Self::from_mesh(PreparedMesh::of_all(scene, style), style, Some(camera)).0)
+    pub fn with_progress(self, progress: impl Fn(Step) -> bool + Send + Sync + 'static) -> Self {
+        Self { progress: ProgressFunction(Some(Box::new(progress))), ..self }
+    }
+
+    /// Reports that a step begins.
+    ///
+    /// # Errors
+    /// If the progress function cancels.
+    pub(crate) fn begin(&self, step: Step) -> Result<(), Error> {
+        if self.progress.0.as_ref().is_none_or(|progress| progress(step)) {
+            return Ok(());
+        }
+        Err(Error::new("the drawing was cancelled").of_kind(ErrorKind::Cancelled))
     }
 
     pub(crate) fn from_mesh(
@@ -101,6 +124,7 @@ impl<'a> Prepared<'a> {
             search: ViewCache::default(),
             shadows: ShadowCache::default(),
             anchors: None,
+            progress: ProgressFunction::default(),
         };
         (prepared, patches)
     }

@@ -1,6 +1,6 @@
 //! [`PosedRenderer`]: prepares an animated scene once at rest, so that each of its poses is prepared faster.
 //!
-//! Input: a scene in its stored pose, and the same scene in other poses. Output: a [`Prepared`] scene per
+//! Input: a scene in its stored pose, and the same scene in other poses. Output: a [`Renderer`] scene per
 //! pose, ready to draw.
 //!
 //! - Computed once at rest: welded vertices and edges, creases, rounded areas, and paints with their
@@ -12,12 +12,13 @@ use std::sync::Arc;
 use super::prepare_mesh::{PreparedMesh, paints_of};
 use crate::mesh::VertexSources;
 use crate::mesh::components::solid_parts::solid_parts;
-use crate::pipeline::Prepared;
+use crate::pipeline::Renderer;
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::cache::view_cache::ViewCache;
 use crate::pipeline::fills::glass_pass;
 use crate::pipeline::fills::surface_fills::ToneInputs;
 use crate::pipeline::fills::surface_requirements;
+use crate::pipeline::progress::ProgressFunction;
 use crate::pipeline::rest::chain_anchors::Anchors;
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::textures::cutouts::CutScene;
@@ -27,29 +28,12 @@ use crate::surface::Patches;
 
 /// Scene prepared at rest, which prepares its poses for drawing. Strokes keep their identity from pose to
 /// pose.
-///
-/// ```
-/// use ligne::drawing::{Page, Unit};
-/// use ligne::animation::{Playing, Rigged};
-/// use ligne::pipeline::PosedRenderer;
-/// use ligne::{Camera, Style};
-///
-/// let crane = Rigged::open("examples/models/crane.glb")?;
-/// let style = Style::default();
-/// let renderer = PosedRenderer::new(&crane.scene, &style);
-/// let posed = crane.posed(&[Playing::all(0, 1.5)])?;
-/// let camera = Camera::three_quarter().fit(&posed);
-/// let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-/// let (drawing, _) = renderer.posed(&posed).draw(&camera, page, None)?;
-/// assert!(drawing.layers.iter().flat_map(|layer| &layer.marks).all(|mark| mark.provenance.identity != 0));
-/// # Ok::<(), ligne::Error>(())
-/// ```
 #[derive(Debug)]
-pub struct PosedRenderer<'a> {
+pub(crate) struct PosedRenderer<'a> {
     scene: &'a Scene,
     style: &'a Style,
     /// The scene in its stored pose.
-    still: Prepared<'a>,
+    still: Renderer<'a>,
     patches: Option<Patches>,
     /// Which vertices of the scene were welded to each mesh vertex. `None` if they cannot be tracked; then
     /// every pose is prepared from the start.
@@ -59,34 +43,22 @@ pub struct PosedRenderer<'a> {
 impl<'a> PosedRenderer<'a> {
     /// Prepares a scene in its stored pose.
     #[must_use]
-    pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+    pub(crate) fn new(scene: &'a Scene, style: &'a Style) -> Self {
         let made = Self::without_anchors(scene, style);
         Self { still: made.still.anchored(scene, scene), ..made }
     }
 
     fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
         let (still, patches) =
-            run_on_pool(|| Prepared::from_mesh(PreparedMesh::of(scene, style), style, None));
+            run_on_pool(|| Renderer::from_mesh(PreparedMesh::of(scene, style), style, None));
         let sources = VertexSources::of(&still.surface.mesh, &still.scene.to_soup());
         Self { scene, style, still, patches, sources }
     }
 
     /// The scene in its stored pose.
     #[must_use]
-    pub fn still(&self) -> &Prepared<'a> {
+    pub(crate) fn still(&self) -> &Renderer<'a> {
         &self.still
-    }
-
-    /// Prepares a pose of the scene: the same parts and triangles in other positions.
-    ///
-    /// If the pose hides parts, the visible parts are prepared at rest for this pose alone. If it adds parts,
-    /// or separates vertices that are welded at rest, it is prepared from the start.
-    #[must_use]
-    pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
-    where
-        'a: 'b,
-    {
-        self.posed_after(posed, std::iter::empty)
     }
 
     /// Prepares a pose so that edges near the crease angle do not flicker: they follow their state in earlier
@@ -94,11 +66,11 @@ impl<'a> PosedRenderer<'a> {
     ///
     /// `before` yields the earlier poses, latest first. It is advanced only until all such edges are decided.
     #[must_use]
-    pub fn posed_after<'b, I: Iterator<Item = Scene>>(
+    pub(crate) fn posed_after<'b, I: Iterator<Item = Scene>>(
         &self,
         posed: &'b Scene,
         before: impl Fn() -> I,
-    ) -> Prepared<'b>
+    ) -> Renderer<'b>
     where
         'a: 'b,
     {
@@ -108,7 +80,7 @@ impl<'a> PosedRenderer<'a> {
                 let rest = rest_without_hidden_parts(self.scene, posed)?;
                 PosedRenderer::without_anchors(&rest, self.style).following(posed, self.style, before())
             })
-            .unwrap_or_else(|| Prepared::new(posed, self.style));
+            .unwrap_or_else(|| Renderer::new(posed, self.style));
         prepared.anchored(posed, self.scene)
     }
 
@@ -118,7 +90,7 @@ impl<'a> PosedRenderer<'a> {
         posed: &'b Scene,
         style: &'b Style,
         before: impl Iterator<Item = Scene>,
-    ) -> Option<Prepared<'b>> {
+    ) -> Option<Renderer<'b>> {
         let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
         if names(self.scene) != names(posed) {
             return None;
@@ -155,7 +127,7 @@ impl<'a> PosedRenderer<'a> {
         let paintable = paintable.map(|paints| ToneInputs::new(&surface, paints, solid_parts(&surface.mesh)));
         let (search, shadows) = (ViewCache::default(), ShadowCache::default());
         let counts = self.still.counts;
-        Some(Prepared {
+        Some(Renderer {
             scene,
             warnings,
             style,
@@ -167,6 +139,7 @@ impl<'a> PosedRenderer<'a> {
             search,
             shadows,
             anchors: None,
+            progress: ProgressFunction::default(),
         })
     }
 }
@@ -186,7 +159,7 @@ fn rest_without_hidden_parts(scene: &Scene, posed: &Scene) -> Option<Scene> {
         .then(|| Scene { parts, ..scene.clone() })
 }
 
-impl Prepared<'_> {
+impl Renderer<'_> {
     /// Adds anchors: positions on the model at rest. Stroke ids and random effects are derived from them, so
     /// they stay the same while the model moves.
     ///

@@ -128,7 +128,7 @@ impl Report {
 /// Stopwatch for stages. It is the only reader of a clock, and no drawing depends on it. Without a clock, as
 /// in bare WebAssembly in a browser, all times are 0.
 #[derive(Debug, Clone, Copy)]
-pub struct Stopwatch {
+pub(crate) struct Stopwatch {
     started: ClockReading,
     lap: ClockReading,
 }
@@ -136,13 +136,13 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// A stopwatch that starts now.
     #[must_use]
-    pub fn start() -> Self {
+    pub(crate) fn start() -> Self {
         let now = ClockReading::now();
         Self { started: now, lap: now }
     }
 
     /// Milliseconds since the last lap or the start. Starts the next lap.
-    pub fn lap_ms(&mut self) -> f64 {
+    pub(crate) fn lap_ms(&mut self) -> f64 {
         let now = ClockReading::now();
         let lap = now.seconds_since(self.lap);
         self.lap = now;
@@ -151,7 +151,7 @@ impl Stopwatch {
 
     /// Seconds since the start.
     #[must_use]
-    pub fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         ClockReading::now().seconds_since(self.started)
     }
 }

@@ -132,7 +132,7 @@ mod tests {
 
     fn empty_drawing_warning(scene: &Scene, camera: &Camera, sets: &[&str]) -> String {
         let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-        let style = Style::load("ink", &sets).unwrap();
+        let style = Style::load_with("ink", &sets).unwrap();
         let drawing = render(scene, camera, &style).unwrap();
         drawing.warnings.into_iter().find(|warning| warning.starts_with("the drawing is empty")).unwrap()
     }

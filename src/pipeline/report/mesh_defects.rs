@@ -7,7 +7,7 @@ use crate::scene::{Scene, Warnings};
 
 /// The defects that cleaning found, counted and named by part.
 #[must_use]
-pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
+pub(crate) fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     let mut warnings = Warnings::default();
     let c = &mesh.cleaning;
     warnings.count("faces with two corners at one place were left out", c.collapsed);

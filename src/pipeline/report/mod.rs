@@ -5,6 +5,6 @@
 //! 2. [`mesh_defects`]: defects of the mesh as warnings.
 //! 3. [`empty_drawing`]: the reason why a drawing has no mark.
 
-pub mod drawing_report;
+pub(crate) mod drawing_report;
 pub(crate) mod empty_drawing;
-pub mod mesh_defects;
+pub(crate) mod mesh_defects;

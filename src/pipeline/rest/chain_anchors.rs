@@ -49,7 +49,7 @@ struct PosedPart {
 impl Anchors {
     /// The anchors of a posed scene and the same scene at rest. Geometries with equal numbers must have the
     /// same triangles.
-    pub fn new(posed: &Scene, rest: &Scene) -> Self {
+    pub(crate) fn new(posed: &Scene, rest: &Scene) -> Self {
         let resting: Vec<RestGeometry> = rest.geometries.par_iter().map(RestGeometry::new).collect();
         let part = |(number, part): (usize, &Part)| {
             let is_it = |other: &&Part| other.name == part.name && other.geometry == part.geometry;
@@ -80,7 +80,7 @@ impl Anchors {
 
     /// Sets the anchor of every chain sample and names the chains. `margin` is the offset of the camera's
     /// frame on the page.
-    pub fn anchor_chains(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
+    pub(crate) fn anchor_chains(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
         let [right, up, forward] = camera.axes();
         let perspective = match camera.projection {
             Projection::Perspective { fov_y_deg } => Some(tan(fov_y_deg.to_radians() / 2.0)),
@@ -106,19 +106,19 @@ impl Anchors {
     }
 
     /// Whether every part is in its rest position.
-    pub fn rests(&self) -> bool {
+    pub(crate) fn rests(&self) -> bool {
         self.parts.iter().all(|part| part.is_at_rest)
     }
 
     /// The rest position of a point near a part, world.
-    pub fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
+    pub(crate) fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
         let part = self.parts.get(part.index())?;
         let (place, _) = self.rest_position(part, world)?;
         Some(part.world_from_rest.transform_point3(place))
     }
 
     /// The anchor of a point near a part.
-    pub fn anchor_at(&self, part: PartId, world: DVec3) -> Option<Anchor> {
+    pub(crate) fn anchor_at(&self, part: PartId, world: DVec3) -> Option<Anchor> {
         self.anchor(self.parts.get(part.index())?, world, 1.0)
     }
 

@@ -17,7 +17,7 @@ pub(crate) struct RestPose<'a> {
 
 impl<'a> RestPose<'a> {
     /// `None` if every part is in its rest position.
-    pub fn new(anchors: &'a Anchors, mesh: &Mesh) -> Option<Self> {
+    pub(crate) fn new(anchors: &'a Anchors, mesh: &Mesh) -> Option<Self> {
         if anchors.rests() {
             return None;
         }
@@ -37,13 +37,13 @@ impl<'a> RestPose<'a> {
     }
 
     /// The rest positions of a face's corners, world. `None` for invalid vertex numbers.
-    pub fn corners(&self, triangle: [u32; 3]) -> Option<[DVec3; 3]> {
+    pub(crate) fn corners(&self, triangle: [u32; 3]) -> Option<[DVec3; 3]> {
         let [a, b, c] = triangle.map(|vertex| self.places.get(vertex as usize).copied());
         Some([a?, b?, c?])
     }
 
     /// The anchor of a point on the posed surface of a part, world.
-    pub fn anchor(&self, part: PartId, world: DVec3) -> Option<Anchor> {
+    pub(crate) fn anchor(&self, part: PartId, world: DVec3) -> Option<Anchor> {
         self.anchors.anchor_at(part, world)
     }
 }

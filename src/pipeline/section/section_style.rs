@@ -19,7 +19,7 @@ use crate::style::Style;
 
 /// The style with thin chain lines (ISO 128-2, line type 04.1) for the trails of parts that were moved apart.
 #[must_use]
-pub fn with_trail_lines(style: &Style) -> Style {
+pub(crate) fn with_trail_lines(style: &Style) -> Style {
     let mut style = style.clone();
     let dash = [24.0, 3.0, 0.5, 3.0].map(|part| Length::mm(part * TRAIL_MM));
     let pen =
@@ -84,7 +84,7 @@ fn hatching_of_kind(kind: usize) -> (f64, f64) {
 ///
 /// Source: ISO 128-50:2001, 4.
 #[must_use]
-pub fn with_cut_hatching_for(
+pub(crate) fn with_cut_hatching_for(
     style: &Style,
     scene: &mut Scene,
     faces: &mut [CutFaces],

@@ -9,7 +9,7 @@
 mod edge_strengths;
 mod facing_bands;
 mod removed_lines;
-pub mod stage;
+pub(crate) mod stage;
 mod stage_marks;
 mod zero_sets;
 

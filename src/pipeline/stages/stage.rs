@@ -4,7 +4,7 @@
 /// A pipeline stage whose result can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
-pub enum Stage {
+pub(crate) enum Stage {
     /// n·v (normal and view direction) on the front faces, in bands of colour separated by its zero set.
     Field,
     /// Zero sets of n·v, the smooth contours, as traced, hidden or not; and the edges where visibility may
@@ -24,12 +24,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order of the pipeline.
-    pub const ALL: [Self; 7] =
+    pub(crate) const ALL: [Self; 7] =
         [Self::Field, Self::Zeros, Self::Lines, Self::ViewMap, Self::Strengths, Self::Chains, Self::Removed];
 
     /// The name on the command line.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Field => "field",
             Self::Zeros => "zeros",
@@ -43,7 +43,7 @@ impl Stage {
 
     /// The stage of a name on the command line.
     #[must_use]
-    pub fn parse(name: &str) -> Option<Self> {
+    pub(crate) fn parse(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|stage| stage.name() == name)
     }
 }

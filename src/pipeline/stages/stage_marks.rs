@@ -68,7 +68,7 @@ pub(crate) struct PolylineRuns {
 
 impl PolylineRuns {
     /// Adds a segment. It continues the last line if it starts where that line ends.
-    pub fn push(&mut self, [a, b]: [Point; 2]) {
+    pub(crate) fn push(&mut self, [a, b]: [Point; 2]) {
         if self.points.last() != Some(&a) {
             self.end_line();
             self.points.push(a);
@@ -81,7 +81,7 @@ impl PolylineRuns {
     }
 
     /// All lines as one path; `None` if there are none.
-    pub fn finish(mut self) -> Option<BezPath> {
+    pub(crate) fn finish(mut self) -> Option<BezPath> {
         self.end_line();
         (!self.finished.elements().is_empty()).then_some(self.finished)
     }

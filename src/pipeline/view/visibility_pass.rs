@@ -1,12 +1,14 @@
 //! [`VisibleView`]: a view with the visibility of its lines.
 
 use crate::drawing::{Length, Unit};
+use crate::error::Error;
 use crate::lines::{self, FeatureLines, SharedSearches, Surface, Textures};
 use crate::pipeline::fills::glass_pass::{self, BehindGlass};
 use crate::pipeline::fills::surface_fills::{SurfaceColours, SurfaceFills};
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::lines::part_joints;
-use crate::pipeline::prepare::prepared_scene::Prepared;
+use crate::pipeline::prepare::prepared_scene::Renderer;
+use crate::pipeline::progress::Step;
 use crate::pipeline::report::drawing_report::{Report, Stopwatch};
 use crate::pipeline::thread_pool::run_on_pool;
 use crate::scene::Camera;
@@ -32,18 +34,28 @@ pub(crate) struct VisibleView<'a> {
     pub warnings: Vec<String>,
 }
 
-impl Prepared<'_> {
+impl Renderer<'_> {
     /// Decides the visibility of the lines of a view and calls `call` with the result.
+    ///
+    /// # Errors
+    /// If the camera is invalid, if the progress function cancels, or if `call` fails.
     pub(crate) fn with_visibility<T: Send>(
         &self,
         camera: &Camera,
         unit: Unit,
-        call: impl FnOnce(VisibleView) -> T + Send,
-    ) -> T {
+        call: impl FnOnce(VisibleView) -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
+        camera.validate()?;
         run_on_pool(|| self.decided(camera, unit, call))
     }
 
-    fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(VisibleView) -> T) -> T {
+    fn decided<T>(
+        &self,
+        camera: &Camera,
+        unit: Unit,
+        call: impl FnOnce(VisibleView) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.begin(Step::Lines)?;
         let Self { scene, style, line_options: sought, paints, .. } = self;
         let mut report = Report::default();
         let mut watch = Stopwatch::start();
@@ -119,6 +131,7 @@ impl Prepared<'_> {
         );
         report.stages_ms.features = watch.lap_ms();
 
+        self.begin(Step::Visibility)?;
         let map = visibility::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());
         report.stages_ms.visibility = watch.lap_ms();
         let behind = panes.as_ref().map(|panes| panes.decide_behind(&surface.mesh, &view, &lines, sought));

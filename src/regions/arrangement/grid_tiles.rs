@@ -28,7 +28,7 @@ pub(crate) struct GridTiles {
 
 impl GridTiles {
     /// Tiles of the bounding box of the points, filled with `count` pieces.
-    pub fn new(points: &[GridPoint], count: usize, ends: impl Fn(u32) -> [GridPoint; 2]) -> Self {
+    pub(crate) fn new(points: &[GridPoint], count: usize, ends: impl Fn(u32) -> [GridPoint; 2]) -> Self {
         let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
         let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
         let across = ((count / PIECES_PER_TILE) as f64).sqrt() as usize;
@@ -50,7 +50,7 @@ impl GridTiles {
     }
 
     /// Adds a piece, and calls `touch` for each tile that it passes.
-    pub fn add(&mut self, number: u32, ends: [GridPoint; 2], mut touch: impl FnMut(u32)) {
+    pub(crate) fn add(&mut self, number: u32, ends: [GridPoint; 2], mut touch: impl FnMut(u32)) {
         let mut passed = Vec::new();
         self.each(ends, |tile| passed.push(tile));
         for tile in passed {
@@ -60,17 +60,17 @@ impl GridTiles {
     }
 
     /// Number of tiles.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.first.count()
     }
 
     /// Pieces that pass a tile.
-    pub fn of(&self, tile: u32) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn of(&self, tile: u32) -> impl Iterator<Item = u32> + '_ {
         self.first.of(tile as usize).iter().chain(self.later.get(&tile).into_iter().flatten()).copied()
     }
 
     /// Tiles within `reach` of a point.
-    pub fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = u32> + '_ {
         let reach = reach.ceil() as i64;
         let range = |k: usize| self.place(p[k] - reach, k)..=self.place(p[k] + reach, k);
         let columns = range(0);

@@ -16,7 +16,7 @@ pub(crate) struct TilePiece {
 }
 
 impl TilePiece {
-    pub fn new(ends: [GridPoint; 2], number: u32, origin: u32) -> Self {
+    pub(crate) fn new(ends: [GridPoint; 2], number: u32, origin: u32) -> Self {
         let [a, b] = ends;
         let of = |end: fn(i64, i64) -> i64| [end(a[0], b[0]), end(a[1], b[1])];
         Self { ends, low: of(i64::min), high: of(i64::max), number, origin }
@@ -24,14 +24,14 @@ impl TilePiece {
 
     /// Whether the bounding boxes of two pieces are at most one step apart.
     #[inline]
-    pub fn is_near(&self, other: &Self) -> bool {
+    pub(crate) fn is_near(&self, other: &Self) -> bool {
         let apart =
             |axis: usize| (self.high[axis] + 1 < other.low[axis]) | (other.high[axis] + 1 < self.low[axis]);
         !(apart(0) | apart(1))
     }
 
     /// Adds the points where two pieces have to be cut.
-    pub fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
+    pub(crate) fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
         // The crossing is rounded along the piece whose original came first.
         let order = |piece: &Self| (piece.origin, piece.number);
         let [first, second] = if order(self) < order(other) { [self, other] } else { [other, self] };

@@ -30,12 +30,12 @@ pub(crate) enum Border {
 
 impl Border {
     /// Whether it lies on a smooth surface.
-    pub const fn is_soft(self) -> bool {
+    pub(crate) const fn is_soft(self) -> bool {
         matches!(self, Self::Soft | Self::SoftTone)
     }
 
     /// Whether the same surface continues on its other side.
-    pub const fn is_tone(self) -> bool {
+    pub(crate) const fn is_tone(self) -> bool {
         matches!(self, Self::HardTone | Self::SoftTone)
     }
 }

@@ -49,7 +49,7 @@ impl Triangulation {
     ///
     /// Triangles are sorted by their corners, and each starts with its smallest corner, so their numbers do
     /// not depend on how they were found.
-    pub fn new(noded: Noded) -> Self {
+    pub(crate) fn new(noded: Noded) -> Self {
         let Some(built) = triangulated(&noded) else { return Self::default() };
         let with_corners = |face: FixedFaceHandle<InnerTag>| {
             let mut corners = built.face(face).vertices().map(|vertex| vertex.data().number);
@@ -87,36 +87,36 @@ impl Triangulation {
     }
 
     /// Twice the area of a triangle, squared grid steps.
-    pub fn area2(&self, triangle: usize) -> f64 {
+    pub(crate) fn area2(&self, triangle: usize) -> f64 {
         let [a, b, c] = self.corners(triangle);
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     }
 
     /// Corner positions of a triangle, grid steps.
-    pub fn corners(&self, triangle: usize) -> [[f64; 2]; 3] {
+    pub(crate) fn corners(&self, triangle: usize) -> [[f64; 2]; 3] {
         self.triangles[triangle].map(|v| self.points[v as usize].map(|x| x as f64))
     }
 
     /// Length of a side, grid steps.
-    pub fn side(&self, triangle: usize, side: usize) -> f64 {
+    pub(crate) fn side(&self, triangle: usize, side: usize) -> f64 {
         let corners = self.corners(triangle);
         let (a, b) = (corners[side], corners[(side + 1) % 3]);
         ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt()
     }
 
     /// Diameter of the inscribed circle of a triangle, grid steps.
-    pub fn width(&self, triangle: usize) -> f64 {
+    pub(crate) fn width(&self, triangle: usize) -> f64 {
         let around: f64 = (0..3).map(|side| self.side(triangle, side)).sum();
         if around > 0.0 { 2.0 * self.area2(triangle) / around } else { 0.0 }
     }
 
     /// Cell of each triangle, numbered by first triangle, and the number of cells.
-    pub fn cells(&self) -> (Vec<u32>, usize) {
+    pub(crate) fn cells(&self) -> (Vec<u32>, usize) {
         self.flooded(|triangle, side, _| self.borders[triangle][side].is_none())
     }
 
     /// Connected components of triangles, joined where `joins(triangle, side, neighbour)`, and their number.
-    pub fn flooded(&self, joins: impl Fn(usize, usize, usize) -> bool) -> (Vec<u32>, usize) {
+    pub(crate) fn flooded(&self, joins: impl Fn(usize, usize, usize) -> bool) -> (Vec<u32>, usize) {
         let mut set = vec![OUTSIDE; self.triangles.len()];
         let mut count = 0;
         let mut open = Vec::new();

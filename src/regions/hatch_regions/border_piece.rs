@@ -4,7 +4,7 @@ use kurbo::Point;
 
 /// Straight border piece between two cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BorderPiece {
+pub(crate) struct BorderPiece {
     /// End points.
     pub ends: [Point; 2],
     /// Cells on both sides, the one on the right on the page (y down) first.
@@ -14,4 +14,4 @@ pub struct BorderPiece {
 }
 
 /// Number of the paper cell.
-pub const PAPER: u32 = 0;
+pub(crate) const PAPER: u32 = 0;

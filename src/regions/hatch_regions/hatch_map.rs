@@ -19,7 +19,7 @@ use crate::regions::labels::surface_label::{NO_LABEL, SurfaceLabel};
 
 /// Connected part of the page that looks the same to hatching.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HatchCell {
+pub(crate) struct HatchCell {
     /// Label; tones of fills are set to 0. Meaningless in cell 0, which is paper.
     pub look: SurfaceLabel,
     /// Stretch of visible surface that contains the cell; 0 for paper. Cells of one facet differ in light and
@@ -31,7 +31,7 @@ pub struct HatchCell {
 
 /// Cells of the page, and the border pieces between them.
 #[derive(Debug, Clone, Default)]
-pub struct HatchRegions {
+pub(crate) struct HatchRegions {
     /// All cells. The first is paper.
     pub cells: Vec<HatchCell>,
     /// Border pieces between different cells or surfaces.
@@ -45,7 +45,7 @@ impl HatchRegions {
     /// Cells of a labelled page, moved by `offset`. Cells with less area than a square of side `crumb` go to
     /// a neighbour.
     #[must_use]
-    pub fn new(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+    pub(crate) fn new(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
         let cut = &labelled_page.cut;
         // Hatching ignores tones and marks of cast shadows: the bins include shadows already.
         let (labels, table) = labelled_page.relabelled(|look| SurfaceLabel { tone: 0, cast: false, ..*look });
@@ -63,7 +63,7 @@ impl HatchRegions {
 
     /// Cells that differ in tone and colour, but not in hatching bin.
     #[must_use]
-    pub fn toned(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+    pub(crate) fn toned(labelled_page: &LabelledPage, crumb: Length, unit: Unit, offset: Vec2) -> Self {
         let (looks, table) = labelled_page.relabelled(|look| SurfaceLabel { bin: 0, ..*look });
         let (facet_of, _) = labelled_page.cut.flooded(|triangle, side, next| {
             labelled_page.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
@@ -143,8 +143,9 @@ impl HatchRegions {
 
     /// A ground with the given cells and pieces, for tests and for pages without a model. The first cell is
     /// paper.
+    #[cfg(test)]
     #[must_use]
-    pub fn of_pieces(cells: Vec<HatchCell>, pieces: Vec<BorderPiece>) -> Self {
+    pub(crate) fn of_pieces(cells: Vec<HatchCell>, pieces: Vec<BorderPiece>) -> Self {
         let facets = cells.iter().map(|cell| cell.facet + 1).max().unwrap_or(1);
         let grid = BorderPieceTiles::new(&pieces);
         Self { cells, pieces, facets, grid }
@@ -175,13 +176,13 @@ impl HatchRegions {
 
     /// The cell at a point.
     #[must_use]
-    pub fn cell_at(&self, p: Point) -> u32 {
+    pub(crate) fn cell_at(&self, p: Point) -> u32 {
         self.grid.cell_at(&self.pieces, p)
     }
 
     /// Cells at the points of a lattice, row by row from its first point.
     #[must_use]
-    pub fn raster(&self, first: Point, pitch: f64, columns: usize, rows: usize) -> Vec<u32> {
+    pub(crate) fn raster(&self, first: Point, pitch: f64, columns: usize, rows: usize) -> Vec<u32> {
         let mut meets: Vec<Vec<(f64, u32)>> = vec![Vec::new(); rows];
         for piece in &self.pieces {
             let [a, b] = piece.ends;
@@ -212,7 +213,7 @@ impl HatchRegions {
 
     /// Numbers of the pieces within `reach` of a point, ascending. May include some that are farther away.
     #[must_use]
-    pub fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {
+    pub(crate) fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {
         self.grid.near(p - Vec2::new(reach, reach), p + Vec2::new(reach, reach))
     }
 

@@ -8,6 +8,6 @@
 //! Files, in reading order: [`border_piece`]; [`hatch_map`] cells, facets and queries; [`piece_tiles`] border
 //! pieces by the tiles of the page they pass.
 
-pub mod border_piece;
-pub mod hatch_map;
+pub(crate) mod border_piece;
+pub(crate) mod hatch_map;
 mod piece_tiles;

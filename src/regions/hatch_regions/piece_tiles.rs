@@ -22,7 +22,7 @@ const PIECES_PER_TILE: usize = 2;
 const MAX_TILES_PER_AXIS: f64 = 256.0;
 
 impl BorderPieceTiles {
-    pub fn new(pieces: &[BorderPiece]) -> Self {
+    pub(crate) fn new(pieces: &[BorderPiece]) -> Self {
         let ends = || pieces.iter().flat_map(|piece| piece.ends);
         let Some(first) = ends().next() else { return Self::default() };
         let (low, high) = ends().fold((first, first), |(low, high), p| {
@@ -71,12 +71,12 @@ impl BorderPieceTiles {
     }
 
     /// Visits the pieces in the tiles that a segment passes, some of them more than once.
-    pub fn visit(&self, from: Point, to: Point, mut call: impl FnMut(u32)) {
+    pub(crate) fn visit(&self, from: Point, to: Point, mut call: impl FnMut(u32)) {
         self.pass(from, to, |tile| self.pieces.of(tile).iter().for_each(|number| call(*number)));
     }
 
     /// Pieces in the tiles that a box touches, ascending.
-    pub fn near(&self, low: Point, high: Point) -> Vec<u32> {
+    pub(crate) fn near(&self, low: Point, high: Point) -> Vec<u32> {
         let at = |p: Point| (p.to_vec2() - self.low) * self.tiles_per_unit;
         let (low, high) = (at(low), at(high));
         let mut found = Vec::new();
@@ -95,7 +95,7 @@ impl BorderPieceTiles {
     }
 
     /// Cell at a point: the cell on the right of the next piece to the left.
-    pub fn cell_at(&self, pieces: &[BorderPiece], p: Point) -> u32 {
+    pub(crate) fn cell_at(&self, pieces: &[BorderPiece], p: Point) -> u32 {
         let at = (p.to_vec2() - self.low) * self.tiles_per_unit;
         let [columns, rows] = self.across;
         if columns == 0 || at.x < 0.0 || at.y < 0.0 || at.y >= rows as f64 {

@@ -21,7 +21,7 @@ use crate::visibility::ViewMap;
 /// The page as labelled triangles. Regions of colour and hatching are both derived from it, so they cannot
 /// disagree.
 #[derive(Debug, Clone)]
-pub struct LabelledPage {
+pub(crate) struct LabelledPage {
     pub(crate) cut: Triangulation,
     /// Label of each triangle: [`NO_LABEL`], or an index into `table` plus 1.
     pub(crate) triangle_labels: Vec<u32>,
@@ -34,12 +34,12 @@ pub struct LabelledPage {
 
 /// Visible lines that may separate labels, and the edge of the page, on the grid.
 #[derive(Debug, Clone)]
-pub struct PageBorders(Segments);
+pub(crate) struct PageBorders(Segments);
 
 impl PageBorders {
     /// Lines of a view map in its camera frame, before it is moved on the page.
     #[must_use]
-    pub fn of(map: &ViewMap, frame: &Frame) -> Self {
+    pub(crate) fn of(map: &ViewMap, frame: &Frame) -> Self {
         Self(segments(map, [frame.width, frame.height], step(frame)))
     }
 }
@@ -53,7 +53,7 @@ fn step(frame: &Frame) -> f64 {
 ///
 /// `shadowed` returns a mask of the lights that do not reach each point; `None` if nothing casts shadows.
 #[must_use]
-pub fn label_page(
+pub(crate) fn label_page(
     lit: &Lit,
     PageBorders(segments): &PageBorders,
     shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,

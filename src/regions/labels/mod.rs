@@ -9,6 +9,6 @@
 //! with its labels; [`point_labels`]; [`cell_labels`].
 
 mod cell_labels;
-pub mod labelled_page;
+pub(crate) mod labelled_page;
 mod point_labels;
-pub mod surface_label;
+pub(crate) mod surface_label;

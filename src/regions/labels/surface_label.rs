@@ -10,18 +10,18 @@ pub struct SurfaceLabel {
     /// Material of the part.
     pub material: MaterialId,
     /// Paint: the material, or the material in a colour of its texture.
-    pub paint: PaintId,
+    pub(crate) paint: PaintId,
     /// Tone; 0 is the darkest.
     pub tone: u16,
     /// Hatching bin; 0 is the darkest, and used where nothing is hatched.
-    pub bin: u16,
+    pub(crate) bin: u16,
     /// Whether a cast shadow lowers the tone.
-    pub cast: bool,
+    pub(crate) cast: bool,
 }
 
 /// Effects of cast shadows: fills and hatching each have a switch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ShadowDarkening {
+pub(crate) struct ShadowDarkening {
     /// Tones of fills.
     pub tones: bool,
     /// Hatching bins.

@@ -21,7 +21,7 @@ use crate::regions::labels::surface_label::SurfaceLabel;
 
 /// Tones along a direction.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ramp {
+pub(crate) struct Ramp {
     /// Unit direction of increasing tone.
     pub way: Vec2,
     /// For each border, ascending: its position along `way`, and the tones before and after it.

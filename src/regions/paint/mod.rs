@@ -8,5 +8,5 @@
 //! Files, in reading order: [`region_paint`]; [`gradient_regions`]; [`region_unions`].
 
 pub(crate) mod gradient_regions;
-pub mod region_paint;
+pub(crate) mod region_paint;
 pub(crate) mod region_unions;

@@ -12,7 +12,7 @@ use crate::regions::{Region, RegionOptions, Regions, Seams, SurfaceLabel};
 
 /// Names, colours and unit, as needed for painting.
 #[derive(Debug, Clone, Copy)]
-pub struct PaintContext<'a> {
+pub(crate) struct PaintContext<'a> {
     /// Unit of the page.
     pub unit: Unit,
     /// Position of the regions' frame on the page.
@@ -30,7 +30,7 @@ pub struct PaintContext<'a> {
 /// Narrow regions come first. With [`Seams::Underlap`] each extends a little under those painted after it.
 /// Wide regions have room for that, so nothing shows on their other side.
 #[must_use]
-pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions) -> Vec<Layer> {
+pub(crate) fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions) -> Vec<Layer> {
     let lengths: Vec<f64> = regions.borders.par_iter().with_min_len(16).map(|b| length(&b.path)).collect();
     let mut order: Vec<u32> = (0..regions.regions.len() as u32).collect();
     let key = |k: u32| {

@@ -10,7 +10,7 @@ use crate::regions::tolerances;
 
 /// Source of the stroke directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum DirectionSource {
+pub(crate) enum DirectionSource {
     /// No directions, only light.
     Light,
     /// Direction of largest curvature, rotated by an angle (radians) in the surface.
@@ -21,11 +21,11 @@ pub enum DirectionSource {
 
 /// Undirected line at a point of the page: cosine and sine of twice its angle (from x to y), times its
 /// confidence, 0 to 1.
-pub type LineDirection = [f32; 2];
+pub(crate) type LineDirection = [f32; 2];
 
 /// Stroke directions at the points of a lattice.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct DirectionField {
+pub(crate) struct DirectionField {
     /// One per point.
     pub directions: Vec<LineDirection>,
     /// Whether a point's direction is independent of its neighbours; true on wide flat faces.
@@ -35,7 +35,7 @@ pub struct DirectionField {
 impl LightLattice {
     /// Stroke directions from the given source, one per point.
     #[must_use]
-    pub fn axes(&self, probe: &LatticeProbe, asked: DirectionSource) -> DirectionField {
+    pub(crate) fn axes(&self, probe: &LatticeProbe, asked: DirectionSource) -> DirectionField {
         let (mut of, angle) = match asked {
             DirectionSource::Light => (vec![[0.0; 2]; self.facets.len()], 0.0),
             DirectionSource::Curvature(angle) => (probe.bends(self, angle), angle),

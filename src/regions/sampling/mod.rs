@@ -8,6 +8,6 @@
 //!
 //! Files, in reading order: [`page_lattice`]; [`direction_field`]; [`flat_faces`].
 
-pub mod direction_field;
+pub(crate) mod direction_field;
 mod flat_faces;
-pub mod page_lattice;
+pub(crate) mod page_lattice;

@@ -16,7 +16,7 @@ use crate::visibility::front_faces;
 
 /// Samples of the page at the points of a lattice, row by row.
 #[derive(Debug, Clone, Default)]
-pub struct LightLattice {
+pub(crate) struct LightLattice {
     /// Distance between points, page units.
     pub pitch: f64,
     /// First point.
@@ -34,7 +34,7 @@ pub struct LightLattice {
 }
 
 /// Surface points and normals at the lattice points.
-pub struct LatticeProbe<'a> {
+pub(crate) struct LatticeProbe<'a> {
     pub(crate) lit: &'a Lit<'a>,
     /// Visible surface point at each lattice point: its face and position.
     pub(crate) hits: Vec<Option<(u32, DVec3)>>,
@@ -49,7 +49,7 @@ impl LightLattice {
     ///
     /// `shadowed` returns a mask of the lights that do not reach each point. `is_round` says which faces are
     /// part of a rounded surface. `offset` moves the image on the page.
-    pub fn new<'a>(
+    pub(crate) fn new<'a>(
         lit: &'a Lit,
         ground: &HatchRegions,
         shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
@@ -113,13 +113,13 @@ impl LightLattice {
 
     /// Position of point `k`.
     #[must_use]
-    pub fn point(&self, k: usize) -> Point {
+    pub(crate) fn point(&self, k: usize) -> Point {
         self.origin + Vec2::new((k % self.columns) as f64, (k / self.columns) as f64) * self.pitch
     }
 
     /// The four lattice points around a position and their bilinear weights. Positions outside are clamped.
     #[must_use]
-    pub fn around(&self, p: Point) -> [(usize, f64); 4] {
+    pub(crate) fn around(&self, p: Point) -> [(usize, f64); 4] {
         let at = (p - self.origin) / self.pitch;
         let clamp = |x: f64, count: usize| x.clamp(0.0, count.saturating_sub(1) as f64);
         let (x, y) = (clamp(at.x, self.columns), clamp(at.y, self.rows));
@@ -139,7 +139,7 @@ impl LightLattice {
     /// `anew` gets the point's index, its value, and the values of its left, right, upper and lower
     /// neighbours (`None` on another facet).
     #[must_use]
-    pub fn spread<T: Copy + Send + Sync>(
+    pub(crate) fn spread<T: Copy + Send + Sync>(
         &self,
         mut now: Vec<T>,
         rounds: usize,
@@ -170,7 +170,7 @@ impl LightLattice {
 
     /// Interpolated light on a facet at a position; `None` if the facet is not seen nearby.
     #[must_use]
-    pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
+    pub(crate) fn light(&self, facet: u32, p: Point) -> Option<f64> {
         let own = self.around(p).into_iter().filter(|(k, _)| self.facets[*k] == facet);
         let (sum, weight) = own.fold((0.0, 0.0), |(sum, weight), (k, w)| {
             let w = w + tolerances::MIN_SAMPLE_WEIGHT;

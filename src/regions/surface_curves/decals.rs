@@ -22,7 +22,7 @@ use crate::regions::hatch_regions::border_piece::PAPER;
 
 /// Figure that is repeated on the plane.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// Its lines, open or closed. A closed line does not repeat its first point.
     pub lines: Vec<Vec<DVec2>>,
     /// Distance between repetitions along x and y, in the plane.
@@ -31,7 +31,7 @@ pub struct Figure {
 
 /// Figure on the page.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Decal {
+pub(crate) struct Decal {
     /// Index of the figure.
     pub figure: u32,
     /// Its lines, page units.
@@ -41,7 +41,7 @@ pub struct Decal {
 }
 
 /// Maximum number of figures on a surface. More would be too small to see.
-pub const MAX_FIGURES: f64 = 5e5;
+pub(crate) const MAX_FIGURES: f64 = 5e5;
 
 /// Approximate number of points per line that are tested for visibility.
 const VISIBILITY_SAMPLES_PER_LINE: usize = 12;
@@ -53,7 +53,7 @@ const MIN_NORMAL_COSINE: f64 = 0.7;
 
 /// Approximate number of figures that the charts would hold.
 #[must_use]
-pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figure]) -> f64 {
+pub(crate) fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figure]) -> f64 {
     let area = |chart: Chart| {
         let [a, b, c] = chart.corners;
         let area = (b - a).perp_dot(c - a).abs() / 2.0;
@@ -77,7 +77,7 @@ struct FigurePlacement {
 
 /// Figures on the faces that the camera may see.
 #[must_use]
-pub fn decals(
+pub(crate) fn decals(
     lit: &Lit,
     ground: &HatchRegions,
     offset: Vec2,

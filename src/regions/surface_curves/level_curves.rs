@@ -15,7 +15,7 @@ use crate::visibility::front_faces;
 
 /// Curve on the page.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LevelCurve {
+pub(crate) struct LevelCurve {
     /// Points, page units.
     pub line: Vec<Point>,
     /// Number of its level. Neighbouring levels differ by 1.
@@ -42,7 +42,7 @@ struct LevelPiece {
 ///
 /// Levels for which `is_wanted` (level, levels per page unit) is false are skipped on that face.
 #[must_use]
-pub fn level_curves(
+pub(crate) fn level_curves(
     lit: &Lit,
     offset: Vec2,
     value: impl Fn(u32) -> Option<[f64; 3]> + Sync,
@@ -183,7 +183,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
 
 /// Whether each surface point is visible, given its position on the page and its nearness.
 #[must_use]
-pub fn are_visible(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
+pub(crate) fn are_visible(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
     let at: Vec<DVec2> = points.iter().map(|(p, _)| DVec2::new(p.x - offset.x, p.y - offset.y)).collect();
     let frame = &lit.view.frame;
     let fronts = front_faces(lit.mesh, lit.view, &at);

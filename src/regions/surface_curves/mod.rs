@@ -7,6 +7,6 @@
 //!
 //! Files, in reading order: [`level_curves`]; [`surface_chart`]; [`decals`].
 
-pub mod decals;
-pub mod level_curves;
+pub(crate) mod decals;
+pub(crate) mod level_curves;
 pub(crate) mod surface_chart;

@@ -8,7 +8,7 @@ use crate::regions::tolerances;
 
 /// How the plane lies on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chart {
+pub(crate) struct Chart {
     /// Corners of the face in the plane.
     pub corners: [DVec2; 3],
     /// Name of the chart. Charts with different names do not continue each other.
@@ -26,12 +26,12 @@ pub(crate) struct Walker<'a> {
 
 impl Walker<'_> {
     /// Position of a point of the plane, if it lies on the face.
-    pub fn find(&self, face: u32, p: DVec2) -> Option<DVec3> {
+    pub(crate) fn find(&self, face: u32, p: DVec2) -> Option<DVec3> {
         let parts = weights(&(self.chart)(face)?, p)?;
         parts.iter().all(|part| *part >= -tolerances::MAX_OUTSIDE_WEIGHT).then(|| self.on(face, parts))
     }
 
-    pub fn on(&self, face: u32, parts: [f64; 3]) -> DVec3 {
+    pub(crate) fn on(&self, face: u32, parts: [f64; 3]) -> DVec3 {
         let corners = self.lit.mesh.corners(FaceId(face));
         (0..3).map(|k| corners[k] * parts[k]).sum()
     }
@@ -39,7 +39,7 @@ impl Walker<'_> {
     /// Walks over the faces that `may` allows, straight towards a point of the plane.
     ///
     /// Returns the position, the last face, and whether the point lies on it.
-    pub fn walk(&self, from: u32, p: DVec2, may: impl Fn(u32) -> bool) -> Option<(DVec3, u32, bool)> {
+    pub(crate) fn walk(&self, from: u32, p: DVec2, may: impl Fn(u32) -> bool) -> Option<(DVec3, u32, bool)> {
         let mut face = from;
         let mut own = (self.chart)(face)?;
         let mut parts = weights(&own, p)?;
@@ -58,7 +58,7 @@ impl Walker<'_> {
     }
 
     /// Neighbour across the side opposite a corner, if the plane continues there.
-    pub fn next(&self, face: u32, own: &Chart, corner: usize) -> Option<(u32, Chart)> {
+    pub(crate) fn next(&self, face: u32, own: &Chart, corner: usize) -> Option<(u32, Chart)> {
         let mesh = self.lit.mesh;
         let t = mesh.triangles[face as usize];
         let ends = [(corner + 1) % 3, (corner + 2) % 3];

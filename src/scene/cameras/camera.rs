@@ -6,10 +6,10 @@ use crate::error::Error;
 use crate::scene::tolerances;
 
 /// Default vertical field of view of a perspective camera, in degrees.
-pub const DEFAULT_FOV_Y_DEG: f64 = 35.0;
+pub(crate) const DEFAULT_FOV_Y_DEG: f64 = 35.0;
 
 /// Default width and height of a camera's frame, in px.
-pub const DEFAULT_FRAME_PX: f64 = 1000.0;
+pub(crate) const DEFAULT_FRAME_PX: f64 = 1000.0;
 
 /// Perspective or parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,7 +16,7 @@ use crate::scene::tolerances;
 use crate::scene::{Camera, Projection, Scene};
 
 /// Margin on each side of a fitted model, as a fraction of the frame's shorter side.
-pub const FRAME_MARGIN: f64 = 0.05;
+pub(crate) const FRAME_MARGIN: f64 = 0.05;
 
 /// Minimum distance of a perspective eye in front of the model, as a fraction of the model's diagonal.
 /// Matters only for models that are thin in the view direction, such as a rod seen end-on.
@@ -207,7 +207,7 @@ fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -
 /// World positions of all drawn vertices, part by part: those of triangles with area and of wires with
 /// length. Parts that [`Scene::to_soup`] leaves out are left out here too.
 #[must_use]
-pub fn world_points(scene: &Scene) -> Vec<DVec3> {
+pub(crate) fn world_points(scene: &Scene) -> Vec<DVec3> {
     DrawnPoints::of(scene).points
 }
 

@@ -5,8 +5,8 @@
 //! [`enclosing_part`] finds the part that a camera was put into by mistake; [`camera_json`] a camera as JSON,
 //! for other programs.
 
-pub mod camera;
-pub mod camera_json;
+pub(crate) mod camera;
+pub(crate) mod camera_json;
 mod enclosing_part;
-pub mod framing;
-pub mod named_views;
+pub(crate) mod framing;
+pub(crate) mod named_views;

@@ -10,10 +10,10 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::scene::{Camera, Projection, UpAxis};
 
 /// Azimuth of the default view, degrees to the right of the front.
-pub const THREE_QUARTER_AZIMUTH_DEG: f64 = 35.0;
+pub(crate) const THREE_QUARTER_AZIMUTH_DEG: f64 = 35.0;
 
 /// Elevation of the default view, degrees above the horizon.
-pub const THREE_QUARTER_ELEVATION_DEG: f64 = 22.0;
+pub(crate) const THREE_QUARTER_ELEVATION_DEG: f64 = 22.0;
 
 /// Elevation in degrees above which the vertical is too close to the view direction to serve as up in the
 /// picture.

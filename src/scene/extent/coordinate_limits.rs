@@ -8,12 +8,12 @@ const POINTS_PER_TASK: usize = 1 << 14;
 
 /// Maximum absolute coordinate. Products of four larger ones overflow an `f64`, so these are rejected like
 /// NaN.
-pub const MAX_COORDINATE: f64 = 1e60;
+pub(crate) const MAX_COORDINATE: f64 = 1e60;
 
 /// Whether all three coordinates are numbers up to [`MAX_COORDINATE`].
 #[inline]
 #[must_use]
-pub fn is_drawable(point: DVec3) -> bool {
+pub(crate) fn is_drawable(point: DVec3) -> bool {
     point.abs().cmple(DVec3::splat(MAX_COORDINATE)).all()
 }
 
@@ -23,7 +23,7 @@ pub(crate) const NOT_DRAWABLE_WARNING: &str =
 
 /// Bounding box of all finite points, as lower and upper corner; `None` if there are none.
 #[must_use]
-pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+pub(crate) fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
     let of_chunk = |chunk: &[DVec3]| {
         let finite = chunk.iter().filter(|p| p.is_finite());
         finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))

@@ -53,7 +53,7 @@ pub(crate) struct DegenerateCounts {
 impl DegenerateCounts {
     /// Whether nothing is left out.
     #[cfg(feature = "cli")]
-    pub fn is_none(&self) -> bool {
+    pub(crate) fn is_none(&self) -> bool {
         self.faces + self.wires == 0
     }
 }
@@ -111,12 +111,12 @@ impl PlacedGeometry<'_> {
 
 impl DrawnPoints {
     /// Collects the points of a scene.
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         Self::of_parts(scene, |_| true)
     }
 
     /// Collects the points of some parts of a scene.
-    pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Self {
+    pub(crate) fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Self {
         let wanted = scene.parts.iter().enumerate().filter(|(_, part)| is_wanted(part));
         let placed = wanted.filter_map(|(number, part)| {
             let geometry = scene.geometry_of(part)?;
@@ -126,7 +126,7 @@ impl DrawnPoints {
     }
 
     /// Points of a geometry, in local space.
-    pub fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
+    pub(crate) fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
         Self::of_placed(vec![PlacedGeometry { part: 0, geometry, world_from_geometry: &DAffine3::IDENTITY }])
             .points
     }

@@ -4,6 +4,6 @@
 //! points; [`drawn_points`] the points of faces with area and of wires with length; [`precision_warning`]
 //! warns about coordinates that are too coarse for the size of the model.
 
-pub mod coordinate_limits;
+pub(crate) mod coordinate_limits;
 pub(crate) mod drawn_points;
 pub(crate) mod precision_warning;

@@ -8,9 +8,9 @@
 //! [`artist_textures`] holds pictures that a style lays on materials to draw lines where their colour
 //! changes.
 
-pub mod artist_textures;
+pub(crate) mod artist_textures;
 mod triangle_colour;
-pub mod triangle_paints;
+pub(crate) mod triangle_paints;
 mod varying_paints;
 pub(crate) mod varying_surface;
 pub(crate) mod vertex_colours;

@@ -27,7 +27,12 @@ pub(crate) struct TriangleColour {
 
 impl TriangleColour {
     /// Samples the colours of a triangle; `None` if neither a texture nor its corners give it one.
-    pub fn of(geometry: &Geometry, index: usize, triangle: usize, texture: Option<&Texture>) -> Option<Self> {
+    pub(crate) fn of(
+        geometry: &Geometry,
+        index: usize,
+        triangle: usize,
+        texture: Option<&Texture>,
+    ) -> Option<Self> {
         let uvs = geometry.corner_uvs.get(triangle).and_then(|corners| {
             let [a, b, c] = corners.map(|corner| geometry.uvs.get(corner as usize).copied());
             Some([a?, b?, c?])
@@ -52,12 +57,12 @@ impl TriangleColour {
     }
 
     /// Whether the corner colours differ.
-    pub fn varies(&self) -> bool {
+    pub(crate) fn varies(&self) -> bool {
         self.tint_spread > MAX_EQUAL_CHANNEL_DIFFERENCE
     }
 
     /// Whether the triangle has a single colour.
-    pub fn is_flat(&self) -> bool {
+    pub(crate) fn is_flat(&self) -> bool {
         self.spread < MIN_CHANNEL_DIFFERENCE && !self.varies()
     }
 }
@@ -78,17 +83,17 @@ pub(crate) struct MaterialFactor {
 
 impl MaterialFactor {
     /// Colour of a triangle.
-    pub fn of(&self, own: &TriangleColour) -> Colour {
+    pub(crate) fn of(&self, own: &TriangleColour) -> Colour {
         self.product([own.shown.map(light), own.painted])
     }
 
     /// Colour of a surface that shows `colour` of the texture.
-    pub fn tint(&self, colour: Colour) -> Colour {
+    pub(crate) fn tint(&self, colour: Colour) -> Colour {
         self.product([Some(light(colour)), None])
     }
 
     /// Product of linear-light factors with the material, as a colour.
-    pub fn product(&self, factors: [Option<Vec3>; 2]) -> Colour {
+    pub(crate) fn product(&self, factors: [Option<Vec3>; 2]) -> Colour {
         let product = factors.into_iter().flatten().fold(Vec3::ONE, |product, factor| product * factor);
         let product = product * self.light();
         let opacity = f32::from(self.base.a) / 255.0;
@@ -96,7 +101,7 @@ impl MaterialFactor {
     }
 
     /// Linear-light factor of the material.
-    pub fn light(&self) -> Vec3 {
+    pub(crate) fn light(&self) -> Vec3 {
         if self.multiplies { light(self.base) } else { Vec3::ONE }
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct PaintTable {
 
 impl PaintTable {
     /// Paint for a picture colour (or none) and a vertex colour (or none).
-    pub fn paint(&self, colour: Option<u8>, tint: Option<u8>) -> Option<PaintId> {
+    pub(crate) fn paint(&self, colour: Option<u8>, tint: Option<u8>) -> Option<PaintId> {
         let row = colour.map_or((self.paints.len() / self.tints).checked_sub(1)?, usize::from);
         self.paints.get(row * self.tints + usize::from(tint.unwrap_or_default())).copied()
     }
@@ -43,7 +43,7 @@ impl VaryingSurface {
     }
 
     /// Paints for all combinations of picture colour and vertex colour.
-    pub fn paints(&self) -> &PaintTable {
+    pub(crate) fn paints(&self) -> &PaintTable {
         &self.paints
     }
 }

@@ -22,18 +22,18 @@ impl VertexColourPalette {
     }
 
     /// The few colours, in Oklab.
-    pub fn palette(&self) -> &[Oklab] {
+    pub(crate) fn palette(&self) -> &[Oklab] {
         &self.palette
     }
 
     /// Oklab coordinates of interpolated vertex light.
-    pub fn looks(&self, light: [f64; 3]) -> Oklab {
+    pub(crate) fn looks(&self, light: [f64; 3]) -> Oklab {
         let light = Vec3::from_array(light.map(|c| c as f32)) * self.factor;
         oklab::of_linear(light.clamp(Vec3::ZERO, Vec3::ONE).to_array())
     }
 
     /// Index of the nearest colour; the first of equally near ones.
-    pub fn at(&self, light: [f64; 3]) -> u8 {
+    pub(crate) fn at(&self, light: [f64; 3]) -> u8 {
         let look = self.looks(light);
         let mut best = (0, f32::INFINITY);
         for (k, colour) in self.palette.iter().enumerate() {

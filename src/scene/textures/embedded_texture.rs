@@ -31,7 +31,7 @@ const MAX_TESTED_TEXELS: i64 = 4096;
 
 impl EmbeddedTexture {
     /// Prepares a picture; `base` multiplies it, and with `weighed` texels are weighted by their opacity.
-    pub fn new(
+    pub(crate) fn new(
         (material, paint, probes): (MaterialId, PaintId, [PaintId; 2]),
         texels: TexelPlane,
         picture: Picture,
@@ -50,12 +50,12 @@ impl EmbeddedTexture {
     }
 
     /// Layout of its texels in the plane.
-    pub fn texels(&self) -> &TexelPlane {
+    pub(crate) fn texels(&self) -> &TexelPlane {
         &self.texels
     }
 
     /// Single colour of everything in a box of the texel plane, if there is one.
-    pub fn one_colour(&self, low: DVec2, high: DVec2) -> Option<Colour> {
+    pub(crate) fn one_colour(&self, low: DVec2, high: DVec2) -> Option<Colour> {
         let ([left, top], [right, bottom]) = (low.floor().to_array(), (high + 1.0).floor().to_array());
         if (right - left + 1.0) * (bottom - top + 1.0) > MAX_TESTED_TEXELS as f64 {
             return None;
@@ -72,7 +72,7 @@ impl EmbeddedTexture {
 
     /// Resamples a rectangle of the texel plane to `width` by `height` pixels, by the mean light over each
     /// pixel.
-    pub fn part(&self, from: DVec2, to: DVec2, [width, height]: [usize; 2]) -> Picture {
+    pub(crate) fn part(&self, from: DVec2, to: DVec2, [width, height]: [usize; 2]) -> Picture {
         let table = linear_table();
         let per_pixel = (to - from) / DVec2::new(width as f64, height as f64);
         // Texels under a pixel and their overlap; a texel extends half a texel around its centre.

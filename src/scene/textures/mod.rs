@@ -16,7 +16,7 @@ mod label_map;
 pub(crate) mod palette;
 mod texel_coverage;
 pub(crate) mod texel_plane;
-pub mod texture_options;
+pub(crate) mod texture_options;
 
 use std::path::Path;
 
@@ -48,7 +48,7 @@ const MAX_SAMPLES_PER_SIDE: f64 = 48.0;
 
 impl Texture {
     /// Reads the texture of a material; `None` if it has none, an error if it cannot be read or decoded.
-    pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
+    pub(crate) fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
         let picture = picture_of(scene, material)?;
         Some(picture.map(|picture| {
             let picture = picture.at_most(MAX_TEXELS);
@@ -61,7 +61,7 @@ impl Texture {
     ///
     /// The colour is that of four samples which differs least from the others: the centroid and three points
     /// towards the corners. The outermost tenth of the triangle is not tested.
-    pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, u32) {
+    pub(crate) fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, u32) {
         let mut corners = corners;
         // Sorted, so that the samples do not depend on the first corner, to the last bit.
         corners.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])));
@@ -97,20 +97,20 @@ impl Texture {
     }
 
     /// Texture of a picture that is laid on a material from outside, such as a style's.
-    pub fn with_picture(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+    pub(crate) fn with_picture(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let picture = picture.clone().at_most(MAX_TEXELS);
         Self { texels: TexelPlane::of(scene, material, &picture), picture, filter: Filter::Smooth }
     }
 
     /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::shown`].
-    pub fn unmasked_coverage(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
+    pub(crate) fn unmasked_coverage(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
         texel_coverage::texel_coverage(scene, triangles, &self.texels)
     }
 
     /// Visible surface area of each texel on a material; zero for transparent texels.
     ///
     /// `triangles` are those that show the picture, as pairs of geometry (ascending) and triangle.
-    pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
+    pub(crate) fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
         let mut shown = self.unmasked_coverage(scene, triangles);
         let least = match scene.materials.get(material).map(|material| material.alpha) {
             Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
@@ -126,7 +126,7 @@ impl Texture {
     }
 
     /// Mean light of the texture, weighted by visible area.
-    pub fn mean_light(&self, shown: &[f32]) -> Option<Colour> {
+    pub(crate) fn mean_light(&self, shown: &[f32]) -> Option<Colour> {
         let table = oklab::linear_table();
         let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
         for (shown, Colour { r, g, b, .. }) in shown.iter().zip(&self.picture.pixels) {
@@ -140,7 +140,7 @@ impl Texture {
 
     /// Prepares the texture for embedding: `base` multiplies it, and with `weighed` texels are weighted by
     /// their opacity.
-    pub fn imaged(
+    pub(crate) fn imaged(
         self,
         paints: (MaterialId, PaintId, [PaintId; 2]),
         base: Option<Colour>,
@@ -150,12 +150,12 @@ impl Texture {
     }
 
     /// At most `count` representative colours, weighted by visible area.
-    pub fn representative_colours(&self, shown: &[f32], count: usize) -> Vec<Colour> {
+    pub(crate) fn representative_colours(&self, shown: &[f32], count: usize) -> Vec<Colour> {
         palette::colour_kmeans::kmeans_colours(&self.picture.pixels, shown, count)
     }
 
     /// Mean colour, weighted by visible area.
-    pub fn mean(&self, shown: &[f32]) -> Colour {
+    pub(crate) fn mean(&self, shown: &[f32]) -> Colour {
         palette::colour_kmeans::kmeans_colours(&self.picture.pixels, shown, 1)
             .first()
             .copied()
@@ -163,7 +163,7 @@ impl Texture {
     }
 
     /// Prepares the texture for painting in a few colours, and in their mean.
-    pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> PaintedTexture {
+    pub(crate) fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> PaintedTexture {
         let most = MAX_CACHED_PICTURES * shown.len();
         PaintedTexture {
             texels: self.texels,

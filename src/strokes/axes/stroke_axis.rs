@@ -43,7 +43,7 @@ pub(crate) struct StrokeAxis {
 
 impl StrokeAxis {
     /// The axis of a chain. `px` is the length of a px in user units. A chain without a path gives no points.
-    pub fn of(chain: &Chain, px: f64) -> Self {
+    pub(crate) fn of(chain: &Chain, px: f64) -> Self {
         let (points, joints) = dense(&chain.path, POINT_STEP_PX * px);
         let arcs = arcs(&points);
         let samples = samples(chain, &points, &arcs);
@@ -53,7 +53,7 @@ impl StrokeAxis {
     }
 
     /// Removes points that are too close to the previous one. Corners and ends stay.
-    pub fn evened(self, px: f64) -> Self {
+    pub(crate) fn evened(self, px: f64) -> Self {
         let least = MIN_POINT_GAP_OF_STEP * POINT_STEP_PX * px;
         let last = self.len().saturating_sub(1);
         let mut even = Self { closed: self.closed, ..Self::default() };
@@ -79,17 +79,17 @@ impl StrokeAxis {
         even
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
 
     /// Arc length from the first to the last point.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.arcs.last().unwrap_or(&0.0) - self.arcs.first().unwrap_or(&0.0)
     }
 
     /// Arc lengths of the corners.
-    pub fn corner_arcs(&self) -> Vec<f64> {
+    pub(crate) fn corner_arcs(&self) -> Vec<f64> {
         self.corners.iter().map(|c| self.arcs[*c]).collect()
     }
 
@@ -117,7 +117,7 @@ impl StrokeAxis {
     }
 
     /// The part between two arc lengths. In a closed axis, `to` may lie past the seam.
-    pub fn cut(&self, from: f64, to: f64) -> Self {
+    pub(crate) fn cut(&self, from: f64, to: f64) -> Self {
         let total = self.length();
         if self.closed && from <= 0.0 && to >= total {
             return self.clone();
@@ -148,7 +148,7 @@ impl StrokeAxis {
     }
 
     /// Adds a midpoint if the axis has only two points, because an outline needs three.
-    pub fn subdivided(mut self) -> Self {
+    pub(crate) fn subdivided(mut self) -> Self {
         if let (&[a, b], &[from, to], &[start, end]) = (&self.points[..], &self.arcs[..], &self.samples[..]) {
             self.points.insert(1, a.midpoint(b));
             self.arcs.insert(1, (from + to) / 2.0);
@@ -164,7 +164,7 @@ impl StrokeAxis {
     }
 
     /// Point and sample at an arc length.
-    pub fn at(&self, arc: f64) -> (Point, Sample) {
+    pub(crate) fn at(&self, arc: f64) -> (Point, Sample) {
         let last = self.len() - 1;
         let next = self.arcs.partition_point(|a| *a < arc).clamp(1, last.max(1)).min(last);
         let here = next.saturating_sub(1);
@@ -174,7 +174,7 @@ impl StrokeAxis {
     }
 
     /// Extends an open axis by `amount` past its first point (side 0) or last point (side 1).
-    pub fn extend(&mut self, side: usize, amount: f64, px: f64) {
+    pub(crate) fn extend(&mut self, side: usize, amount: f64, px: f64) {
         let n = self.len();
         if n < 2 || amount <= 0.0 {
             return;
@@ -203,7 +203,7 @@ impl StrokeAxis {
     }
 
     /// Unit direction from the first point (side 0) or last point (side 1) of an open axis into the axis.
-    pub fn end_tangent(&self, side: usize) -> Vec2 {
+    pub(crate) fn end_tangent(&self, side: usize) -> Vec2 {
         let n = self.len();
         let count = match (side, self.corners.first(), self.corners.last()) {
             (0, Some(first), _) => first + 1,
@@ -215,7 +215,7 @@ impl StrokeAxis {
 
     /// First and last index of the corner-free stretch around point `i`. A corner begins the stretch after
     /// it. In a closed axis, indices continue across the seam.
-    pub fn stretch(&self, i: usize) -> (isize, isize) {
+    pub(crate) fn stretch(&self, i: usize) -> (isize, isize) {
         let n = self.len() as isize;
         let k = self.corners.partition_point(|c| *c <= i);
         let ring = n - 1;
@@ -235,27 +235,27 @@ impl StrokeAxis {
     }
 
     /// The point at an index, which may continue across the seam of a closed axis.
-    pub fn point(&self, i: isize) -> Point {
+    pub(crate) fn point(&self, i: isize) -> Point {
         let n = self.len() as isize;
         let i = if self.closed { i.rem_euclid(n - 1) } else { i.clamp(0, n - 1) };
         self.points[i as usize]
     }
 
     /// Unit direction at a point from up to `reach` points on either side, not across corners.
-    pub fn direction(&self, i: usize, reach: isize) -> Vec2 {
+    pub(crate) fn direction(&self, i: usize, reach: isize) -> Vec2 {
         let (first, last) = self.stretch(i);
         let k = i as isize;
         unit(self.point((k + reach).min(last)) - self.point((k - reach).max(first)))
     }
 
     /// Unit directions of arrival at a corner and departure from it.
-    pub fn at_corner(&self, corner: usize) -> [Vec2; 2] {
+    pub(crate) fn at_corner(&self, corner: usize) -> [Vec2; 2] {
         let c = corner as isize;
         [unit(self.point(c) - self.point(c - 1)), unit(self.point(c + 1) - self.point(c))]
     }
 
     /// The path of the axis, with Béziers between its corners.
-    pub fn path(&self, px: f64) -> BezPath {
+    pub(crate) fn path(&self, px: f64) -> BezPath {
         let mut path = BezPath::new();
         let n = self.len();
         if n < 2 {

@@ -25,7 +25,7 @@ use crate::strokes::widths::width_profile::mean;
 /// Shape along a line. Its x runs along the line from 0 to 1. Its y runs across, from -0.5 at the left edge
 /// of the pen to 0.5 at the right.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Brush {
+pub(crate) struct Brush {
     /// The shape.
     pub shape: BrushShape,
     /// Whether it is repeated along the line instead of stretched over it.
@@ -42,7 +42,7 @@ pub struct Brush {
 /// animation, 2000, section 4.3, equation 3: straight, leftward and rightward strokes. Their pieces are edges
 /// of the mesh; here a piece is one brush length.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TurnShapes {
+pub(crate) struct TurnShapes {
     /// Shape for turns to the left along the line.
     pub left: BrushShape,
     /// Shape for turns to the right.
@@ -53,7 +53,7 @@ pub struct TurnShapes {
 
 /// The shape of a brush.
 #[derive(Debug, Clone, PartialEq)]
-pub enum BrushShape {
+pub(crate) enum BrushShape {
     /// A filled path, and its length divided by its width.
     Path(BezPath, f64),
     /// Extents of the ink to the left and right of the middle at evenly spaced positions along the line, in
@@ -68,7 +68,7 @@ pub enum BrushShape {
 impl BrushShape {
     /// Length divided by width.
     #[must_use]
-    pub const fn ratio(&self) -> f64 {
+    pub(crate) const fn ratio(&self) -> f64 {
         let (Self::Path(_, ratio)
         | Self::Profile(_, ratio)
         | Self::Picture(_, ratio)

@@ -35,7 +35,7 @@ pub(crate) struct ImageCopy<'a> {
 
 impl ImageCopy<'_> {
     /// The pieces of the copy, each with one affine map.
-    pub fn pieces(&self) -> Vec<ImagePiece> {
+    pub(crate) fn pieces(&self) -> Vec<ImagePiece> {
         let mut pieces = Vec::new();
         self.cut([0.0, 1.0], 0, &mut pieces);
         pieces
@@ -109,7 +109,7 @@ type StripPictureKey = (usize, [usize; 2], [u8; 4]);
 
 impl StripPictures {
     /// The picture of a strip with the given pixels, in an ink.
-    pub fn of(&self, strip: &Arc<BrushStrip>, pixels: [usize; 2], ink: Colour) -> Arc<Picture> {
+    pub(crate) fn of(&self, strip: &Arc<BrushStrip>, pixels: [usize; 2], ink: Colour) -> Arc<Picture> {
         let key = (Arc::as_ptr(strip).addr(), pixels, [ink.r, ink.g, ink.b, ink.a]);
         // A poisoned lock is safe: entries are complete or absent.
         let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);

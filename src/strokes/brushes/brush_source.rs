@@ -15,7 +15,7 @@ use crate::drawing::Length;
 
 /// Change of brush: another brush, or none.
 #[derive(Debug, Clone, PartialEq)]
-pub enum BrushChange {
+pub(crate) enum BrushChange {
     /// Plain lines: `"none"`.
     None,
     /// A brush whose file has not been read yet.
@@ -27,7 +27,7 @@ pub enum BrushChange {
 impl BrushChange {
     /// The brush, or `None` while its file has not been read.
     #[must_use]
-    pub fn brush(&self) -> Option<Arc<Brush>> {
+    pub(crate) fn brush(&self) -> Option<Arc<Brush>> {
         match self {
             Self::Brush(brush) => Some(Arc::clone(brush)),
             Self::None | Self::Unread(_) => None,
@@ -37,7 +37,7 @@ impl BrushChange {
 
 /// Brush whose shapes may be in files that have not been read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BrushSource {
+pub(crate) struct BrushSource {
     /// Its shape.
     pub shape: ShapeSource,
     /// Shapes where lines turn.
@@ -50,7 +50,7 @@ pub struct BrushSource {
 
 /// Shapes for pieces of a line that turn. Absent ones use the straight shape.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TurnSources {
+pub(crate) struct TurnSources {
     /// To the left.
     pub left: Option<ShapeSource>,
     /// To the right.
@@ -61,7 +61,7 @@ pub struct TurnSources {
 
 /// Source of a brush shape.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ShapeSource {
+pub(crate) enum ShapeSource {
     /// The style sheet.
     Shape(BrushShape),
     /// The paths of an SVG file.
@@ -73,7 +73,7 @@ pub enum ShapeSource {
 /// Treatment of the interior of a stroke's picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum PictureInside {
+pub(crate) enum PictureInside {
     /// Paper between bristles is kept.
     #[default]
     Traced,
@@ -88,7 +88,7 @@ impl BrushSource {
     ///
     /// # Errors
     /// Errors of `read`.
-    pub fn brush<E>(&self, read: impl Fn(&ShapeSource) -> Result<BrushShape, E>) -> Result<Brush, E> {
+    pub(crate) fn brush<E>(&self, read: impl Fn(&ShapeSource) -> Result<BrushShape, E>) -> Result<Brush, E> {
         let shape = read(&self.shape)?;
         let turned = |own: &Option<ShapeSource>| own.as_ref().map_or_else(|| Ok(shape.clone()), &read);
         let turns = match &self.turns {
@@ -106,7 +106,7 @@ impl BrushShape {
     ///
     /// # Errors
     /// Describes the fault of the path.
-    pub fn of_path(path: &BezPath) -> Result<Self, String> {
+    pub(crate) fn of_path(path: &BezPath) -> Result<Self, String> {
         let bounds = path.bounding_box();
         let (width, height) = (bounds.width(), bounds.height());
         if !(path.is_finite() && width > 0.0 && height > 0.0) {
@@ -126,7 +126,7 @@ impl BrushShape {
     ///
     /// # Errors
     /// Describes the fault of the picture.
-    pub fn of_picture(picture: &Picture, inside: PictureInside) -> Result<Self, String> {
+    pub(crate) fn of_picture(picture: &Picture, inside: PictureInside) -> Result<Self, String> {
         let middle = picture.height as f64 / 2.0;
         let dark = |column: usize, row: usize| {
             let c = picture.at(column, row);

@@ -31,7 +31,7 @@ const MAX_SOLID_PAPER_SHARE: f64 = 0.01;
 
 /// Picture of a stroke.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BrushStrip {
+pub(crate) struct BrushStrip {
     shades: DarknessMap,
     /// Distances from the middle into the ink, evenly along the picture. Bristles count as one.
     pub(crate) ink_offsets: Vec<Option<InkOffset>>,
@@ -40,7 +40,7 @@ pub struct BrushStrip {
 impl BrushStrip {
     /// The strip of a picture of a stroke, dark on light, running from left to right.
     #[must_use]
-    pub fn of(picture: &Picture) -> Self {
+    pub(crate) fn of(picture: &Picture) -> Self {
         let full_map = DarknessMap::of(picture);
         let times = (MAX_PIXELS as f64 / (full_map.width * full_map.height) as f64).sqrt().min(1.0);
         let smaller = |count: usize| (count as f64 * times).floor() as usize;
@@ -58,7 +58,7 @@ impl BrushStrip {
 
     /// Whether the stroke has almost no paper between its edges.
     #[must_use]
-    pub fn is_solid(&self) -> bool {
+    pub(crate) fn is_solid(&self) -> bool {
         let (mut within, mut inked) = (0.0, 0);
         for column in 0..self.shades.width {
             if let Some((top, bottom)) = edges(&self.shades, column) {

@@ -11,8 +11,8 @@
 //!
 //! Files, in reading order: [`brush_source`]; [`brush_strip`]; [`brush`]; [`brush_image`]; [`brush_core`].
 
-pub mod brush;
+pub(crate) mod brush;
 mod brush_core;
 pub(crate) mod brush_image;
-pub mod brush_source;
-pub mod brush_strip;
+pub(crate) mod brush_source;
+pub(crate) mod brush_strip;

@@ -20,13 +20,13 @@ const MAX_ENTRIES: usize = 8192;
 /// An open path begins and ends with a whole dash. A closed path has a whole number of periods and the middle
 /// of a dash at its start. Each corner lies inside a dash: the pattern is stretched from corner to corner.
 #[must_use]
-pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
+pub(crate) fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
     fit_from(path, closed, lengths, 0.0)
 }
 
 /// The same for a closed path without corners, with the middle of a dash at the given share of its length.
 #[must_use]
-pub fn fit_round(path: &BezPath, share: f64, lengths: &[f64]) -> (Vec<f64>, f64) {
+pub(crate) fn fit_round(path: &BezPath, share: f64, lengths: &[f64]) -> (Vec<f64>, f64) {
     fit_from(path, true, lengths, share)
 }
 
@@ -61,7 +61,7 @@ fn fit_from(path: &BezPath, closed: bool, lengths: &[f64], share: f64) -> (Vec<f
 /// The middle of a dash lies where the model's centre projects onto the line. The pattern is therefore the
 /// same from both ends.
 #[must_use]
-pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f64) {
+pub(crate) fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f64) {
     let (pattern, _) = fit(path, false, lengths);
     let [from, to] = ends.map(|anchor| DVec3::from_array(anchor.rest_position.map(f64::from)));
     let chord = (to - from).length();

@@ -31,7 +31,7 @@ pub(crate) struct GapOrigin {
 impl HandGaps {
     /// Splits piece `number` of an axis at its gaps. The number of gaps does not depend on the seed, unless
     /// they are fixed to the model.
-    pub fn split_at_gaps(
+    pub(crate) fn split_at_gaps(
         &self,
         piece: AxisPart,
         number: usize,

@@ -8,7 +8,7 @@
 //!
 //! Files, in reading order: [`dash`]; [`hand_gaps`]; [`gap_origin`]; [`halo`].
 
-pub mod dash;
+pub(crate) mod dash;
 pub(crate) mod gap_origin;
 pub(crate) mod halo;
 pub(crate) mod hand_gaps;

@@ -66,7 +66,7 @@ pub(crate) struct ChainInk<'a> {
 
 impl ChainInk<'_> {
     /// The shapes of the line and their colours, pass by pass.
-    pub fn shapes(&self, context: &InkContext) -> Vec<(StrokeShape, Colour)> {
+    pub(crate) fn shapes(&self, context: &InkContext) -> Vec<(StrokeShape, Colour)> {
         let (hand, px) = (&self.pen.hand, context.px());
         let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
         let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);

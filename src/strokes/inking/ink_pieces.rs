@@ -18,7 +18,7 @@ pub(crate) struct InkedPiece {
 
 impl InkedPiece {
     /// This piece with its width multiplied by a factor.
-    pub fn times(mut self, factor: f64) -> Self {
+    pub(crate) fn times(mut self, factor: f64) -> Self {
         self.thick.iter_mut().for_each(|width| *width *= factor);
         self
     }

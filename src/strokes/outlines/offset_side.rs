@@ -59,7 +59,7 @@ pub(crate) struct OffsetSide {
 
 impl OffsetSide {
     /// The left (`sign` 1) or right (-1) side of an axis, at distance `halves`.
-    pub fn new(axis: &StrokeAxis, halves: &[f64], sign: f64, join: Join) -> Self {
+    pub(crate) fn new(axis: &StrokeAxis, halves: &[f64], sign: f64, join: Join) -> Self {
         let raw = offset_points(axis, halves, sign, join);
         let bad: Vec<bool> = raw.iter().map(|p| p.dropped || in_ink(axis, halves, p)).collect();
         let near = MIN_CROSSING_GAP_OF_STEP * axis.length() / (axis.len().max(2) - 1) as f64;
@@ -72,14 +72,14 @@ impl OffsetSide {
     }
 
     /// The side in reverse.
-    pub fn reversed(mut self) -> Self {
+    pub(crate) fn reversed(mut self) -> Self {
         self.points.reverse();
         self.corners.reverse();
         self
     }
 
     /// Adds the side to a path whose current point is the first point.
-    pub fn add_to(&self, tolerance: f64, path: &mut BezPath) {
+    pub(crate) fn add_to(&self, tolerance: f64, path: &mut BezPath) {
         let last = self.points.len().saturating_sub(1);
         let mut from = 0;
         for to in 1..=last {
@@ -91,7 +91,7 @@ impl OffsetSide {
     }
 
     /// Adds a closed side to a path as a separate loop.
-    pub fn add_loop_to(mut self, tolerance: f64, path: &mut BezPath) {
+    pub(crate) fn add_loop_to(mut self, tolerance: f64, path: &mut BezPath) {
         let n = self.points.len();
         if n < 3 {
             return;

@@ -37,7 +37,7 @@ pub(crate) struct Tremor {
 
 impl Tremor {
     /// Moves each point by at most its limit.
-    pub fn shake(&self, axis: &mut StrokeAxis, limits: &[f64]) {
+    pub(crate) fn shake(&self, axis: &mut StrokeAxis, limits: &[f64]) {
         if self.amplitude <= 0.0 && self.stray <= 0.0 {
             return;
         }

@@ -7,7 +7,7 @@ use crate::drawing::Length;
 
 /// Random hand-drawn effects on a line, all off by default. `seed` in the style selects the random numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hand {
+pub(crate) struct Hand {
     /// Greatest sideways motion of a line. Its ends and corners stay. Default: 0.
     pub tremor: Length,
     /// Wavelength of that motion. Default: 60 px.
@@ -41,7 +41,7 @@ impl Default for Hand {
 impl Hand {
     /// Whether it changes lines at all.
     #[must_use]
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.passes > 1 || [self.tremor, self.overshoot, self.breaks].iter().any(|length| length.value > 0.0)
     }
 }
@@ -49,7 +49,7 @@ impl Hand {
 /// Fields of a hand to be changed. Absent ones stay.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct HandChange {
+pub(crate) struct HandChange {
     /// Sideways motion.
     pub tremor: Option<Length>,
     /// Wavelength of that motion.
@@ -69,7 +69,7 @@ pub struct HandChange {
 
 impl HandChange {
     /// Applies the present fields.
-    pub fn apply(&self, hand: &mut Hand) {
+    pub(crate) fn apply(&self, hand: &mut Hand) {
         *hand = Hand {
             tremor: self.tremor.unwrap_or(hand.tremor),
             tremor_length: self.tremor_length.unwrap_or(hand.tremor_length),

@@ -10,7 +10,7 @@ use crate::lines::HiddenLines;
 
 /// Scene and page data for strokes: names, colours and units.
 #[derive(Debug, Clone, Copy)]
-pub struct InkContext<'a> {
+pub(crate) struct InkContext<'a> {
     /// Unit of chain points and of the drawing.
     pub unit: Unit,
     /// Names of the parts, by [`crate::mesh::PartId`].
@@ -37,7 +37,7 @@ pub struct InkContext<'a> {
 
 /// Paper-coloured line between two spot blacks, where ink would be invisible.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parting {
+pub(crate) struct Parting {
     /// Colour of the paper.
     pub colour: Colour,
     /// Width as a share of the pen's width.

@@ -8,7 +8,7 @@ use crate::drawing::Unit;
 use crate::visibility::{ViewEdge, ViewMap};
 
 /// Ink widths of the edges of a view map.
-pub struct InkWidths<'a> {
+pub(crate) struct InkWidths<'a> {
     selection: Selection<'a>,
     options: &'a StrokeOptions,
     unit: Unit,
@@ -18,7 +18,7 @@ impl<'a> InkWidths<'a> {
     /// The widths from the pens of `options` and the names of parts and materials. `unit` is that of the
     /// page.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         options: &'a StrokeOptions,
         parts: &[Arc<str>],
         materials: &[(Arc<str>, Colour)],
@@ -30,7 +30,7 @@ impl<'a> InkWidths<'a> {
     /// Half the least ink width of an edge, user units. 0 if the pen has a varying width or does not follow
     /// the line.
     #[must_use]
-    pub fn half(&self, map: &ViewMap, edge: &ViewEdge) -> f64 {
+    pub(crate) fn half(&self, map: &ViewMap, edge: &ViewEdge) -> f64 {
         let ViewEdge { kind, silhouette, both_seen, part, material, .. } = *edge;
         let hidden = edge.invisibility > 0;
         let line = LineTraits { kind, hidden, silhouette, both_seen, veiled: false, part, material };

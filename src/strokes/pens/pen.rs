@@ -40,15 +40,15 @@ pub struct Pen {
     pub opacity: f64,
     /// Share of the width that a line loses where its strength is 0. Only suggestive contours, ridges and
     /// valleys vary in strength. Default: 1.
-    pub fade: f64,
+    pub(crate) fade: f64,
     /// Variation of the width along a line. Default: none.
-    pub swell: Swell,
+    pub(crate) swell: Swell,
     /// Random hand-drawn effects. Default: none.
-    pub hand: Hand,
+    pub(crate) hand: Hand,
     /// Distance from the line within which no farther line is drawn; 0 for no halo. Default: 0.
-    pub halo: Length,
+    pub(crate) halo: Length,
     /// Shape laid along lines in place of a plain width. Default: none.
-    pub brush: Option<Arc<Brush>>,
+    pub(crate) brush: Option<Arc<Brush>>,
 }
 
 impl Pen {
@@ -80,7 +80,7 @@ impl Default for Pen {
 /// Fields of a pen to be changed. Absent ones stay.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct PenChange {
+pub(crate) struct PenChange {
     /// Width of the line.
     pub width: Option<Length>,
     /// Colour.
@@ -111,7 +111,7 @@ pub struct PenChange {
 
 impl PenChange {
     /// Applies the present fields to a pen.
-    pub fn apply(&self, pen: &mut Pen) {
+    pub(crate) fn apply(&self, pen: &mut Pen) {
         if let Some(width) = self.width {
             pen.width = width;
         }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::ink_context::InkContext;
 use super::pen::{Pen, PenChange};
+use super::pen_choice::{LineInfo, PenChoice};
 use crate::chains::Chain;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
@@ -16,19 +17,21 @@ use crate::mesh::{MaterialId, PartId};
 
 /// Choice of ink for chains.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct StrokeOptions {
+pub(crate) struct StrokeOptions {
     /// Pen that rules start from.
     pub pen: Pen,
     /// Rules, applied in order. Later rules override single fields of earlier ones.
     pub rules: Vec<Rule>,
     /// Layers and their order.
     pub layers: LayerOptions,
+    /// Function that changes the pen after all rules.
+    pub choice: Option<PenChoice>,
 }
 
 /// Change of pen for some chains.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Rule {
+pub(crate) struct Rule {
     /// Condition on the chains. Without conditions the rule covers all.
     pub when: Condition,
     /// Changes of the pen.
@@ -38,7 +41,7 @@ pub struct Rule {
 /// Condition of a rule. Every field that is set must hold.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Condition {
+pub(crate) struct Condition {
     /// Kinds of line; empty means every kind.
     pub kinds: Vec<LineKind>,
     /// Whether the line is hidden behind surfaces.
@@ -56,7 +59,7 @@ pub struct Condition {
 /// Division of lines into layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum LayersBy {
+pub(crate) enum LayersBy {
     /// One layer of visible lines and one of hidden lines.
     #[default]
     Visibility,
@@ -67,7 +70,7 @@ pub enum LayersBy {
 /// Order of the marks in a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum MarkOrder {
+pub(crate) enum MarkOrder {
     /// Weak kinds first, so that outlines paint over the lines that end at them.
     #[default]
     Strength,
@@ -78,7 +81,7 @@ pub enum MarkOrder {
 /// Layers and their order: the `[layers]` table of a style sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LayerOptions {
+pub(crate) struct LayerOptions {
     /// Division into layers. Default: visibility.
     pub by: LayersBy,
     /// Order inside a layer. Default: strength.
@@ -90,6 +93,8 @@ pub(crate) struct Selection<'a> {
     options: &'a StrokeOptions,
     /// Width of veiled lines as a share of their pen's width.
     behind_glass: f64,
+    /// The scene and the page, if a function changes pens.
+    context: Option<&'a InkContext<'a>>,
     /// For each rule, whether each part matches.
     parts: Vec<Vec<bool>>,
     /// For each rule, whether each material matches.
@@ -98,9 +103,9 @@ pub(crate) struct Selection<'a> {
 
 impl StrokeOptions {
     /// Matches the patterns of all rules once, so that a chain needs only lookups.
-    pub(crate) fn selection<'a>(&'a self, context: &InkContext) -> Selection<'a> {
+    pub(crate) fn selection<'a>(&'a self, context: &'a InkContext) -> Selection<'a> {
         let InkContext { parts, materials, behind_glass, .. } = *context;
-        self.selection_for(parts, materials, behind_glass)
+        Selection { context: Some(context), ..self.selection_for(parts, materials, behind_glass) }
     }
 
     /// The same from the names of parts and materials.
@@ -117,6 +122,7 @@ impl StrokeOptions {
         Selection {
             options: self,
             behind_glass,
+            context: None,
             parts: self.rules.iter().map(parts).collect(),
             materials: self.rules.iter().map(materials).collect(),
         }
@@ -140,7 +146,15 @@ impl Selection<'_> {
     pub(crate) fn pen(&self, chain: &Chain, pen: Pen) -> Pen {
         let Chain { kind, silhouette, both_seen, veiled, part, material, .. } = *chain;
         let hidden = chain.invisibility > 0;
-        self.pen_of(&LineTraits { kind, hidden, silhouette, both_seen, veiled, part, material }, pen)
+        let mut pen =
+            self.pen_of(&LineTraits { kind, hidden, silhouette, both_seen, veiled, part, material }, pen);
+        if let (Some(choice), Some(context)) = (&self.options.choice, self.context) {
+            let part = context.parts.get(part.index()).map_or("", |name| name);
+            let material = context.materials.get(material.index()).map_or("", |(name, _)| name);
+            let line = LineInfo::of(chain, [part, material], context.depths, context.unit);
+            (choice.0)(&line, &mut pen);
+        }
+        pen
     }
 
     /// The pen of a line, starting from `pen`.

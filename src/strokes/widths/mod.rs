@@ -9,5 +9,5 @@
 //!
 //! Files, in reading order: [`swell`] the `[pen.swell]` table; [`width_profile`] widths along an axis.
 
-pub mod swell;
+pub(crate) mod swell;
 pub(crate) mod width_profile;

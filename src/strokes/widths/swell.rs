@@ -12,7 +12,7 @@ use crate::strokes::fraction::fraction;
 
 /// Variation of the width along a line. All effects are off by default and multiply.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swell {
+pub(crate) struct Swell {
     /// Length of the taper at each open end. Shorter lines taper over their half. Default: 0.
     pub taper: Length,
     /// Share of the width left at a tapered end. Default: 0.2.
@@ -51,14 +51,14 @@ impl Default for Swell {
 impl Swell {
     /// Whether the width varies at all.
     #[must_use]
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.taper.value > 0.0
             || [self.bend, self.lit, self.near, self.gap, self.chance].iter().any(|part| *part > 0.0)
     }
 
     /// Whether the width depends on samples next to the line.
     #[must_use]
-    pub fn needs_side_samples(&self) -> bool {
+    pub(crate) fn needs_side_samples(&self) -> bool {
         self.bend > 0.0 || self.lit > 0.0 || self.gap > 0.0
     }
 }
@@ -66,7 +66,7 @@ impl Swell {
 /// Fields of a swell to be changed. Absent ones stay.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct SwellChange {
+pub(crate) struct SwellChange {
     /// Length of the tapered ends.
     pub taper: Option<Length>,
     /// Share of the width left at a tapered end.
@@ -93,7 +93,7 @@ pub struct SwellChange {
 
 impl SwellChange {
     /// Applies the present fields.
-    pub fn apply(&self, swell: &mut Swell) {
+    pub(crate) fn apply(&self, swell: &mut Swell) {
         *swell = Swell {
             taper: self.taper.unwrap_or(swell.taper),
             taper_to: self.taper_to.unwrap_or(swell.taper_to),

@@ -47,7 +47,7 @@ pub(crate) struct WidthSettings {
 
 impl WidthSettings {
     /// The least width of a line.
-    pub fn least(&self) -> f64 {
+    pub(crate) fn least(&self) -> f64 {
         let least =
             self.covers.map_or(MIN_WIDTH_PX * self.px, |to_side| 2.0 * to_side + COVER_MARGIN_PX * self.px);
         least.min(self.width)

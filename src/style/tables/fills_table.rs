@@ -84,7 +84,7 @@ struct FillsMaterialTable {
 
 impl FillsTable {
     /// Reads the pictures of ramps and tables.
-    pub fn read_pictures(&mut self) -> Result<(), Error> {
+    pub(crate) fn read_pictures(&mut self) -> Result<(), Error> {
         self.highlight.read_pictures()?;
         let own = self.material.iter_mut().filter_map(|material| material.highlight.as_mut());
         own.into_iter().try_for_each(HighlightRule::read_pictures)?;
@@ -102,12 +102,12 @@ impl FillsTable {
     }
 
     /// Reads the tiles of patterns.
-    pub fn read_tiles(&mut self) -> Result<(), Error> {
+    pub(crate) fn read_tiles(&mut self) -> Result<(), Error> {
         self.pattern.iter_mut().try_for_each(read_tile)
     }
 
     /// Converts the table to options.
-    pub fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions, Vec<Pattern>) {
+    pub(crate) fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions, Vec<Pattern>) {
         let tones = ToneOptions::default();
         let region = RegionOptions::default();
         let gooch = Some(self.gooch).filter(|gooch| gooch.enabled);

@@ -43,7 +43,7 @@ struct HatchingMaterialTable {
 
 impl HatchingTable {
     /// Converts the table to options.
-    pub fn into_options(self) -> (ShadeOptions, HatchOptions) {
+    pub(crate) fn into_options(self) -> (ShadeOptions, HatchOptions) {
         let shade = ShadeOptions::default();
         let hatch = HatchOptions::default();
         let materials = || self.material.iter();

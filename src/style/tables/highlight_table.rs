@@ -71,11 +71,11 @@ impl<'de> Visitor<'de> for RuleVisitor {
 
 impl HighlightTable {
     /// Reads the picture of the ramp.
-    pub fn read_pictures(&mut self) -> Result<(), error::Error> {
+    pub(crate) fn read_pictures(&mut self) -> Result<(), error::Error> {
         self.ramp.iter_mut().try_for_each(RampSource::read)
     }
 
-    pub fn into_change(self) -> HighlightChange {
+    pub(crate) fn into_change(self) -> HighlightChange {
         HighlightChange {
             enabled: self.enabled,
             thresholds: self.thresholds,
@@ -87,7 +87,7 @@ impl HighlightTable {
         }
     }
 
-    pub fn into_options(self) -> Highlight {
+    pub(crate) fn into_options(self) -> Highlight {
         let near = self.near.unwrap_or_default();
         let mut highlight = Highlight { near, ..Highlight::default() };
         highlight.change(self.into_change());
@@ -97,7 +97,7 @@ impl HighlightTable {
 
 impl HighlightRule {
     /// Reads the picture of the ramp.
-    pub fn read_pictures(&mut self) -> Result<(), error::Error> {
+    pub(crate) fn read_pictures(&mut self) -> Result<(), error::Error> {
         match self {
             Self::Enabled(_) => Ok(()),
             Self::Table(table) => table.read_pictures(),
@@ -105,7 +105,7 @@ impl HighlightRule {
     }
 
     /// Converts to a change. A table enables highlights unless it sets `enabled`.
-    pub fn into_change(self) -> HighlightChange {
+    pub(crate) fn into_change(self) -> HighlightChange {
         match self {
             Self::Enabled(enabled) => {
                 HighlightChange { enabled: Some(enabled), ..HighlightChange::default() }

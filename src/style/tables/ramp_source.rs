@@ -34,7 +34,7 @@ pub(crate) enum TableSource {
 
 impl RampSource {
     /// Reads the picture.
-    pub fn read(&mut self) -> Result<(), Error> {
+    pub(crate) fn read(&mut self) -> Result<(), Error> {
         if let Self::Picture(path) = self {
             let strip = Strip::of_picture(&picture(path)?).map_err(|message| unfit(path, message))?;
             *self = Self::Read(strip);
@@ -42,7 +42,7 @@ impl RampSource {
         Ok(())
     }
 
-    pub fn into_strip(self) -> Option<Strip> {
+    pub(crate) fn into_strip(self) -> Option<Strip> {
         match self {
             Self::Read(strip) => Some(strip),
             Self::Picture(_) => None,
@@ -52,7 +52,7 @@ impl RampSource {
 
 impl TableSource {
     /// Reads the picture.
-    pub fn read(&mut self) -> Result<(), Error> {
+    pub(crate) fn read(&mut self) -> Result<(), Error> {
         if let Self::Picture(path) = self {
             let picture = picture(path)?;
             if picture.width.max(picture.height) > MAX_TABLE_SIDE_PX {
@@ -64,7 +64,7 @@ impl TableSource {
         Ok(())
     }
 
-    pub fn into_table(self) -> Option<Table> {
+    pub(crate) fn into_table(self) -> Option<Table> {
         match self {
             Self::Read(table) => Some(table),
             Self::Picture(_) => None,

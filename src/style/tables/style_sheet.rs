@@ -23,9 +23,9 @@ use crate::strokes::pens::pen::dash;
 use crate::strokes::{
     BrushChange, Condition, HandChange, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions, SwellChange,
 };
-use crate::style::Style;
 use crate::style::files::brush_file::read_brush;
 use crate::style::files::picture_file::read_picture;
+use crate::style::{SheetKeys, Style};
 
 /// A style sheet; every key is optional.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -115,7 +115,7 @@ struct PenTable {
 
 impl StyleSheet {
     /// Reads the picture of the paper.
-    pub fn read_paper(&mut self) -> Result<(), Error> {
+    pub(crate) fn read_paper(&mut self) -> Result<(), Error> {
         let page = &mut self.page;
         if !page.paper.as_os_str().is_empty() {
             page.picture =
@@ -125,7 +125,7 @@ impl StyleSheet {
     }
 
     /// Reads the files of all brushes.
-    pub fn read_brushes(&mut self) -> Result<(), Error> {
+    pub(crate) fn read_brushes(&mut self) -> Result<(), Error> {
         self.pen
             .brushes()
             .chain(self.rule.iter_mut().map(|rule| &mut rule.pen.brush))
@@ -134,7 +134,7 @@ impl StyleSheet {
     }
 
     /// Converts the sheet to a style.
-    pub fn into_style(self) -> Style {
+    pub(crate) fn into_style(self) -> Style {
         let mut stroke = self.pen.into_options();
         stroke.rules.extend(self.rule);
         stroke.layers = self.layers;
@@ -161,6 +161,7 @@ impl StyleSheet {
             glass: self.glass,
             motion: self.motion,
             seed: self.seed,
+            keys: SheetKeys::default(),
         }
     }
 }
@@ -229,7 +230,7 @@ impl PenTable {
         });
         rules.push(Rule { when: hidden(), pen: self.hidden });
         rules.retain(|rule| rule.pen != PenChange::default());
-        StrokeOptions { pen, rules, layers: LayerOptions::default() }
+        StrokeOptions { pen, rules, layers: LayerOptions::default(), choice: None }
     }
 }
 

@@ -86,7 +86,7 @@ pub(crate) fn folds(mesh: &Mesh, turns: &DihedralCosines, low_deg: f64) -> Vec<C
 impl<'a> CreaseCandidates<'a> {
     /// Keeps the candidates that share a vertex with one that turns by at most `high_deg` degrees.
     /// [`Self::extensions`] needs no others, and most machined parts have few of them or none.
-    pub fn near_weak_edges(mesh: &'a Mesh, mut folds: Vec<CreaseCandidate>, high_deg: f64) -> Self {
+    pub(crate) fn near_weak_edges(mesh: &'a Mesh, mut folds: Vec<CreaseCandidate>, high_deg: f64) -> Self {
         let ends = |f: &CreaseCandidate| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
         let faint: Vec<&CreaseCandidate> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
         if faint.is_empty() {
@@ -99,7 +99,7 @@ impl<'a> CreaseCandidates<'a> {
     }
 
     /// Sorts candidate ends by vertex.
-    pub fn new(mesh: &'a Mesh, folds: Vec<CreaseCandidate>) -> Self {
+    pub(crate) fn new(mesh: &'a Mesh, folds: Vec<CreaseCandidate>) -> Self {
         let vertices = |f: &CreaseCandidate| mesh.edges.vertices[f.edge as usize];
         let of_fold = |(fold, id): (&CreaseCandidate, u32)| {
             let [a, b] = vertices(fold);
@@ -110,7 +110,7 @@ impl<'a> CreaseCandidates<'a> {
     }
 
     /// The maximal chains that contain a candidate of more than `high_deg` degrees.
-    pub fn chains(&self, high_deg: f64) -> Vec<CreaseChain> {
+    pub(crate) fn chains(&self, high_deg: f64) -> Vec<CreaseChain> {
         let links = self.links();
         let mut taken = vec![false; self.folds.len()];
         let mut chains = Vec::new();
@@ -143,7 +143,7 @@ impl<'a> CreaseCandidates<'a> {
     /// Starts at ends of candidates of more than `high_deg` degrees where no other such candidate ends.
     /// Follows paired candidates to the first vertex where one ends. An end that reaches none is not
     /// extended.
-    pub fn extensions(&self, high_deg: f64) -> Vec<usize> {
+    pub(crate) fn extensions(&self, high_deg: f64) -> Vec<usize> {
         let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
         // Skips the candidate that leads to this end.
         let meets = |end: u32| {

@@ -38,14 +38,14 @@ pub(crate) struct NoiseEstimate {
 }
 
 impl<'a> EdgeNoise<'a> {
-    pub fn new(mesh: &'a Mesh, turns: &'a DihedralCosines, high_deg: f64) -> Self {
+    pub(crate) fn new(mesh: &'a Mesh, turns: &'a DihedralCosines, high_deg: f64) -> Self {
         let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
         Self { mesh, turns, edges, high_cosine: cos(high_deg.to_radians()) as f32 }
     }
 
     /// Samples the edges of the faces next to a chain and of their neighbours. Edges of the chain and other
     /// sharp edges are left out of the noise estimate.
-    pub fn around(&self, chain: &CreaseChain) -> NoiseEstimate {
+    pub(crate) fn around(&self, chain: &CreaseChain) -> NoiseEstimate {
         let mut own: Vec<u32> = chain.folds.iter().map(|f| f.edge).collect();
         own.sort_unstable();
         let (mut cosines, mut lengths) = (Vec::new(), Vec::new());

@@ -23,7 +23,7 @@ use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark};
 use crate::mesh::{DihedralCosines, EdgeMark, Mesh};
 
 /// Low threshold as a share of the high one: a crease continues where it turns by more than this.
-pub const LOW_THRESHOLD_OF_HIGH: f64 = 0.5;
+pub(crate) const LOW_THRESHOLD_OF_HIGH: f64 = 0.5;
 
 /// Minimum of n²·t/σ for a chain to be a crease (see `is_significant`). One right angle reaches it where the
 /// surface around is flat within a degree. On a scan whose triangles turn by about ten degrees at random,

@@ -12,7 +12,7 @@
 
 mod crease_chains;
 mod edge_noise;
-pub mod hard_edges;
+pub(crate) mod hard_edges;
 pub(crate) mod low_angle;
-pub mod pose_creases;
+pub(crate) mod pose_creases;
 mod sliver_creases;

@@ -30,7 +30,7 @@ struct HysteresisThresholds {
 ///
 /// `before` yields the mesh at earlier moments, latest first. Only as many are taken as the decision needs.
 /// Edges that stay undecided are creases if they turn by more than `crease_deg` now.
-pub fn pose_creases(
+pub(crate) fn pose_creases(
     rest: &Mesh,
     posed: &Mesh,
     crease_deg: f64,

@@ -21,7 +21,7 @@ const FLAT_AREA_QUANTILE: f64 = 0.1;
 const FEATURE_OF_RADIUS: f64 = 0.01;
 
 /// Maximum feature size, as a share of the part.
-pub const MAX_FEATURE_OF_PART: f64 = 0.025;
+pub(crate) const MAX_FEATURE_OF_PART: f64 = 0.025;
 
 /// Feature size of each part, world units. It scales with the part. Curvature thresholds are multiples of its
 /// inverse; thresholds on derivatives are multiples of its inverse square. `part_of` has one part per smooth

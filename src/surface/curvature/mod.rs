@@ -12,8 +12,8 @@
 //! [`curvature_derivative`] (step 3), [`feature_size`].
 
 mod curvature_derivative;
-pub mod feature_size;
+pub(crate) mod feature_size;
 mod normal_diffusion;
 pub(crate) mod principal_curvatures;
-pub mod surface_curvature;
-pub mod vertex_fans;
+pub(crate) mod surface_curvature;
+pub(crate) mod vertex_fans;

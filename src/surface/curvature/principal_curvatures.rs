@@ -19,7 +19,7 @@ use crate::surface::tolerances;
 
 /// The principal curvatures at a point of a surface, and their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PrincipalCurvatures {
+pub(crate) struct PrincipalCurvatures {
     /// Curvature of larger magnitude, per world unit; positive where the surface is convex, as on a sphere.
     pub k1: f64,
     /// Curvature of smaller magnitude, per world unit.

@@ -14,7 +14,7 @@ use crate::surface::SmoothNormals;
 
 /// Curvatures and their derivatives at the smooth vertices of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Curvature {
+pub(crate) struct Curvature {
     /// The faces around each smooth vertex.
     pub fans: VertexFans,
     /// Smoothed unit normals, one per smooth vertex.
@@ -33,7 +33,7 @@ pub struct Curvature {
 impl Curvature {
     /// Measures a surface. Normals are smoothed over `smoothing` times the scale of each part.
     #[must_use]
-    pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
+    pub(crate) fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
         let fans = VertexFans::new(mesh, smooth);
         let part_of = fans.bodies(mesh, smooth.vertices.len());
         let length = |part: PartId| smoothing * mesh.extents.part(part).scale;
@@ -47,7 +47,7 @@ impl Curvature {
     /// Feature size around a smooth vertex, world units.
     #[inline]
     #[must_use]
-    pub fn feature_size(&self, vertex: u32) -> f64 {
+    pub(crate) fn feature_size(&self, vertex: u32) -> f64 {
         self.feature_sizes[self.part_of[vertex as usize].index()]
     }
 }

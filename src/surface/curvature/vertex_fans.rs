@@ -13,7 +13,7 @@ use crate::surface::normals::smooth_normals::NO_NORMAL;
 ///
 /// Flat faces and faces without area are in no fan.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct VertexFans {
+pub(crate) struct VertexFans {
     corners: CsrLists<u32>,
     /// One per face.
     pub(crate) frames: Vec<FaceFrame>,
@@ -32,7 +32,7 @@ pub(crate) struct FaceFrame {
 impl VertexFans {
     /// The fans of a mesh.
     #[must_use]
-    pub fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
+    pub(crate) fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
         let faces = smooth.corners.len();
         let frames: Vec<FaceFrame> = (0..faces)
             .into_par_iter()
@@ -51,14 +51,14 @@ impl VertexFans {
 
     /// The faces around a smooth vertex, with the index of their corner there, in mesh order.
     #[inline]
-    pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub(crate) fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.corners.of(vertex).iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
     }
 
     /// Body of each of `vertices` smooth vertices, by its first part: that of the first face around the
     /// vertex.
     #[must_use]
-    pub fn bodies(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
+    pub(crate) fn bodies(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
         let body = |vertex| {
             self.around(vertex).next().map_or_else(PartId::default, |(face, _)| mesh.body(face as u32))
         };
@@ -68,13 +68,13 @@ impl VertexFans {
     /// Whether a face is in the fans of its corners.
     #[inline]
     #[must_use]
-    pub fn holds(&self, face: usize) -> bool {
+    pub(crate) fn holds(&self, face: usize) -> bool {
         self.frames[face].u != DVec3::ZERO
     }
 
     /// Voronoi area of a smooth vertex over its curved faces, world units squared.
     #[must_use]
-    pub fn area(&self, vertex: usize) -> f64 {
+    pub(crate) fn area(&self, vertex: usize) -> f64 {
         self.around(vertex).map(|(face, corner)| self.frames[face].areas[corner]).sum()
     }
 }
@@ -96,7 +96,7 @@ impl FaceFrame {
 
     /// The unit normal.
     #[inline]
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.u.cross(self.v)
     }
 }

@@ -6,7 +6,7 @@ use crate::mesh::PartId;
 
 /// Circular cylinder that a mesh approximates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cylinder {
+pub(crate) struct Cylinder {
     /// The part it belongs to.
     pub part: PartId,
     /// A point of its axis, world.

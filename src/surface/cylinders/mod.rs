@@ -9,5 +9,5 @@
 //! (step 4).
 
 mod coaxial_rims;
-pub mod cylinder;
-pub mod strip_cylinders;
+pub(crate) mod cylinder;
+pub(crate) mod strip_cylinders;

@@ -51,7 +51,7 @@ struct StripPair {
 
 /// The cylinders of a mesh, by part, then by descending radius.
 #[must_use]
-pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
+pub(crate) fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let normals: Vec<DVec3> = (0..mesh.triangles.len())
         .map(|face| {
             let [a, b, c] = mesh.corners(FaceId(face as u32));

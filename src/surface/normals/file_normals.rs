@@ -23,7 +23,7 @@ pub(crate) fn preferred_normal(of_faces: DVec3, of_file: DVec3) -> DVec3 {
 /// Cosines between the file normals of two faces, at both ends of their common edge. `None` if one of the
 /// faces has no normals.
 #[must_use]
-pub fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f32; 2]> {
+pub(crate) fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f32; 2]> {
     if mesh.corner_normals.is_empty() {
         return None;
     }

@@ -7,9 +7,9 @@
 //! Files, in reading order: [`smooth_normals`] (the result), [`vertex_normals`] (step 1), [`normal_sum`]
 //! (weights), [`file_normals`], [`vertex_split`] (step 2), [`straight_edges`] (step 3).
 
-pub mod file_normals;
+pub(crate) mod file_normals;
 mod normal_sum;
-pub mod smooth_normals;
-pub mod straight_edges;
+pub(crate) mod smooth_normals;
+pub(crate) mod straight_edges;
 mod vertex_normals;
 mod vertex_split;

@@ -36,7 +36,7 @@ pub(crate) struct FaceWeights {
 impl FaceWeights {
     /// Weights of a face with these corners; `None` if it has no area.
     #[inline]
-    pub fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
+    pub(crate) fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let cross = ca.cross(ab);
         let squared = cross.length_squared();
@@ -50,7 +50,7 @@ impl FaceWeights {
 impl NormalSum {
     /// Adds a face; `which` is its corner at the vertex.
     #[inline]
-    pub fn add(&mut self, face: &FaceWeights, which: usize) {
+    pub(crate) fn add(&mut self, face: &FaceWeights, which: usize) {
         // Max, eq. 2.
         let of_max = face.of_max[which];
         self.of_max += face.cross * of_max;
@@ -62,7 +62,7 @@ impl NormalSum {
 
     /// The selected sum, not of unit length.
     #[inline]
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         if self.max_squared * self.max_inverse > MAX_AREA_RATIO * MAX_AREA_RATIO {
             self.of_area
         } else {

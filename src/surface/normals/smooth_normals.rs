@@ -6,7 +6,7 @@ use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 
 /// In [`SmoothNormals::corners`]: the face is flat.
-pub const NO_NORMAL: u32 = u32::MAX;
+pub(crate) const NO_NORMAL: u32 = u32::MAX;
 
 /// Normals of the curved surfaces that the faces of a mesh approximate.
 ///

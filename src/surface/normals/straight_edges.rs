@@ -11,7 +11,7 @@ use crate::surface::SmoothNormals;
 const MIN_LENGTH_RATIO: f64 = 4.0;
 
 /// Minimum cosine between the end normals of a gentle edge: 15 degrees.
-pub const MIN_GENTLE_COSINE: f64 = 0.966;
+pub(crate) const MIN_GENTLE_COSINE: f64 = 0.966;
 
 /// Edges whose end normals differ little, away from separating edges.
 pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {

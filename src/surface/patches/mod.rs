@@ -17,7 +17,7 @@ mod component_stats;
 mod curved_patches;
 mod group_sums;
 mod normal_validation;
-pub mod patch_layout;
+pub(crate) mod patch_layout;
 pub(crate) mod planar_regions;
 mod sliver_bends;
 pub(crate) mod surface_class;

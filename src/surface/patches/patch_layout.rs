@@ -108,7 +108,7 @@ impl Patches {
 /// Edges that turn by more than `crease_deg` degrees, the source of each face, and the connected component of
 /// each face (empty if there is only one).
 #[must_use]
-pub fn classify_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<MeshSource>, Vec<u32>) {
+pub(crate) fn classify_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<MeshSource>, Vec<u32>) {
     let (turns, _, verdicts) = classify(mesh, false);
     let turns = &turns;
     let hard = HardEdges::above_with(mesh, turns, crease_deg);

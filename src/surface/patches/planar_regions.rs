@@ -41,7 +41,7 @@ pub(crate) struct PlanarRegions {
 }
 
 impl PlanarRegions {
-    pub fn new(mesh: &Mesh, turns: &DihedralCosines) -> Self {
+    pub(crate) fn new(mesh: &Mesh, turns: &DihedralCosines) -> Self {
         let faces = mesh.triangles.len();
         let flat = EdgeSet::collect(mesh.edges.len(), |edge| turns.of_two(edge) > MIN_FLAT_COSINE);
         let groups = DisjointSets::new(faces, |join| {
@@ -84,19 +84,19 @@ impl PlanarRegions {
 
     /// The planar region that contains a face.
     #[inline]
-    pub fn region_at(&self, face: u32) -> Option<u32> {
+    pub(crate) fn region_at(&self, face: u32) -> Option<u32> {
         Some(self.region_of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION)
     }
 
     /// Whether a face is coplanar with a neighbour.
     #[inline]
-    pub fn is_level(&self, face: u32) -> bool {
+    pub(crate) fn is_level(&self, face: u32) -> bool {
         self.region_of_face[face as usize] != NO_REGION
     }
 
     /// The planar region that contains a face, unless it is a strip.
     #[inline]
-    pub fn compact(&self, face: u32) -> Option<u32> {
+    pub(crate) fn compact(&self, face: u32) -> Option<u32> {
         self.region_at(face).filter(|flat| self.compact[*flat as usize])
     }
 }

@@ -29,12 +29,12 @@ pub(crate) struct SliverFace {
 impl SliverFace {
     /// Whether a face with this area and longest side is a sliver.
     #[inline]
-    pub fn is_sliver(area: f64, longest: f64) -> bool {
+    pub(crate) fn is_sliver(area: f64, longest: f64) -> bool {
         area > 0.0 && 2.0 * area * BEND_OF_ASPECT < MAX_BEND_RAD * longest * longest
     }
 
     /// A face, if it is a sliver.
-    pub fn of(mesh: &Mesh, face: u32) -> Option<Self> {
+    pub(crate) fn of(mesh: &Mesh, face: u32) -> Option<Self> {
         let [a, b, c] = mesh.corners(FaceId(face));
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         // Squared comparison: excludes most faces without square roots.

@@ -51,28 +51,28 @@ pub(crate) struct ComponentClasses {
 
 impl ComponentClasses {
     /// Takes one class per component, in the order of component numbers.
-    pub fn new(of_pieces: Vec<ComponentClass>, pieces: NumberedSets) -> Self {
+    pub(crate) fn new(of_pieces: Vec<ComponentClass>, pieces: NumberedSets) -> Self {
         Self { of_pieces, pieces: pieces.set_of_face }
     }
 
     /// The class of the component that a face belongs to.
     #[inline]
-    pub fn class_of_face(&self, face: u32) -> &ComponentClass {
+    pub(crate) fn class_of_face(&self, face: u32) -> &ComponentClass {
         &self.of_pieces[self.pieces[face as usize] as usize]
     }
 
     /// Whether at least one component is of a class.
-    pub fn any(&self, make: SurfaceClass) -> bool {
+    pub(crate) fn any(&self, make: SurfaceClass) -> bool {
         self.of_pieces.iter().any(|verdict| verdict.make == make)
     }
 
     /// Whether all components are of a class.
-    pub fn all(&self, make: SurfaceClass) -> bool {
+    pub(crate) fn all(&self, make: SurfaceClass) -> bool {
         self.of_pieces.iter().all(|verdict| verdict.make == make)
     }
 
     /// Maps the class of each face.
-    pub fn map<T: Clone + Send + Sync>(&self, of: impl Fn(&ComponentClass) -> T + Sync) -> Vec<T> {
+    pub(crate) fn map<T: Clone + Send + Sync>(&self, of: impl Fn(&ComponentClass) -> T + Sync) -> Vec<T> {
         if let [only] = &self.of_pieces[..] {
             return vec![of(only); self.pieces.len()];
         }
@@ -81,7 +81,7 @@ impl ComponentClasses {
     }
 
     /// Component of each face, numbered in the order of their first faces; empty if there is at most one.
-    pub fn into_pieces(self) -> Vec<u32> {
+    pub(crate) fn into_pieces(self) -> Vec<u32> {
         if self.of_pieces.len() < 2 { Vec::new() } else { self.pieces }
     }
 }

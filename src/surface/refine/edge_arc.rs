@@ -18,7 +18,7 @@ const MAX_TANGENT_SINE: f64 = 0.55;
 
 /// Cubic Bézier curve over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EdgeArc {
+pub(crate) struct EdgeArc {
     ends: [DVec3; 2],
     normals: [DVec3; 2],
     /// Vectors from the ends to their control points.
@@ -28,7 +28,7 @@ pub struct EdgeArc {
 impl EdgeArc {
     /// The arc between two points with unit normals.
     #[must_use]
-    pub fn new(ends: [DVec3; 2], normals: [DVec3; 2]) -> Self {
+    pub(crate) fn new(ends: [DVec3; 2], normals: [DVec3; 2]) -> Self {
         let chord = ends[1] - ends[0];
         let length = chord.length();
         let along = chord.normalize_or_zero();
@@ -50,7 +50,7 @@ impl EdgeArc {
     ///
     /// Pass the smaller id first, so that both faces at the edge get bit-identical points.
     #[must_use]
-    pub fn over(mesh: &Mesh, smooth: &SmoothNormals, between: [u32; 2]) -> Self {
+    pub(crate) fn over(mesh: &Mesh, smooth: &SmoothNormals, between: [u32; 2]) -> Self {
         let vertices = between.map(|v| smooth.vertices[v as usize]);
         let ends = vertices.map(|v| mesh.positions[v as usize]);
         let normals = between.map(|v| smooth.normals[v as usize]);
@@ -68,7 +68,7 @@ impl EdgeArc {
 
     /// The point at parameter `t`, 0 to 1.
     #[must_use]
-    pub fn at(&self, t: f64) -> DVec3 {
+    pub(crate) fn at(&self, t: f64) -> DVec3 {
         let s = 1.0 - t;
         let controls = [self.ends[0] + self.handles[0], self.ends[1] + self.handles[1]];
         self.ends[0] * (s * s * s)
@@ -79,13 +79,13 @@ impl EdgeArc {
 
     /// Vector from the middle of the edge to the middle of the arc.
     #[must_use]
-    pub fn height(&self) -> DVec3 {
+    pub(crate) fn height(&self) -> DVec3 {
         (self.handles[0] + self.handles[1]) * 0.375
     }
 
     /// Unit normal in the middle: mean of the end normals, perpendicular to the curve.
     #[must_use]
-    pub fn middle_normal(&self) -> DVec3 {
+    pub(crate) fn middle_normal(&self) -> DVec3 {
         let along = (self.ends[1] - self.ends[0]) * 2.0 - self.handles[0] + self.handles[1];
         let sum = self.normals[0] + self.normals[1];
         (sum - along * (sum.dot(along) / along.length_squared().max(f64::MIN_POSITIVE))).normalize_or_zero()

@@ -19,7 +19,7 @@ const DENSE_EDGES_PER_MARK: usize = 500;
 const MIN_SWELLING_RATIO: f64 = 6.0;
 
 /// Number of edges in a run. Runs are examined or skipped as a whole.
-pub const EDGES_PER_RUN: usize = 16;
+pub(crate) const EDGES_PER_RUN: usize = 16;
 
 /// Number of runs per task.
 const RUNS_PER_TASK: usize = 1 << 8;

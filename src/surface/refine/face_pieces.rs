@@ -54,7 +54,7 @@ pub(crate) struct SubdividedSide {
 
 impl SubdividedSide {
     /// An undecided side between two smooth vertices.
-    pub fn open(a: u32, b: u32) -> Self {
+    pub(crate) fn open(a: u32, b: u32) -> Self {
         Self { ends: [a.min(b), a.max(b)], state: SideState::Open }
     }
 }
@@ -75,7 +75,7 @@ pub(crate) struct SplitPieces {
 impl SubdividedPiece {
     /// The same piece with its corners rotated, so that corner `by` comes first.
     #[inline]
-    pub fn rotated(mut self, by: usize) -> Self {
+    pub(crate) fn rotated(mut self, by: usize) -> Self {
         self.facet.corners.rotate_left(by);
         self.facet.marks.rotate_left(by);
         self.sides.rotate_left(by);

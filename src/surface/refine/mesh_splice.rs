@@ -30,7 +30,7 @@ pub(crate) struct PieceTriangle {
 
 /// Mesh after some of its faces were cut.
 #[derive(Debug, Clone)]
-pub struct RefinedMesh {
+pub(crate) struct RefinedMesh {
     /// The finer mesh; its first vertices are those of the given one.
     pub mesh: Mesh,
     /// Its normals.
@@ -45,7 +45,7 @@ pub struct RefinedMesh {
 
 /// Subdivision of a mesh: new vertices, pieces and kept faces.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeshCuts {
+pub(crate) struct MeshCuts {
     /// Positions and normals of the new vertices.
     pub(crate) positions: Vec<DVec3>,
     pub(crate) normals: Vec<DVec3>,
@@ -68,7 +68,7 @@ pub(crate) struct KeptFaces {
 
 impl KeptFaces {
     /// All of `of` faces except those in `cut`, ascending.
-    pub fn without(of: usize, cut: impl Iterator<Item = u32>) -> Self {
+    pub(crate) fn without(of: usize, cut: impl Iterator<Item = u32>) -> Self {
         let (mut runs, mut next, mut count) = (Vec::new(), 0, of);
         for face in cut.map(|face| face as usize) {
             if next < face {
@@ -158,7 +158,7 @@ macro_rules! part {
 }
 
 /// Builds the finer mesh. An owned mesh is modified instead of copied.
-pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: MeshCuts) -> RefinedMesh {
+pub(crate) fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: MeshCuts) -> RefinedMesh {
     let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
         Some(vertex) => *vertex,

@@ -11,10 +11,10 @@
 //! Files, in reading order: [`edge_arc`], [`subdivision`] (step 3), [`face_pieces`], [`edge_marks`] (step
 //! 1), [`wall_thickness`] (step 2), [`segment_grid`] (speeds up step 2), [`mesh_splice`] (step 4).
 
-pub mod edge_arc;
-pub mod edge_marks;
+pub(crate) mod edge_arc;
+pub(crate) mod edge_marks;
 mod face_pieces;
-pub mod mesh_splice;
+pub(crate) mod mesh_splice;
 mod segment_grid;
-pub mod subdivision;
+pub(crate) mod subdivision;
 mod wall_thickness;

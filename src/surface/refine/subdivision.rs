@@ -4,6 +4,7 @@
 //! Whether and where an edge is split depends on the edge alone. Both its faces agree, so no cracks open.
 //! Faces are cut by the pattern of their split sides.
 
+#[cfg(test)]
 use std::borrow::Cow;
 
 use crate::parallel::prelude::*;
@@ -13,7 +14,9 @@ use super::edge_marks::{EdgeMarks, marks};
 use super::face_pieces::{
     CLOSED_SIDE, STRAIGHT_SIDE, SideState, SplitPieces, SubdividedPiece, SubdividedSide, is_open,
 };
-use super::mesh_splice::{KeptFaces, MeshCuts, PieceTriangle, RefinedMesh, splice};
+use super::mesh_splice::{KeptFaces, MeshCuts, PieceTriangle};
+#[cfg(test)]
+use super::mesh_splice::{RefinedMesh, splice};
 use crate::mesh::{EdgeMark, Mesh};
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 use crate::surface::patches::planar_regions::area;
@@ -26,8 +29,9 @@ const MAX_SPLIT_DEPTH: usize = 8;
 const PIECES_PER_TASK: usize = 1 << 10;
 
 /// The mesh and its normals after subdivision, or `None` where hardly any edge is split; see [`cuts`].
+#[cfg(test)]
 #[must_use]
-pub fn refined(
+pub(crate) fn refined(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
@@ -48,7 +52,7 @@ pub fn refined(
 /// Never split are separating edges, edges of thin walls, and edges of large parts that are dense enough.
 /// Split faces lose the normals of the file.
 #[must_use]
-pub fn cuts(
+pub(crate) fn cuts(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     is_asked: impl Fn(usize) -> bool + Sync,

@@ -11,7 +11,7 @@ const MIN_SURFACE_COSINE: f32 = 0.766;
 impl NormalDepthMaps {
     /// Closes gaps of one or two pixels between faces that `may_gap`. Both sides must continue as one surface
     /// in front of the surface that shows between them.
-    pub fn close_hairlines(&mut self, may_gap: impl Fn(u32) -> bool) {
+    pub(crate) fn close_hairlines(&mut self, may_gap: impl Fn(u32) -> bool) {
         let (columns, rows) = (self.columns, self.rows);
         let (in_rows, in_columns) = self.lines_with(&may_gap);
         for row in (0..rows).filter(|row| in_rows[*row]) {

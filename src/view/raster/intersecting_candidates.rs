@@ -24,7 +24,7 @@ const EDGES_PER_TASK: usize = 1 << 15;
 
 /// Whether each face of the mesh may meet another in a visible curve; false for faces without area.
 #[must_use]
-pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
+pub(crate) fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     let unmarked = || -> Vec<AtomicBool> { mesh.triangles.iter().map(|_| AtomicBool::new(false)).collect() };
     let is_marked = |marks: &[AtomicBool], face: u32| marks[face as usize].load(Ordering::Relaxed);
     let mark = |marks: &[AtomicBool], face: u32| marks[face as usize].store(true, Ordering::Relaxed);

@@ -10,14 +10,15 @@
 //! faces from back to front; [`intersecting_candidates`] faces that may intersect visibly.
 
 mod depth_cell;
-pub mod face_buffer;
+pub(crate) mod face_buffer;
 mod hairline_gaps;
-pub mod intersecting_candidates;
-pub mod normal_depth_maps;
-pub mod painter_order;
-pub mod pixel_grid;
+pub(crate) mod intersecting_candidates;
+pub(crate) mod normal_depth_maps;
+pub(crate) mod painter_order;
+pub(crate) mod pixel_grid;
 mod row_bands;
 
 pub use face_buffer::FaceBuffer;
-pub use normal_depth_maps::{NO_FRONT, NormalDepthMaps};
-pub use pixel_grid::{PixelGrid, PixelPoint};
+pub(crate) use normal_depth_maps::{NO_FRONT, NormalDepthMaps};
+pub use pixel_grid::PixelGrid;
+pub(crate) use pixel_grid::PixelPoint;

@@ -13,13 +13,13 @@ use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
 /// Stands for the absence of a face at a pixel.
-pub const NO_FRONT: u32 = u32::MAX;
+pub(crate) const NO_FRONT: u32 = u32::MAX;
 
 /// The depth of pixels that show no face.
-pub const BACKGROUND_DEPTH: f32 = 1.0;
+pub(crate) const BACKGROUND_DEPTH: f32 = 1.0;
 
 /// Largest number of pixels along the longer side of a map.
-pub const MAX_SIDE_PIXELS: f64 = 4096.0;
+pub(crate) const MAX_SIDE_PIXELS: f64 = 4096.0;
 
 /// Margin of the depth map in front of the nearest point, and [`DEPTH_MARGIN_BEHIND`] after the farthest, as shares of the
 /// depth range.
@@ -34,7 +34,7 @@ const LANES: usize = 4;
 
 /// Nearest surface at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NormalDepthMaps {
+pub(crate) struct NormalDepthMaps {
     /// Pixels in a row.
     pub columns: usize,
     /// Number of rows.
@@ -58,7 +58,12 @@ impl NormalDepthMaps {
     ///
     /// `normals` returns the normals at the corners of a face, on its outer side, in local space.
     #[must_use]
-    pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
+    pub(crate) fn new(
+        mesh: &Mesh,
+        view: &View,
+        per_unit: f64,
+        normals: impl Fn(u32) -> [DVec3; 3] + Sync,
+    ) -> Self {
         let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, MAX_SIDE_PIXELS);
         let screen = PixelGrid::of_side(mesh, view, side);
         let bands = RowBands::new(&screen);
@@ -116,7 +121,7 @@ impl NormalDepthMaps {
 
     /// Depth along the optical axis at a pixel, world units.
     #[must_use]
-    pub fn depth(&self, pixel: usize) -> f64 {
+    pub(crate) fn depth(&self, pixel: usize) -> f64 {
         self.planes[0] + f64::from(self.depths[pixel]) * (self.planes[1] - self.planes[0])
     }
 }

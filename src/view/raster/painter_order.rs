@@ -15,7 +15,7 @@ const TRIANGLES_PER_TASK: usize = 1 << 13;
 
 /// Visible faces, in an order that paints what `buffer` shows. In a cycle, the farthest face comes first.
 #[must_use]
-pub fn back_to_front(screen: &PixelGrid, buffer: &FaceBuffer) -> Vec<u32> {
+pub(crate) fn back_to_front(screen: &PixelGrid, buffer: &FaceBuffer) -> Vec<u32> {
     let mut shown: Vec<u32> =
         (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel)).collect();
     shown.par_sort_unstable();

@@ -18,7 +18,7 @@ const DEFAULT_SIDE_PIXELS: f64 = 1024.0;
 const MAX_SMALL_BOX_PIXELS: i32 = 16;
 
 /// Corner on the pixel grid: x to the right and y down in pixels, and nearness.
-pub type PixelPoint = [f32; 3];
+pub(crate) type PixelPoint = [f32; 3];
 
 /// A view on a grid of pixels.
 #[derive(Debug, Clone)]

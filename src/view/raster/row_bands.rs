@@ -25,7 +25,7 @@ pub(crate) struct RowBands<'a> {
 }
 
 impl<'a> RowBands<'a> {
-    pub fn new(screen: &'a PixelGrid<'a>) -> Self {
+    pub(crate) fn new(screen: &'a PixelGrid<'a>) -> Self {
         let count = screen.triangle_count();
         let of_task = |task: usize| {
             // Most triangles of a scan cover no pixel centre and are dropped here.
@@ -52,19 +52,19 @@ impl<'a> RowBands<'a> {
     }
 
     /// Number of pixels in a band; the last one may have fewer.
-    pub fn pixels(&self) -> usize {
+    pub(crate) fn pixels(&self) -> usize {
         ROWS_PER_BAND * self.screen.columns
     }
 
     /// Rows of a band.
-    pub fn rows(&self, band: usize) -> Range<usize> {
+    pub(crate) fn rows(&self, band: usize) -> Range<usize> {
         band * ROWS_PER_BAND..((band + 1) * ROWS_PER_BAND).min(self.screen.rows)
     }
 
     /// Draws a band into `cells`, one per pixel, which must be zero at first.
     ///
     /// The nearer face wins; of equally near faces, the one with the smaller id. The order has no effect.
-    pub fn draw(&self, band: usize, cells: &mut [DepthCell]) {
+    pub(crate) fn draw(&self, band: usize, cells: &mut [DepthCell]) {
         let first = band * self.pixels();
         for id in self.triangles.iter().flat_map(|of_task| of_task.of(band)) {
             let (corners, face) = self.screen.triangle(*id as usize);

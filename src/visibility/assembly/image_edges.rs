@@ -25,7 +25,7 @@ const MIN_REMAINDER_PX: f64 = 6.0;
 /// Adds image lines to a view map, and their segments to its feature lines.
 ///
 /// With `drop_duplicates`, only those parts are added that have no visible line of the map next to them.
-pub fn join(
+pub(crate) fn join(
     map: &mut ViewMap,
     lines: &mut FeatureLines,
     image: &ImageLines,

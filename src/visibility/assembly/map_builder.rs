@@ -35,13 +35,13 @@ enum HiddenPieces {
 
 /// Builds the view map of all feature lines.
 #[must_use]
-pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
+pub(crate) fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
     build_with(mesh, view, lines, options, None)
 }
 
 /// Like [`build`], with an occlusion buffer of the view that was made earlier.
 #[must_use]
-pub fn build_with(
+pub(crate) fn build_with(
     mesh: &Mesh,
     view: &View,
     lines: &FeatureLines,
@@ -58,7 +58,7 @@ pub fn build_with(
 ///
 /// `clear` is the same mesh, but its see-through faces hide nothing.
 #[must_use]
-pub fn build_through(
+pub(crate) fn build_through(
     mesh: &Mesh,
     clear: &Mesh,
     view: &View,

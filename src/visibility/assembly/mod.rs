@@ -9,6 +9,6 @@
 //! Files, in reading order: [`map_builder`] steps 1 to 3; [`image_edges`] lines found in the image;
 //! [`motion_lines`] the view map of motion lines.
 
-pub mod image_edges;
-pub mod map_builder;
-pub mod motion_lines;
+pub(crate) mod image_edges;
+pub(crate) mod map_builder;
+pub(crate) mod motion_lines;

@@ -16,7 +16,7 @@ use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Body, with the feature segments that must not be drawn over it, however near they are.
 #[derive(Debug)]
-pub struct BodyLines {
+pub(crate) struct BodyLines {
     /// Consecutive feature segments.
     pub segments: Range<u32>,
     /// Body that hides them.
@@ -26,7 +26,7 @@ pub struct BodyLines {
 /// Builds the view map of lines that are drawn where nothing hides them and they do not cross their own
 /// bodies.
 #[must_use]
-pub fn build_motion_lines(
+pub(crate) fn build_motion_lines(
     mesh: &Mesh,
     view: &View,
     camera: &Camera,

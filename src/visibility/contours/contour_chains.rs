@@ -19,19 +19,19 @@ pub(crate) struct ContourChain {
 }
 
 impl ContourChain {
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.starts[self.segments.len()]
     }
 
     /// Whether the image of the run turns back within `within` of a place.
-    pub fn turns_near(&self, arc_length: f64, within: f64) -> bool {
+    pub(crate) fn turns_near(&self, arc_length: f64, within: f64) -> bool {
         let first = self.starts.partition_point(|start| *start < arc_length - within).max(1);
         let cusps = (first..self.segments.len()).take_while(|k| self.starts[*k] <= arc_length + within);
         cusps.into_iter().any(|k| self.backward[k - 1] != self.backward[k])
     }
 
     /// Distance between two places along the run; the shorter way round if it is closed.
-    pub fn between(&self, from: f64, to: f64) -> f64 {
+    pub(crate) fn between(&self, from: f64, to: f64) -> f64 {
         let direct = (to - from).abs();
         if self.closed { direct.min(self.length() - direct) } else { direct }
     }

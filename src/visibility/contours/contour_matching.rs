@@ -104,7 +104,7 @@ pub(crate) struct CurveIndex {
 }
 
 impl CurveIndex {
-    pub fn new(segments: &[ImageSegment], runs: &[ContourChain]) -> Self {
+    pub(crate) fn new(segments: &[ImageSegment], runs: &[ContourChain]) -> Self {
         let grid = grid_over(segments.iter(), TILES_ACROSS);
         let pieces = csr_lists(grid.len(), |put| {
             for (r, run) in runs.iter().enumerate() {
@@ -128,7 +128,7 @@ pub(crate) struct ContourPosition {
 
 impl ContourMatcher<'_> {
     /// Matches all mesh contours. Hidden spans are included only with `hidden`.
-    pub fn match_contours(&self, visibility: &SegmentVisibility, hidden: bool) -> MatchResult {
+    pub(crate) fn match_contours(&self, visibility: &SegmentVisibility, hidden: bool) -> MatchResult {
         let count = self.segments.len();
         let results: Vec<MatchResult> = (0..count.div_ceil(CONTOURS_PER_TASK))
             .into_par_iter()
@@ -258,7 +258,7 @@ impl ContourMatcher<'_> {
     }
 
     /// Nearest place of a curve that may stand for a mesh contour edge at one of its points.
-    pub fn match_point(&self, mesh_contour: &ImageSegment, p: DVec3) -> Option<ContourPosition> {
+    pub(crate) fn match_point(&self, mesh_contour: &ImageSegment, p: DVec3) -> Option<ContourPosition> {
         match mesh_contour.role {
             Role::MeshContour { convex, .. } => self.nearest(mesh_contour, convex, p),
             _ => None,
@@ -305,7 +305,7 @@ impl ContourMatcher<'_> {
 
     /// Whether a visible part of a curve passes a point of the image within ink distance. `is_seen` takes a
     /// run and a place along it.
-    pub fn has_ink_near(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
+    pub(crate) fn has_ink_near(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
         let mut inked = false;
         self.visit_near(p, MAX_INK_DISTANCE_PX * self.px, |_, r, _, distance_along| {
             inked = inked || is_seen(r, distance_along)

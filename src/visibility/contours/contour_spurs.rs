@@ -22,7 +22,7 @@ pub(crate) struct ContourSpurs<'a> {
 }
 
 impl<'a> ContourSpurs<'a> {
-    pub fn new(court: &'a ContourMatcher<'a>, segments: &'a [ImageSegment]) -> Self {
+    pub(crate) fn new(court: &'a ContourMatcher<'a>, segments: &'a [ImageSegment]) -> Self {
         let mesh_contours =
             segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::MeshContour { .. }));
         let mut ends: Vec<(u32, u32)> =
@@ -33,7 +33,7 @@ impl<'a> ContourSpurs<'a> {
 
     /// Whether a mesh contour segment is part of a spur. `is_seen(chain, from, to)` must hold for the curve
     /// along its base.
-    pub fn contains(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
+    pub(crate) fn contains(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
         let Some((p, first_distance)) = self.walk(id, 0) else { return false };
         let Some((q, second_distance)) = self.walk(id, 1) else { return false };
         let total_length = first_distance + second_distance + self.segments[id as usize].length();

@@ -45,7 +45,7 @@ pub(crate) struct ContourVisibility {
 
 impl ContourVisibility {
     /// Whether any part of an image segment of a rounded surface may be drawn.
-    pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
+    pub(crate) fn is_drawn(&self, segment: usize, role: Role) -> bool {
         role == Role::SmoothContour || self.has_unmatched[segment]
     }
 }
@@ -94,7 +94,7 @@ pub(crate) struct SmoothContours {
 }
 
 impl SmoothContours {
-    pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &ViewTolerances) -> Self {
+    pub(crate) fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &ViewTolerances) -> Self {
         let runs = contour_chains(lines, segments, tolerances::MIN_CUSP_PX * limits.px);
         Self { curve_index: CurveIndex::new(segments, &runs), contour_chains: runs }
     }

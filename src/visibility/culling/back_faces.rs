@@ -29,7 +29,7 @@ pub(crate) struct BackFaces {
 impl BackFaces {
     /// Classifies `groups` of faces that are connected across the `inner` edges, where the image does not
     /// fold.
-    pub fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: DisjointSets) -> Self {
+    pub(crate) fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: DisjointSets) -> Self {
         let behind: Vec<AtomicI32> = mesh.triangles.par_iter().map(|_| AtomicI32::new(0)).collect();
         let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         outer.filter(|edge| !inner.contains(*edge)).for_each(|edge| {
@@ -49,14 +49,14 @@ impl BackFaces {
 
     /// First face of the group of a face.
     #[inline]
-    pub fn group(&self, face: u32) -> u32 {
+    pub(crate) fn group(&self, face: u32) -> u32 {
         self.groups.representative(face)
     }
 
     /// Whether a face is part of a back: along most of its folds, the neighbouring group is nearer to the
     /// eye.
     #[inline]
-    pub fn contains(&self, face: u32) -> bool {
+    pub(crate) fn contains(&self, face: u32) -> bool {
         self.behind[self.groups.representative(face) as usize].load(Relaxed) > 0
     }
 }

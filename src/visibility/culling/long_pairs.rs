@@ -45,7 +45,7 @@ struct KnownOcclusion {
 
 impl LongPairs {
     /// Compares all long pairs; `None` if there are too few of them.
-    pub fn find(
+    pub(crate) fn find(
         compared: &OcclusionInput,
         items: &CsrLists<TileSegment>,
         occluders: &CsrLists<u32>,
@@ -94,22 +94,22 @@ impl LongPairs {
     }
 
     /// Whether a segment is one of the long ones.
-    pub fn has(&self, segment: u32) -> bool {
+    pub(crate) fn has(&self, segment: u32) -> bool {
         self.numbers[segment as usize] != NO_NUMBER
     }
 
     /// Whether a triangle is one of the long ones.
-    pub fn has_triangle(&self, id: u32) -> bool {
+    pub(crate) fn has_triangle(&self, id: u32) -> bool {
         self.is_long[id as usize]
     }
 
     /// Hidden parts of an item.
-    pub fn hidden(&self, item: &TileSegment) -> impl Iterator<Item = HiddenInterval> {
+    pub(crate) fn hidden(&self, item: &TileSegment) -> impl Iterator<Item = HiddenInterval> {
         self.occlusion_of(item.segment).into_iter().flat_map(|occlusion| within(&occlusion.hidden, *item))
     }
 
     /// Parts of an item that a long triangle lies next to, on one of its outer sides.
-    pub fn backed(&self, item: &TileSegment, side: usize) -> impl Iterator<Item = Interval> {
+    pub(crate) fn backed(&self, item: &TileSegment, side: usize) -> impl Iterator<Item = Interval> {
         let segment_occlusion = self.occlusion_of(item.segment).into_iter();
         segment_occlusion
             .flat_map(move |known| within(&known.side_cover[side], *item))

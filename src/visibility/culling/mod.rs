@@ -19,7 +19,7 @@ pub(crate) mod long_pairs;
 pub(crate) mod longest_interval;
 pub(crate) mod nearness_bound;
 mod occluder_fusion;
-pub mod occlusion_buffer;
+pub(crate) mod occlusion_buffer;
 pub(crate) mod tile_occluders;
 pub(crate) mod triangle_blocks;
 pub(crate) mod view_occlusion;

@@ -42,7 +42,7 @@ pub(crate) struct FusedOccluders {
 }
 
 impl FusedOccluders {
-    pub fn new(triangles: &TiledTriangles, cell: f64) -> Self {
+    pub(crate) fn new(triangles: &TiledTriangles, cell: f64) -> Self {
         let TiledTriangles { mesh, view, .. } = *triangles;
         let turns: Vec<i8> = (0..mesh.triangles.len())
             .into_par_iter()
@@ -129,18 +129,18 @@ impl FusedOccluders {
         ids
     }
 
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.faces.count()
     }
 
     /// Whether a face is part of the back of a body.
     #[inline]
-    pub fn is_far_side(&self, face: u32) -> bool {
+    pub(crate) fn is_far_side(&self, face: u32) -> bool {
         self.back_faces.contains(face)
     }
 
     /// Raises the value of each square that a group fills.
-    pub fn add(
+    pub(crate) fn add(
         &self,
         expanse: usize,
         triangles: &TiledTriangles,

@@ -44,7 +44,7 @@ const MAX_TILES_TESTED: u32 = 64;
 
 /// Nearness limits per square and per tile: everything farther is hidden. −∞ where nothing is hidden.
 #[derive(Debug, Clone)]
-pub struct OcclusionBuffer {
+pub(crate) struct OcclusionBuffer {
     tiles: TileGrid,
     squares: TileGrid,
     /// One per square, row by row. In single precision, never nearer than the exact value.
@@ -60,7 +60,7 @@ impl OcclusionBuffer {
     ///
     /// The result does not depend on the number of threads, because each square keeps the nearest value.
     #[must_use]
-    pub fn find(triangles: &TiledTriangles) -> Self {
+    pub(crate) fn find(triangles: &TiledTriangles) -> Self {
         if triangles.mean_layers() < MIN_MEAN_LAYERS {
             return Self::none(triangles.grid);
         }
@@ -76,7 +76,7 @@ impl OcclusionBuffer {
     /// Equals [`find`](Self::find) where there are enough layers. With fewer layers, only big triangles are
     /// used.
     #[must_use]
-    pub fn find_before_lines(triangles: &TiledTriangles) -> Self {
+    pub(crate) fn find_before_lines(triangles: &TiledTriangles) -> Self {
         if triangles.mean_layers() >= MIN_MEAN_LAYERS {
             return Self::find(triangles);
         }
@@ -164,7 +164,7 @@ impl OcclusionBuffer {
 
     /// Empty buffer, which hides nothing. Used where all layers must be counted.
     #[must_use]
-    pub fn none(grid: &TileGrid) -> Self {
+    pub(crate) fn none(grid: &TileGrid) -> Self {
         Self {
             tiles: *grid,
             squares: *grid,
@@ -176,7 +176,7 @@ impl OcclusionBuffer {
 
     /// Whether the buffer is empty.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.square_nearness.is_empty()
     }
 
@@ -184,7 +184,7 @@ impl OcclusionBuffer {
     ///
     /// False if the box meets more than `max_squares` squares; true if it meets none.
     #[must_use]
-    pub fn hides_triangle(&self, points: &[DVec3; 3], max_squares: u32) -> bool {
+    pub(crate) fn hides_triangle(&self, points: &[DVec3; 3], max_squares: u32) -> bool {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         // The tiles settle most cases.
@@ -206,7 +206,13 @@ impl OcclusionBuffer {
 
     /// Whether a part of a segment inside one tile is behind the buffer in all squares it passes.
     #[must_use]
-    pub fn hides_segment_part(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
+    pub(crate) fn hides_segment_part(
+        &self,
+        segment: &ImageSegment,
+        tile: usize,
+        start: f64,
+        end: f64,
+    ) -> bool {
         if self.square_nearness.is_empty() {
             return false;
         }

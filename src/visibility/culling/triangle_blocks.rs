@@ -23,7 +23,7 @@ const TRIANGLES_PER_BLOCK: usize = 32;
 
 /// Squares of the frame that the bounding box of each block of triangles meets.
 #[derive(Debug)]
-pub struct TriangleBlocks {
+pub(crate) struct TriangleBlocks {
     grid: TileGrid,
     blocks: Vec<TileBox>,
 }
@@ -31,7 +31,7 @@ pub struct TriangleBlocks {
 impl TriangleBlocks {
     /// Computes the squares of all blocks of a view.
     #[must_use]
-    pub fn new(mesh: &Mesh, view: &View, limits: &ViewTolerances) -> Self {
+    pub(crate) fn new(mesh: &Mesh, view: &View, limits: &ViewTolerances) -> Self {
         let size = DVec2::new(view.frame.width, view.frame.height);
         // Lines end at the frame, up to rounding.
         let grid = TileGrid::new(-DVec2::splat(limits.px), size + limits.px, CELLS_ACROSS);

@@ -20,7 +20,7 @@ const MAX_FACE_CELLS: u32 = 256;
 
 /// Occlusion buffer of a view, with its grid of tiles.
 #[derive(Debug, Clone)]
-pub struct ViewOcclusionBuffer {
+pub(crate) struct ViewOcclusionBuffer {
     pub(crate) grid: TileGrid,
     pub(crate) covers: OcclusionBuffer,
 }
@@ -28,7 +28,7 @@ pub struct ViewOcclusionBuffer {
 impl ViewOcclusionBuffer {
     /// Fills the buffer with everything on the page; `None` where it would cost more than it saves.
     #[must_use]
-    pub fn of(mesh: &Mesh, view: &View) -> Option<Self> {
+    pub(crate) fn of(mesh: &Mesh, view: &View) -> Option<Self> {
         let (low, high) = box_on_page(view)?;
         let grid = grid_over_box(low, high, tiles_across(mesh.triangles.len()));
         let limits = ViewTolerances::new(&view.frame);
@@ -40,7 +40,7 @@ impl ViewOcclusionBuffer {
     /// Whether each face is certainly out of sight: behind the buffer or off the page. Faces cut by the near
     /// plane are not.
     #[must_use]
-    pub fn occluded_faces(&self, mesh: &Mesh, view: &View) -> Vec<bool> {
+    pub(crate) fn occluded_faces(&self, mesh: &Mesh, view: &View) -> Vec<bool> {
         let is_hidden = |triangle: &[u32; 3]| {
             let points = triangle.map(|v| view.points[v as usize]);
             !points.iter().any(|p| p.z.is_nan()) && self.covers.hides_triangle(&points, MAX_FACE_CELLS)

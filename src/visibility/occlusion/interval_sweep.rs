@@ -5,7 +5,7 @@ use crate::visibility::graph::ViewVertexKind;
 
 /// Piece of a segment behind a number of surfaces. The count is never 0, because visible parts have no entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HiddenInterval {
+pub(crate) struct HiddenInterval {
     /// Parameter range, with the reasons for its ends.
     pub interval: Interval,
     /// Number of surfaces in front.
@@ -17,7 +17,7 @@ pub struct HiddenInterval {
 ///
 /// Pieces and gaps shorter than `shortest` are absorbed by their neighbours. With `counting` false, all
 /// counts are 1.
-pub fn sweep(
+pub(crate) fn sweep(
     hidden: &mut Vec<Interval>,
     known: &[HiddenInterval],
     shortest: f64,
@@ -36,7 +36,7 @@ pub fn sweep(
 }
 
 /// Hides everything except the parts that `front` hides and `behind` does not. Both lists are ascending.
-pub fn only_behind(front: &[HiddenInterval], behind: &[HiddenInterval]) -> Vec<HiddenInterval> {
+pub(crate) fn only_behind(front: &[HiddenInterval], behind: &[HiddenInterval]) -> Vec<HiddenInterval> {
     let mut hidden = Vec::new();
     let mut push = |start: (f64, ViewVertexKind), end: (f64, ViewVertexKind)| {
         if end.0 > start.0 {

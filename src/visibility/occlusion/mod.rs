@@ -11,8 +11,8 @@
 //! and layer counts; [`tiled_triangles`] the triangles that overlap each tile; [`outer_sides`] background
 //! next to a segment; [`occlusion_input`] the data shared by all tiles.
 
-pub mod interval_sweep;
+pub(crate) mod interval_sweep;
 pub(crate) mod occlusion_input;
 pub(crate) mod outer_sides;
-pub mod tiled_triangles;
-pub mod triangle_occlusion;
+pub(crate) mod tiled_triangles;
+pub(crate) mod triangle_occlusion;

@@ -18,7 +18,7 @@ use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
 
 /// Bounds of a triangle in the image, enough to reject most comparisons.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OccluderBounds {
+pub(crate) struct OccluderBounds {
     /// Minimum x, maximum x, minimum y and maximum y in the image, rounded outward.
     pub bounds: [f32; 4],
     /// Maximum nearness, rounded towards the eye.
@@ -29,7 +29,7 @@ pub struct OccluderBounds {
 
 /// Triangle that may hide lines, with everything the exact comparison needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Occluder {
+pub(crate) struct Occluder {
     /// Face it belongs to.
     pub face: u32,
     /// Vertex ids of that face.
@@ -42,7 +42,7 @@ pub struct Occluder {
 
 /// The triangles of a view over a grid of tiles.
 #[derive(Debug, Clone, Copy)]
-pub struct TiledTriangles<'a> {
+pub(crate) struct TiledTriangles<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
     /// The view of it.
@@ -56,7 +56,7 @@ pub struct TiledTriangles<'a> {
 /// Corners in image space and face of a triangle id.
 #[inline]
 #[must_use]
-pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
+pub(crate) fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
     match mesh.triangles.get(id as usize) {
         Some(t) => (t.map(|v| view.points[v as usize]), id),
         None => {
@@ -80,7 +80,7 @@ impl TiledTriangles<'_> {
     /// Tiles that each triangle's bounding box meets; an empty block for triangles that hide nothing or are
     /// off the grid.
     #[must_use]
-    pub fn tile_boxes(&self) -> Vec<TileBox> {
+    pub(crate) fn tile_boxes(&self) -> Vec<TileBox> {
         // A vertex is a corner of six triangles on average, so its range of tiles is computed once.
         let slack = self.slack();
         let of_vertex = |p: &DVec3| if p.z.is_nan() { TileReach::CUT } else { self.grid.around(*p, slack) };
@@ -135,7 +135,7 @@ impl TiledTriangles<'_> {
     /// Triangle with this id: a face, or after all faces an entry of [`View::clipped`].
     #[inline]
     #[must_use]
-    pub fn occluder(&self, id: u32) -> Occluder {
+    pub(crate) fn occluder(&self, id: u32) -> Occluder {
         let (corners, face) = corners(self.mesh, self.view, id);
         Occluder {
             face,
@@ -148,7 +148,7 @@ impl TiledTriangles<'_> {
     /// Bounds of the triangle with this id.
     #[inline]
     #[must_use]
-    pub fn reach(&self, id: u32) -> OccluderBounds {
+    pub(crate) fn reach(&self, id: u32) -> OccluderBounds {
         let (corners, _) = corners(self.mesh, self.view, id);
         let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
         OccluderBounds { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }

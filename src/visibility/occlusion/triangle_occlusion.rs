@@ -23,7 +23,7 @@ use crate::visibility::view_tolerances::ViewTolerances;
 
 /// Part of a segment's parameter range, with the reason for each end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
+pub(crate) struct Interval {
     /// Start parameter.
     pub start: f64,
     /// End parameter.
@@ -38,7 +38,12 @@ pub struct Interval {
 /// covered.
 #[inline]
 #[must_use]
-pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &ViewTolerances) -> Option<(f64, f64)> {
+pub(crate) fn covered(
+    p: DVec2,
+    q: DVec2,
+    corners: &[DVec3; 3],
+    limits: &ViewTolerances,
+) -> Option<(f64, f64)> {
     let [a, b, c] = corners.map(DVec3::truncate);
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
@@ -88,7 +93,7 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &ViewTolerances
 /// matter.
 #[inline]
 #[must_use]
-pub fn hidden_interval(
+pub(crate) fn hidden_interval(
     segment: &ImageSegment,
     (from, to): (f64, f64),
     triangle: &Occluder,

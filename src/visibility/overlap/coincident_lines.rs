@@ -28,7 +28,7 @@ const LINES_PER_TASK: usize = 1 << 11;
 /// Removes the parts of visible edges that lie within `max_distance` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
-pub fn remove_coincident(map: &mut ViewMap, max_distance: f64, frame: &Frame, extents: &MeshMetrics) {
+pub(crate) fn remove_coincident(map: &mut ViewMap, max_distance: f64, frame: &Frame, extents: &MeshMetrics) {
     let perspective = frame.perspective;
     let covered = find_covered(map, max_distance, frame, extents);
     if covered.is_empty() {

@@ -13,30 +13,30 @@ pub(crate) struct EdgeLine {
 }
 
 impl EdgeLine {
-    pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
+    pub(crate) fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         let start = map.vertices[edge.start.index()].position;
         let d = map.vertices[edge.end.index()].position - start;
         let length = d.hypot();
         Self { start, along: if length > 0.0 { d / length } else { Vec2::ZERO }, length }
     }
 
-    pub fn end(&self) -> Point {
+    pub(crate) fn end(&self) -> Point {
         self.start + self.along * self.length
     }
 
-    pub fn ends(&self) -> [DVec3; 2] {
+    pub(crate) fn ends(&self) -> [DVec3; 2] {
         [vector(self.start), vector(self.end())]
     }
 
     /// Part of this line over a range of its parameter (0 to 1).
-    pub fn piece(&self, (from, to): (f64, f64)) -> Self {
+    pub(crate) fn piece(&self, (from, to): (f64, f64)) -> Self {
         let start = self.start + self.along * (self.length * from);
         Self { start, along: self.along, length: self.length * (to - from) }
     }
 
     /// Range of this line's parameter (0 to 1) whose distance from the other line is at most `reach`. The
     /// area around the other line is convex, so there is one range.
-    pub fn within_ink_of(&self, other: &Self, reach: f64) -> Option<(f64, f64)> {
+    pub(crate) fn within_ink_of(&self, other: &Self, reach: f64) -> Option<(f64, f64)> {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         // Discs around the ends of the other line.
         for end in [other.start, other.end()] {
@@ -69,14 +69,14 @@ impl EdgeLine {
     }
 
     /// Fast rejection test before the exact one.
-    pub fn runs_along(&self, other: &Self, within: f64) -> bool {
+    pub(crate) fn runs_along(&self, other: &Self, within: f64) -> bool {
         let shorter = self.length.min(other.length);
         self.along.cross(other.along).abs() * shorter <= 4.0 * within
             && self.along.cross(other.start - self.start).abs() <= other.length.max(self.length)
     }
 
     /// Range of this line's parameter (0 to 1) along which the other line is within `within`.
-    pub fn covered_by(&self, other: &Self, within: f64) -> Option<(f64, f64)> {
+    pub(crate) fn covered_by(&self, other: &Self, within: f64) -> Option<(f64, f64)> {
         let project = |p: Point| self.along.dot(p - self.start);
         let offset = |p: Point| self.along.cross(p - self.start);
         let (mut a, mut b) =

@@ -31,7 +31,7 @@ const MIN_CELL_PER_REACH: f64 = 2.0;
 type ParameterRange = (f64, f64);
 
 /// Ink of the lines on the page.
-pub struct LineInk<'a> {
+pub(crate) struct LineInk<'a> {
     /// Half the ink width of an edge, user units; 0 if it is unknown. At least [`BEHIND_INK_PX`] is used.
     pub half_width: &'a (dyn Fn(&ViewEdge) -> f64 + Sync),
     /// Sizes of the parts, which decide between parts in one place.
@@ -46,7 +46,7 @@ pub struct LineInk<'a> {
 ///
 /// All edges of the map count as drawn.
 #[must_use]
-pub fn without_hidden_in_ink(map: &ViewMap, ink: &LineInk) -> Option<ViewMap> {
+pub(crate) fn without_hidden_in_ink(map: &ViewMap, ink: &LineInk) -> Option<ViewMap> {
     let behind = find(map, ink);
     if behind.iter().all(Vec::is_empty) {
         return None;

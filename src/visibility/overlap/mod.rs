@@ -7,7 +7,7 @@
 //! Files, in reading order: [`edge_line`] a view edge in the image; [`coincident_lines`] step 1;
 //! [`hidden_line_precedence`] step 2; [`smooth_chains`] hidden edges chained up to corners and branches.
 
-pub mod coincident_lines;
+pub(crate) mod coincident_lines;
 mod edge_line;
-pub mod hidden_line_precedence;
+pub(crate) mod hidden_line_precedence;
 mod smooth_chains;

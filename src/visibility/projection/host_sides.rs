@@ -19,18 +19,18 @@ pub(crate) struct HostedLine {
 
 impl HostedLine {
     /// Whether its own faces leave a side open, so background may be next to it.
-    pub fn may_bound(&self, mesh: &Mesh, view: &View, margin: f64) -> bool {
+    pub(crate) fn may_bound(&self, mesh: &Mesh, view: &View, margin: f64) -> bool {
         self.across().is_some_and(|across| self.covered_sides(across, mesh, view, margin) != [true; 2])
     }
 
     /// Unit vector to the right of the line (y down); `None` if it has no length.
-    pub fn across(&self) -> Option<DVec2> {
+    pub(crate) fn across(&self) -> Option<DVec2> {
         (self.line[1] - self.line[0]).truncate().perp().try_normalize()
     }
 
     /// Whether its own faces cover its left side and its right side, farther than `margin` user units from
     /// it. Without own faces, both sides count as covered.
-    pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, margin: f64) -> [bool; 2] {
+    pub(crate) fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, margin: f64) -> [bool; 2] {
         if self.hosts == [NO_FACE; 2] {
             return [true; 2];
         }

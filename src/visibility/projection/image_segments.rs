@@ -11,7 +11,7 @@ use crate::visibility::tolerances;
 
 /// Feature segment in image space.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImageSegment {
+pub(crate) struct ImageSegment {
     /// Start in image space (x, y, nearness).
     pub a: DVec3,
     /// End in image space.
@@ -33,7 +33,7 @@ pub struct ImageSegment {
 /// Image-space point at parameter `t` (0 to 1) between `a` and `b`; the ends are exact.
 #[inline]
 #[must_use]
-pub fn between(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+pub(crate) fn between(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     if t <= 0.0 {
         a
     } else if t >= 1.0 {
@@ -47,21 +47,21 @@ impl ImageSegment {
     /// Image-space point at parameter `t`, 0 to 1.
     #[inline]
     #[must_use]
-    pub fn at(&self, t: f64) -> DVec3 {
+    pub(crate) fn at(&self, t: f64) -> DVec3 {
         between(self.a, self.b, t)
     }
 
     /// Length in the image, user units.
     #[inline]
     #[must_use]
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         (self.b - self.a).truncate().length()
     }
 }
 
 /// Projects all feature segments with any part on the page, in order.
 #[must_use]
-pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
+pub(crate) fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
     let one = |(segment, source): (&FeatureSegment, u32)| {
         project_one(mesh, view, lines, segment, source).unwrap_or(OFF_PAGE)
     };

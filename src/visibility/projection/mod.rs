@@ -9,4 +9,4 @@
 //! line's own faces.
 
 pub(crate) mod host_sides;
-pub mod image_segments;
+pub(crate) mod image_segments;

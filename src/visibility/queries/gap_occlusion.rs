@@ -32,7 +32,7 @@ const NO_END: u32 = u32::MAX;
 
 /// Surfaces that may hide gaps between the lines of a view map.
 #[derive(Debug)]
-pub struct GapOcclusion<'a> {
+pub(crate) struct GapOcclusion<'a> {
     mesh: &'a Mesh,
     pieces: &'a [u32],
     view: &'a View,
@@ -45,7 +45,7 @@ pub struct GapOcclusion<'a> {
 
 /// Straight gap in the image between two points of lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GapSegment {
+pub(crate) struct GapSegment {
     /// Start and end, user units on the page.
     pub ends: [Point; 2],
     /// Depths of the ends along the optical axis, world units.
@@ -61,7 +61,7 @@ impl<'a> GapOcclusion<'a> {
     /// the visible parts of the mesh contour. `moved` is the offset on the page applied to the view map since
     /// it was made, user units.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         (mesh, pieces): (&'a Mesh, &'a [u32]),
         view: &'a View,
         lines: &'a FeatureLines,
@@ -86,7 +86,7 @@ impl<'a> GapOcclusion<'a> {
     /// gap touches. A surface in front of the gap does not count either where the mesh contour is visible
     /// next to the gap.
     #[must_use]
-    pub fn occluded_gaps(&self, gaps: &[GapSegment]) -> Vec<bool> {
+    pub(crate) fn occluded_gaps(&self, gaps: &[GapSegment]) -> Vec<bool> {
         if self.pieces.is_empty() || gaps.is_empty() {
             return vec![false; gaps.len()];
         }

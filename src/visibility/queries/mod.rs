@@ -7,5 +7,5 @@
 //! Files, in reading order: [`nearest_faces`] query 1; [`gap_occlusion`] query 2, used when lines are chained
 //! across gaps.
 
-pub mod gap_occlusion;
-pub mod nearest_faces;
+pub(crate) mod gap_occlusion;
+pub(crate) mod nearest_faces;

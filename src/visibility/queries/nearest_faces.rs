@@ -15,7 +15,7 @@ use crate::visibility::tolerances;
 
 /// Nearest face at a point of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrontFace {
+pub(crate) struct FrontFace {
     /// Index of the face.
     pub face: u32,
     /// Nearness of the face at the point, in image space.
@@ -37,7 +37,7 @@ const MAX_CELLS_ACROSS: usize = 512;
 /// of equally near faces, the one with the smaller id. The number of threads has no effect. Where surfaces of
 /// different colours overlap in one plane, the top one is returned: see [`Overlay`](crate::mesh::Overlay).
 #[must_use]
-pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<FrontFace>> {
+pub(crate) fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<FrontFace>> {
     let Some(grid) = PointGrid::new(points) else { return Vec::new() };
     let face_count = mesh.triangles.len();
     let count = face_count + view.clipped.len();

@@ -11,6 +11,6 @@
 
 mod segment_comparison;
 pub(crate) mod segment_pieces;
-pub mod segment_visibility;
+pub(crate) mod segment_visibility;
 mod tile_comparison;
 mod tile_segments;

@@ -39,7 +39,7 @@ pub(crate) struct CutSegment {
 
 impl CutSegments {
     /// Cuts a segment and keeps it, unless nothing of it is visible and hidden pieces are not kept.
-    pub fn add(
+    pub(crate) fn add(
         &mut self,
         id: usize,
         segment: &ImageSegment,

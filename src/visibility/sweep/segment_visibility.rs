@@ -51,7 +51,7 @@ const fn whole(start: f64, end: f64) -> HiddenInterval {
 
 /// Visibility of all segments.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SegmentVisibility {
+pub(crate) struct SegmentVisibility {
     /// Whether each segment is hidden from end to end by at least one layer; only where layers are not
     /// counted.
     fully_hidden: Vec<bool>,
@@ -64,14 +64,14 @@ pub struct SegmentVisibility {
 impl SegmentVisibility {
     /// Hidden pieces of a segment with their counts, ascending.
     #[must_use]
-    pub fn hidden(&self, segment: usize) -> &[HiddenInterval] {
+    pub(crate) fn hidden(&self, segment: usize) -> &[HiddenInterval] {
         if self.fully_hidden[segment] { &FULLY_HIDDEN } else { self.hidden.of(segment) }
     }
 
     /// Ranges of a segment with a surface next to them on the outer side, ascending. Only for segments that
     /// bound a surface.
     #[must_use]
-    pub fn backed(&self, segment: usize) -> &[Interval] {
+    pub(crate) fn backed(&self, segment: usize) -> &[Interval] {
         self.non_silhouette.of(segment)
     }
 }
@@ -80,7 +80,7 @@ impl SegmentVisibility {
 ///
 /// With `counting` false, all counts are 1, which is faster.
 #[must_use]
-pub fn decide(
+pub(crate) fn decide(
     mesh: &Mesh,
     view: &View,
     segments: &[ImageSegment],

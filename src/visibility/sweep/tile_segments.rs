@@ -31,7 +31,7 @@ struct TraversedSegments {
 impl TileSegments {
     /// Splits all segments at tile borders. Smooth contours are skipped, because they take their visibility
     /// from the mesh contour.
-    pub fn new(segments: &[ImageSegment], grid: &TileGrid, covers: &OcclusionBuffer) -> Self {
+    pub(crate) fn new(segments: &[ImageSegment], grid: &TileGrid, covers: &OcclusionBuffer) -> Self {
         let walked: Vec<TraversedSegments> = (0..segments.len().div_ceil(SEGMENTS_PER_TASK))
             .into_par_iter()
             .with_max_len(1)

@@ -9,6 +9,6 @@
 //! [`tile_set`] a set of tiles with ranks.
 
 pub(crate) mod aligned_grid;
-pub mod tile_grid;
+pub(crate) mod tile_grid;
 pub(crate) mod tile_set;
 pub(crate) mod triangle_columns;

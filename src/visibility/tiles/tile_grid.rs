@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 /// Square tiles that cover a part of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TileGrid {
+pub(crate) struct TileGrid {
     /// Number of tiles from left to right.
     pub columns: u32,
     /// Number of tiles from top to bottom.
@@ -18,7 +18,7 @@ pub struct TileGrid {
 
 /// Block of tiles: first and last column, first and last row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TileBox {
+pub(crate) struct TileBox {
     /// First column.
     pub left: u16,
     /// Last column.
@@ -31,19 +31,19 @@ pub struct TileBox {
 
 impl TileBox {
     /// The empty block.
-    pub const EMPTY: Self = Self { left: 1, right: 0, top: 1, bottom: 0 };
+    pub(crate) const EMPTY: Self = Self { left: 1, right: 0, top: 1, bottom: 0 };
 
     /// Whether the block is empty.
     #[inline]
     #[must_use]
-    pub const fn is_empty(self) -> bool {
+    pub(crate) const fn is_empty(self) -> bool {
         self.left > self.right
     }
 
     /// Intersection of two blocks.
     #[inline]
     #[must_use]
-    pub fn within(self, other: Self) -> Self {
+    pub(crate) fn within(self, other: Self) -> Self {
         let overlap = Self {
             left: self.left.max(other.left),
             right: self.right.min(other.right),
@@ -56,7 +56,7 @@ impl TileBox {
     /// Number of tiles.
     #[inline]
     #[must_use]
-    pub fn area(self) -> u32 {
+    pub(crate) fn area(self) -> u32 {
         if self.is_empty() {
             return 0;
         }
@@ -76,11 +76,11 @@ pub(crate) struct TileReach {
 
 impl TileReach {
     /// Range of a point without image position; makes every combined range empty.
-    pub const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
+    pub(crate) const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
 
     /// Combined range of the three corners of a triangle.
     #[inline]
-    pub fn of_all([a, b, c]: [Self; 3]) -> Self {
+    pub(crate) fn of_all([a, b, c]: [Self; 3]) -> Self {
         let min_index = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
         let max_index = |k: usize| a.to[k].max(b.to[k]).max(c.to[k]);
         Self { from: [min_index(0), min_index(1)], to: [max_index(0), max_index(1)] }
@@ -127,7 +127,7 @@ impl TileGrid {
     /// Tiles that the box from `low` to `high` meets.
     #[inline]
     #[must_use]
-    pub fn tile_box(&self, low: DVec3, high: DVec3) -> TileBox {
+    pub(crate) fn tile_box(&self, low: DVec3, high: DVec3) -> TileBox {
         let (first, last) = (self.origin, self.corner(self.columns, self.rows));
         if high.x < first.x || low.x > last.x || high.y < first.y || low.y > last.y {
             return TileBox::EMPTY;
@@ -142,7 +142,7 @@ impl TileGrid {
 
     /// Tiles of a block, row by row, with their top left corners.
     #[inline]
-    pub fn tiles_of(&self, tiles: TileBox) -> impl Iterator<Item = (usize, DVec2)> + '_ {
+    pub(crate) fn tiles_of(&self, tiles: TileBox) -> impl Iterator<Item = (usize, DVec2)> + '_ {
         (u32::from(tiles.top)..=u32::from(tiles.bottom)).flat_map(move |row| {
             (u32::from(tiles.left)..=u32::from(tiles.right))
                 .map(move |column| (self.tile(column, row), self.corner(column, row)))
@@ -151,7 +151,7 @@ impl TileGrid {
 
     /// Grid of about `across` tiles along the longer side of the box from `low` to `high`.
     #[must_use]
-    pub fn new(low: DVec2, high: DVec2, across: u32) -> Self {
+    pub(crate) fn new(low: DVec2, high: DVec2, across: u32) -> Self {
         let size = (high - low).max(DVec2::ZERO);
         let cell = (size.max_element() / f64::from(across.max(1))).max(f64::MIN_POSITIVE);
         let count = |length: f64| ((length / cell).ceil() as u32).clamp(1, across.max(1));
@@ -160,7 +160,7 @@ impl TileGrid {
 
     /// Grid of tiles with a given side, from `low` on, that contains `high`.
     #[must_use]
-    pub fn of_cells(low: DVec2, high: DVec2, cell: f64) -> Self {
+    pub(crate) fn of_cells(low: DVec2, high: DVec2, cell: f64) -> Self {
         let count = |length: f64| ((length / cell) as u32).saturating_add(1);
         let size = high - low;
         Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
@@ -168,23 +168,15 @@ impl TileGrid {
 
     /// This grid with `across` finer tiles along each side of every tile.
     #[must_use]
-    pub fn refined(&self, across: u32) -> Self {
+    pub(crate) fn refined(&self, across: u32) -> Self {
         let cell = self.cell / f64::from(across);
         let (columns, rows) = (self.columns * across, self.rows * across);
         Self { columns, rows, cell, origin: self.origin, per_cell: 1.0 / cell }
     }
 
-    /// Tile of `coarse` that contains a tile of this refinement of it.
-    #[inline]
-    #[must_use]
-    pub fn tile_of_square(&self, square: usize, coarse: &Self, across: u32) -> usize {
-        let square = square as u32;
-        coarse.tile(square % self.columns / across, square / self.columns / across)
-    }
-
     /// Grid over one tile of this one, with `across` tiles along its sides.
     #[must_use]
-    pub fn of_tile(&self, tile: usize, across: u32) -> Self {
+    pub(crate) fn of_tile(&self, tile: usize, across: u32) -> Self {
         let tile = tile as u32;
         let low = self.corner(tile % self.columns, tile / self.columns);
         let cell = self.cell / f64::from(across);
@@ -193,41 +185,35 @@ impl TileGrid {
 
     /// Number of tiles.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.columns as usize * self.rows as usize
-    }
-
-    /// Whether there are no tiles.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Index of the tile in a column and row.
     #[inline]
     #[must_use]
-    pub fn tile(&self, column: u32, row: u32) -> usize {
+    pub(crate) fn tile(&self, column: u32, row: u32) -> usize {
         row as usize * self.columns as usize + column as usize
     }
 
     /// Column that contains x, clamped to the grid.
     #[inline]
     #[must_use]
-    pub fn column(&self, x: f64) -> u32 {
+    pub(crate) fn column(&self, x: f64) -> u32 {
         (((x - self.origin.x) * self.per_cell).max(0.0) as u32).min(self.columns - 1)
     }
 
     /// Row that contains y, clamped to the grid.
     #[inline]
     #[must_use]
-    pub fn row(&self, y: f64) -> u32 {
+    pub(crate) fn row(&self, y: f64) -> u32 {
         (((y - self.origin.y) * self.per_cell).max(0.0) as u32).min(self.rows - 1)
     }
 
     /// Top left corner of a tile.
     #[inline]
     #[must_use]
-    pub fn corner(&self, column: u32, row: u32) -> DVec2 {
+    pub(crate) fn corner(&self, column: u32, row: u32) -> DVec2 {
         self.origin + DVec2::new(f64::from(column), f64::from(row)) * self.cell
     }
 
@@ -236,7 +222,7 @@ impl TileGrid {
     ///
     /// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
     #[inline]
-    pub fn walk(&self, a: DVec3, b: DVec3, mut visit: impl FnMut(usize, f64, f64)) {
+    pub(crate) fn walk(&self, a: DVec3, b: DVec3, mut visit: impl FnMut(usize, f64, f64)) {
         let (mut column, mut row) = (self.column(a.x), self.row(a.y));
         let (last_column, last_row) = (self.column(b.x), self.row(b.y));
         let d = b - a;

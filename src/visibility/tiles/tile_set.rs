@@ -14,7 +14,7 @@ pub(crate) struct TileSet {
 
 impl TileSet {
     /// Set of the listed tiles, in any order and with repetitions.
-    pub fn new(grid: &TileGrid, listed: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn new(grid: &TileGrid, listed: impl IntoIterator<Item = usize>) -> Self {
         let columns = grid.columns as usize;
         let stride = columns.next_multiple_of(64);
         let place = |tile: usize| tile / columns * stride + tile % columns;
@@ -26,25 +26,25 @@ impl TileSet {
     }
 
     /// Number of tiles.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.held.count()
     }
 
     /// Whether it contains the tile in a column and row.
     #[inline]
-    pub fn has(&self, column: usize, row: usize) -> bool {
+    pub(crate) fn has(&self, column: usize, row: usize) -> bool {
         self.held.contains(row * self.stride + column)
     }
 
     /// Rank of one of its tiles, from 0 on in the order of tiles.
     #[inline]
-    pub fn number(&self, tile: usize) -> usize {
+    pub(crate) fn number(&self, tile: usize) -> usize {
         self.held.of(tile / self.columns * self.stride + tile % self.columns) as usize
     }
 
     /// Whether it contains any tile of a block, which must not be empty.
     #[inline]
-    pub fn has_any(&self, tiles: TileBox) -> bool {
+    pub(crate) fn has_any(&self, tiles: TileBox) -> bool {
         (usize::from(tiles.top)..=usize::from(tiles.bottom)).any(|row| {
             let first = row * self.stride;
             self.held.any_within(first + usize::from(tiles.left), first + usize::from(tiles.right))
@@ -52,7 +52,7 @@ impl TileSet {
     }
 
     /// Ranks of its tiles in a block, ascending.
-    pub fn within(&self, tiles: TileBox) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn within(&self, tiles: TileBox) -> impl Iterator<Item = usize> + '_ {
         (usize::from(tiles.top)..=usize::from(tiles.bottom)).flat_map(move |row| {
             let places = (usize::from(tiles.left)..=usize::from(tiles.right))
                 .map(move |column| row * self.stride + column);
@@ -61,7 +61,7 @@ impl TileSet {
     }
 
     /// All its tiles, ascending.
-    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.held.iter().map(|place| place / self.stride * self.columns + place % self.stride)
     }
 }

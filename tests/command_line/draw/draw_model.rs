@@ -1,7 +1,6 @@
 //! Tests of `ligne draw` on one model, through the whole pipeline: drawings, reports and messages.
 
 use crate::folder::TestFolder;
-use ligne::pipeline::Stage;
 use serde_json::Value;
 
 /// An attribute of the root element, empty if it is missing.
@@ -331,10 +330,10 @@ fn an_unknown_stage_is_refused_with_the_list_of_stages() {
     let folder = TestFolder::with_cubes("stage");
     let run = folder.ligne("draw cubes.obj --stage fields");
     run.expect_refusal("'fields'");
-    for stage in Stage::ALL {
-        assert!(run.err.contains(stage.name()), "{run:?}");
-        let file = format!("{}.svg", stage.name());
-        folder.run(&["draw", "cubes.obj", &file, "--stage", stage.name()]).expect_success();
+    for stage in ["field", "zeros", "lines", "viewmap", "strengths", "chains", "removed"] {
+        assert!(run.err.contains(stage), "{run:?}");
+        let file = format!("{stage}.svg");
+        folder.run(&["draw", "cubes.obj", &file, "--stage", stage]).expect_success();
         assert!(folder.text(&file).contains("<path"), "{file}");
     }
     assert!(folder.ligne("draw --help").out.contains("docs/dev/stages.md"));

@@ -4,10 +4,11 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(scene) = ligne::load::ply::read_bytes(bytes, "stem") {
-        let soup = scene.to_soup();
-        let count = soup.positions.len() as u32;
-        assert!(soup.triangles.as_flattened().iter().all(|&i| i < count));
-        assert!(soup.positions.iter().all(|p| p.is_finite()));
+    if let Ok(scene) = ligne::Scene::from_bytes(bytes, ligne::load::ModelFormat::Ply) {
+        for geometry in &scene.geometries {
+            let count = geometry.positions.len() as u32;
+            assert!(geometry.triangles.as_flattened().iter().all(|&i| i < count));
+            assert!(geometry.positions.iter().all(|p| p.is_finite()));
+        }
     }
 });

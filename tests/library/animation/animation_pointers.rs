@@ -11,8 +11,8 @@ use ligne::scene::{Alpha, LightKind, Projection};
 use ligne::{Camera, Scene, Style, SvgOptions, pipeline};
 use serde_json::{Value, json};
 
-use crate::support::readers::plain_gltf::ReferenceGltf;
-use crate::support::scenes::pointer_board::PointerFile;
+use crate::library::support::readers::plain_gltf::ReferenceGltf;
+use crate::library::support::scenes::pointer_board::PointerFile;
 
 fn open_with_both_readers(board: &PointerFile) -> (Rigged, ReferenceGltf) {
     (Rigged::open(&board.0).unwrap(), ReferenceGltf::open(&board.0))
@@ -133,7 +133,7 @@ fn animated_materials_match_an_independent_evaluation() {
 /// SVG of a time of clip 0, seen by the first camera of the file: rendered alone, and as a frame of an
 /// `Animator`.
 fn render_alone_and_as_frame(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
-    let style = Style::load(style, &[]).unwrap();
+    let style = Style::load(style).unwrap();
     let playing = vec![Playing::all(0, time)];
     let scene = rigged.posed(&playing).unwrap();
     let camera = Camera { width: 300.0, height: 200.0, ..scene.cameras[0].camera };

@@ -49,7 +49,7 @@ fn resolve_film_frame(film: &str, frame: usize) -> Vec<String> {
 #[test]
 fn animated_svg_shows_the_frames_it_was_given() {
     for name in ["ink", "toon", "comic"] {
-        let (crane, style) = (crane(), Style::load(name, &[]).unwrap());
+        let (crane, style) = (crane(), Style::load(name).unwrap());
         let drawings = drawings(&moments(&crane, 3.0), &crane, &style);
         let mut film = SvgFilm::new(12.0, &SvgOptions::default());
         drawings.iter().for_each(|drawing| film.push(drawing, 4));
@@ -74,7 +74,7 @@ fn animated_svg_shows_the_frames_it_was_given() {
 
 #[test]
 fn animated_svg_stores_unchanged_frames_once() {
-    let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
+    let (crane, style) = (crane(), Style::load("ink").unwrap());
     let moments = moments(&crane, 3.0);
     let animator = Animator::new(&crane, &style);
     let (still, _) = animator.draw(&moments[0]).unwrap();
@@ -89,7 +89,7 @@ fn animated_svg_stores_unchanged_frames_once() {
 /// Rasterised frames of the crane at 2 frames per second, with or without a background.
 fn pixels(style: &str, background: bool) -> Vec<Pixels> {
     let set = format!("page.background={}", if background { "#fdf6e3" } else { "none" });
-    let (crane, style) = (crane(), Style::load(style, &[set]).unwrap());
+    let (crane, style) = (crane(), Style::load_with(style, &[set]).unwrap());
     let moments: Vec<FrameSpec> = moments(&crane, 2.0)
         .into_iter()
         .map(|moment| FrameSpec { page: Page { background: style.background, ..moment.page }, ..moment })

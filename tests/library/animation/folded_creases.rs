@@ -11,8 +11,8 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::{Camera, Style};
 use serde_json::json;
 
-use crate::support::readers::shared_folder;
-use crate::support::scenes::pointer_board::{PointerFile, add_accessor};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::pointer_board::{PointerFile, add_accessor};
 
 const PAGE_SIDE_PX: f64 = 300.0;
 

@@ -8,7 +8,7 @@ use ligne::animate::{Animator, FrameSpec, StrokeTrace, Timeline, Turntable, fade
 use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Drawing, LayerKind, Page, Paint, Unit};
 use ligne::motion::FadeBy;
-use ligne::pipeline::Prepared;
+use ligne::pipeline::Renderer;
 use ligne::{Camera, Style, SvgOptions};
 
 pub(crate) const PAGE_SIDE_PX: f64 = 300.0;
@@ -50,7 +50,7 @@ fn stroke_lengths(drawing: &Drawing) -> BTreeMap<u64, f64> {
 
 #[test]
 fn frames_depend_only_on_their_moment() {
-    let (crane, style) = (crane(), Style::load("sketch", &[]).unwrap());
+    let (crane, style) = (crane(), Style::load("sketch").unwrap());
     let moments = moments(&crane, 2.0);
     let svg = |drawing: &Drawing| drawing.to_svg(&SvgOptions::default());
     let mut animator = Animator::new(&crane, &style);
@@ -67,12 +67,11 @@ fn frames_depend_only_on_their_moment() {
 fn frames_from_the_rest_pose_equal_fresh_drawings() {
     let crane = crane();
     for name in ["ink", "toon"] {
-        let style = Style::load(name, &[]).unwrap();
+        let style = Style::load(name).unwrap();
         for moment in moments(&crane, 1.0) {
             let (followed, report) = Animator::new(&crane, &style).draw(&moment).unwrap();
             let posed = crane.posed(&moment.playing).unwrap();
-            let (anew, other) =
-                Prepared::new(&posed, &style).draw(&moment.camera, moment.page, None).unwrap();
+            let (anew, other) = Renderer::new(&posed, &style).draw(&moment.camera, moment.page).unwrap();
             assert_eq!(report.counts.edges, other.counts.edges);
             let plain = |drawing: &Drawing| {
                 let mut drawing = drawing.clone();
@@ -87,7 +86,7 @@ fn frames_from_the_rest_pose_equal_fresh_drawings() {
 
 #[test]
 fn strokes_have_unique_identities_that_persist_between_frames() {
-    let (crane, style) = (crane(), Style::load("ink", &[]).unwrap());
+    let (crane, style) = (crane(), Style::load("ink").unwrap());
     let frames: Vec<BTreeMap<u64, f64>> =
         drawings(&moments(&crane, 24.0)[..24], &crane, &style).iter().map(stroke_lengths).collect();
     let (mut kept, mut all) = (0.0, 0.0);
@@ -110,7 +109,7 @@ fn strokes_have_unique_identities_that_persist_between_frames() {
 fn tremor_of_static_parts_does_not_change_between_frames() {
     // The base of the crane does not move. In consecutive frames at least three quarters of its lines must be
     // identical.
-    let style = Style::load("ink", &["pen.hand.tremor=3".to_owned()]);
+    let style = Style::load_with("ink", &["pen.hand.tremor=3".to_owned()]);
     let Ok(style) = style else { panic!("{style:?}") };
     let crane = crane();
     let moments = moments(&crane, 24.0);
@@ -131,7 +130,7 @@ fn appearing_and_disappearing_strokes_fade() {
     let crane = crane();
     // Variable-width outlines and plain strokes, faded by width and by opacity.
     for (sheet, by) in [("ink", FadeBy::Width), ("sketch", FadeBy::Width), ("sketch", FadeBy::Opacity)] {
-        let style = Style::load(sheet, &[]).unwrap();
+        let style = Style::load(sheet).unwrap();
         let drawings = drawings(&moments(&crane, 12.0), &crane, &style);
         let traces: Vec<StrokeTrace> = drawings.iter().map(StrokeTrace::of).collect();
         let names: Vec<BTreeMap<u64, f64>> = drawings.iter().map(stroke_lengths).collect();

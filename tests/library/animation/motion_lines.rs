@@ -9,10 +9,10 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::Geometry;
 use ligne::{Scene, SvgOptions, render};
 
-use crate::support::pipeline::perspective;
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::moving_boxes::*;
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::pipeline::perspective;
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::moving_boxes::*;
+use crate::library::support::scenes::solids::cuboid;
 
 #[test]
 fn straight_motion_leaves_straight_lines_of_the_right_length() {

@@ -9,9 +9,9 @@ use ligne::animation::{DeformableMesh, NodeProperty, Playing, Rigged};
 use ligne::drawing::{Drawing, LayerKind, Paint};
 use ligne::{Style, SvgOptions, motion, render};
 
-use crate::support::pipeline::orthographic;
-use crate::support::scenes::moving_boxes::*;
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::pipeline::orthographic;
+use crate::library::support::scenes::moving_boxes::*;
+use crate::library::support::scenes::solids::cuboid;
 
 #[test]
 fn bodies_below_the_speed_threshold_leave_no_lines() {
@@ -175,7 +175,7 @@ fn motion_lines_do_not_change_other_layers() {
     for name in ["ink", "toon", "comic"] {
         let load = |sets: &[&str]| {
             let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-            Style::load(name, &sets).unwrap()
+            Style::load_with(name, &sets).unwrap()
         };
         let with = draw_at(&model, 1.0, &camera, &load(&["motion.enabled=true"]));
         let without = draw_at(&model, 1.0, &camera, &load(&[]));
@@ -234,7 +234,7 @@ fn invalid_motion_settings_are_refused() {
         ("motion.segmnts=3", "unknown key `segmnts`", "did you mean `segments`?"),
         ("motion.line=[{ length = 0 }]", "0 is not a count", "a whole number"),
     ] {
-        let error = Style::load("ink", &[change.to_owned()]).unwrap_err().to_string();
+        let error = Style::load_with("ink", &[change.to_owned()]).unwrap_err().to_string();
         assert!(error.contains(&format!("--set {change}")) && error.contains(what), "{change}: {error}");
         assert!(error.contains(remedy), "{change}: {error}");
     }

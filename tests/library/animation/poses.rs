@@ -10,8 +10,8 @@ use ligne::animation::{Playing, Rigged};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use serde_json::{Value, json};
 
-use crate::support::readers::plain_gltf::ReferenceGltf;
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::plain_gltf::ReferenceGltf;
+use crate::library::support::readers::shared_folder;
 
 /// World-space vertices of each part.
 fn world_points(scene: &Scene) -> Vec<Vec<DVec3>> {

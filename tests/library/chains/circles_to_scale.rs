@@ -9,14 +9,14 @@ use ligne::drawing::{Drawing, Page, Unit};
 use ligne::export::{DxfLength, DxfOptions};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::load::ModelFormat;
-use ligne::pipeline::render_reported;
+use ligne::pipeline::Renderer;
 use ligne::scene::Projection;
 use ligne::{Camera, Scene, Style};
 
-use crate::support::readers::dxf_reader::{Entity, entities, group_codes};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::obj_text;
-use crate::support::scenes::solids::Solid;
+use crate::library::support::readers::dxf_reader::{Entity, entities, group_codes};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::sheet_models::obj_text;
+use crate::library::support::scenes::solids::Solid;
 
 /// Planar outline with the centres and radii of its arcs.
 #[derive(Clone)]
@@ -139,7 +139,7 @@ fn view(scene: &Scene, scale: f64, [width, height]: [f64; 2], middle: [f64; 2]) 
     };
     let style = Style::preset("technical").expect("a style").to_scale();
     let page = Page { width, height, unit: Unit::Mm, background: None };
-    (render_reported(scene, &camera, &style, page, None).expect("a drawing").0, camera)
+    (Renderer::new(scene, &style).draw(&camera, page).expect("a drawing").0, camera)
 }
 
 /// Distance from a point to the nearest drawn path.
@@ -305,7 +305,8 @@ fn partly_hidden_circles_leave_arcs() {
         let disc = circle([3.0, -8.0], radius, count, dice.between(0.0, 1.0));
         // Block above the disc that covers one side of it.
         let from = 3.0 + radius * dice.between(-0.7, 0.7);
-        let block = crate::support::scenes::sheet_models::block([from, -30.0, 6.0], [40.0, 30.0, 8.0]);
+        let block =
+            crate::library::support::scenes::sheet_models::block([from, -30.0, 6.0], [40.0, 30.0, 8.0]);
         let scene = scene(&[prism(&disc), block], dice.below(5));
         let (drawing, _) = view(&scene, 1.0, PAGE_SIZES_MM[0], [0.0; 2]);
         let own = entities(&group_codes(&drawing.to_dxf(&DxfOptions::default())));

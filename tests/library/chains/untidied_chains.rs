@@ -1,10 +1,10 @@
 //! Chains without smoothing, simplification, tidying or fitting cover exactly the visible lines of the view
 //! map.
 
-use crate::support::measures::segment_sets::{doubled_length, total_length, uncovered_length};
-use crate::support::pipeline::{exact_options_with_hidden, run_stages};
-use crate::support::properties::subject;
-use crate::support::properties::table::{CAMERA_KINDS, SCENE_KINDS};
+use crate::library::support::measures::segment_sets::{doubled_length, total_length, uncovered_length};
+use crate::library::support::pipeline::{exact_options_with_hidden, run_stages};
+use crate::library::support::properties::subject;
+use crate::library::support::properties::table::{CAMERA_KINDS, SCENE_KINDS};
 use ligne::chains::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
 use ligne::lines::HiddenLines;

@@ -4,9 +4,11 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::support::measures::canonical_checks::{assert_same_picture, assert_same_text, canonical_form};
-use crate::support::pipeline::scene;
-use crate::support::scenes::solids::{cuboid, sphere, torus};
+use crate::library::support::measures::canonical_checks::{
+    assert_same_picture, assert_same_text, canonical_form,
+};
+use crate::library::support::pipeline::scene;
+use crate::library::support::scenes::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, ParamCurve as _, PathEl, Point};
 use ligne::diff::canonical_svg;

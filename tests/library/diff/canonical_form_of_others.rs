@@ -1,7 +1,7 @@
 //! Canonical form of SVG files by other programs and of random paths: expected texts, idempotence and equal
 //! pictures.
 
-use crate::support::measures::canonical_checks::{assert_same_picture, canonical_form};
+use crate::library::support::measures::canonical_checks::{assert_same_picture, canonical_form};
 use ligne::diff::canonical_svg;
 
 fn svg(inside: &str) -> String {

@@ -1,7 +1,7 @@
 //! Comparison of random drawings: equivalent drawings are equal, swapped inputs mirror the findings, and
 //! distances match brute force.
 
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
 use ligne::diff::{self, Diff, DiffOptions, Picture, Verdict};
 

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 use ligne::diff::{self, DiffOptions, Picture, View};
 
 fn svg_with(text: &str) -> String {

@@ -4,8 +4,8 @@
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_svg::{SvgScene, changed_picture_pair, equal_picture_pair};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_svg::{SvgScene, changed_picture_pair, equal_picture_pair};
 use ligne::diff::{self, Diff, DiffOptions, Ignore, Picture, Stage, Verdict};
 use resvg::{tiny_skia, usvg};
 

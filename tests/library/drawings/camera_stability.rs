@@ -1,10 +1,12 @@
 //! Drawings are stable when the camera turns by 0.1 degrees: 98 % of the ink follows the motion of the
 //! surface.
 
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::shared_folder;
 use std::path::Path;
 
-use crate::support::measures::camera_turns::{Stability, compare_cameras, prepare_surface, turn_camera};
+use crate::library::support::measures::camera_turns::{
+    Stability, compare_cameras, prepare_surface, turn_camera,
+};
 use ligne::lines::LineOptions;
 use ligne::scene::{Camera, Scene};
 

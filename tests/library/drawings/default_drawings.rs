@@ -3,19 +3,19 @@
 //!
 //! The reference in `drawing_judge` uses only the triangles and the finished drawing.
 
-use crate::support::references::triangle_scene;
+use crate::library::support::references::triangle_scene;
 use std::path::Path;
 
-use crate::support::pipeline::scene;
-use crate::support::properties::bound::Bound;
-use crate::support::properties::option_set::{INK, INK_MESH};
-use crate::support::properties::subject::Subject;
-use crate::support::references::drawing_judge::{
+use crate::library::support::pipeline::scene;
+use crate::library::support::properties::bound::Bound;
+use crate::library::support::properties::option_set::{INK, INK_MESH};
+use crate::library::support::properties::subject::Subject;
+use crate::library::support::references::drawing_judge::{
     COARSE_MODEL_LIMITS, FLAT_MODEL_LIMITS, MIXED_MODEL_LIMITS, ROUND_MODEL_LIMITS, ShareLimits,
     compare_ink_with_reference, compare_with_reference,
 };
-use crate::support::references::line_visibility::{ReferenceLines, SampleVisibility};
-use crate::support::scenes::solids::{Solid, cuboid, tube};
+use crate::library::support::references::line_visibility::{ReferenceLines, SampleVisibility};
+use crate::library::support::scenes::solids::{Solid, cuboid, tube};
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::Contours;

@@ -2,23 +2,25 @@
 //!
 //! Nothing shows through another part, no outline is lost, and hiding a part changes only lines near it.
 
-use crate::support::measures::line_picture;
-use crate::support::references::drawing_judge;
-use crate::support::references::line_visibility;
-use crate::support::references::ray_casts;
-use crate::support::references::textbook_camera;
-use crate::support::references::triangle_scene;
-use crate::support::references::visible_points;
+use crate::library::support::measures::line_picture;
+use crate::library::support::references::drawing_judge;
+use crate::library::support::references::line_visibility;
+use crate::library::support::references::ray_casts;
+use crate::library::support::references::textbook_camera;
+use crate::library::support::references::triangle_scene;
+use crate::library::support::references::visible_points;
 use std::path::Path;
 
-use crate::support::measures::segment_sets::{total_length, uncovered_length};
-use crate::support::pipeline::{orthographic, perspective, scene};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::line_visibility::{ReferenceLines, SampleVisibility};
-use crate::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene, lathe};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::icosphere;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::measures::segment_sets::{total_length, uncovered_length};
+use crate::library::support::pipeline::{orthographic, perspective, scene};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::line_visibility::{ReferenceLines, SampleVisibility};
+use crate::library::support::scenes::hard_scenes::{
+    HARD_SCENE_KINDS, camera_from_any_side, hard_scene, lathe,
+};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::icosphere;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::Drawing;

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::example_models::assert_solid;
-use crate::support::readers::example_files::{FilePart, Glb, example_bytes, example_path, weld_points};
+use crate::library::support::readers::example_files::{
+    FilePart, Glb, example_bytes, example_path, weld_points,
+};
 
 /// Asserts that every mesh of a glTF file is solid, with unit normals if any.
 fn assert_meshes_solid(glb: &Glb) {

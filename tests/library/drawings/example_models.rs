@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::support::readers::example_files::{
+use crate::library::support::readers::example_files::{
     Coordinates, FilePart, example_bytes, read_obj, read_ply, read_stl, weld_points,
 };
 

@@ -1,12 +1,12 @@
 //! Golden drawings: small drawings compared with approved SVG files.
 //!
 //! After an intended change, review the differences and renew the files with
-//! `LIGNE_BLESS=1 cargo test --test library assert_golden`. That is refused where `CI` is set.
+//! `LIGNE_BLESS=1 cargo test --lib assert_golden`. That is refused where `CI` is set.
 
 use std::path::Path;
 
-use crate::support::pipeline::scene;
-use crate::support::scenes::solids::{cuboid, sphere, torus};
+use crate::library::support::pipeline::scene;
+use crate::library::support::scenes::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};

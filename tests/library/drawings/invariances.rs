@@ -3,14 +3,14 @@
 //!
 //! `support/properties/table` lists the drawing options and the bounds for each property.
 
-use crate::support::properties::bound::Bound;
-use crate::support::properties::change::{Change, Property};
-use crate::support::properties::numbering::renumbered_obj;
-use crate::support::properties::option_set::{COMIC, ENGRAVING, SUGGESTIVE, TECHNICAL};
-use crate::support::properties::subject::{Subject, example_path};
-use crate::support::properties::table::{LONG_ROWS, ROWS};
-use crate::support::properties::{InvarianceJob, assert_property};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::properties::bound::Bound;
+use crate::library::support::properties::change::{Change, Property};
+use crate::library::support::properties::numbering::renumbered_obj;
+use crate::library::support::properties::option_set::{COMIC, ENGRAVING, SUGGESTIVE, TECHNICAL};
+use crate::library::support::properties::subject::{Subject, example_path};
+use crate::library::support::properties::table::{LONG_ROWS, ROWS};
+use crate::library::support::properties::{InvarianceJob, assert_property};
+use crate::library::support::scenes::random_dice::Dice;
 
 #[test]
 fn place_and_size_change_nothing() {

@@ -5,7 +5,7 @@
 //! to the folder:
 //!
 //! ```text
-//! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --test library rewritten_models::a_hundred -- --nocapture
+//! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --lib rewritten_models::a_hundred -- --nocapture
 //! ```
 //!
 //! `LIGNE_SCENES=300` sets the number of scenes in the long run, by default five thousand.
@@ -15,12 +15,12 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::support::rewriting::known;
-use crate::support::rewriting::model::RandomModel;
-use crate::support::rewriting::relations::Relation;
-use crate::support::rewriting::table::Table;
-use crate::support::rewriting::trial::Trial;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::rewriting::known;
+use crate::library::support::rewriting::model::RandomModel;
+use crate::library::support::rewriting::relations::Relation;
+use crate::library::support::rewriting::table::Table;
+use crate::library::support::rewriting::trial::Trial;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Six relations, chosen by the seed.
 fn six_relations(seed: u64) -> Vec<Relation> {

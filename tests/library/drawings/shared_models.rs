@@ -1,12 +1,12 @@
 //! Shared models: every valid file is drawn, and every broken file is refused or repaired as its README says.
 
-use crate::support::long_run::is_long;
-use crate::support::readers::shared_folder;
+use crate::library::support::long_run::is_long;
+use crate::library::support::readers::shared_folder;
 use std::path::{Path, PathBuf};
 
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::pipeline::render_reported;
+use ligne::pipeline::Renderer;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
@@ -44,7 +44,7 @@ fn draw(scene: &Scene) -> (Drawing, Vec<String>) {
         unit: ligne::drawing::Unit::Px,
         background: None,
     };
-    let (drawing, report) = render_reported(scene, &camera, &style, page, None).unwrap();
+    let (drawing, report) = Renderer::new(scene, &style).draw(&camera, page).unwrap();
     let mut warnings = scene.warnings.lines();
     warnings.extend(report.warnings);
     (drawing, warnings)

@@ -1,9 +1,11 @@
-//! A `Prepared` scene draws the same for several views, for one view, and when it consumes the scene.
+//! A `Renderer` scene draws the same for several views, for one view, and when it consumes the scene.
+
+use std::borrow::Cow;
 
 use std::path::PathBuf;
 
 use ligne::drawing::{Drawing, Page, Unit};
-use ligne::pipeline::Prepared;
+use ligne::pipeline::Renderer;
 use ligne::{Camera, Scene, Style};
 
 fn model(name: &str) -> Scene {
@@ -15,9 +17,9 @@ fn view(scene: &Scene, turn: f64) -> Camera {
     Camera::azimuth_elevation(turn, 30.0, scene.up).with_frame(240.0, 240.0).fit(scene)
 }
 
-fn draw(prepared: &Prepared, camera: &Camera) -> Drawing {
+fn draw(prepared: &Renderer, camera: &Camera) -> Drawing {
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-    prepared.draw(camera, page, None).expect("a camera that can draw").0
+    prepared.draw(camera, page).expect("a camera that can draw").0
 }
 
 /// Covers a light fixed to the world, whose shadows all views share, and a light fixed to the camera.
@@ -29,19 +31,19 @@ fn shared_shadows_equal_those_of_single_views() {
     for light in [fixed, moving] {
         // With mesh contours no view refines round surfaces, so all views share one mesh.
         let sets = [light, "fills.cast_shadows=true", "lines.contours=mesh"].map(str::to_owned);
-        let style = Style::load("toon", &sets).expect("a style");
-        let shared = Prepared::new(&castle, &style);
+        let style = Style::load_with("toon", &sets).expect("a style");
+        let shared = Renderer::new(&castle, &style);
         let drawn = [0.0, 130.0, 250.0].map(|turn| {
             let camera = view(&castle, turn);
             let drawing = draw(&shared, &camera);
-            assert!(drawing == draw(&Prepared::new(&castle, &style), &camera), "{light} {turn}");
+            assert!(drawing == draw(&Renderer::new(&castle, &style), &camera), "{light} {turn}");
             drawing
         });
         assert!(drawn[0] != drawn[1]);
     }
 }
 
-/// `Prepared::of_scene` consumes its scene and must draw the same as `Prepared::for_camera`, for styles that
+/// A renderer that consumes its scene must draw the same as one that borrows it, for styles that
 /// use parts, materials and textures.
 #[test]
 fn consumed_scenes_give_the_same_drawing_as_kept_ones() {
@@ -55,9 +57,9 @@ fn consumed_scenes_give_the_same_drawing_as_kept_ones() {
         ("bear.ply", "stipple", &[]),
     ] {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let (scene, style) = (model(name), Style::load(style, &sets).expect("a style"));
+        let (scene, style) = (model(name), Style::load_with(style, &sets).expect("a style"));
         let camera = view(&scene, 40.0);
-        let kept = draw(&Prepared::for_camera(&scene, &style, &camera), &camera);
-        assert!(draw(&Prepared::of_scene(scene, &style, &camera), &camera) == kept, "{name}");
+        let kept = draw(&Renderer::for_camera(Cow::Borrowed(&scene), &style, &camera), &camera);
+        assert!(draw(&Renderer::for_camera(Cow::Owned(scene), &style, &camera), &camera) == kept, "{name}");
     }
 }

@@ -7,7 +7,7 @@ use ligne::drawing::{Mark, Page, Unit};
 use ligne::light;
 use ligne::lines;
 use ligne::mesh::Mesh;
-use ligne::pipeline::{Stage, render_reported};
+use ligne::pipeline::{Renderer, Stage};
 use ligne::view::View;
 use ligne::{Camera, Drawing, Scene, Style, SvgOptions};
 
@@ -27,7 +27,7 @@ fn open_with_camera(name: &str) -> (Scene, Camera) {
 fn drawn(name: &str, style: &Style, stage: Stage) -> Drawing {
     let (scene, camera) = open_with_camera(name);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-    render_reported(&scene, &camera, style, page, Some(stage)).unwrap().0
+    Renderer::new(&scene, style).draw_stage(&camera, page, Some(stage)).unwrap().0
 }
 
 fn marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
@@ -40,7 +40,7 @@ fn count_class(drawing: &Drawing, class: &str) -> usize {
 
 #[test]
 fn every_stage_of_every_example_model_is_drawn() {
-    let style = Style::load("suggestive", &[]).expect("a built-in style");
+    let style = Style::load("suggestive").expect("a built-in style");
     for name in MODELS {
         for stage in Stage::ALL {
             let drawing = drawn(name, &style, stage);
@@ -56,7 +56,7 @@ fn every_stage_of_every_example_model_is_drawn() {
 
 #[test]
 fn stage_drawings_do_not_depend_on_thread_count() {
-    let style = Style::load("suggestive", &[]).expect("a built-in style");
+    let style = Style::load("suggestive").expect("a built-in style");
     let with = |threads: usize, stage: Stage| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| drawn("bear.ply", &style, stage).to_svg(&SvgOptions::default()))
@@ -110,7 +110,7 @@ fn strengths_stage_names_the_step_of_each_crease() {
     let pump = drawn("pump.glb", &Style::default(), Stage::Strengths);
     let notes: Vec<&str> = marks(&pump).filter_map(|mark| mark.provenance.note.as_deref()).collect();
     assert!(notes.contains(&"crease that turns by 90 to 120 degrees"), "{notes:?}");
-    let style = Style::load("suggestive", &[]).expect("a built-in style");
+    let style = Style::load("suggestive").expect("a built-in style");
     assert!(count_class(&drawn("bear.ply", &style, Stage::Strengths), "suggestive") > 1);
 }
 
@@ -122,6 +122,6 @@ fn removed_stage_is_empty_without_tidying() {
     assert!(removed > 0);
     assert_eq!(removed, noted);
     let sets = ["chain.tidy=0".to_owned(), "lines.contours=mesh".to_owned()];
-    let plain = Style::load("ink", &sets).expect("a built-in style");
+    let plain = Style::load_with("ink", &sets).expect("a built-in style");
     assert_eq!(count_class(&drawn("pump.glb", &plain, Stage::Removed), "removed"), 0);
 }

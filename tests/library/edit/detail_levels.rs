@@ -10,9 +10,9 @@ use ligne::animation::{Playing, Rigged};
 use ligne::edit::simplify::Detail;
 use ligne::scene::{Geometry, Part};
 
-use crate::support::long_run::is_long;
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::long_run::is_long;
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
 
 pub(crate) fn example(name: &str) -> Scene {
     Scene::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)).unwrap()

@@ -6,9 +6,9 @@ use ligne::Scene;
 use ligne::edit::explode::{Explosion, PartExplosion, TRAIL, explode, moved, with_trails};
 use ligne::scene::{Geometry, Part};
 
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 
 fn assembly(parts: &[(&str, Solid)]) -> Scene {
     let mut scene = Scene::default();

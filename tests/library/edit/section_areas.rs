@@ -7,11 +7,11 @@ use glam::{DVec2, DVec3};
 use ligne::drawing::{LayerKind, Page, Unit};
 use ligne::edit::section::{Plane, Section, cut};
 use ligne::kurbo::{ParamCurve as _, PathEl, Point};
-use ligne::pipeline::{Prepared, with_cut_hatching};
+use ligne::pipeline::{Renderer, with_cut_hatching};
 use ligne::scene::{Geometry, NamedView, Part, Projection};
 use ligne::{Camera, Scene, Style};
 
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::scenes::solids::{Solid, cuboid};
 
 /// Segment where a triangle crosses the plane, in plane coordinates. Material is always on the same side.
 struct SectionEdge {
@@ -203,8 +203,7 @@ fn hatch_lines_of_cut_faces_lie_in_their_part() {
         let section = cut(scene.clone(), &plane, &[]);
         let style = with_cut_hatching(&Style::preset("technical").expect("a style"), &section);
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-        let (drawing, _) =
-            Prepared::new(&section.scene, &style).draw(&camera, page, None).expect("a drawing");
+        let (drawing, _) = Renderer::new(&section.scene, &style).draw(&camera, page).expect("a drawing");
         let Projection::Orthographic { height } = camera.projection else { unreachable!("a parallel view") };
         let unit = camera.height / height;
         let [right, up, _] = camera.axes();
@@ -300,7 +299,7 @@ fn line_segments(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
     };
     let camera = Camera { target: DVec3::ZERO, eye: DVec3::NEG_Y * 20.0, ..camera };
     let page = Page { width: 100.0, height: 100.0, unit: Unit::Px, background: None };
-    let (drawing, _) = Prepared::new(scene, style).draw(&camera, page, None).expect("a drawing");
+    let (drawing, _) = Renderer::new(scene, style).draw(&camera, page).expect("a drawing");
     let mut found = Vec::new();
     for layer in drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines) {
         for mark in &layer.marks {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ligne::drawing::{LayerKind, Page, Unit};
 use ligne::edit::section::cut;
 use ligne::kurbo::{PathEl, Point};
-use ligne::pipeline::{Prepared, with_cut_hatching};
+use ligne::pipeline::{Renderer, with_cut_hatching};
 use ligne::scene::{NamedView, UpAxis};
 use ligne::{Camera, Scene, Style};
 
@@ -23,8 +23,8 @@ fn hatch_lines_lie_in_material_at_the_angle_of_their_part() {
     for preset in ["ink", "technical", "toon", "pencil"] {
         let style = with_cut_hatching(&Style::preset(preset).expect("a style"), &section);
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-        let prepared = Prepared::new(&section.scene, &style);
-        let (drawing, _) = prepared.draw(&camera, page, None).expect("a drawing");
+        let prepared = Renderer::new(&section.scene, &style);
+        let (drawing, _) = prepared.draw(&camera, page).expect("a drawing");
         let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
         let patterns = || layer.marks.iter().filter(|mark| mark.provenance.classes == ["pattern"]);
         let unit = camera.height

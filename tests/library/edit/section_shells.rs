@@ -10,13 +10,13 @@ use ligne::drawing::{Drawing, LayerKind, Page, Unit};
 use ligne::edit::section::{Plane, Section, cut};
 use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
 use ligne::kurbo::{ParamCurveArclen as _, PathEl, Point};
-use ligne::pipeline::{Prepared, with_cut_hatching_for};
+use ligne::pipeline::{Renderer, with_cut_hatching_for};
 use ligne::scene::{Geometry, Part};
 use ligne::{Camera, Scene, Style};
 
-use crate::support::pipeline::orthographic;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::pipeline::orthographic;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 
 fn scene_of(solids: impl IntoIterator<Item = Solid>) -> Scene {
     let mut scene = Scene::default();
@@ -40,7 +40,7 @@ fn drawn(mut section: Section, preset: &str) -> Drawing {
     let style = Style::preset(preset).expect("a style");
     let style = with_cut_hatching_for(&style, &mut section.scene, &mut section.faces, &[camera]);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
-    Prepared::new(&section.scene, &style).draw(&camera, page, None).expect("a drawing").0
+    Renderer::new(&section.scene, &style).draw(&camera, page).expect("a drawing").0
 }
 
 /// Total length of the visible lines, px.

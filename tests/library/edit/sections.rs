@@ -11,11 +11,11 @@ use ligne::mesh::{EdgeFaces, FaceId, Mesh};
 use ligne::scene::{Geometry, Part, UpAxis};
 use ligne::{Camera, Scene, Style};
 
-use crate::support::properties::picture::Picture;
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::icosphere;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use crate::library::support::properties::picture::Picture;
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::icosphere;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
 pub(crate) fn add_part(scene: &mut Scene, name: &str, solid: Solid) {
     let geometry = scene.geometries.len();
@@ -169,7 +169,7 @@ fn nested_balls_of_opposite_winding_are_hollow() {
         // Surfaces inside a union are kept, so only hollow results must be closed.
         assert!(!is_hollow || open_edges(&section.scene) == 0);
         let drawn = styles.map(|name| {
-            let style = Style::load(name, &[]).unwrap();
+            let style = Style::load(name).unwrap();
             let drawing =
                 ligne::pipeline::render(&section.scene, &camera.fit(&section.scene), &style).unwrap();
             Picture::of_drawing(drawing).bytes().to_owned()

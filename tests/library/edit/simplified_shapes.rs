@@ -7,7 +7,7 @@ use ligne::edit::simplify::Detail;
 use ligne::scene::{Geometry, Material, Part};
 
 use super::detail_levels::{example, one_part_scene, simplified_to};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Grid of squares, each split in two. `place` maps the unit square into space.
 fn grid(side: u32, place: impl Fn(f64, f64) -> DVec3) -> Geometry {

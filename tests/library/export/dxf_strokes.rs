@@ -7,7 +7,7 @@ use ligne::drawing::{Drawing, LayerKind, Paint};
 use ligne::export::{DxfLength, DxfOptions, DxfVersion};
 use ligne::{Camera, Scene, Style, render};
 
-use crate::support::readers::dxf_reader::{entities, group_codes};
+use crate::library::support::readers::dxf_reader::{entities, group_codes};
 
 /// Entity of a DXF file as a dense polyline.
 struct EntityPath {
@@ -116,7 +116,7 @@ fn length(points: &[Point]) -> f64 {
 fn drawn(model: &str, style: &str) -> (Drawing, Camera) {
     let scene = Scene::open(model).expect("a model");
     let camera = Camera::named(ligne::scene::NamedView::Iso, scene.up).fit(&scene);
-    let style = Style::load(style, &[]).expect("a style");
+    let style = Style::load(style).expect("a style");
     (render(&scene, &camera, &style).expect("a drawing"), camera)
 }
 

@@ -10,7 +10,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 fn drawn(model: &str, style: &str, sets: &[&str]) -> Drawing {
     let scene = Scene::open(model).unwrap();
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    let style = Style::load(style, &sets).unwrap();
+    let style = Style::load_with(style, &sets).unwrap();
     render(&scene, &Camera::three_quarter_of(scene.up).fit(&scene), &style).unwrap()
 }
 

@@ -4,7 +4,7 @@ use ligne::colour::srgb::Colour;
 use ligne::drawing::{Mark, Page, Provenance, Unit};
 
 use super::svg_and_png::{Random, drawing, mark, stroke};
-use crate::support::readers::pdf_reader::split_pdf_streams;
+use crate::library::support::readers::pdf_reader::split_pdf_streams;
 
 #[test]
 fn pdf_has_the_page_the_layers_and_the_ink_of_the_drawing() {

@@ -12,7 +12,7 @@ use ligne::export::{Inks, PdfOptions, Standard, to_pdf};
 use ligne::kurbo;
 use ligne::text::{Font, Setting, TextBlock};
 
-use crate::support::readers::pdf_reader::split_pdf_streams;
+use crate::library::support::readers::pdf_reader::split_pdf_streams;
 
 const RED: Colour = Colour::rgb(228, 0, 43);
 

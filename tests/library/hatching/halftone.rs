@@ -1,7 +1,7 @@
 //! Halftone dots and stippling: measured coverage equals the requested tone, and marks stay on their surface.
 
-use crate::support::measures::polygon_cover;
-use crate::support::measures::polygon_cover::{mean_coverage, polygon_regions, square};
+use crate::library::support::measures::polygon_cover;
+use crate::library::support::measures::polygon_cover::{mean_coverage, polygon_regions, square};
 use kurbo::{BezPath, Point, Shape};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::hatching::{CellDots, DotScreen, Stipple, ToneBorders, dots, stipple};

@@ -1,15 +1,15 @@
 //! Hatching together with fills: separate cast shadows, horizontal strokes on flat faces, white lines in
 //! black areas, and colours.
 
-use crate::support::pipeline;
-use crate::support::styled::{fitted_camera, page_of_camera, style_with};
+use crate::library::support::pipeline;
+use crate::library::support::styled::{fitted_camera, page_of_camera, style_with};
 use std::collections::BTreeMap;
 
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Paint};
-use ligne::pipeline::Prepared;
+use ligne::pipeline::Renderer;
 use ligne::scene::{Camera, Geometry, NamedView, Scene};
 use ligne::{Drawing, Style};
 
@@ -70,7 +70,7 @@ fn flat_faces_have_horizontal_hatching() {
         let light = "light.sources=[{kind=\"directional\", direction=[-1, 0.5, 0.3]}]";
         let style = style_with(name, &[light]);
         let (_, layers) =
-            Prepared::new(&scene, &style).hatch_strokes(&camera, page_of_camera(&camera)).expect("hatching");
+            Renderer::new(&scene, &style).hatch_strokes(&camera, page_of_camera(&camera)).expect("hatching");
         let (mut whole, mut level) = (0.0, 0.0);
         for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
             for pair in stroke.points.windows(2) {

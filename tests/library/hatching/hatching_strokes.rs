@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::pipeline;
-use crate::support::scenes::solids::{cuboid, sphere, torus};
-use crate::support::styled::{fitted_camera, page_of_camera, style_with};
+use crate::library::support::pipeline;
+use crate::library::support::scenes::solids::{cuboid, sphere, torus};
+use crate::library::support::styled::{fitted_camera, page_of_camera, style_with};
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 use ligne::drawing::{LayerKind, Paint};
 use ligne::hatching::HatchStroke;
 use ligne::mesh::{FaceId, Mesh};
-use ligne::pipeline::Prepared;
+use ligne::pipeline::Renderer;
 use ligne::regions::HatchRegions;
 use ligne::scene::Scene;
 use ligne::{Drawing, Style, render};
@@ -42,7 +42,7 @@ fn assert_strokes_stay_inside(sheets: &[&str]) {
             let sets = ["lines.contours=mesh", "hatching.cast_shadows=false"];
             let style = style_with(sheet, &sets);
             let camera = fitted_camera(&scene);
-            let prepared = Prepared::new(&scene, &style);
+            let prepared = Renderer::new(&scene, &style);
             let (ground, layers) =
                 prepared.hatch_strokes(&camera, page_of_camera(&camera)).expect("a hatching");
             let mesh = Mesh::build(scene.to_soup());
@@ -128,7 +128,7 @@ fn strokes_fixed_to_the_model_persist_when_the_camera_turns() {
         ("box", pipeline::scene([cuboid(DVec3::ZERO, DVec3::new(1.0, 0.7, 1.3))])),
     ] {
         let style = style_with_fixed_strokes();
-        let prepared = Prepared::new(&scene, &style);
+        let prepared = Renderer::new(&scene, &style);
         let drawn = |turn: f64| {
             let mut camera = fitted_camera(&scene);
             let (s, c) = (

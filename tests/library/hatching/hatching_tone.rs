@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::scenes::random_dice::Dice;
-use crate::support::styled::style_with;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::styled::style_with;
 use kurbo::Point;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{Page, Unit};

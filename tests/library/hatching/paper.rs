@@ -10,8 +10,8 @@ use ligne::export::{Grouping, PngOptions, SvgOptions};
 use ligne::pipeline::render;
 use ligne::style::Style;
 
-use crate::support::pipeline::{self, orthographic};
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::pipeline::{self, orthographic};
+use crate::library::support::scenes::solids::cuboid;
 
 /// Whether a column of the laid paper is dark: 4 pixels in every 16.
 fn is_dark_column(x: u32) -> bool {
@@ -42,7 +42,8 @@ impl Sheet {
         let file = self.0.display().to_string().replace('\\', "/");
         let mut all = vec![format!("page.paper='{file}'"), "fills.palette=['#000000']".to_owned()];
         all.extend(sets.iter().map(|set| (*set).to_owned()));
-        render(&scene, &camera, &Style::load("flat", &all).unwrap_or_else(|error| panic!("{error}"))).unwrap()
+        render(&scene, &camera, &Style::load_with("flat", &all).unwrap_or_else(|error| panic!("{error}")))
+            .unwrap()
     }
 }
 
@@ -108,6 +109,6 @@ fn paper_tooth_stays_on_top_when_grouped_by_part() {
 #[test]
 fn invalid_paper_settings_are_refused() {
     for set in ["page.paper=no-such.png", "page.paper=Cargo.toml", "page.paper_width=0", "page.tooth=2"] {
-        assert!(Style::load("ink", &[set.to_owned()]).is_err(), "{set}");
+        assert!(Style::load_with("ink", &[set.to_owned()]).is_err(), "{set}");
     }
 }

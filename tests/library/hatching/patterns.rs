@@ -6,18 +6,18 @@ use glam::DVec3;
 use kurbo::{Point, Shape};
 use ligne::drawing::{Drawing, LayerKind, Mark, Page, Paint, Unit};
 use ligne::geometry::numbers::portable_math::{cos, sin};
-use ligne::pipeline::{render, render_reported};
+use ligne::pipeline::{Renderer, render};
 use ligne::scene::{Camera, Material, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::{flatten_path, sample_segments};
-use crate::support::measures::segment_sets::total_length;
-use crate::support::pipeline::{self, orthographic};
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::measures::line_picture::{flatten_path, sample_segments};
+use crate::library::support::measures::segment_sets::total_length;
+use crate::library::support::pipeline::{self, orthographic};
+use crate::library::support::scenes::solids::cuboid;
 
 fn style(patterns: &str) -> Style {
     let sets = [format!("fills.pattern=[{patterns}]")];
-    Style::load("toon", &sets).unwrap_or_else(|error| panic!("{error}"))
+    Style::load_with("toon", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Marks of a layer kind.
@@ -125,7 +125,7 @@ fn pattern_sizes_may_be_in_millimetres() {
     (camera.width, camera.height) = (100.0, 100.0);
     let page = Page { width: 100.0, height: 100.0, unit: Unit::Mm, background: None };
     let of = |pattern: &str| {
-        let (drawing, _) = render_reported(&scene, &camera, &style(pattern), page, None).unwrap();
+        let (drawing, _) = Renderer::new(&scene, &style(pattern)).draw(&camera, page).unwrap();
         let lines: Vec<[Point; 2]> = marks(&drawing, LayerKind::Hatching)
             .iter()
             .flat_map(|mark| flatten_path(&mark.path, 0.01))
@@ -279,7 +279,8 @@ fn invalid_patterns_are_refused_by_name() {
         ("{ kind = 'tile', image = 'lost.png' }", "lost.png"),
         ("{ kind = 'tile', file = 'Cargo.toml' }", "not SVG"),
     ] {
-        let error = Style::load("toon", &[format!("fills.pattern=[{pattern}]")]).unwrap_err().to_string();
+        let error =
+            Style::load_with("toon", &[format!("fills.pattern=[{pattern}]")]).unwrap_err().to_string();
         assert!(error.contains(word), "{pattern}: {error}");
     }
 }

@@ -9,18 +9,18 @@ use ligne::lines::ImageOptions;
 use ligne::lines::image::{Dilation, EdgeTest, edges, ink_dilation};
 use ligne::lines::{LineOptions, Surface};
 use ligne::mesh::Mesh;
-use ligne::pipeline::{Prepared, render};
+use ligne::pipeline::{Renderer, render};
 use ligne::scene::{Camera, Geometry, Scene};
 use ligne::style::Style;
 use ligne::view::View;
 use ligne::view::raster::{NO_FRONT, NormalDepthMaps};
 
-use crate::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
-use crate::support::measures::segment_sets::total_length;
-use crate::support::pipeline::{self, orthographic, perspective};
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
+use crate::library::support::measures::segment_sets::total_length;
+use crate::library::support::pipeline::{self, orthographic, perspective};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
 fn maps(scene: &Scene, camera: &Camera, per_unit: f64) -> NormalDepthMaps {
     let surface = Surface::new(Mesh::build(scene.to_soup()), &LineOptions::default()).finer_for(camera);
@@ -30,7 +30,7 @@ fn maps(scene: &Scene, camera: &Camera, per_unit: f64) -> NormalDepthMaps {
 
 fn style(sets: &[&str]) -> Style {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    Style::load("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
+    Style::load_with("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Returns the line segments of a drawing, or only those of one class.
@@ -341,7 +341,7 @@ fn fills_do_not_depend_on_the_line_source() {
     let (scene, camera) = example("gear.obj", 300.0);
     let fills = |sets: &[&str]| {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let drawing = render(&scene, &camera, &Style::load("toon", &sets).unwrap()).unwrap();
+        let drawing = render(&scene, &camera, &Style::load_with("toon", &sets).unwrap()).unwrap();
         let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Fills).unwrap();
         layer.marks.iter().map(|mark| mark.path.to_svg()).collect::<Vec<_>>()
     };
@@ -373,7 +373,7 @@ fn dilation_passes_match_the_listing_of_the_paper() {
 fn exported_maps_are_pngs_of_equal_size() {
     let (scene, camera) = example("pump.glb", 120.0);
     let style = style(&["lines.image.samples=3"]);
-    let files = Prepared::new(&scene, &style).maps(&camera, Unit::Px).unwrap();
+    let files = Renderer::new(&scene, &style).maps(&camera, Unit::Px).unwrap();
     for (name, bytes) in files.named() {
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();

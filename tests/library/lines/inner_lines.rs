@@ -1,10 +1,10 @@
 //! Curvature, suggestive contours, ridges and valleys against closed forms: sphere, tube, saddle, torus, hill
 //! and ellipsoid.
 
-use crate::support::pipeline;
-use crate::support::pipeline::orthographic;
-use crate::support::readers::shared_folder;
-use crate::support::scenes::solids::{Solid, torus, tube};
+use crate::library::support::pipeline;
+use crate::library::support::pipeline::orthographic;
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::solids::{Solid, torus, tube};
 use glam::DVec3;
 use ligne::drawing::{Mark, Paint};
 use ligne::geometry::numbers::portable_math::{atan2, pow};
@@ -312,7 +312,7 @@ fn draw(solid: &Solid, sets: &[&str]) -> Vec<Mark> {
     let scene: Scene = pipeline::scene([solid.clone()]);
     let camera = orthographic(DVec3::new(5.0, 3.0, 4.0), DVec3::ZERO, 3.0);
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let style = Style::load("suggestive", &sets).unwrap();
+    let style = Style::load_with("suggestive", &sets).unwrap();
     let drawing = ligne::render(&scene, &camera, &style).unwrap();
     drawing.layers.into_iter().flat_map(|layer| layer.marks).collect()
 }
@@ -344,7 +344,7 @@ fn scans_show_few_and_long_suggestive_contours() {
     let Some(file) = shared_folder::find("organic/stanford-bunny.obj") else { return };
     let scene = Scene::open(&file).unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let style = Style::load("suggestive", &[]).unwrap();
+    let style = Style::load("suggestive").unwrap();
     let drawing = ligne::render(&scene, &camera, &style).unwrap();
     let svg = drawing.to_svg(&ligne::SvgOptions::default());
     let count = svg.matches("class=\"suggestive\"").count();

@@ -1,7 +1,7 @@
 //! Intersections of triangles, tested against closed-form curves and contacts that must give none.
 
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, tube};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
 use ligne::mesh::PartId;
 use ligne::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionInput, intersections};

@@ -7,10 +7,10 @@ use ligne::drawing::Drawing;
 use ligne::scene::{Camera, Scene};
 use ligne::{Style, render};
 
-use crate::support::measures::line_picture::{flatten_path, sample_segments, segment_distance};
-use crate::support::pipeline::{orthographic, scene};
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::solids::{Solid, cuboid, sphere};
+use crate::library::support::measures::line_picture::{flatten_path, sample_segments, segment_distance};
+use crate::library::support::pipeline::{orthographic, scene};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere};
 
 /// Returns two styles with isophotes only, at the given thresholds: without and with fills.
 fn styles(light: &str, thresholds: &str, more: &str) -> [Style; 2] {

@@ -12,9 +12,9 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::{SegmentGrid, sample_segments};
-use crate::support::references::drawing_judge::centre_line;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::measures::line_picture::{SegmentGrid, sample_segments};
+use crate::library::support::references::drawing_judge::centre_line;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Largest distance that lines may move, px.
 const TOLERANCE_PX: f64 = 0.06;
@@ -128,7 +128,7 @@ fn style(name: &str, joints: bool) -> Style {
         ["lines.hidden=solid", "chain.smooth=0", "chain.simplify=0", "chain.tidy=0", "chain.fit=false"];
     let mut set = exact.map(str::to_owned).to_vec();
     set.push(format!("lines.joints={joints}"));
-    Style::load(name, &set).unwrap()
+    Style::load_with(name, &set).unwrap()
 }
 
 /// Returns random parts, and their union as one body.

@@ -1,9 +1,9 @@
 //! Intersections of triangles, tested against a brute-force search over all pairs.
 
 use super::intersections::{find, length};
-use crate::support::readers::mesh_file;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::Solid;
+use crate::library::support::readers::mesh_file;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::Solid;
 use glam::DVec3;
 
 /// Reference intersection of two triangles: `b` cut by the plane of `a`, then clipped by the sides of `a`.

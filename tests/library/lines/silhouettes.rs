@@ -1,16 +1,16 @@
 //! Lines of every kind are silhouettes exactly if background lies on one side; rays at sample points next to
 //! the lines are the reference.
 
-use crate::support::pipeline::{
+use crate::library::support::pipeline::{
     exact_options, orthographic, run_stages, scene, scene_of_geometries, solid_geometry,
 };
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::ray_casts::RayCaster;
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::references::triangle_scene::TriangleScene;
-use crate::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::ray_casts::RayCaster;
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::references::triangle_scene::TriangleScene;
+use crate::library::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 use ligne::lines::{LineKind, LineOptions};

@@ -1,7 +1,7 @@
 //! The intersection search that is limited to visible faces draws the same lines as the full search.
 
-use crate::support::readers::shared_folder;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use ligne::lines::intersections::intersection_lines::{
     all_curves, curves_in_sight, curves_of_finer, search, visible_curves,
@@ -195,8 +195,8 @@ fn redrawing_a_view_gives_the_same_drawing() {
     let corners = solid.positions.iter().map(|p| p.to_array());
     let scene = Scene::from_triangles(corners, solid.triangles.iter().copied()).expect("a scene");
     for style in ["ink", "toon", "technical"] {
-        let style = ligne::Style::load(style, &[]).expect("a style");
-        let prepared = ligne::pipeline::Prepared::new(&scene, &style);
+        let style = ligne::Style::load(style).expect("a style");
+        let prepared = ligne::pipeline::Renderer::new(&scene, &style);
         for turn in [30.0, 200.0] {
             let camera = Camera::azimuth_elevation(turn, 20.0, UpAxis::Z).fit_points(&solid.positions, 0.05);
             let page = ligne::drawing::Page {
@@ -205,10 +205,9 @@ fn redrawing_a_view_gives_the_same_drawing() {
                 unit: ligne::drawing::Unit::Px,
                 background: None,
             };
-            let draw = |prepared: &ligne::pipeline::Prepared| {
-                prepared.draw(&camera, page, None).expect("a drawing").0
-            };
-            let alone = draw(&ligne::pipeline::Prepared::new(&scene, &style));
+            let draw =
+                |prepared: &ligne::pipeline::Renderer| prepared.draw(&camera, page).expect("a drawing").0;
+            let alone = draw(&ligne::pipeline::Renderer::new(&scene, &style));
             assert!(draw(&prepared) == alone && draw(&prepared) == alone, "{turn}");
         }
     }

@@ -8,8 +8,8 @@ use glam::DVec3;
 use ligne::load::gltf;
 use ligne::scene::Scene;
 
-use crate::support::readers::glb_writer::glb;
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::glb_writer::glb;
+use crate::library::support::readers::shared_folder;
 
 /// Rows of facts.tsv for glTF files, by column name.
 fn facts(folder: &Path) -> Vec<BTreeMap<String, String>> {

@@ -11,7 +11,7 @@ use ligne::scene::{Paints, Projection, TextureOptions};
 use ligne::{Camera, Error, Scene, Style, SvgOptions, render};
 use serde_json::{Value, json};
 
-use crate::support::readers::glb_writer::glb;
+use crate::library::support::readers::glb_writer::glb;
 
 const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 

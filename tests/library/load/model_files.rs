@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use ligne::load::{obj, ply, stl};
 use ligne::scene::Scene;
 
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::shared_folder;
 
 fn has_tested_format(path: &str) -> bool {
     [".obj", ".stl", ".ply"].iter().any(|ending| path.ends_with(ending))

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::page_files::{folder, items, marks, person};
 use super::panels::grid;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 use ligne::drawing::{Paint, PlacedDrawing};
 use ligne::kurbo::{self, BezPath, Point, Rect, Shape};
 use ligne::page::layout::{Reading, cells};

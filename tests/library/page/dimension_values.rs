@@ -6,9 +6,9 @@ use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{item_texts, obj_text, page_item, temp_folder};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::sheet_models::{item_texts, obj_text, page_item, temp_folder};
+use crate::library::support::scenes::solids::Solid;
 
 /// A plate: a row of square cells with a round hole in each. Lengths have three decimals.
 struct Plate {

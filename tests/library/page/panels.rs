@@ -1,7 +1,7 @@
 //! Comic panels: they tile the page, gutters have their width, shares are exact, and reading directions
 //! mirror each other.
 
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 use ligne::kurbo::{Point, Rect};
 use ligne::page::layout::{ConvexPolygon, LayoutGrid, Reading, cells};
 
@@ -29,7 +29,7 @@ fn layout(dice: &mut Dice, depth: u64, lean: i64) -> String {
 }
 
 /// Returns a grid in the frame that all pages of these tests share.
-pub fn grid(gutter: f64, reading: Reading) -> LayoutGrid {
+pub(crate) fn grid(gutter: f64, reading: Reading) -> LayoutGrid {
     LayoutGrid { frame: Rect::new(10.0, 12.0, 410.0, 612.0), gutter: [gutter; 2], reading }
 }
 

@@ -9,11 +9,11 @@ use ligne::page::sheet::part_balloons::leader_assignment::{
 };
 
 use super::technical_sheets::width;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::sheet_models::{
     block, item_texts, obj_text, page_item, placed_marks, temp_folder,
 };
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::scenes::solids::cuboid;
 
 #[test]
 fn leaders_of_twenty_assemblies_do_not_cross() {

@@ -11,8 +11,10 @@ use ligne::drawing::Paint;
 use ligne::kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape, flatten};
 use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::sheet_models::{block, drilled_plate, obj_text, placed_marks, temp_folder};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::sheet_models::{
+    block, drilled_plate, obj_text, placed_marks, temp_folder,
+};
 
 /// Number of sheets in a normal run; the long run has `NIGHTLY_SHEET_COUNT`.
 const SHEET_COUNT: u64 = 12;

@@ -6,10 +6,10 @@ use std::fs;
 use ligne::kurbo::{Rect, Shape};
 use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::sheet_models::{
+use crate::library::support::scenes::sheet_models::{
     block, drawn_bounds, item_texts, obj_text, page_item, placed_marks, temp_folder,
 };
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 
 /// A plate of 80 x 50 x 10 as OBJ with z up, with two holes of diameter 8 mm and one of 20 mm.
 fn plate() -> String {

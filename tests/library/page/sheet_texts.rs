@@ -6,10 +6,10 @@ use std::fs;
 use ligne::kurbo::{Rect, Shape};
 use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::sheet_models::{
+use crate::library::support::scenes::sheet_models::{
     block, drawn_bounds, drilled_plate, item_texts, obj_text, page_item, placed_marks, temp_folder,
 };
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 
 /// Composes a sheet of these parts with these keys.
 fn sheet(name: &str, parts: &[(String, Solid)], keys: &str) -> Result<ComposedPage, ligne::Error> {

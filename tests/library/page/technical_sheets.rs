@@ -6,10 +6,10 @@ use ligne::drawing::{Mark, Paint, PlacedDrawing};
 use ligne::kurbo::{Point, Rect, Shape};
 use ligne::page::{ComposedPage, PageFile};
 
-use crate::support::scenes::sheet_models::{
+use crate::library::support::scenes::sheet_models::{
     block, drawn_bounds, item_texts, obj_text, page_item, placed_marks, temp_folder,
 };
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 
 /// Composes a sheet with these keys, of a stepped block of 60 x 30 x 40.
 fn sheet(name: &str, keys: &str) -> Result<ComposedPage, ligne::Error> {

@@ -302,7 +302,7 @@ fn american_spelling_is_accepted_for_every_key() {
             let style = |text: &str| Style::from_toml(text).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert_eq!(style(&own), style(&other), "{american}");
             if key.is_settable() {
-                let set = |path: &str| Style::load("ink", &[format!("{path}={value}")]).unwrap();
+                let set = |path: &str| Style::load_with("ink", &[format!("{path}={value}")]).unwrap();
                 assert_eq!(set(&key.path), set(&american), "{american}");
             }
             tried += 1;
@@ -311,6 +311,7 @@ fn american_spelling_is_accepted_for_every_key() {
     assert!(tried > 80, "{tried}");
     // Sheets in both spellings can be combined.
     let style =
-        Style::load("pencil", &["pen.color=#ff0000".to_owned(), "pen.colour=#00ff00".to_owned()]).unwrap();
-    assert_eq!(style, Style::load("pencil", &["pen.color=#00ff00".to_owned()]).unwrap());
+        Style::load_with("pencil", &["pen.color=#ff0000".to_owned(), "pen.colour=#00ff00".to_owned()])
+            .unwrap();
+    assert_eq!(style, Style::load_with("pencil", &["pen.color=#00ff00".to_owned()]).unwrap());
 }

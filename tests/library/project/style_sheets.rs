@@ -27,7 +27,7 @@ impl SheetFolder {
 
     /// The error when a sheet is loaded, without the path of the folder.
     fn error(&self, file: &str) -> String {
-        let error = Style::load(&self.path(file), &[]).unwrap_err();
+        let error = Style::load(&self.path(file)).unwrap_err();
         error.to_string().replace(&format!("{}/", self.0.display()), "")
     }
 }
@@ -41,7 +41,7 @@ impl Drop for SheetFolder {
 /// The style `ink` with these `--style_with_changes` changes.
 fn style_with_changes(changes: &[&str]) -> Result<Style, ligne::Error> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    Style::load("ink", &changes)
+    Style::load_with("ink", &changes)
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn every_built_in_style_loads_and_has_a_description() {
         ]
     );
     for name in names {
-        Style::load(name, &[]).unwrap_or_else(|error| panic!("{error}"));
+        Style::load(name).unwrap_or_else(|error| panic!("{error}"));
         assert!(Style::idea(name).unwrap().ends_with('.'), "{name}");
         assert!(Style::sheet_text(name).unwrap().starts_with("# "), "{name}");
     }
@@ -149,7 +149,7 @@ fn sheets_extend_sheets_and_their_rules_accumulate() {
             ),
         ],
     );
-    let style = Style::load(&sheets.path("b.toml"), &[]).unwrap();
+    let style = Style::load(&sheets.path("b.toml")).unwrap();
     assert!((style.lines.crease_deg - 20.0).abs() < 1e-12);
     assert_eq!(style.lines.hidden, HiddenLines::Solid);
     assert_eq!(style.stroke.rules.len(), Style::default().stroke.rules.len() + 2);
@@ -293,9 +293,9 @@ fn hatching_layer_defaults_equal_those_of_the_key_table() {
 
 #[test]
 fn a_missing_sheet_is_reported_by_name() {
-    let error = Style::load("nowhere/my.toml", &[]).unwrap_err().to_string();
+    let error = Style::load("nowhere/my.toml").unwrap_err().to_string();
     assert!(error.starts_with("nowhere/my.toml: cannot read the style sheet"), "{error}");
-    let error = Style::load("watercolour", &[]).unwrap_err().to_string();
+    let error = Style::load("watercolour").unwrap_err().to_string();
     assert!(error.contains("built-in styles: blueprint, comic, comic-flats"), "{error}");
 }
 
@@ -315,7 +315,7 @@ fn documented_style_sheets_load() {
 #[test]
 fn an_empty_sheet_has_the_built_in_defaults() {
     let sheets = SheetFolder::new("defaults", &[("empty.toml", "")]);
-    let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
+    let style = Style::load(&sheets.path("empty.toml")).unwrap();
     assert_eq!(style.stroke.pen, ligne::strokes::Pen::default());
     assert_eq!(style.lines, ligne::lines::LineOptions::default());
     assert_eq!(style.background, Some(Colour::WHITE));
@@ -334,6 +334,6 @@ fn a_full_sheet_keeps_lists_of_tables_and_their_unset_keys() {
                [[motion.line]]\n[[motion.line]]\nwidth = 3\n[fills.highlight]\nnear = 2\n[glass]\nmaterials = [\"a\"]\n";
     let sheets = SheetFolder::new("full", &[("own.toml", own)]);
     let all = Style::full_sheet(&sheets.path("own.toml")).unwrap();
-    let style = Style::load(&sheets.path("own.toml"), &[]).unwrap();
+    let style = Style::load(&sheets.path("own.toml")).unwrap();
     assert_eq!(Style::from_toml(&all).unwrap_or_else(|error| panic!("{error}\n{all}")), style, "{all}");
 }

@@ -7,10 +7,10 @@ use ligne::drawing::Drawing;
 use ligne::scene::Camera;
 use ligne::{Scene, Style, render};
 
-use crate::support::measures::line_picture::{flatten_path, nearest_parameter};
-use crate::support::pipeline::{orthographic, perspective};
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::measures::line_picture::{flatten_path, nearest_parameter};
+use crate::library::support::pipeline::{orthographic, perspective};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::random_dice::Dice;
 
 const COLOURS: &str =
     "newmtl grey\nKd 0.6 0.6 0.6\nnewmtl red\nKd 0.9 0.1 0.1\nnewmtl blue\nKd 0.1 0.1 0.9\n";
@@ -67,7 +67,7 @@ fn squares_scene(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
 /// Flat colours without light. Regions end at their borders.
 fn flat_style() -> Style {
     let sets = ["fills.seams='exact'".to_owned()];
-    Style::load("flat", &sets).expect("a style")
+    Style::load_with("flat", &sets).expect("a style")
 }
 
 /// Returns the area painted in a material.

@@ -8,9 +8,9 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::SegmentGrid;
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::measures::line_picture::SegmentGrid;
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 /// The vine in front of its panel with round holes, from `examples/models`.
 fn trellis() -> Scene {
@@ -123,7 +123,7 @@ fn region_areas_exclude_the_holes() {
 
 #[test]
 fn missing_textures_are_reported_and_ignored() {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("trellis-without-pictures");
+    let folder = std::env::temp_dir().join(format!("ligne-trellis-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     for name in ["trellis.obj", "trellis.mtl"] {
         let from = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name);

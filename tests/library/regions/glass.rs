@@ -12,7 +12,7 @@ use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 use ligne::view::Frame;
 
-use crate::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
+use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
 
 fn jar() -> (Scene, Camera) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/jar.obj");
@@ -23,7 +23,7 @@ fn jar() -> (Scene, Camera) {
 
 fn drawn(scene: &Scene, camera: &Camera, style: &str, sets: &[&str]) -> Drawing {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    render(scene, camera, &Style::load(style, &sets).unwrap_or_else(|error| panic!("{error}"))).unwrap()
+    render(scene, camera, &Style::load_with(style, &sets).unwrap_or_else(|error| panic!("{error}"))).unwrap()
 }
 
 const DRAW_GLASS: &str = "glass.draw=glass";

@@ -9,11 +9,11 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::Camera;
 use ligne::{Style, SvgOptions, render};
 
-use crate::support::pipeline::{orthographic, scene};
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::icosphere;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::pipeline::{orthographic, scene};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::icosphere;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 
 const STEPS: u16 = 128;
 

@@ -1,13 +1,13 @@
 //! Regions partition the visible page; rays at random points and closed-form tone borders are the reference.
 
-use crate::support::scenes::random_scenes;
-use crate::support::scenes::round_solids;
+use crate::library::support::scenes::random_scenes;
+use crate::library::support::scenes::round_solids;
 use std::collections::BTreeMap;
 
-use crate::support::pipeline::{orthographic, perspective, scene};
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use crate::library::support::pipeline::{orthographic, perspective, scene};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Shape};
 use ligne::drawing::{LayerKind, Mark, Paint};

@@ -10,10 +10,10 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Geometry, Material, Part, Projection, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::SegmentGrid;
-use crate::support::measures::plain_fills::{filled_marks, flat_fill_style};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::measures::line_picture::SegmentGrid;
+use crate::library::support::measures::plain_fills::{filled_marks, flat_fill_style};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 /// A scene of triangles with one material.
 pub(crate) fn scene(geometry: Geometry, material: Material) -> Scene {
@@ -180,7 +180,7 @@ fn artist_lines_follow_vertex_colour_changes_and_seams() {
     };
     for style in ["ink", "toon"] {
         let changes = ["lines.kinds=['artist']", "fills.texture_colours=5"].map(str::to_owned);
-        let drawing = render(&model, &camera, &Style::load(style, &changes).unwrap()).unwrap();
+        let drawing = render(&model, &camera, &Style::load_with(style, &changes).unwrap()).unwrap();
         let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
         let drawn: Vec<[Point; 2]> =
             visible_line_marks(&drawing).filter(is_artist).flat_map(centre_line).collect();

@@ -14,7 +14,7 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Geometry, Material, Part, Projection, Scene, Wrap};
 use ligne::style::Style;
 
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 const DARK: [u8; 3] = [40, 70, 120];
 const LIGHT: [u8; 3] = [240, 220, 150];
@@ -32,7 +32,7 @@ fn plain_style(changes: &[&str]) -> Style {
         "fills.texture='image'",
     ];
     all.extend(changes);
-    Style::load("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
+    Style::load_with("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
 }
 
 fn png(side: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Arc<[u8]> {
@@ -225,7 +225,7 @@ fn the_nearer_texture_is_visible_and_tones_shade_it() {
 fn files_embed_each_picture_once() {
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap();
     let camera = Camera::azimuth_elevation(30.0, 25.0, scene.up).fit(&scene);
-    let style = Style::load("toon", &["fills.texture='image'".to_owned()]).unwrap();
+    let style = Style::load_with("toon", &["fills.texture='image'".to_owned()]).unwrap();
     let drawing = render(&scene, &camera, &style).unwrap();
     assert_eq!(images(&drawing).len(), 2);
     let svg = drawing.to_svg(&SvgOptions::default());
@@ -242,7 +242,7 @@ fn files_embed_each_picture_once() {
     }
     // Plain fills lie below the pictures, for viewers that show no pictures.
     let without =
-        render(&scene, &camera, &Style::load("toon", &["fills.texture='mean'".to_owned()]).unwrap());
+        render(&scene, &camera, &Style::load_with("toon", &["fills.texture='mean'".to_owned()]).unwrap());
     let fills = |drawing: &Drawing| {
         let of = |mark: &&Mark| matches!(mark.paint, Paint::Fill(_)) && mark.provenance.classes.is_empty();
         drawing.layers.iter().flat_map(|layer| &layer.marks).filter(of).count()

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use ligne::colour::colour_factor::ColourFactor;
 use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
+use ligne::light::lights::light_options::{SourceKind, Space};
 use ligne::light::tones::tone_options::{Colours, ToneScale};
-use ligne::light::{SourceKind, Space};
 use ligne::regions::Seams;
 use ligne::style::Style;
 
@@ -35,7 +35,7 @@ impl Drop for Folder {
 
 fn load_with_changes(style: &str, changes: &[&str]) -> Result<Style, ligne::Error> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    Style::load(style, &changes)
+    Style::load_with(style, &changes)
 }
 
 fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
@@ -122,12 +122,12 @@ fn tone_pictures_are_found_relative_to_the_sheet() {
     folder.write("tones/table.png", &png(2, 2, &[0, 100, 100, 200]));
     folder.write("tones/strip.toml", b"fills.ramp = \"strip.png\"");
     let sheet = folder.write("a.toml", b"extends = \"tones/strip.toml\"\nfills.enabled = true\n");
-    let ToneScale::Ramp(strip) = Style::load(&sheet, &[]).unwrap().tones.scale else { panic!() };
+    let ToneScale::Ramp(strip) = Style::load(&sheet).unwrap().tones.scale else { panic!() };
     assert_eq!(strip.levels, [0.75, 0.875]);
     assert_eq!(strip.colours, [grey(40), grey(200), grey(255)]);
 
     let sheet = folder.write("b.toml", b"[[fills.material]]\nname = \"a*\"\ntable = \"tones/table.png\"\n");
-    let materials = Style::load(&sheet, &[]).unwrap().tones.materials;
+    let materials = Style::load(&sheet).unwrap().tones.materials;
     let Some(ToneScale::Table(table)) = &materials[0].scale else { panic!() };
     assert_eq!((table.tone(0, 0), table.tone(1, 0), table.tone(1, 1)), (0, 1, 2));
 }
@@ -138,7 +138,7 @@ fn material_rules_of_extended_sheets_accumulate() {
     folder.write("a.toml", b"[[fills.material]]\nname = \"a\"\nsteps = 3\n");
     let sheet =
         folder.write("b.toml", b"extends = \"a.toml\"\n[[fills.material]]\nname = \"a\"\nshadow = 0.1\n");
-    let style = Style::load(&sheet, &[]).unwrap();
+    let style = Style::load(&sheet).unwrap();
     let (own, _) = style.tones.for_material("a");
     assert_eq!((own.scale, own.shadow), (ToneScale::Steps(3), ColourFactor([0.1; 3])));
     assert_eq!(style.tones.for_material("b").0.scale, ToneScale::Thresholds(vec![0.5]));
@@ -161,13 +161,13 @@ fn fill_and_light_errors_name_line_and_fix() {
         ("light.oclusion = 1\n", "did you mean `occlusion`?"),
     ] {
         let sheet = folder.write("bad.toml", text.as_bytes());
-        let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+        let error = Style::load(&sheet).unwrap_err().to_string();
         assert!(error.contains(wanted), "{text}: {error}");
     }
     let sheet = folder.write("lost.toml", b"fills.ramp = \"tones/lost.png\"");
-    let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+    let error = Style::load(&sheet).unwrap_err().to_string();
     assert!(error.contains("tones/lost.png: cannot read the picture of tones"), "{error}");
     folder.write("tones/lost.png", b"GIF89a");
-    let error = Style::load(&sheet, &[]).unwrap_err().to_string();
+    let error = Style::load(&sheet).unwrap_err().to_string();
     assert!(error.contains("neither PNG, JPEG nor WebP"), "{error}");
 }

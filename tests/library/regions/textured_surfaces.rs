@@ -10,9 +10,9 @@ use ligne::scene::{Camera, Filter, Geometry, Material, Projection};
 use ligne::style::Style;
 
 use super::painted_surfaces::{CORNER_COLOURS, assert_colours, front, palette, scene, square, top, white};
-use crate::support::measures::plain_fills::{filled_marks, flat_fill_style};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::measures::plain_fills::{filled_marks, flat_fill_style};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 const NONE: u32 = u32::MAX;
 
@@ -149,7 +149,7 @@ fn artist_textures_of_the_style_give_lines_and_no_fills() {
     let sheet = |table: &str| {
         let text = format!("extends = \"toon\"\n[lines]\nkinds = [\"artist\"]\n{table}\n");
         std::fs::write(folder.join("sheet.toml"), text).unwrap();
-        Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap()
+        Style::load(folder.join("sheet.toml").to_str().unwrap()).unwrap()
     };
     // The painted texture has two halves, and no line is drawn between them.
     let halves = png(8, 8, |x, _| if x < 4 { [200, 0, 0] } else { [0, 0, 200] });
@@ -185,7 +185,7 @@ fn artist_textures_of_the_style_give_lines_and_no_fills() {
     }
     let missing = "[lines]\nartist_texture = \"none.png\"\n";
     std::fs::write(folder.join("sheet.toml"), missing).unwrap();
-    let error = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap_err();
+    let error = Style::load(folder.join("sheet.toml").to_str().unwrap()).unwrap_err();
     assert!(error.to_string().contains("none.png"), "{error}");
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -11,10 +11,10 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::measures::line_picture::SegmentGrid;
-use crate::support::measures::plain_fills::{filled_marks, flat_fill_style};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::measures::line_picture::SegmentGrid;
+use crate::library::support::measures::plain_fills::{filled_marks, flat_fill_style};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 const CREAM: [u8; 3] = [246, 239, 224];
 const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
@@ -109,7 +109,7 @@ fn lines_do_not_depend_on_textures() {
     let scene = picnic();
     let camera = Camera::three_quarter().fit(&scene);
     let ink = |change: &str| {
-        let style = Style::load("toon", &[change.to_owned()]).unwrap();
+        let style = Style::load_with("toon", &[change.to_owned()]).unwrap();
         let drawing = render(&scene, &camera, &style).unwrap();
         drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Lines)
     };
@@ -127,7 +127,7 @@ fn artist_lines_follow_colour_changes_of_textures() {
     };
     for style in ["ink", "toon"] {
         let change = "lines.kinds=['contour','border','artist']".to_owned();
-        let style = Style::load(style, &[change]).unwrap();
+        let style = Style::load_with(style, &[change]).unwrap();
         let drawing = render(&scene, &camera, &style).unwrap();
         let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
         let drawn: Vec<[Point; 2]> =
@@ -152,8 +152,10 @@ fn artist_lines_follow_colour_changes_of_textures() {
         }
     }
     // With a tolerance of 1, no two colours are far enough apart for a line.
-    let far =
-        Style::load("ink", &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()])
-            .unwrap();
+    let far = Style::load_with(
+        "ink",
+        &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()],
+    )
+    .unwrap();
     assert_eq!(visible_line_marks(&render(&scene, &camera, &far).unwrap()).count(), 0);
 }

@@ -12,8 +12,8 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::pipeline::{self, orthographic};
-use crate::support::scenes::solids::{cuboid, sphere};
+use crate::library::support::pipeline::{self, orthographic};
+use crate::library::support::scenes::solids::{cuboid, sphere};
 
 /// A brush picture in the temporary folder, deleted on drop.
 struct BrushPicture(PathBuf);
@@ -34,7 +34,7 @@ impl BrushPicture {
         let mut all = vec![format!("pen.brush={{ image = '{image}'{more} }}")];
         all.extend(["pen.width=20", "pen.silhouette.width=20", "pen.contour.width=20"].map(str::to_owned));
         all.extend(sets.iter().map(|set| (*set).to_owned()));
-        Style::load("ink", &all).unwrap_or_else(|error| panic!("{error}"))
+        Style::load_with("ink", &all).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 

@@ -8,10 +8,10 @@ use ligne::drawing::{Mark, Paint};
 use ligne::strokes::{InkContext, ink};
 use ligne::style::Style;
 
-use crate::support::measures::stroke_marks::{
+use crate::library::support::measures::stroke_marks::{
     centre_line, ink_context, ink_style, outline_paint, path_length, polyline_chain, width_at,
 };
-use crate::support::scenes::moving_boxes::{
+use crate::library::support::scenes::moving_boxes::{
     draw_at, front_camera, motion_lines, rig_solids, translation_channel, unit_cube,
 };
 
@@ -108,7 +108,7 @@ fn motion_lines_are_clipped_at_the_frame() {
     // The picture is 10 units wide; the motion began 12 units to the left.
     let model = rig_solids(vec![unit_cube()], vec![translation_channel(0, DVec3::X * 12.0)]);
     let changes = ["motion.taper=1", "motion.width=9", "motion.segments=100", "motion.speed=1"];
-    let own = crate::support::scenes::moving_boxes::motion_style(&changes);
+    let own = crate::library::support::scenes::moving_boxes::motion_style(&changes);
     let mut camera = front_camera();
     camera.target.x += 12.0;
     camera.eye.x += 12.0;

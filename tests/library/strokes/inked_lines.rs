@@ -1,7 +1,7 @@
 //! Hand-drawn effects on single lines, tested against closed forms: swell, taper, tremor, overshoot, breaks,
 //! passes and brushes.
 
-use crate::support::measures::stroke_marks::{
+use crate::library::support::measures::stroke_marks::{
     centre_line, circle_chain, ink_style, marks, outline_paint, path_distance, path_length, polyline_chain,
     sample_path, width_at,
 };
@@ -266,9 +266,9 @@ fn png_pictures_serve_as_brushes() {
     encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
     std::fs::write(folder.join("sheet.toml"), "[pen]\nwidth = 8\nbrush = { image = \"strip.png\" }\n")
         .unwrap();
-    let loaded = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]);
+    let loaded = Style::load(folder.join("sheet.toml").to_str().unwrap());
     std::fs::write(folder.join("sheet.toml"), "[pen]\nbrush = { image = \"lost.png\" }\n").unwrap();
-    let lost = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap_err().to_string();
+    let lost = Style::load(folder.join("sheet.toml").to_str().unwrap()).unwrap_err().to_string();
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(lost.contains("lost.png") && lost.contains("cannot read the brush"), "{lost}");
     let drawn = marks(&[polyline_chain(&[(0.0, 50.0), (160.0, 50.0)], [1.0; 2])], &loaded.unwrap());

@@ -1,13 +1,13 @@
 //! Hand-drawn lines on models: light, depth gaps, camera moves, page units, seeds and covered fill borders,
 //! against closed forms and plain drawings.
 
-use crate::support::measures::stroke_marks::{
+use crate::library::support::measures::stroke_marks::{
     centre_line, circle_chain, ink_context, ink_style, marks, outline_paint, path_distance, path_length,
     polyline_chain, sample_path,
 };
-use crate::support::pipeline::{orthographic, scene};
-use crate::support::properties::option_set::HAND_DRAWN_OVERRIDES;
-use crate::support::scenes::solids::{cuboid, sphere, torus};
+use crate::library::support::pipeline::{orthographic, scene};
+use crate::library::support::properties::option_set::HAND_DRAWN_OVERRIDES;
+use crate::library::support::scenes::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, Point, Shape};
 use ligne::colour::srgb::Colour;

@@ -11,7 +11,7 @@ fn widths(sets: &[&str]) -> Vec<f64> {
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let pens = ["pen.width=2", "pen.contour.width=2", "pen.silhouette.width=2", "pen.crease.width=2"];
     let sets: Vec<String> = pens.iter().chain(sets).map(|set| (*set).to_owned()).collect();
-    let drawing = render(&scene, &camera, &Style::load("ink", &sets).unwrap()).unwrap();
+    let drawing = render(&scene, &camera, &Style::load_with("ink", &sets).unwrap()).unwrap();
     let lines = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     lines
         .flat_map(|layer| &layer.marks)

@@ -7,8 +7,8 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-use crate::support::pipeline::{self, orthographic};
-use crate::support::scenes::solids::{cuboid, sphere};
+use crate::library::support::pipeline::{self, orthographic};
+use crate::library::support::scenes::solids::{cuboid, sphere};
 
 const BOX: &str = "M0 0H10V10H0Z";
 const WEDGE: &str = "M0 0L10 5L0 10Z";
@@ -25,7 +25,7 @@ fn inked_area(scene: &Scene, camera: &Camera, left: &str, right: &str, turn: f64
         "pen.silhouette.width=4".to_owned(),
         "pen.contour.width=4".to_owned(),
     ];
-    let style = Style::load("ink", &sets).unwrap_or_else(|error| panic!("{error}"));
+    let style = Style::load_with("ink", &sets).unwrap_or_else(|error| panic!("{error}"));
     let drawing = render(scene, camera, &style).unwrap();
     drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.path.area().abs()).sum()
 }
@@ -82,7 +82,7 @@ fn turning_shapes_may_be_files_and_pictures() {
              length = 20, turn = 5, left = {{ {left} }}, right = {{ {right} }} }}\n"
         );
         std::fs::write(folder.join("sheet.toml"), sheet).unwrap();
-        let style = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]);
+        let style = Style::load(folder.join("sheet.toml").to_str().unwrap());
         let style = style.unwrap_or_else(|error| panic!("{error}"));
         let drawing = render(&ball, &camera, &style).unwrap();
         drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.path.area().abs()).sum::<f64>()
@@ -115,7 +115,7 @@ fn invalid_turning_brushes_are_rejected() {
         ("{ path = 'M0 0H1V1Z', right = 3, mode = 'repeat' }", "path data"),
         ("{ path = 'M0 0H1V1Z', turn = 200, mode = 'repeat' }", "0 to 180"),
     ] {
-        let error = Style::load("ink", &[format!("pen.brush={brush}")]).unwrap_err().to_string();
+        let error = Style::load_with("ink", &[format!("pen.brush={brush}")]).unwrap_err().to_string();
         assert!(error.contains(word), "{brush}: {error}");
     }
 }

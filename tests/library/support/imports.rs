@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 type NamePath = Vec<String>;
 
 /// A file of a crate.
-pub struct File {
+pub(crate) struct File {
     /// Its path below `src/`, with `/` as separator.
     pub path: String,
     /// Its code, without comments and tests.
@@ -19,7 +19,7 @@ pub struct File {
 ///
 /// An import through a re-export counts as an import of the defining file. Public re-exports in `mod.rs` and
 /// `lib.rs` are not counted, because a folder's front may publish its children.
-pub fn import_graph(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
+pub(crate) fn import_graph(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
     let scope = CrateNames::new(files);
     let of_file = |file: &File| {
         let own = module_path(&file.path);
@@ -37,7 +37,7 @@ pub fn import_graph(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
 /// Import cycles: in each, every file imports the next and the last imports the first.
 ///
 /// Cycles that share an import with a reported cycle may be missing.
-pub fn import_cycles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
+pub(crate) fn import_cycles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
     let mut rest = imports.clone();
     let mut found = Vec::new();
     loop {

@@ -11,14 +11,14 @@
 //! 7. [`rewriting`] tests that a model gives the same drawing in every file format and encoding.
 //! 8. [`imports`] reads the import graph from source code; [`plain_words`] measures English; [`long_run`] selects the size of a test run.
 
-pub mod imports;
-pub mod long_run;
-pub mod measures;
-pub mod pipeline;
-pub mod plain_words;
-pub mod properties;
-pub mod readers;
-pub mod references;
-pub mod rewriting;
-pub mod scenes;
-pub mod styled;
+pub(crate) mod imports;
+pub(crate) mod long_run;
+pub(crate) mod measures;
+pub(crate) mod pipeline;
+pub(crate) mod plain_words;
+pub(crate) mod properties;
+pub(crate) mod readers;
+pub(crate) mod references;
+pub(crate) mod rewriting;
+pub(crate) mod scenes;
+pub(crate) mod styled;

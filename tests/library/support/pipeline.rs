@@ -8,10 +8,10 @@ use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 use ligne::view::View;
 use ligne::visibility::{self, ViewEdge, ViewMap};
 
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 
 /// Results of all pipeline stages up to the view map.
-pub struct Stages {
+pub(crate) struct Stages {
     pub mesh: Mesh,
     pub view: View,
     pub lines: FeatureLines,
@@ -19,17 +19,17 @@ pub struct Stages {
 }
 
 /// Options for the exact drawing of a polyhedron: contours along mesh edges, and unmerged creases.
-pub fn exact_options() -> LineOptions {
+pub(crate) fn exact_options() -> LineOptions {
     LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
 }
 
 /// Options as in [`exact_options`], with hidden lines kept and their invisibility counted.
-pub fn exact_options_with_hidden() -> LineOptions {
+pub(crate) fn exact_options_with_hidden() -> LineOptions {
     LineOptions { hidden: HiddenLines::Dashed, ..exact_options() }
 }
 
 /// Runs the pipeline on a scene up to the view map.
-pub fn run_stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
+pub(crate) fn run_stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
@@ -39,40 +39,40 @@ pub fn run_stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stag
 
 impl Stages {
     /// The image positions of a view edge's two ends, px.
-    pub fn edge_ends(&self, edge: &ViewEdge) -> [Point; 2] {
+    pub(crate) fn edge_ends(&self, edge: &ViewEdge) -> [Point; 2] {
         [edge.start, edge.end].map(|v| self.map.vertices[v.index()].position)
     }
 
     /// The visible view edges, as image segments.
-    pub fn visible_segments(&self) -> Vec<[Point; 2]> {
+    pub(crate) fn visible_segments(&self) -> Vec<[Point; 2]> {
         self.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The visible view edges of one kind, as image segments.
-    pub fn visible_segments_of_kind(&self, kind: LineKind) -> Vec<[Point; 2]> {
+    pub(crate) fn visible_segments_of_kind(&self, kind: LineKind) -> Vec<[Point; 2]> {
         let of_kind = |e: &&ViewEdge| e.kind == kind && e.invisibility == 0;
         self.map.edges.iter().filter(of_kind).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The visible silhouette edges: those with background on one side.
-    pub fn silhouette_segments(&self) -> Vec<[Point; 2]> {
+    pub(crate) fn silhouette_segments(&self) -> Vec<[Point; 2]> {
         let of_outline = |e: &&ViewEdge| e.silhouette && e.invisibility == 0;
         self.map.edges.iter().filter(of_outline).map(|e| self.edge_ends(e)).collect()
     }
 
     /// The hidden view edges, as image segments.
-    pub fn hidden_segments(&self) -> Vec<[Point; 2]> {
+    pub(crate) fn hidden_segments(&self) -> Vec<[Point; 2]> {
         self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.edge_ends(e)).collect()
     }
 }
 
 /// A geometry with the positions and triangles of a solid.
-pub fn solid_geometry(solid: Solid) -> Geometry {
+pub(crate) fn solid_geometry(solid: Solid) -> Geometry {
     Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() }
 }
 
 /// A scene with one part per geometry, each placed by the identity transform.
-pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
+pub(crate) fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
     let part = |geometry: usize| Part {
         name: format!("part {geometry}"),
         geometry,
@@ -82,17 +82,17 @@ pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
 }
 
 /// A scene with one part per solid.
-pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
+pub(crate) fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
     scene_of_geometries(solids.into_iter().map(solid_geometry).collect())
 }
 
 /// A perspective camera with a frame of 1000 x 1000 px.
-pub fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
+pub(crate) fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
     look_at_camera(eye, target, Projection::Perspective { fov_y_deg })
 }
 
 /// An orthographic camera with a frame of 1000 x 1000 px; `height` is in world units.
-pub fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
+pub(crate) fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
     look_at_camera(eye, target, Projection::Orthographic { height })
 }
 

@@ -1,7 +1,7 @@
 //! Measures of plain English: sentence length, and phrases that are hard to read.
 
 /// Longer sentences count as long.
-pub const MAX_SENTENCE_WORDS: usize = 30;
+pub(crate) const MAX_SENTENCE_WORDS: usize = 30;
 
 /// Shorter sentences are labels and do not count.
 const MIN_SENTENCE_WORDS: usize = 3;
@@ -67,7 +67,7 @@ const QUESTION_WORDS: [&str; 9] = ["is", "are", "does", "do", "happens", "if", "
 
 /// Counts of a text.
 #[derive(Debug, Default, Clone, Copy)]
-pub struct TextStatistics {
+pub(crate) struct TextStatistics {
     pub words: usize,
     pub sentences: usize,
     pub words_in_sentences: usize,
@@ -77,7 +77,7 @@ pub struct TextStatistics {
 
 impl TextStatistics {
     /// Adds the sentences of a paragraph.
-    pub fn add_paragraph(&mut self, paragraph: &str) {
+    pub(crate) fn add_paragraph(&mut self, paragraph: &str) {
         for sentence in sentences(paragraph) {
             let count = words(sentence).len();
             self.words += count;
@@ -90,7 +90,7 @@ impl TextStatistics {
         }
     }
 
-    pub fn add(&mut self, other: Self) {
+    pub(crate) fn add(&mut self, other: Self) {
         self.words += other.words;
         self.sentences += other.sentences;
         self.words_in_sentences += other.words_in_sentences;
@@ -98,34 +98,34 @@ impl TextStatistics {
         self.phrases += other.phrases;
     }
 
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.words_in_sentences as f64 / self.sentences.max(1) as f64
     }
 
-    pub fn long_share(&self) -> f64 {
+    pub(crate) fn long_share(&self) -> f64 {
         self.long as f64 / self.sentences.max(1) as f64
     }
 
-    pub fn phrases_per_1000(&self) -> f64 {
+    pub(crate) fn phrases_per_1000(&self) -> f64 {
         1000.0 * self.phrases as f64 / self.words.max(1) as f64
     }
 }
 
 /// Replaces every text between two marks with `with`.
-pub fn replace_between(text: &str, mark: &str, with: &str) -> String {
+pub(crate) fn replace_between(text: &str, mark: &str, with: &str) -> String {
     let parts = text.split(mark).enumerate();
     parts.map(|(number, part)| if number % 2 == 0 { part } else { with }).collect()
 }
 
 /// The words of a text, in lower case.
-pub fn words(text: &str) -> Vec<String> {
+pub(crate) fn words(text: &str) -> Vec<String> {
     let is_part = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-');
     let words = text.split(|c| !is_part(c)).filter(|word| word.starts_with(char::is_alphabetic));
     words.map(str::to_lowercase).collect()
 }
 
 /// The sentences of a paragraph.
-pub fn sentences(paragraph: &str) -> Vec<&str> {
+pub(crate) fn sentences(paragraph: &str) -> Vec<&str> {
     let mut sentences = Vec::new();
     let mut from = 0;
     for (at, _) in paragraph.match_indices(['.', '!', '?']) {
@@ -143,7 +143,7 @@ pub fn sentences(paragraph: &str) -> Vec<&str> {
 }
 
 /// The hard phrases in a sentence.
-pub fn hard_phrases(sentence: &str) -> Vec<String> {
+pub(crate) fn hard_phrases(sentence: &str) -> Vec<String> {
     let words = words(sentence);
     let text = format!(" {} ", words.join(" "));
     let mut found: Vec<String> = HARD_PHRASES

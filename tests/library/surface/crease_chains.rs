@@ -2,7 +2,7 @@
 //! line.
 
 use super::creases::{CREASE_DEG, ends, find, mesh};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::tan;
 use ligne::mesh::Mesh;

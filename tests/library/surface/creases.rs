@@ -1,9 +1,9 @@
 //! Creases are chains of sharp edges that stand out from the noise around them; tested on solids with known
 //! edges, with and without noise.
 
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid, tube};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid, tube};
 use glam::DVec3;
 use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Scene;

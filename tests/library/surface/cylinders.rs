@@ -12,10 +12,10 @@ use ligne::mesh::Mesh;
 use ligne::surface::Cylinder;
 use ligne::surface::cylinders;
 
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::icosphere;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::icosphere;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
 /// A pipe around the z axis, from z = 0 to `height`. `inner` is the radius of its hole.
 fn pipe(corners: u32, outer: f64, inner: f64, height: f64) -> Solid {

@@ -11,9 +11,9 @@ use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Camera;
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{Stages, orthographic, run_stages, scene};
-use crate::support::scenes::profile_bars::bar;
-use crate::support::scenes::solids::Solid;
+use crate::library::support::pipeline::{Stages, orthographic, run_stages, scene};
+use crate::library::support::scenes::profile_bars::bar;
+use crate::library::support::scenes::solids::Solid;
 
 fn patches(solid: Solid) -> (Mesh, Patches) {
     let soup = Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() };

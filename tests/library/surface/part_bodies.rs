@@ -1,13 +1,13 @@
 //! A surface with every face in its own part is drawn like the surface in one part; the drawing of the one
 //! part is the reference.
 
-use crate::support::measures::segment_sets::{total_length, uncovered_length};
-use crate::support::pipeline::scene;
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::scenes::hard_scenes::camera_from_any_side;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::{globe, icosphere, saddle};
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
+use crate::library::support::measures::segment_sets::{total_length, uncovered_length};
+use crate::library::support::pipeline::scene;
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::scenes::hard_scenes::camera_from_any_side;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::{globe, icosphere, saddle};
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::Drawing;

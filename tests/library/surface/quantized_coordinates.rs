@@ -11,11 +11,11 @@ use ligne::lines::{LineKind, LineOptions};
 use ligne::load::ModelFormat;
 use ligne::scene::{Camera, Scene};
 
-use crate::support::measures::line_picture::length_farther_than;
-use crate::support::pipeline::{orthographic, run_stages, scene_of_geometries};
-use crate::support::readers::glb_writer::glb;
-use crate::support::references::torus_contour::{self, VisibleArc, visible_arcs};
-use crate::support::scenes::solids::{Solid, torus};
+use crate::library::support::measures::line_picture::length_farther_than;
+use crate::library::support::pipeline::{orthographic, run_stages, scene_of_geometries};
+use crate::library::support::readers::glb_writer::glb;
+use crate::library::support::references::torus_contour::{self, VisibleArc, visible_arcs};
+use crate::library::support::scenes::solids::{Solid, torus};
 
 /// Returns the Draco stream of a solid with positions of `bits` bits.
 fn draco_stream(solid: &Solid, bits: i32) -> Vec<u8> {

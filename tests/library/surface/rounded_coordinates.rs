@@ -5,8 +5,8 @@
 
 use std::fmt::Write;
 
-use crate::support::rewriting::pens::LinesByPen;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::rewriting::pens::LinesByPen;
+use crate::library::support::scenes::random_dice::Dice;
 use glam::{DQuat, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::load::ModelFormat;

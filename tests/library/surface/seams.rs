@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::pipeline::{exact_options, orthographic, perspective, run_stages, scene};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::pipeline::{exact_options, orthographic, perspective, run_stages, scene};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::{LineKind, LineOptions};

@@ -9,9 +9,9 @@ use ligne::lines::{FeatureSegment, LineKind, LineOptions};
 use ligne::mesh::{Mesh, Soup};
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{orthographic, run_stages, scene};
-use crate::support::scenes::profile_bars::{BAR_LENGTH, bar, step_profile};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::pipeline::{orthographic, run_stages, scene};
+use crate::library::support::scenes::profile_bars::{BAR_LENGTH, bar, step_profile};
+use crate::library::support::scenes::solids::Solid;
 
 fn mesh(solid: Solid) -> Mesh {
     Mesh::build(Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() })

@@ -9,8 +9,8 @@ use ligne::lines::{LineKind, LineOptions};
 use ligne::mesh::{DihedralCosines, Mesh, Soup};
 use ligne::surface::Patches;
 
-use crate::support::pipeline::{orthographic, run_stages, scene};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::pipeline::{orthographic, run_stages, scene};
+use crate::library::support::scenes::solids::Solid;
 
 const SHAFT_SIDES: usize = 24;
 

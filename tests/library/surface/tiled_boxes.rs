@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::seams::{add_tile, count_open_and_sharp_edges, mesh};
-use crate::support::pipeline::{exact_options, orthographic, perspective, run_stages, scene};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::pipeline::{exact_options, orthographic, perspective, run_stages, scene};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::lines::LineKind;

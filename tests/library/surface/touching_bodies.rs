@@ -4,11 +4,11 @@
 use glam::{DAffine3, DVec3};
 use ligne::scene::Camera;
 
-use crate::support::rewriting::body::{Body, Face};
-use crate::support::rewriting::model::{RandomModel, ViewChoice};
-use crate::support::rewriting::relations::Relation;
-use crate::support::rewriting::shapes::cuboid;
-use crate::support::rewriting::trial::Trial;
+use crate::library::support::rewriting::body::{Body, Face};
+use crate::library::support::rewriting::model::{RandomModel, ViewChoice};
+use crate::library::support::rewriting::relations::Relation;
+use crate::library::support::rewriting::shapes::cuboid;
+use crate::library::support::rewriting::trial::Trial;
 
 /// Views from above, from below, edge-on, and in perspective.
 fn sights() -> [ViewChoice; 6] {

@@ -1,14 +1,14 @@
 //! Cast shadows, tested against closed forms and rays through every triangle.
 
-use crate::support::pipeline;
-use crate::support::pipeline::scene;
-use crate::support::references::shadow_rays::{
+use crate::library::support::pipeline;
+use crate::library::support::pipeline::scene;
+use crate::library::support::references::shadow_rays::{
     check_crossings, check_lines, check_points, face_centroid, test_lights,
 };
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes;
-use crate::support::scenes::round_solids;
-use crate::support::scenes::solids::{Solid, cuboid, torus};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_scenes;
+use crate::library::support::scenes::round_solids;
+use crate::library::support::scenes::solids::{Solid, cuboid, torus};
 use glam::DVec3;
 use ligne::light::Caster;
 use ligne::lines::{FeatureLines, LineKind, NO_FACE};

@@ -1,12 +1,14 @@
 //! Scenes with drawings in closed form: visible lines and their end points.
 
-use crate::support::measures::segment_sets::{check_equal_cover, distance, doubled_length, total_length};
-use crate::support::pipeline::{
+use crate::library::support::measures::segment_sets::{
+    check_equal_cover, distance, doubled_length, total_length,
+};
+use crate::library::support::pipeline::{
     Stages, exact_options, exact_options_with_hidden, orthographic, perspective, run_stages, scene,
     scene_of_geometries, solid_geometry,
 };
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::chains::{self, ChainOptions};

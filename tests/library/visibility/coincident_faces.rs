@@ -4,13 +4,13 @@ use super::closed_forms::{
     MAX_END_ERROR_PX, assert_visible_lines, at, count_visible, cube, from_front, generic_views, joined,
     outline, polygon, rectangle,
 };
-use crate::support::measures::segment_sets::{check_equal_cover, doubled_length, total_length};
-use crate::support::pipeline::{
+use crate::library::support::measures::segment_sets::{check_equal_cover, doubled_length, total_length};
+use crate::library::support::pipeline::{
     exact_options_with_hidden, orthographic, perspective, run_stages, scene, scene_of_geometries,
     solid_geometry,
 };
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::solids::cuboid;
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::solids::cuboid;
 use glam::DVec3;
 use ligne::lines::LineKind;
 use ligne::scene::{Geometry, Material, Scene};

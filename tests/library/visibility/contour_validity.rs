@@ -4,13 +4,13 @@
 //! The levels below are measured values, slightly rounded; they may only improve. A stop needs an explanation
 //! within 0.75 px. Wider gaps count as unexplained, even those of up to 1 px that chains close.
 
-use crate::support::readers::shared_folder;
+use crate::library::support::readers::shared_folder;
 use std::path::PathBuf;
 
-use crate::support::references::contour_stops::{
+use crate::library::support::references::contour_stops::{
     ContourEndCounts, build_view_map, count_contour_ends, cube_cameras,
 };
-use crate::support::references::polyhedron_contour::{SmoothAndMeshSurface, distance_summary};
+use crate::library::support::references::polyhedron_contour::{SmoothAndMeshSurface, distance_summary};
 use ligne::lines::{LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene};

@@ -1,12 +1,14 @@
 //! The contour search in dual space finds exactly the lines of testing every edge, and tests few edges.
 
-use crate::support::long_run::{is_long, select_for_run};
-use crate::support::pipeline::{exact_options, orthographic, perspective, scene};
-use crate::support::readers::shared_folder;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene};
-use crate::support::scenes::round_solids;
-use crate::support::scenes::solids::{Solid, cuboid, sphere};
+use crate::library::support::long_run::{is_long, select_for_run};
+use crate::library::support::pipeline::{exact_options, orthographic, perspective, scene};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_scenes::{
+    ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene,
+};
+use crate::library::support::scenes::round_solids;
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere};
 use glam::DVec3;
 use ligne::lines::{self, Contours, EdgeSearch, LineKind, LineOptions, SharedSearches, Surface};
 use ligne::mesh::bvh::ToneTree;
@@ -277,22 +279,21 @@ fn dual_search_accepts_an_empty_surface() {
 #[test]
 fn cached_dual_search_does_not_change_drawings() {
     let ball = scene([round_solids::icosphere(5)]);
-    let style = ligne::style::Style::load("technical", &["lines.contours=mesh".to_owned()]).unwrap();
+    let style = ligne::style::Style::load_with("technical", &["lines.contours=mesh".to_owned()]).unwrap();
     let page = |camera: &Camera| ligne::drawing::Page {
         width: camera.width,
         height: camera.height,
         unit: ligne::drawing::Unit::Px,
         background: None,
     };
-    let prepared = ligne::pipeline::Prepared::new(&ball, &style);
+    let prepared = ligne::pipeline::Renderer::new(&ball, &style);
     assert!(edge_count(&ball) > 20_000);
     // The trees are built for the hundredth view.
     let small = Camera { width: 40.0, height: 40.0, ..views(4.0)[0] };
-    (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None).unwrap()));
+    (0..100).for_each(|_| drop(prepared.draw(&small, page(&small)).unwrap()));
     for camera in views(4.0).into_iter().take(12) {
-        let (drawing, _) = prepared.draw(&camera, page(&camera), None).unwrap();
-        let alone =
-            ligne::pipeline::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).unwrap().0;
+        let (drawing, _) = prepared.draw(&camera, page(&camera)).unwrap();
+        let alone = ligne::pipeline::Renderer::new(&ball, &style).draw(&camera, page(&camera)).unwrap().0;
         assert!(drawing == alone, "{camera:?}");
     }
 }

@@ -11,10 +11,10 @@ use ligne::visibility::tolerances::{BEHIND_INK_PX, BEHIND_INK_SINE};
 use ligne::visibility::{ViewEdge, ViewMap};
 use ligne::{Camera, Scene, Style, render};
 
-use crate::support::pipeline::{exact_options_with_hidden, orthographic, run_stages, scene};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{ALL_SCENE_KINDS, random_camera, random_scene};
-use crate::support::scenes::solids::{Solid, cuboid, tube};
+use crate::library::support::pipeline::{exact_options_with_hidden, orthographic, run_stages, scene};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_scenes::{ALL_SCENE_KINDS, random_camera, random_scene};
+use crate::library::support::scenes::solids::{Solid, cuboid, tube};
 
 fn marks(drawing: &Drawing, kind: LayerKind) -> usize {
     drawing.layers.iter().filter(|layer| layer.kind == kind).map(|layer| layer.marks.len()).sum()

@@ -1,14 +1,16 @@
 //! Contours of rounded surfaces agree with the closed-form contour for any triangulation: spheres,
 //! ellipsoids, saddles and cylinders.
 
-use crate::support::measures::line_picture::{self, SegmentGrid, length_farther_than, sample_segments};
-use crate::support::pipeline::{
+use crate::library::support::measures::line_picture::{
+    self, SegmentGrid, length_farther_than, sample_segments,
+};
+use crate::library::support::pipeline::{
     Stages, orthographic, perspective, run_stages, scene, scene_of_geometries, solid_geometry,
 };
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::round_solids::{cylinder, globe, icosphere, octasphere, saddle};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::round_solids::{cylinder, globe, icosphere, octasphere, saddle};
+use crate::library::support::scenes::solids::Solid;
 use glam::{DMat3, DVec3};
 use kurbo::Point;
 use ligne::chains::{self, Chain, ChainOptions};

@@ -8,10 +8,10 @@ use ligne::pipeline::render;
 use ligne::scene::Camera;
 use ligne::style::Style;
 
-use crate::support::measures::segment_sets::total_length;
-use crate::support::pipeline::{orthographic, scene};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
-use crate::support::scenes::solids::Solid;
+use crate::library::support::measures::segment_sets::total_length;
+use crate::library::support::pipeline::{orthographic, scene};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::scenes::solids::Solid;
 
 /// A square of side 40 with a step in its middle, 20 long from tip to tip. The surface rises to the step and
 /// falls behind its edge by half its width.

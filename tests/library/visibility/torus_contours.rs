@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use super::smooth_contours::{cameras, contour_options, length, max_deviations};
-use crate::support::measures::line_picture::length_farther_than;
-use crate::support::pipeline::{Stages, run_stages, scene};
-use crate::support::references::torus_contour::{self, VisibleArc, visible_arcs};
-use crate::support::scenes::solids::torus;
+use crate::library::support::measures::line_picture::length_farther_than;
+use crate::library::support::pipeline::{Stages, run_stages, scene};
+use crate::library::support::references::torus_contour::{self, VisibleArc, visible_arcs};
+use crate::library::support::scenes::solids::torus;
 use kurbo::Point;
 use ligne::lines::{Contours, LineKind};
 use ligne::scene::Projection;

@@ -1,10 +1,14 @@
 //! Visibility of each view edge, compared with a ray through every triangle to its midpoint.
 
-use crate::support::measures::segment_sets::{check_equal_cover, distance, total_length, uncovered_length};
-use crate::support::pipeline::{Stages, exact_options, exact_options_with_hidden, run_stages};
-use crate::support::references::textbook_camera::TextbookCamera;
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene};
+use crate::library::support::measures::segment_sets::{
+    check_equal_cover, distance, total_length, uncovered_length,
+};
+use crate::library::support::pipeline::{Stages, exact_options, exact_options_with_hidden, run_stages};
+use crate::library::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_scenes::{
+    ALL_CAMERA_KINDS, ALL_SCENE_KINDS, random_camera, random_scene,
+};
 use glam::DVec3;
 use ligne::lines::{HiddenLines, LineOptions};
 use ligne::mesh::{FaceId, Mesh};

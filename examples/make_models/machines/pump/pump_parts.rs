@@ -5,7 +5,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use crate::geometry::outline::{at, circle, polar, rounded, rounded_rectangle};
 use crate::geometry::part::together;

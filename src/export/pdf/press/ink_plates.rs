@@ -40,7 +40,7 @@ impl Plates {
     ///
     /// # Errors
     /// If options contradict each other, or a profile is invalid or of the wrong kind.
-    pub fn new(options: &PdfOptions) -> Result<Self, Error> {
+    pub(crate) fn new(options: &PdfOptions) -> Result<Self, Error> {
         let source = match &options.inks {
             Inks::Cmyk(profile) => Some(profile),
             Inks::Screen | Inks::K => options.profile.as_ref(),
@@ -109,12 +109,12 @@ impl Plates {
     }
 
     /// Whether the inks are those of a press.
-    pub fn is_press(&self) -> bool {
+    pub(crate) fn is_press(&self) -> bool {
         self.inks != Inks::Screen
     }
 
     /// Ink of a colour.
-    pub fn ink(&self, colour: Colour) -> PressInk {
+    pub(crate) fn ink(&self, colour: Colour) -> PressInk {
         match self.spots.iter().position(|spot| same(spot.colour, colour)) {
             Some(number) => PressInk::Spot(number),
             None => self.process(colour),
@@ -122,7 +122,7 @@ impl Plates {
     }
 
     /// Ink of a colour without spot inks.
-    pub fn process(&self, colour: Colour) -> PressInk {
+    pub(crate) fn process(&self, colour: Colour) -> PressInk {
         let black = |light: f64| if light <= self.solid_black { 1.0 } else { 1.0 - light };
         match (&self.inks, &self.transform) {
             (Inks::Screen, _) => PressInk::Rgb(colour.channels()),
@@ -138,7 +138,7 @@ impl Plates {
     }
 
     /// Process inks that approximate a colour on a press without its spot ink.
-    pub fn process_equivalent(&self, colour: Colour) -> [f64; 4] {
+    pub(crate) fn process_equivalent(&self, colour: Colour) -> [f64; 4] {
         match self.process(colour) {
             PressInk::Cmyk(inks) if self.transform.is_some() => inks,
             // A rough conversion without a profile.
@@ -152,7 +152,7 @@ impl Plates {
     }
 
     /// Whether marks of a colour overprint what is below: solid black does.
-    pub fn overprints(&self, colour: Colour) -> bool {
+    pub(crate) fn overprints(&self, colour: Colour) -> bool {
         self.ink(colour) == PressInk::Cmyk([0.0, 0.0, 0.0, 1.0])
     }
 

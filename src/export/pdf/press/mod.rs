@@ -5,10 +5,10 @@
 //! PDF/A-2b.
 
 #[cfg(feature = "pdf")]
-pub mod halftone_screen;
+pub(crate) mod halftone_screen;
 #[cfg(feature = "pdf")]
 pub(crate) mod ink_plates;
 #[cfg(feature = "pdf")]
-pub mod pdf_options;
+pub(crate) mod pdf_options;
 #[cfg(feature = "pdf")]
 pub(crate) mod standards;

@@ -32,7 +32,7 @@ pub(crate) struct EdgeOnMargin {
 impl EdgeOnMargin {
     /// Margins in a view. The field must vary along an edge by at most `reach` times the turn of normal and
     /// line of sight.
-    pub fn of(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, reach: f64) -> Self {
+    pub(crate) fn of(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, reach: f64) -> Self {
         let most = (2.0 - 2.0 * MIN_GENTLE_COSINE).sqrt();
         // Vertices on edges that separate surfaces have several normals, and only one is used here. No gentle
         // edge ends at them.
@@ -59,7 +59,7 @@ impl EdgeOnMargin {
 
     /// Whether the field cannot vanish over a gentle edge between two vertices, given its squared length.
     #[inline]
-    pub fn cannot_vanish(&self, ends: [u32; 2], length_squared: f64) -> bool {
+    pub(crate) fn cannot_vanish(&self, ends: [u32; 2], length_squared: f64) -> bool {
         let [a, b] = ends.map(|vertex| f64::from(self.room[vertex as usize]));
         // Unit vectors from two points to the eye differ by at most the distance between the points, divided
         // by that to the nearer one.

@@ -2,4 +2,4 @@
 //!
 //! [`edge_search`] lists candidate edges once, for many views of one surface.
 
-pub mod edge_search;
+pub(crate) mod edge_search;

@@ -30,7 +30,7 @@ pub(crate) struct Crack {
 
 impl CrackLattice {
     /// Cracks whose jump is a local maximum and no echo.
-    pub fn local_maxima(jumps: &JumpTiles) -> Self {
+    pub(crate) fn local_maxima(jumps: &JumpTiles) -> Self {
         let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
         let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
@@ -46,12 +46,12 @@ impl CrackLattice {
     }
 
     /// Number of corners.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.flags.len()
     }
 
     /// Corners on lines, ascending.
-    pub fn corners(&self) -> Vec<usize> {
+    pub(crate) fn corners(&self) -> Vec<usize> {
         let stride = self.stride;
         let none = vec![0; stride];
         let any = |flags: &[u8]| flags.iter().fold(0, |any, flag| any | flag);
@@ -78,13 +78,13 @@ impl CrackLattice {
 
     /// Column and row of a corner.
     #[inline]
-    pub fn place(&self, corner: usize) -> [usize; 2] {
+    pub(crate) fn place(&self, corner: usize) -> [usize; 2] {
         [corner % self.stride, corner / self.stride]
     }
 
     /// Corner at the other end of a crack; none outside the image.
     #[inline]
-    pub fn end(&self, crack: Crack) -> Option<usize> {
+    pub(crate) fn end(&self, crack: Crack) -> Option<usize> {
         let [column, row] = self.place(crack.corner);
         let [dx, dy] = CRACK_DIRECTIONS[crack.direction];
         let (column, row) = (column as i32 + dx, row as i32 + dy);
@@ -101,11 +101,11 @@ impl CrackLattice {
 
     /// Whether a line runs along a crack.
     #[inline]
-    pub fn has(&self, crack: Crack) -> bool {
+    pub(crate) fn has(&self, crack: Crack) -> bool {
         self.flag(crack).is_some_and(|(corner, flag)| self.flags[corner] & flag != 0)
     }
 
-    pub fn put(&mut self, crack: Crack, on: bool) {
+    pub(crate) fn put(&mut self, crack: Crack, on: bool) {
         if let Some((corner, flag)) = self.flag(crack) {
             if on {
                 self.flags[corner] |= flag;
@@ -116,18 +116,18 @@ impl CrackLattice {
     }
 
     /// Cracks with a line at a corner.
-    pub fn leaving(&self, corner: usize) -> impl Iterator<Item = Crack> + '_ {
+    pub(crate) fn leaving(&self, corner: usize) -> impl Iterator<Item = Crack> + '_ {
         (0..4).map(move |way| Crack { corner, direction: way }).filter(|crack| self.has(*crack))
     }
 
     /// Number of cracks with a line at a corner.
-    pub fn degree(&self, corner: usize) -> usize {
+    pub(crate) fn degree(&self, corner: usize) -> usize {
         self.leaving(corner).count()
     }
 
     /// Columns and rows of the pixels on the left and right of a crack, seen along its direction, with rows
     /// running down.
-    pub fn pixels(&self, crack: Crack) -> [[i32; 2]; 2] {
+    pub(crate) fn pixels(&self, crack: Crack) -> [[i32; 2]; 2] {
         let [column, row] = self.place(crack.corner).map(|i| i as i32);
         match crack.direction {
             0 => [[column, row - 1], [column, row]],
@@ -138,7 +138,7 @@ impl CrackLattice {
     }
 
     /// Jump across a crack.
-    pub fn jump(&self, jumps: &JumpTiles, crack: Crack) -> f32 {
+    pub(crate) fn jump(&self, jumps: &JumpTiles, crack: Crack) -> f32 {
         let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
         let [column, row] = self.place(corner);
         if column >= jumps.columns || row >= jumps.rows {

@@ -20,7 +20,7 @@ pub(crate) struct CrackPath {
 
 impl CrackPath {
     /// Corner after the given number of cracks.
-    pub fn corner(&self, lattice: &CrackLattice, after: usize) -> usize {
+    pub(crate) fn corner(&self, lattice: &CrackLattice, after: usize) -> usize {
         match self.cracks.get(after) {
             Some(crack) => crack.corner,
             None => self.cracks.last().and_then(|crack| lattice.end(*crack)).unwrap_or(0),

@@ -19,7 +19,7 @@ pub(crate) struct JumpTiles {
 
 impl JumpTiles {
     /// Builds the map; `of_row` reports the jumps of a row, each with its column.
-    pub fn new(
+    pub(crate) fn new(
         columns: usize,
         rows: usize,
         of_row: impl Fn(usize, &mut dyn FnMut(usize, [f32; 2])) + Sync + Send,
@@ -48,13 +48,13 @@ impl JumpTiles {
 
     /// Jump from the left neighbour to a pixel.
     #[inline]
-    pub fn across(&self, column: usize, row: usize) -> f32 {
+    pub(crate) fn across(&self, column: usize, row: usize) -> f32 {
         self.at(column, row)[0]
     }
 
     /// Jump from the upper neighbour to a pixel.
     #[inline]
-    pub fn down(&self, column: usize, row: usize) -> f32 {
+    pub(crate) fn down(&self, column: usize, row: usize) -> f32 {
         self.at(column, row)[1]
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct PixelJumps<'a> {
 }
 
 impl<'a> PixelJumps<'a> {
-    pub fn new(mesh: &'a Mesh, maps: &'a NormalDepthMaps, options: &ImageOptions) -> Self {
+    pub(crate) fn new(mesh: &'a Mesh, maps: &'a NormalDepthMaps, options: &ImageOptions) -> Self {
         let [depth, normal] = match options.test {
             EdgeTest::Gradient => {
                 [options.gradient_depth, options.gradient_normal].map(|k| GRADIENT_JUMP_RATIO * k as f32)
@@ -53,7 +53,7 @@ impl<'a> PixelJumps<'a> {
     /// Jump of depth between two neighbours `a` and `b`, minus the part that the slope on either side
     /// explains.
     #[inline]
-    pub fn of_depth(&self, [before, a, b, behind]: [usize; 4]) -> f32 {
+    pub(crate) fn of_depth(&self, [before, a, b, behind]: [usize; 4]) -> f32 {
         let depths = &self.maps.depths;
         let step = depths[b] - depths[a];
         let left = step - (depths[a] - depths[before]);
@@ -95,7 +95,7 @@ impl<'a> PixelJumps<'a> {
 
     /// The left neighbour and the pixel itself, with the pixels before and after them in the row.
     #[inline]
-    pub fn line_across(&self, column: usize, row: usize) -> [usize; 4] {
+    pub(crate) fn line_across(&self, column: usize, row: usize) -> [usize; 4] {
         let last = self.maps.columns - 1;
         [column.saturating_sub(2), column - 1, column, (column + 1).min(last)]
             .map(|column| row * self.maps.columns + column)
@@ -103,13 +103,13 @@ impl<'a> PixelJumps<'a> {
 
     /// The upper neighbour and the pixel itself, with the pixels before and after them in the column.
     #[inline]
-    pub fn line_down(&self, column: usize, row: usize) -> [usize; 4] {
+    pub(crate) fn line_down(&self, column: usize, row: usize) -> [usize; 4] {
         let last = self.maps.rows - 1;
         [row.saturating_sub(2), row - 1, row, (row + 1).min(last)].map(|row| row * self.maps.columns + column)
     }
 
     /// Map of the jumps between edge pixels.
-    pub fn map(&self, edges: &[bool]) -> JumpTiles {
+    pub(crate) fn map(&self, edges: &[bool]) -> JumpTiles {
         let columns = self.maps.columns;
         JumpTiles::new(columns, self.maps.rows, |row, put| {
             for first in (0..columns).step_by(COLUMNS_PER_BLOCK) {

@@ -21,7 +21,7 @@ const ROWS_PER_TASK: usize = 32;
 /// A pixel is an edge if p of depth plus p of normals reaches the threshold. Outside the image the nearest
 /// pixels are used.
 #[must_use]
-pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
+pub(crate) fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
     let spans = spans(maps);
     let k = [options.gradient_depth as f32, options.gradient_normal as f32];

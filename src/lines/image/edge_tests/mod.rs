@@ -9,6 +9,6 @@
 //! Files, in reading order: [`gradient_test`]; [`opposite_test`]; [`pixel_neighbours`] the 3 × 3 pixels
 //! around one.
 
-pub mod gradient_test;
-pub mod opposite_test;
+pub(crate) mod gradient_test;
+pub(crate) mod opposite_test;
 mod pixel_neighbours;

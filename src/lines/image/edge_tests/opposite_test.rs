@@ -20,7 +20,7 @@ const HALF_STEP: f32 = 1.0 / 512.0;
 /// 3. A pixel is an edge if (1 − N) + d₁² + d₂² + 2c exceeds 1/2, with the depth differences d and the depth
 ///    threshold c.
 #[must_use]
-pub fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
+pub(crate) fn edges(maps: &NormalDepthMaps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
     let [normal, far, depth] =
         [options.opposite_normal, options.opposite_far, options.opposite_depth].map(|x| x as f32);

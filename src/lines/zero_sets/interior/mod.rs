@@ -12,14 +12,14 @@
 //! [`apparent_ridges`].
 
 mod apparent_ridges;
-pub mod interior_options;
+pub(crate) mod interior_options;
 mod ridges;
 mod suggestive_contours;
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-pub use interior_options::InsideOptions;
+pub(crate) use interior_options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
 use crate::lines::tolerances;
@@ -37,18 +37,18 @@ const NO_POINT: u32 = u32::MAX;
 
 /// Whether any interior line is drawn.
 #[must_use]
-pub fn has_interior_lines(options: &LineOptions) -> bool {
+pub(crate) fn has_interior_lines(options: &LineOptions) -> bool {
     options.kinds.iter().any(|kind| kind.is_inside())
 }
 
 /// Curvature used for the interior lines of a mesh.
 #[must_use]
-pub fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
+pub(crate) fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
     Curvature::new(mesh, smooth, options.smooth * MAX_FEATURE_OF_PART)
 }
 
 /// Adds the interior lines of the wanted kinds.
-pub fn find(
+pub(crate) fn find(
     mesh: &Mesh,
     view: &View,
     smooth: &SmoothNormals,

@@ -12,7 +12,7 @@ use crate::load::gltf::material_reader;
 ///
 /// # Errors
 /// If it refers to something that the file lacks, or that has no such value.
-pub fn pointed(root: &Root, pointer: &str) -> Result<Option<AnimationTarget>, Error> {
+pub(crate) fn pointed(root: &Root, pointer: &str) -> Result<Option<AnimationTarget>, Error> {
     let mut steps = pointer.strip_prefix('/').unwrap_or_default().splitn(2, '/');
     let (list, rest) = (steps.next().unwrap_or_default(), steps.next().unwrap_or_default());
     let numbered = |rest: &str| {

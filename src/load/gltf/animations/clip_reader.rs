@@ -15,7 +15,7 @@ use crate::scene::Warnings;
 
 /// The clips of a file, in file order. Invalid channels, and channels that change nothing visible, are left
 /// out with a warning.
-pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
+pub(crate) fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
     let mut clips = Vec::new();
     for (number, animation) in buffers.root.animations.iter().enumerate() {
         let mut clip = Clip { name: name(number, animation), channels: Vec::new() };

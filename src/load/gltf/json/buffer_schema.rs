@@ -6,7 +6,7 @@ use super::lenient_index;
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Accessor {
+pub(crate) struct Accessor {
     #[serde(default, deserialize_with = "lenient_index::optional")]
     pub buffer_view: Option<usize>,
     #[serde(default)]
@@ -21,7 +21,7 @@ pub struct Accessor {
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Sparse {
+pub(crate) struct Sparse {
     pub count: usize,
     pub indices: SparseIndices,
     pub values: SparseValues,
@@ -29,7 +29,7 @@ pub struct Sparse {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct SparseIndices {
+pub(crate) struct SparseIndices {
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: usize,
@@ -38,7 +38,7 @@ pub struct SparseIndices {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct SparseValues {
+pub(crate) struct SparseValues {
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: usize,
@@ -46,7 +46,7 @@ pub struct SparseValues {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct BufferView {
+pub(crate) struct BufferView {
     #[serde(deserialize_with = "lenient_index::one")]
     pub buffer: usize,
     #[serde(default)]
@@ -59,7 +59,7 @@ pub struct BufferView {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct BufferViewExtensions {
+pub(crate) struct BufferViewExtensions {
     #[serde(rename = "EXT_meshopt_compression")]
     pub ext_meshopt: Option<Meshopt>,
     #[serde(rename = "KHR_meshopt_compression")]
@@ -68,7 +68,7 @@ pub struct BufferViewExtensions {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Meshopt {
+pub(crate) struct Meshopt {
     pub buffer: usize,
     #[serde(default)]
     pub byte_offset: usize,
@@ -81,7 +81,7 @@ pub struct Meshopt {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Buffer {
+pub(crate) struct Buffer {
     pub uri: Option<String>,
     pub byte_length: usize,
     #[serde(default)]
@@ -90,7 +90,7 @@ pub struct Buffer {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct BufferExtensions {
+pub(crate) struct BufferExtensions {
     #[serde(rename = "EXT_meshopt_compression")]
     pub ext_meshopt: Option<Fallback>,
     #[serde(rename = "KHR_meshopt_compression")]
@@ -99,6 +99,6 @@ pub struct BufferExtensions {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Fallback {
+pub(crate) struct Fallback {
     pub fallback: bool,
 }

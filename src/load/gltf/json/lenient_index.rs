@@ -20,7 +20,7 @@ impl From<i64> for Index {
 }
 
 /// An index for messages, formatted as in the file.
-pub struct DisplayIndex(pub usize);
+pub(crate) struct DisplayIndex(pub usize);
 
 impl fmt::Display for DisplayIndex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -28,19 +28,19 @@ impl fmt::Display for DisplayIndex {
     }
 }
 
-pub fn one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error> {
+pub(crate) fn one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error> {
     Ok(Index::deserialize(deserializer)?.0)
 }
 
-pub fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
+pub(crate) fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
     Ok(Option::<Index>::deserialize(deserializer)?.map(|index| index.0))
 }
 
-pub fn named<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, usize>, D::Error> {
+pub(crate) fn named<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, usize>, D::Error> {
     Ok(plain(BTreeMap::deserialize(deserializer)?))
 }
 
-pub fn all_named<'de, D: Deserializer<'de>>(
+pub(crate) fn all_named<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Vec<BTreeMap<String, usize>>, D::Error> {
     Ok(Vec::deserialize(deserializer)?.into_iter().map(plain).collect())

@@ -7,7 +7,7 @@ use super::lenient_index;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Material {
+pub(crate) struct Material {
     pub name: Option<String>,
     pub pbr_metallic_roughness: Pbr,
     pub emissive_factor: [f32; 3],
@@ -20,7 +20,7 @@ pub struct Material {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Pbr {
+pub(crate) struct Pbr {
     pub base_color_factor: Option<[f32; 4]>,
     pub base_color_texture: Option<TextureUse>,
     pub roughness_factor: Option<f32>,
@@ -28,7 +28,7 @@ pub struct Pbr {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct MaterialExtensions {
+pub(crate) struct MaterialExtensions {
     #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
     pub specular_glossiness: Option<SpecularGlossiness>,
     #[serde(rename = "KHR_materials_transmission")]
@@ -37,20 +37,20 @@ pub struct MaterialExtensions {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Transmission {
+pub(crate) struct Transmission {
     pub transmission_factor: f32,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct SpecularGlossiness {
+pub(crate) struct SpecularGlossiness {
     pub diffuse_factor: Option<[f32; 4]>,
     pub diffuse_texture: Option<TextureUse>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct TextureUse {
+pub(crate) struct TextureUse {
     #[serde(deserialize_with = "lenient_index::one")]
     pub index: usize,
     #[serde(default)]
@@ -61,14 +61,14 @@ pub struct TextureUse {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct TextureUseExtensions {
+pub(crate) struct TextureUseExtensions {
     #[serde(rename = "KHR_texture_transform")]
     pub transform: Option<TextureTransform>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct TextureTransform {
+pub(crate) struct TextureTransform {
     pub offset: Option<[f64; 2]>,
     pub rotation: Option<f64>,
     pub scale: Option<[f64; 2]>,
@@ -77,7 +77,7 @@ pub struct TextureTransform {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Texture {
+pub(crate) struct Texture {
     #[serde(deserialize_with = "lenient_index::optional")]
     pub source: Option<usize>,
     #[serde(deserialize_with = "lenient_index::optional")]
@@ -87,7 +87,7 @@ pub struct Texture {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Sampler {
+pub(crate) struct Sampler {
     pub wrap_s: Option<u32>,
     pub wrap_t: Option<u32>,
     pub mag_filter: Option<u32>,
@@ -95,7 +95,7 @@ pub struct Sampler {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct TextureExtensions {
+pub(crate) struct TextureExtensions {
     #[serde(rename = "KHR_texture_basisu")]
     pub basisu: Option<TextureSource>,
     #[serde(rename = "EXT_texture_webp")]
@@ -106,14 +106,14 @@ pub struct TextureExtensions {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct TextureSource {
+pub(crate) struct TextureSource {
     #[serde(deserialize_with = "lenient_index::optional")]
     pub source: Option<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Image {
+pub(crate) struct Image {
     pub uri: Option<String>,
     #[serde(deserialize_with = "lenient_index::optional")]
     pub buffer_view: Option<usize>,

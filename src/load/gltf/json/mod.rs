@@ -4,20 +4,20 @@
 //! images; [`lenient_index`] indices, where some exporters write -1 for "none".
 
 mod buffer_schema;
-pub mod lenient_index;
+pub(crate) mod lenient_index;
 mod material_schema;
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-pub use buffer_schema::{Accessor, Buffer, BufferView, Meshopt, Sparse};
-pub use material_schema::{Image, Material, Sampler, Texture, TextureTransform, TextureUse};
+pub(crate) use buffer_schema::{Accessor, Buffer, BufferView, Meshopt, Sparse};
+pub(crate) use material_schema::{Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
 /// Top level of the JSON.
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Root {
+pub(crate) struct Root {
     pub asset: Asset,
     pub scene: Option<usize>,
     pub scenes: Vec<SceneNodes>,
@@ -39,7 +39,7 @@ pub struct Root {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Asset {
+pub(crate) struct Asset {
     pub version: Option<String>,
     pub min_version: Option<String>,
     pub generator: Option<String>,
@@ -47,19 +47,19 @@ pub struct Asset {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct RootExtensions {
+pub(crate) struct RootExtensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub lights: Option<Lights>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Lights {
+pub(crate) struct Lights {
     pub lights: Vec<Light>,
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Light {
+pub(crate) struct Light {
     #[serde(rename = "type")]
     pub kind: String,
     pub name: Option<String>,
@@ -72,14 +72,14 @@ pub struct Light {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Spot {
+pub(crate) struct Spot {
     pub inner_cone_angle: Option<f64>,
     pub outer_cone_angle: Option<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Animation {
+pub(crate) struct Animation {
     pub name: Option<String>,
     pub channels: Vec<Channel>,
     pub samplers: Vec<AnimationSampler>,
@@ -87,14 +87,14 @@ pub struct Animation {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Channel {
+pub(crate) struct Channel {
     pub sampler: Option<usize>,
     pub target: ChannelTarget,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct ChannelTarget {
+pub(crate) struct ChannelTarget {
     pub node: Option<usize>,
     pub path: String,
     pub extensions: TargetExtensions,
@@ -102,20 +102,20 @@ pub struct ChannelTarget {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct TargetExtensions {
+pub(crate) struct TargetExtensions {
     #[serde(rename = "KHR_animation_pointer")]
     pub pointer: Option<Pointer>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Pointer {
+pub(crate) struct Pointer {
     pub pointer: String,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct AnimationSampler {
+pub(crate) struct AnimationSampler {
     pub input: Option<usize>,
     pub output: Option<usize>,
     pub interpolation: Option<String>,
@@ -123,13 +123,13 @@ pub struct AnimationSampler {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct SceneNodes {
+pub(crate) struct SceneNodes {
     pub nodes: Vec<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Node {
+pub(crate) struct Node {
     pub name: Option<String>,
     pub children: Vec<usize>,
     #[serde(deserialize_with = "lenient_index::optional")]
@@ -149,7 +149,7 @@ pub struct Node {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct NodeExtensions {
+pub(crate) struct NodeExtensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub light: Option<LightUse>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
@@ -159,25 +159,25 @@ pub struct NodeExtensions {
 }
 
 #[derive(Debug, Deserialize)]
-pub struct LightUse {
+pub(crate) struct LightUse {
     #[serde(deserialize_with = "lenient_index::one")]
     pub light: usize,
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Instancing {
+pub(crate) struct Instancing {
     #[serde(deserialize_with = "lenient_index::named")]
     pub attributes: BTreeMap<String, usize>,
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Visibility {
+pub(crate) struct Visibility {
     pub visible: Option<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Mesh {
+pub(crate) struct Mesh {
     pub name: Option<String>,
     pub primitives: Vec<Primitive>,
     pub weights: Vec<f64>,
@@ -185,7 +185,7 @@ pub struct Mesh {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Primitive {
+pub(crate) struct Primitive {
     #[serde(deserialize_with = "lenient_index::named")]
     pub attributes: BTreeMap<String, usize>,
     #[serde(deserialize_with = "lenient_index::optional")]
@@ -200,7 +200,7 @@ pub struct Primitive {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct PrimitiveExtensions {
+pub(crate) struct PrimitiveExtensions {
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Draco>,
     #[serde(rename = "EXT_mesh_primitive_edge_visibility")]
@@ -210,32 +210,32 @@ pub struct PrimitiveExtensions {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 #[cfg_attr(not(feature = "draco"), expect(dead_code, reason = "distinguishes undecodable data"))]
-pub struct Draco {
+pub(crate) struct Draco {
     pub buffer_view: usize,
     pub attributes: BTreeMap<String, u32>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub struct Edges {
+pub(crate) struct Edges {
     pub visibility: Option<usize>,
     pub line_strings: Vec<LineString>,
 }
 
 impl Edges {
     /// Whether no edges are marked.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.visibility.is_none() && self.line_strings.is_empty()
     }
 }
 
 #[derive(Debug, Deserialize)]
-pub struct LineString {
+pub(crate) struct LineString {
     pub indices: usize,
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Camera {
+pub(crate) struct Camera {
     pub name: Option<String>,
     #[serde(default)]
     pub perspective: Option<Perspective>,
@@ -245,14 +245,14 @@ pub struct Camera {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Perspective {
+pub(crate) struct Perspective {
     pub yfov: f64,
     pub aspect_ratio: Option<f64>,
     pub znear: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Orthographic {
+pub(crate) struct Orthographic {
     pub xmag: f64,
     pub ymag: f64,
     pub znear: Option<f64>,
@@ -260,7 +260,7 @@ pub struct Orthographic {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Skin {
+pub(crate) struct Skin {
     pub joints: Vec<usize>,
     pub inverse_bind_matrices: Option<usize>,
 }

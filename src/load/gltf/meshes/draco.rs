@@ -13,7 +13,7 @@ use crate::mesh::quantization;
 const MAX_DECODED_ELEMENTS: u64 = 1 << 26;
 
 /// Decodes the stream of a primitive.
-pub fn decode(
+pub(crate) fn decode(
     buffers: &Buffers,
     primitive: &Primitive,
     packed: &Draco,

@@ -14,7 +14,7 @@ use crate::mesh::EdgeMark;
 use crate::scene::Warnings;
 
 /// Marks of the sides 0-1, 1-2, 2-0 of each triangle of a primitive.
-pub fn marks(
+pub(crate) fn marks(
     buffers: &Buffers,
     edges: &Edges,
     triangles: &[[u32; 3]],

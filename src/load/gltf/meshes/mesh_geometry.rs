@@ -24,7 +24,7 @@ const NO_INDICES: [u32; 3] = [u32::MAX; 3];
 ///
 /// Triangles without a material get the index after the last material of the file, if other triangles of the
 /// mesh have one.
-pub fn geometry(
+pub(crate) fn geometry(
     buffers: &Buffers,
     number: usize,
     (weights, joints, rigged): (&[f64], Option<&[DAffine3]>, bool),

@@ -5,7 +5,7 @@ use crate::scene::Warnings;
 
 /// Primitive mode: how indices form triangles or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PrimitiveMode {
+pub(crate) enum PrimitiveMode {
     Points,
     Lines,
     LineLoop,
@@ -17,7 +17,7 @@ pub enum PrimitiveMode {
 
 impl PrimitiveMode {
     /// Mode of a number in the file; triangles by default.
-    pub fn new(code: Option<u32>) -> Result<Self, Error> {
+    pub(crate) fn new(code: Option<u32>) -> Result<Self, Error> {
         Ok(match code {
             Some(0) => Self::Points,
             Some(1) => Self::Lines,
@@ -31,21 +31,21 @@ impl PrimitiveMode {
     }
 
     /// Whether the mode supports primitive restart: strips, loops and fans.
-    pub fn runs(self) -> bool {
+    pub(crate) fn runs(self) -> bool {
         !matches!(self, Self::Points | Self::Lines | Self::Triangles)
     }
 }
 
 /// Triangles and wires of a primitive.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub struct PrimitiveElements {
+pub(crate) struct PrimitiveElements {
     pub triangles: Vec<[u32; 3]>,
     pub wires: Vec<[u32; 2]>,
 }
 
 impl PrimitiveElements {
     /// Adds a run of indices; left-over indices are counted.
-    pub fn add(&mut self, mode: PrimitiveMode, run: &[u32], warnings: &mut Warnings) {
+    pub(crate) fn add(&mut self, mode: PrimitiveMode, run: &[u32], warnings: &mut Warnings) {
         let mut left_over = |rest: &[u32]| {
             if !rest.is_empty() {
                 warnings.count("indices left over at the end of a primitive", rest.len() as u64);

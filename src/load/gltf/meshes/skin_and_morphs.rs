@@ -14,7 +14,7 @@ use crate::load::gltf::storage::buffers::Buffers;
 const MAX_JOINT_SETS: usize = 16;
 
 /// Joints of a skin, and their inverse bind matrices.
-pub fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
+pub(crate) fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
     let place = |error: Error| error.within(format!("skin {number}"));
     let Some(stored) = buffers.root.skins.get(number) else {
         let message = format!("is pointed to, but the file has {}", buffers.root.skins.len());
@@ -41,7 +41,7 @@ fn bind_matrix([a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _]: [f64; 16]) -> D
 
 /// Deformations of a primitive: its morph targets (all, or those with a weight), and its joint weights if it
 /// has a skin.
-pub fn body(
+pub(crate) fn body(
     streams: &VertexStreams,
     buffers: &Buffers,
     primitive: &Primitive,

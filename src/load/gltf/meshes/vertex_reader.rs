@@ -11,7 +11,7 @@ use crate::load::gltf::material_reader;
 use crate::load::gltf::storage::buffers::Buffers;
 
 /// Reads the vertex attributes that a drawing needs.
-pub fn read(buffers: &Buffers, primitive: &Primitive) -> Result<VertexStreams, Error> {
+pub(crate) fn read(buffers: &Buffers, primitive: &Primitive) -> Result<VertexStreams, Error> {
     let attribute = |name: &str| primitive.attributes.get(name).copied();
     let position = attribute("POSITION").ok_or_else(|| Error::new("it has no POSITION"))?;
     let uv_name = uv_name(buffers, primitive);
@@ -49,7 +49,7 @@ fn colours(buffers: &Buffers, accessor: usize) -> Result<Vec<[f32; 4]>, Error> {
 }
 
 /// Attribute with the texture coordinates of the base-colour texture.
-pub fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
+pub(crate) fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
     let material = primitive.material.and_then(|material| buffers.root.materials.get(material));
     let texture = material.and_then(material_reader::base_texture);
     let moved = texture.and_then(|texture| texture.extensions.transform.as_ref()?.tex_coord);
@@ -58,7 +58,7 @@ pub fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
 }
 
 /// Material of a primitive whose texture coordinates are not simply the first set.
-pub fn uv_variant(buffers: &Buffers, primitive: &Primitive) -> Option<usize> {
+pub(crate) fn uv_variant(buffers: &Buffers, primitive: &Primitive) -> Option<usize> {
     let plain = uv_transform(buffers, primitive).is_none() && uv_name(buffers, primitive) == "TEXCOORD_0";
     primitive.material.filter(|_| !plain)
 }

@@ -6,7 +6,7 @@ use crate::error::Error;
 
 /// Vertices of a primitive; arrays are as long as `positions`, or empty.
 #[derive(Debug, Default)]
-pub struct VertexStreams {
+pub(crate) struct VertexStreams {
     pub positions: Vec<DVec3>,
     pub normals: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
@@ -20,7 +20,7 @@ impl VertexStreams {
     ///
     /// # Errors
     /// Names an array of the wrong length.
-    pub fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let count = self.positions.len();
         let lengths =
             [("NORMAL", self.normals.len()), ("TEXCOORD", self.uvs.len()), ("COLOR_0", self.colours.len())];

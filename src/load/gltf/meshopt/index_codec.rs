@@ -26,7 +26,7 @@ impl<T: Copy> RecentRing<T> {
 }
 
 /// Decodes `count` triangle indices, a multiple of three.
-pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
+pub(crate) fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let mut data = ByteCursor(bytes);
     // Codes of version 1 use the last two positions of the recent vertices for neighbours of `last`.
     let recent_codes = match data.byte()? {
@@ -107,7 +107,7 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
 }
 
 /// Decodes `count` indices in any order: differences from one of two running values.
-pub fn sequence(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
+pub(crate) fn sequence(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let mut data = ByteCursor(bytes);
     if !matches!(data.byte()?, 0xd0 | 0xd1) {
         return None;

@@ -15,7 +15,7 @@ use super::uri::shortened;
 use crate::error::Error;
 
 /// Decompresses a view.
-pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
+pub(crate) fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     let Meshopt { count, byte_stride: stride, .. } = *packed;
     let filter = packed.filter.as_deref().unwrap_or("NONE");
     let decoded = match (packed.mode.as_str(), stride) {

@@ -10,7 +10,7 @@ const BLOCK_ELEMENTS: usize = 256;
 /// Decodes `count` elements of `stride` bytes, a multiple of 4 up to 256.
 ///
 /// Memory grows with the decoded data, not with the announced count.
-pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
+pub(crate) fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let mut data = ByteCursor(bytes);
     let version = match data.byte()? {
         0xa0 => 0,

@@ -16,7 +16,7 @@ fn octahedral([x, y, one]: [f32; 3], full: f32) -> [i32; 3] {
 }
 
 /// Octahedral unit vectors of signed bytes.
-pub fn octahedral_8(bytes: &mut [u8]) {
+pub(crate) fn octahedral_8(bytes: &mut [u8]) {
     for [x, y, z, _] in bytes.as_chunks_mut::<4>().0 {
         let lanes = [*x, *y, *z].map(|v| f32::from(v.cast_signed()));
         [*x, *y, *z] = octahedral(lanes, 127.0).map(|v| v as u8);
@@ -24,7 +24,7 @@ pub fn octahedral_8(bytes: &mut [u8]) {
 }
 
 /// Octahedral unit vectors of signed 16-bit numbers.
-pub fn octahedral_16(bytes: &mut [u8]) {
+pub(crate) fn octahedral_16(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let [x, y, z, w] = words(*element);
         let lanes = [x, y, z].map(|v| f32::from(v.cast_signed()));
@@ -34,7 +34,7 @@ pub fn octahedral_16(bytes: &mut [u8]) {
 }
 
 /// Unit quaternions without their largest component; the low two bits give its index.
-pub fn quaternion(bytes: &mut [u8]) {
+pub(crate) fn quaternion(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let stored = words(*element);
         let [x, y, z, _] = stored.map(|v| f32::from(v.cast_signed()));
@@ -51,7 +51,7 @@ pub fn quaternion(bytes: &mut [u8]) {
 }
 
 /// Floats of a 24-bit mantissa and an 8-bit exponent.
-pub fn exponential(bytes: &mut [u8]) {
+pub(crate) fn exponential(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<4>().0 {
         let stored = u32::from_le_bytes(*element).cast_signed();
         let (mantissa, exponent) = (stored << 8 >> 8, stored >> 24);
@@ -73,7 +73,7 @@ fn colour(luma: i32, orange: i32, green: i32, opacity: i32, full: f32) -> [i32; 
 }
 
 /// Colours of 8-bit channels.
-pub fn colour_8(bytes: &mut [u8]) {
+pub(crate) fn colour_8(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<4>().0 {
         let [y, co, cg, a] = *element;
         let [co, cg] = [co, cg].map(|v| i32::from(v.cast_signed()));
@@ -82,7 +82,7 @@ pub fn colour_8(bytes: &mut [u8]) {
 }
 
 /// Colours of 16-bit channels.
-pub fn colour_16(bytes: &mut [u8]) {
+pub(crate) fn colour_16(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let [y, co, cg, a] = words(*element);
         let [co, cg] = [co, cg].map(|v| i32::from(v.cast_signed()));

@@ -15,7 +15,7 @@ use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 const FRAME_HEIGHT_PX: f64 = 1000.0;
 
 /// Cameras of visible nodes, with their number in the file and their node.
-pub fn cameras(
+pub(crate) fn cameras(
     root: &Root,
     nodes: &Hierarchy,
     warnings: &mut Warnings,
@@ -72,7 +72,11 @@ fn camera_of_node(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
 }
 
 /// Lights of visible nodes (KHR_lights_punctual), with their number in the file and their node.
-pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<Light>, Vec<NodeAttachment>) {
+pub(crate) fn lights(
+    root: &Root,
+    nodes: &Hierarchy,
+    warnings: &mut Warnings,
+) -> (Vec<Light>, Vec<NodeAttachment>) {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let (mut lights, mut holders) = (Vec::new(), Vec::new());
     let mut missing = WarningExamples::default();

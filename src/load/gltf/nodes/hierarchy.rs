@@ -12,7 +12,7 @@ use crate::scene::Warnings;
 
 /// The nodes of a file, resolved without recursion, so that any depth is possible.
 #[derive(Debug)]
-pub struct Hierarchy {
+pub(crate) struct Hierarchy {
     /// World transform of every node, visible or not: joints of skins may be outside the scene.
     pub world: Vec<DAffine3>,
     /// Nodes of the drawn scene, each once, depth first. With clips, also those that become visible at some
@@ -25,7 +25,7 @@ pub struct Hierarchy {
 
 impl Hierarchy {
     /// Resolves the default scene; without one the first scene; without any scene all root nodes.
-    pub fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
+    pub(crate) fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
         let parents = parents(&root.nodes, warnings)?;
         let rest: Vec<rig::Node> = (root.nodes.iter().zip(&parents).enumerate())
             .map(|(index, (node, parent))| rig::Node {
@@ -47,7 +47,7 @@ impl Hierarchy {
     }
 
     /// Adds nodes that are hidden at rest and become visible in a clip.
-    pub fn add_animated_visibility(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
+    pub(crate) fn add_animated_visibility(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
         let mut wakes = vec![false; root.nodes.len()];
         for channel in clips.iter().flat_map(|clip| &clip.channels) {
             let Some((node, NodeProperty::Visible)) = channel.target.of_node() else { continue };
@@ -186,7 +186,7 @@ fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
 }
 
 /// Name of a node: its own, that of its mesh, or its number.
-pub fn name(root: &Root, index: usize) -> String {
+pub(crate) fn name(root: &Root, index: usize) -> String {
     let node = root.nodes.get(index);
     let mesh = node.and_then(|node| node.mesh).and_then(|mesh| root.meshes.get(mesh));
     let named = |name: &Option<String>| name.clone().filter(|name| !name.is_empty());

@@ -8,7 +8,7 @@ use crate::load::gltf::json::Instancing;
 use crate::load::gltf::storage::buffers::Buffers;
 
 /// Transform of each instance relative to its node.
-pub fn places(buffers: &Buffers, instancing: &Instancing) -> Result<Vec<DAffine3>, Error> {
+pub(crate) fn places(buffers: &Buffers, instancing: &Instancing) -> Result<Vec<DAffine3>, Error> {
     let attribute = |name: &str| instancing.attributes.get(name).copied();
     let translations = attribute("TRANSLATION").map(|a| buffers.read(a, DVec3::from_array)).transpose()?;
     let scales = attribute("SCALE").map(|a| buffers.read(a, DVec3::from_array)).transpose()?;

@@ -27,7 +27,12 @@ type GeometryKey = (usize, Option<usize>, Vec<u64>, Option<usize>);
 
 /// Adds geometries and parts to the scene; each mesh is stored once for each pose. With clips, the rig is
 /// filled as well.
-pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarchy) -> Result<(), Error> {
+pub(crate) fn add(
+    scene: &mut Scene,
+    rig: &mut Rig,
+    buffers: &Buffers,
+    nodes: &Hierarchy,
+) -> Result<(), Error> {
     let rigged = !rig.clips.is_empty();
     let mut morphing = vec![false; nodes.rest.len()];
     for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {

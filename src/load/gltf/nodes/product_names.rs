@@ -15,7 +15,7 @@ use crate::load::gltf::json::Root;
 const OPEN_CASCADE: &str = "Open CASCADE";
 
 /// Names nodes after their products, if Open CASCADE wrote the file.
-pub fn name_after_products(root: &mut Root) {
+pub(crate) fn name_after_products(root: &mut Root) {
     if !root.asset.generator.as_ref().is_some_and(|generator| generator.starts_with(OPEN_CASCADE)) {
         return;
     }

@@ -69,7 +69,7 @@ struct Elements<'a> {
 
 /// Indices of a primitive.
 #[derive(Debug, Clone)]
-pub struct Indices {
+pub(crate) struct Indices {
     /// The indices.
     pub values: Vec<u32>,
     /// Maximum value of the index type, which restarts a strip.
@@ -86,25 +86,25 @@ impl Buffers<'_> {
     }
 
     /// Number of components of an element, such as 4 for `VEC4`.
-    pub fn lanes(&self, index: usize) -> Result<usize, Error> {
+    pub(crate) fn lanes(&self, index: usize) -> Result<usize, Error> {
         let accessor = self.accessor(index)?;
         lanes(&accessor.shape).map_err(|error| error.at(format!("accessor {index}")))
     }
 
     /// Number of elements according to the JSON, unchecked.
     #[cfg(feature = "draco")]
-    pub fn announced(&self, index: usize) -> Option<usize> {
+    pub(crate) fn announced(&self, index: usize) -> Option<usize> {
         self.root.accessors.get(index).map(|accessor| accessor.count)
     }
 
     /// Whether the data of an accessor is in a buffer view, and not in a compressed stream.
-    pub fn is_stored(&self, index: usize) -> bool {
+    pub(crate) fn is_stored(&self, index: usize) -> bool {
         self.root.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_some())
     }
 
     /// Reads elements of `N` components as `f64` and converts them by `make`. Normalised integers become -1
     /// to 1.
-    pub fn read<const N: usize, R: Clone>(
+    pub(crate) fn read<const N: usize, R: Clone>(
         &self,
         index: usize,
         make: impl Fn([f64; N]) -> R + Copy,
@@ -125,7 +125,7 @@ impl Buffers<'_> {
     }
 
     /// Quantisation step of the values of an accessor with integer components; 0 for floating point.
-    pub fn step(&self, index: usize) -> f64 {
+    pub(crate) fn step(&self, index: usize) -> f64 {
         let Ok(accessor) = self.accessor(index) else { return 0.0 };
         let largest = match ComponentType::new(accessor.component_type) {
             Ok(ComponentType::I8) => f64::from(i8::MAX),
@@ -139,7 +139,7 @@ impl Buffers<'_> {
     }
 
     /// Reads the indices of a primitive.
-    pub fn indices(&self, index: usize) -> Result<Indices, Error> {
+    pub(crate) fn indices(&self, index: usize) -> Result<Indices, Error> {
         let place = |error: Error| error.within(format!("accessor {index}"));
         let accessor = self.accessor(index)?;
         if accessor.shape != "SCALAR" {
@@ -156,7 +156,7 @@ impl Buffers<'_> {
     }
 
     /// Reads one byte per scalar: bit fields of some extensions, never normalised.
-    pub fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
+    pub(crate) fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
         let accessor = self.accessor(index)?;
         if ComponentType::new(accessor.component_type).is_ok_and(|component| component != ComponentType::U8) {
             let message =

@@ -10,11 +10,11 @@ use crate::load::gltf::json::{Buffer, Root};
 use crate::load::gltf::{meshopt, uri};
 
 /// Reads up to a number of bytes of a file, given its path relative to the model.
-pub type Fetch<'f> = dyn Fn(&str, usize) -> io::Result<Vec<u8>> + 'f;
+pub(crate) type Fetch<'f> = dyn Fn(&str, usize) -> io::Result<Vec<u8>> + 'f;
 
 /// All buffers of a file.
 #[derive(Debug)]
-pub struct Buffers<'a> {
+pub(crate) struct Buffers<'a> {
     /// JSON that describes them.
     pub root: &'a Root,
     buffers: Vec<Cow<'a, [u8]>>,
@@ -23,7 +23,7 @@ pub struct Buffers<'a> {
 
 impl<'a> Buffers<'a> {
     /// Collects the buffers: the BIN chunk, data URIs and files next to the model.
-    pub fn gather(root: &'a Root, bin: Option<&'a [u8]>, fetch: &Fetch) -> Result<Self, Error> {
+    pub(crate) fn gather(root: &'a Root, bin: Option<&'a [u8]>, fetch: &Fetch) -> Result<Self, Error> {
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (number, buffer) in root.buffers.iter().enumerate() {
             let bin = bin.filter(|_| number == 0);
@@ -35,12 +35,12 @@ impl<'a> Buffers<'a> {
     }
 
     /// Number of bytes of all buffers: a bound for allocations that the file requests without data.
-    pub fn total(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.buffers.iter().map(|buffer| buffer.len()).sum()
     }
 
     /// Bytes of a view, and its stride, if it has one.
-    pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
+    pub(crate) fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
         let place = || format!("bufferView {}", DisplayIndex(index));
         let Some((view, cell)) = self.root.buffer_views.get(index).zip(self.decompressed.get(index)) else {
             let count = self.root.buffer_views.len();

@@ -9,7 +9,7 @@ const REEXPORT_REMEDY: &str = "export the model again as glTF 2.0";
 
 /// The two parts of a glTF file.
 #[derive(Debug, Clone, Copy)]
-pub struct Container<'a> {
+pub(crate) struct Container<'a> {
     /// The JSON text.
     pub json: &'a [u8],
     /// BIN chunk of a GLB file.
@@ -17,7 +17,7 @@ pub struct Container<'a> {
 }
 
 /// Splits `bytes`; detects the form by the first bytes.
-pub fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Error> {
+pub(crate) fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Error> {
     if bytes.starts_with(b"glTF") {
         return glb(bytes, warnings);
     }

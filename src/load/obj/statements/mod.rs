@@ -88,7 +88,7 @@ impl From<Error> for ParseStop {
 
 impl<'a> Statements<'a> {
     /// Parses a file.
-    pub fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
+    pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
         let statements = Self::parse_as(bytes, false)?;
         // If no vertex has a z coordinate, the file is a plane drawing.
         if statements.flat_vertices > 0 && statements.flat_vertices == statements.positions.len() {

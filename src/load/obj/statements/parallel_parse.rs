@@ -65,19 +65,19 @@ pub(crate) struct ParallelParse {
 
 impl ParallelParse {
     /// Chooses parallel parsing if the text is long enough.
-    pub fn of(bytes: &[u8]) -> Self {
+    pub(crate) fn of(bytes: &[u8]) -> Self {
         let alone = bytes.len() < MIN_PARALLEL_BYTES || rayon_core::current_num_threads() == 1;
         Self::with_blocks(if alone { 0 } else { BLOCK_BYTES })
     }
 
     /// Parses in blocks of about `block` bytes.
-    pub fn with_blocks(block: usize) -> Self {
+    pub(crate) fn with_blocks(block: usize) -> Self {
         Self { block, ..Self::default() }
     }
 
     /// Takes the run that begins at `at`, the start of a statement.
     #[inline]
-    pub fn take(&mut self, bytes: &[u8], at: usize) -> Option<StatementRun> {
+    pub(crate) fn take(&mut self, bytes: &[u8], at: usize) -> Option<StatementRun> {
         if self.block == 0 || (at < self.next && self.runs.front().is_none_or(|run| at < run.start)) {
             return None;
         }

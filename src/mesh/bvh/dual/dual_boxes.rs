@@ -136,7 +136,7 @@ struct SortedItems<'a> {
 
 impl DualBoxes {
     /// Builds the tree; the result does not depend on the order of the items.
-    pub fn new(mut items: Vec<DualItem>) -> Self {
+    pub(crate) fn new(mut items: Vec<DualItem>) -> Self {
         items.par_sort_unstable_by_key(|item| item.id);
         let mut places: Vec<(TreeKey, u32)> = items
             .par_iter()
@@ -194,12 +194,12 @@ impl DualBoxes {
     }
 
     /// Number of cubes.
-    pub fn cubes(&self) -> usize {
+    pub(crate) fn cubes(&self) -> usize {
         self.cubes.len()
     }
 
     /// The items whose boxes contain points with a dot product between `low` and `high`.
-    pub fn find(&self, plane: DVec4, low: f64, high: f64) -> DualCandidates {
+    pub(crate) fn find(&self, plane: DVec4, low: f64, high: f64) -> DualCandidates {
         let plane = plane.to_array();
         let mut found = DualCandidates::default();
         let mut at = 0;

@@ -13,4 +13,4 @@
 //! [`dual_boxes`] (the tree).
 
 pub(crate) mod dual_boxes;
-pub mod dual_tree;
+pub(crate) mod dual_tree;

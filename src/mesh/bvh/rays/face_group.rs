@@ -32,7 +32,7 @@ pub(crate) struct FaceGroup {
 impl FaceGroup {
     /// Builds a group from face corners whose coordinates are accurate to `slack`.
     #[inline]
-    pub fn new(faces: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3], slack: f32) -> Self {
+    pub(crate) fn new(faces: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3], slack: f32) -> Self {
         let mut of = [[[0.0; FACES_PER_GROUP]; 3]; 3];
         for k in 0..FACES_PER_GROUP {
             // The last face fills missing entries.
@@ -72,7 +72,7 @@ impl FaceGroup {
     /// The faces that a ray may meet, one bit each: those in front of its start that contain it in
     /// projection, from either side.
     #[inline]
-    pub fn may_meet(&self, ray: &GridRay) -> u32 {
+    pub(crate) fn may_meet(&self, ray: &GridRay) -> u32 {
         let ([x, y], z) = (ray.at, ray.from);
         let [[ax, ay, az], [bx, by, _], [cx, cy, _]] = &self.corners;
         let ([nx, ny, nz], [r, s, t]) = (&self.normals, &self.side_rooms);

@@ -12,4 +12,4 @@
 mod face_group;
 pub(crate) mod parallel_rays;
 mod ray_grid;
-pub mod ray_tree;
+pub(crate) mod ray_tree;

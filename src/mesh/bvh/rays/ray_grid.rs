@@ -25,7 +25,7 @@ pub(crate) struct RayBox {
 impl RayBox {
     /// Whether a ray misses the box.
     #[inline]
-    pub fn is_beside(&self, ray: &GridRay) -> bool {
+    pub(crate) fn is_beside(&self, ray: &GridRay) -> bool {
         let ([x, y], Self { low, high }) = (ray.at, self);
         (ray.from > high[2]) | (ray.to < low[2]) | (x < low[0]) | (x > high[0]) | (y < low[1]) | (y > high[1])
     }
@@ -46,7 +46,7 @@ pub(crate) struct RayGrid {
 
 impl RayGrid {
     /// Sorts rays, given by start (third coordinate along the direction) and reach.
-    pub fn sort(rays: impl ExactSizeIterator<Item = ([f32; 3], f32)> + Clone) -> (Self, Vec<GridRay>) {
+    pub(crate) fn sort(rays: impl ExactSizeIterator<Item = ([f32; 3], f32)> + Clone) -> (Self, Vec<GridRay>) {
         let nothing = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         let (low, high) = rays.clone().fold(nothing, |(low, high), (at, _)| {
             ([0, 1, 2].map(|k| low[k].min(at[k])), [0, 1, 2].map(|k| high[k].max(at[k])))
@@ -88,20 +88,20 @@ impl RayGrid {
 
     /// Number of cells that a box covers.
     #[inline]
-    pub fn cells(&self, around: &RayBox) -> usize {
+    pub(crate) fn cells(&self, around: &RayBox) -> usize {
         self.lines(around).len() * self.lines(around).next().map_or(0, |cells| cells.len())
     }
 
     /// Whether a box may block a ray, by the ranges of its cells.
     #[inline]
-    pub fn may_meet(&self, around: &RayBox) -> bool {
+    pub(crate) fn may_meet(&self, around: &RayBox) -> bool {
         self.lines(around).any(|cells| self.may_meet_in(cells, around))
     }
 
     /// Ranges of the rays in the cells that a box covers, row by row. Rows where it blocks no ray are
     /// skipped.
     #[inline]
-    pub fn rows(&self, around: &RayBox) -> impl Iterator<Item = Range<usize>> {
+    pub(crate) fn rows(&self, around: &RayBox) -> impl Iterator<Item = Range<usize>> {
         let lines = self.lines(around).filter(|cells| self.may_meet_in(cells.clone(), around));
         lines.map(|cells| self.starts[cells.start] as usize..self.starts[cells.end] as usize)
     }

@@ -76,7 +76,7 @@ struct RaySlabs {
 
 /// Tree over the triangles of a mesh, for ray queries.
 #[derive(Debug, Clone)]
-pub struct RayTree {
+pub(crate) struct RayTree {
     /// Corners of the triangles, in the order of the Morton curve.
     triangles: Vec<[DVec3; 3]>,
     /// Face of each triangle.
@@ -88,7 +88,7 @@ pub struct RayTree {
 impl RayTree {
     /// Builds the tree over all faces that have an area.
     #[must_use]
-    pub fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         let (middle, half) = mesh.extents.ball();
         let mut order: Vec<(u64, u32)> = (0..mesh.triangles.len() as u32)
             .into_par_iter()
@@ -137,7 +137,7 @@ impl RayTree {
     /// Whether a ray from a point meets a face nearer than `reach` times the length of `direction`. A face
     /// that contains the start may be met or not.
     #[must_use]
-    pub fn is_blocked(&self, point: DVec3, direction: DVec3, reach: f64) -> bool {
+    pub(crate) fn is_blocked(&self, point: DVec3, direction: DVec3, reach: f64) -> bool {
         let mut blocked = false;
         self.each_near(point, direction, reach, |rank| {
             blocked = meets(&self.triangles[rank as usize], point, direction, reach).is_some();

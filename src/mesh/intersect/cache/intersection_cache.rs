@@ -22,7 +22,7 @@ const FACES_PER_TASK: usize = 64;
 
 /// Intersecting pairs of a mesh, and the box tree that found them.
 #[derive(Debug, Clone)]
-pub struct IntersectionCache {
+pub(crate) struct IntersectionCache {
     /// Box tree of the mesh; `None` without triangles.
     tree: Option<BoxTree>,
     /// Rank of each face in the tree.
@@ -32,7 +32,7 @@ pub struct IntersectionCache {
 
 /// Mapping from the faces of a finer mesh to the original mesh.
 #[derive(Debug, Clone, Copy)]
-pub struct FaceHosts<'a> {
+pub(crate) struct FaceHosts<'a> {
     /// The original face that each face is or is part of.
     pub faces: &'a [u32],
     /// Number of kept faces, which come first; their hosts ascend.
@@ -42,7 +42,7 @@ pub struct FaceHosts<'a> {
 impl IntersectionCache {
     /// Finds all intersecting pairs of a mesh. `tolerance` returns the tolerance of a face's part.
     #[must_use]
-    pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
+    pub(crate) fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
         let Some((low, high)) = bounds(input.positions, input.triangles) else {
             return Self { tree: None, ranks: Vec::new(), pairs: Vec::new() };
         };
@@ -52,15 +52,16 @@ impl IntersectionCache {
     }
 
     /// The intersection curves of the mesh.
+    #[cfg(test)]
     #[must_use]
-    pub fn curves(&self) -> IntersectionCurves {
+    pub(crate) fn curves(&self) -> IntersectionCurves {
         join(&self.pairs)
     }
 
     /// The intersection curves of a finer mesh, made from this one by cutting faces. The result equals that
     /// of a full search. `tolerance` takes faces of the finer mesh.
     #[must_use]
-    pub fn refined_curves(
+    pub(crate) fn refined_curves(
         &self,
         finer: &IntersectionInput,
         hosts: FaceHosts,

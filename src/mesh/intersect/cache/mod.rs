@@ -2,4 +2,4 @@
 //!
 //! [`intersection_cache`] reuses the pairs of a mesh after some of its faces are cut.
 
-pub mod intersection_cache;
+pub(crate) mod intersection_cache;

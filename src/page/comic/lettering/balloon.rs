@@ -56,7 +56,7 @@ impl Balloon {
     ///
     /// # Errors
     /// Returns an error if the text is empty, or no font has a glyph.
-    pub fn new(text: &str, kind: BalloonKind, setting: &Setting, aspect: f64) -> Result<Self, Error> {
+    pub(crate) fn new(text: &str, kind: BalloonKind, setting: &Setting, aspect: f64) -> Result<Self, Error> {
         if text.trim().is_empty() {
             return Err(Error::new("this balloon has no text").remedy("write its text, or leave it out"));
         }
@@ -92,17 +92,17 @@ impl Balloon {
     }
 
     /// Em size of the letters.
-    pub fn em(&self) -> f64 {
+    pub(crate) fn em(&self) -> f64 {
         self.em
     }
 
     /// Minimum length of the tail.
-    pub fn shortest_tail(&self) -> f64 {
+    pub(crate) fn shortest_tail(&self) -> f64 {
         self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.4 }
     }
 
     /// Half the width of the tail at the balloon, including its line.
-    pub fn foot(&self) -> f64 {
+    pub(crate) fn foot(&self) -> f64 {
         self.em
             * match self.kind {
                 BalloonKind::Shout => 1.4,
@@ -112,7 +112,7 @@ impl Balloon {
     }
 
     /// A polygon around the balloon without its tail, centred at the origin.
-    pub fn hull(&self) -> ConvexPolygon {
+    pub(crate) fn hull(&self) -> ConvexPolygon {
         let reach = self.reach();
         if self.kind == BalloonKind::Caption {
             return ConvexPolygon::from(kurbo::Rect::new(-reach.x, -reach.y, reach.x, reach.y));
@@ -126,7 +126,7 @@ impl Balloon {
     }
 
     /// The outline and the letters of the balloon. `middle` is its centre, `tip` the end of its tail.
-    pub fn marks(&self, middle: Point, tip: Option<Point>, ink: &BalloonPaint) -> Vec<Mark> {
+    pub(crate) fn marks(&self, middle: Point, tip: Option<Point>, ink: &BalloonPaint) -> Vec<Mark> {
         let place = Affine::translate(middle.to_vec2());
         let tip = tip.map(|tip| tip - middle);
         let mut outline = place * self.outline(tip);

@@ -64,7 +64,11 @@ impl<'a> Lettering<'a> {
     ///
     /// # Errors
     /// Returns an error if there is no such font, or the letter size is not above 0.
-    pub fn new(keys: &'a LetteringKeys, reading: Reading, source: &'a PageSource) -> Result<Self, Error> {
+    pub(crate) fn new(
+        keys: &'a LetteringKeys,
+        reading: Reading,
+        source: &'a PageSource,
+    ) -> Result<Self, Error> {
         let mut setting = Setting::new(font(&keys.font, source)?).with_leading(1.1);
         setting.upper_case = keys.upper_case;
         setting.language.clone_from(&keys.language);
@@ -76,7 +80,7 @@ impl<'a> Lettering<'a> {
     /// # Errors
     /// Returns an error at the line of a balloon whose text cannot be set, whose tail points at no part, or
     /// that does not fit.
-    pub fn letter(
+    pub(crate) fn letter(
         &self,
         shape: &PanelOutline,
         scene: Option<&PanelScene>,

@@ -27,7 +27,7 @@ pub(crate) struct TailTarget {
 impl TailTarget {
     /// Chooses one of several parts: the one that is named like a face, otherwise the highest one. `None` if
     /// no part is in the panel.
-    pub fn of(places: &[PartExtent], panel: &ConvexPolygon) -> Option<Self> {
+    pub(crate) fn of(places: &[PartExtent], panel: &ConvexPolygon) -> Option<Self> {
         let within = |place: &PartExtent| ConvexPolygon(place.hull.clone()).common(panel);
         let seen: Vec<(&PartExtent, ConvexPolygon)> = places
             .iter()

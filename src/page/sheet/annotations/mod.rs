@@ -64,7 +64,7 @@ impl Annotations<'_> {
     ///
     /// # Errors
     /// Returns an error if a text cannot be set.
-    pub fn board(
+    pub(crate) fn board(
         &self,
         view: usize,
         plan: &ViewPlan,
@@ -181,7 +181,7 @@ impl Annotations<'_> {
     }
 
     /// The extra margins that annotations need outside the regular margin: left, above, right, below, mm.
-    pub fn room(board: &AnnotationBoard, rect: Rect) -> [f64; 4] {
+    pub(crate) fn room(board: &AnnotationBoard, rect: Rect) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
         let existing_margin = VIEW_MARGIN_MM - ANNOTATION_MARGIN_MM;
         let overhangs =

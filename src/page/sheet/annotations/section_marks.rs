@@ -51,7 +51,7 @@ pub(crate) struct SectionMark {
 
 impl SectionMark {
     /// A mark through point `on` of a view; its section is seen from the side of `back`.
-    pub fn new(label: &str, on: Point, back: Vec2, rect: Rect) -> Self {
+    pub(crate) fn new(label: &str, on: Point, back: Vec2, rect: Rect) -> Self {
         let along = Vec2::new(-back.y, back.x);
         let corners = [(rect.x0, rect.y0), (rect.x1, rect.y0), (rect.x1, rect.y1), (rect.x0, rect.y1)];
         let corner_offsets = corners.map(|corner| (Point::from(corner) - on).dot(along));
@@ -72,19 +72,19 @@ impl SectionMark {
     }
 
     /// Position of the plane along `back`.
-    pub fn depth(&self) -> f64 {
+    pub(crate) fn depth(&self) -> f64 {
         self.on.to_vec2().dot(self.back)
     }
 
     /// Where the line crosses the side of the view in direction `outward`, if its end there has no place yet:
     /// the x coordinate if `is_across`, else y.
-    pub fn open_crossing(&self, is_across: bool, outward: Vec2) -> Option<f64> {
+    pub(crate) fn open_crossing(&self, is_across: bool, outward: Vec2) -> Option<f64> {
         let passes = self.open.iter().any(|(sign, _)| (self.along * *sign).dot(outward) > 0.7);
         passes.then_some(if is_across { self.on.x } else { self.on.y })
     }
 
     /// Marks the paper of the line within the view as occupied.
-    pub fn take_inside(&self, board: &mut AnnotationBoard) {
+    pub(crate) fn take_inside(&self, board: &mut AnnotationBoard) {
         if let [(_, low), (_, high)] = self.open[..] {
             board
                 .taken
@@ -93,7 +93,7 @@ impl SectionMark {
     }
 
     /// Places ends near the view. `crossings` returns the positions of future extension lines for a direction.
-    pub fn place_near(
+    pub(crate) fn place_near(
         &mut self,
         crossings: DimensionCrossings,
         board: &mut AnnotationBoard,
@@ -102,7 +102,7 @@ impl SectionMark {
     }
 
     /// Places the remaining ends and draws the line.
-    pub fn finish(mut self, board: &mut AnnotationBoard) -> Result<(), Error> {
+    pub(crate) fn finish(mut self, board: &mut AnnotationBoard) -> Result<(), Error> {
         self.place(board, MAX_OUTER_STEPS, None)?;
         for _ in &self.open {
             board.unplaced.push(format!("the letter of the section `{}`", self.label));

@@ -12,7 +12,7 @@ use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::canvas::annotation_board::for_each_chord;
 use crate::page::sheet::view::sheet_view::LINE_MARGIN_MM;
 use crate::page::tolerances;
-use crate::pipeline::Prepared;
+use crate::pipeline::Renderer;
 
 /// Tolerance of curves that are clipped to a circle, mm.
 const CLIP_TOLERANCE_MM: f64 = 0.01;
@@ -29,13 +29,13 @@ struct ViewDrawing {
 
 /// The drawings of the views.
 pub(crate) struct ViewDrawings<'a> {
-    prepared: Vec<Option<Prepared<'a>>>,
+    prepared: Vec<Option<Renderer<'a>>>,
     views: Vec<Option<ViewDrawing>>,
 }
 
 impl<'a> ViewDrawings<'a> {
     /// Empty, for prepared scenes, with room for `views` drawings.
-    pub fn new(prepared: Vec<Option<Prepared<'a>>>, views: usize) -> Self {
+    pub(crate) fn new(prepared: Vec<Option<Renderer<'a>>>, views: usize) -> Self {
         Self { prepared, views: (0..views).map(|_| None).collect() }
     }
 
@@ -43,7 +43,7 @@ impl<'a> ViewDrawings<'a> {
     ///
     /// # Errors
     /// Returns an error if a view cannot be drawn.
-    pub fn update(&mut self, plan: &ViewPlan) -> Result<bool, Error> {
+    pub(crate) fn update(&mut self, plan: &ViewPlan) -> Result<bool, Error> {
         let mut any = false;
         for view in 0..plan.views.len() {
             let unit = plan.views[view].sight.mm_per_unit;
@@ -90,7 +90,11 @@ impl<'a> ViewDrawings<'a> {
     }
 
     /// The chords of a view at its present position and scale, with their widths.
-    pub fn chords(&self, view: usize, plan: &ViewPlan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
+    pub(crate) fn chords(
+        &self,
+        view: usize,
+        plan: &ViewPlan,
+    ) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
         let sight = &plan.views[view].sight;
         let (corner, unit) = (sight.corner, sight.mm_per_unit);
         let of = move |drawn: &'_ ViewDrawing| {
@@ -105,7 +109,7 @@ impl<'a> ViewDrawings<'a> {
     }
 
     /// The drawings at their positions, and their distinct warnings.
-    pub fn into_items(self, plan: &ViewPlan) -> (Vec<PlacedDrawing>, Vec<String>) {
+    pub(crate) fn into_items(self, plan: &ViewPlan) -> (Vec<PlacedDrawing>, Vec<String>) {
         let (mut items, mut warnings) = (Vec::new(), Vec::new());
         for (view, drawn) in self.views.into_iter().enumerate() {
             let Some(drawn) = drawn else { continue };

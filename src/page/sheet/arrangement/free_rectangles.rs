@@ -20,13 +20,13 @@ pub(crate) struct FreeRectangles {
 }
 
 impl FreeRectangles {
-    pub fn new(space: Rect) -> Self {
+    pub(crate) fn new(space: Rect) -> Self {
         Self { free: vec![space] }
     }
 
     /// Places a rectangle of the given size in the upper left corner of the tightest free rectangle; `None`
     /// if it fits nowhere.
-    pub fn put(&mut self, width: f64, height: f64) -> Option<Rect> {
+    pub(crate) fn put(&mut self, width: f64, height: f64) -> Option<Rect> {
         let fits = |rect: &&Rect| rect.width() >= width && rect.height() >= height;
         let left = |rect: &Rect| (rect.width() - width).min(rect.height() - height);
         let best = self.free.iter().filter(fits).min_by(|a, b| {
@@ -38,18 +38,18 @@ impl FreeRectangles {
     }
 
     /// Whether a rectangle is free.
-    pub fn is_free(&self, rect: Rect) -> bool {
+    pub(crate) fn is_free(&self, rect: Rect) -> bool {
         self.free.iter().any(|own| holds(*own, rect))
     }
 
     /// The largest free rectangle that contains a rectangle.
-    pub fn around(&self, rect: Rect) -> Option<Rect> {
+    pub(crate) fn around(&self, rect: Rect) -> Option<Rect> {
         let places = self.free.iter().filter(|own| holds(**own, rect)).copied();
         places.max_by(|a, b| a.area().total_cmp(&b.area()))
     }
 
     /// Removes a rectangle from the free paper.
-    pub fn take(&mut self, taken: Rect) {
+    pub(crate) fn take(&mut self, taken: Rect) {
         let mut left = Vec::new();
         for rect in std::mem::take(&mut self.free) {
             let both = rect.intersect(taken);

@@ -50,7 +50,7 @@ pub(crate) struct PlacedView {
 
 impl PlacedView {
     /// A view without annotations.
-    pub fn new(sight: SheetView, view_placement: ViewPlacement) -> Self {
+    pub(crate) fn new(sight: SheetView, view_placement: ViewPlacement) -> Self {
         Self { sight, placement: view_placement, margins: Vec::new(), place: Rect::ZERO }
     }
 }
@@ -60,7 +60,7 @@ impl PlacedView {
     ///
     /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
     /// the margins found last.
-    pub fn margins_at(&self, unit: f64) -> [f64; 4] {
+    pub(crate) fn margins_at(&self, unit: f64) -> [f64; 4] {
         let is_same = |known: &f64| (known / unit - 1.0).abs() < tolerances::MAX_SCALE_DIFFERENCE_SHARE;
         let known = self.margins.iter().find(|(known, _)| is_same(known));
         if let Some((_, around)) = known {
@@ -71,7 +71,7 @@ impl PlacedView {
     }
 
     /// Widens the margins at the present scale to at least `needed`.
-    pub fn widen_margins(&mut self, needed: [f64; 4]) {
+    pub(crate) fn widen_margins(&mut self, needed: [f64; 4]) {
         let unit = self.sight.mm_per_unit;
         let current_margins = self.margins_at(unit);
         let is_other = |known: &f64| (known / unit - 1.0).abs() >= tolerances::MAX_SCALE_DIFFERENCE_SHARE;
@@ -80,14 +80,14 @@ impl PlacedView {
     }
 
     /// Changes the scale from `from` to `to` and keeps the centre of the view.
-    pub fn rescale(&mut self, from: f64, to: f64) {
+    pub(crate) fn rescale(&mut self, from: f64, to: f64) {
         let ([w, h], [wide, high]) = (self.sight.size(from), self.sight.size(to));
         self.sight.mm_per_unit = to;
         self.sight.corner += kurbo::Vec2::new((w - wide) / 2.0, (h - high) / 2.0);
     }
 
     /// Whether the view and all its annotations fit into its rectangle.
-    pub fn has_room_for(&self, board: &AnnotationBoard) -> bool {
+    pub(crate) fn has_room_for(&self, board: &AnnotationBoard) -> bool {
         let rect = self.sight.rect();
         let extents = board.extents().map_or(rect, |extents| extents.union(rect));
         let margin = tolerances::POSITION_ROUNDING_MM - ANNOTATION_MARGIN_MM;
@@ -116,7 +116,7 @@ pub(crate) enum ViewPlacement {
 
 impl ViewPlacement {
     /// The maximum length on paper of a model unit; `None` for views that are to scale.
-    pub fn max_unit(self, unit: f64) -> Option<f64> {
+    pub(crate) fn max_unit(self, unit: f64) -> Option<f64> {
         match self {
             Self::Pictorial | Self::Free => Some(unit * MAX_FREE_ENLARGEMENT),
             _ => None,

@@ -58,7 +58,7 @@ pub(crate) struct DetailCircle {
 
 impl DetailCircle {
     /// Whether the circle reaches into a view; otherwise it is not drawn.
-    pub fn meets(&self, sight: &SheetView) -> bool {
+    pub(crate) fn meets(&self, sight: &SheetView) -> bool {
         let radius = self.radius * sight.mm_per_unit;
         sight.rect().inflate(radius, radius).contains(sight.to_page(self.at))
     }
@@ -90,7 +90,7 @@ impl ViewPlan {
     ///
     /// # Errors
     /// Returns an error at the key that is wrong.
-    pub fn new(sheet: &SheetPage, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn new(sheet: &SheetPage, source: &PageSource) -> Result<Self, Error> {
         let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
         let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
         style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
@@ -274,12 +274,12 @@ impl ViewPlan {
     }
 
     /// Millimetres per model unit.
-    pub fn unit_mm(&self) -> f64 {
+    pub(crate) fn unit_mm(&self) -> f64 {
         self.values.unit_mm()
     }
 
     /// How lengths in a view relate to lengths of the model.
-    pub fn foreshortening(&self, view: usize) -> Foreshortening {
+    pub(crate) fn foreshortening(&self, view: usize) -> Foreshortening {
         let shown = self.circled.iter().find(|circled| circled.detail_view == view);
         match (shown, self.views[view].placement) {
             (Some(detail), _) => self.foreshortening(detail.source_view),
@@ -290,7 +290,11 @@ impl ViewPlan {
     }
 
     /// The part of a cylinder that remains in a section; the whole cylinder without a section.
-    pub fn remaining_cylinder(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
+    pub(crate) fn remaining_cylinder(
+        &self,
+        cylinder: &Cylinder,
+        section: Option<&CutLine>,
+    ) -> Option<Cylinder> {
         let Some(section) = section else { return Some(*cylinder) };
         let scene = &self.sets[0].scene;
         let part = scene.parts.get(cylinder.part.index());
@@ -313,12 +317,12 @@ impl ViewPlan {
     }
 
     /// The section plane of a section view.
-    pub fn section_of(&self, view: usize) -> Option<&CutLine> {
+    pub(crate) fn section_of(&self, view: usize) -> Option<&CutLine> {
         self.cuts.iter().find(|cut| cut.section_view == view)
     }
 
     /// The index of a view, by its name.
-    pub fn view(&self, name: &Spanned<String>, source: &PageSource) -> Result<usize, Error> {
+    pub(crate) fn view(&self, name: &Spanned<String>, source: &PageSource) -> Result<usize, Error> {
         let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
         names
             .iter()

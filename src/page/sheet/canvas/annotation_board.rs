@@ -27,7 +27,7 @@ pub(crate) struct SetWord {
 
 impl SetWord {
     /// The paper that the word occupies at a place.
-    pub fn shape(&self, transform: Affine) -> ConvexShape {
+    pub(crate) fn shape(&self, transform: Affine) -> ConvexShape {
         let transformed = |v: Vec2| transform * v.to_point() - transform * Point::ZERO;
         let half_width = transformed(Vec2::new(self.bounds.width() / 2.0, 0.0));
         let half_height = transformed(Vec2::new(0.0, self.bounds.height() / 2.0));
@@ -35,7 +35,7 @@ impl SetWord {
     }
 
     /// The place that centres the letters at a point.
-    pub fn centred(&self, middle: Point) -> Affine {
+    pub(crate) fn centred(&self, middle: Point) -> Affine {
         Affine::translate(middle - self.bounds.center())
     }
 }
@@ -53,7 +53,7 @@ pub(crate) struct AnnotationBoard {
 
 impl AnnotationBoard {
     /// An empty board.
-    pub fn new(font: &Font) -> Self {
+    pub(crate) fn new(font: &Font) -> Self {
         Self {
             ink: SheetCanvas::new(font, "note"),
             balloons: SheetCanvas::new(font, "balloon"),
@@ -64,12 +64,12 @@ impl AnnotationBoard {
     }
 
     /// Sets a word with a given height of capitals.
-    pub fn word(&self, words: &str, height: f64) -> Result<SetWord, Error> {
+    pub(crate) fn word(&self, words: &str, height: f64) -> Result<SetWord, Error> {
         self.word_within(words, height, 0.0)
     }
 
     /// Sets a word, smaller if it would be wider than `max_width`; 0 sets no limit.
-    pub fn word_within(&self, words: &str, height: f64, max_width: f64) -> Result<SetWord, Error> {
+    pub(crate) fn word_within(&self, words: &str, height: f64, max_width: f64) -> Result<SetWord, Error> {
         let mut ink = self.ink.new_like();
         ink.word(words, Point::ZERO, height, WordAnchor::Left, max_width)?;
         let boxes = ink.marks.iter().map(|mark| mark.path.bounding_box());
@@ -78,53 +78,53 @@ impl AnnotationBoard {
     }
 
     /// Whether the paper for a word at a place is free and not reserved.
-    pub fn is_free(&self, word: &SetWord, transform: Affine) -> bool {
+    pub(crate) fn is_free(&self, word: &SetWord, transform: Affine) -> bool {
         let shape = word.shape(transform).wider(TEXT_CLEARANCE_MM);
         self.taken.is_free(&shape, Clearance::All) && self.reserved.is_free(&shape, Clearance::All)
     }
 
     /// Adds a word at a place.
-    pub fn write(&mut self, word: &SetWord, transform: Affine) {
+    pub(crate) fn write(&mut self, word: &SetWord, transform: Affine) {
         self.taken.take(word.shape(transform), OccupantKind::Solid);
         self.ink.marks.extend(placed_marks(word, transform));
     }
 
     /// Adds the number of a balloon at a place.
-    pub fn write_in_balloon(&mut self, word: &SetWord, transform: Affine) {
+    pub(crate) fn write_in_balloon(&mut self, word: &SetWord, transform: Affine) {
         self.balloons.marks.extend(placed_marks(word, transform));
     }
 
     /// Whether a line fits between two points, with clearance.
-    pub fn is_line_free(&self, a: Point, b: Point, clearance: Clearance) -> bool {
+    pub(crate) fn is_line_free(&self, a: Point, b: Point, clearance: Clearance) -> bool {
         self.taken.is_free(&ConvexShape::line(a, b, 0.0).wider(LINE_CLEARANCE_MM), clearance)
     }
 
     /// Adds a line.
-    pub fn line(&mut self, a: Point, b: Point, width: f64, kind: OccupantKind) {
+    pub(crate) fn line(&mut self, a: Point, b: Point, width: f64, kind: OccupantKind) {
         self.ink.line(a, b, width);
         self.taken.take(ConvexShape::line(a, b, width), kind);
     }
 
     /// The paper of an arrow head with its tip at a point.
-    pub fn head(tip: Point, towards: Vec2, length: f64) -> ConvexShape {
+    pub(crate) fn head(tip: Point, towards: Vec2, length: f64) -> ConvexShape {
         let back = -towards * (length / towards.hypot2().sqrt().max(f64::MIN_POSITIVE));
         let side = Vec2::new(-back.y, back.x) * 0.268;
         ConvexShape::triangle([tip, tip + back + side, tip + back - side])
     }
 
     /// Adds an arrow head.
-    pub fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
+    pub(crate) fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
         self.ink.arrow(tip, towards, length);
         self.taken.take(Self::head(tip, towards, length), OccupantKind::Arrow);
     }
 
     /// Marks the paper of a path as occupied.
-    pub fn take_path(&mut self, path: &BezPath, width: f64, kind: OccupantKind) {
+    pub(crate) fn take_path(&mut self, path: &BezPath, width: f64, kind: OccupantKind) {
         for_each_chord(path, |a, b| self.taken.take(ConvexShape::line(a, b, width), kind));
     }
 
     /// Bounding box of all annotations, including line widths.
-    pub fn extents(&self) -> Option<Rect> {
+    pub(crate) fn extents(&self) -> Option<Rect> {
         let mark_bounds = |mark: &Mark| {
             let half_line_width =
                 if let Paint::Stroke(stroke) = &mark.paint { stroke.width / 2.0 } else { 0.0 };

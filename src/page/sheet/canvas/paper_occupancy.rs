@@ -57,12 +57,12 @@ pub(crate) struct ConvexShape {
 
 impl ConvexShape {
     /// A disc.
-    pub fn disc(centre: Point, radius: f64) -> Self {
+    pub(crate) fn disc(centre: Point, radius: f64) -> Self {
         Self { corners: [centre; 4], count: 1, margin: radius }
     }
 
     /// A line with a width.
-    pub fn line(a: Point, b: Point, width: f64) -> Self {
+    pub(crate) fn line(a: Point, b: Point, width: f64) -> Self {
         Self { corners: [a, b, b, b], count: 2, margin: width / 2.0 }
     }
 
@@ -73,23 +73,23 @@ impl ConvexShape {
     }
 
     /// A rectangle around a point; `along` and `across` lead to the middles of two sides.
-    pub fn turned(middle: Point, along: Vec2, across: Vec2) -> Self {
+    pub(crate) fn turned(middle: Point, along: Vec2, across: Vec2) -> Self {
         let corners = [-along - across, along - across, along + across, across - along].map(|v| middle + v);
         Self { corners, count: 4, margin: 0.0 }
     }
 
     /// A triangle.
-    pub fn triangle([a, b, c]: [Point; 3]) -> Self {
+    pub(crate) fn triangle([a, b, c]: [Point; 3]) -> Self {
         Self { corners: [a, b, c, c], count: 3, margin: 0.0 }
     }
 
     /// The same shape with a wider margin.
-    pub fn wider(self, by: f64) -> Self {
+    pub(crate) fn wider(self, by: f64) -> Self {
         Self { margin: self.margin + by, ..self }
     }
 
     /// Bounding box, including the margin.
-    pub fn bounds(&self) -> Rect {
+    pub(crate) fn bounds(&self) -> Rect {
         let corners = &self.corners[..self.count];
         let first = Rect::from_points(corners[0], corners[0]);
         corners.iter().fold(first, |rect, p| rect.union_pt(*p)).inflate(self.margin, self.margin)
@@ -107,7 +107,7 @@ impl ConvexShape {
     }
 
     /// Whether two shapes are closer than their margins, or one contains the other.
-    pub fn touches(&self, other: &Self) -> bool {
+    pub(crate) fn touches(&self, other: &Self) -> bool {
         let near = self.margin + other.margin;
         self.holds(other.corners[0])
             || other.holds(self.corners[0])
@@ -174,7 +174,7 @@ pub(crate) struct Occupancy {
 
 impl Occupancy {
     /// Marks the paper of a shape as occupied.
-    pub fn take(&mut self, shape: ConvexShape, kind: OccupantKind) {
+    pub(crate) fn take(&mut self, shape: ConvexShape, kind: OccupantKind) {
         let own = if kind == OccupantKind::Geometry { &mut self.geometry } else { &mut self.written };
         for piece in split_line(shape) {
             own.add(piece, kind);
@@ -182,7 +182,7 @@ impl Occupancy {
     }
 
     /// Whether a shape touches none of the kinds that `clear` excludes.
-    pub fn is_free(&self, shape: &ConvexShape, clear: Clearance) -> bool {
+    pub(crate) fn is_free(&self, shape: &ConvexShape, clear: Clearance) -> bool {
         let matters = |kind: OccupantKind| match clear {
             Clearance::All => true,
             Clearance::Solids => matches!(kind, OccupantKind::Solid | OccupantKind::Arrow),

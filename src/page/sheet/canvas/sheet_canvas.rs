@@ -43,12 +43,12 @@ pub(crate) struct SheetCanvas {
 
 impl SheetCanvas {
     /// An empty canvas; `class` becomes the class of all lines.
-    pub fn new(font: &Font, class: &'static str) -> Self {
+    pub(crate) fn new(font: &Font, class: &'static str) -> Self {
         Self { font: font.clone(), class, marks: Vec::new() }
     }
 
     /// An empty canvas with the same font and class.
-    pub fn new_like(&self) -> Self {
+    pub(crate) fn new_like(&self) -> Self {
         Self { font: self.font.clone(), class: self.class, marks: Vec::new() }
     }
 
@@ -57,12 +57,12 @@ impl SheetCanvas {
     }
 
     /// Adds a stroked path; an empty dash pattern means a solid line.
-    pub fn path(&mut self, path: BezPath, width: f64, dash: &[f64]) {
+    pub(crate) fn path(&mut self, path: BezPath, width: f64, dash: &[f64]) {
         self.dashed(path, width, dash, 0.0);
     }
 
     /// Adds a stroked path whose dash pattern starts at an offset.
-    pub fn dashed(&mut self, path: BezPath, width: f64, dash: &[f64], dash_offset: f64) {
+    pub(crate) fn dashed(&mut self, path: BezPath, width: f64, dash: &[f64], dash_offset: f64) {
         let paint = Paint::Stroke(StrokePaint {
             width,
             colour: Colour::BLACK,
@@ -75,27 +75,27 @@ impl SheetCanvas {
     }
 
     /// Adds a straight line.
-    pub fn line(&mut self, a: Point, b: Point, width: f64) {
+    pub(crate) fn line(&mut self, a: Point, b: Point, width: f64) {
         self.path(polyline(&[a, b]), width, &[]);
     }
 
     /// Adds the outline of a rectangle.
-    pub fn rect(&mut self, rect: Rect, width: f64) {
+    pub(crate) fn rect(&mut self, rect: Rect, width: f64) {
         self.path(rect.to_path(MAX_CIRCLE_ERROR_MM), width, &[]);
     }
 
     /// Adds a circle.
-    pub fn circle(&mut self, centre: Point, radius: f64, width: f64) {
+    pub(crate) fn circle(&mut self, centre: Point, radius: f64, width: f64) {
         self.path(Circle::new(centre, radius).to_path(MAX_CIRCLE_ERROR_MM), width, &[]);
     }
 
     /// Adds a filled path.
-    pub fn fill(&mut self, path: BezPath) {
+    pub(crate) fn fill(&mut self, path: BezPath) {
         self.marks.push(Mark { path, paint: Paint::Fill(Colour::BLACK), provenance: self.provenance() });
     }
 
     /// Adds a filled arrow head with its tip at a point. It points in the direction `towards`.
-    pub fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
+    pub(crate) fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
         let back = -towards * (length / towards.hypot2().sqrt());
         // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
         let side = Vec2::new(-back.y, back.x) * 0.268;
@@ -109,7 +109,7 @@ impl SheetCanvas {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn word(
+    pub(crate) fn word(
         &mut self,
         words: &str,
         at: Point,
@@ -136,7 +136,7 @@ impl SheetCanvas {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or a word is too wide.
-    pub fn lines(&mut self, words: &str, corner: Point, high: f64, width: f64) -> Result<f64, Error> {
+    pub(crate) fn lines(&mut self, words: &str, corner: Point, high: f64, width: f64) -> Result<f64, Error> {
         let Some((_, setting)) = self.set(words, high)? else { return Ok(0.0) };
         let block = TextBlock::in_width(words, &setting, width)?;
         self.marks.extend(block.marks(corner, Colour::BLACK));
@@ -147,7 +147,7 @@ impl SheetCanvas {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn wrapped(&self, words: &str, high: f64, width: f64) -> Result<Vec<String>, Error> {
+    pub(crate) fn wrapped(&self, words: &str, high: f64, width: f64) -> Result<Vec<String>, Error> {
         let mut lines: Vec<String> = Vec::new();
         for paragraph in words.lines() {
             let mut line = String::new();
@@ -178,7 +178,7 @@ impl SheetCanvas {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or the text is too long for any table.
-    pub fn fitted(
+    pub(crate) fn fitted(
         &self,
         words: &str,
         heights: &[f64],
@@ -203,7 +203,7 @@ impl SheetCanvas {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn width(&self, words: &str, high: f64) -> Result<f64, Error> {
+    pub(crate) fn width(&self, words: &str, high: f64) -> Result<f64, Error> {
         Ok(self.set(words, high)?.map_or(0.0, |(block, _)| block.width))
     }
 
@@ -217,7 +217,7 @@ impl SheetCanvas {
     }
 
     /// All marks as a drawing of the given size.
-    pub fn drawing(self, title: &str, width: f64, height: f64) -> Drawing {
+    pub(crate) fn drawing(self, title: &str, width: f64, height: f64) -> Drawing {
         let page = Page { width, height, unit: Unit::Mm, background: None };
         let layer = Layer { kind: LayerKind::Callouts, pen: None, ordered: true, marks: self.marks };
         Drawing::new(title, page, vec![layer])

@@ -52,13 +52,13 @@ pub(crate) struct DimensionSet {
 
 impl DimensionSet {
     /// Adds a length along a side of a view.
-    pub fn add(&mut self, view: usize, ends: [Point; 2], side: ViewSide, text: String) {
+    pub(crate) fn add(&mut self, view: usize, ends: [Point; 2], side: ViewSide, text: String) {
         self.lengths.push((view, SideLength { ends, side, text }));
     }
 
     /// Adds the overall length, height and depth: below and to the left of the first side view, the third one
     /// in another side view.
-    pub fn add_overall(&mut self, plan: &ViewPlan) {
+    pub(crate) fn add_overall(&mut self, plan: &ViewPlan) {
         let points = MeasuredPoint::of_parts(&plan.sets[0].scene, |_| true);
         let mut measured_axes: Vec<DVec3> = Vec::new();
         let is_side = |k: &usize| matches!(plan.views[*k].placement, ViewPlacement::Projected(_));
@@ -104,7 +104,7 @@ impl DimensionSet {
     }
 
     /// Adds diameters, and the positions of holes from the left and lower edges of the view.
-    pub fn add_rounds(&mut self, plan: &ViewPlan, rounds: &[HoleDimension]) {
+    pub(crate) fn add_rounds(&mut self, plan: &ViewPlan, rounds: &[HoleDimension]) {
         for round in rounds {
             let sight = &plan.views[round.view].sight;
             let count =

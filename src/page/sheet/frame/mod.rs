@@ -8,5 +8,5 @@
 //! - `parts_table`: the parts list as a table above the title block (ISO 7573).
 
 pub(crate) mod parts_table;
-pub mod title_block;
-pub mod zone_frame;
+pub(crate) mod title_block;
+pub(crate) mod zone_frame;

@@ -58,7 +58,7 @@ impl PartsTable {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or the table does not fit.
-    pub fn new(
+    pub(crate) fn new(
         items: &[PartsListItem],
         block: Rect,
         space: Rect,
@@ -129,7 +129,7 @@ impl PartsTable {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn draw(&self, ink: &mut SheetCanvas) -> Result<(), Error> {
+    pub(crate) fn draw(&self, ink: &mut SheetCanvas) -> Result<(), Error> {
         let width = self.ends[5];
         for (k, column) in self.columns.iter().enumerate() {
             let left = self.place.x0 + k as f64 * width;

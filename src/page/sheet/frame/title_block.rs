@@ -16,7 +16,7 @@ use crate::page::tolerances::LENGTH_ROUNDING_MM;
 use crate::text::Font;
 
 /// Width of the title block, mm.
-pub const BLOCK_WIDTH_MM: f64 = 180.0;
+pub(crate) const BLOCK_WIDTH_MM: f64 = 180.0;
 
 /// Height of a row, and of the strip above the block, mm.
 const ROW_HEIGHT_MM: f64 = 9.0;
@@ -43,7 +43,7 @@ const MAX_HEIGHT_SHARE: f64 = 0.4;
 /// The texts of a title block.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct TitleKeys {
+pub(crate) struct TitleKeys {
     /// Title.
     pub title: String,
     /// Supplementary title.
@@ -121,7 +121,12 @@ impl TitleBlock {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph, or a text is too long for the sheet.
-    pub fn new(keys: &TitleKeys, space: Rect, font: &Font, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn new(
+        keys: &TitleKeys,
+        space: Rect,
+        font: &Font,
+        source: &PageSource,
+    ) -> Result<Self, Error> {
         let ink = SheetCanvas::new(font, "title-block");
         let mut rows = [STRIP_HEIGHT_MM, ROW_HEIGHT_MM, ROW_HEIGHT_MM, ROW_HEIGHT_MM];
         let mut texts = Vec::new();
@@ -181,7 +186,7 @@ impl TitleBlock {
     ///
     /// # Errors
     /// Returns an error if no font has a glyph.
-    pub fn draw(
+    pub(crate) fn draw(
         &self,
         (scale, method, size, unit): (&str, ProjectionMethod, &str, &str),
         ink: &mut SheetCanvas,

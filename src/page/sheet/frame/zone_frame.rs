@@ -33,7 +33,7 @@ const TRIMMING_MARK_SIDES_MM: [f64; 2] = [10.0, 5.0];
 
 /// The drawing space of a sheet, mm.
 #[must_use]
-pub fn drawing_space(size: PageSize) -> Rect {
+pub(crate) fn drawing_space(size: PageSize) -> Rect {
     Rect::new(FILING_MARGIN_MM, MARGIN_MM, size.width - MARGIN_MM, size.height - MARGIN_MM)
 }
 
@@ -41,7 +41,7 @@ pub fn drawing_space(size: PageSize) -> Rect {
 ///
 /// Zones are 50 mm long, counted from the middle of the sheet. The end zones take up the rest.
 #[must_use]
-pub fn zone_ends(low: f64, high: f64, middle: f64) -> Vec<f64> {
+pub(crate) fn zone_ends(low: f64, high: f64, middle: f64) -> Vec<f64> {
     let count = |length: f64| {
         let whole = (length / ZONE_LENGTH_MM).floor();
         if length - whole * ZONE_LENGTH_MM >= MIN_ZONE_LENGTH_MM || whole == 0.0 {

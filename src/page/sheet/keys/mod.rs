@@ -6,4 +6,4 @@
 //! - `explosion_keys`: the settings of the exploded view, checked and converted.
 
 pub(crate) mod explosion_keys;
-pub mod sheet_keys;
+pub(crate) mod sheet_keys;

@@ -15,7 +15,7 @@ use crate::page::sheet::view::view_side::ViewSide;
 /// A technical sheet in a page file.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct SheetPage {
+pub(crate) struct SheetPage {
     /// Size of the sheet. Sheets larger than A4 are in landscape format. Default: A3.
     pub size: Option<PageSize>,
     /// One or more models.
@@ -80,7 +80,7 @@ pub struct SheetPage {
     untagged,
     expecting = "this is not a parts list; write true, false, or the path of a file such as \"parts.csv\""
 )]
-pub enum ListKeys {
+pub(crate) enum ListKeys {
     /// Made from part names if true; no list if false.
     Named(bool),
     /// The path of a file.
@@ -90,7 +90,7 @@ pub enum ListKeys {
 /// A section view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SectionKeys {
+pub(crate) struct SectionKeys {
     /// Cutting plane: `x`, `y=12.5`, `z=30%`, `normal:1,0,1@5mm`. The half that the normal points to is
     /// removed, and the view looks from there.
     pub plane: Spanned<String>,
@@ -104,7 +104,7 @@ pub struct SectionKeys {
 /// A detail view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DetailKeys {
+pub(crate) struct DetailKeys {
     /// Name of the view that contains the detail. Default: the first view.
     pub of: Option<Spanned<String>>,
     /// Centre of the detail, in model units.
@@ -120,7 +120,7 @@ pub struct DetailKeys {
 /// The exploded view.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct ExplodedKeys {
+pub(crate) struct ExplodedKeys {
     /// Axis of the explosion: x, y, z, or three numbers such as 1,0,1. Default: chosen automatically.
     pub axis: Option<Spanned<String>>,
     /// Factor of all distances. Default: 1.
@@ -134,7 +134,7 @@ pub struct ExplodedKeys {
 /// Explosion settings of the parts whose names match. Values that are not set are computed.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct PartExplosionKeys {
+pub(crate) struct PartExplosionKeys {
     /// Pattern for part names.
     pub name: Spanned<Glob>,
     /// Direction of movement: x, -y, or three numbers such as 1,0,1.
@@ -151,7 +151,7 @@ pub struct PartExplosionKeys {
 /// A dimension: a length, a diameter or a radius in a view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DimensionKeys {
+pub(crate) struct DimensionKeys {
     /// Name of the view. Default: front.
     pub of: Option<Spanned<String>>,
     /// First point of a length.
@@ -180,7 +180,7 @@ pub struct DimensionKeys {
     untagged,
     expecting = "this is not a place; write a point such as [0, 10, 5], or a name such as \"housing.left\""
 )]
-pub enum PlaceKeys {
+pub(crate) enum PlaceKeys {
     /// Coordinates.
     Point([f64; 3]),
     /// The name of a point in `[page.points]`; or `left`, `right`, `top`, `bottom` or `centre` of the model,
@@ -191,7 +191,7 @@ pub enum PlaceKeys {
 /// The quantity that a dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum DimensionKind {
+pub(crate) enum DimensionKind {
     /// Horizontal distance on the page.
     Horizontal,
     /// Vertical distance on the page.

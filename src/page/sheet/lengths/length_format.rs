@@ -48,7 +48,7 @@ impl LengthUnit {
     ///
     /// # Errors
     /// Returns an error if there is no such unit.
-    pub fn read(told: &Spanned<String>, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn read(told: &Spanned<String>, source: &PageSource) -> Result<Self, Error> {
         let found = LENGTH_UNITS.into_iter().find(|unit| unit.name == told.get_ref());
         found.ok_or_else(|| source.unknown(told, "unit", &LENGTH_UNITS.map(|unit| unit.name)))
     }
@@ -69,7 +69,7 @@ impl LengthFormat {
     ///
     /// # Errors
     /// Returns an error if a unit is unknown, or there are too many decimals.
-    pub fn new(sheet: &SheetPage, is_gltf: bool, source: &PageSource) -> Result<Self, Error> {
+    pub(crate) fn new(sheet: &SheetPage, is_gltf: bool, source: &PageSource) -> Result<Self, Error> {
         let [mm, _, metre, inch, foot] = LENGTH_UNITS;
         let model = match &sheet.unit {
             Some(told) => LengthUnit::read(told, source)?,
@@ -94,12 +94,12 @@ impl LengthFormat {
     }
 
     /// Millimetres per model unit.
-    pub fn unit_mm(&self) -> f64 {
+    pub(crate) fn unit_mm(&self) -> f64 {
         self.model.mm
     }
 
     /// Formats a length in model units.
-    pub fn written(&self, length: f64, precision: LengthPrecision) -> String {
+    pub(crate) fn written(&self, length: f64, precision: LengthPrecision) -> String {
         let carried = precision.rounded(length.abs());
         let value = if self.model == self.unit { carried } else { carried * self.model.mm / self.unit.mm };
         let text = format_decimal(value, usize::from(self.decimals));

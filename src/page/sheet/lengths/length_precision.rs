@@ -35,17 +35,17 @@ pub(crate) struct MeasuredPoint {
 
 impl MeasuredPoint {
     /// A point with exact coordinates.
-    pub fn exact(at: DVec3) -> Self {
+    pub(crate) fn exact(at: DVec3) -> Self {
         Self { at, step: 0.0 }
     }
 
     /// The coarsest step of all parts of a scene.
-    pub fn coarsest(scene: &Scene) -> f64 {
+    pub(crate) fn coarsest(scene: &Scene) -> f64 {
         scene.parts.iter().map(|part| step_of(scene, part)).fold(0.0, f64::max)
     }
 
     /// The drawn points of selected parts.
-    pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Vec<Self> {
+    pub(crate) fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Vec<Self> {
         let drawn = DrawnPoints::of_parts(scene, is_wanted);
         let mut found = Vec::with_capacity(drawn.points.len());
         for own in &drawn.parts {
@@ -74,7 +74,7 @@ pub(crate) struct LengthPrecision {
 
 impl LengthPrecision {
     /// Precision of a length between two points along a direction.
-    pub fn between(ends: [MeasuredPoint; 2], along: DVec3) -> Self {
+    pub(crate) fn between(ends: [MeasuredPoint; 2], along: DVec3) -> Self {
         let [a, b] = ends.map(|end| end.step);
         let rounding = MAX_ROUNDING_OF_COORDINATE * largest_coordinate(ends.map(|end| end.at));
         // Half a step at both ends, summed over the three coordinates.
@@ -86,19 +86,19 @@ impl LengthPrecision {
     }
 
     /// Precision of a fitted radius, diameter or axis position.
-    pub fn of_cylinder(cylinder: &Cylinder) -> Self {
+    pub(crate) fn of_cylinder(cylinder: &Cylinder) -> Self {
         let largest = cylinder.point.abs().max_element().max(cylinder.radius);
         let error = cylinder.spread.max(MAX_CIRCLE_FIT_OF_COORDINATE * largest);
         Self { decimals: -power_above(error), noise: error }
     }
 
     /// The coarser of two precisions.
-    pub fn coarser(self, other: Self) -> Self {
+    pub(crate) fn coarser(self, other: Self) -> Self {
         Self { decimals: self.decimals.min(other.decimals), noise: self.noise.max(other.noise) }
     }
 
     /// Rounds a positive length to the decimals of the input.
-    pub fn rounded(self, length: f64) -> f64 {
+    pub(crate) fn rounded(self, length: f64) -> f64 {
         let power = power_of_ten(self.decimals.unsigned_abs() as usize);
         let rounded = if self.decimals >= 0 {
             (length * power).round() / power

@@ -13,7 +13,7 @@ use robust::{Coord, orient2d};
 use crate::page::tolerances::MIN_LEADER_GAIN_MM;
 
 /// Radius of a balloon, and the clearance of leaders around it, mm.
-pub const BALLOON_RADIUS_MM: f64 = 4.0;
+pub(crate) const BALLOON_RADIUS_MM: f64 = 4.0;
 const LEADER_CLEARANCE_MM: f64 = 0.6;
 
 /// Maximum number of slots on a border.
@@ -32,7 +32,7 @@ const MAX_SWEEPS: usize = 1000;
 /// `slot_spacing` is the minimum length of border per slot, `start_share` the offset of the first slot as a fraction of a
 /// slot.
 #[must_use]
-pub fn balloon_slots(border: Rect, slot_spacing: f64, start_share: f64) -> Vec<Point> {
+pub(crate) fn balloon_slots(border: Rect, slot_spacing: f64, start_share: f64) -> Vec<Point> {
     let perimeter = 2.0 * (border.width() + border.height());
     let slot_count = ((perimeter / slot_spacing).floor() as usize).clamp(1, MAX_SLOTS);
     let step = perimeter / slot_count as f64;
@@ -53,7 +53,7 @@ pub fn balloon_slots(border: Rect, slot_spacing: f64, start_share: f64) -> Vec<P
 /// Leaders do not cross or touch unless more than two points are collinear. Blocked pairs of anchor and slot
 /// are avoided if possible.
 #[must_use]
-pub fn assign_leaders(
+pub(crate) fn assign_leaders(
     anchors: &[Point],
     slots: &[Point],
     is_blocked: &dyn Fn(usize, usize) -> bool,
@@ -78,7 +78,7 @@ pub fn assign_leaders(
 /// Anchors and slots are matched in angular order around the centre of the anchors. The rotation with the
 /// shortest leaders wins. There must be at least as many slots as anchors.
 #[must_use]
-pub fn assign_radially(
+pub(crate) fn assign_radially(
     anchors: &[Point],
     slots: &[Point],
     is_blocked: &dyn Fn(usize, usize) -> bool,
@@ -247,7 +247,7 @@ fn count_conflicts([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
 
 /// Whether a leader passes through the circle of a balloon at `centre`, with clearance.
 #[must_use]
-pub fn passes_through_balloon([a, b]: [Point; 2], centre: Point) -> bool {
+pub(crate) fn passes_through_balloon([a, b]: [Point; 2], centre: Point) -> bool {
     let direction = b - a;
     let share = ((centre - a).dot(direction) / direction.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     (a + direction * share - centre).hypot2().sqrt() < BALLOON_RADIUS_MM + LEADER_CLEARANCE_MM
@@ -255,7 +255,7 @@ pub fn passes_through_balloon([a, b]: [Point; 2], centre: Point) -> bool {
 
 /// Whether two segments have a common point, by exact predicates.
 #[must_use]
-pub fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+pub(crate) fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let side = |p: Point, q: Point, r: Point| orient2d(coord(p), coord(q), coord(r));
     let [c_side, d_side] = [side(a, b, c), side(a, b, d)];
     if c_side > 0.0 && d_side > 0.0 || c_side < 0.0 && d_side < 0.0 {

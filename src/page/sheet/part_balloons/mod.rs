@@ -7,4 +7,4 @@
 //! The rings of slots and the drawing are in `annotations::balloon_rings`.
 
 pub(crate) mod balloon_anchors;
-pub mod leader_assignment;
+pub(crate) mod leader_assignment;

@@ -49,7 +49,7 @@ pub(crate) struct PartShape {
 
 impl PartShape {
     /// The shape of a part; `None` without faces.
-    pub fn of(scene: &Scene, part: &Part) -> Option<Self> {
+    pub(crate) fn of(scene: &Scene, part: &Part) -> Option<Self> {
         let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
         let transform = part.world_from_part;
         let rounding = file_rounding(geometry, &transform);
@@ -84,7 +84,7 @@ impl PartShape {
     }
 
     /// Whether two shapes are congruent.
-    pub fn equals(&self, other: &Self) -> bool {
+    pub(crate) fn equals(&self, other: &Self) -> bool {
         let scale = self
             .instance
             .1

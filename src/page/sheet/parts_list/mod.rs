@@ -8,4 +8,4 @@
 
 mod congruence;
 pub(crate) mod parts_list_file;
-pub mod parts_list_items;
+pub(crate) mod parts_list_items;

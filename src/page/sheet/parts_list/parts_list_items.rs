@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// An item of a parts list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PartsListItem {
+pub(crate) struct PartsListItem {
     /// Item number.
     pub number: String,
     /// Quantity.
@@ -31,7 +31,7 @@ pub struct PartsListItem {
 /// a name. Names may differ by a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Mirror images are
 /// different items.
 #[must_use]
-pub fn parts_list_items(scene: &Scene) -> Vec<PartsListItem> {
+pub(crate) fn parts_list_items(scene: &Scene) -> Vec<PartsListItem> {
     // Items of each geometry and each name, and the shape of each item's first part.
     let mut of_geometry: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut of_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();

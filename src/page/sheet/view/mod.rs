@@ -7,7 +7,7 @@
 //! - `scale_series`: the standard scales (ISO 5455) and their text.
 //! - [`view_side`]: the four sides of a view, and a length along one of them.
 
-pub mod projection_method;
+pub(crate) mod projection_method;
 pub(crate) mod scale_series;
 pub(crate) mod sheet_view;
-pub mod view_side;
+pub(crate) mod view_side;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 /// Side of the front view on which each other view stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum ProjectionMethod {
+pub(crate) enum ProjectionMethod {
     /// First angle: the view from the left is on the right of the front view.
     #[default]
     First,

@@ -9,7 +9,7 @@ use kurbo::{Affine, Point, Rect};
 
 use crate::drawing::{Drawing, Page, PlacedDrawing, Unit};
 use crate::error::Error;
-use crate::pipeline::Prepared;
+use crate::pipeline::Renderer;
 use crate::scene::{Camera, Projection};
 
 /// Margin around a view for the width of its lines, mm.
@@ -39,7 +39,7 @@ pub(crate) struct SheetView {
 impl SheetView {
     /// Creates the view of a point set along a camera's direction, at the page origin with a scale of 1 mm
     /// per model unit.
-    pub fn new(name: &str, camera: Camera, middle: DVec3, points: &[DVec3]) -> Self {
+    pub(crate) fn new(name: &str, camera: Camera, middle: DVec3, points: &[DVec3]) -> Self {
         let [right, up, _] = camera.axes();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for p in points.iter().filter(|p| p.is_finite()) {
@@ -63,7 +63,7 @@ impl SheetView {
 
     /// The same view, limited to a square around a point: the extent of a detail. `radius` is half the side,
     /// model units.
-    pub fn detail(&self, name: &str, at: DVec3, radius: f64) -> Self {
+    pub(crate) fn detail(&self, name: &str, at: DVec3, radius: f64) -> Self {
         let [right, up, _] = self.camera.axes();
         let p = DVec2::new((at - self.middle).dot(right), (at - self.middle).dot(up));
         let (low, high) = (p - radius, p + radius);
@@ -71,24 +71,24 @@ impl SheetView {
     }
 
     /// Unit vectors to the right, up and forward, world space.
-    pub fn axes(&self) -> [DVec3; 3] {
+    pub(crate) fn axes(&self) -> [DVec3; 3] {
         self.camera.axes()
     }
 
     /// Width and height on paper if a model unit is `unit` mm long.
-    pub fn size(&self, unit: f64) -> [f64; 2] {
+    pub(crate) fn size(&self, unit: f64) -> [f64; 2] {
         let size = (self.high - self.low) * unit;
         [size.x, size.y]
     }
 
     /// The rectangle of the view on the page, mm.
-    pub fn rect(&self) -> Rect {
+    pub(crate) fn rect(&self) -> Rect {
         let [w, h] = self.size(self.mm_per_unit);
         Rect::from_origin_size(self.corner, (w, h))
     }
 
     /// Maps a point of the model to the page, mm.
-    pub fn to_page(&self, p: DVec3) -> Point {
+    pub(crate) fn to_page(&self, p: DVec3) -> Point {
         let [right, up, _] = self.axes();
         let p = p - self.middle;
         let (x, y) = (p.dot(right) - self.low.x, self.high.y - p.dot(up));
@@ -96,7 +96,7 @@ impl SheetView {
     }
 
     /// The camera of the view. Its frame is the view on paper with a margin, in mm.
-    pub fn view_camera(&self) -> Camera {
+    pub(crate) fn view_camera(&self) -> Camera {
         let [right, up, forward] = self.axes();
         let centre = (self.low + self.high) / 2.0;
         let target = self.middle + right * centre.x + up * centre.y;
@@ -113,7 +113,7 @@ impl SheetView {
     }
 
     /// Transform from the frame of [`Self::view_camera`] to the page, both in mm.
-    pub fn frame_to_page(&self) -> Affine {
+    pub(crate) fn frame_to_page(&self) -> Affine {
         Affine::translate((self.corner.x - LINE_MARGIN_MM, self.corner.y - LINE_MARGIN_MM))
     }
 
@@ -121,10 +121,10 @@ impl SheetView {
     ///
     /// # Errors
     /// Returns an error if there is nothing to draw.
-    pub fn draw(&self, prepared: &Prepared) -> Result<(PlacedDrawing, Vec<String>), Error> {
+    pub(crate) fn draw(&self, prepared: &Renderer) -> Result<(PlacedDrawing, Vec<String>), Error> {
         let camera = self.view_camera();
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Mm, background: None };
-        let (drawing, report): (Drawing, _) = prepared.draw(&camera, page, None)?;
+        let (drawing, report): (Drawing, _) = prepared.draw(&camera, page)?;
         Ok((
             PlacedDrawing { name: self.name.clone(), drawing, place: self.frame_to_page(), clip: None },
             report.warnings,

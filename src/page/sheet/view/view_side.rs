@@ -5,7 +5,7 @@ use kurbo::{Point, Vec2};
 /// A side of a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum ViewSide {
+pub(crate) enum ViewSide {
     /// The left side.
     Left,
     /// Above the view.
@@ -18,17 +18,17 @@ pub enum ViewSide {
 
 impl ViewSide {
     /// All sides.
-    pub const ALL: [Self; 4] = [Self::Left, Self::Above, Self::Right, Self::Below];
+    pub(crate) const ALL: [Self; 4] = [Self::Left, Self::Above, Self::Right, Self::Below];
 
     /// Whether lengths on this side are horizontal.
     #[must_use]
-    pub fn is_across(self) -> bool {
+    pub(crate) fn is_across(self) -> bool {
         matches!(self, Self::Above | Self::Below)
     }
 
     /// Unit vector away from the view, y down.
     #[must_use]
-    pub fn outward(self) -> Vec2 {
+    pub(crate) fn outward(self) -> Vec2 {
         match self {
             Self::Left => Vec2::new(-1.0, 0.0),
             Self::Above => Vec2::new(0.0, -1.0),
@@ -40,7 +40,7 @@ impl ViewSide {
 
 /// A length along a side of a view.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SideLength {
+pub(crate) struct SideLength {
     /// Its two points, page mm.
     pub ends: [Point; 2],
     /// The side of the view.
@@ -52,7 +52,7 @@ pub struct SideLength {
 impl SideLength {
     /// Its extent along the side, in rising order: x on horizontal sides, y on vertical ones.
     #[must_use]
-    pub fn span(&self) -> [f64; 2] {
+    pub(crate) fn span(&self) -> [f64; 2] {
         let at = |p: Point| if self.side.is_across() { p.x } else { p.y };
         let [a, b] = self.ends.map(at);
         [a.min(b), a.max(b)]

@@ -32,12 +32,12 @@ impl<K, V> Clone for ResultCache<K, V> {
 
 impl<K: Copy + PartialEq, V> ResultCache<K, V> {
     /// Makes a cache of at most `max_total` units, as measured by `size`.
-    pub fn new(most: usize, size: fn(&V) -> usize) -> Self {
+    pub(crate) fn new(most: usize, size: fn(&V) -> usize) -> Self {
         Self { entries: Arc::default(), size, max_total: most }
     }
 
     /// Returns the result of a key, from the cache or computed by `make`. `make` must be deterministic.
-    pub fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
+    pub(crate) fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
         let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         let remembered =
             lock().iter().find(|asked| asked.key == key).map(|asked| asked.computed_value.clone());

@@ -21,7 +21,7 @@ pub(crate) struct GeometryBuilder<'a> {
 
 impl<'a> GeometryBuilder<'a> {
     /// Starts with the vertices and wires of a geometry, without triangles.
-    pub fn of(from: &'a Geometry) -> Self {
+    pub(crate) fn of(from: &'a Geometry) -> Self {
         let to = Geometry {
             positions: from.positions.clone(),
             normals: from.normals.clone(),
@@ -37,7 +37,7 @@ impl<'a> GeometryBuilder<'a> {
     }
 
     /// Adds a triangle unchanged.
-    pub fn keep(&mut self, triangle: usize) {
+    pub(crate) fn keep(&mut self, triangle: usize) {
         self.origins.push(triangle as u32);
         self.to.triangles.push(self.from.triangles[triangle]);
         self.to.triangle_material.extend(self.from.triangle_material.get(triangle));
@@ -48,7 +48,7 @@ impl<'a> GeometryBuilder<'a> {
 
     /// Adds the pieces of a triangle. Each side comes with its crossings (bits of the positions along it) and
     /// its direction.
-    pub fn add(&mut self, triangle: usize, pieces: &TrianglePieces, sides: [(&Vec<u64>, bool); 3]) {
+    pub(crate) fn add(&mut self, triangle: usize, pieces: &TrianglePieces, sides: [(&Vec<u64>, bool); 3]) {
         let from = self.from;
         let corners = from.triangles[triangle];
         let shares: Vec<[f64; 3]> =
@@ -145,7 +145,7 @@ impl<'a> GeometryBuilder<'a> {
     }
 
     /// The geometry, and the original triangle of each new one.
-    pub fn done(self) -> (Geometry, Vec<u32>) {
+    pub(crate) fn done(self) -> (Geometry, Vec<u32>) {
         (self.to, self.origins)
     }
 }

@@ -31,7 +31,7 @@ use crate::scene::textures::texel_plane::texel_borders::{BorderIndex, BorderSegm
 use crate::scene::{Geometry, Scene, Warnings};
 
 /// A scene without the transparent parts of its materials.
-pub struct CutScene<'a> {
+pub(crate) struct CutScene<'a> {
     /// The remaining scene; borrowed if nothing is cut away.
     pub scene: Cow<'a, Scene>,
     /// For each geometry that was cut, the original triangle of each new one.
@@ -42,7 +42,7 @@ pub struct CutScene<'a> {
 
 /// Removes the transparent parts of materials from a scene.
 #[must_use]
-pub fn cut_out(scene: &Scene) -> CutScene<'_> {
+pub(crate) fn cut_out(scene: &Scene) -> CutScene<'_> {
     let mut warnings = Warnings::default();
     let read: Vec<_> = scene.materials.par_iter().map(|material| CutExtent::of(scene, material)).collect();
     let mut stencils = Vec::with_capacity(read.len());

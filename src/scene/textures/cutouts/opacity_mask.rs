@@ -30,7 +30,7 @@ pub(crate) enum CutExtent {
 
 impl CutExtent {
     /// Finds the transparent parts of a material; an error if its picture is needed and cannot be read.
-    pub fn of(scene: &Scene, material: &Material) -> Result<Self, String> {
+    pub(crate) fn of(scene: &Scene, material: &Material) -> Result<Self, String> {
         let constant = f64::from(material.colour.a) / 255.0;
         let (picture, is_own) = match (&material.opacity_map, &material.alpha) {
             (Some(path), _) => (textures::picture_from_model_folder(scene, path).transpose()?, true),
@@ -74,13 +74,13 @@ fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
 
 impl OpacityMask {
     /// Opacity of a texel minus the level, never 0. Column and row may be outside the picture.
-    pub fn texel(&self, column: i64, row: i64) -> f64 {
+    pub(crate) fn texel(&self, column: i64, row: i64) -> f64 {
         let opacity = self.opacity.get(self.texels.index(column, row));
         opacity.map_or(-1.0, |o| f64::from(*o) - self.level)
     }
 
     /// Whether a point of the texel plane is opaque.
-    pub fn is_opaque(&self, p: DVec2) -> bool {
+    pub(crate) fn is_opaque(&self, p: DVec2) -> bool {
         let (low, part) = (p.floor(), p - p.floor());
         let (i, j) = (low.x as i64, low.y as i64);
         let along = |row: i64| {
@@ -95,7 +95,7 @@ impl OpacityMask {
 #[cfg(test)]
 impl OpacityMask {
     /// Mask of given opacities, cut at half.
-    pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
+    pub(crate) fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
         let texels = TexelPlane {
             size: [width, opacity.len() / width],
             wrap: [wrap; 2],

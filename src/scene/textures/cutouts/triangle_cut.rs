@@ -59,7 +59,11 @@ const UNASSIGNED: u32 = u32::MAX;
 impl TexelTriangle<'_> {
     /// Cuts the triangle and returns the opaque pieces, or all pieces without a mask. `None` if the
     /// triangulation fails.
-    pub fn cut(&self, borders: &[BorderSegment], mask: Option<&OpacityMask>) -> Option<TrianglePieces> {
+    pub(crate) fn cut(
+        &self,
+        borders: &[BorderSegment],
+        mask: Option<&OpacityMask>,
+    ) -> Option<TrianglePieces> {
         let mut net = TriangulationBuilder::default();
         let corners = self.add_sides(&mut net)?;
         let mut drawn = Vec::new();

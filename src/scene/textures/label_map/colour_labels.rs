@@ -100,7 +100,7 @@ impl ColourLabels {
     }
 
     /// Label at a point of the texel plane.
-    pub fn at(&self, p: DVec2) -> u8 {
+    pub(crate) fn at(&self, p: DVec2) -> u8 {
         let (low, part) = (p.floor(), p - p.floor());
         let cell = LabelCell::new(self, low.x as i64, low.y as i64);
         cell.at(part)
@@ -143,18 +143,18 @@ pub(crate) enum CellBorders {
 const STEPS_PER_TEXEL: f64 = (1u64 << 20) as f64;
 
 impl<'a> LabelCell<'a> {
-    pub fn new(labels: &'a ColourLabels, i: i64, j: i64) -> Self {
+    pub(crate) fn new(labels: &'a ColourLabels, i: i64, j: i64) -> Self {
         let texels = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| labels.texels.index(i + x, j + y));
         Self { labels, texels, colours: texels.map(|texel| labels.winner(texel)) }
     }
 
     /// Whether the cell has a single label.
-    pub fn is_even(&self) -> bool {
+    pub(crate) fn is_even(&self) -> bool {
         self.colours == [self.colours[0]; 4]
     }
 
     /// Point in the unit square where the label changes on a side; sides are numbered by their first corner.
-    pub fn crossing(&self, side: usize) -> Option<DVec2> {
+    pub(crate) fn crossing(&self, side: usize) -> Option<DVec2> {
         let next = (side + 1) % 4;
         let [a, b] = [self.colours[side], self.colours[next]];
         if a == b {
@@ -172,7 +172,7 @@ impl<'a> LabelCell<'a> {
     }
 
     /// Borders within the cell.
-    pub fn parting(&self) -> CellBorders {
+    pub(crate) fn parting(&self) -> CellBorders {
         if self.is_even() {
             return CellBorders::Uniform;
         }

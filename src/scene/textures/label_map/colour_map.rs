@@ -51,7 +51,7 @@ impl ColourMap {
     }
 
     /// Borders between colours, traced on first use; `None` if there are too many.
-    pub fn borders(&self) -> Option<&TracedBorders> {
+    pub(crate) fn borders(&self) -> Option<&TracedBorders> {
         self.borders.get_or_init(|| trace_label_borders(&self.labels)).as_ref()
     }
 }

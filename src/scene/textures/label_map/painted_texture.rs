@@ -55,24 +55,24 @@ const DISTANT_SCALE: f64 = 8.0;
 
 impl PaintedTexture {
     /// Layout of its texels.
-    pub fn texels(&self) -> &TexelPlane {
+    pub(crate) fn texels(&self) -> &TexelPlane {
         &self.texels
     }
 
     /// The few colours, in Oklab.
-    pub fn palette(&self) -> &[Oklab] {
+    pub(crate) fn palette(&self) -> &[Oklab] {
         &self.palette
     }
 
     /// Map of the colours at a resolution. If most details are smaller than specks, a coarser map that
     /// includes the mean colour.
-    pub fn map_or_mean(&self, texels_per_px: f64) -> Arc<ColourMap> {
+    pub(crate) fn map_or_mean(&self, texels_per_px: f64) -> Arc<ColourMap> {
         let map = self.map_in(texels_per_px, false);
         if map.lost <= MAX_SPECK_SHARE { map } else { self.map_in(texels_per_px * DISTANT_SCALE, true) }
     }
 
     /// Map of the colours at a resolution, in texels per px.
-    pub fn map(&self, texels_per_px: f64) -> Arc<ColourMap> {
+    pub(crate) fn map(&self, texels_per_px: f64) -> Arc<ColourMap> {
         self.map_in(texels_per_px, false)
     }
 

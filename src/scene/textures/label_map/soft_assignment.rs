@@ -14,7 +14,7 @@ pub(crate) struct SoftAssignment {
 
 impl SoftAssignment {
     /// Finds the two nearest palette colours.
-    pub fn of(lab: Oklab, palette: &[Oklab]) -> Self {
+    pub(crate) fn of(lab: Oklab, palette: &[Oklab]) -> Self {
         let nearest = nearest_centre_index(palette, lab);
         let mut second = (nearest, f32::INFINITY);
         for (k, colour) in palette.iter().enumerate() {

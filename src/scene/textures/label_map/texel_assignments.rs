@@ -22,7 +22,7 @@ pub(crate) const MAX_BLUR_TEXELS: u8 = 4;
 const OUT_OF_BLUR_STEPS: u8 = MAX_BLUR_TEXELS + 1;
 
 impl TexelAssignments {
-    pub fn new(texels: TexelPlane, list: Vec<SoftAssignment>) -> Self {
+    pub(crate) fn new(texels: TexelPlane, list: Vec<SoftAssignment>) -> Self {
         let differs =
             |texel: usize| texels.beside(texel).iter().any(|next| list[*next].nearest != list[texel].nearest);
         let all = || (0..list.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
@@ -44,7 +44,7 @@ impl TexelAssignments {
 
     /// Texels, in order, that a blur of the given reach mixes with another colour. Without a blur, those that
     /// are mixed already.
-    pub fn mixed(&self, reach: u8) -> Vec<usize> {
+    pub(crate) fn mixed(&self, reach: u8) -> Vec<usize> {
         let is_mixed =
             |texel: &usize| self.to_border[*texel] <= reach || (reach == 0 && self.list[*texel].way != 0.0);
         (0..self.list.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(is_mixed).collect()

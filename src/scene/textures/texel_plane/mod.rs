@@ -32,14 +32,14 @@ pub(crate) struct TexelPlane {
 
 impl TexelPlane {
     /// Layout of a material's picture.
-    pub fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+    pub(crate) fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let size = [picture.width, picture.height];
         let Material { wrap, placing, .. } = *material;
         Self { size, wrap, upward: scene.format != "glTF", placing }
     }
 
     /// Point of the plane for a pair of texture coordinates; `None` if it is not finite or too far away.
-    pub fn place(&self, uv: [f32; 2]) -> Option<DVec2> {
+    pub(crate) fn place(&self, uv: [f32; 2]) -> Option<DVec2> {
         let Placing { scale, offset } = self.placing;
         let [u, v] = [0, 1]
             .map(|k| if self.placing == Placing::default() { uv[k] } else { uv[k] * scale[k] + offset[k] });
@@ -51,7 +51,7 @@ impl TexelPlane {
     }
 
     /// Period of the pattern along x and along y, in texels; `None` if the border is repeated.
-    pub fn periods(&self) -> [Option<usize>; 2] {
+    pub(crate) fn periods(&self) -> [Option<usize>; 2] {
         [0, 1].map(|k| match self.wrap[k] {
             Wrap::Repeat => Some(self.size[k]),
             Wrap::Mirror => Some(2 * self.size[k]),
@@ -60,7 +60,7 @@ impl TexelPlane {
     }
 
     /// Number of cells between texel centres in one period, along x and along y.
-    pub fn reach(&self) -> [usize; 2] {
+    pub(crate) fn reach(&self) -> [usize; 2] {
         let periods = self.periods();
         // With a repeated border, one cell is enough to show the direction of lines outside.
         [0, 1].map(|k| periods[k].unwrap_or((self.size[k] - 1).max(1)))
@@ -68,7 +68,7 @@ impl TexelPlane {
 
     /// Indices of the texels to the right, to the left, below and above.
     #[inline]
-    pub fn beside(&self, texel: usize) -> [usize; 4] {
+    pub(crate) fn beside(&self, texel: usize) -> [usize; 4] {
         let [width, height] = self.size;
         let (column, row) = (texel % width, texel / width);
         if column > 0 && row > 0 && column + 1 < width && row + 1 < height {
@@ -80,7 +80,7 @@ impl TexelPlane {
 
     /// Index of the texel at a column and a row, which may be outside the picture.
     #[inline]
-    pub fn index(&self, column: i64, row: i64) -> usize {
+    pub(crate) fn index(&self, column: i64, row: i64) -> usize {
         let [width, height] = self.size;
         wrap_index(row, height as i64, self.wrap[1]) * width + wrap_index(column, width as i64, self.wrap[0])
     }

@@ -23,12 +23,12 @@ pub(crate) struct TexelSide {
 
 impl TexelSide {
     /// Whether a point is on the triangle's side of the line.
-    pub fn admits(&self, p: DVec2) -> bool {
+    pub(crate) fn admits(&self, p: DVec2) -> bool {
         (doubled_area(self.from, self.to, p) >= 0.0) == self.inside
     }
 
     /// Crossing of a border segment with the side: positions on the side and on the segment, 0 to 1.
-    pub fn crossing(&self, [p, q]: BorderSegment) -> Option<(f64, f64)> {
+    pub(crate) fn crossing(&self, [p, q]: BorderSegment) -> Option<(f64, f64)> {
         let (of_p, of_q) = (doubled_area(self.from, self.to, p), doubled_area(self.from, self.to, q));
         if (of_p >= 0.0) == (of_q >= 0.0) {
             return None;

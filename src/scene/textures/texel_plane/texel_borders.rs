@@ -37,7 +37,7 @@ pub(crate) struct BorderIndex {
 
 impl BorderIndex {
     /// Simplifies traced borders with a tolerance in texels, and indexes them.
-    pub fn new(traced: &TracedBorders, tolerance: f64) -> Self {
+    pub(crate) fn new(traced: &TracedBorders, tolerance: f64) -> Self {
         let TracedBorders { lines, parted: of_lines, reach, periods } = traced;
         let (reach, periods) = (*reach, *periods);
         let (mut segments, mut parted) = (Vec::new(), Vec::new());
@@ -60,7 +60,7 @@ impl BorderIndex {
     }
 
     /// Number of segments in one period.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.segments.len()
     }
 
@@ -77,12 +77,12 @@ impl BorderIndex {
     }
 
     /// Segments that may touch a box; `None` if there are too many.
-    pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<BorderSegment>> {
+    pub(crate) fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<BorderSegment>> {
         self.map_segments_in_box(low, high, |segment, _| segment)
     }
 
     /// Segments that may touch a box, mapped by `make` with their two colours; `None` if there are too many.
-    pub fn map_segments_in_box<T>(
+    pub(crate) fn map_segments_in_box<T>(
         &self,
         low: DVec2,
         high: DVec2,

@@ -58,7 +58,7 @@ fn is_end(continuations: [Continuation; 2]) -> bool {
 impl SurfaceTracer<'_> {
     /// Whether the surfaces on both sides of an edge end at it. Returns the edges where they must bend back
     /// for that.
-    pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
+    pub(crate) fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
         let (bend, faces) = self.bend(edge)?;
         let [first, second] = faces.map(|face| self.continuation(&bend, face));
         let direct = [first?, second?];

@@ -40,7 +40,7 @@ pub(crate) struct SurfaceTracer<'a> {
 
 impl<'a> SurfaceTracer<'a> {
     /// Indexes the edges by vertex. Creases turn by more than `crease_deg` degrees.
-    pub fn new(
+    pub(crate) fn new(
         mesh: &'a Mesh,
         (turns, flat): (&'a DihedralCosines, &'a EdgeSet),
         hard: &'a HardEdges,
@@ -58,7 +58,7 @@ impl<'a> SurfaceTracer<'a> {
     }
 
     /// The edge between two vertices in ascending order.
-    pub fn edge(&self, ends: [u32; 2]) -> Option<usize> {
+    pub(crate) fn edge(&self, ends: [u32; 2]) -> Option<usize> {
         let vertex = ends[0] as usize;
         let [from, to] = [self.first[vertex], self.first[vertex + 1]].map(|edge| edge as usize);
         let of_vertex = &self.mesh.edges.vertices[from..to];
@@ -66,7 +66,7 @@ impl<'a> SurfaceTracer<'a> {
     }
 
     /// The face across an edge, if the edge has two consistently wound faces.
-    pub fn opposite_face(&self, edge: usize, face: u32) -> Option<u32> {
+    pub(crate) fn opposite_face(&self, edge: usize, face: u32) -> Option<u32> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
             _ => None,
@@ -75,7 +75,7 @@ impl<'a> SurfaceTracer<'a> {
 
     /// An edge and its two faces. `None` at borders, between inconsistently wound faces, and at faces without
     /// area.
-    pub fn bend(&self, edge: usize) -> Option<(BentEdge, [u32; 2])> {
+    pub(crate) fn bend(&self, edge: usize) -> Option<(BentEdge, [u32; 2])> {
         let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
         if same_way || faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) {
             return None;
@@ -87,7 +87,7 @@ impl<'a> SurfaceTracer<'a> {
     /// The edges crossed by a trace that starts at the middle of `edge`, enters `face`, and stays in the
     /// plane perpendicular to the edge. The trace ends where the surface ends. An item is `None` where the
     /// trace cannot be continued reliably, and the trace ends there too.
-    pub fn crossings(&self, edge: usize, face: u32) -> Take<TraceCrossings<'_>> {
+    pub(crate) fn crossings(&self, edge: usize, face: u32) -> Take<TraceCrossings<'_>> {
         let entry = self.mesh.edges.vertices[edge];
         let [from, to] = entry.map(|v| self.mesh.positions[v as usize]);
         TraceCrossings { walk: self, middle: (from + to) / 2.0, along: to - from, entry, face: Some(face) }
@@ -95,7 +95,7 @@ impl<'a> SurfaceTracer<'a> {
     }
 
     /// Whether an edge is convex, seen from the front of its faces.
-    pub fn is_convex(&self, edge: usize) -> Option<bool> {
+    pub(crate) fn is_convex(&self, edge: usize) -> Option<bool> {
         let mesh = self.mesh;
         let EdgeFaces::Two { faces: [a, b], same_way: false } = mesh.edges.faces(edge) else { return None };
         let ends = mesh.edges.vertices[edge];

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{Source, sources};
-use crate::support::imports::{File, import_cycles, import_graph};
+use crate::library::support::imports::{File, import_cycles, import_graph};
 
 /// The areas from the ground up. An area may use itself and the areas before it.
 const AREAS: [&str; 31] = [

@@ -3,7 +3,7 @@
 //! `docs/dev/style-guide.md` explains the rules.
 
 use super::{Source, sources, sources_in};
-use crate::support::plain_words::{self, TextStatistics};
+use crate::library::support::plain_words::{self, TextStatistics};
 
 /// Module names that state neither a product nor an algorithm.
 const EMPTY_MODULE_NAMES: [&str; 40] = [

@@ -10,8 +10,8 @@ use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene, UpAxis};
 
 use super::line_picture::SegmentGrid;
-use crate::support::references::contour_stops::build_view_map;
-use crate::support::references::textbook_camera::TextbookCamera;
+use crate::library::support::references::contour_stops::build_view_map;
+use crate::library::support::references::textbook_camera::TextbookCamera;
 
 /// Maximum distance of a drawn line from its surface line due to smoothing, simplifying and fitting, px.
 const LINE_PRECISION_PX: f64 = 0.25;
@@ -22,7 +22,7 @@ const MIN_POP_LENGTH_PX: f64 = 5.0;
 
 /// Line length of two drawings, and how much of it each finds in the other.
 #[derive(Debug, Clone, Default)]
-pub struct Stability {
+pub(crate) struct Stability {
     /// Total length of the lines of both drawings, px.
     pub length: f64,
     /// Length within the tolerance of the other drawing, px: twice the image motion of the surface point,
@@ -34,7 +34,7 @@ pub struct Stability {
 
 /// A line that occurs in one drawing only, or that jumps.
 #[derive(Debug, Clone, Copy)]
-pub struct PoppingLine {
+pub(crate) struct PoppingLine {
     pub kind: LineKind,
     /// Lost length and total length, px.
     pub lost_length: f64,
@@ -56,11 +56,11 @@ impl std::fmt::Display for PoppingLine {
 
 impl Stability {
     /// The share of length that stays, percent.
-    pub fn stable_percent(&self) -> f64 {
+    pub(crate) fn stable_percent(&self) -> f64 {
         100.0 * self.stable_length / self.length.max(f64::MIN_POSITIVE)
     }
 
-    pub fn add(&mut self, other: Self) {
+    pub(crate) fn add(&mut self, other: Self) {
         self.length += other.length;
         self.stable_length += other.stable_length;
         self.pops.extend(other.pops);
@@ -68,7 +68,7 @@ impl Stability {
 }
 
 /// The camera turned about the vertical axis through its target.
-pub fn turn_camera(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
+pub(crate) fn turn_camera(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
     let up = if scene.up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
     let turn = DAffine3::from_axis_angle(up, degrees.to_radians());
     let eye = camera.target + turn.transform_vector3(camera.eye - camera.target);
@@ -76,7 +76,7 @@ pub fn turn_camera(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
 }
 
 /// Compares the default drawings from two cameras.
-pub fn compare_cameras(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) -> Stability {
+pub(crate) fn compare_cameras(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) -> Stability {
     let drawings = cameras.map(|camera| {
         let map = build_view_map(surface, camera, options);
         let mut chains = chains::link(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
@@ -118,7 +118,7 @@ pub fn compare_cameras(surface: &Surface, options: &LineOptions, cameras: [&Came
 }
 
 /// The surface of a scene for `options`.
-pub fn prepare_surface(scene: &Scene, options: &LineOptions) -> Surface {
+pub(crate) fn prepare_surface(scene: &Scene, options: &LineOptions) -> Surface {
     Surface::new(Mesh::build(scene.to_soup()), options)
 }
 

@@ -8,10 +8,10 @@
 //! 4. [`canonical_checks`]: equality of SVG texts and of pictures.
 //! 5. [`camera_turns`]: stability of lines between two cameras.
 
-pub mod camera_turns;
-pub mod canonical_checks;
-pub mod line_picture;
-pub mod plain_fills;
-pub mod polygon_cover;
-pub mod segment_sets;
-pub mod stroke_marks;
+pub(crate) mod camera_turns;
+pub(crate) mod canonical_checks;
+pub(crate) mod line_picture;
+pub(crate) mod plain_fills;
+pub(crate) mod polygon_cover;
+pub(crate) mod segment_sets;
+pub(crate) mod stroke_marks;

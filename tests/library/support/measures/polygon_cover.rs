@@ -11,7 +11,7 @@ use ligne::regions::{HatchRegions, SurfaceLabel};
 /// Hatch regions whose cells are polygons, given as facet number and corners.
 ///
 /// Polygons turn from x to y; adjacent ones share their corners. Cell 0 is the paper.
-pub fn polygon_regions(polygons: &[(u32, Vec<Point>)]) -> HatchRegions {
+pub(crate) fn polygon_regions(polygons: &[(u32, Vec<Point>)]) -> HatchRegions {
     let look = |bin: usize| SurfaceLabel {
         part: PartId(0),
         material: MaterialId(0),
@@ -47,12 +47,12 @@ pub fn polygon_regions(polygons: &[(u32, Vec<Point>)]) -> HatchRegions {
 }
 
 /// The corners of a square.
-pub fn square(x: f64, y: f64, side: f64) -> Vec<Point> {
+pub(crate) fn square(x: f64, y: f64, side: f64) -> Vec<Point> {
     [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(a, b)| Point::new(x + a, y + b)).to_vec()
 }
 
 /// Ink coverage of the pixels of a page square, 0 to 1, row by row, at eight pixels per unit.
-pub fn pixel_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
+pub(crate) fn pixel_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
     const PIXELS_PER_UNIT: f64 = 8.0;
     let size = (side * PIXELS_PER_UNIT) as u32;
     let mut pixels = tiny_skia::Pixmap::new(size, size).expect("a picture");
@@ -81,7 +81,7 @@ pub fn pixel_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64>
 }
 
 /// The share of a page square that paths cover.
-pub fn mean_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> f64 {
+pub(crate) fn mean_coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> f64 {
     let pixels = pixel_coverage(paths, x, y, side);
     pixels.iter().sum::<f64>() / pixels.len() as f64
 }

@@ -3,29 +3,29 @@
 use kurbo::Point;
 
 /// Total length.
-pub fn total_length(segments: &[[Point; 2]]) -> f64 {
+pub(crate) fn total_length(segments: &[[Point; 2]]) -> f64 {
     segments.iter().map(|[a, b]| distance(*a, *b)).sum()
 }
 
-pub fn distance(a: Point, b: Point) -> f64 {
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
     (b - a).hypot2().sqrt()
 }
 
 /// Length of `segments` that no segment of `by` covers within `nearness`.
-pub fn uncovered_length(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
+pub(crate) fn uncovered_length(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
     let others: Vec<&[Point; 2]> = by.iter().collect();
     segments.iter().map(|s| segment_length(*s) - covered_length(*s, &others, nearness)).sum()
 }
 
 /// Length that is covered more than once.
-pub fn doubled_length(segments: &[[Point; 2]], nearness: f64) -> f64 {
+pub(crate) fn doubled_length(segments: &[[Point; 2]], nearness: f64) -> f64 {
     (0..segments.len())
         .map(|i| covered_length(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
         .sum()
 }
 
 /// Fails if either set covers more than `slack` of length that the other does not.
-pub fn check_equal_cover(
+pub(crate) fn check_equal_cover(
     one: &[[Point; 2]],
     other: &[[Point; 2]],
     nearness: f64,

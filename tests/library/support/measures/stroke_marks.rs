@@ -1,9 +1,9 @@
 //! Chains made of points, the marks that a style paints for them, and measures of these marks.
 
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Shape};
+use libm::{cos, sin};
 use ligne::chains::{Chain, Sample};
 use ligne::drawing::{Mark, OutlinePaint, Paint, Unit};
-use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::LineKind;
 use ligne::mesh::{MaterialId, PartId};
 use ligne::strokes::{InkContext, ink};
@@ -12,14 +12,14 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The ink style with pens of 4 px and overrides.
-pub fn ink_style(sets: &[&str]) -> Style {
+pub(crate) fn ink_style(sets: &[&str]) -> Style {
     let plain = ["pen.contour.width=4", "pen.silhouette.width=4", "pen.width=4"];
     let sets: Vec<String> = plain.iter().chain(sets).map(|set| (*set).to_owned()).collect();
-    Style::load("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
+    Style::load_with("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A polyline as a chain whose depth runs linearly from the first to the second number.
-pub fn polyline_chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
+pub(crate) fn polyline_chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     let points: Vec<Point> = points.iter().map(|p| Point::from(*p)).collect();
     let closed = points.len() > 2 && points.first() == points.last();
     let mut path = BezPath::new();
@@ -55,7 +55,7 @@ pub fn polyline_chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
 }
 
 /// A circle of 720 sides, turning from x to y, with an exact path.
-pub fn circle_chain(radius: f64) -> Chain {
+pub(crate) fn circle_chain(radius: f64) -> Chain {
     let at = |i: u32| {
         let angle = TAU * f64::from(i % 720) / 720.0;
         (200.0 + radius * cos(angle), 200.0 + radius * sin(angle))
@@ -66,7 +66,7 @@ pub fn circle_chain(radius: f64) -> Chain {
 }
 
 /// The ink context of a drawing without a scene.
-pub fn ink_context(style: &Style) -> InkContext<'static> {
+pub(crate) fn ink_context(style: &Style) -> InkContext<'static> {
     InkContext {
         unit: Unit::Px,
         parts: &[],
@@ -83,12 +83,12 @@ pub fn ink_context(style: &Style) -> InkContext<'static> {
 }
 
 /// The marks that a style paints for chains.
-pub fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
+pub(crate) fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
     ink(chains, &ink_context(style), &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
 }
 
 /// The outline paint of a mark of varying width.
-pub fn outline_paint(mark: &Mark) -> &OutlinePaint {
+pub(crate) fn outline_paint(mark: &Mark) -> &OutlinePaint {
     match &mark.paint {
         Paint::Outline(outline) => outline,
         _ => panic!("not a line of varying width: {mark:?}"),
@@ -96,7 +96,7 @@ pub fn outline_paint(mark: &Mark) -> &OutlinePaint {
 }
 
 /// The centre line of a mark.
-pub fn centre_line(mark: &Mark) -> &BezPath {
+pub(crate) fn centre_line(mark: &Mark) -> &BezPath {
     match &mark.paint {
         Paint::Outline(outline) => &outline.axis,
         _ => &mark.path,
@@ -104,7 +104,7 @@ pub fn centre_line(mark: &Mark) -> &BezPath {
 }
 
 /// Vertical extent of an outline at `x`, around the point (`x`, `y`) inside it.
-pub fn width_at(mark: &Mark, x: f64, y: f64) -> f64 {
+pub(crate) fn width_at(mark: &Mark, x: f64, y: f64) -> f64 {
     let inside = |y: f64| mark.path.winding(Point::new(x, y)) != 0;
     assert!(inside(y), "no ink at {x}, {y}");
     let edge = |sign: f64| {
@@ -119,7 +119,7 @@ pub fn width_at(mark: &Mark, x: f64, y: f64) -> f64 {
 }
 
 /// Points on a path, at most about `step` apart.
-pub fn sample_path(path: &BezPath, step: f64) -> Vec<Point> {
+pub(crate) fn sample_path(path: &BezPath, step: f64) -> Vec<Point> {
     let mut places = Vec::new();
     for segment in path.segments() {
         let count = (kurbo::ParamCurveArclen::arclen(&segment, 1e-3) / step).ceil().max(1.0) as usize;
@@ -129,10 +129,10 @@ pub fn sample_path(path: &BezPath, step: f64) -> Vec<Point> {
 }
 
 /// The distance from a point to a path.
-pub fn path_distance(path: &BezPath, p: Point) -> f64 {
+pub(crate) fn path_distance(path: &BezPath, p: Point) -> f64 {
     path.segments().map(|s| s.nearest(p, 1e-6).distance_sq).fold(f64::INFINITY, f64::min).sqrt()
 }
 
-pub fn path_length(path: &BezPath) -> f64 {
+pub(crate) fn path_length(path: &BezPath) -> f64 {
     path.segments().map(|s| kurbo::ParamCurveArclen::arclen(&s, 1e-3)).sum()
 }

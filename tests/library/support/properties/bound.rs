@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use kurbo::Point;
 
 use super::picture::{LineKey, Picture};
-use crate::support::measures::segment_sets::{total_length, uncovered_length};
+use crate::library::support::measures::segment_sets::{total_length, uncovered_length};
 
 /// How lines are grouped before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum GroupBy {
+pub(crate) enum GroupBy {
     Class,
     ClassAndPart,
 }
 
 /// A bound on the difference between two pictures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
+pub(crate) enum Bound {
     /// All bytes are equal.
     Bytes,
     /// Visible lines agree within `nearness` px, except for `slack` px plus a `share` of their length.
@@ -30,20 +30,20 @@ pub enum Bound {
 }
 
 impl Bound {
-    pub const fn by_class(nearness: f64, slack: f64) -> Self {
+    pub(crate) const fn by_class(nearness: f64, slack: f64) -> Self {
         Self::by_class_with_share(nearness, slack, 0.0)
     }
 
-    pub const fn by_class_with_share(nearness: f64, slack: f64, share: f64) -> Self {
+    pub(crate) const fn by_class_with_share(nearness: f64, slack: f64, share: f64) -> Self {
         Self::Lines { by: GroupBy::Class, nearness, slack, share }
     }
 
-    pub const fn by_class_and_part(nearness: f64, slack: f64) -> Self {
+    pub(crate) const fn by_class_and_part(nearness: f64, slack: f64) -> Self {
         Self::Lines { by: GroupBy::ClassAndPart, nearness, slack, share: 0.0 }
     }
 
     /// Fails with the difference, or if there is nothing to compare.
-    pub fn check(self, one: &Picture, other: &Picture) -> Result<(), String> {
+    pub(crate) fn check(self, one: &Picture, other: &Picture) -> Result<(), String> {
         match self {
             Self::Bytes => check_bytes(one.bytes(), other.bytes()),
             Self::Lines { by, nearness, slack, share } => {

@@ -6,11 +6,11 @@ use ligne::scene::Scene;
 use super::numbering::{renumbered, with_faces_reversed, with_parts_shuffled};
 use super::shape::{transformed, with_faces_split, with_hidden_objects};
 use super::subject::Subject;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// A change to a scene and its camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Change {
+pub(crate) enum Change {
     /// Scene and camera are scaled and moved, and rotated randomly if `turned`.
     Moved { turned: bool, scale: f64, by: DVec3 },
     /// Vertices, faces and wires are renumbered, and the corners of triangles are rotated.
@@ -35,7 +35,7 @@ pub enum Change {
 
 /// Faces whose winding is reversed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ReversedFaces {
+pub(crate) enum ReversedFaces {
     All,
     OfEveryOtherGeometry,
     Random,
@@ -43,7 +43,7 @@ pub enum ReversedFaces {
 
 /// The property that a change tests; there is one test per property.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Property {
+pub(crate) enum Property {
     /// Invariance under similarity transforms of scene and camera.
     SimilarityTransform,
     /// Invariance under renumbering of vertices and faces, also combined with a new order of parts.
@@ -62,22 +62,23 @@ pub enum Property {
 
 impl Change {
     /// A random rotation and a translation.
-    pub const RIGID_MOTION: Self = Self::Moved { turned: true, scale: 1.0, by: DVec3::new(3.0, -2.0, 7.0) };
+    pub(crate) const RIGID_MOTION: Self =
+        Self::Moved { turned: true, scale: 1.0, by: DVec3::new(3.0, -2.0, 7.0) };
     /// A translation so far that coordinates lose digits.
-    pub const FAR_TRANSLATION: Self =
+    pub(crate) const FAR_TRANSLATION: Self =
         Self::Moved { turned: false, scale: 1.0, by: DVec3::new(1e6, -1e6, 1e6) };
 
     /// A uniform scaling.
-    pub const fn scaled(scale: f64) -> Self {
+    pub(crate) const fn scaled(scale: f64) -> Self {
         Self::Moved { turned: false, scale, by: DVec3::ZERO }
     }
 
     /// A random rotation and a uniform scaling.
-    pub const fn turned_and_scaled(scale: f64) -> Self {
+    pub(crate) const fn turned_and_scaled(scale: f64) -> Self {
         Self::Moved { turned: true, scale, by: DVec3::ZERO }
     }
 
-    pub fn property(self) -> Property {
+    pub(crate) fn property(self) -> Property {
         match self {
             Self::Moved { .. } | Self::Grown => Property::SimilarityTransform,
             Self::Renumbered | Self::AllShuffled => Property::Numbering,
@@ -90,7 +91,7 @@ impl Change {
     }
 
     /// The subject after the change.
-    pub fn apply(self, subject: &Subject, dice: &mut Dice) -> Subject {
+    pub(crate) fn apply(self, subject: &Subject, dice: &mut Dice) -> Subject {
         let scene = &subject.scene;
         let with = |scene: Scene| Subject { scene, ..subject.clone() };
         match self {
@@ -123,7 +124,7 @@ impl Change {
     }
 
     /// The number of threads to draw with; `None` if it does not matter.
-    pub fn threads(self) -> Option<usize> {
+    pub(crate) fn threads(self) -> Option<usize> {
         if let Self::Threads(count) = self { Some(count) } else { None }
     }
 }

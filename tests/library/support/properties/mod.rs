@@ -11,15 +11,15 @@
 //! 4. [`bound`]: how closely two pictures must agree.
 //! 5. [`table`]: the rows.
 
-pub mod bound;
-pub mod change;
-pub mod numbering;
-pub mod option_set;
-pub mod picture;
+pub(crate) mod bound;
+pub(crate) mod change;
+pub(crate) mod numbering;
+pub(crate) mod option_set;
+pub(crate) mod picture;
 mod shape;
 mod sheets;
-pub mod subject;
-pub mod table;
+pub(crate) mod subject;
+pub(crate) mod table;
 
 use rayon::prelude::*;
 
@@ -28,10 +28,10 @@ use self::change::{Change, Property};
 use self::option_set::OptionSet;
 use self::picture::Picture;
 use self::subject::Subject;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// A row of the table: every subject is drawn in every way, before and after each change.
-pub struct InvarianceRow {
+pub(crate) struct InvarianceRow {
     pub options: &'static [OptionSet],
     pub subjects: fn() -> Vec<Subject>,
     pub unchanged_by: &'static [(Change, &'static [Bound])],
@@ -40,7 +40,7 @@ pub struct InvarianceRow {
 }
 
 /// A subject, a way to draw it, and the changes to test.
-pub struct InvarianceJob {
+pub(crate) struct InvarianceJob {
     pub options: OptionSet,
     pub subject: Subject,
     pub changes: Vec<(Change, &'static [Bound])>,
@@ -51,7 +51,7 @@ pub struct InvarianceJob {
 
 impl InvarianceJob {
     /// A message for each bound that is violated.
-    pub fn violations(&self) -> Vec<String> {
+    pub(crate) fn violations(&self) -> Vec<String> {
         let name = format!("{}, {}", self.subject.name, self.options.name);
         // Changes of the number of threads are compared with a drawing on two threads.
         let threads = self.changes.iter().find_map(|(change, _)| change.threads()).map(|_| 2);
@@ -109,7 +109,7 @@ fn jobs(rows: &[InvarianceRow], property: Property) -> Vec<InvarianceJob> {
 }
 
 /// Fails with a message for each drawing that violates a bound under a change of the given property.
-pub fn assert_property(rows: &[InvarianceRow], property: Property) {
+pub(crate) fn assert_property(rows: &[InvarianceRow], property: Property) {
     let is_asked =
         |row: &InvarianceRow| row.unchanged_by.iter().any(|(change, _)| change.property() == property);
     assert!(rows.iter().any(is_asked), "nothing is said of {property:?}");

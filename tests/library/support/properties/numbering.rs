@@ -2,7 +2,7 @@
 
 use ligne::scene::{Geometry, Scene};
 
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// The items in another order: item `order[k]` moves to position k.
 fn permuted<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {
@@ -68,18 +68,18 @@ fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
 }
 
 /// The scene with each geometry renumbered.
-pub fn renumbered(scene: &Scene, dice: &mut Dice) -> Scene {
+pub(crate) fn renumbered(scene: &Scene, dice: &mut Dice) -> Scene {
     let geometries = scene.geometries.iter().map(|geometry| renumbered_geometry(geometry, dice)).collect();
     Scene { geometries, ..scene.clone() }
 }
 
 /// The scene with its parts shuffled.
-pub fn with_parts_shuffled(scene: &Scene, dice: &mut Dice) -> Scene {
+pub(crate) fn with_parts_shuffled(scene: &Scene, dice: &mut Dice) -> Scene {
     Scene { parts: dice.shuffled(scene.parts.clone()), ..scene.clone() }
 }
 
 /// An OBJ text with its vertices shuffled, and the faces of each object shuffled.
-pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
+pub(crate) fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
     let vertices: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
     let order = random_permutation(dice, vertices.len());
     let new_id = inverse_permutation(&order);
@@ -104,7 +104,7 @@ pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
 }
 
 /// The scene with the winding of some faces reversed; `is_turned` gets the geometry index for each face.
-pub fn with_faces_reversed(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
+pub(crate) fn with_faces_reversed(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
     let mut scene = scene.clone();
     for (shape, geometry) in scene.geometries.iter_mut().enumerate() {
         for face in 0..geometry.triangles.len() {

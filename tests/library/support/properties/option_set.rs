@@ -6,11 +6,11 @@ use ligne::style::Style;
 
 use super::picture::Picture;
 use super::subject::Subject;
-use crate::support::pipeline::run_stages;
+use crate::library::support::pipeline::run_stages;
 
 /// A way to draw.
 #[derive(Debug, Clone, Copy)]
-pub struct OptionSet {
+pub(crate) struct OptionSet {
     pub name: &'static str,
     from: DrawingSource,
 }
@@ -32,40 +32,42 @@ const fn with_overrides(name: &'static str, style: &'static str, sets: &'static 
 }
 
 /// The exact lines of a polyhedron.
-pub const EXACT_LINES: OptionSet =
+pub(crate) const EXACT_LINES: OptionSet =
     OptionSet { name: "lines of the mesh", from: DrawingSource::Lines(Contours::Mesh) };
-pub const SMOOTH_LINES: OptionSet =
+pub(crate) const SMOOTH_LINES: OptionSet =
     OptionSet { name: "smooth lines", from: DrawingSource::Lines(Contours::Smooth) };
 
-pub const INK: OptionSet = built_in("ink");
-pub const INK_MESH: OptionSet =
+pub(crate) const INK: OptionSet = built_in("ink");
+pub(crate) const INK_MESH: OptionSet =
     with_overrides("ink, contours along the mesh", "ink", &["lines.contours=mesh"]);
-pub const INK_SMOOTH: OptionSet = with_overrides("ink, smooth contours", "ink", &["lines.contours=smooth"]);
-pub const INK_FROM_IMAGE: OptionSet = with_overrides("ink found in the image", "ink", &["lines.source=both"]);
-pub const TECHNICAL: OptionSet = built_in("technical");
-pub const TOON: OptionSet = built_in("toon");
-pub const GOOCH: OptionSet = built_in("gooch");
-pub const COMIC: OptionSet = built_in("comic");
-pub const PENCIL: OptionSet = built_in("pencil");
-pub const PENCIL_OBJECT: OptionSet = built_in("pencil-object");
-pub const PEN: OptionSet = built_in("pen");
-pub const SUGGESTIVE: OptionSet = built_in("suggestive");
-pub const ENGRAVING: OptionSet = built_in("engraving");
-pub const STIPPLE: OptionSet = built_in("stipple");
+pub(crate) const INK_SMOOTH: OptionSet =
+    with_overrides("ink, smooth contours", "ink", &["lines.contours=smooth"]);
+pub(crate) const INK_FROM_IMAGE: OptionSet =
+    with_overrides("ink found in the image", "ink", &["lines.source=both"]);
+pub(crate) const TECHNICAL: OptionSet = built_in("technical");
+pub(crate) const TOON: OptionSet = built_in("toon");
+pub(crate) const GOOCH: OptionSet = built_in("gooch");
+pub(crate) const COMIC: OptionSet = built_in("comic");
+pub(crate) const PENCIL: OptionSet = built_in("pencil");
+pub(crate) const PENCIL_OBJECT: OptionSet = built_in("pencil-object");
+pub(crate) const PEN: OptionSet = built_in("pen");
+pub(crate) const SUGGESTIVE: OptionSet = built_in("suggestive");
+pub(crate) const ENGRAVING: OptionSet = built_in("engraving");
+pub(crate) const STIPPLE: OptionSet = built_in("stipple");
 
-pub const RIDGES: OptionSet = with_overrides(
+pub(crate) const RIDGES: OptionSet = with_overrides(
     "ridges and valleys",
     "ink",
     &["lines.kinds=[\"contour\", \"crease\", \"ridge\", \"valley\", \"suggestive\"]"],
 );
-pub const APPARENT: OptionSet = with_overrides(
+pub(crate) const APPARENT: OptionSet = with_overrides(
     "apparent ridges",
     "ink",
     &["lines.kinds=[\"contour\", \"ridge\", \"valley\"]", "lines.inside.apparent=true"],
 );
 
 /// All built-in styles.
-pub const BUILT_IN: [OptionSet; 24] = [
+pub(crate) const BUILT_IN: [OptionSet; 24] = [
     built_in("blueprint"),
     built_in("comic-flats"),
     COMIC,
@@ -93,7 +95,7 @@ pub const BUILT_IN: [OptionSet; 24] = [
 ];
 
 /// Overrides for all hand-drawn effects at once, plus varying widths, halos and fills.
-pub const HAND_DRAWN_OVERRIDES: [&str; 15] = [
+pub(crate) const HAND_DRAWN_OVERRIDES: [&str; 15] = [
     "pen.contour.width=4",
     "pen.silhouette.width=4",
     "pen.width=4",
@@ -110,10 +112,10 @@ pub const HAND_DRAWN_OVERRIDES: [&str; 15] = [
     "fills.enabled=true",
     "lines.crease_deg=30",
 ];
-pub const HAND_DRAWN_INK: OptionSet = with_overrides("ink by a hand", "ink", &HAND_DRAWN_OVERRIDES);
+pub(crate) const HAND_DRAWN_INK: OptionSet = with_overrides("ink by a hand", "ink", &HAND_DRAWN_OVERRIDES);
 
 impl OptionSet {
-    pub fn draw(&self, subject: &Subject) -> Picture {
+    pub(crate) fn draw(&self, subject: &Subject) -> Picture {
         let Subject { scene, camera, .. } = subject;
         match self.from {
             DrawingSource::Lines(contours) => {
@@ -122,7 +124,7 @@ impl OptionSet {
             }
             DrawingSource::BuiltInStyle(name, sets) => {
                 let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-                let style = Style::load(name, &sets).unwrap_or_else(|error| panic!("{error}"));
+                let style = Style::load_with(name, &sets).unwrap_or_else(|error| panic!("{error}"));
                 Picture::of_drawing(render(scene, camera, &style).unwrap())
             }
         }

@@ -7,14 +7,14 @@ use kurbo::{ParamCurveArclen, Point, Shape};
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 use ligne::export::SvgOptions;
 
-use crate::support::pipeline::Stages;
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::pipeline::Stages;
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
 
 /// The class of a line and the name of its part; either is empty if it does not count.
-pub type LineKey = (String, String);
+pub(crate) type LineKey = (String, String);
 
 /// The result of a drawing.
-pub struct Picture {
+pub(crate) struct Picture {
     /// Visible lines as short segments, by class and part.
     pub lines: BTreeMap<LineKey, Vec<[Point; 2]>>,
     drawing: Option<Drawing>,
@@ -27,7 +27,7 @@ fn mark_key(mark: &Mark) -> LineKey {
 }
 
 impl Picture {
-    pub fn of_stages(stages: &Stages) -> Self {
+    pub(crate) fn of_stages(stages: &Stages) -> Self {
         let mut lines: BTreeMap<LineKey, Vec<[Point; 2]>> = BTreeMap::new();
         for edge in stages.map.edges.iter().filter(|edge| edge.invisibility == 0) {
             let class = format!("{:?}", edge.kind);
@@ -36,7 +36,7 @@ impl Picture {
         Self { lines, drawing: None, bytes: OnceLock::new() }
     }
 
-    pub fn of_drawing(drawing: Drawing) -> Self {
+    pub(crate) fn of_drawing(drawing: Drawing) -> Self {
         let mut lines: BTreeMap<LineKey, Vec<[Point; 2]>> = BTreeMap::new();
         for mark in visible_line_marks(&drawing) {
             lines.entry(mark_key(mark)).or_default().extend(centre_line(mark));
@@ -45,7 +45,7 @@ impl Picture {
     }
 
     /// The whole result as text, with enough digits that rounding hides no difference.
-    pub fn bytes(&self) -> &str {
+    pub(crate) fn bytes(&self) -> &str {
         self.bytes.get_or_init(|| match &self.drawing {
             Some(drawing) => drawing.to_svg(&SvgOptions::default().with_precision(8)),
             None => format!("{:?}", self.lines),
@@ -58,7 +58,7 @@ impl Picture {
     }
 
     /// The length of intersection lines per part, in hundredths of a px.
-    pub fn intersection_lengths(&self) -> BTreeMap<String, i64> {
+    pub(crate) fn intersection_lengths(&self) -> BTreeMap<String, i64> {
         let mut owned: BTreeMap<String, f64> = BTreeMap::new();
         let lines = self.marks(LayerKind::Lines).chain(self.marks(LayerKind::HiddenLines));
         for mark in lines.filter(|mark| mark.provenance.classes.first() == Some(&"intersection")) {
@@ -69,7 +69,7 @@ impl Picture {
     }
 
     /// The filled area by colour and part, px².
-    pub fn fill_areas(&self) -> BTreeMap<LineKey, f64> {
+    pub(crate) fn fill_areas(&self) -> BTreeMap<LineKey, f64> {
         let mut areas: BTreeMap<LineKey, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Fills).chain(self.marks(LayerKind::Shadows)) {
             if let Paint::Fill(colour) = &mark.paint {
@@ -81,7 +81,7 @@ impl Picture {
     }
 
     /// The length of hatching strokes per part, px.
-    pub fn hatching_lengths(&self) -> BTreeMap<LineKey, f64> {
+    pub(crate) fn hatching_lengths(&self) -> BTreeMap<LineKey, f64> {
         let mut strokes: BTreeMap<LineKey, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Hatching) {
             let length = centre_line(mark).iter().map(|[a, b]| (*b - *a).hypot()).sum::<f64>();

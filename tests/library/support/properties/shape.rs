@@ -4,10 +4,10 @@ use glam::{DAffine3, DMat3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 
 use super::subject::Subject;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Scene and camera, rotated, scaled and moved together.
-pub fn transformed(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
+pub(crate) fn transformed(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
     let Subject { scene, camera, .. } = subject;
     assert!(scene.lights.is_empty(), "lights would have to move as well");
     let place = |p: DVec3| turn * p * scale + by;
@@ -32,7 +32,7 @@ pub fn transformed(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Sub
 }
 
 /// The scene with each face split into three at a random point inside.
-pub fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
+pub(crate) fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
     let mut split = scene.clone();
     for geometry in &mut split.geometries {
         let of_faces = geometry.triangle_material.len() + geometry.edge_marks.len();
@@ -52,7 +52,7 @@ pub fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
 }
 
 /// The scene with the subject's hideable objects added in its first hidden boxes.
-pub fn with_hidden_objects(subject: &Subject, boxes: usize, dice: &mut Dice) -> Scene {
+pub(crate) fn with_hidden_objects(subject: &Subject, boxes: usize, dice: &mut Dice) -> Scene {
     let mut scene = subject.scene.clone();
     let is_room = (1..=subject.hidden_boxes.len()).contains(&boxes) && !subject.hideable.is_empty();
     assert!(is_room, "{} hides nothing there", subject.name);

@@ -8,7 +8,7 @@ use ligne::mesh::EdgeMark;
 use ligne::scene::{Geometry, Material, Part, Scene};
 
 /// Two instances of the sheet side by side.
-pub fn two_sheets() -> Scene {
+pub(crate) fn two_sheets() -> Scene {
     let materials = ["front", "back"].map(|name| Material { name: name.into(), ..Default::default() });
     let place = |k: usize| Part {
         name: format!("sheet {k}"),

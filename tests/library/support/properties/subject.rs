@@ -6,17 +6,19 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Scene};
 
-use crate::support::pipeline::{orthographic, perspective, scene, solid_geometry};
-use crate::support::readers::shared_folder;
-use crate::support::scenes::hard_scenes::{HARD_SCENE_KINDS, camera_from_any_side, hard_scene, hard_solids};
-use crate::support::scenes::random_dice::Dice;
-use crate::support::scenes::random_scenes::{random_camera, random_scene};
-use crate::support::scenes::round_solids::{icosphere, saddle};
-use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
+use crate::library::support::pipeline::{orthographic, perspective, scene, solid_geometry};
+use crate::library::support::readers::shared_folder;
+use crate::library::support::scenes::hard_scenes::{
+    HARD_SCENE_KINDS, camera_from_any_side, hard_scene, hard_solids,
+};
+use crate::library::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_scenes::{random_camera, random_scene};
+use crate::library::support::scenes::round_solids::{icosphere, saddle};
+use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 
 /// A scene and its camera.
 #[derive(Debug, Clone)]
-pub struct Subject {
+pub(crate) struct Subject {
     pub name: String,
     pub scene: Scene,
     pub camera: Camera,
@@ -27,12 +29,12 @@ pub struct Subject {
 }
 
 impl Subject {
-    pub fn new(name: impl Into<String>, scene: Scene, camera: Camera) -> Self {
+    pub(crate) fn new(name: impl Into<String>, scene: Scene, camera: Camera) -> Self {
         Self { name: name.into(), scene, camera, hidden_boxes: Vec::new(), hideable: Vec::new() }
     }
 
     /// A scene from the default view, in a square frame with sides of `side` px.
-    pub fn framed(name: impl Into<String>, scene: Scene, side: f64) -> Self {
+    pub(crate) fn framed(name: impl Into<String>, scene: Scene, side: f64) -> Self {
         let mut camera = Camera::three_quarter_of(scene.up);
         (camera.width, camera.height) = (side, side);
         let camera = camera.fit(&scene);
@@ -41,7 +43,7 @@ impl Subject {
 }
 
 /// One random scene for each kind and each kind of camera.
-pub fn random_subjects(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
+pub(crate) fn random_subjects(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
     let one = |kind: &str, camera: &str| {
         let mut dice = Dice::new(seed);
         let (scene, seen) = (random_scene(kind, &mut dice), random_camera(camera, &mut dice));
@@ -51,7 +53,7 @@ pub fn random_subjects(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subje
 }
 
 /// A random scene of each kind in `HARD_SCENE_KINDS`, for each seed.
-pub fn hard_subjects(seeds: Range<u64>) -> Vec<Subject> {
+pub(crate) fn hard_subjects(seeds: Range<u64>) -> Vec<Subject> {
     let one = |kind: &str, seed: u64| {
         let mut dice = Dice::new(seed);
         let (scene, camera) = (hard_scene(kind, &mut dice), camera_from_any_side(&mut dice));
@@ -61,7 +63,7 @@ pub fn hard_subjects(seeds: Range<u64>) -> Vec<Subject> {
 }
 
 /// Every second subject on a small page, for styles that draw slowly.
-pub fn every_second_on_small_page(subjects: Vec<Subject>) -> Vec<Subject> {
+pub(crate) fn every_second_on_small_page(subjects: Vec<Subject>) -> Vec<Subject> {
     let mut few: Vec<Subject> = subjects.into_iter().step_by(2).collect();
     few.iter_mut().for_each(|few| (few.camera.width, few.camera.height) = (400.0, 400.0));
     few
@@ -70,7 +72,7 @@ pub fn every_second_on_small_page(subjects: Vec<Subject>) -> Vec<Subject> {
 /// The scenes of `HARD_SCENE_KINDS`, shrunk to the right half, with a wall on the left.
 ///
 /// Copies of their parts can be hidden behind the wall, near and far.
-pub fn next_to_wall(seed: u64) -> Vec<Subject> {
+pub(crate) fn next_to_wall(seed: u64) -> Vec<Subject> {
     let one = |kind: &str| {
         let parts = hard_solids(kind, &mut Dice::new(seed));
         let wall = cuboid(DVec3::new(-1.4, -0.8, 0.3), DVec3::new(-0.2, 0.8, 0.4));
@@ -86,7 +88,7 @@ pub fn next_to_wall(seed: u64) -> Vec<Subject> {
 }
 
 /// A closed box with hidden space inside and behind, in perspective and orthographic views.
-pub fn box_shells() -> Vec<Subject> {
+pub(crate) fn box_shells() -> Vec<Subject> {
     let eye = DVec3::new(1.0, 0.5, 9.0);
     let mut dice = Dice::new(14);
     let mut one = |name: &str, camera: Camera| {
@@ -117,18 +119,18 @@ fn round_solids() -> Vec<(&'static str, Solid)> {
 }
 
 /// Rounded solids from the first `cameras` of three cameras.
-pub fn rounded(cameras: usize) -> Vec<Subject> {
+pub(crate) fn rounded(cameras: usize) -> Vec<Subject> {
     round_solids().into_iter().flat_map(|solid| rounded_from_cameras(solid, cameras)).collect()
 }
 
 /// The closed rounded solids, from one camera.
-pub fn rounded_closed() -> Vec<Subject> {
+pub(crate) fn rounded_closed() -> Vec<Subject> {
     let closed = round_solids().into_iter().filter(|(name, _)| !["saddle", "bulging tube"].contains(name));
     closed.flat_map(|solid| rounded_from_cameras(solid, 1)).collect()
 }
 
 /// Open surfaces from one camera that sees both sides.
-pub fn open_surfaces() -> Vec<Subject> {
+pub(crate) fn open_surfaces() -> Vec<Subject> {
     let tubes = round_solids().into_iter().filter(|(name, _)| *name == "bulging tube");
     let uneven = |p: DVec3| p + DVec3::Z * (0.05 * p.x + 0.03 * p.y + (0.1 * p.x + 0.2 * p.y) * p.x * p.x);
     let uneven_saddle = ("uneven saddle", saddle(16).moved(uneven));
@@ -148,7 +150,7 @@ fn rounded_from_cameras((name, solid): (&str, Solid), cameras: usize) -> Vec<Sub
 }
 
 /// Two boxes and a ball, seen along the faces of the boxes and obliquely.
-pub fn along_faces() -> Vec<Subject> {
+pub(crate) fn along_faces() -> Vec<Subject> {
     let all = || {
         [
             cuboid(DVec3::new(-1.5, -0.5, -1.0), DVec3::new(1.5, 0.5, 0.0)),
@@ -168,7 +170,7 @@ pub fn along_faces() -> Vec<Subject> {
 }
 
 /// Flat sheets side by side, some with their back to the camera.
-pub fn upright_sheets() -> Subject {
+pub(crate) fn upright_sheets() -> Subject {
     let sheet = |k: u32| {
         let left = DVec3::X * 1.5 * f64::from(k);
         let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]];
@@ -183,22 +185,22 @@ pub fn upright_sheets() -> Subject {
 }
 
 /// A torus.
-pub fn ring() -> Subject {
+pub(crate) fn ring() -> Subject {
     Subject::framed("a ring", scene([torus(64, 32, 1.0, 0.4)]), 1000.0)
 }
 
-pub fn ring_with_box() -> Subject {
+pub(crate) fn ring_with_box() -> Subject {
     let solids = [torus(40, 20, 1.0, 0.4), cuboid(DVec3::splat(-0.3), DVec3::splat(0.3))];
     Subject::framed("a ring around a box", scene(solids), 400.0)
 }
 
-pub fn ring_with_ball() -> Subject {
+pub(crate) fn ring_with_ball() -> Subject {
     let solids = [torus(96, 48, 1.0, 0.4), sphere(40, 0.5)];
     Subject::framed("a ring around a ball", scene(solids), 1000.0)
 }
 
 /// Intersecting solids, each placed by its part's transform.
-pub fn intersecting_solids() -> Vec<Subject> {
+pub(crate) fn intersecting_solids() -> Vec<Subject> {
     let mut dice = Dice::new(5);
     let one = |round: usize| {
         let mut scene = Scene::default();
@@ -219,7 +221,7 @@ pub fn intersecting_solids() -> Vec<Subject> {
 }
 
 /// Cubes that differ only in position.
-pub fn equal_cubes() -> Subject {
+pub(crate) fn equal_cubes() -> Subject {
     let mut dice = Dice::new(6);
     let cube = |k: usize| Part {
         name: format!("cube {k}"),
@@ -232,17 +234,17 @@ pub fn equal_cubes() -> Subject {
 }
 
 /// The path of an example model.
-pub fn example_path(name: &str) -> PathBuf {
+pub(crate) fn example_path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
 
 /// Example models in a square frame.
-pub fn examples(names: &[&str], side: f64) -> Vec<Subject> {
+pub(crate) fn examples(names: &[&str], side: f64) -> Vec<Subject> {
     names.iter().map(|name| Subject::framed(*name, Scene::open(example_path(name)).unwrap(), side)).collect()
 }
 
 /// Shared models in a square frame; absent ones are left out.
-pub fn shared(names: &[&str], side: f64) -> Vec<Subject> {
+pub(crate) fn shared(names: &[&str], side: f64) -> Vec<Subject> {
     let found = names.iter().filter_map(|name| Some((name, shared_folder::find(name)?)));
     found.map(|(name, path)| Subject::framed(*name, Scene::open(path).unwrap(), side)).collect()
 }

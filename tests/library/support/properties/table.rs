@@ -6,14 +6,14 @@ use super::change::{Change, ReversedFaces};
 use super::option_set::*;
 use super::sheets::two_sheets;
 use super::subject::{self, Subject};
-use crate::support::scenes::random_scenes::ALL_SCENE_KINDS;
+use crate::library::support::scenes::random_scenes::ALL_SCENE_KINDS;
 
 /// Kinds of random scenes that the rows use.
-pub const SCENE_KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
+pub(crate) const SCENE_KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
 /// Kinds of random scenes with flat faces only.
 const FLAT_SCENE_KINDS: [&str; 3] = ["boxes", "tetrahedra", "soup"];
 /// Kinds of random cameras that the rows use.
-pub const CAMERA_KINDS: [&str; 3] = ["perspective", "orthographic", "cutting"];
+pub(crate) const CAMERA_KINDS: [&str; 3] = ["perspective", "orthographic", "cutting"];
 
 /// Ink with mesh contours, with the default contours, and with smooth contours.
 const INKS: [OptionSet; 3] = [INK_MESH, INK, INK_SMOOTH];
@@ -73,7 +73,7 @@ const REORDERED: Changes = &part_orders(&[Bound::Bytes, Bound::IntersectionLengt
 const REORDERED_CUBES: Changes = &part_orders(&[Bound::Bytes, Bound::IntersectionLengths { least: 2 }]);
 
 /// Rows of the default run.
-pub const ROWS: &[InvarianceRow] = &[
+pub(crate) const ROWS: &[InvarianceRow] = &[
     // Bare lines of the view map.
     InvarianceRow {
         options: &[EXACT_LINES],
@@ -345,7 +345,7 @@ pub const ROWS: &[InvarianceRow] = &[
 ///
 /// They include open and twisted surfaces, intersecting, duplicate and degenerate faces, textures, vertex
 /// colours, wires and instances.
-pub const LONG_ROWS: &[InvarianceRow] = &[
+pub(crate) const LONG_ROWS: &[InvarianceRow] = &[
     InvarianceRow {
         options: &STYLES,
         subjects: || {

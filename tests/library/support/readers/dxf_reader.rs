@@ -1,7 +1,7 @@
 //! Reference reader for the entities of DXF files.
 
 /// The group codes and values of a file.
-pub fn group_codes(bytes: &[u8]) -> Vec<(u16, String)> {
+pub(crate) fn group_codes(bytes: &[u8]) -> Vec<(u16, String)> {
     let text = std::str::from_utf8(bytes).expect("text");
     assert!(text.is_ascii());
     let lines: Vec<&str> = text.split_terminator("\r\n").collect();
@@ -10,7 +10,7 @@ pub fn group_codes(bytes: &[u8]) -> Vec<(u16, String)> {
 }
 
 /// An entity with its group codes and values; each vertex of a polyline is a separate entity.
-pub struct Entity {
+pub(crate) struct Entity {
     /// The entity type.
     pub kind: String,
     /// Codes and values.
@@ -19,18 +19,18 @@ pub struct Entity {
 
 impl Entity {
     /// The first value with a group code.
-    pub fn text(&self, code: u16) -> Option<&str> {
+    pub(crate) fn text(&self, code: u16) -> Option<&str> {
         self.pairs.iter().find(|pair| pair.0 == code).map(|pair| pair.1.as_str())
     }
 
     /// The first value with a group code as a number, or 0 without one.
-    pub fn number(&self, code: u16) -> f64 {
+    pub(crate) fn number(&self, code: u16) -> f64 {
         self.text(code).and_then(|text| text.parse().ok()).unwrap_or(0.0)
     }
 }
 
 /// The entities of the ENTITIES section.
-pub fn entities(pairs: &[(u16, String)]) -> Vec<Entity> {
+pub(crate) fn entities(pairs: &[(u16, String)]) -> Vec<Entity> {
     let at = |wanted: (u16, &str), from: usize| {
         from + pairs[from..]
             .iter()

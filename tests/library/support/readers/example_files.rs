@@ -6,26 +6,26 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 /// Coordinates x, y, z.
-pub type Coordinates = [f64; 3];
+pub(crate) type Coordinates = [f64; 3];
 
 /// A part: its name, its points and its triangles.
-pub struct FilePart {
+pub(crate) struct FilePart {
     pub name: String,
     pub points: Vec<Coordinates>,
     pub faces: Vec<[usize; 3]>,
 }
 
 /// The path of an example model.
-pub fn example_path(name: &str) -> PathBuf {
+pub(crate) fn example_path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
 
-pub fn example_bytes(name: &str) -> Vec<u8> {
+pub(crate) fn example_bytes(name: &str) -> Vec<u8> {
     std::fs::read(example_path(name)).unwrap()
 }
 
 /// The objects of an OBJ file, with faces fan-triangulated. Each part holds all points of the file.
-pub fn read_obj(name: &str) -> Vec<FilePart> {
+pub(crate) fn read_obj(name: &str) -> Vec<FilePart> {
     let mut points: Vec<Coordinates> = Vec::new();
     let mut parts: Vec<FilePart> = Vec::new();
     for line in String::from_utf8(example_bytes(name)).unwrap().lines() {
@@ -54,7 +54,7 @@ fn u32_at(bytes: &[u8]) -> usize {
     u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize
 }
 
-pub fn read_stl(name: &str) -> FilePart {
+pub(crate) fn read_stl(name: &str) -> FilePart {
     let bytes = example_bytes(name);
     let count = u32_at(&bytes[80..]);
     assert_eq!(bytes.len(), 84 + 50 * count);
@@ -66,7 +66,7 @@ pub fn read_stl(name: &str) -> FilePart {
     FilePart { name: name.to_owned(), points: corners.collect(), faces }
 }
 
-pub fn read_ply(name: &str) -> FilePart {
+pub(crate) fn read_ply(name: &str) -> FilePart {
     let bytes = example_bytes(name);
     let mark = b"end_header\n";
     let end = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len();
@@ -84,7 +84,7 @@ pub fn read_ply(name: &str) -> FilePart {
 }
 
 /// The part with bitwise equal points merged.
-pub fn weld_points(part: &FilePart) -> FilePart {
+pub(crate) fn weld_points(part: &FilePart) -> FilePart {
     let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     let mut points = Vec::new();
     let ids: Vec<usize> = part
@@ -102,13 +102,13 @@ pub fn weld_points(part: &FilePart) -> FilePart {
 }
 
 /// A GLB file: its JSON document and its binary buffer.
-pub struct Glb {
+pub(crate) struct Glb {
     pub document: Value,
     buffer: Vec<u8>,
 }
 
 impl Glb {
-    pub fn read(name: &str) -> Self {
+    pub(crate) fn read(name: &str) -> Self {
         let bytes = example_bytes(name);
         assert_eq!(&bytes[..4], b"glTF");
         let end = 20 + u32_at(&bytes[12..]);
@@ -116,12 +116,12 @@ impl Glb {
         Self { document, buffer: bytes[end + 8..].to_vec() }
     }
 
-    pub fn list(&self, name: &str) -> &[Value] {
+    pub(crate) fn list(&self, name: &str) -> &[Value] {
         self.document[name].as_array().unwrap()
     }
 
     /// The values of an accessor as slices of `width` bytes.
-    pub fn values(&self, accessor: &Value, width: usize) -> impl Iterator<Item = &[u8]> {
+    pub(crate) fn values(&self, accessor: &Value, width: usize) -> impl Iterator<Item = &[u8]> {
         let accessor = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
         let view = &self.list("bufferViews")[accessor["bufferView"].as_u64().unwrap() as usize];
         assert!(view["byteStride"].is_null(), "values lie close");
@@ -130,11 +130,11 @@ impl Glb {
         self.buffer[start..].chunks_exact(width).take(accessor["count"].as_u64().unwrap() as usize)
     }
 
-    pub fn points(&self, accessor: &Value) -> impl Iterator<Item = Coordinates> {
+    pub(crate) fn points(&self, accessor: &Value) -> impl Iterator<Item = Coordinates> {
         self.values(accessor, 12).map(|point| [0, 4, 8].map(|at| f32_at(&point[at..])))
     }
 
-    pub fn indices(&self, accessor: &Value) -> Vec<usize> {
+    pub(crate) fn indices(&self, accessor: &Value) -> Vec<usize> {
         match self.list("accessors")[accessor.as_u64().unwrap() as usize]["componentType"].as_u64().unwrap() {
             5121 => self.values(accessor, 1).map(|id| usize::from(id[0])).collect(),
             5123 => self.values(accessor, 2).map(|id| usize::from(id[0]) | usize::from(id[1]) << 8).collect(),

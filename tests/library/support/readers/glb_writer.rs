@@ -1,7 +1,7 @@
 //! [`glb`]: writes binary glTF files for tests.
 
 /// A GLB file with a JSON document and a binary chunk, whose length must be a multiple of four.
-pub fn glb(mut json: String, bin: &[u8]) -> Vec<u8> {
+pub(crate) fn glb(mut json: String, bin: &[u8]) -> Vec<u8> {
     while !json.len().is_multiple_of(4) {
         json.push(' ');
     }

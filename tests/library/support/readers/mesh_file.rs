@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::shared_folder;
-use crate::support::scenes::solids::Solid;
+use crate::library::support::scenes::solids::Solid;
 
 /// Reads a shared model by name; `None` if it is absent.
-pub fn read_shared_model(name: &str) -> Option<Solid> {
+pub(crate) fn read_shared_model(name: &str) -> Option<Solid> {
     let bytes = std::fs::read(shared_folder::find(name)?).ok()?;
     let solid = if name.ends_with(".ply") { parse_ply(&bytes) } else { parse_obj(&bytes) };
     Some(weld_vertices(solid))

@@ -7,10 +7,10 @@
 //! 3. [`plain_gltf`]: reads and poses animated glTF files. [`glb_writer`]: writes GLB files.
 //! 4. [`dxf_reader`], [`pdf_reader`]: read the library's exports.
 
-pub mod dxf_reader;
-pub mod example_files;
-pub mod glb_writer;
-pub mod mesh_file;
-pub mod pdf_reader;
-pub mod plain_gltf;
-pub mod shared_folder;
+pub(crate) mod dxf_reader;
+pub(crate) mod example_files;
+pub(crate) mod glb_writer;
+pub(crate) mod mesh_file;
+pub(crate) mod pdf_reader;
+pub(crate) mod plain_gltf;
+pub(crate) mod shared_folder;

@@ -1,7 +1,7 @@
 //! Reference reader for PDF files: content streams, and everything else.
 
 /// The inflated content streams of a PDF file, and the rest of the file with its XMP metadata.
-pub fn split_pdf_streams(pdf: &[u8]) -> (String, String) {
+pub(crate) fn split_pdf_streams(pdf: &[u8]) -> (String, String) {
     let find = |text: &[u8], word: &[u8]| text.windows(word.len()).position(|part| part == word);
     let (mut content, mut rest) = (String::new(), String::new());
     let mut left = pdf;

@@ -6,17 +6,17 @@ use std::path::Path;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DMat4, DVec3};
-use ligne::geometry::numbers::portable_math::{acos, sin};
+use libm::{acos, sin};
 use serde_json::Value;
 
 /// A glTF file: its JSON document and its buffers.
-pub struct ReferenceGltf {
+pub(crate) struct ReferenceGltf {
     json: Value,
     buffers: Vec<Vec<u8>>,
 }
 
 impl ReferenceGltf {
-    pub fn open(path: &Path) -> Self {
+    pub(crate) fn open(path: &Path) -> Self {
         let bytes = std::fs::read(path).unwrap();
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
         let (text, bin) = if bytes.starts_with(b"glTF") {
@@ -160,7 +160,7 @@ impl ReferenceGltf {
     }
 
     /// The value of an animation pointer at a time of a clip.
-    pub fn pointer_value(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
+    pub(crate) fn pointer_value(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
         let animation = &self.json["animations"][clip];
         let leads =
             |channel: &&Value| channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == pointer;
@@ -210,7 +210,7 @@ impl ReferenceGltf {
     }
 
     /// The world-space vertices of each node with a mesh, in depth-first order.
-    pub fn posed_vertices(&self, playing: Option<(usize, f64)>) -> Vec<Vec<DVec3>> {
+    pub(crate) fn posed_vertices(&self, playing: Option<(usize, f64)>) -> Vec<Vec<DVec3>> {
         let nodes = list(&self.json["nodes"]).len();
         let mut parents = vec![None; nodes];
         for node in 0..nodes {

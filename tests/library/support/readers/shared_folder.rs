@@ -17,7 +17,7 @@ fn place() -> PathBuf {
 /// The folder of the shared models; `None` if absent, which is recorded.
 ///
 /// It is `LIGNE_MODELS` if set, otherwise `../shared/models` next to the repository.
-pub fn folder() -> Option<PathBuf> {
+pub(crate) fn folder() -> Option<PathBuf> {
     let folder = place();
     if !folder.is_dir() {
         note("all");
@@ -27,7 +27,7 @@ pub fn folder() -> Option<PathBuf> {
 }
 
 /// The path of a shared model; `None` if absent, which is recorded.
-pub fn find(name: &str) -> Option<PathBuf> {
+pub(crate) fn find(name: &str) -> Option<PathBuf> {
     let path = place().join(name);
     if !path.is_file() {
         note(name);
@@ -44,7 +44,7 @@ fn note(name: &str) {
 }
 
 /// One line that lists all requested models that were absent.
-pub fn absent() -> Option<String> {
+pub(crate) fn absent() -> Option<String> {
     let absent = ABSENT.lock().ok()?;
     let names: Vec<&str> = absent.iter().map(String::as_str).collect();
     let place = place();

@@ -10,7 +10,7 @@ use ligne::view::View;
 use ligne::visibility::{self, ViewMap, ViewVertexKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::support::measures::line_picture::{SegmentGrid, nearest_parameter};
+use crate::library::support::measures::line_picture::{SegmentGrid, nearest_parameter};
 
 /// Maximum distance of a reason from the end of the contour, px.
 const MAX_REASON_DISTANCE_PX: f64 = 0.75;
@@ -24,7 +24,7 @@ const MIN_DRAWN_CHAIN_PX: f64 = 4.0;
 
 /// Counts of contour ends by reason, over one or more views.
 #[derive(Debug, Clone, Default)]
-pub struct ContourEndCounts {
+pub(crate) struct ContourEndCounts {
     pub views: usize,
     /// Number of smooth contours, and of mesh contours drawn in their place, as counted by the view map.
     pub curves: u64,
@@ -45,7 +45,7 @@ pub struct ContourEndCounts {
 
 /// An end of a visible contour without a reason.
 #[derive(Debug, Clone, Copy)]
-pub struct UnexplainedEnd {
+pub(crate) struct UnexplainedEnd {
     pub position: Point,
     pub kind: ViewVertexKind,
     /// Whether a hidden contour continues there.
@@ -65,7 +65,7 @@ impl std::fmt::Display for UnexplainedEnd {
 }
 
 impl ContourEndCounts {
-    pub fn add(&mut self, other: Self) {
+    pub(crate) fn add(&mut self, other: Self) {
         self.views += other.views;
         self.curves += other.curves;
         self.mesh_contours += other.mesh_contours;
@@ -80,16 +80,16 @@ impl ContourEndCounts {
     }
 
     /// Mean number of mesh contours drawn per view.
-    pub fn mesh_contours_per_view(&self) -> f64 {
+    pub(crate) fn mesh_contours_per_view(&self) -> f64 {
         self.mesh_contours as f64 / (self.views as f64).max(1.0)
     }
 
     /// Share of ends with a reason, percent.
-    pub fn explained_percent(&self) -> f64 {
+    pub(crate) fn explained_percent(&self) -> f64 {
         100.0 * (1.0 - self.unexplained.len() as f64 / (self.stops as f64).max(1.0))
     }
 
-    pub fn header() -> String {
+    pub(crate) fn header() -> String {
         format!(
             "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
             "model",
@@ -109,7 +109,7 @@ impl ContourEndCounts {
         )
     }
 
-    pub fn row(&self, name: &str) -> String {
+    pub(crate) fn row(&self, name: &str) -> String {
         format!(
             "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:6} {:6} {:7} {:8.3}",
             self.views,
@@ -131,7 +131,7 @@ impl ContourEndCounts {
 
 /// Cameras from the 26 directions to a cube's faces, edges and corners, alternately perspective and
 /// orthographic.
-pub fn cube_cameras(scene: &Scene) -> Vec<Camera> {
+pub(crate) fn cube_cameras(scene: &Scene) -> Vec<Camera> {
     let mut cameras = Vec::new();
     for code in (0..27).filter(|code| *code != 13) {
         let way = DVec3::new(f64::from(code % 3), f64::from(code / 3 % 3), f64::from(code / 9)) - DVec3::ONE;
@@ -150,7 +150,7 @@ pub fn cube_cameras(scene: &Scene) -> Vec<Camera> {
 }
 
 /// The view map of a surface, refined for the camera.
-pub fn build_view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
+pub(crate) fn build_view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
     let surface = surface.clone().finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
@@ -158,7 +158,7 @@ pub fn build_view_map(surface: &Surface, camera: &Camera, options: &LineOptions)
 }
 
 /// Counts the ends of the visible smooth contours of a view map by reason.
-pub fn count_contour_ends(map: &ViewMap) -> ContourEndCounts {
+pub(crate) fn count_contour_ends(map: &ViewMap) -> ContourEndCounts {
     let mut tally = ContourEndCounts {
         views: 1,
         curves: map.contours.curves,

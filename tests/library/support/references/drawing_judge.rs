@@ -8,7 +8,7 @@ use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 
 use super::line_visibility::{LineSample, ReferenceLines, SampleVisibility};
 use super::polyhedron_lines::ReferenceLineKind;
-use crate::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
+use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
 
 /// Creases with at least this angle must be drawn.
 const MIN_REQUIRED_CREASE_DEG: f64 = 45.0;
@@ -17,7 +17,7 @@ const MIN_CREASE_LENGTH_PX: f64 = 200.0;
 
 /// A share of a length, and the longest run of samples outside it.
 #[derive(Debug, Clone, Copy)]
-pub struct LengthShare {
+pub(crate) struct LengthShare {
     pub share: f64,
     /// Total length, px.
     pub of: f64,
@@ -25,7 +25,7 @@ pub struct LengthShare {
 }
 
 #[derive(Debug, Clone)]
-pub struct DrawingShares {
+pub(crate) struct DrawingShares {
     /// Shares with ink: of contours with background behind them, of all contours, and of sharp creases.
     pub outline: LengthShare,
     pub contour: LengthShare,
@@ -38,25 +38,29 @@ pub struct DrawingShares {
 }
 
 /// The marks of all visible lines.
-pub fn visible_line_marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
+pub(crate) fn visible_line_marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
     let lines = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     lines.flat_map(|layer| &layer.marks).filter(|mark| mark.provenance.invisibility == 0)
 }
 
 /// The centre line of a mark, as short segments.
-pub fn centre_line(mark: &Mark) -> Vec<[Point; 2]> {
+pub(crate) fn centre_line(mark: &Mark) -> Vec<[Point; 2]> {
     let path = if let Paint::Outline(outline) = &mark.paint { &outline.axis } else { &mark.path };
     flatten_path(path, 0.01)
 }
 
 /// Compares a drawing with the reference; ink counts within `tolerance` px of a line.
-pub fn compare_with_reference(truth: &ReferenceLines, drawing: &Drawing, tolerance: f64) -> DrawingShares {
+pub(crate) fn compare_with_reference(
+    truth: &ReferenceLines,
+    drawing: &Drawing,
+    tolerance: f64,
+) -> DrawingShares {
     let strokes: Vec<[Point; 2]> = visible_line_marks(drawing).flat_map(centre_line).collect();
     compare_ink_with_reference(truth, &strokes, tolerance)
 }
 
 /// Compares ink, given as segments, with the reference.
-pub fn compare_ink_with_reference(
+pub(crate) fn compare_ink_with_reference(
     truth: &ReferenceLines,
     strokes: &[[Point; 2]],
     tolerance: f64,
@@ -130,7 +134,7 @@ fn share_of_right_samples(places: impl Iterator<Item = (Point, f64, u32, bool)>)
 
 /// Lower limits of the drawn shares and upper limits of the wrong ones.
 #[derive(Debug, Clone, Copy)]
-pub struct ShareLimits {
+pub(crate) struct ShareLimits {
     pub outline: f64,
     pub contour: f64,
     pub crease: f64,
@@ -142,7 +146,7 @@ pub struct ShareLimits {
 }
 
 /// Limits for machined and low-poly models with flat faces: the drawing matches the mesh.
-pub const FLAT_MODEL_LIMITS: ShareLimits = ShareLimits {
+pub(crate) const FLAT_MODEL_LIMITS: ShareLimits = ShareLimits {
     outline: 0.998,
     contour: 0.985,
     crease: 0.92,
@@ -152,17 +156,17 @@ pub const FLAT_MODEL_LIMITS: ShareLimits = ShareLimits {
     tolerance: 2.5,
 };
 /// Limits for scans and dense figures: small folds may be missing, the silhouette may not.
-pub const ROUND_MODEL_LIMITS: ShareLimits =
+pub(crate) const ROUND_MODEL_LIMITS: ShareLimits =
     ShareLimits { contour: 0.80, crease: 0.0, leak: 0.005, off: 0.01, ..FLAT_MODEL_LIMITS };
 /// Limits for meshes with both flat and rounded parts.
-pub const MIXED_MODEL_LIMITS: ShareLimits = ShareLimits { crease: 0.92, ..ROUND_MODEL_LIMITS };
+pub(crate) const MIXED_MODEL_LIMITS: ShareLimits = ShareLimits { crease: 0.92, ..ROUND_MODEL_LIMITS };
 /// Limits for coarse figures whose silhouette is drawn smoother than the mesh.
-pub const COARSE_MODEL_LIMITS: ShareLimits =
+pub(crate) const COARSE_MODEL_LIMITS: ShareLimits =
     ShareLimits { outline: 0.985, contour: 0.90, off: 0.02, tolerance: 15.0, ..ROUND_MODEL_LIMITS };
 
 impl ShareLimits {
     /// A message for each limit that is violated; empty if the drawing is right.
-    pub fn violations(&self, verdict: &DrawingShares) -> Vec<String> {
+    pub(crate) fn violations(&self, verdict: &DrawingShares) -> Vec<String> {
         let mut words = Vec::new();
         let mut say = |what: &str, share: LengthShare, limit: f64, falls: bool| {
             if falls {

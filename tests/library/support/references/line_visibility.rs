@@ -17,7 +17,7 @@ const MAX_SAMPLE_STEP_PX: f64 = 1.0;
 const VISIBILITY_SHIFT_PX: f64 = 0.75;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SampleVisibility {
+pub(crate) enum SampleVisibility {
     Visible,
     Hidden,
     /// Too close to call.
@@ -25,7 +25,7 @@ pub enum SampleVisibility {
 }
 
 /// A sample: a short piece of a line.
-pub struct LineSample {
+pub(crate) struct LineSample {
     pub at: Point,
     /// Vector from the middle to the end of the piece.
     pub half: Vec2,
@@ -38,23 +38,23 @@ pub struct LineSample {
 }
 
 impl LineSample {
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         2.0 * self.half.hypot2().sqrt()
     }
 
-    pub fn segment(&self) -> [Point; 2] {
+    pub(crate) fn segment(&self) -> [Point; 2] {
         [self.at - self.half, self.at + self.half]
     }
 }
 
 /// The lines of a view and the samples along them, in line order.
-pub struct ReferenceLines {
+pub(crate) struct ReferenceLines {
     pub lines: Vec<ReferenceLine>,
     pub samples: Vec<LineSample>,
 }
 
 impl ReferenceLines {
-    pub fn of(scene: &Scene, camera: &Camera) -> Self {
+    pub(crate) fn of(scene: &Scene, camera: &Camera) -> Self {
         let polygons = TriangleScene::of(scene);
         let eye = TextbookCamera::new(camera);
         let rays = RayCaster::new(&polygons, &eye, camera.width, camera.height);
@@ -66,12 +66,12 @@ impl ReferenceLines {
         Self { lines, samples: places }
     }
 
-    pub fn kind(&self, place: &LineSample) -> ReferenceLineKind {
+    pub(crate) fn kind(&self, place: &LineSample) -> ReferenceLineKind {
         self.lines[place.line as usize].kind
     }
 
     /// The pieces of the samples that satisfy `wanted`.
-    pub fn segments_where(&self, wanted: impl Fn(&LineSample) -> bool) -> Vec<[Point; 2]> {
+    pub(crate) fn segments_where(&self, wanted: impl Fn(&LineSample) -> bool) -> Vec<[Point; 2]> {
         self.samples.iter().filter(|place| wanted(place)).map(LineSample::segment).collect()
     }
 }

@@ -13,15 +13,15 @@
 //! 9. [`contour_stops`]: whether each end of a visible contour has a reason.
 //! 10. [`shadow_rays`]: cast shadows by rays.
 
-pub mod contour_stops;
-pub mod drawing_judge;
-pub mod line_visibility;
-pub mod polyhedron_contour;
-pub mod polyhedron_lines;
-pub mod ray_casts;
-pub mod shadow_rays;
-pub mod textbook_camera;
-pub mod torus_contour;
-pub mod triangle_intersections;
-pub mod triangle_scene;
-pub mod visible_points;
+pub(crate) mod contour_stops;
+pub(crate) mod drawing_judge;
+pub(crate) mod line_visibility;
+pub(crate) mod polyhedron_contour;
+pub(crate) mod polyhedron_lines;
+pub(crate) mod ray_casts;
+pub(crate) mod shadow_rays;
+pub(crate) mod textbook_camera;
+pub(crate) mod torus_contour;
+pub(crate) mod triangle_intersections;
+pub(crate) mod triangle_scene;
+pub(crate) mod visible_points;

@@ -7,19 +7,19 @@ use ligne::scene::{Camera, Scene};
 use ligne::visibility::ViewMap;
 
 use super::contour_stops::build_view_map;
-use crate::support::measures::line_picture::{SegmentGrid, quantile, sample_segments};
+use crate::library::support::measures::line_picture::{SegmentGrid, quantile, sample_segments};
 
 /// Maximum distance that is measured, px.
 const MAX_DISTANCE_PX: f64 = 8.0;
 
 /// A scene's surface prepared for smooth contours, and prepared for mesh contours.
-pub struct SmoothAndMeshSurface {
+pub(crate) struct SmoothAndMeshSurface {
     auto: Surface,
     polygon: Surface,
 }
 
 impl SmoothAndMeshSurface {
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let [auto, polygon] = [Contours::Auto, Contours::Mesh]
             .map(|contours| Surface::new(Mesh::build(scene.to_soup()), &contour_options(contours)));
         Self { auto, polygon }
@@ -28,7 +28,7 @@ impl SmoothAndMeshSurface {
     /// The distances in one view, px, ascending, one per half px of smooth contour.
     ///
     /// `None` if the model has no smooth contours, so both contours are the same.
-    pub fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
+    pub(crate) fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
         let smooth = build_view_map(&self.auto, camera, &contour_options(Contours::Auto));
         if smooth.contours.curves == 0 {
             return None;
@@ -44,7 +44,7 @@ impl SmoothAndMeshSurface {
 }
 
 /// Median, 95th percentile and maximum of the distances, and the share within half a px, percent.
-pub fn distance_summary(distances: &[f64]) -> [f64; 4] {
+pub(crate) fn distance_summary(distances: &[f64]) -> [f64; 4] {
     let within = distances.partition_point(|d| *d <= 0.5) as f64;
     let share = 100.0 * within / (distances.len() as f64).max(1.0);
     [quantile(distances, 0.5), quantile(distances, 0.95), quantile(distances, 1.0), share]

@@ -10,7 +10,7 @@ use super::triangle_intersections::intersection_segments;
 use super::triangle_scene::TriangleScene;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReferenceLineKind {
+pub(crate) enum ReferenceLineKind {
     Contour,
     Border,
     Crease,
@@ -19,7 +19,7 @@ pub enum ReferenceLineKind {
 }
 
 /// A straight line that may be drawn.
-pub struct ReferenceLine {
+pub(crate) struct ReferenceLine {
     pub ends: [DVec3; 2],
     /// The vertices at its ends; `u32::MAX` for intersections.
     pub corners: [u32; 2],
@@ -44,7 +44,11 @@ struct EdgeFace {
 }
 
 /// All lines that may be drawn. Edges with an angle below `crease_deg` are no creases.
-pub fn feature_lines(polygons: &TriangleScene, eye: &TextbookCamera, crease_deg: f64) -> Vec<ReferenceLine> {
+pub(crate) fn feature_lines(
+    polygons: &TriangleScene,
+    eye: &TextbookCamera,
+    crease_deg: f64,
+) -> Vec<ReferenceLine> {
     let mut sides: Vec<EdgeFace> = Vec::new();
     for (id, face) in polygons.faces.iter().enumerate() {
         if polygons.is_degenerate(id) {
@@ -124,8 +128,7 @@ fn wedge_angles(
     };
     let first = across(&sides[0]);
     let up = axis.cross(first);
-    let angle =
-        |v: DVec3| ligne::geometry::numbers::portable_math::atan2(v.dot(up), v.dot(first)).to_degrees();
+    let angle = |v: DVec3| libm::atan2(v.dot(up), v.dot(first)).to_degrees();
     let mut angles: Vec<f64> = sides.iter().map(|side| angle(across(side))).collect();
     angles.sort_by(f64::total_cmp);
     // Coincident faces count as one.

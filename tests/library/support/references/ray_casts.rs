@@ -12,7 +12,7 @@ const CONTACT_SHARE: f64 = 1e-6;
 
 /// Result of a ray: the occluder in front of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Occluder {
+pub(crate) enum Occluder {
     Nothing,
     /// A surface that touches the point.
     Contact,
@@ -28,7 +28,7 @@ struct ProjectedTriangle {
 }
 
 /// Projected triangles of a scene, sorted into image cells.
-pub struct RayCaster<'a> {
+pub(crate) struct RayCaster<'a> {
     pub polygons: &'a TriangleScene,
     pub camera: &'a TextbookCamera,
     triangles: Vec<ProjectedTriangle>,
@@ -39,7 +39,7 @@ pub struct RayCaster<'a> {
 
 impl<'a> RayCaster<'a> {
     /// Projects all triangles into a frame of `width` x `height` px.
-    pub fn new(polygons: &'a TriangleScene, eye: &'a TextbookCamera, width: f64, height: f64) -> Self {
+    pub(crate) fn new(polygons: &'a TriangleScene, eye: &'a TextbookCamera, width: f64, height: f64) -> Self {
         let (columns, rows) = ((width / CELL_PX).ceil() as usize + 1, (height / CELL_PX).ceil() as usize + 1);
         let cells = vec![Vec::new(); columns * rows];
         let mut rays = Self { polygons, camera: eye, triangles: Vec::new(), cells, columns, rows };
@@ -97,7 +97,12 @@ impl<'a> RayCaster<'a> {
     ///
     /// `touching` returns the depth distance within which a face does not hide the point, or `None` to skip
     /// the face.
-    pub fn occluder_at(&self, at: Point, nearness: f64, touching: impl Fn(u32) -> Option<f64>) -> Occluder {
+    pub(crate) fn occluder_at(
+        &self,
+        at: Point,
+        nearness: f64,
+        touching: impl Fn(u32) -> Option<f64>,
+    ) -> Occluder {
         let depth = self.depth(nearness);
         let contact = CONTACT_SHARE * self.polygons.size;
         let mut found = Occluder::Nothing;
@@ -117,19 +122,19 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The nearness of the nearest wanted face at an image point.
-    pub fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
+    pub(crate) fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
         let seen = self.triangles_at(at).filter(|seen| wanted(seen.face));
         let hits = seen.map(|seen| seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2]);
         hits.max_by(f64::total_cmp)
     }
 
     /// Whether an image point shows background.
-    pub fn is_background(&self, at: Point) -> bool {
+    pub(crate) fn is_background(&self, at: Point) -> bool {
         self.triangles_at(at).next().is_none()
     }
 
     /// The depth distance within which surfaces touch, world units.
-    pub fn contact_distance(&self) -> f64 {
+    pub(crate) fn contact_distance(&self) -> f64 {
         CONTACT_SHARE * self.polygons.size
     }
 
@@ -148,13 +153,13 @@ impl<'a> RayCaster<'a> {
 }
 
 /// The image position of a point, and its nearness: a number that is linear along straight image lines.
-pub fn project_point(eye: &TextbookCamera, p: glam::DVec3) -> (Point, f64) {
+pub(crate) fn project_point(eye: &TextbookCamera, p: glam::DVec3) -> (Point, f64) {
     let depth = eye.depth(p);
     (eye.project(p), if eye.perspective { 1.0 / depth } else { -depth })
 }
 
 /// Eight points on a circle around a point.
-pub fn circle_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
+pub(crate) fn circle_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let ways = [
         (1.0, 0.0),

@@ -5,7 +5,7 @@ use ligne::light::Caster;
 use ligne::mesh::{FaceId, Mesh};
 use ligne::shadows::Shadows;
 
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// The direction from a point towards a light, not normalised.
 fn light_direction(caster: &Caster, point: DVec3) -> DVec3 {
@@ -16,7 +16,7 @@ fn light_direction(caster: &Caster, point: DVec3) -> DVec3 {
 }
 
 /// The centroid of a face.
-pub fn face_centroid(mesh: &Mesh, face: u32) -> DVec3 {
+pub(crate) fn face_centroid(mesh: &Mesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (a + b + c) / 3.0
 }
@@ -63,7 +63,7 @@ fn is_on_face(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
 }
 
 /// Two directional and two point lights, three of them random.
-pub fn test_lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
+pub(crate) fn test_lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     let mut sun = dice.direction();
     sun.z = sun.z.abs() + 0.3;
     vec![
@@ -94,7 +94,7 @@ fn outward_signs(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Checks the shadow masks of random surface points against rays.
-pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
+pub(crate) fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     let outward = outward_signs(mesh);
     let asked: Vec<(u32, DVec3)> = (0..count)
         .map(|_| {
@@ -126,7 +126,7 @@ pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dic
 }
 
 /// Checks that shadow lines lie on their faces and separate light from shadow; returns the number checked.
-pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
+pub(crate) fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
     let mut checked = 0;
     for segment in &shadows.lines.segments {
         let caster = &shadows.casters()[segment.caster as usize];
@@ -177,7 +177,7 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
 
 /// Checks random segments on a face: their ends differ in shadow if the number of crossed shadow lines is
 /// odd.
-pub fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
+pub(crate) fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     let mut crossed = 0;
     for _ in 0..count {
         let face = dice.below(mesh.triangles.len()) as u32;

@@ -5,7 +5,7 @@ use kurbo::Point;
 use ligne::scene::{Camera, Projection};
 
 /// Position, axes and scale of a camera.
-pub struct TextbookCamera {
+pub(crate) struct TextbookCamera {
     pub position: DVec3,
     pub right: DVec3,
     pub up: DVec3,
@@ -18,15 +18,13 @@ pub struct TextbookCamera {
 }
 
 impl TextbookCamera {
-    pub fn new(camera: &Camera) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
         let forward = (camera.target - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();
         let (perspective, scale) = match camera.projection {
-            Projection::Perspective { fov_y_deg } => (
-                true,
-                camera.height
-                    / (2.0 * ligne::geometry::numbers::portable_math::tan(fov_y_deg.to_radians() / 2.0)),
-            ),
+            Projection::Perspective { fov_y_deg } => {
+                (true, camera.height / (2.0 * libm::tan(fov_y_deg.to_radians() / 2.0)))
+            }
             Projection::Orthographic { height } => (false, camera.height / height),
         };
         let up = right.cross(forward);
@@ -35,24 +33,24 @@ impl TextbookCamera {
     }
 
     /// Distance of a point along the viewing direction.
-    pub fn depth(&self, p: DVec3) -> f64 {
+    pub(crate) fn depth(&self, p: DVec3) -> f64 {
         (p - self.position).dot(self.forward)
     }
 
     /// The image position of a world point.
-    pub fn project(&self, p: DVec3) -> Point {
+    pub(crate) fn project(&self, p: DVec3) -> Point {
         let d = p - self.position;
         let k = self.scale / if self.perspective { d.dot(self.forward) } else { 1.0 };
         Point::new(self.width / 2.0 + k * d.dot(self.right), self.height / 2.0 - k * d.dot(self.up))
     }
 
     /// The images of the ends of world segments.
-    pub fn project_segments(&self, segments: &[[DVec3; 2]]) -> Vec<[Point; 2]> {
+    pub(crate) fn project_segments(&self, segments: &[[DVec3; 2]]) -> Vec<[Point; 2]> {
         segments.iter().map(|s| s.map(|p| self.project(p))).collect()
     }
 
     /// The world point at an image position and a depth.
-    pub fn unproject(&self, image: Point, depth: f64) -> DVec3 {
+    pub(crate) fn unproject(&self, image: Point, depth: f64) -> DVec3 {
         let k = if self.perspective { depth } else { 1.0 } / self.scale;
         let (x, y) = (image.x - self.width / 2.0, self.height / 2.0 - image.y);
         self.position + self.right * (x * k) + self.up * (y * k) + self.forward * depth
@@ -60,7 +58,7 @@ impl TextbookCamera {
 
     /// The part of a world segment inside the frame and farther than the depth `near`, by clipping with up to
     /// five half-spaces.
-    pub fn clip_segment(&self, a: DVec3, b: DVec3, near: Option<f64>) -> Option<[DVec3; 2]> {
+    pub(crate) fn clip_segment(&self, a: DVec3, b: DVec3, near: Option<f64>) -> Option<[DVec3; 2]> {
         let (x, y) = (self.width / 2.0 / self.scale, self.height / 2.0 / self.scale);
         // Homogeneous camera coordinates (right, up, forward, 1); the dot product with a plane is positive
         // inside.

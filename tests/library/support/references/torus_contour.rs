@@ -9,14 +9,14 @@
 
 use glam::DVec3;
 use kurbo::Point;
-use ligne::geometry::numbers::portable_math::{acos, atan2, cos, sin};
+use libm::{acos, atan2, cos, sin};
 use ligne::scene::Camera;
 
 use super::textbook_camera::TextbookCamera;
 
 /// A point of the contour and its visibility.
 #[derive(Debug, Clone, Copy)]
-pub struct ContourPoint {
+pub(crate) struct ContourPoint {
     pub image: Point,
     pub visible: bool,
     /// Whether the surface curves away from the line of sight; this changes at cusps.
@@ -25,7 +25,7 @@ pub struct ContourPoint {
 
 /// A maximal visible part of a contour.
 #[derive(Debug, Clone)]
-pub struct VisibleArc {
+pub(crate) struct VisibleArc {
     pub points: Vec<Point>,
     pub closed: bool,
     /// Number of its ends that are cusps.
@@ -33,7 +33,12 @@ pub struct VisibleArc {
 }
 
 /// The two contours of a torus about the z axis, each a loop of `count` points.
-pub fn torus_contours(radius: f64, tube: f64, camera: &Camera, count: usize) -> [Vec<ContourPoint>; 2] {
+pub(crate) fn torus_contours(
+    radius: f64,
+    tube: f64,
+    camera: &Camera,
+    count: usize,
+) -> [Vec<ContourPoint>; 2] {
     let eye = TextbookCamera::new(camera);
     [-1.0, 1.0].map(|branch| {
         let place = |k: usize| {
@@ -72,7 +77,7 @@ fn remaining_quadratic(radius: f64, tube: f64, p: DVec3, d: DVec3) -> [f64; 2] {
 }
 
 /// The visible parts of the contours.
-pub fn visible_arcs(contours: &[Vec<ContourPoint>]) -> Vec<VisibleArc> {
+pub(crate) fn visible_arcs(contours: &[Vec<ContourPoint>]) -> Vec<VisibleArc> {
     let mut pieces = Vec::new();
     for places in contours {
         let n = places.len();
@@ -102,7 +107,7 @@ pub fn visible_arcs(contours: &[Vec<ContourPoint>]) -> Vec<VisibleArc> {
 }
 
 impl VisibleArc {
-    pub fn segments(&self) -> Vec<[Point; 2]> {
+    pub(crate) fn segments(&self) -> Vec<[Point; 2]> {
         let mut segments: Vec<[Point; 2]> = self.points.windows(2).map(|w| [w[0], w[1]]).collect();
         if self.closed {
             segments.push([self.points[self.points.len() - 1], self.points[0]]);

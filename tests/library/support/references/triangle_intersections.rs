@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::triangle_scene::TriangleScene;
 
 /// Ends of each intersection segment, and its two faces. Faces that share a vertex or a plane have none.
-pub fn intersection_segments(polygons: &TriangleScene) -> Vec<([DVec3; 2], [u32; 2])> {
+pub(crate) fn intersection_segments(polygons: &TriangleScene) -> Vec<([DVec3; 2], [u32; 2])> {
     let boxes: Vec<[DVec3; 2]> = (0..polygons.faces.len())
         .map(|face| {
             let [a, b, c] = polygons.corners(face);

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 /// World-space triangles that share vertices with bitwise equal positions.
 #[derive(Default)]
-pub struct TriangleScene {
+pub(crate) struct TriangleScene {
     pub points: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
     /// The part, the material and the connected component of each face.
@@ -19,7 +19,7 @@ pub struct TriangleScene {
 
 impl TriangleScene {
     /// Collects the triangles of a scene; triangles with two equal vertices are dropped.
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let mut all = Self::default();
         let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
         for (part, shown) in scene.parts.iter().enumerate() {
@@ -56,12 +56,12 @@ impl TriangleScene {
         all
     }
 
-    pub fn corners(&self, face: usize) -> [DVec3; 3] {
+    pub(crate) fn corners(&self, face: usize) -> [DVec3; 3] {
         self.faces[face].map(|corner| self.points[corner as usize])
     }
 
     /// Whether a face is too thin to hide anything.
-    pub fn is_degenerate(&self, face: usize) -> bool {
+    pub(crate) fn is_degenerate(&self, face: usize) -> bool {
         let [a, b, c] = self.corners(face);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         (b - a).cross(c - a).length() <= 1e-12 * self.size * longest

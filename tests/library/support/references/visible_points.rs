@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::ray_casts::{Occluder, RayCaster, circle_points, project_point};
 use super::textbook_camera::TextbookCamera;
 use super::triangle_scene::TriangleScene;
-use crate::support::pipeline::{Stages, run_stages};
+use crate::library::support::pipeline::{Stages, run_stages};
 
 /// Number of points tested, number of them hidden by another part, and the first hidden point.
 #[derive(Debug, Default, Clone)]
-pub struct HiddenPointCounts {
+pub(crate) struct HiddenPointCounts {
     pub tested: usize,
     pub hidden: usize,
     pub first: Option<Point>,
@@ -22,7 +22,7 @@ pub struct HiddenPointCounts {
 ///
 /// A hidden point is excused if a shift by `excused` px makes it visible. Points of smooth lines are also
 /// excused if the mesh surface below is visible within that distance.
-pub fn hidden_by_others(
+pub(crate) fn hidden_by_others(
     scene: &Scene,
     camera: &Camera,
     options: &LineOptions,

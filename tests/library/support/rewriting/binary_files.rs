@@ -5,14 +5,14 @@ use serde_json::{Value, json};
 
 use super::body::Body;
 use super::model::RandomModel;
-use crate::support::readers::glb_writer::glb;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::readers::glb_writer::glb;
+use crate::library::support::scenes::random_dice::Dice;
 
 fn push_f32_point(bytes: &mut Vec<u8>, point: DVec3) {
     point.as_vec3().to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
 }
 
-pub fn write_stl(model: &RandomModel) -> Vec<u8> {
+pub(crate) fn write_stl(model: &RandomModel) -> Vec<u8> {
     let mut facets = Vec::new();
     let mut count = 0_u32;
     for body in &model.bodies {
@@ -32,7 +32,7 @@ pub fn write_stl(model: &RandomModel) -> Vec<u8> {
     bytes
 }
 
-pub fn write_ply_single(model: &RandomModel) -> Vec<u8> {
+pub(crate) fn write_ply_single(model: &RandomModel) -> Vec<u8> {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let (mut first, mut face_count) = (0, 0);
     for body in &model.bodies {
@@ -133,7 +133,7 @@ impl GltfBuilder {
 }
 
 /// A GLB file with world coordinates and untransformed nodes.
-pub fn write_glb_baked(model: &RandomModel) -> Vec<u8> {
+pub(crate) fn write_glb_baked(model: &RandomModel) -> Vec<u8> {
     let mut document = GltfBuilder::default();
     let mut roots = Vec::new();
     for part in model.parts() {
@@ -144,7 +144,7 @@ pub fn write_glb_baked(model: &RandomModel) -> Vec<u8> {
 }
 
 /// A GLB file with short coordinates under nodes that move, scale, mirror and rotate them.
-pub fn write_glb_nested(model: &RandomModel, dice: &mut Dice) -> Vec<u8> {
+pub(crate) fn write_glb_nested(model: &RandomModel, dice: &mut Dice) -> Vec<u8> {
     let mut document = GltfBuilder::default();
     let mut groups = Vec::new();
     for part in model.parts() {

@@ -4,14 +4,14 @@ use glam::{DVec2, DVec3};
 
 /// A flat polygon, counter-clockwise from outside. It may be concave and may have straight corners.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Face {
+pub(crate) struct Face {
     pub corners: Vec<u32>,
     pub colour: u8,
 }
 
 /// A connected surface.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Body {
+pub(crate) struct Body {
     /// Name of its part. Adjacent bodies of a model with the same name form one part.
     pub part: String,
     pub points: Vec<DVec3>,
@@ -26,13 +26,13 @@ pub struct Body {
 
 impl Body {
     /// Lowest and highest coordinates.
-    pub fn bounds(&self) -> [DVec3; 2] {
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
         let points = || self.points.iter().copied();
         [points().reduce(DVec3::min).unwrap(), points().reduce(DVec3::max).unwrap()]
     }
 
     /// The body with every point moved. The map must preserve orientation and keep boxes axis-aligned.
-    pub fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
+    pub(crate) fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
         self.points.iter_mut().for_each(|point| *point = place(*point));
         self.core = self.core.map(|core| {
             let [a, b] = core.map(&place);
@@ -41,17 +41,17 @@ impl Body {
         self
     }
 
-    pub fn coloured(mut self, colour: u8) -> Self {
+    pub(crate) fn coloured(mut self, colour: u8) -> Self {
         self.faces.iter_mut().for_each(|face| face.colour = colour);
         self
     }
 
-    pub fn reverse(&mut self) {
+    pub(crate) fn reverse(&mut self) {
         self.faces.iter_mut().for_each(|face| face.corners.reverse());
     }
 
     /// The triangles of a face. Another `start` gives other diagonals if the polygon allows several.
-    pub fn triangles(&self, face: &Face, start: usize) -> Vec<[u32; 3]> {
+    pub(crate) fn triangles(&self, face: &Face, start: usize) -> Vec<[u32; 3]> {
         let points: Vec<DVec3> = face.corners.iter().map(|&corner| self.points[corner as usize]).collect();
         let flat = project_to_plane(&points);
         let mut ring: Vec<usize> = (0..flat.len()).collect();

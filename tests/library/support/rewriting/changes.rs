@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::body::{Body, Face};
 use super::model::RandomModel;
 use super::shapes::cuboid;
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// A random selection of at least one of `count` items, and not of all if there are several.
 fn random_selection(count: usize, dice: &mut Dice) -> Vec<bool> {
@@ -22,12 +22,12 @@ fn random_selection(count: usize, dice: &mut Dice) -> Vec<bool> {
 }
 
 /// Reverses all faces.
-pub fn reverse_all_faces(model: &mut RandomModel) {
+pub(crate) fn reverse_all_faces(model: &mut RandomModel) {
     model.bodies.iter_mut().for_each(Body::reverse);
 }
 
 /// Reverses some bodies, but not all; `None` for a single body.
-pub fn reverse_some_bodies(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
+pub(crate) fn reverse_some_bodies(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
     let chosen = random_selection(model.bodies.len(), dice);
     let bodies = model.bodies.iter_mut().zip(chosen).filter(|(_, is_chosen)| *is_chosen);
     bodies.for_each(|(body, _)| body.reverse());
@@ -35,7 +35,7 @@ pub fn reverse_some_bodies(model: &mut RandomModel, dice: &mut Dice) -> Option<(
 }
 
 /// Triangulates each face. Another `start` gives other diagonals.
-pub fn triangulate_faces(model: &mut RandomModel, start: usize) {
+pub(crate) fn triangulate_faces(model: &mut RandomModel, start: usize) {
     for body in &mut model.bodies {
         let cut = |face: &Face| {
             let triangles = body.triangles(face, start).into_iter();
@@ -52,7 +52,7 @@ fn flat_bodies(model: &mut RandomModel) -> Option<Vec<&mut Body>> {
 }
 
 /// Splits some faces of flat bodies into triangles around interior points.
-pub fn split_faces(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
+pub(crate) fn split_faces(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
     for body in flat_bodies(model)? {
         let chosen = random_selection(body.faces.len(), dice);
         for (face, is_chosen) in std::mem::take(&mut body.faces).into_iter().zip(chosen) {
@@ -74,7 +74,11 @@ pub fn split_faces(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
 }
 
 /// Inserts vertices at the middle of some edges of flat bodies, in both faces of the edge or in one.
-pub fn insert_edge_vertices(model: &mut RandomModel, on_both_sides: bool, dice: &mut Dice) -> Option<()> {
+pub(crate) fn insert_edge_vertices(
+    model: &mut RandomModel,
+    on_both_sides: bool,
+    dice: &mut Dice,
+) -> Option<()> {
     for body in flat_bodies(model)? {
         let mut edges: Vec<[u32; 2]> = body.faces.iter().flat_map(directed_edges).collect();
         // Keep each edge once, in its first direction.
@@ -106,7 +110,7 @@ fn directed_edges(face: &Face) -> Vec<[u32; 2]> {
 }
 
 /// Duplicates some faces.
-pub fn duplicate_faces(model: &mut RandomModel, dice: &mut Dice) {
+pub(crate) fn duplicate_faces(model: &mut RandomModel, dice: &mut Dice) {
     for body in &mut model.bodies {
         let chosen = random_selection(body.faces.len(), dice);
         let doubles = body.faces.iter().zip(chosen).filter(|(_, is_chosen)| *is_chosen);
@@ -116,7 +120,7 @@ pub fn duplicate_faces(model: &mut RandomModel, dice: &mut Dice) {
 }
 
 /// Adds degenerate faces: with a repeated corner, or with three corners on one edge.
-pub fn add_degenerate_faces(model: &mut RandomModel, dice: &mut Dice) {
+pub(crate) fn add_degenerate_faces(model: &mut RandomModel, dice: &mut Dice) {
     for body in &mut model.bodies {
         for _ in 0..3 {
             let face = &body.faces[dice.below(body.faces.len())];
@@ -133,7 +137,7 @@ pub fn add_degenerate_faces(model: &mut RandomModel, dice: &mut Dice) {
 }
 
 /// Shuffles parts, bodies, faces and vertices, and rotates the corners of faces.
-pub fn shuffle_model(model: &mut RandomModel, dice: &mut Dice) {
+pub(crate) fn shuffle_model(model: &mut RandomModel, dice: &mut Dice) {
     let parts: Vec<Vec<Body>> = model.parts().map(<[Body]>::to_vec).collect();
     let parts = dice.shuffled(parts);
     model.bodies = parts.into_iter().flat_map(|part| dice.shuffled(part)).collect();
@@ -155,7 +159,7 @@ pub fn shuffle_model(model: &mut RandomModel, dice: &mut Dice) {
 }
 
 /// Adds a small box inside a closed body, as a separate part or in the same part; `None` if no body has room.
-pub fn add_hidden_body(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
+pub(crate) fn add_hidden_body(model: &mut RandomModel, dice: &mut Dice) -> Option<()> {
     let with_room: Vec<usize> = (0..model.bodies.len()).filter(|k| model.bodies[*k].core.is_some()).collect();
     let host = *with_room.get(dice.below(with_room.len().max(1)))?;
     let [low, high] = model.bodies[host].core?;

@@ -3,7 +3,7 @@
 use super::relations::Relation;
 
 /// A relation that does not hold for every scene.
-pub struct AcceptedDifference {
+pub(crate) struct AcceptedDifference {
     pub relation: Relation,
     /// Maximum number of different drawings in the short run, which always draws the same scenes.
     pub max_in_short_run: usize,
@@ -32,7 +32,7 @@ const fn accepted(
     AcceptedDifference { relation, max_in_short_run: in_short_run, max_share: share, reason: why }
 }
 
-pub const ACCEPTED_DIFFERENCES: [AcceptedDifference; 10] = [
+pub(crate) const ACCEPTED_DIFFERENCES: [AcceptedDifference; 10] = [
     accepted(Relation::ObjSixDecimals, 0, 0.04, EDGE_ON_REASON),
     accepted(Relation::ObjSinglePrecision, 0, 0.04, EDGE_ON_REASON),
     accepted(Relation::Stl, 2, 0.04, EDGE_ON_REASON),
@@ -46,6 +46,6 @@ pub const ACCEPTED_DIFFERENCES: [AcceptedDifference; 10] = [
 ];
 
 /// The accepted differences of a relation.
-pub fn accepted_difference(relation: Relation) -> Option<&'static AcceptedDifference> {
+pub(crate) fn accepted_difference(relation: Relation) -> Option<&'static AcceptedDifference> {
     ACCEPTED_DIFFERENCES.iter().find(|known| known.relation == relation)
 }

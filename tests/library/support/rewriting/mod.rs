@@ -8,13 +8,13 @@
 //! 5. [`table`] counts the drawings that differ; [`known`] lists the accepted differences.
 
 mod binary_files;
-pub mod body;
+pub(crate) mod body;
 mod changes;
-pub mod known;
-pub mod model;
-pub mod pens;
-pub mod relations;
-pub mod shapes;
-pub mod table;
+pub(crate) mod known;
+pub(crate) mod model;
+pub(crate) mod pens;
+pub(crate) mod relations;
+pub(crate) mod shapes;
+pub(crate) mod table;
 mod text_files;
-pub mod trial;
+pub(crate) mod trial;

@@ -10,18 +10,18 @@ use super::shapes::{
     random_sheet, random_stairs,
 };
 use super::text_files::{Digits, write_obj};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Kinds of bodies of a scene.
-pub const SHAPES: [&str; 9] =
+pub(crate) const SHAPES: [&str; 9] =
     ["boxes", "prisms", "plates", "stairs", "houses", "sheets", "decals", "round bodies", "mixed bodies"];
 
 /// Spatial relations between the bodies of a scene.
-pub const CONTACTS: [&str; 4] = ["free", "touching", "flush", "overlapping"];
+pub(crate) const CONTACTS: [&str; 4] = ["free", "touching", "flush", "overlapping"];
 
 /// The viewing direction of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ViewChoice {
+pub(crate) enum ViewChoice {
     Named(NamedView),
     /// Azimuth and elevation, whole degrees.
     Angles(f64, f64),
@@ -34,7 +34,7 @@ pub enum ViewChoice {
 }
 
 #[derive(Debug, Clone)]
-pub struct RandomModel {
+pub(crate) struct RandomModel {
     /// The kind of its bodies and their contact.
     pub kind: String,
     pub seed: u64,
@@ -46,7 +46,7 @@ pub struct RandomModel {
 
 impl RandomModel {
     /// The model of a seed. Consecutive seeds run through all combinations of [`SHAPES`] and [`CONTACTS`].
-    pub fn random(seed: u64) -> Self {
+    pub(crate) fn random(seed: u64) -> Self {
         let mut dice = Dice::new(seed);
         // Every shape with every contact in turn.
         let shapes = SHAPES[seed as usize % SHAPES.len()];
@@ -80,7 +80,7 @@ impl RandomModel {
     }
 
     /// Fits the camera to the scene.
-    pub fn fit_camera(&mut self) {
+    pub(crate) fn fit_camera(&mut self) {
         let along = |to_eye: DVec3, is_parallel: bool| {
             let to_eye = to_eye.normalize();
             let up = if to_eye.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
@@ -103,31 +103,31 @@ impl RandomModel {
     }
 
     /// The scene read from the reference file.
-    pub fn scene(&self) -> Scene {
+    pub(crate) fn scene(&self) -> Scene {
         Scene::from_bytes(&write_obj(self, Digits::All), ModelFormat::Obj).unwrap()
     }
 
     /// Whether any body approximates a rounded surface.
-    pub fn is_round(&self) -> bool {
+    pub(crate) fn is_round(&self) -> bool {
         self.bodies.iter().any(|body| body.is_round)
     }
 
     /// The points of a body in the world.
-    pub fn world_points(&self, body: &Body) -> Vec<DVec3> {
+    pub(crate) fn world_points(&self, body: &Body) -> Vec<DVec3> {
         body.points.iter().map(|point| self.world_from_model.transform_point3(*point)).collect()
     }
 
     /// The bodies, grouped by part.
-    pub fn parts(&self) -> impl Iterator<Item = &[Body]> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &[Body]> {
         self.bodies.chunk_by(|one, next| one.part == next.part)
     }
 
-    pub fn has_colours(&self) -> bool {
+    pub(crate) fn has_colours(&self) -> bool {
         self.bodies.iter().flat_map(|body| &body.faces).any(|face| face.colour > 0)
     }
 
     /// The model as one part with one colour, for STL and PLY.
-    pub fn in_one_part(mut self) -> Self {
+    pub(crate) fn in_one_part(mut self) -> Self {
         for body in &mut self.bodies {
             body.part = "all".into();
             body.faces.iter_mut().for_each(|face| face.colour = 0);

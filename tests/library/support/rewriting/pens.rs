@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use kurbo::Point;
 use ligne::drawing::{Drawing, Mark, Paint};
 
-use crate::support::measures::line_picture::{SegmentGrid, sample_segments};
-use crate::support::references::drawing_judge::{centre_line, visible_line_marks};
+use crate::library::support::measures::line_picture::{SegmentGrid, sample_segments};
+use crate::library::support::references::drawing_judge::{centre_line, visible_line_marks};
 
 /// Distance between samples along lines, px.
 const SAMPLE_STEP_PX: f64 = 0.25;
 
 /// Visible lines as segments, by classes and pen width.
 #[derive(Debug, Clone)]
-pub struct LinesByPen(BTreeMap<String, Vec<[Point; 2]>>);
+pub(crate) struct LinesByPen(BTreeMap<String, Vec<[Point; 2]>>);
 
 /// The lines of each drawing that are farther than a tolerance from the same pen in the other drawing.
 #[derive(Debug, Clone)]
-pub struct PenDifference {
+pub(crate) struct PenDifference {
     /// Length by pen of lines in the reference only, and of lines in the other drawing only; px of the
     /// reference.
     pub gone: BTreeMap<String, f64>,
@@ -27,7 +27,7 @@ pub struct PenDifference {
 }
 
 impl PenDifference {
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.gone.values().chain(self.new.values()).sum()
     }
 }
@@ -58,7 +58,7 @@ fn pen_key(mark: &Mark) -> String {
 }
 
 impl LinesByPen {
-    pub fn of(drawing: &Drawing) -> Self {
+    pub(crate) fn of(drawing: &Drawing) -> Self {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
         for mark in visible_line_marks(drawing) {
             pens.entry(pen_key(mark)).or_default().extend(centre_line(mark));
@@ -67,7 +67,7 @@ impl LinesByPen {
     }
 
     /// The visible lines of a drawing, grouped by pen width only.
-    pub fn by_width(drawing: &Drawing) -> Self {
+    pub(crate) fn by_width(drawing: &Drawing) -> Self {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
         for mark in visible_line_marks(drawing) {
             pens.entry(format!("width {}", pen_width(mark))).or_default().extend(centre_line(mark));
@@ -76,13 +76,13 @@ impl LinesByPen {
     }
 
     /// The lines with `place` applied to each point.
-    pub fn moved(mut self, place: impl Fn(Point) -> Point) -> Self {
+    pub(crate) fn moved(mut self, place: impl Fn(Point) -> Point) -> Self {
         self.0.values_mut().flatten().flatten().for_each(|point| *point = place(*point));
         self
     }
 
     /// The lines that differ by more than `tolerance` px.
-    pub fn difference(&self, other: &Self, tolerance: f64) -> PenDifference {
+    pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> PenDifference {
         let mut at = None;
         let mut lost = |of: &Self, by: &Self| {
             let mut lost = BTreeMap::new();

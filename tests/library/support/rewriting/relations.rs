@@ -8,11 +8,11 @@ use super::binary_files::{write_glb_baked, write_glb_nested, write_ply_single, w
 use super::changes;
 use super::model::{RandomModel, ViewChoice};
 use super::text_files::{Digits, write_obj, write_obj_in_groups, write_ply};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 /// A way to write a model that must not change its drawing.
-pub enum Relation {
+pub(crate) enum Relation {
     AllReversed,
     SomeReversed,
     ObjSixDecimals,
@@ -43,7 +43,7 @@ pub enum Relation {
 }
 
 /// A model file, its camera, and the map from its drawing to the reference drawing.
-pub struct RewrittenFile {
+pub(crate) struct RewrittenFile {
     pub bytes: Vec<u8>,
     pub format: ModelFormat,
     pub camera: Camera,
@@ -55,7 +55,7 @@ pub struct RewrittenFile {
 
 impl RewrittenFile {
     /// The extension of the model's file.
-    pub fn extension(&self) -> &'static str {
+    pub(crate) fn extension(&self) -> &'static str {
         match self.format {
             ModelFormat::Obj => "obj",
             ModelFormat::Stl => "stl",
@@ -66,7 +66,7 @@ impl RewrittenFile {
 }
 
 impl Relation {
-    pub const ALL: [Self; 27] = [
+    pub(crate) const ALL: [Self; 27] = [
         Self::AllReversed,
         Self::SomeReversed,
         Self::ObjSixDecimals,
@@ -96,7 +96,7 @@ impl Relation {
         Self::PictureSize,
     ];
 
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::AllReversed => "all faces reversed",
             Self::SomeReversed => "faces of some bodies reversed",
@@ -129,17 +129,17 @@ impl Relation {
     }
 
     /// The model to compare with: in one part if the format has neither parts nor colours.
-    pub fn reference(self, model: &RandomModel) -> RandomModel {
+    pub(crate) fn reference(self, model: &RandomModel) -> RandomModel {
         if self.is_in_one_part() { model.clone().in_one_part() } else { model.clone() }
     }
 
     /// Whether the format has neither parts nor colours.
-    pub fn is_in_one_part(self) -> bool {
+    pub(crate) fn is_in_one_part(self) -> bool {
         matches!(self, Self::Stl | Self::Ply | Self::PlySinglePrecision)
     }
 
     /// Writes the reference in another way; `None` if the relation does not apply.
-    pub fn rewrite(self, model: &RandomModel, dice: &mut Dice) -> Option<RewrittenFile> {
+    pub(crate) fn rewrite(self, model: &RandomModel, dice: &mut Dice) -> Option<RewrittenFile> {
         let mut other = model.clone();
         match self {
             Self::AllReversed => changes::reverse_all_faces(&mut other),
@@ -204,7 +204,7 @@ impl Relation {
 }
 
 /// The reference file of a model: OBJ with all digits.
-pub fn reference_file(model: &RandomModel) -> RewrittenFile {
+pub(crate) fn reference_file(model: &RandomModel) -> RewrittenFile {
     rewritten_file(model, write_obj(model, Digits::All), ModelFormat::Obj)
 }
 

@@ -1,17 +1,17 @@
 //! Bodies with short coordinates: boxes, prisms, plates, stairs, houses, sheets and rounded bodies.
 
 use glam::{DMat3, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use super::body::{Body, Face};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 fn uncoloured_face(corners: impl IntoIterator<Item = u32>) -> Face {
     Face { corners: corners.into_iter().collect(), colour: 0 }
 }
 
 /// A prism over a counter-clockwise polygon of the xy plane, from z = 0 to `height`.
-pub fn extrude(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
+pub(crate) fn extrude(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
     let count = outline.len() as u32;
     let ring = |z: f64| outline.iter().map(move |&(x, y)| DVec3::new(x, y, z));
     let mut faces = vec![uncoloured_face((0..count).rev()), uncoloured_face(count..2 * count)];
@@ -24,7 +24,7 @@ pub fn extrude(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
 }
 
 /// An axis-aligned box with one corner at the origin.
-pub fn cuboid(size: DVec3) -> Body {
+pub(crate) fn cuboid(size: DVec3) -> Body {
     let outline = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
     extrude(&outline, size.z, [size * 0.25, size * 0.75])
 }
@@ -34,7 +34,7 @@ fn random_half_units(dice: &mut Dice, least: usize, most: usize) -> f64 {
     0.5 * (least + dice.below(most - least + 1)) as f64
 }
 
-pub fn random_cuboid(dice: &mut Dice) -> Body {
+pub(crate) fn random_cuboid(dice: &mut Dice) -> Body {
     cuboid(DVec3::new(
         random_half_units(dice, 1, 8),
         random_half_units(dice, 1, 8),
@@ -49,7 +49,7 @@ fn inner_box(low: (f64, f64), high: (f64, f64), height: f64) -> [DVec3; 2] {
 }
 
 /// A prism over a triangle, a trapezium or a hexagon.
-pub fn random_prism(dice: &mut Dice) -> Body {
+pub(crate) fn random_prism(dice: &mut Dice) -> Body {
     let (a, h) = (random_half_units(dice, 2, 4), random_half_units(dice, 1, 8));
     match dice.below(3) {
         0 => extrude(
@@ -73,7 +73,7 @@ pub fn random_prism(dice: &mut Dice) -> Body {
 }
 
 /// A plate in the shape of a T, a plus, an L or a U.
-pub fn random_plate(dice: &mut Dice) -> Body {
+pub(crate) fn random_plate(dice: &mut Dice) -> Body {
     let (a, b, c, h) = (
         random_half_units(dice, 1, 3),
         random_half_units(dice, 1, 3),
@@ -117,7 +117,7 @@ pub fn random_plate(dice: &mut Dice) -> Body {
     }
 }
 
-pub fn random_stairs(dice: &mut Dice) -> Body {
+pub(crate) fn random_stairs(dice: &mut Dice) -> Body {
     let (steps, run, rise, h) = (
         2 + dice.below(3),
         random_half_units(dice, 1, 2),
@@ -134,7 +134,7 @@ pub fn random_stairs(dice: &mut Dice) -> Body {
 }
 
 /// A house: an extruded gable with its ridge along z.
-pub fn random_house(dice: &mut Dice) -> Body {
+pub(crate) fn random_house(dice: &mut Dice) -> Body {
     let (half, wall, roof, h) = (
         random_half_units(dice, 2, 4),
         random_half_units(dice, 2, 5),
@@ -147,7 +147,7 @@ pub fn random_house(dice: &mut Dice) -> Body {
 }
 
 /// An open sheet: a rectangle, or two rectangles that meet in a fold.
-pub fn random_sheet(dice: &mut Dice) -> Body {
+pub(crate) fn random_sheet(dice: &mut Dice) -> Body {
     let (x, y, z) =
         (random_half_units(dice, 2, 8), random_half_units(dice, 2, 8), random_half_units(dice, 2, 6));
     let mut points: Vec<DVec3> =
@@ -164,7 +164,7 @@ pub fn random_sheet(dice: &mut Dice) -> Body {
 /// it.
 ///
 /// A profile that never reaches the axis closes into a ring.
-pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
+pub(crate) fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
     let mut body = Body { is_closed: true, is_round: true, ..Body::default() };
     let mut rings: Vec<Vec<u32>> = Vec::new();
     for &(radius, z) in profile {
@@ -204,7 +204,7 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
 }
 
 /// A cylinder, a cone, a stepped shaft, a sphere, a torus or a vase.
-pub fn random_round_body(dice: &mut Dice) -> Body {
+pub(crate) fn random_round_body(dice: &mut Dice) -> Body {
     let (r, h) = (random_half_units(dice, 1, 4), random_half_units(dice, 1, 8));
     let sides = 4 * (4 + dice.below(9)) as u32;
     let inner = |radius: f64, height: f64| {
@@ -256,7 +256,7 @@ pub fn random_round_body(dice: &mut Dice) -> Body {
 }
 
 /// One of the 24 rotations that keep boxes axis-aligned.
-pub fn random_axis_rotation(dice: &mut Dice) -> DMat3 {
+pub(crate) fn random_axis_rotation(dice: &mut Dice) -> DMat3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let first = dice.below(3);
     let second = (first + 1 + dice.below(2)) % 3;

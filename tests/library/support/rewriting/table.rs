@@ -7,7 +7,7 @@ use super::relations::Relation;
 use super::trial::{Outcome, Trial};
 
 #[derive(Debug, Clone, Default)]
-pub struct RelationCounts {
+pub(crate) struct RelationCounts {
     pub compared: usize,
     /// Different drawings of scenes without rounded bodies.
     pub flat_different: usize,
@@ -18,16 +18,16 @@ pub struct RelationCounts {
 }
 
 impl RelationCounts {
-    pub fn different(&self) -> usize {
+    pub(crate) fn different(&self) -> usize {
         self.flat_different + self.round_different
     }
 }
 
 #[derive(Debug, Clone, Default)]
-pub struct Table(pub BTreeMap<Relation, RelationCounts>);
+pub(crate) struct Table(pub BTreeMap<Relation, RelationCounts>);
 
 impl Table {
-    pub fn of(trials: &[Trial]) -> Self {
+    pub(crate) fn of(trials: &[Trial]) -> Self {
         let mut rows: BTreeMap<Relation, RelationCounts> = BTreeMap::new();
         for trial in trials.iter().filter(|trial| !matches!(trial.outcome, Outcome::NotApplicable)) {
             let row = rows.entry(trial.relation).or_default();

@@ -8,7 +8,7 @@ use super::model::RandomModel;
 
 /// Precision of written coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Digits {
+pub(crate) enum Digits {
     /// The shortest decimal that identifies the number in double precision.
     All,
     Six,
@@ -31,12 +31,12 @@ impl Digits {
 }
 
 /// An OBJ file with one object per part.
-pub fn write_obj(model: &RandomModel, digits: Digits) -> Vec<u8> {
+pub(crate) fn write_obj(model: &RandomModel, digits: Digits) -> Vec<u8> {
     write_obj_text(model, digits, false)
 }
 
 /// An OBJ file with one group per face.
-pub fn write_obj_in_groups(model: &RandomModel) -> Vec<u8> {
+pub(crate) fn write_obj_in_groups(model: &RandomModel) -> Vec<u8> {
     write_obj_text(model, Digits::All, true)
 }
 
@@ -71,7 +71,7 @@ fn write_obj_text(model: &RandomModel, digits: Digits, has_group_per_face: bool)
     text.into_bytes()
 }
 
-pub fn write_ply(model: &RandomModel) -> Vec<u8> {
+pub(crate) fn write_ply(model: &RandomModel) -> Vec<u8> {
     let points: Vec<DVec3> = model.bodies.iter().flat_map(|body| model.world_points(body)).collect();
     let faces: usize = model.bodies.iter().map(|body| body.faces.len()).sum();
     let mut text = String::from("ply\nformat ascii 1.0\n");

@@ -13,7 +13,7 @@ use ligne::style::Style;
 use super::model::RandomModel;
 use super::pens::{LinesByPen, PenDifference};
 use super::relations::{Relation, RewrittenFile, reference_file};
-use crate::support::scenes::random_dice::Dice;
+use crate::library::support::scenes::random_dice::Dice;
 
 /// Maximum distance between lines of flat bodies, px.
 const MAX_FLAT_DISTANCE_PX: f64 = 0.06;
@@ -24,7 +24,7 @@ const MAX_DIFFERENT_LENGTH_PX: f64 = 1.0;
 
 /// Result of a comparison.
 #[derive(Debug, Clone)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// The relation does not apply to the model.
     NotApplicable,
     Same,
@@ -34,12 +34,12 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    pub fn is_failure(&self) -> bool {
+    pub(crate) fn is_failure(&self) -> bool {
         matches!(self, Self::Different(_) | Self::Failed(_))
     }
 
     /// The length that differs, px; infinite if drawing failed.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         match self {
             Self::Different(difference) => difference.length(),
             Self::Failed(_) => f64::INFINITY,
@@ -59,7 +59,7 @@ impl Outcome {
 
 #[derive(Debug, Clone)]
 /// A model, a relation, and the result of their comparison.
-pub struct Trial {
+pub(crate) struct Trial {
     pub model: RandomModel,
     pub relation: Relation,
     pub outcome: Outcome,
@@ -69,7 +69,7 @@ pub struct Trial {
 fn draw_file(file: &RewrittenFile) -> Result<LinesByPen, String> {
     let draw = || {
         let scene = Scene::from_bytes(&file.bytes, file.format).map_err(|error| error.to_string())?;
-        let drawing = render(&scene, &file.camera, &Style::load("ink", &[]).unwrap());
+        let drawing = render(&scene, &file.camera, &Style::load("ink").unwrap());
         Ok(LinesByPen::of(&drawing.map_err(|error| error.to_string())?))
     };
     catch_unwind(AssertUnwindSafe(draw)).unwrap_or_else(|_| Err("drawing panics".into()))
@@ -110,13 +110,13 @@ fn compare_drawings(model: &RandomModel, relation: Relation, references: &Refere
 }
 
 impl Trial {
-    pub fn run(model: &RandomModel, relation: Relation) -> Self {
+    pub(crate) fn run(model: &RandomModel, relation: Relation) -> Self {
         let outcome = compare_drawings(model, relation, &ReferenceDrawings::default());
         Self { model: model.clone(), relation, outcome }
     }
 
     /// Runs all relations; the reference file is drawn once.
-    pub fn run_all(model: &RandomModel, relations: &[Relation]) -> Vec<Self> {
+    pub(crate) fn run_all(model: &RandomModel, relations: &[Relation]) -> Vec<Self> {
         let references = ReferenceDrawings::default();
         let run = |relation: &Relation| {
             let outcome = compare_drawings(model, *relation, &references);
@@ -126,14 +126,14 @@ impl Trial {
     }
 
     /// One line with the scene, its seed, the relation and the difference.
-    pub fn description(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let (kind, seed) = (&self.model.kind, self.model.seed);
         let (relation, words) = (self.relation.name(), self.outcome.description());
         format!("{kind}, seed {seed}, {relation}: {words}")
     }
 
     /// The failure reduced to as few bodies as possible.
-    pub fn reduced(&self) -> Self {
+    pub(crate) fn reduced(&self) -> Self {
         let mut least = self.clone();
         let mut k = 0;
         while k < least.model.bodies.len() && least.model.bodies.len() > 1 {
@@ -152,7 +152,7 @@ impl Trial {
     }
 
     /// Writes both files, both cameras and the difference into a separate folder.
-    pub fn save_in(&self, folder: &Path) {
+    pub(crate) fn save_in(&self, folder: &Path) {
         let Some(files) = file_pair(&self.model, self.relation) else { return };
         let word = |text: &str| text.replace(", ", "-").replace(' ', "-");
         let name = format!("{}-{}", word(&self.model.kind), self.model.seed);

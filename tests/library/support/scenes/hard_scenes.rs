@@ -1,25 +1,25 @@
 //! Random scenes with difficult visibility: several closed and open parts, each a connected surface.
 
 use glam::{DMat3, DVec3};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 use ligne::scene::{Camera, Scene};
 
 use super::random_dice::Dice;
 use super::round_solids::icosphere;
 use super::solids::{Solid, cuboid, torus, tube};
-use crate::support::pipeline::{orthographic, perspective, scene};
+use crate::library::support::pipeline::{orthographic, perspective, scene};
 
 /// Kinds of scenes with difficult visibility.
-pub const HARD_SCENE_KINDS: [&str; 6] =
+pub(crate) const HARD_SCENE_KINDS: [&str; 6] =
     ["rods in bores", "shells in shells", "slivers", "sheets", "one-ring cylinders", "figures behind plates"];
 
 /// A random scene of one of the kinds in [`HARD_SCENE_KINDS`], about two units across.
-pub fn hard_scene(kind: &str, dice: &mut Dice) -> Scene {
+pub(crate) fn hard_scene(kind: &str, dice: &mut Dice) -> Scene {
     scene(hard_solids(kind, dice))
 }
 
 /// The solids of [`hard_scene`].
-pub fn hard_solids(kind: &str, dice: &mut Dice) -> Vec<Solid> {
+pub(crate) fn hard_solids(kind: &str, dice: &mut Dice) -> Vec<Solid> {
     let turn = dice.turn();
     let parts = match kind {
         "rods in bores" => rods_in_bores(dice),
@@ -33,7 +33,7 @@ pub fn hard_solids(kind: &str, dice: &mut Dice) -> Vec<Solid> {
 }
 
 /// A camera from a random direction, perspective or orthographic.
-pub fn camera_from_any_side(dice: &mut Dice) -> Camera {
+pub(crate) fn camera_from_any_side(dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     if dice.below(2) == 0 {
         perspective(direction * dice.between(7.0, 8.0), DVec3::ZERO, 35.0)
@@ -46,7 +46,7 @@ pub fn camera_from_any_side(dice: &mut Dice) -> Camera {
 /// axis.
 ///
 /// A profile that never reaches the axis closes into a ring. Each step gives one ring of faces.
-pub fn lathe(profile: &[(f64, f64)], sides: usize) -> Solid {
+pub(crate) fn lathe(profile: &[(f64, f64)], sides: usize) -> Solid {
     let mut solid = Solid::default();
     let mut rings: Vec<Vec<u32>> = Vec::new();
     for &(radius, z) in profile {

@@ -7,13 +7,13 @@
 //! 3. [`moving_boxes`], [`pointer_board`]: animated scenes, built in memory and as a glTF file.
 //! 4. [`sheet_models`]: model files for technical sheets. [`random_svg`]: random SVG drawings.
 
-pub mod hard_scenes;
-pub mod moving_boxes;
-pub mod pointer_board;
-pub mod profile_bars;
-pub mod random_dice;
-pub mod random_scenes;
-pub mod random_svg;
-pub mod round_solids;
-pub mod sheet_models;
-pub mod solids;
+pub(crate) mod hard_scenes;
+pub(crate) mod moving_boxes;
+pub(crate) mod pointer_board;
+pub(crate) mod profile_bars;
+pub(crate) use crate::geometry::dice as random_dice;
+pub(crate) mod random_scenes;
+pub(crate) mod random_svg;
+pub(crate) mod round_solids;
+pub(crate) mod sheet_models;
+pub(crate) mod solids;

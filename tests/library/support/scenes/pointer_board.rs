@@ -7,14 +7,14 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 /// A temporary file with two squares of different materials, two cameras and two lights.
-pub struct PointerFile(pub PathBuf);
+pub(crate) struct PointerFile(pub PathBuf);
 
 /// A pointer, its interpolation, and its values at 0, 1 and 3 s.
-pub type PointerChannel<'a> = (&'a str, &'a str, &'a [f32]);
+pub(crate) type PointerChannel<'a> = (&'a str, &'a str, &'a [f32]);
 
 impl PointerFile {
     /// Writes the file with one channel per entry of `moved`, after `change` has edited the document.
-    pub fn new(name: &str, moved: &[PointerChannel], change: impl FnOnce(&mut Value)) -> Self {
+    pub(crate) fn new(name: &str, moved: &[PointerChannel], change: impl FnOnce(&mut Value)) -> Self {
         let mut bytes: Vec<u8> = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
         let mut add = |width: usize, numbers: &[f32]| {
@@ -78,7 +78,7 @@ impl Drop for PointerFile {
 }
 
 /// Adds an accessor of vectors with `width` components to a document; returns its index.
-pub fn add_accessor(file: &mut Value, width: usize, numbers: &[f32]) -> usize {
+pub(crate) fn add_accessor(file: &mut Value, width: usize, numbers: &[f32]) -> usize {
     let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes));
     let mut push = |list: &str, entry: Value| {

@@ -1,15 +1,15 @@
 //! Bars of constant cross-section along z, so an edge is determined by a corner of the profile.
 
 use glam::DVec3;
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 
 use super::solids::Solid;
 
 /// Length of the bars along z, world units.
-pub const BAR_LENGTH: f64 = 6.0;
+pub(crate) const BAR_LENGTH: f64 = 6.0;
 
 /// A bar with a convex or star-shaped profile around the origin, counter-clockwise.
-pub fn bar(profile: &[[f64; 2]]) -> Solid {
+pub(crate) fn bar(profile: &[[f64; 2]]) -> Solid {
     let mut solid = Solid::default();
     let count = profile.len() as u32;
     for z in [0.0, BAR_LENGTH] {
@@ -25,7 +25,7 @@ pub fn bar(profile: &[[f64; 2]]) -> Solid {
 }
 
 /// A profile from a start point and steps, each a length followed by a turn in degrees.
-pub fn step_profile(start: [f64; 2], steps: &[(f64, f64)]) -> Vec<[f64; 2]> {
+pub(crate) fn step_profile(start: [f64; 2], steps: &[(f64, f64)]) -> Vec<[f64; 2]> {
     let (mut at, mut heading, mut profile) = (start, 0.0f64, vec![start]);
     for (length, turn) in steps {
         at = [at[0] + length * cos(heading), at[1] + length * sin(heading)];

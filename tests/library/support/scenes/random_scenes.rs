@@ -5,14 +5,14 @@ use ligne::scene::{Camera, Projection, Scene};
 
 use super::random_dice::Dice;
 use super::solids::{Solid, cuboid, sphere, torus};
-use crate::support::pipeline::{orthographic, perspective, scene};
+use crate::library::support::pipeline::{orthographic, perspective, scene};
 
 /// Kinds of random scenes.
-pub const ALL_SCENE_KINDS: [&str; 7] =
+pub(crate) const ALL_SCENE_KINDS: [&str; 7] =
     ["boxes", "tetrahedra", "spheres", "tori", "soup", "interpenetrating", "mixture"];
 
 /// A random scene of one of the kinds in [`ALL_SCENE_KINDS`], about two units across.
-pub fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
+pub(crate) fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
     match kind {
         "boxes" => scene_of_many(dice, 8, 0.9, random_box),
         "tetrahedra" => scene_of_many(dice, 14, 0.9, random_tetrahedron),
@@ -29,10 +29,10 @@ pub fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
 }
 
 /// Kinds of random cameras.
-pub const ALL_CAMERA_KINDS: [&str; 5] = ["perspective", "orthographic", "inside", "cutting", "near"];
+pub(crate) const ALL_CAMERA_KINDS: [&str; 5] = ["perspective", "orthographic", "inside", "cutting", "near"];
 
 /// A random camera of one of the kinds in [`ALL_CAMERA_KINDS`], for scenes about the origin.
-pub fn random_camera(kind: &str, dice: &mut Dice) -> Camera {
+pub(crate) fn random_camera(kind: &str, dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     let target = dice.point(0.1);
     match kind {
@@ -61,7 +61,7 @@ fn scene_of_many(dice: &mut Dice, count: usize, spread: f64, make: impl Fn(&mut 
 }
 
 /// The solid with a random rotation and translation.
-pub fn randomly_placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
+pub(crate) fn randomly_placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
     let (turn, place) = (dice.turn(), dice.point(spread));
     solid.moved(|p| turn * p + place)
 }

@@ -4,14 +4,14 @@ use super::random_dice::Dice;
 
 /// An SVG element: its name and its attributes.
 #[derive(Clone)]
-pub struct SvgElement {
+pub(crate) struct SvgElement {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
 }
 
 /// A drawing of 160 × 120 px.
 #[derive(Clone)]
-pub struct SvgScene {
+pub(crate) struct SvgScene {
     marks: Vec<SvgElement>,
     /// Numbers in the definitions: a gradient's end, a pattern's width, a blur radius, a clip path's side, a
     /// mask's radius.
@@ -122,7 +122,7 @@ fn random_mark(dice: &mut Dice) -> SvgElement {
 }
 
 impl SvgScene {
-    pub fn random(dice: &mut Dice) -> Self {
+    pub(crate) fn random(dice: &mut Dice) -> Self {
         let marks = (0..2 + dice.below(4)).map(|_| random_mark(dice)).collect();
         let mut between = |low, high| round_to_tenth(dice.between(low, high));
         let numbers = [
@@ -147,7 +147,7 @@ impl SvgScene {
         )
     }
 
-    pub fn svg(&self) -> String {
+    pub(crate) fn svg(&self) -> String {
         svg_page(&self.definitions(), &self.marks.iter().map(SvgElement::svg).collect::<Vec<_>>())
     }
 }
@@ -160,7 +160,7 @@ fn svg_page(definitions: &str, marks: &[String]) -> String {
 }
 
 /// Two SVG texts that show the same picture, and the name of the rewriting.
-pub fn equal_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
+pub(crate) fn equal_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut definitions = scene.definitions();
     let mut marks: Vec<String> = scene.marks.iter().map(SvgElement::svg).collect();
@@ -275,7 +275,7 @@ pub fn equal_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String,
 }
 
 /// A drawing, the drawing with one property changed, and the name of the change.
-pub fn changed_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
+pub(crate) fn changed_picture_pair(scene: &SvgScene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut scene = scene.clone();
     let at = dice.below(scene.marks.len());

@@ -3,13 +3,13 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use libm::{cos, sin};
 use ligne::scene::Geometry;
 
 use super::solids::Solid;
 
 /// The unit sphere from an octahedron: `8 * 4^level` triangles.
-pub fn octasphere(level: u32) -> Solid {
+pub(crate) fn octasphere(level: u32) -> Solid {
     let positions = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     let triangles =
         vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
@@ -17,7 +17,7 @@ pub fn octasphere(level: u32) -> Solid {
 }
 
 /// The unit sphere from an icosahedron: `20 * 4^level` triangles.
-pub fn icosphere(level: u32) -> Solid {
+pub(crate) fn icosphere(level: u32) -> Solid {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut positions = Vec::new();
     for (s, t) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
@@ -63,7 +63,7 @@ fn blown_up(mut solid: Solid, level: u32) -> Solid {
 }
 
 /// The unit sphere with `2 * around` meridians and `around` − 1 parallels.
-pub fn globe(around: u32) -> Solid {
+pub(crate) fn globe(around: u32) -> Solid {
     let mut solid = Solid { positions: vec![DVec3::Z, DVec3::NEG_Z], ..Solid::default() };
     let meridians = 2 * around;
     let at = |i: u32, j: u32| match j {
@@ -88,7 +88,7 @@ pub fn globe(around: u32) -> Solid {
 }
 
 /// The open saddle z = x² − y² over the square from −1 to 1, with `cells` × `cells` squares.
-pub fn saddle(cells: u32) -> Solid {
+pub(crate) fn saddle(cells: u32) -> Solid {
     let mut solid = Solid::default();
     let at = |i: u32| 2.0 * f64::from(i) / f64::from(cells) - 1.0;
     let row = cells + 1;
@@ -106,7 +106,7 @@ pub fn saddle(cells: u32) -> Solid {
 }
 
 /// A capped cylinder about the z axis with radius 1, from z = −1 to 1, whose normals are split at the rims.
-pub fn cylinder(around: u32, along: u32) -> Geometry {
+pub(crate) fn cylinder(around: u32, along: u32) -> Geometry {
     let mut geometry = Geometry::default();
     let angle = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(around);
     for i in 0..around {

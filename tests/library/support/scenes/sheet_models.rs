@@ -10,14 +10,14 @@ use ligne::page::ComposedPage;
 use super::solids::{Solid, cuboid};
 
 /// A temporary folder for one test.
-pub fn temp_folder(name: &str) -> PathBuf {
+pub(crate) fn temp_folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("ligne-sheets-{}-{name}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder");
     folder
 }
 
 /// The text of an OBJ file with one object per named solid.
-pub fn obj_text(parts: &[(String, Solid)]) -> String {
+pub(crate) fn obj_text(parts: &[(String, Solid)]) -> String {
     let mut text = String::new();
     let mut first = 1;
     for (name, solid) in parts {
@@ -34,29 +34,29 @@ pub fn obj_text(parts: &[(String, Solid)]) -> String {
 }
 
 /// The axis-aligned box between two corners.
-pub fn block(low: [f64; 3], high: [f64; 3]) -> Solid {
+pub(crate) fn block(low: [f64; 3], high: [f64; 3]) -> Solid {
     cuboid(low.into(), high.into())
 }
 
 /// The item of a composed page with this name.
-pub fn page_item<'a>(composed: &'a ComposedPage, name: &str) -> &'a PlacedDrawing {
+pub(crate) fn page_item<'a>(composed: &'a ComposedPage, name: &str) -> &'a PlacedDrawing {
     let found = composed.composition.items.iter().find(|item| item.name == name);
     found.unwrap_or_else(|| panic!("no {name}"))
 }
 
 /// The marks of an item, each with the item's placement on the page.
-pub fn placed_marks(item: &PlacedDrawing) -> impl Iterator<Item = (Affine, &Mark)> {
+pub(crate) fn placed_marks(item: &PlacedDrawing) -> impl Iterator<Item = (Affine, &Mark)> {
     item.drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| (item.place, mark))
 }
 
 /// The bounding box of the marks' paths.
-pub fn drawn_bounds(item: &PlacedDrawing) -> Rect {
+pub(crate) fn drawn_bounds(item: &PlacedDrawing) -> Rect {
     let boxes = placed_marks(item).map(|(place, mark)| (place * mark.path.clone()).bounding_box());
     boxes.reduce(|a, b| a.union(b)).expect("something drawn")
 }
 
 /// All text labels of an item.
-pub fn item_texts(item: &PlacedDrawing) -> Vec<String> {
+pub(crate) fn item_texts(item: &PlacedDrawing) -> Vec<String> {
     placed_marks(item)
         .filter_map(|(_, mark)| Some(mark.provenance.text.as_ref()?.words.to_string()))
         .collect()
@@ -65,8 +65,8 @@ pub fn item_texts(item: &PlacedDrawing) -> Vec<String> {
 /// A plate from the origin, divided into columns along x, each with a through hole.
 ///
 /// `size` is width, depth and height; each hole is given by its centre and radius.
-pub fn drilled_plate(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
-    use ligne::geometry::numbers::portable_math::{cos, sin};
+pub(crate) fn drilled_plate(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
+    use libm::{cos, sin};
     let mut plate = Solid::default();
     let [width, depth, height] = size;
     let column = width / holes.len().max(1) as f64;

@@ -4,28 +4,28 @@ use glam::DVec3;
 
 /// A triangle mesh.
 #[derive(Debug, Clone, Default)]
-pub struct Solid {
+pub(crate) struct Solid {
     pub positions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Solid {
     /// Adds another solid without sharing vertices.
-    pub fn add(&mut self, other: Solid) {
+    pub(crate) fn add(&mut self, other: Solid) {
         let first = self.positions.len() as u32;
         self.positions.extend(other.positions);
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
     }
 
     /// The solid with `place` applied to each point.
-    pub fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Solid {
+    pub(crate) fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Solid {
         self.positions.iter_mut().for_each(|p| *p = place(*p));
         self
     }
 }
 
 /// An axis-aligned box of twelve triangles.
-pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
+pub(crate) fn cuboid(low: DVec3, high: DVec3) -> Solid {
     let corner = |i: u32| {
         let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
         DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
@@ -38,7 +38,7 @@ pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
 }
 
 /// A torus about the z axis, with `around` × `along` quads.
-pub fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
+pub(crate) fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
     grid(around, along, true, |u, v| {
         let (cos_u, sin_u) = turn(u);
         let (cos_v, sin_v) = turn(v);
@@ -48,7 +48,7 @@ pub fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
 }
 
 /// An open tube about the z axis, from −`half` to `half`.
-pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
+pub(crate) fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
     grid(around, along, false, |u, v| {
         let (cos_u, sin_u) = turn(u);
         DVec3::new(radius * cos_u, radius * sin_u, half * (2.0 * v - 1.0))
@@ -56,7 +56,7 @@ pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
 }
 
 /// A sphere of meridians and parallels, with a fan of triangles at each pole.
-pub fn sphere(around: usize, radius: f64) -> Solid {
+pub(crate) fn sphere(around: usize, radius: f64) -> Solid {
     let mut sphere = grid(2 * around, around, false, |u, v| {
         let (cos_u, sin_u) = turn(u);
         // The first and last parallels are slightly off the poles, which are closed by fans.
@@ -75,7 +75,7 @@ pub fn sphere(around: usize, radius: f64) -> Solid {
 
 fn turn(fraction: f64) -> (f64, f64) {
     let angle = fraction * std::f64::consts::TAU;
-    (ligne::geometry::numbers::portable_math::cos(angle), ligne::geometry::numbers::portable_math::sin(angle))
+    (libm::cos(angle), libm::sin(angle))
 }
 
 /// A grid of quads that is closed in u, and in v if `closed`; `place` maps the unit square to points.

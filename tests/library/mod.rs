@@ -1,4 +1,4 @@
-//! Tests of the library, a file for each capability. `cargo test --test library shadows::` runs one.
+//! Tests of the library, a file for each capability. `cargo test --lib shadows::` runs one.
 
 mod animation;
 mod chains;

@@ -1,0 +1,93 @@
+//! Private stages for the benches and model generators of this repository. Not part of the library's interface:
+//! anything here may change without notice.
+
+/// Geometry.
+pub mod geometry {
+    pub use crate::geometry::numbers::noise::{hash, unit_interval, value_noise};
+}
+/// Light.
+pub mod light {
+    pub use crate::light::{Caster, ambient_visibility};
+}
+/// Feature lines.
+pub mod lines {
+    pub use crate::lines::edges::edge_lines;
+    pub use crate::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
+}
+/// Mesh.
+pub mod mesh {
+    pub use crate::mesh::bvh::ToneTree;
+    pub use crate::mesh::intersect::intersection_curves::{IntersectionInput, intersections};
+    pub use crate::mesh::{Edges, FaceId, Mesh, Soup};
+}
+/// Shadows.
+pub mod shadows {
+    pub use crate::shadows::Shadows;
+}
+/// Views.
+pub mod view {
+    pub use crate::view::raster::{FaceBuffer, PixelGrid};
+    pub use crate::view::{Frame, View};
+}
+/// Visibility.
+pub mod visibility {
+    pub use crate::visibility::ViewMap;
+}
+
+/// Edges of a mesh.
+#[must_use]
+pub fn edges(mesh: &mesh::Mesh) -> &mesh::Edges {
+    &mesh.edges
+}
+
+/// Projection of a view.
+#[must_use]
+pub fn frame(view: &view::View) -> &view::Frame {
+    &view.frame
+}
+
+/// Length of the diagonal of a mesh's bounding box.
+#[must_use]
+pub fn diagonal(mesh: &mesh::Mesh) -> f64 {
+    mesh.extents.diagonal
+}
+
+/// Number of hatching strokes of a view.
+#[must_use]
+pub fn hatch_strokes(renderer: &crate::pipeline::Renderer, camera: &crate::scene::Camera) -> usize {
+    let page = crate::drawing::Page::px(camera.width, camera.height);
+    let layers = renderer.hatch_strokes(camera, page).map(|(_, layers)| layers).unwrap_or_default();
+    layers.iter().map(|layer| layer.strokes.len()).sum()
+}
+
+/// Adds a visible line of one kind through points to a map.
+pub fn add_line(map: &mut visibility::ViewMap, points: &[kurbo::Point], closed: bool, kind: lines::LineKind) {
+    use crate::mesh::{MaterialId, PartId};
+    use crate::surface::MeshSource::{Constructed, Scanned};
+    use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
+    let first = map.vertices.len() as u32;
+    let vertex = |position: &kurbo::Point| ViewVertex {
+        position: *position,
+        depth: 1.0,
+        strength: 1.0,
+        kind: ViewVertexKind::Vertex,
+    };
+    map.vertices.extend(points.iter().map(vertex));
+    let count = points.len() as u32;
+    for k in 0..if closed { count } else { count - 1 } {
+        map.edges.push(ViewEdge {
+            start: ViewVertexId(first + k),
+            end: ViewVertexId(first + (k + 1) % count),
+            kind,
+            invisibility: 0,
+            silhouette: false,
+            both_seen: kind == lines::LineKind::Crease,
+            smooth: kind == lines::LineKind::Contour,
+            origin: if kind == lines::LineKind::Contour { Scanned } else { Constructed },
+            strength: 90.0,
+            part: PartId(0),
+            material: MaterialId(0),
+            segment: map.edges.len() as u32,
+        });
+    }
+}
