@@ -22,12 +22,13 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 
-use ligne::internals::lines::edge_lines;
-use ligne::internals::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
+use ligne::Style;
+use ligne::internals::lines::{EdgeSearch, edge_lines, edge_lines_among};
 use ligne::internals::mesh::Mesh;
 use ligne::internals::mesh::ToneTree;
 use ligne::internals::view::View;
-use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
+use ligne::pipeline::{LineKind, Surface};
+use ligne::scene::{Camera, Geometry, Projection, Scene};
 use rayon::prelude::*;
 use solids::Solid;
 
@@ -85,8 +86,10 @@ fn main() {
 
 fn scene(solid: Solid) -> Scene {
     let geometry = Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() };
-    let part = Part { name: String::new(), geometry: 0, world_from_part: DAffine3::IDENTITY };
-    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+    let mut scene = Scene::default();
+    let geometry = scene.add_geometry(geometry);
+    scene.add_part(String::new(), geometry, DAffine3::IDENTITY);
+    scene
 }
 
 /// Directions to the faces, edges and corners of a cube.
@@ -110,9 +113,10 @@ fn timed<T>(mut call: impl FnMut() -> T) -> (T, Duration) {
 }
 
 fn row(name: &str, scene: &Scene) {
-    let mut options = LineOptions { contours: Contours::Mesh, ..LineOptions::default() };
-    options.kinds.retain(|kind| *kind != LineKind::Intersection);
-    let surface = Surface::new(Mesh::build(scene.to_soup()), &options);
+    let mut style = Style::default();
+    style.set("lines.contours", "mesh").expect("a key");
+    style.set("lines.kinds", "['contour', 'border', 'crease', 'material']").expect("a key");
+    let surface = Surface::of(Mesh::of(scene), &style);
     let edges = ligne::internals::edges(&surface.mesh).len();
     let started = Instant::now();
     let search = EdgeSearch::new(&surface);
@@ -129,12 +133,12 @@ fn row(name: &str, scene: &Scene) {
             };
             let parallel = Projection::Orthographic { height: 1.0 };
             let camera = if perspective { camera } else { camera.with_projection(parallel) }.fit(scene);
-            let view = View::new(&surface.mesh, &camera);
-            let (plain, time) = timed(|| edge_lines::find(&surface, &view, &options));
+            let view = View::of(&surface, &camera);
+            let (plain, time) = timed(|| edge_lines(&surface, &view, &style));
             plain_time += time;
             let (by_tree, time) = timed(|| {
                 let among = search.candidates(&surface.mesh, &view).items;
-                edge_lines::find_among(&among, &surface, &view, &options)
+                edge_lines_among(&among, &surface, &view, &style)
             });
             tree_time += time;
             assert!(plain == by_tree, "the tree finds other lines than the plain scan");

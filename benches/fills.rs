@@ -26,7 +26,7 @@ use ligne::internals::mesh::Mesh;
 use ligne::internals::view::View;
 use ligne::internals::view::{FaceBuffer, PixelGrid};
 use ligne::pipeline::Renderer;
-use ligne::scene::{Geometry, Part};
+use ligne::scene::Geometry;
 use ligne::{Camera, Scene, Style};
 use rayon::ThreadPool;
 use solids::Solid;
@@ -92,14 +92,16 @@ fn knot(along: usize, around: usize) -> Solid {
 
 fn scene(solid: Solid) -> Scene {
     let geometry = Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() };
-    let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
-    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+    let mut scene = Scene::default();
+    let geometry = scene.add_geometry(geometry);
+    scene.add_part("model".to_owned(), geometry, DAffine3::IDENTITY);
+    scene
 }
 
 fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool]) {
     let camera = Camera::three_quarter_of(scene.up).with_frame(SIDE, SIDE).fit(scene);
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None };
-    let mesh = Mesh::build(scene.to_soup());
+    let mesh = Mesh::of(&scene);
     let view = View::new(&mesh, &camera);
     for pool in pools {
         let floor = pool.install(|| least_ms(|| FaceBuffer::new(&PixelGrid::new(&mesh, &view))));

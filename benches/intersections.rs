@@ -34,7 +34,7 @@ fn facing(solid: &Solid) -> Vec<bool> {
 /// Shared model as a solid; none if it is missing.
 fn scan(name: &str) -> Option<Solid> {
     let scene = Scene::open(models::find(name)?).ok()?;
-    let Mesh { positions, triangles, .. } = Mesh::build(scene.to_soup());
+    let Mesh { positions, triangles, .. } = Mesh::of(&scene);
     Some(Solid { positions, triangles })
 }
 

@@ -91,7 +91,7 @@ fn stl_million(bencher: Bencher) {
 #[divan::bench]
 fn flatten_million(bencher: Bencher) {
     let Ok(scene) = Scene::from_bytes(&ply_bytes(), ModelFormat::Ply) else { return };
-    bencher.bench(|| black_box(&scene).to_soup());
+    bencher.bench(|| ligne::internals::soup(black_box(&scene)));
 }
 
 #[divan::bench]

@@ -20,7 +20,7 @@ use std::time::Instant;
 use glam::DAffine3;
 use ligne::drawing::{Page, Unit};
 use ligne::pipeline::Renderer;
-use ligne::scene::{Geometry, Part};
+use ligne::scene::Geometry;
 use ligne::{Camera, Scene, Style, SvgOptions};
 
 /// Number of measured views, and of warm-up views before them.
@@ -84,6 +84,8 @@ fn redraw(scene: &Scene, style: &Style) -> Result<(Vec<f64>, usize), ligne::Erro
 
 fn scene(solid: solids::Solid) -> Scene {
     let geometry = Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() };
-    let part = Part { name: String::new(), geometry: 0, world_from_part: DAffine3::IDENTITY };
-    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+    let mut scene = Scene::default();
+    let geometry = scene.add_geometry(geometry);
+    scene.add_part(String::new(), geometry, DAffine3::IDENTITY);
+    scene
 }

@@ -41,7 +41,7 @@ fn main() {
     for path in own.chain(shared).chain(given.iter().cloned()) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         match Scene::open(&path) {
-            Ok(scene) => rows(&name, &Mesh::build(scene.to_soup())),
+            Ok(scene) => rows(&name, &Mesh::of(&scene)),
             Err(error) => println!("{name}: {error}"),
         }
     }

@@ -4,7 +4,7 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::{Drawing, Unit};
 use ligne::pipeline::{Chain, FeatureLines, Mesh, Surface, View, ViewMap};
-use ligne::scene::{Geometry, Part};
+use ligne::scene::Geometry;
 use ligne::{Camera, Scene, Style, SvgOptions, render};
 
 #[allow(dead_code)]
@@ -29,8 +29,10 @@ fn scene(name: &str) -> Scene {
         triangles: made.faces,
         ..Geometry::default()
     };
-    let part = Part { name: name.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
-    Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+    let mut scene = Scene::default();
+    let geometry = scene.add_geometry(geometry);
+    scene.add_part(name.to_owned(), geometry, DAffine3::IDENTITY);
+    scene
 }
 
 /// Scene with all intermediate results of a drawing.

@@ -11,8 +11,29 @@ pub mod light {
 }
 /// Feature lines.
 pub mod lines {
-    pub use crate::lines::edges::edge_lines;
-    pub use crate::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
+    use crate::lines::edges::edge_lines as found_along_edges;
+    use crate::lines::{FeatureSegment, Surface};
+    use crate::style::Style;
+    use crate::view::View;
+
+    pub use crate::lines::EdgeSearch;
+
+    /// Lines along the edges of a surface.
+    #[must_use]
+    pub fn edge_lines(surface: &Surface, view: &View, style: &Style) -> Vec<FeatureSegment> {
+        found_along_edges::find(surface, view, &style.lines)
+    }
+
+    /// Lines along some edges of a surface.
+    #[must_use]
+    pub fn edge_lines_among(
+        edges: &[u32],
+        surface: &Surface,
+        view: &View,
+        style: &Style,
+    ) -> Vec<FeatureSegment> {
+        found_along_edges::find_among(edges, surface, view, &style.lines)
+    }
 }
 /// Mesh.
 pub mod mesh {
@@ -61,7 +82,12 @@ pub fn hatch_strokes(renderer: &crate::pipeline::Renderer, camera: &crate::scene
 }
 
 /// Adds a visible line of one kind through points to a map.
-pub fn add_line(map: &mut visibility::ViewMap, points: &[kurbo::Point], closed: bool, kind: lines::LineKind) {
+pub fn add_line(
+    map: &mut visibility::ViewMap,
+    points: &[kurbo::Point],
+    closed: bool,
+    kind: crate::lines::LineKind,
+) {
     use crate::mesh::{MaterialId, PartId};
     use crate::surface::MeshSource::{Constructed, Scanned};
     use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
@@ -81,13 +107,19 @@ pub fn add_line(map: &mut visibility::ViewMap, points: &[kurbo::Point], closed: 
             kind,
             invisibility: 0,
             silhouette: false,
-            both_seen: kind == lines::LineKind::Crease,
-            smooth: kind == lines::LineKind::Contour,
-            origin: if kind == lines::LineKind::Contour { Scanned } else { Constructed },
+            both_seen: kind == crate::lines::LineKind::Crease,
+            smooth: kind == crate::lines::LineKind::Contour,
+            origin: if kind == crate::lines::LineKind::Contour { Scanned } else { Constructed },
             strength: 90.0,
             part: PartId(0),
             material: MaterialId(0),
             segment: map.edges.len() as u32,
         });
     }
+}
+
+/// All triangles of a scene in world space.
+#[must_use]
+pub fn soup(scene: &crate::scene::Scene) -> mesh::Soup {
+    scene.to_soup()
 }

@@ -108,8 +108,8 @@ fn print_changes(name: &str, style: &str, changes: &[Change]) {
 }
 
 fn changes(rigged: &Rigged, clip: Option<&str>, style: &Style) -> Vec<Change> {
-    let clip = clip.map(|name| rigged.rig.clip(name).unwrap_or(0));
-    let from = clip.map_or(0.0, |clip| rigged.rig.clips[clip].span()[0]);
+    let clip = clip.map(|name| rigged.clips().iter().position(|clip| clip.name == name).unwrap_or(0));
+    let from = clip.map_or(0.0, |clip| rigged.clips()[clip].span()[0]);
     let timeline = Timeline::of_frames(FRAMES, from, 24.0).expect("a timeline");
     let steps = (360.0 / DEGREES) as usize;
     let table = clip.is_none().then(|| Turntable::round(&rigged.scene, steps));

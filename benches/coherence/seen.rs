@@ -40,7 +40,7 @@ pub struct Place {
 
 impl Seen {
     pub fn new(scene: &Scene, camera: &Camera) -> Self {
-        let soup = scene.to_soup();
+        let soup = ligne::internals::soup(scene);
         let (low, high) = scene.bounds().expect("something to see");
         let (width, height) = (camera.width.ceil() as usize, camera.height.ceil() as usize);
         let spots: Vec<Spot> = soup.positions.iter().map(|position| spot(*position, camera)).collect();

@@ -56,7 +56,7 @@ impl Floor {
         let camera = Camera::three_quarter().with_frame(side, side).fit(&scene);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let pool = pool.map_err(|error| ligne::Error::new(error.to_string()))?;
-        Ok(Self { soup: scene.to_soup(), frame: Frame::new(&camera, DVec3::ZERO), pool })
+        Ok(Self { soup: ligne::internals::soup(&scene), frame: Frame::new(&camera, DVec3::ZERO), pool })
     }
 
     /// Number of triangles.

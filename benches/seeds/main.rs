@@ -48,7 +48,7 @@ const PASSES: [Pass; 6] = [
 fn main() {
     let styles = PASSES.map(|(name, style, set)| (name, styled(style, set)));
     heading("ring: faces");
-    let ring = Rigged { scene: ring(), ..Rigged::default() };
+    let ring = Rigged::from(ring());
     let detail = Detail::of(&ring.scene);
     for faces in FACES {
         let level = DetailLevel::of(&detail, &ring.scene, faces).expect("a level of it");
@@ -117,7 +117,7 @@ impl Course {
 
     /// The first clip at 24 frames per second.
     fn clip(rigged: &Rigged) -> Self {
-        let [from, _] = rigged.rig.clips[0].span();
+        let [from, _] = rigged.clips()[0].span();
         let timeline = Timeline::of_frames(FRAMES, from, 24.0).expect("a timeline");
         let playing = |frame| vec![Playing::all(0, timeline.time(frame))];
         let poses = (0..FRAMES).map(|frame| (playing(frame), DAffine3::IDENTITY)).collect();
@@ -156,7 +156,7 @@ fn rate(animator: &Animator, course: &Course) -> f64 {
 fn plain_rate(posed: impl Fn(usize) -> Scene, course: &Course) -> f64 {
     of_times(course.moments.iter().enumerate().map(|(frame, moment)| {
         let begin = Instant::now();
-        let soup = posed(frame).to_soup();
+        let soup = ligne::internals::soup(&posed(frame));
         std::hint::black_box(plain::shaded(&soup.positions, &soup.triangles, &moment.camera));
         begin.elapsed().as_secs_f64()
     }))

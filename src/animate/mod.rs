@@ -38,6 +38,7 @@ mod turntable;
 
 use std::sync::OnceLock;
 
+pub use crate::motion::FadeBy;
 pub use detail_level::DetailLevel;
 pub use face_budget::Budget;
 pub use film_extent::film_points;

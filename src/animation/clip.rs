@@ -8,12 +8,12 @@ pub struct Clip {
     /// Name in the file, or `animation 0` and so on.
     pub name: String,
     /// Values that change.
-    pub channels: Vec<ClipChannel>,
+    pub(crate) channels: Vec<ClipChannel>,
 }
 
 /// A value of the file that changes over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ClipChannel {
+pub(crate) struct ClipChannel {
     /// The value.
     pub target: AnimationTarget,
     /// Its keys.
@@ -22,7 +22,7 @@ pub struct ClipChannel {
 
 /// A value of a file that may change. Numbers are indices in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum AnimationTarget {
+pub(crate) enum AnimationTarget {
     /// Property of a node.
     Node(usize, NodeProperty),
     /// Property of a camera, shared by all nodes with that camera.
@@ -36,7 +36,7 @@ pub enum AnimationTarget {
 impl AnimationTarget {
     /// Node and property, if the target is a node.
     #[must_use]
-    pub fn of_node(self) -> Option<(usize, NodeProperty)> {
+    pub(crate) fn of_node(self) -> Option<(usize, NodeProperty)> {
         match self {
             Self::Node(node, property) => Some((node, property)),
             Self::Camera(..) | Self::Light(..) | Self::Material(..) => None,
@@ -46,7 +46,7 @@ impl AnimationTarget {
 
 /// Animated property of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum NodeProperty {
+pub(crate) enum NodeProperty {
     /// Translation: three numbers.
     Translation,
     /// Rotation: a quaternion, four numbers.
@@ -61,7 +61,7 @@ pub enum NodeProperty {
 
 /// Animated property of a camera, one number each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum CameraProperty {
+pub(crate) enum CameraProperty {
     /// Vertical field of view of a perspective camera, in radians.
     FieldOfView,
     /// Aspect ratio, width by height.
@@ -76,7 +76,7 @@ pub enum CameraProperty {
 
 /// Animated property of a light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum LightProperty {
+pub(crate) enum LightProperty {
     /// Colour: three numbers, linear.
     Colour,
     /// Intensity.
@@ -91,7 +91,7 @@ pub enum LightProperty {
 
 /// Animated property of a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum MaterialProperty {
+pub(crate) enum MaterialProperty {
     /// Base colour and opacity: four numbers, linear.
     Base,
     /// Emitted light: three numbers, linear.

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins).
 #[derive(Debug, Clone, Default)]
-pub struct DeformableMesh {
+pub(crate) struct DeformableMesh {
     /// Index of the first vertex in the geometry.
     pub start: usize,
     /// Rest positions.
@@ -21,7 +21,7 @@ pub struct DeformableMesh {
 
 /// Offsets of a morph target at full weight; one entry per vertex, or empty.
 #[derive(Debug, Clone, Default)]
-pub struct MorphTarget {
+pub(crate) struct MorphTarget {
     /// Offsets of positions.
     pub positions: Vec<DVec3>,
     /// Offsets of normals.
@@ -30,7 +30,7 @@ pub struct MorphTarget {
 
 /// Four joints of each vertex and their weights.
 #[derive(Debug, Clone, Default)]
-pub struct Influences {
+pub(crate) struct Influences {
     /// Joint numbers within the skin.
     pub joints: Vec<[u32; 4]>,
     /// Weights; they need not add up to 1.
@@ -39,7 +39,7 @@ pub struct Influences {
 
 impl DeformableMesh {
     /// Moves rest positions and normals by morph targets, and then by the joints of a skin, if there is one.
-    pub fn pose(
+    pub(crate) fn pose(
         &self,
         (positions, normals): (&mut [DVec3], &mut [[f32; 3]]),
         weights: &[f64],
@@ -64,7 +64,7 @@ impl DeformableMesh {
 
     /// Position of one vertex, deformed as by [`DeformableMesh::pose`].
     #[must_use]
-    pub fn place(&self, vertex: usize, weights: &[f64], joints: Option<&[DAffine3]>) -> Option<DVec3> {
+    pub(crate) fn place(&self, vertex: usize, weights: &[f64], joints: Option<&[DAffine3]>) -> Option<DVec3> {
         let mut position = *self.positions.get(vertex)?;
         for (target, &weight) in self.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
             position += weight * target.positions.get(vertex).copied().unwrap_or_default();
@@ -74,7 +74,7 @@ impl DeformableMesh {
 
     /// Joint with the greatest weight for a vertex, the first of equal ones; `None` if no joint moves it.
     #[must_use]
-    pub fn first_joint(&self, vertex: usize) -> Option<usize> {
+    pub(crate) fn first_joint(&self, vertex: usize) -> Option<usize> {
         let mut heaviest: Option<(u32, f64)> = None;
         for set in &self.sets {
             let (Some(four), Some(joint_weights)) = (set.joints.get(vertex), set.weights.get(vertex)) else {

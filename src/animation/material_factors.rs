@@ -8,7 +8,7 @@ use crate::scene::{Alpha, Material};
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.9.2 and 3.9.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MaterialFactors {
+pub(crate) struct MaterialFactors {
     /// Base colour and alpha, linear.
     pub base: [f32; 4],
     /// Emitted light, linear; `None` if a texture varies it.
@@ -25,7 +25,7 @@ pub struct MaterialFactors {
 
 /// Interpretation of alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AlphaMode {
+pub(crate) enum AlphaMode {
     /// Alpha is ignored.
     #[default]
     Opaque,
@@ -37,7 +37,7 @@ pub enum AlphaMode {
 
 impl MaterialFactors {
     /// Sets the derived values of a material and leaves its other values unchanged.
-    pub fn apply_to(&self, material: &mut Material) {
+    pub(crate) fn apply_to(&self, material: &mut Material) {
         let [r, g, b, _] = self.base;
         material.colour = Colour::from_linear([r, g, b, self.opacity()]);
         // Emission textures are not read. Their surfaces are mostly dark, so they emit nothing here.

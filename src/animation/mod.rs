@@ -57,7 +57,7 @@ pub struct Rigged {
     /// `posed`, not from this scene.
     pub scene: Scene,
     /// The rig; empty for formats without animation.
-    pub rig: Rig,
+    pub(crate) rig: Rig,
 }
 
 impl From<Scene> for Rigged {
@@ -68,6 +68,12 @@ impl From<Scene> for Rigged {
 }
 
 impl Rigged {
+    /// The clips of the model. [`Playing`] refers to them by index.
+    #[must_use]
+    pub fn clips(&self) -> &[Clip] {
+        &self.rig.clips
+    }
+
     /// The scene while clips play; the stored pose if none does.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use super::material_factors::MaterialFactors;
 
 /// Everything that animates a scene.
 #[derive(Debug, Clone, Default)]
-pub struct Rig {
+pub(crate) struct Rig {
     /// Nodes, by their index in the file.
     pub nodes: Vec<Node>,
     /// Indices of all nodes, parents before children.
@@ -31,7 +31,7 @@ pub struct Rig {
 
 /// A camera or a light that a node holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NodeAttachment {
+pub(crate) struct NodeAttachment {
     /// Number of the camera or light in the file; several nodes may hold the same one.
     pub number: usize,
     /// The node that holds it.
@@ -40,7 +40,7 @@ pub struct NodeAttachment {
 
 /// A node of the hierarchy.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Node {
+pub(crate) struct Node {
     /// Its name.
     pub name: String,
     /// Whether the file requests motion lines for it and its descendants.
@@ -57,7 +57,7 @@ pub struct Node {
 
 /// Transform relative to a parent.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Placement {
+pub(crate) enum Placement {
     /// A matrix; clips cannot animate it.
     Matrix(DAffine3),
     /// Scale, then rotation, then translation.
@@ -74,7 +74,7 @@ pub enum Placement {
 impl Placement {
     /// The transform as a matrix.
     #[must_use]
-    pub fn transform(&self) -> DAffine3 {
+    pub(crate) fn transform(&self) -> DAffine3 {
         match *self {
             Self::Matrix(matrix) => matrix,
             Self::Parts { translation, rotation, scale } => {
@@ -97,7 +97,7 @@ impl Placement {
 
 /// Joints of a skinned mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Skin {
+pub(crate) struct Skin {
     /// Node indices of the joints.
     pub joints: Vec<usize>,
     /// Inverse bind matrix of each joint.
@@ -107,7 +107,7 @@ pub struct Skin {
 impl Skin {
     /// Transform from rest position to world space for each joint, given the world transforms of all nodes.
     #[must_use]
-    pub fn transforms(&self, world: &[DAffine3]) -> Vec<DAffine3> {
+    pub(crate) fn transforms(&self, world: &[DAffine3]) -> Vec<DAffine3> {
         let own = |joint: &usize| world.get(*joint).copied().unwrap_or(DAffine3::IDENTITY);
         self.joints.iter().zip(&self.binds).map(|(joint, bind)| own(joint) * *bind).collect()
     }
@@ -115,7 +115,7 @@ impl Skin {
 
 /// Deformable vertices of a geometry.
 #[derive(Debug, Clone, Default)]
-pub struct GeometryRig {
+pub(crate) struct GeometryRig {
     /// Node that holds its weights and skin.
     pub node: usize,
     /// Number of its skin.
@@ -133,12 +133,6 @@ pub(crate) struct NodePoses {
 }
 
 impl Rig {
-    /// Index of the clip with a name.
-    #[must_use]
-    pub fn clip(&self, name: &str) -> Option<usize> {
-        self.clips.iter().position(|clip| clip.name == name)
-    }
-
     /// Pose of the nodes while clips play.
     pub(crate) fn stance(&self, playing: &[Playing]) -> NodePoses {
         let mut weights: Vec<Vec<f64>> = self.nodes.iter().map(|node| node.weights.clone()).collect();

@@ -9,7 +9,7 @@ use crate::geometry::numbers::portable_math::{atan2, sin};
 
 /// Interpolation between two keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Interpolation {
+pub(crate) enum Interpolation {
     /// Linear; rotations by spherical linear interpolation along the shorter arc.
     #[default]
     Linear,
@@ -21,7 +21,7 @@ pub enum Interpolation {
 
 /// Keyframes of one animated property: one or several numbers per key.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
+pub(crate) struct Track {
     /// Times of the keys, seconds.
     times: Vec<f64>,
     /// Values of all keys in order; in cubic tracks with a tangent before and after each value.
@@ -37,7 +37,11 @@ impl Track {
     ///
     /// # Errors
     /// Describes what is wrong with the keys.
-    pub fn new(times: Vec<f64>, values: Vec<f64>, interpolation: Interpolation) -> Result<Self, String> {
+    pub(crate) fn new(
+        times: Vec<f64>,
+        values: Vec<f64>,
+        interpolation: Interpolation,
+    ) -> Result<Self, String> {
         let keys = times.len();
         if keys == 0 {
             return Err("it has no keys".to_owned());
@@ -61,19 +65,19 @@ impl Track {
 
     /// Numbers per value.
     #[must_use]
-    pub const fn width(&self) -> usize {
+    pub(crate) const fn width(&self) -> usize {
         self.width
     }
 
     /// Times of the keys, in seconds.
     #[must_use]
-    pub fn times(&self) -> &[f64] {
+    pub(crate) fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// Values at a time, clamped to the first and last key.
     #[must_use]
-    pub fn at(&self, time: f64) -> Vec<f64> {
+    pub(crate) fn at(&self, time: f64) -> Vec<f64> {
         match self.between(time) {
             (k, None) => self.value(k).to_vec(),
             (k, Some((share, span))) => self.blend(k, share, span),
@@ -82,7 +86,7 @@ impl Track {
 
     /// Rotation at a time, for a track of quaternions (x, y, z, w); `None` if the values are not a rotation.
     #[must_use]
-    pub fn rotation_at(&self, time: f64) -> Option<DQuat> {
+    pub(crate) fn rotation_at(&self, time: f64) -> Option<DQuat> {
         let quaternion = |values: &[f64]| <[f64; 4]>::try_from(values).ok().and_then(unit_quaternion);
         match self.between(time) {
             (k, Some((share, _))) if self.interpolation == Interpolation::Linear => {

@@ -53,7 +53,8 @@ pub use findings::ink_totals::{Measure, Totals};
 pub use findings::pixel_count::PixelDiff;
 pub use report::overlay::View;
 pub use shapes::ignore_options::Ignore;
-pub use shapes::picture::Picture;
+pub use shapes::label::Label;
+pub use shapes::picture::{Picture, ShapeKind};
 pub use shapes::tolerance_table::Tolerances;
 
 /// Options of a comparison.

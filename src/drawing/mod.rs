@@ -27,6 +27,7 @@ pub(crate) mod region_clip;
 pub(crate) mod stroke_font;
 pub(crate) mod text_run;
 
+pub use crate::colour::pixel_picture::Picture;
 pub use composition::{Composition, PlacedDrawing, PrintBoxes};
 pub use hotspot::Hotspot;
 pub use length::Length;

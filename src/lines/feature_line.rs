@@ -61,7 +61,7 @@ pub struct FeatureSegment {
 impl FeatureSegment {
     /// Segment of a wire, which belongs to no face.
     #[must_use]
-    pub fn of_wire(wire: &Wire) -> Self {
+    pub(crate) fn of_wire(wire: &Wire) -> Self {
         Self {
             ends: wire.vertices,
             hosts: [NO_FACE; 2],

@@ -9,7 +9,7 @@ use crate::scene::ArtistTextures;
 /// Treatment of hidden lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum HiddenLines {
+pub(crate) enum HiddenLines {
     /// Left out.
     #[default]
     None,
@@ -22,7 +22,7 @@ pub enum HiddenLines {
 /// Type of contours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Contours {
+pub(crate) enum Contours {
     /// Smooth on rounded surfaces, along mesh edges on all others. Each part and material is judged on its
     /// own, by its dihedral angles and the file's normals.
     #[default]
@@ -36,7 +36,7 @@ pub enum Contours {
 /// Source of a surface's normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Normals {
+pub(crate) enum Normals {
     /// The file's normals, with two exceptions that get the normals of their shape: components where the
     /// file's normals contradict the surface, and figures that it shades face by face.
     #[default]
@@ -48,7 +48,7 @@ pub enum Normals {
 /// Which feature lines are found and drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LineOptions {
+pub(crate) struct LineOptions {
     /// Draw lines at all. Default: true.
     pub enabled: bool,
     /// Where lines are found: those of `kinds` on the surface, those of kind `image` in maps of normals and

@@ -35,7 +35,7 @@ pub(crate) use isophotes::culling::covered_faces::{shows_inside, visible_faces_o
 pub(crate) use isophotes::lit_surface::Lit;
 pub use line_kind::LineKind;
 pub(crate) use line_options::HiddenLines;
-pub use line_options::{Contours, LineOptions};
+pub(crate) use line_options::{Contours, LineOptions};
 pub(crate) use prepared_surface::RefinedSurface;
 pub use prepared_surface::Surface;
 pub(crate) use textures::view_textures::Textures;

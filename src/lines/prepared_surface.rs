@@ -45,14 +45,14 @@ pub struct Surface {
 impl Surface {
     /// The surface of a mesh for the given options.
     #[must_use]
-    pub fn new(mesh: Mesh, options: &LineOptions) -> Self {
+    pub(crate) fn new(mesh: Mesh, options: &LineOptions) -> Self {
         Self::with_patches(mesh, options).0
     }
 
     /// The surface of a mesh, and its patches if any are round. [`Surface::posed`] needs them for moving
     /// meshes.
     #[must_use]
-    pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
+    pub(crate) fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
         if !options.enabled {
             return (Self { mesh, ..Self::default() }, None);
         }
@@ -85,7 +85,7 @@ impl Surface {
     /// none, since their skin stays round. `patches` and `crease_deg` are those it was made with. `before`
     /// yields the mesh at earlier times, latest first (see [`pose_creases`]).
     #[must_use]
-    pub fn posed(
+    pub(crate) fn posed(
         &self,
         mesh: Mesh,
         patches: Option<&Patches>,
@@ -135,7 +135,7 @@ impl Surface {
     /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
     /// needs it, or if it is subdivided already. The [`NormalCones`] of this surface only save time.
     #[must_use]
-    pub fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<RefinedSurface> {
+    pub(crate) fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<RefinedSurface> {
         let cuts = self.cuts_for(camera, cones)?;
         let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
         Some(self.refined_with(finer, &self.fillet_centre_sides()))
@@ -202,7 +202,7 @@ fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]
 
 /// A surface that was subdivided for a camera.
 #[derive(Debug, Clone)]
-pub struct RefinedSurface {
+pub(crate) struct RefinedSurface {
     /// The subdivided surface.
     pub surface: Surface,
     /// Original face of each of its faces.

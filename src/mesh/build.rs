@@ -36,7 +36,7 @@ impl Mesh {
     /// of vertices, the order of faces, or the first corner of a face. Only parts and materials keep their
     /// order.
     #[must_use]
-    pub fn build(mut soup: Soup) -> Self {
+    pub(crate) fn build(mut soup: Soup) -> Self {
         let mut cleaning = RepairCounts::default();
         let Some((low, high)) = bounds(&soup, |_| true) else {
             cleaning.short_wires = soup.wires.len() as u64;

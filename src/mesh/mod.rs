@@ -46,8 +46,9 @@ pub(crate) use normals::dihedral_cosines::DihedralCosines;
 pub(crate) use overlaps::overlay_order::Overlay;
 pub(crate) use part_metrics::MeshMetrics;
 pub(crate) use part_metrics::PartMetrics;
+pub use soup::EdgeMark;
 pub use soup::Soup;
-pub(crate) use soup::{EdgeMark, Wire};
+pub(crate) use soup::Wire;
 pub(crate) use vertex_sources::VertexSources;
 pub(crate) use weld::duplicate_faces::RepairCounts;
 
@@ -120,7 +121,7 @@ impl Mesh {
     /// The paint of a face.
     #[inline]
     #[must_use]
-    pub fn paint(&self, face: FaceId) -> PaintId {
+    pub(crate) fn paint(&self, face: FaceId) -> PaintId {
         self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 

@@ -17,7 +17,7 @@ use crate::mesh::overlaps::overlay_order::overlays;
 
 /// Mapping between the vertices of a soup and of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct VertexSources {
+pub(crate) struct VertexSources {
     /// For each vertex of the soup, the vertex of the mesh at its position.
     vertices: Vec<u32>,
     /// For each vertex of the mesh, the first vertex of the soup at its position.
@@ -30,7 +30,7 @@ impl VertexSources {
     /// Maps a mesh and the soup that it was built from. `None` if some position of one is missing in the
     /// other.
     #[must_use]
-    pub fn of(mesh: &Mesh, soup: &Soup) -> Option<Self> {
+    pub(crate) fn of(mesh: &Mesh, soup: &Soup) -> Option<Self> {
         let places = mesh.positions.iter().zip(0..).map(|(p, vertex)| (bits(*p), vertex));
         let places: FxHashMap<[u64; 3], u32> = places.collect();
         let place = |p: &DVec3| places.get(&bits(local(*p, mesh.origin))).copied();
@@ -57,7 +57,7 @@ impl Mesh {
     /// `None` if it is a different soup, or if welded vertices have separated. The mesh must then be built
     /// again.
     #[must_use]
-    pub fn posed(&self, sources: &VertexSources, soup: &Soup) -> Option<Self> {
+    pub(crate) fn posed(&self, sources: &VertexSources, soup: &Soup) -> Option<Self> {
         let VertexSources { vertices, first, triangles, normals } = sources;
         let same = [soup.positions.len(), soup.triangles.len(), soup.normals.len()];
         if same != [vertices.len(), *triangles, *normals] || self.positions.len() != first.len() {

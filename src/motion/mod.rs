@@ -39,7 +39,8 @@ use crate::scene::{Mover, Scene, Trail};
 use line_starts::LineStarts;
 use moving_bodies::{BodySelection, MovingBody, bodies};
 
-pub(crate) use options::{FadeBy, MotionOptions, Speed, TrailPath};
+pub use options::FadeBy;
+pub(crate) use options::{MotionOptions, Speed, TrailPath};
 
 /// Points of a trail per segment. Long segments of bent trails are therefore drawn as curves.
 pub(crate) const POINTS_PER_SEGMENT: usize = 4;

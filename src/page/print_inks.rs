@@ -43,7 +43,7 @@ pub(crate) enum SpotColours {
 /// A spot colour: a colour that is printed with its own ink.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SpotKeys {
+pub(crate) struct SpotKeys {
     /// Name of the ink, such as `PANTONE 185 C`.
     pub name: String,
     /// The colour on the page that the ink replaces.
@@ -62,7 +62,7 @@ pub struct PrintInks {
     /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<f64>,
     /// Spot colours.
-    pub spots: Vec<SpotKeys>,
+    pub(crate) spots: Vec<SpotKeys>,
 }
 
 impl PrintInks {

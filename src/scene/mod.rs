@@ -18,7 +18,7 @@
 //! 4. All instances become one triangle soup in world space. The mesh is built from it.
 //!
 //! Files, in reading order: [`parts`] geometries and parts; [`material`]; [`light`]; [`cameras`]; [`extent`]
-//! which points count and how precise they are; [`part_selection`] parts by name; [`glass`] see-through
+//! which points count and how precise they are; [`part_selection`] parts by name; [`scene_builder`] scenes made by a program; [`glass`] see-through
 //! materials; [`textures`]; [`paints`]; [`triangle_soup`]; [`motion_trails`]; [`model_folder`] files next to
 //! the model; [`warnings`]; [`tolerances`].
 
@@ -32,6 +32,7 @@ pub(crate) mod motion_trails;
 pub(crate) mod paints;
 pub(crate) mod part_selection;
 pub(crate) mod parts;
+mod scene_builder;
 pub(crate) mod textures;
 mod tolerances;
 pub(crate) mod triangle_soup;
@@ -41,17 +42,18 @@ use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
 
+pub use crate::mesh::EdgeMark;
 pub use cameras::camera::{Camera, Projection};
 pub use cameras::named_views::NamedView;
 pub(crate) use glass::{GlassDraw, GlassOptions};
 pub use light::{Light, LightKind};
-pub use material::{Alpha, Filter, Material, Wrap};
+pub use material::{Alpha, Filter, Gloss, Material, Placing, Wrap};
 pub(crate) use motion_trails::{Mover, Trail};
 pub(crate) use paints::artist_textures::ArtistTextures;
 pub(crate) use paints::triangle_paints::{MaterialPaint, Paints};
 pub use parts::{Geometry, Part};
 pub(crate) use textures::texture_options::{TextureFill, TextureOptions};
-pub use warnings::Warnings;
+pub use warnings::{Warning, WarningKind, Warnings};
 
 use crate::error::{Error, ErrorKind};
 
@@ -97,7 +99,7 @@ pub struct Scene {
     pub unused_vertices: u64,
     /// Moving bodies at this moment that may leave motion lines; `None` if motion was not requested (see
     /// [`crate::motion`]).
-    pub movers: Option<Vec<Mover>>,
+    pub(crate) movers: Option<Vec<Mover>>,
     /// Things that were dropped or repaired while reading.
     pub warnings: Warnings,
 }
@@ -125,22 +127,10 @@ impl Scene {
         positions: impl IntoIterator<Item = impl Into<DVec3>>,
         triangles: impl IntoIterator<Item = [u32; 3]>,
     ) -> Result<Self, Error> {
-        let positions: Vec<DVec3> = positions.into_iter().map(Into::into).collect();
-        let triangles: Vec<[u32; 3]> = triangles.into_iter().collect();
-        if let Some(k) = positions.iter().position(|p| !p.is_finite()) {
-            return Err(Error::new(format!("{} is not a position", positions[k]))
-                .at(format!("position {k}"))
-                .remedy("give finite numbers"));
-        }
-        let count = positions.len();
-        if let Some(k) = triangles.iter().position(|t| t.iter().any(|v| *v as usize >= count)) {
-            return Err(Error::new(format!("{:?} points past the {count} positions", triangles[k]))
-                .at(format!("triangle {k}"))
-                .remedy("indices count from 0"));
-        }
-        let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
-        let geometry = Geometry { positions, triangles, ..Geometry::default() };
-        drawable(Self { geometries: vec![geometry], parts: vec![part], ..Self::default() })
+        let mut scene = Self::default();
+        let geometry = scene.add_geometry(Geometry::from_triangles(positions, triangles, None)?);
+        scene.add_part("model", geometry, DAffine3::IDENTITY);
+        drawable(scene)
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A body that moves as one (a part, or the vertices of a skin's joint) and may leave motion lines.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mover {
+pub(crate) struct Mover {
     /// Index of its part in [`super::Scene::parts`].
     pub part: usize,
     /// Material at the start of its first line.
@@ -26,7 +26,7 @@ pub struct Mover {
 
 /// Path of a vertex.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trail {
+pub(crate) struct Trail {
     /// Number of the line among those of its mover.
     pub line: usize,
     /// Whether the style gives its start.

@@ -18,13 +18,13 @@ impl Scene {
     /// material get the id after the last. Mirrored parts have their winding reversed. Parts whose transform
     /// is singular or not finite are left out.
     #[must_use]
-    pub fn to_soup(&self) -> Soup {
+    pub(crate) fn to_soup(&self) -> Soup {
         self.flattened(None)
     }
 
     /// All triangles and wires in world space, with the paint of each triangle.
     #[must_use]
-    pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
+    pub(crate) fn to_painted_soup(&self, paints: &Paints) -> Soup {
         self.flattened(Some(paints))
     }
 

@@ -3,18 +3,54 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+/// Kind of a warning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum WarningKind {
+    /// Elements that are damaged, repaired or left out, with their number.
+    Defect,
+    /// A file that the model names was not found, or another one was used in its place.
+    MissingFile,
+    /// Anything else.
+    Note,
+}
+
+/// One warning.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Warning {
+    /// Its kind.
+    pub kind: WarningKind,
+    /// Number of elements of a defect; 1 for other kinds.
+    pub count: u64,
+    /// Description: for a defect the elements in the plural, `triangles without area`, otherwise a sentence.
+    pub text: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.kind {
+            WarningKind::Defect => write!(f, "{} {}", self.count, self.text),
+            _ => f.write_str(&self.text),
+        }
+    }
+}
+
 /// Counts of defects by description, in alphabetical order, and further notes.
 ///
 /// ```
-/// let mut warnings = ligne::scene::Warnings::default();
+/// use ligne::scene::{WarningKind, Warnings};
+///
+/// let mut warnings = Warnings::default();
 /// warnings.count("triangles without area", 3);
 /// warnings.count("triangles without area", 2);
 /// assert_eq!(warnings.lines(), ["5 triangles without area"]);
+/// assert!(warnings.iter().all(|warning| warning.kind == WarningKind::Defect && warning.count == 5));
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Warnings {
     counts: BTreeMap<String, u64>,
-    notes: Vec<String>,
+    notes: Vec<(WarningKind, String)>,
 }
 
 impl Warnings {
@@ -27,10 +63,30 @@ impl Warnings {
 
     /// Adds a sentence, once.
     pub fn note(&mut self, sentence: impl Into<String>) {
-        let sentence = sentence.into();
-        if !self.notes.contains(&sentence) {
-            self.notes.push(sentence);
+        self.add((WarningKind::Note, sentence.into()));
+    }
+
+    /// Adds a sentence about a file that is not there, once.
+    pub(crate) fn missing_file(&mut self, sentence: impl Into<String>) {
+        self.add((WarningKind::MissingFile, sentence.into()));
+    }
+
+    fn add(&mut self, note: (WarningKind, String)) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
         }
+    }
+
+    /// All warnings: defects first.
+    pub fn iter(&self) -> impl Iterator<Item = Warning> + '_ {
+        let defect = |(text, count): (&String, &u64)| Warning {
+            kind: WarningKind::Defect,
+            count: *count,
+            text: text.clone(),
+        };
+        let note =
+            |(kind, text): &(WarningKind, String)| Warning { kind: *kind, count: 1, text: text.clone() };
+        self.counts.iter().map(defect).chain(self.notes.iter().map(note))
     }
 
     /// Adds the warnings of another stage.
@@ -38,8 +94,8 @@ impl Warnings {
         for (what, n) in &other.counts {
             self.count(what.clone(), *n);
         }
-        for sentence in &other.notes {
-            self.note(sentence.clone());
+        for note in &other.notes {
+            self.add(note.clone());
         }
     }
 
@@ -52,8 +108,7 @@ impl Warnings {
     /// One line per warning: `14 non-manifold edges`.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
-        let counted = self.counts.iter().map(|(what, n)| format!("{n} {what}"));
-        counted.chain(self.notes.iter().cloned()).collect()
+        self.iter().map(|warning| warning.to_string()).collect()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::drawing::{Cap, Join};
 
 /// Paint of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ShapePaint {
+pub(crate) enum ShapePaint {
     /// One colour, including the opacity of groups.
     Colour(Colour),
     /// Gradients, patterns, pictures and texts as a description. Equal descriptions mean equal paint.
@@ -55,7 +55,7 @@ impl fmt::Display for ShapePaint {
 
 /// How a shape is painted; lengths in px.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ShapeInk {
+pub(crate) struct ShapeInk {
     /// Colour, or the description of another paint.
     pub paint: ShapePaint,
     /// Line width; 0 for regions.
@@ -86,7 +86,7 @@ pub(crate) fn is_text(words: &str) -> bool {
 impl ShapeInk {
     /// Ink of a region.
     #[must_use]
-    pub const fn region(paint: ShapePaint, tone: Option<u16>) -> Self {
+    pub(crate) const fn region(paint: ShapePaint, tone: Option<u16>) -> Self {
         Self {
             paint,
             width: 0.0,

@@ -22,7 +22,7 @@ pub enum ShapeKind {
 
 /// One painted shape.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub(crate) struct Shape {
     /// Geometry in px from the page's upper left corner, x right, y down.
     pub path: BezPath,
     /// Outline of a line of varying width, in px.
@@ -53,7 +53,7 @@ pub struct Picture {
     /// Whether any path is written with arcs.
     pub has_arcs: bool,
     /// Shapes in painting order.
-    pub shapes: Arc<[Shape]>,
+    pub(crate) shapes: Arc<[Shape]>,
     /// Text of the file.
     pub svg: Arc<str>,
     /// The parsed file for the renderer.

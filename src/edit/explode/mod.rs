@@ -27,8 +27,10 @@ mod trail_lines;
 
 use glam::{DAffine3, DVec3};
 
-pub use part_rules::{PartExplosion, direction};
-pub use trail_lines::{TRAIL, with_trails};
+pub use part_rules::PartExplosion;
+pub(crate) use part_rules::direction;
+pub(crate) use trail_lines::TRAIL;
+pub use trail_lines::with_trails;
 
 use super::tolerances;
 use crate::scene::Scene;

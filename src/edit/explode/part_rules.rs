@@ -13,7 +13,7 @@ use crate::scene::Scene;
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartExplosion {
     /// Pattern for part names.
-    pub name: Glob,
+    pub(crate) name: Glob,
     /// Direction of movement in world space, of any length above 0.
     pub direction: Option<DVec3>,
     /// Distance of movement, world units. 0 keeps the parts in place.
@@ -35,7 +35,7 @@ impl PartExplosion {
 
 /// Reads a direction from `x`, `-y` or `1,0,-1`; none for other text.
 #[must_use]
-pub fn direction(text: &str) -> Option<DVec3> {
+pub(crate) fn direction(text: &str) -> Option<DVec3> {
     let (sign, axis) = match text.trim() {
         text if text.starts_with('-') && text.len() == 2 => (-1.0, &text[1..]),
         text => (1.0, text.strip_prefix('+').unwrap_or(text)),

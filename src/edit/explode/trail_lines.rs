@@ -8,7 +8,7 @@ use crate::colour::srgb::Colour;
 use crate::scene::{Geometry, Material, Part, Scene};
 
 /// Name of the part and of the material of trail lines.
-pub const TRAIL: &str = "trail";
+pub(crate) const TRAIL: &str = "trail";
 
 /// Moves the parts of a scene and adds trail lines. A line starts at the centre of a part after the common
 /// movement with interlocking parts, and ends at its final centre.

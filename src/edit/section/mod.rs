@@ -29,21 +29,21 @@ mod cut_outlines;
 mod cut_tolerances;
 mod neighbour_kinds;
 mod outline_gaps;
-pub mod plane;
+pub(crate) mod plane;
 mod plane_clip;
 mod plane_sides;
-pub mod plane_spec;
+pub(crate) mod plane_spec;
 mod seam_division;
 mod section_caps;
 mod void_winding;
 
 use glam::{DAffine3, DVec2};
 
+pub use crate::geometry::names::glob::Glob;
 pub(crate) use neighbour_kinds::are_neighbours;
 pub use plane::Plane;
 pub use plane_spec::CutPlane;
 
-use crate::geometry::names::glob::Glob;
 use crate::mesh::weld::nearby_vertices;
 use crate::mesh::{DisjointSets, EdgeMark};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
@@ -78,7 +78,7 @@ pub struct CutFaces {
 
 /// Name of the material of cut faces with a number.
 #[must_use]
-pub fn material_name(kind: usize) -> String {
+pub(crate) fn material_name(kind: usize) -> String {
     format!("cut {}", kind + 1)
 }
 

@@ -27,14 +27,14 @@ use crate::view::View;
 /// On rounded surfaces these are the hard edges, and the mesh contours that decide on visibility
 /// ([`Role::MeshContour`]).
 #[must_use]
-pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
+pub(crate) fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
     let finder = EdgeClassifier::new(surface, view, options);
     finder.find(surface.mesh.edges.len(), |k| k)
 }
 
 /// Feature lines among the given edges, which must be ascending.
 #[must_use]
-pub fn find_among(
+pub(crate) fn find_among(
     edges: &[u32],
     surface: &Surface,
     view: &View,

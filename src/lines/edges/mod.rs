@@ -15,6 +15,6 @@
 pub(crate) mod coplanar_overlaps;
 pub(crate) mod culling;
 mod edge_fans;
-pub mod edge_lines;
+pub(crate) mod edge_lines;
 pub(crate) mod free_wires;
 pub(crate) mod ripple_edges;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// Where lines are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Source {
+pub(crate) enum Source {
     /// On the surface, exactly.
     #[default]
     Object,
@@ -19,7 +19,7 @@ pub enum Source {
 /// Test for edge pixels of the maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum EdgeTest {
+pub(crate) enum EdgeTest {
     /// Change of the gradients of depth and normals (Scheelk, section 3.4).
     #[default]
     Gradient,
@@ -30,7 +30,7 @@ pub enum EdgeTest {
 /// How lines in an edge image are widened (Ishaya, listing 5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Dilation {
+pub(crate) enum Dilation {
     /// A pixel becomes ink if any of its four neighbours is.
     #[default]
     Plain,
@@ -41,7 +41,7 @@ pub enum Dilation {
 /// How lines are found in the image. The default thresholds are those of the papers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct ImageOptions {
+pub(crate) struct ImageOptions {
     /// Test for edge pixels. Default: gradient.
     pub test: EdgeTest,
     /// Map pixels per px of the drawing, 1 to 8, with at most 4096 along the longer side. Default: 2.

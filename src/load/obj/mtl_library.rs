@@ -142,13 +142,14 @@ fn texture_path(
     if let Some(files) = place.files.filter(|files| !(is_inside && files.has(&path)))
         && let Some(found) = files.find(place.folder, &name)
     {
-        warnings.note(format!("texture {name} of material `{material}` is not there; {found} is used"));
+        warnings
+            .missing_file(format!("texture {name} of material `{material}` is not there; {found} is used"));
         return Some(found);
     }
     if is_inside {
         return Some(path);
     }
-    warnings.note(format!(
+    warnings.missing_file(format!(
         "texture {name} of material `{material}` lies outside the model's folder, where no file has its name; it is left out"
     ));
     None

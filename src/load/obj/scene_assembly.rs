@@ -83,13 +83,13 @@ fn materials(
         let mut bytes = if is_inside { library(&path) } else { None };
         if let Some(found) = files.filter(|_| bytes.is_none()).and_then(|files| files.find("", name)) {
             bytes = library(&found);
-            warnings.note(format!("material library {name} is not there; {found} is used"));
+            warnings.missing_file(format!("material library {name} is not there; {found} is used"));
             path = found;
         }
         let Some(bytes) = bytes else {
             if !is_inside {
                 let why = "is outside the model's folder and is left out";
-                warnings.note(format!("material library {name} {why}"));
+                warnings.missing_file(format!("material library {name} {why}"));
             }
             return !is_inside;
         };
@@ -106,7 +106,7 @@ fn materials(
         let words: Vec<&str> = name.split_whitespace().collect();
         for word in &words {
             if words.len() == 1 || !load(word, warnings) {
-                warnings.note(format!("material library {word} is missing"));
+                warnings.missing_file(format!("material library {word} is missing"));
                 all_found = false;
             }
         }

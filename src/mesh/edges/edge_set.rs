@@ -5,7 +5,7 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Set of edges of one mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct EdgeSet {
+pub(crate) struct EdgeSet {
     /// 64 edges per word; empty if the set is.
     words: Vec<u64>,
 }
@@ -13,7 +13,7 @@ pub struct EdgeSet {
 impl EdgeSet {
     /// The edges below `count` that satisfy `holds`.
     #[must_use]
-    pub fn collect(count: usize, holds: impl Fn(usize) -> bool + Sync) -> Self {
+    pub(crate) fn collect(count: usize, holds: impl Fn(usize) -> bool + Sync) -> Self {
         let word = |k: usize| {
             let edges = 64 * k..(64 * (k + 1)).min(count);
             edges.fold(0u64, |word, edge| word | u64::from(holds(edge)) << (edge % 64))
@@ -26,24 +26,24 @@ impl EdgeSet {
     /// Whether the set contains an edge.
     #[inline]
     #[must_use]
-    pub fn contains(&self, edge: usize) -> bool {
+    pub(crate) fn contains(&self, edge: usize) -> bool {
         self.words.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
     }
 
     /// Whether the set is empty.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.words.is_empty()
     }
 
     /// The bits of the set, 64 edges per word; empty if the set is.
     #[must_use]
-    pub fn into_words(self) -> Vec<u64> {
+    pub(crate) fn into_words(self) -> Vec<u64> {
         self.words
     }
 
     /// Calls `does` with each edge, in parallel.
-    pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
+    pub(crate) fn par_for_each(&self, does: impl Fn(usize) + Sync) {
         self.words.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS / 64).for_each(|(k, word)| {
             let mut word = *word;
             while word != 0 {
@@ -54,7 +54,7 @@ impl EdgeSet {
     }
 
     /// The edges, ascending.
-    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
             (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
         })
@@ -62,7 +62,7 @@ impl EdgeSet {
 
     /// The set with more edges added; the mesh has `count` edges.
     #[must_use]
-    pub fn with(&self, more: &[usize], count: usize) -> Self {
+    pub(crate) fn with(&self, more: &[usize], count: usize) -> Self {
         if more.is_empty() {
             return self.clone();
         }
@@ -75,7 +75,7 @@ impl EdgeSet {
     /// The set in a derived mesh with `count` edges. `ids` maps the edges of this mesh to it, `u32::MAX` for
     /// edges that are gone.
     #[must_use]
-    pub fn remapped(&self, ids: &[u32], count: usize) -> Self {
+    pub(crate) fn remapped(&self, ids: &[u32], count: usize) -> Self {
         let mut words = Vec::new();
         for edge in self.iter().map(|edge| ids[edge]).filter(|edge| *edge != u32::MAX) {
             if words.is_empty() {

@@ -59,6 +59,13 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
+    /// Turns and moves the camera so that its axis passes through a point, at the same distance and in the same
+    /// direction as before.
+    #[must_use]
+    pub fn look_at(self, target: DVec3) -> Self {
+        Self { eye: target + (self.eye - self.target), target, ..self }
+    }
+
     /// Changes the size of the frame, in user units; keeps the vertical field of view or the height.
     #[must_use]
     pub fn with_frame(self, width: f64, height: f64) -> Self {

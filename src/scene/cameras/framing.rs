@@ -9,9 +9,12 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::error::Error;
+use crate::error::nearest::nearest;
 use crate::geometry::numbers::portable_math::tan;
 use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::part_selection::glob_matches;
 use crate::scene::tolerances;
 use crate::scene::{Camera, Projection, Scene};
 
@@ -40,6 +43,29 @@ impl Camera {
     #[must_use]
     pub fn fit(self, scene: &Scene) -> Self {
         self.fit_points(&world_points(scene), FRAME_MARGIN)
+    }
+
+    /// Moves the camera along its view direction so that the parts with matching names fill the frame. Other
+    /// parts are drawn as well. `*` in the pattern matches any characters, `?` any one.
+    ///
+    /// ```
+    /// let scene = ligne::Scene::open("examples/models/pump.glb")?;
+    /// let camera = ligne::Camera::three_quarter_of(scene.up).fit_parts(&scene, "motor*")?;
+    /// assert!(camera.fit_parts(&scene, "moter").unwrap_err().to_string().contains("no part"));
+    /// # Ok::<(), ligne::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If no drawn part has a matching name.
+    pub fn fit_parts(self, scene: &Scene, pattern: &str) -> Result<Self, Error> {
+        let points = DrawnPoints::of_parts(scene, |part| glob_matches(pattern, &part.name)).points;
+        if !points.is_empty() {
+            return Ok(self.fit_points(&points, FRAME_MARGIN));
+        }
+        let names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
+        let near = nearest(pattern, &names).map(|near| format!("did you mean `{near}`?"));
+        let remedy = near.unwrap_or_else(|| "look up the names in `scene.parts`".to_owned());
+        Err(Error::new(format!("there is no part `{pattern}`")).remedy(remedy))
     }
 
     /// Moves the camera along its view direction so that all `points` (world) are in the frame, centred.

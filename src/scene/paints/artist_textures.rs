@@ -17,7 +17,7 @@ use crate::scene::{Material, Scene};
 
 /// A picture whose colour changes are drawn as lines.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ArtistTexture {
+pub(crate) struct ArtistTexture {
     /// Pattern for the names of the materials that it covers.
     pub materials: String,
     /// Path of the file.
@@ -30,7 +30,7 @@ pub struct ArtistTexture {
 /// Pictures whose colour changes are drawn as lines: one for all materials, or one per pattern of material
 /// names. The longest matching pattern applies.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct ArtistTextures(pub Vec<ArtistTexture>);
+pub(crate) struct ArtistTextures(pub Vec<ArtistTexture>);
 
 impl ArtistTextures {
     /// Picture of a material.

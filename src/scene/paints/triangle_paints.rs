@@ -20,7 +20,7 @@ use crate::scene::{Material, Scene, Warnings};
 
 /// A material in one of its colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MaterialPaint {
+pub(crate) struct MaterialPaint {
     /// The material.
     pub material: MaterialId,
     /// Colour that replaces the material's.
@@ -29,7 +29,7 @@ pub struct MaterialPaint {
 
 /// The paints of a scene, and the paint of each triangle.
 #[derive(Debug, Clone, Default)]
-pub struct Paints {
+pub(crate) struct Paints {
     /// First one paint per material, and one for triangles without a material, with the same ids and colours.
     /// Then the paints of textures and vertex colours, by material and colour. A picture also has a paint in
     /// its mean colour.
@@ -51,7 +51,7 @@ pub struct Paints {
 impl Paints {
     /// Finds the paints of a scene; reads textures next to the model.
     #[must_use]
-    pub fn of(scene: &Scene, options: &TextureOptions) -> Self {
+    pub(crate) fn of(scene: &Scene, options: &TextureOptions) -> Self {
         let without = Material::default();
         let materials: Vec<&Material> = scene.materials.iter().chain([&without]).collect();
         let mut paints = Self::default();
@@ -153,7 +153,7 @@ impl Paints {
 
     /// Paints of a geometry's triangles; empty if all have the paint of their material.
     #[must_use]
-    pub fn of_geometry(&self, geometry: usize) -> &[PaintId] {
+    pub(crate) fn of_geometry(&self, geometry: usize) -> &[PaintId] {
         self.triangles.get(geometry).map_or(&[], Vec::as_slice)
     }
 

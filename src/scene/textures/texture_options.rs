@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
-pub enum TextureFill {
+pub(crate) enum TextureFill {
     /// As regions of a few colours, with the borders of the picture.
     #[default]
     Regions,
@@ -20,7 +20,7 @@ pub enum TextureFill {
 
 /// Options for drawing textures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TextureOptions {
+pub(crate) struct TextureOptions {
     /// How textures are drawn. Default: regions.
     pub fill: TextureFill,
     /// Maximum number of colours for a picture that is not a palette. Default: 6.

@@ -99,7 +99,7 @@ pub enum KeyType {
 /// A section of the table: keys that belong together.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct KeySection {
+pub(crate) struct KeySection {
     /// Its heading.
     pub title: &'static str,
     /// The tables that contain its keys; an empty string for the top level.
@@ -168,7 +168,7 @@ impl StyleKey {
 
     /// The sections of the table, in the same order.
     #[must_use]
-    pub fn sections() -> &'static [KeySection] {
+    pub(crate) fn sections() -> &'static [KeySection] {
         &table().0
     }
 

@@ -46,7 +46,7 @@ const MAX_COUNTED_TURN_DEG: f64 = 90.0;
 ///
 /// Only edges with two faces can be hard. Borders and non-manifold edges always end a surface.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct HardEdges {
+pub(crate) struct HardEdges {
     /// One bit per edge, or empty if none is hard.
     bits: Vec<u64>,
     count: usize,
@@ -61,8 +61,9 @@ impl HardEdges {
     /// straighter.
     ///
     /// Edge marks of the file take precedence.
+    #[cfg(test)]
     #[must_use]
-    pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
+    pub(crate) fn find(mesh: &Mesh, crease_deg: f64) -> Self {
         Self::find_with(mesh, &DihedralCosines::of(mesh), crease_deg, |_| true)
     }
 
@@ -88,8 +89,9 @@ impl HardEdges {
     }
 
     /// Every edge that turns by more than `crease_deg` degrees, and those that the file marks.
+    #[cfg(test)]
     #[must_use]
-    pub fn above(mesh: &Mesh, crease_deg: f64) -> Self {
+    pub(crate) fn above(mesh: &Mesh, crease_deg: f64) -> Self {
         Self::above_with(mesh, &DihedralCosines::of(mesh), crease_deg)
     }
 
@@ -128,14 +130,14 @@ impl HardEdges {
 
     /// The empty set.
     #[must_use]
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self::default()
     }
 
     /// These edges as edges of a derived mesh with `count` edges. `ids` maps the edges of this mesh to it,
     /// with `u32::MAX` for edges that are gone.
     #[must_use]
-    pub fn remapped(&self, ids: &[u32], count: usize) -> Self {
+    pub(crate) fn remapped(&self, ids: &[u32], count: usize) -> Self {
         if self.is_empty() {
             return Self::none();
         }
@@ -153,14 +155,14 @@ impl HardEdges {
 
     /// The edges of a mesh that satisfy `is_hard`.
     #[must_use]
-    pub fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
+    pub(crate) fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
         let bits = EdgeSet::collect(mesh.edges.len(), is_hard).into_words();
         Self { count: count(&bits), bits }
     }
 
     /// Adds edges of the mesh.
     #[must_use]
-    pub fn with(mut self, mesh: &Mesh, more: &[usize]) -> Self {
+    pub(crate) fn with(mut self, mesh: &Mesh, more: &[usize]) -> Self {
         if more.is_empty() {
             return self;
         }
@@ -209,19 +211,20 @@ impl HardEdges {
     /// Whether the surface is creased at an edge of the mesh.
     #[inline]
     #[must_use]
-    pub fn is_hard(&self, edge: usize) -> bool {
+    pub(crate) fn is_hard(&self, edge: usize) -> bool {
         self.bits.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
     }
 
     /// Number of hard edges.
+    #[cfg(test)]
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// Whether no edge is hard.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.count == 0
     }
 }

@@ -13,7 +13,7 @@ pub(crate) const NO_NORMAL: u32 = u32::MAX;
 /// Each normal belongs to one *smooth vertex*: a vertex of the mesh together with a fan of faces around it
 /// that no hard edge separates. Without hard edges, smooth vertices are the vertices.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SmoothNormals {
+pub(crate) struct SmoothNormals {
     /// Unit normals, local space; zero where no adjacent face has an area. One per smooth vertex.
     pub normals: Vec<DVec3>,
     /// Mesh vertex of each smooth vertex.
@@ -36,14 +36,14 @@ impl SmoothNormals {
     /// Smooth vertices at the corners of a face; `None` where it is flat.
     #[inline]
     #[must_use]
-    pub fn corners_of(&self, face: u32) -> Option<[u32; 3]> {
+    pub(crate) fn corners_of(&self, face: u32) -> Option<[u32; 3]> {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
     }
 
     /// Whether each vertex of the mesh lies on a separating edge. All others are smooth vertices with the
     /// same number. Empty if there are no separating edges.
     #[must_use]
-    pub fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
+    pub(crate) fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
         if self.separating_edges.is_empty() {
             return Vec::new();
         }
@@ -59,7 +59,7 @@ impl SmoothNormals {
     /// and next to flat faces.
     #[inline]
     #[must_use]
-    pub fn across(&self, mesh: &Mesh, edge: usize) -> Option<[u32; 2]> {
+    pub(crate) fn across(&self, mesh: &Mesh, edge: usize) -> Option<[u32; 2]> {
         let ends = mesh.edges.vertices[edge];
         if self.seamless {
             return Some(ends);
@@ -87,13 +87,13 @@ impl SmoothNormals {
 
     /// Whether every face is curved.
     #[must_use]
-    pub fn corners_of_all(&self) -> bool {
+    pub(crate) fn corners_of_all(&self) -> bool {
         !self.corners.is_empty() && self.corners.iter().all(|corners| corners[0] != NO_NORMAL)
     }
 
     /// Whether no face is curved.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
 }

@@ -17,8 +17,9 @@ const MAX_VERTICES_PER_BLOCK: usize = 1 << 13;
 
 impl SmoothNormals {
     /// Normals of a mesh that is one curved surface without hard edges.
+    #[cfg(test)]
     #[must_use]
-    pub fn rounded(mesh: &Mesh) -> Self {
+    pub(crate) fn rounded(mesh: &Mesh) -> Self {
         Self {
             normals: vertex_normals(mesh, |_| true),
             vertices: (0..mesh.positions.len() as u32).collect(),
@@ -33,7 +34,7 @@ impl SmoothNormals {
     /// Normals of a mesh whose faces with `is_rounded` form curved surfaces, separated by edges with
     /// `is_hard`. Normals of the file are used where present.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         mesh: &Mesh,
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,
@@ -48,7 +49,7 @@ impl SmoothNormals {
 
     /// Same, without gentle and straight edges, which shading does not need.
     #[must_use]
-    pub fn without_straight_edges(
+    pub(crate) fn without_straight_edges(
         mesh: &Mesh,
         is_rounded: impl Fn(u32) -> bool + Sync,
         is_hard: impl Fn(usize) -> bool + Sync,

@@ -30,7 +30,7 @@ const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;
 
 /// Classification of the surfaces of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct Patches {
+pub(crate) struct Patches {
     /// Edges drawn as creases.
     pub hard: HardEdges,
     /// Sharp edges of machined parts that are no creases because only a sliver causes them. They separate
@@ -57,7 +57,7 @@ impl Patches {
     /// Classifies a mesh whose creases turn by more than `crease_deg` degrees. With `all`, every face counts
     /// as curved, and only the edges between surfaces are sought.
     #[must_use]
-    pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
+    pub(crate) fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let (turns, planes, verdicts) = classify(mesh, all);
         let turns = &turns;
         let believed = verdicts.map(|verdict| verdict.trusts_file_normals);

@@ -21,7 +21,7 @@ pub(crate) enum SurfaceClass {
 
 /// Source of a surface, as far as its mesh shows. It decides whether lines may be noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
-pub enum MeshSource {
+pub(crate) enum MeshSource {
     /// Constructed: all lines are intended.
     #[default]
     Constructed,

@@ -22,7 +22,7 @@ const LENGTH_MARGIN: f64 = 1.0 + tolerances::F64_MARGIN_SHARE;
 
 /// Bounds of the rounded edges of a mesh, independent of the view.
 #[derive(Debug)]
-pub struct NormalCones {
+pub(crate) struct NormalCones {
     runs: Vec<Option<NormalCone>>,
 }
 
@@ -45,7 +45,7 @@ struct NormalCone {
 impl NormalCones {
     /// Computes the bounds of all runs of edges.
     #[must_use]
-    pub fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
+    pub(crate) fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
         let runs = mesh.edges.len().div_ceil(EDGES_PER_RUN);
         let runs = (0..runs)
             .into_par_iter()

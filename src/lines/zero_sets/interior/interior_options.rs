@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// size, those of suggestive contours and apparent ridges to its square.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct InsideOptions {
+pub(crate) struct InsideOptions {
     /// Smoothing length of the normals, in fortieths of the model's size. Default: 0.3.
     #[serde(deserialize_with = "positive")]
     pub smooth: f64,
