@@ -101,7 +101,7 @@ fn scene(solid: Solid) -> Scene {
 fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool]) {
     let camera = Camera::three_quarter_of(scene.up).with_frame(SIDE, SIDE).fit(scene);
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None };
-    let mesh = Mesh::of(&scene);
+    let mesh = Mesh::of(scene);
     let view = View::new(&mesh, &camera);
     for pool in pools {
         let floor = pool.install(|| least_ms(|| FaceBuffer::new(&PixelGrid::new(&mesh, &view))));

@@ -47,6 +47,11 @@
 //! Geometry is `f64`. The same input gives the same bytes on every machine and any number of threads.
 #![forbid(unsafe_code)]
 #![warn(missing_docs, unreachable_pub, clippy::unwrap_used)]
+// Without all features, some private items have no user.
+#![cfg_attr(
+    not(all(feature = "cli", feature = "png", feature = "pdf", feature = "draco")),
+    allow(dead_code, unreachable_pub, unused_imports)
+)]
 // Heads of modules list their files. Many are private.
 #![allow(rustdoc::private_intra_doc_links)]
 

@@ -38,7 +38,7 @@ use crate::visibility::{GapOcclusion, ViewMap};
 use fit::circular_arcs::CircleTolerance;
 use fit::line_finish::{FinishTolerances, finish};
 use fit::part_runs::{PartPiece, PartRuns};
-use sampled_line::SampledLine;
+use sampled_line::{LineSide, SampledLine};
 use tidy::raw_line::RawLine;
 use tidy::removed_lines::RemovalLog;
 use tidy::tidy_passes::tidied;
@@ -92,7 +92,7 @@ impl Rounding<'_> {
     fn nearness(self, line: &SampledLine, unit: Unit) -> Option<CircleTolerance> {
         let of_part = self.0?;
         let part_roundings =
-            line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
+            line.sides.iter().map(|side| of_part.get(side.part.index()).copied().unwrap_or_default());
         let radius = Length { value: MAX_RADIUS_ERROR_MM, unit: Unit::Mm }.in_unit(unit);
         Some(CircleTolerance { rounding: part_roundings.fold(0.0, f64::max).min(radius), radius })
     }
@@ -129,7 +129,7 @@ pub(crate) fn link_with_arcs(
     link_with(map, (options, rounding), unit, hidden, Some(occlusion), &mut RemovalLog::default())
 }
 
-/// Joins chains as [`link()`] does, and returns the lines that tidying dropped, in that order.
+/// Joins chains as [`link_with_arcs`] does, and returns the lines that tidying dropped, in that order.
 #[must_use]
 pub(crate) fn link_with_removed(
     occlusion: Option<&GapOcclusion>,
@@ -151,18 +151,8 @@ fn link_with(
     occlusion: Option<&GapOcclusion>,
     removal_log: &mut RemovalLog,
 ) -> Vec<Chain> {
-    let px = Length::px(1.0).in_unit(unit);
-    let t = FinishTolerances {
-        px,
-        smooth: options.smooth.in_unit(unit).max(0.0),
-        simplify: options.simplify.in_unit(unit).max(0.0),
-        tidy: options.tidy.in_unit(unit).max(0.0),
-        clean: false,
-        circle: None,
-        fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
-        points: true,
-    };
-    let raws = tidied(map, hidden, t.tidy, DIRECTION_WINDOW_PX * px, occlusion, removal_log);
+    let t = FinishTolerances::new(options, unit);
+    let raws = tidied(map, hidden, t.tidy, DIRECTION_WINDOW_PX * t.px, occlusion, removal_log);
     let circle = |line: &SampledLine| if options.circles { rounding.nearness(line, unit) } else { None };
     raws.into_par_iter()
         .with_max_len(8)
@@ -185,23 +175,13 @@ pub(crate) fn curve(
     options: &ChainOptions,
     unit: Unit,
 ) -> BezPath {
-    let px = Length::px(1.0).in_unit(unit);
-    let t = FinishTolerances {
-        px,
-        smooth: options.smooth.in_unit(unit).max(0.0),
-        simplify: options.simplify.in_unit(unit).max(0.0),
-        tidy: 0.0,
-        clean: false,
-        circle: None,
-        fit: if options.fit { options.fit_tolerance.in_unit(unit).max(0.0) } else { 0.0 },
-        points: false,
-    };
+    let t = FinishTolerances { tidy: 0.0, points: false, ..FinishTolerances::new(options, unit) };
     let sample = Sample::new(0.0, 1.0);
     let mut line = SampledLine { closed, ..SampledLine::default() };
     for (point, soft) in points.iter().zip(soft) {
-        line.push(*point, sample, *soft, false);
+        line.push(*point, sample, LineSide::soft(*soft));
     }
-    finish(fit::douglas_peucker::simplify(&line, merge), t).1
+    finish(fit::line_simplification::simplify(&line, merge), t).1
 }
 
 /// Factor on the smoothing of interior lines, which noise displaces more than contours.
@@ -228,7 +208,8 @@ fn chains(raw: RawLine, mut t: FinishTolerances) -> Vec<Chain> {
         t.fit *= MOTION_FIT_FACTOR;
         t.clean = true;
     }
-    let (runs, part) = (PartRuns::of(&raw.line), raw.line.part.first().copied().unwrap_or_default());
+    let (runs, part) =
+        (PartRuns::of(&raw.line), raw.line.sides.first().map(|side| side.part).unwrap_or_default());
     let (line, path) = finish(raw.line, t);
     let chain = Chain {
         samples: Vec::new(),

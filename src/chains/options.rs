@@ -34,7 +34,7 @@ impl ChainOptions {
     /// Options for a page to scale or a DXF file: no point moves by more than 0.02 mm, and corners on one
     /// circle become arcs.
     #[must_use]
-    pub(crate) fn to_scale(self) -> Self {
+    pub(crate) fn drawn_to_scale(self) -> Self {
         let within = |length: Length, most: f64| {
             if length.in_unit(Unit::Mm) > most { Length { value: most, unit: Unit::Mm } } else { length }
         };

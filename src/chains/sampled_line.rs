@@ -6,7 +6,24 @@ use super::Sample;
 use crate::chains::link::directed_edge::DirectedEdge;
 use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
-use crate::visibility::{ViewMap, ViewVertex};
+use crate::visibility::{ViewMap, ViewVertex, ViewVertexId};
+
+/// Properties of the side between two points of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct LineSide {
+    /// Whether it lies on a smooth surface.
+    pub(crate) soft: bool,
+    /// Whether it has background behind it.
+    pub(crate) silhouette: bool,
+    pub(crate) part: PartId,
+}
+
+impl LineSide {
+    /// Side of the default part.
+    pub(crate) fn soft(soft: bool) -> Self {
+        Self { soft, ..Self::default() }
+    }
+}
 
 /// Polyline in user units. A closed one does not repeat its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -14,29 +31,25 @@ pub(crate) struct SampledLine {
     pub points: Vec<Point>,
     /// One per point.
     pub samples: Vec<Sample>,
-    /// Whether the side after each point lies on a smooth surface; one per point. The last entry of an open
-    /// line repeats the one before.
-    pub soft: Vec<bool>,
-    /// Whether the side after each point has background behind it; one per point, as in `soft`.
-    pub silhouette: Vec<bool>,
-    /// Part of the side after each point; one per point, as in `soft`.
-    pub part: Vec<PartId>,
+    /// The side after each point; one per point. The last entry of an open line repeats the one before.
+    pub(crate) sides: Vec<LineSide>,
     pub closed: bool,
 }
 
 impl SampledLine {
     /// Polyline of a route, without repeated points. If `noisy`, all of it counts as smooth.
     pub(crate) fn of_route(map: &ViewMap, steps: &[DirectedEdge], closed: bool, noisy: bool) -> Self {
-        let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
-        for step in steps {
-            let vertex = &map.vertices[step.from(map).index()];
-            let edge = &map.edges[step.edge as usize];
-            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
-        }
+        let count = steps.len() + 1;
+        let (points, samples) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut line = Self { points, samples, sides: Vec::with_capacity(count), closed };
+        let mut push = |vertex: ViewVertexId, step: &DirectedEdge| {
+            let (vertex, edge) = (&map.vertices[vertex.index()], &map.edges[step.edge as usize]);
+            let side = LineSide { soft: noisy || edge.smooth, silhouette: edge.silhouette, part: edge.part };
+            line.push(vertex.position, sample(vertex), side);
+        };
+        steps.iter().for_each(|step| push(step.from(map), step));
         if let (false, Some(last)) = (closed, steps.last()) {
-            let vertex = &map.vertices[last.to(map).index()];
-            let edge = &map.edges[last.edge as usize];
-            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
+            push(last.to(map), last);
         }
         while closed && line.points.len() > 1 && line.points.first() == line.points.last() {
             line.pop();
@@ -44,55 +57,22 @@ impl SampledLine {
         line
     }
 
-    fn with_capacity(count: usize) -> Self {
-        Self {
-            points: Vec::with_capacity(count),
-            samples: Vec::with_capacity(count),
-            soft: Vec::with_capacity(count),
-            silhouette: Vec::with_capacity(count),
-            part: Vec::with_capacity(count),
-            closed: false,
-        }
-    }
-
-    /// Appends a point of the default part, or updates the last point if it has the same position.
-    pub(crate) fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
-        self.push_of(point, sample, soft, silhouette, PartId::default());
-    }
-
-    /// Appends a point, or updates the last point if it has the same position.
-    pub(crate) fn push_of(
-        &mut self,
-        point: Point,
-        sample: Sample,
-        soft: bool,
-        silhouette: bool,
-        part: PartId,
-    ) {
-        if self.points.last() == Some(&point) {
-            if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
-                *was_soft = soft;
-                *was = silhouette;
-            }
-            if let Some(was) = self.part.last_mut() {
-                *was = part;
-            }
+    /// Appends a point, or updates the side after the last point if it has the same position.
+    pub(crate) fn push(&mut self, point: Point, sample: Sample, side: LineSide) {
+        if let (true, Some(last)) = (self.points.last() == Some(&point), self.sides.last_mut()) {
+            *last = side;
             return;
         }
         self.points.push(point);
         self.samples.push(sample);
-        self.soft.push(soft);
-        self.silhouette.push(silhouette);
-        self.part.push(part);
+        self.sides.push(side);
     }
 
     /// Removes the last point.
     pub(crate) fn pop(&mut self) {
         self.points.pop();
         self.samples.pop();
-        self.soft.pop();
-        self.silhouette.pop();
-        self.part.pop();
+        self.sides.pop();
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -101,7 +81,7 @@ impl SampledLine {
 
     /// Whether any side lies on a smooth surface.
     pub(crate) fn is_soft(&self) -> bool {
-        self.soft.iter().any(|soft| *soft)
+        self.sides.iter().any(|side| side.soft)
     }
 
     /// Length weighted by strength.
@@ -134,9 +114,7 @@ impl SampledLine {
         Self {
             points: self.points[first..=last].to_vec(),
             samples: self.samples[first..=last].to_vec(),
-            soft: self.soft[first..=last].to_vec(),
-            silhouette: self.silhouette[first..=last].to_vec(),
-            part: self.part[first..=last].to_vec(),
+            sides: self.sides[first..=last].to_vec(),
             closed: false,
         }
     }
@@ -146,9 +124,7 @@ impl SampledLine {
         Self {
             points: index.iter().map(|i| self.points[*i]).collect(),
             samples: index.iter().map(|i| self.samples[*i]).collect(),
-            soft: index.iter().map(|i| self.soft[*i]).collect(),
-            silhouette: index.iter().map(|i| self.silhouette[*i]).collect(),
-            part: index.iter().map(|i| self.part[*i]).collect(),
+            sides: index.iter().map(|i| self.sides[*i]).collect(),
             closed: self.closed,
         }
     }

@@ -148,8 +148,8 @@ fn jagged_contour_circle_is_fitted_by_few_smooth_cubics() {
     for (a, b) in segments.iter().zip(segments.iter().cycle().skip(1)) {
         let (a, b) = (a.to_cubic(), b.to_cubic());
         let (u, v) = (
-            crate::chains::fit::bezier_fit::unit(a.p3 - a.p2),
-            crate::chains::fit::bezier_fit::unit(b.p1 - b.p0),
+            crate::geometry::plane::planar_distance::unit(a.p3 - a.p2),
+            crate::geometry::plane::planar_distance::unit(b.p1 - b.p0),
         );
         assert!(u.dot(v) > 0.9999, "kink of cosine {}", u.dot(v));
     }

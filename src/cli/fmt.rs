@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::{EXIT_DIFFERENCES, print};
-use crate::cli::output::output_files::{Staging, check_place};
+use crate::cli::output::output_files::{Staging, check_place, is_stdout};
 use crate::diff::canonical_svg;
 use crate::error::Error;
 use crate::export::encoding::gzip;
@@ -76,10 +76,6 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
     staging.commit()?;
     print(strays.as_bytes())?;
     Ok(if strays.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(EXIT_DIFFERENCES) })
-}
-
-fn is_stdout(path: &Path) -> bool {
-    path.as_os_str() == "-"
 }
 
 fn read(file: &Path) -> Result<String, Error> {

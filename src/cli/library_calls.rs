@@ -3,8 +3,7 @@
 use rayon_core::ThreadPool;
 
 use crate::animation::Rigged;
-use crate::cli::options::draw_args::GroupBy;
-use crate::cli::request::draw_request::SvgChoices;
+use crate::cli::options::draw_args::{GroupBy, HowArgs};
 use crate::colour::srgb::Colour;
 use crate::drawing::Drawing;
 use crate::error::Error;
@@ -70,18 +69,18 @@ pub(crate) fn mesh_findings(scene: &Scene) -> (Warnings, Mesh) {
 }
 
 /// Encodes a drawing as SVG.
-pub(crate) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
-    drawing.to_svg(&svg_options(choices)).into_bytes()
+pub(crate) fn svg(drawing: &Drawing, how: &HowArgs) -> Vec<u8> {
+    drawing.to_svg(&svg_options(how)).into_bytes()
 }
 
 /// Converts the SVG options of a request for the exporter.
-pub(crate) fn svg_options(choices: &SvgChoices) -> SvgOptions {
-    let group = match choices.group {
+pub(crate) fn svg_options(how: &HowArgs) -> SvgOptions {
+    let group = match how.group {
         GroupBy::Layer => Grouping::Layer,
         GroupBy::Part => Grouping::Part,
     };
-    let id_prefix = choices.id_prefix.clone().unwrap_or_default();
-    SvgOptions { precision: choices.precision, id_prefix, group, ..SvgOptions::default() }
+    let id_prefix = how.id_prefix.clone().unwrap_or_default();
+    SvgOptions { precision: how.precision, id_prefix, group, ..SvgOptions::default() }
 }
 
 /// Encodes a drawing as PNG with a resolution in pixels per inch.

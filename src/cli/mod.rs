@@ -9,7 +9,7 @@
 //!
 //! Commands: `draw`, `animate`, `page`, `diff`, `test`, `fmt`, `info`, `styles`, `manual` (`man`,
 //! `completions`); `lod` is in `models`, which opens models. `step` converts STEP files. `library_calls`
-//! wraps the library calls that several commands share.
+//! wraps the library calls that several commands share, and `json_files` reads and writes JSON.
 
 mod animate;
 mod config;
@@ -17,6 +17,7 @@ mod diff;
 mod draw;
 mod fmt;
 mod info;
+mod json_files;
 mod library_calls;
 mod manual;
 mod models;

@@ -4,8 +4,10 @@ use glam::DVec2;
 use kurbo::Point;
 
 use super::pixel_picture::Picture;
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
 use crate::geometry::plane::marching_squares::marching_squares;
 use crate::geometry::plane::planar_distance::segment_distance_squared;
+use crate::geometry::plane::polylines::ring_area;
 
 /// Maximum deviation of traced outlines, as a fraction of a segment, before they are simplified.
 const MAX_CURVE_ERROR_PX: f64 = 0.05;
@@ -123,17 +125,11 @@ impl DarknessMap {
             let ring: Vec<Point> = line.iter().map(|p| Point::new(p.x - 1.5, p.y - 1.5)).collect();
             let ring = simplified(&clip_to_frame(&ring, frame), frame, tracing);
             let [x, y] = tracing.scale;
-            (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
+            (ring.len() > 2 && (ring_area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
                 .then_some(ring)
         };
         Some(lines.iter().filter_map(ring_of).collect())
     }
-}
-
-/// Signed area of a ring.
-fn area(ring: &[Point]) -> f64 {
-    let next = |k: usize| ring[(k + 1) % ring.len()];
-    (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
 }
 
 /// Clips a closed line, whose first point is its last, to the frame. Adds points where it crosses the frame
@@ -212,27 +208,17 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &OutlineTracin
     if fixed.len() < 2 {
         // Split a free ring at any point and at the point farthest from it.
         let first = fixed.first().copied().unwrap_or(0);
-        let away = |k: &usize| (scaled[*k] - scaled[first]).hypot2();
-        let far = (0..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
+        let away = |k: usize| (scaled[k] - scaled[first]).hypot2();
+        let far = farthest_point(0..n, away, f64::NEG_INFINITY).unwrap_or(0);
         fixed = vec![first.min(far), first.max(far)];
     }
-    let mut is_kept = vec![false; n];
-    for (k, from) in fixed.iter().enumerate() {
-        let to = fixed.get(k + 1).copied().unwrap_or(fixed[0] + n);
-        is_kept[*from] = true;
-        let mut open = vec![(*from, to)];
-        while let Some((a, b)) = open.pop() {
-            let off = |i: &usize| segment_distance_squared(scaled[i % n], scaled[a % n], scaled[b % n]);
-            let Some(worst) = (a + 1..b).max_by(|i, j| off(i).total_cmp(&off(j)).then(j.cmp(i))) else {
-                continue;
-            };
-            if off(&worst) > tracing.tolerance * tracing.tolerance {
-                is_kept[worst % n] = true;
-                open.extend([(a, worst), (worst, b)]);
-            }
-        }
-    }
-    (0..n).filter(|k| is_kept[*k]).map(|k| ring[k]).collect()
+    // The ring continues to its first fixed point.
+    fixed.push(fixed[0] + n);
+    let is_kept = douglas_peucker(2 * n, &fixed, |a, b| {
+        let off = |k: usize| segment_distance_squared(scaled[k % n], scaled[a % n], scaled[b % n]);
+        farthest_point(a + 1..b, off, tracing.tolerance * tracing.tolerance)
+    });
+    (0..n).filter(|k| is_kept[*k] || is_kept[*k + n]).map(|k| ring[k]).collect()
 }
 
 #[cfg(test)]
@@ -256,13 +242,13 @@ mod tests {
         let rings = annulus(64, [9.3, 25.8]).outlines(&TRACING).unwrap();
         let [outer, inner] = &rings[..] else { panic!("{}", rings.len()) };
         let (outer, inner) =
-            if area(outer).abs() > area(inner).abs() { (outer, inner) } else { (inner, outer) };
-        assert!(area(outer) * area(inner) < 0.0, "holes turn the other way");
+            if ring_area(outer).abs() > ring_area(inner).abs() { (outer, inner) } else { (inner, outer) };
+        assert!(ring_area(outer) * ring_area(inner) < 0.0, "holes turn the other way");
         for (ring, radius) in [(outer, 25.8), (inner, 9.3)] {
             let off = |p: &Point| ((*p - Point::new(32.0, 32.0)).hypot2().sqrt() - radius).abs();
             let worst = ring.iter().map(off).fold(0.0, f64::max);
             assert!(worst < 0.15, "{worst} px off");
-            assert!((area(ring).abs() / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.01);
+            assert!((ring_area(ring).abs() / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.01);
             assert!(ring.len() < 120, "{}", ring.len());
         }
         // With a larger speck size the hole disappears.
@@ -270,7 +256,7 @@ mod tests {
         assert_eq!(annulus(64, [9.3, 25.8]).outlines(&coarse).unwrap().len(), 1);
         // Downsampled, the ring keeps its area.
         let small = annulus(64, [9.3, 25.8]).at_most(32, 64).outlines(&TRACING).unwrap();
-        let whole: f64 = small.iter().map(|ring| area(ring)).sum::<f64>() * 2.0;
+        let whole: f64 = small.iter().map(|ring| ring_area(ring)).sum::<f64>() * 2.0;
         let right = std::f64::consts::PI * (25.8_f64.powi(2) - 9.3_f64.powi(2));
         assert!((whole.abs() / right - 1.0).abs() < 0.01, "{whole} {right}");
     }
@@ -280,9 +266,9 @@ mod tests {
         let dark = DarknessMap::of_values(7, 4, |_, _| 1.0);
         let [ring] = &dark.outlines(&TRACING).unwrap()[..] else { panic!("one") };
         assert_eq!(ring.len(), 4, "{ring:?}");
-        assert_eq!(area(ring).abs(), 28.0);
+        assert_eq!(ring_area(ring).abs(), 28.0);
         let left = DarknessMap::of_values(8, 6, |column, _| f64::from(u8::from(column < 3)));
-        assert!((area(&left.outlines(&TRACING).unwrap()[0]).abs() - 18.0).abs() < 1e-9);
+        assert!((ring_area(&left.outlines(&TRACING).unwrap()[0]).abs() - 18.0).abs() < 1e-9);
     }
 
     #[test]

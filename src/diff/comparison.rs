@@ -15,7 +15,7 @@ use super::changes::outline_findings;
 use super::changes::region_findings;
 use super::changes::stacking_order;
 use super::changes::{self, Renamed};
-use super::curves::chain;
+use super::curves::chain::{self, OutlineChain};
 use super::findings::pixel_count;
 use super::matching::equal_shapes;
 use super::raster_check::{self, RasterVerdict};
@@ -23,11 +23,9 @@ use super::report::text_report;
 use crate::diff::causes::cause_sentences::MovedPart;
 use crate::diff::causes::motion::Motion;
 use crate::diff::changes::finding_writer::FindingWriter;
-use crate::diff::curves::segment_grid::SegmentGrid;
-use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Stage, Verdict};
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Stage, Verdict};
 use crate::diff::findings::ink_totals::Totals;
 use crate::diff::matching::chain_events::{ChainEvent, events};
-use crate::diff::matching::chain_pairs::CoveredChains;
 use crate::diff::matching::interval_cover::cover;
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::ink::trimmed;
@@ -37,7 +35,7 @@ use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::diff::shapes::tolerance_table::{Tolerances, default_px};
 use crate::drawing::{Length, Unit};
 
-/// Stack size for the renderer's recursion over nested elements.
+/// Stack size for the recursion over nested elements, independent of the calling thread.
 const STACK_BYTES: usize = 64 << 20;
 
 /// Compares two pictures; see [`super::compare`].
@@ -77,13 +75,11 @@ pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
 
 /// A picture without ignored shapes.
 fn without_ignored(picture: &Picture, ignore: Ignore) -> Picture {
-    match picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
-        true => {
-            let shapes = picture.shapes.iter().filter(|shape| !ignore.leaves_out(shape)).cloned();
-            Picture { shapes: shapes.collect(), ..picture.clone() }
-        }
-        false => picture.clone(),
+    let mut picture = picture.clone();
+    if picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
+        picture.shapes = picture.shapes.iter().filter(|shape| !ignore.leaves_out(shape)).cloned().collect();
     }
+    picture
 }
 
 /// Finds the changes of two pictures and their causes.
@@ -110,7 +106,8 @@ fn find_changes(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions)
     }
     let raster_verdict = compare_rasters(pictures, &compared.findings, options, ignore);
     diff.pictures_unknown = matches!(raster_verdict, RasterVerdict::Unknown);
-    let pixel_findings = match raster_verdict {
+    let mut additional_findings: Vec<Finding> = page_finding.into_iter().chain(names).collect();
+    match raster_verdict {
         RasterVerdict::Same => {
             let mark_findings = std::mem::take(&mut compared.findings);
             let count_before = mark_findings.len();
@@ -119,49 +116,27 @@ fn find_changes(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions)
             if compared.is_one_picture {
                 compared.moved_parts.clear();
             }
-            Vec::new()
         }
-        RasterVerdict::Differs(raster_findings) => raster_findings,
-        RasterVerdict::Unknown => Vec::new(),
-    };
-    // All marks moved alike: report one motion of the whole drawing.
-    let common_motion = whole_motion::common_shift(
-        &mut compared.findings,
-        before,
-        &compared.unequal_shapes[0],
-        diff.tolerance_px,
-    );
-    if let Some(motion) = common_motion {
-        let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
-        return assemble_result(
-            diff,
-            pictures,
-            [page_finding.into_iter().chain(names).collect(), pixel_findings],
-            compared,
-            vec![cause],
-            unlabelled_side,
-        );
+        RasterVerdict::Differs(raster_findings) => additional_findings.extend(raster_findings),
+        RasterVerdict::Unknown => {}
     }
-    let whole_drawing_motion = (compared.findings.len() > 2)
-        .then(|| whole_motion::whole(pictures, &compared.unequal_shapes, default_px(before, after)))
-        .flatten();
+    // All marks moved alike: report one motion of the whole drawing.
     let mut causes = Vec::new();
-    if let Some(drawing_motion) = whole_drawing_motion
+    let unequal_shapes = &compared.unequal_shapes;
+    if let Some(motion) =
+        whole_motion::common_shift(&mut compared.findings, before, &unequal_shapes[0], diff.tolerance_px)
+    {
+        causes.push(sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px));
+    } else if compared.findings.len() > 2
+        && let Some(motion) = whole_motion::whole(pictures, unequal_shapes, default_px(before, after))
         && let Some((remaining_findings, cause)) =
-            whole_motion_findings(diff, &drawing_motion, pictures, &compared, &options.tolerances, ignore)
+            whole_motion_findings(diff, &motion, pictures, &compared, &options.tolerances, ignore)
     {
         compared.findings = remaining_findings;
         compared.moved_parts.clear();
         causes.push(cause);
     }
-    assemble_result(
-        diff,
-        pictures,
-        [page_finding.into_iter().chain(names).collect(), pixel_findings],
-        compared,
-        causes,
-        unlabelled_side,
-    );
+    assemble_result(diff, pictures, additional_findings, compared, causes, unlabelled_side);
 }
 
 /// Reports a change of camera in one finding; returns `false` for all other changes.
@@ -189,23 +164,27 @@ fn compare_rasters(
     ignore: Ignore,
 ) -> RasterVerdict {
     let groups = MarkGroups::new(pictures, &options.tolerances, ignore);
-    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
     let decide = || raster_check::decide(pictures, findings, &groups, ignore);
-    let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
-    decided.ok().and_then(Result::ok).unwrap_or(RasterVerdict::Unknown)
+    on_large_stack(2, decide).unwrap_or(RasterVerdict::Unknown)
+}
+
+/// Runs a function on threads with a large stack; `None` if it panics.
+pub(crate) fn on_large_stack<T: Send>(threads: usize, function: impl FnOnce() -> T + Send) -> Option<T> {
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES).build();
+    pool.ok()?.install(|| catch_unwind(AssertUnwindSafe(function))).ok()
 }
 
 /// Combines findings, causes and totals into the result.
 fn assemble_result(
     diff: &mut Diff,
     pictures: [&Picture; 2],
-    additional_findings: [Vec<Finding>; 2],
+    mut additional_findings: Vec<Finding>,
     mut compared: MarkComparison,
     mut causes: Vec<Cause>,
     unlabelled_side: Option<usize>,
 ) {
     let is_same_structure = compared.unequal_shapes.iter().all(Vec::is_empty) && unlabelled_side.is_none();
-    diff.findings.extend(additional_findings.into_iter().flatten());
+    diff.findings.append(&mut additional_findings);
     diff.findings.append(&mut compared.findings);
     if let Some(side) = unlabelled_side {
         let findings = missing_labels::findings(pictures[side], &diff.findings, side);
@@ -217,7 +196,7 @@ fn assemble_result(
     for cause in &mut causes {
         let follows = |finding: &Finding| match cause.verdict {
             Verdict::Relabelled => finding.verdict == Verdict::Relabelled,
-            _ => finding.verdict == Verdict::Page || whole_motion::is_carried(finding),
+            _ => finding.verdict == Verdict::Page || finding.follows_motion,
         };
         let matching_findings = diff.findings.iter().enumerate().filter(|(_, finding)| follows(finding));
         cause.findings = matching_findings.map(|(index, _)| index).collect();
@@ -333,46 +312,25 @@ fn compare_unequal(
     ignore: Ignore,
     stayed: &mut Vec<(usize, usize)>,
 ) -> (Vec<Finding>, Vec<MovedPart>) {
-    let chains = [
-        chain::chains_of_shapes(before, &unequal_shapes[0], &groups.of_shape[0], groups),
-        chain::chains_of_shapes(after, &unequal_shapes[1], &groups.of_shape[1], groups),
-    ];
-    let firsts = [chain::first_copies(&chains[0]), chain::first_copies(&chains[1])];
-    let grid = |side: usize| {
-        let chains = chains[side].iter().enumerate();
-        SegmentGrid::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
+    let chains = |side: usize| {
+        let picture = [before, after][side];
+        chain::chains_of_shapes(picture, &unequal_shapes[side], &groups.of_shape[side], groups)
     };
-    let chains_and_firsts = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
-    let covers = [
-        cover(chains_and_firsts(0), chains_and_firsts(1), &grid(1), groups),
-        cover(chains_and_firsts(1), chains_and_firsts(0), &grid(0), groups),
-    ];
-    let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
-    let sides = [
-        CoveredChains { chains: a, firsts: firsts_a, covers: cover_a },
-        CoveredChains { chains: b, firsts: firsts_b, covers: cover_b },
-    ];
+    let sides = cover([chains(0), chains(1)], groups);
     for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
         let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
-        stayed.extend(
-            chain
-                .shapes
-                .first()
-                .copied()
-                .zip(partner.and_then(|partner_chain| partner_chain.shapes.first().copied())),
-        );
+        let first_shape = |chain: &OutlineChain| chain.shapes.first().copied();
+        stayed.extend(first_shape(chain).zip(partner.and_then(first_shape)));
     }
     let page = before.width.max(before.height).max(after.width.max(after.height));
     let events = events(&sides, groups, page);
     let finding_writer = FindingWriter { pictures: [before, after], sides: &sides, ignore };
-    let (events_of_lines, region_events): (Vec<ChainEvent>, Vec<ChainEvent>) =
-        events.into_iter().partition(|event| {
-            let chain =
-                event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
-            chain
-                .and_then(|chain| groups.groups.get(chain.group))
-                .is_none_or(|group| group.kind == ShapeKind::Line)
-        });
+    let is_of_line = |event: &ChainEvent| {
+        let chain = event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
+        let group = chain.and_then(|chain| groups.groups.get(chain.group));
+        group.is_none_or(|group| group.kind == ShapeKind::Line)
+    };
+    let (events_of_lines, region_events): (Vec<_>, Vec<_>) = events.into_iter().partition(is_of_line);
     let mut findings = line_findings::findings(&finding_writer, events_of_lines);
     findings.extend(region_findings::findings(&finding_writer, region_events));
     if !ignore.widths {
@@ -390,11 +348,11 @@ fn page(before: &Picture, after: &Picture) -> Option<Finding> {
     differs.then(|| {
         let change = Change { what: "size".to_owned(), old: size(before), new: size(after) };
         let (width, height) = (before.width.max(after.width), before.height.max(after.height));
-        let place = FindingBox::of(Rect::new(0.0, 0.0, width, height));
+        let place = Rect::new(0.0, 0.0, width, height);
         Finding {
             size: before.width * before.height,
             growth: after.width * after.height - before.width * before.height,
-            ..Finding::in_place(Verdict::Page, ShapeKind::Region, Label::default(), vec![change], place)
+            ..Finding::in_place(Verdict::Page, Label::default(), vec![change], place)
         }
     })
 }

@@ -61,6 +61,16 @@ impl Length {
     }
 }
 
+impl Unit {
+    /// Millimetres in the unit.
+    pub(crate) const fn mm(self) -> f64 {
+        match self {
+            Self::Px => MM_PER_PX,
+            Self::Mm => 1.0,
+        }
+    }
+}
+
 impl Serialize for Length {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.unit {

@@ -55,6 +55,13 @@ pub struct StrokePaint {
     pub dash_offset: f64,
 }
 
+impl StrokePaint {
+    /// A solid line.
+    pub(crate) fn solid(width: f64, colour: Colour, cap: Cap, join: Join) -> Self {
+        Self { width, colour, cap, join, dash: Vec::new(), dash_offset: 0.0 }
+    }
+}
+
 /// Paint of a line with varying width; the mark's path is its outline. Lengths in user units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutlinePaint {
@@ -166,6 +173,14 @@ pub struct Provenance {
     /// The text whose letters the mark outlines. PDF sets it in its font. Other formats keep the outline, and
     /// SVG adds the words.
     pub text: Option<TextRun>,
+}
+
+impl Provenance {
+    /// Provenance of a mark on a part and a material; empty names are left out.
+    pub(crate) fn of_names(part: Option<&Arc<str>>, material: Option<&Arc<str>>) -> Self {
+        let known = |name: Option<&Arc<str>>| name.filter(|name| !name.is_empty()).cloned();
+        Self { part: known(part), material: known(material), ..Self::default() }
+    }
 }
 
 /// One painted path.

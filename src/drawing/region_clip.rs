@@ -5,6 +5,8 @@
 
 use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect, Shape};
 
+use crate::geometry::plane::polyline_path::{add_polygon, subpaths};
+
 /// A region of the page: the inside of a path with flattened curves.
 #[derive(Debug, Clone)]
 pub(crate) struct ClipRegion {
@@ -56,15 +58,15 @@ impl ClipRegion {
         kept
     }
 
-    fn add_run(&self, run: &Subpath, kept: &mut BezPath) {
-        let pieces: Vec<(PathSeg, bool)> =
-            run.segments.iter().flat_map(|segment| self.pieces(*segment)).collect();
+    fn add_run(&self, run: &BezPath, kept: &mut BezPath) {
+        let pieces: Vec<(PathSeg, bool)> = run.segments().flat_map(|segment| self.pieces(segment)).collect();
         if pieces.iter().all(|(_, inside)| *inside) {
-            kept.extend(run.path.iter().copied());
+            kept.extend(run.iter());
             return;
         }
         // A closed line continues over its seam, so it starts where it enters the region.
-        let begin = if run.closed { pieces.iter().position(|(_, inside)| !inside).unwrap_or(0) } else { 0 };
+        let closed = run.elements().last() == Some(&PathEl::ClosePath);
+        let begin = if closed { pieces.iter().position(|(_, inside)| !inside).unwrap_or(0) } else { 0 };
         let mut is_open = false;
         for (piece, inside) in pieces.iter().cycle().skip(begin).take(pieces.len()) {
             if *inside {
@@ -113,43 +115,15 @@ impl ClipRegion {
         let mut cut = BezPath::new();
         for run in subpaths(path) {
             let mut ring: Vec<Point> = Vec::new();
-            kurbo::flatten(run.path.iter().copied(), tolerance, |element| match element {
+            kurbo::flatten(&run, tolerance, |element| match element {
                 PathEl::MoveTo(p) | PathEl::LineTo(p) => ring.push(p),
                 _ => {}
             });
             let ring = sides_of(convex).fold(ring, |ring, side| clip_to_half_plane(&ring, side));
-            for (k, p) in ring.iter().enumerate() {
-                if k == 0 { cut.move_to(*p) } else { cut.line_to(*p) }
-            }
-            if !ring.is_empty() {
-                cut.close_path();
-            }
+            add_polygon(&mut cut, ring);
         }
         cut
     }
-}
-
-/// One subpath of a path.
-struct Subpath {
-    path: Vec<PathEl>,
-    segments: Vec<PathSeg>,
-    closed: bool,
-}
-
-fn subpaths(path: &BezPath) -> Vec<Subpath> {
-    let begins = |element: &PathEl| matches!(element, PathEl::MoveTo(_));
-    let elements = path.elements();
-    let starts: Vec<usize> = (0..elements.len())
-        .filter(|k| elements.get(*k).is_some_and(begins))
-        .chain([elements.len()])
-        .collect();
-    let run = |[from, to]: &[usize; 2]| {
-        let own = elements.get(*from..*to).unwrap_or_default().to_vec();
-        let closed = own.last() == Some(&PathEl::ClosePath);
-        let segments = kurbo::segments(own.iter().copied()).collect();
-        Subpath { path: own, segments, closed }
-    };
-    starts.array_windows().map(run).collect()
 }
 
 /// The corners of a convex polygon, in the direction with the inside at non-negative `cross`; `None` if it is

@@ -1,6 +1,6 @@
 //! Messages of the TOML and JSON parsers in plain words, without names of types, structs or parsers.
 
-use super::nearest::nearest;
+use super::nearest::{nearest, suggestion};
 use super::spelling::without_american;
 
 /// Parser message in plain words, with advice.
@@ -98,10 +98,7 @@ fn quoted<'a>(message: &'a str, start: &str) -> Option<Vec<&'a str>> {
 }
 
 fn did_you_mean(word: &str, known: &[&str], list: &str) -> String {
-    match nearest(word, known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("{list}: {}", known.join(", ")),
-    }
+    suggestion(nearest(word, known), || format!("{list}: {}", known.join(", ")))
 }
 
 /// A found value as the user wrote it.

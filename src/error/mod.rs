@@ -1,10 +1,13 @@
 //! [`Error`], the error type of the crate: kind, file, place, message and remedy.
 //!
 //! Files:
+//! - [`bounded_read`]: reads files that are not too large.
 //! - [`messages`]: rewrites messages of the TOML and JSON parsers in plain words.
 //! - [`nearest`]: finds the known word nearest to a misspelt one.
 //! - [`spelling`]: maps American to British spelling of keys and options.
 
+#[cfg(feature = "page")]
+pub(crate) mod bounded_read;
 pub(crate) mod messages;
 pub(crate) mod nearest;
 pub(crate) mod spelling;
@@ -73,6 +76,17 @@ impl Error {
         Self { kind: ErrorKind::Io, source: Some(Arc::new(error)), ..Self::new(message) }
     }
 
+    /// Reads the text of a file; `what` names the file in the advice.
+    #[cfg(feature = "page")]
+    pub(crate) fn utf8_text(bytes: Vec<u8>, path: &Path, what: &str) -> Result<String, Self> {
+        String::from_utf8(bytes).map_err(|error| {
+            Self::new("is not UTF-8 text")
+                .in_file(path)
+                .at(format!("byte {}", error.utf8_error().valid_up_to()))
+                .remedy(format!("save {what} as UTF-8"))
+        })
+    }
+
     /// Error of the JSON parser with its line and column. `what` precedes the message; it may be empty.
     pub(crate) fn json(what: &str, error: &serde_json::Error) -> Self {
         let message = error.to_string();
@@ -104,6 +118,12 @@ impl Error {
     pub fn in_file(mut self, file: impl AsRef<Path>) -> Self {
         self.file = Some(file.as_ref().to_path_buf());
         self
+    }
+
+    /// Sets the file, unless the error names one already.
+    #[must_use]
+    pub(crate) fn or_in_file(self, file: impl AsRef<Path>) -> Self {
+        if self.file.is_some() { self } else { self.in_file(file) }
     }
 
     /// Sets the position in the file.

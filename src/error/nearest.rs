@@ -1,4 +1,4 @@
-//! [`nearest`]: known word that a misspelt word most likely stands for.
+//! [`nearest`]: known word that a misspelt word most likely stands for, and [`suggestion`] as advice.
 
 /// Nearest known word, if at most a third of its letters differ.
 pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
@@ -8,6 +8,11 @@ pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .min()
         .filter(|(distance, candidate)| *distance <= (candidate.chars().count().max(3)) / 3)
         .map(|(_, candidate)| candidate)
+}
+
+/// Advice about an unknown word: the known word that it most likely stands for, or another text.
+pub(crate) fn suggestion(near: Option<&str>, otherwise: impl FnOnce() -> String) -> String {
+    near.map_or_else(otherwise, |near| format!("did you mean `{near}`?"))
 }
 
 /// Edit distance of two words: insertions, deletions, replacements and swaps of neighbouring letters (optimal

@@ -5,7 +5,8 @@
 //! number of threads.
 //!
 //! - [`numbers`]: portable functions, powers of two, linear systems and noise.
-//! - [`plane`]: distances, convex hulls and zero lines of grids.
+//! - [`plane`]: distances, polylines, a uniform grid, convex hulls and zero lines of grids.
+//! - [`space`]: boxes, trees of boxes, and triangles.
 //! - [`lists`]: lists of lists (CSR) and bit sets.
 //! - [`names`]: name patterns and stable ids.
 //! - [`tolerances`]: thresholds that several modules share. `dice`: random numbers for tests.
@@ -16,4 +17,5 @@ pub(crate) mod lists;
 pub(crate) mod names;
 pub(crate) mod numbers;
 pub(crate) mod plane;
+pub(crate) mod space;
 pub(crate) mod tolerances;

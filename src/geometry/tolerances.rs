@@ -19,3 +19,10 @@ pub(crate) const TRIANGLE_BORDER_PX: f64 = 1e-7;
 /// Minimum pivot of a positive definite matrix, as a fraction of its trace: the rounding of `f64`. Smaller
 /// pivots count as zero.
 pub(crate) const MIN_PIVOT_OF_TRACE: f64 = f64::EPSILON;
+
+/// Margin of the columns of a planar grid that a segment passes in a row, in cells. Exceeds rounding, so no
+/// cell is missed.
+pub(crate) const CELL_MARGIN: f64 = 1e-6;
+
+/// Margin on the parameter of a segment (0 to 1) in box tests. Several roundings of `f64` are smaller.
+pub(crate) const PARAMETER_ROUNDING: f64 = 1e-9;

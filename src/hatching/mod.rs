@@ -24,8 +24,6 @@ pub(crate) mod patterns;
 mod tolerances;
 pub(crate) mod tone;
 
-use std::sync::Arc;
-
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Point};
 
@@ -253,16 +251,7 @@ fn colour(ink: Ink, look: SurfaceLabel, context: &HatchContext) -> Colour {
 
 /// Classes and names of a mark on a surface with a given look.
 fn provenance(look: SurfaceLabel, context: &HatchContext) -> Provenance {
-    let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
-    Provenance {
-        identity: 0,
-        places: Arc::default(),
-        classes: vec!["hatch"],
-        tone: None,
-        part: context.parts.get(look.part.index()).and_then(name),
-        material: context.materials.get(look.material.index()).and_then(|(text, _)| name(text)),
-        invisibility: 0,
-        note: None,
-        text: None,
-    }
+    let material = context.materials.get(look.material.index()).map(|(name, _)| name);
+    let names = Provenance::of_names(context.parts.get(look.part.index()), material);
+    Provenance { classes: vec!["hatch"], ..names }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Length};
 use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::checked_number::{checked, share};
 use crate::strokes::Ink;
 
 /// Options of hatching.
@@ -200,14 +201,6 @@ impl HatchLayer {
     }
 }
 
-fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        return Ok(value);
-    }
-    Err(serde::de::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
-}
-
 fn above_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::Error> {
     let length = Length::deserialize(deserializer)?;
     if length.value >= MIN_LENGTH {
@@ -221,13 +214,8 @@ fn some_above_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
 }
 
 fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (1.0..=300.0).contains(&value) {
-        return Ok(Some(value));
-    }
-    Err(serde::de::Error::custom(format!(
-        "{value} is not a number of lines per inch; write a number from 1 to 300"
-    )))
+    let advice = "is not a number of lines per inch; write a number from 1 to 300";
+    checked(deserializer, |lpi| (1.0..=300.0).contains(&lpi), advice).map(Some)
 }
 
 /// Default screen ruling, lines per inch, as used in printed comics.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::tolerances;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, RayStart};
-use crate::mesh::bvh::rays::ray_tree::RayTree;
+use crate::mesh::bvh::triangle_tree::TriangleTree;
 use crate::mesh::{FaceId, Mesh};
 
 /// Number of directions over the whole sphere; nearly half of them are above a vertex.
@@ -43,7 +43,7 @@ pub fn ambient_visibility(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> 
         RayStart { point: at + normals[v] * lifts[v], reach: reach(at) }
     };
     let starts: Vec<RayStart> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
-    let blocked_bits = |direction: DVec3, tree: Option<&RayTree>| {
+    let blocked_bits = |direction: DVec3, tree: Option<&TriangleTree>| {
         let above = |v: &usize| direction.dot(normals[*v]) > MIN_RAY_COSINE;
         let facing_vertices: Vec<usize> = (0..starts.len()).filter(above).collect();
         let of: Vec<RayStart> = facing_vertices.iter().map(|v| starts[*v]).collect();
@@ -56,7 +56,8 @@ pub fn ambient_visibility(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> 
     let mut blocked: Vec<Option<Vec<u64>>> =
         directions.par_iter().with_max_len(1).map(|d| blocked_bits(*d, None)).collect();
     if blocked.iter().any(Option::is_none) {
-        let tree = RayTree::new(mesh);
+        let faces = (0..mesh.triangles.len() as u32).map(FaceId).filter(|face| !mesh.is_degenerate(*face));
+        let tree = TriangleTree::new(faces.map(|face| mesh.corners(face)).collect());
         let left = blocked.par_iter_mut().zip(&directions).filter(|(blocked, _)| blocked.is_none());
         left.for_each(|(blocked, direction)| *blocked = blocked_bits(*direction, Some(&tree)));
     }
@@ -97,8 +98,7 @@ fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
     let mut contacts = vec![0.0f64; mesh.positions.len()];
     for (id, face) in mesh.triangles.iter().enumerate() {
-        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
-        let area = (b - a).cross(c - a);
+        let area = mesh.area_vector(FaceId::from(id));
         let contact = mesh.extent(FaceId::from(id)).contact;
         for v in face {
             normals[*v as usize] += area;

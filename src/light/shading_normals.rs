@@ -81,8 +81,7 @@ impl ShadingNormals {
                 if !ids.iter().any(|id| is_in_share(*id)) {
                     continue;
                 }
-                let [a, b, c] = mesh.corners(FaceId(face as u32));
-                let cross = (b - a).cross(c - a);
+                let cross = mesh.area_vector(FaceId(face as u32));
                 for id in ids.into_iter().filter(|id| is_in_share(*id)) {
                     sums[id as usize - share.vertices.start] += cross;
                 }

@@ -31,18 +31,6 @@ pub(crate) const SKY_PROBE_OF_EDGE: f64 = 1e-2;
 /// the error: a rounding is at most 1.2e-16.
 pub(crate) const F64_MARGIN_SHARE: f64 = 1e-9;
 
-/// Margin for the rounding of a value to single precision, as a fraction of it. Much larger than the error: a
-/// rounding is at most 6e-8.
-pub(crate) const F32_MARGIN_SHARE: f64 = 1e-6;
-
-/// Margin for the rounding of a facing value (the cosine between normal and line of sight). Much larger than
-/// the error.
-pub(crate) const FACING_MARGIN: f64 = 1e-6;
-
-/// Minimum depth of a ball around a run of edges, as a fraction of its distance from the eye. Smaller depths
-/// have lost too many digits in the subtraction.
-pub(crate) const MIN_DEPTH_OF_DISTANCE: f64 = 1e-3;
-
 /// Minimum depth for measuring the edge length of a part, as a fraction of the part. Keeps the length
 /// in px positive and finite for parts at or behind the eye.
 pub(crate) const MIN_SMOOTHING_DEPTH_OF_PART: f64 = 1e-3;

@@ -62,18 +62,29 @@ impl FeatureSegment {
     /// Segment of a wire, which belongs to no face.
     #[must_use]
     pub(crate) fn of_wire(wire: &Wire) -> Self {
+        Self::without_faces(LineKind::Wire, wire.vertices, wire.part, wire.material)
+    }
+
+    /// Drawn segment that belongs to no face.
+    pub(crate) fn without_faces(kind: LineKind, ends: [u32; 2], part: PartId, material: MaterialId) -> Self {
         Self {
-            ends: wire.vertices,
+            ends,
             hosts: [NO_FACE; 2],
-            kind: LineKind::Wire,
+            kind,
             both_seen: true,
             smooth: false,
             origin: MeshSource::default(),
             role: Role::Line,
             strength: 180.0,
-            part: wire.part,
-            material: wire.material,
+            part,
+            material,
         }
+    }
+
+    /// Drawn segment that belongs to a face.
+    pub(crate) fn on_face(mesh: &Mesh, face: u32, hosts: [u32; 2], kind: LineKind, ends: [u32; 2]) -> Self {
+        let (part, material) = (mesh.face_part[face as usize], mesh.face_material[face as usize]);
+        Self { hosts, ..Self::without_faces(kind, ends, part, material) }
     }
 }
 
@@ -85,18 +96,7 @@ pub(crate) fn segment(
     kind: LineKind,
     ends: [u32; 2],
 ) -> FeatureSegment {
-    FeatureSegment {
-        ends,
-        hosts,
-        kind,
-        both_seen: true,
-        smooth: hosts[1] == NO_FACE,
-        origin: MeshSource::default(),
-        role: Role::Line,
-        strength: 180.0,
-        part: mesh.face_part[face as usize],
-        material: mesh.face_material[face as usize],
-    }
+    FeatureSegment { smooth: hosts[1] == NO_FACE, ..FeatureSegment::on_face(mesh, face, hosts, kind, ends) }
 }
 
 /// Smooth contour of a rounded surface: a run of feature segments from head to tail. The facing side of the

@@ -1,9 +1,9 @@
 //! Which feature lines are found and drawn: the `[lines]` table of a style sheet.
 
-use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{ImageOptions, InsideOptions, LineKind, Source};
+use crate::geometry::numbers::checked_number::checked;
 use crate::scene::ArtistTextures;
 
 /// Treatment of hidden lines.
@@ -78,6 +78,9 @@ pub(crate) struct LineOptions {
     /// Draw the joints of parts of one material: lines where their surfaces continue in one plane. Default:
     /// true.
     pub joints: bool,
+    /// Search mesh contours with a tree in dual space from the second view on. The lines are the same; the
+    /// tree saves its cost after about a hundred views of one model. Default: false.
+    pub edge_tree: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,
     /// How lines are found in the image.
@@ -105,6 +108,7 @@ impl Default for LineOptions {
             artist_smooth: 0.7,
             hidden: HiddenLines::None,
             joints: true,
+            edge_tree: false,
             inside: InsideOptions::default(),
             image: ImageOptions::default(),
         }
@@ -113,30 +117,27 @@ impl Default for LineOptions {
 
 /// Reads a colour distance.
 fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let distance = f64::deserialize(deserializer)?;
-    if (0.0..=2.0).contains(&distance) {
-        Ok(distance)
-    } else {
-        Err(D::Error::custom(format!("{distance} is not a colour distance; write a number from 0 to 2")))
-    }
+    checked(
+        deserializer,
+        |value| (0.0..=2.0).contains(&value),
+        "is not a colour distance; write a number from 0 to 2",
+    )
 }
 
 /// Reads a length in px.
 fn smoothing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let px = f64::deserialize(deserializer)?;
-    if (0.0..=100.0).contains(&px) {
-        Ok(px)
-    } else {
-        Err(D::Error::custom(format!("{px} px is not a smoothing length; write a number from 0 to 100")))
-    }
+    checked(
+        deserializer,
+        |value| (0.0..=100.0).contains(&value),
+        "px is not a smoothing length; write a number from 0 to 100",
+    )
 }
 
 /// Reads an angle from 0 to 180 degrees.
 fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let degrees = f64::deserialize(deserializer)?;
-    if (0.0..=180.0).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err(D::Error::custom(format!("{degrees} is not the angle of a crease; write degrees from 0 to 180")))
-    }
+    checked(
+        deserializer,
+        |value| (0.0..=180.0).contains(&value),
+        "is not the angle of a crease; write degrees from 0 to 180",
+    )
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::LineOptions;
 use super::line_options::{Contours, Normals};
-use crate::light::{self, NormalCones};
+use crate::light;
 use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
@@ -123,7 +123,7 @@ impl Surface {
     /// The surface, subdivided where a coarse rounded part would show corners to the camera.
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
-        let Some(cuts) = self.cuts_for(camera, None) else {
+        let Some(cuts) = self.cuts_for(camera) else {
             self.fine_enough_camera = Some(*camera);
             return self;
         };
@@ -133,19 +133,19 @@ impl Surface {
     }
 
     /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
-    /// needs it, or if it is subdivided already. The [`NormalCones`] of this surface only save time.
+    /// needs it, or if it is subdivided already.
     #[must_use]
-    pub(crate) fn refined_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<RefinedSurface> {
-        let cuts = self.cuts_for(camera, cones)?;
+    pub(crate) fn refined_for(&self, camera: &Camera) -> Option<RefinedSurface> {
+        let cuts = self.cuts_for(camera)?;
         let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
         Some(self.refined_with(finer, &self.fillet_centre_sides()))
     }
 
-    fn cuts_for(&self, camera: &Camera, cones: Option<&NormalCones>) -> Option<MeshCuts> {
+    fn cuts_for(&self, camera: &Camera) -> Option<MeshCuts> {
         if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return None;
         }
-        light::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
+        light::cuts_near_contours(&self.mesh, &self.smooth, &Frame::new(camera, self.mesh.origin))
     }
 
     /// The surface of a subdivided mesh. `sides` are those of [`Self::fillet_centre_sides`].

@@ -12,6 +12,7 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::tolerances::{MAX_SINGLE_ERROR, MIN_VALUE_OF_LARGEST};
+use crate::geometry::space::bounds::Bounds;
 use crate::mesh::tolerances::MAX_ROUNDED_STEP_OF_SIZE;
 use crate::scene::{Geometry, Scene};
 
@@ -75,13 +76,8 @@ impl Precision {
         if most_digits >= MIN_DOUBLE_DIGITS {
             return Self::Exact;
         }
-        let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
-        let high = positions.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
-        if step > 0.0 && step <= MAX_ROUNDED_STEP_OF_SIZE * low.distance(high) {
-            Self::Decimals(step)
-        } else {
-            Self::Exact
-        }
+        let size = Bounds::of(positions.iter().copied()).diagonal();
+        if step > 0.0 && step <= MAX_ROUNDED_STEP_OF_SIZE * size { Self::Decimals(step) } else { Self::Exact }
     }
 }
 

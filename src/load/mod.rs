@@ -16,13 +16,11 @@
 //! 3. The precision of the coordinates is measured, for the tolerances of the mesh.
 //!
 //! Readers: [`obj`], [`ply`], [`stl`], [`gltf`]. Shared: [`text_cursor`] numbers and words of a text;
-//! [`parallel_file_read`] large files on several threads; [`polygons`] polygons into triangles;
-//! [`triangle_colours`]; [`coordinate_precision`]; [`tolerances`].
+//! [`polygons`] polygons into triangles; [`triangle_colours`]; [`coordinate_precision`]; [`tolerances`].
 
 mod coordinate_precision;
 pub(crate) mod gltf;
 pub(crate) mod obj;
-mod parallel_file_read;
 pub(crate) mod ply;
 mod polygons;
 pub(crate) mod stl;
@@ -158,15 +156,15 @@ fn open_with<T: From<Scene>>(
     let scene = refuse_other_files(path).and_then(|()| match ModelFormat::of_ending(&ending) {
         Some(ModelFormat::Obj) => obj::read(path).map(T::from),
         Some(ModelFormat::Gltf) => read_gltf(path),
-        Some(ModelFormat::Stl) => stl::read(path).map(T::from),
-        Some(ModelFormat::Ply) => ply::read(path).map(T::from),
+        Some(ModelFormat::Stl) => read_with(path, stl::read_bytes).map(T::from),
+        Some(ModelFormat::Ply) => read_with(path, ply::read_bytes).map(T::from),
         None if ["step", "stp"].contains(&&*ending) => {
             Err(unknown("the library does not read STEP; the program `ligne` does, through a converter"))
         }
         None if ending.is_empty() => Err(unknown("the file name has no ending")),
         None => Err(unknown(format!("the format .{ending} is not known"))),
     });
-    scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
+    scene.map_err(|error| error.or_in_file(path))
 }
 
 /// Stores the pictures that materials name and that are not in the model.
@@ -206,7 +204,7 @@ pub(crate) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
 ) -> Result<Scene, Error> {
-    let bytes = parallel_file_read::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
+    let bytes = fs::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut scene = with_precision(reader(&bytes, &stem)).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());

@@ -3,7 +3,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::colour::srgb::{Colour, linear};
+use crate::colour::oklab::linear_table;
+use crate::colour::srgb::Colour;
 use crate::scene::{Geometry, Material};
 
 /// Maximum number of colours that become materials: the maximum of a palette in a picture (PNG specification,
@@ -57,9 +58,8 @@ pub(crate) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materia
 
 /// Colours each vertex like its triangles, and splits vertices whose triangles have several colours.
 fn split_vertices(geometry: &mut Geometry, colours: &[Option<Colour>]) {
-    // Table of channels, as converting each one would be slow.
-    let light: Vec<f32> = (0..=255_u8).map(|channel| linear(f32::from(channel) / 255.0)).collect();
-    let light = |channel: u8| light.get(usize::from(channel)).copied().unwrap_or(1.0);
+    let light = linear_table();
+    let light = |channel: u8| light[usize::from(channel)];
     let plain = Material::default().colour;
     let mut of_vertices: Vec<Option<Colour>> = vec![None; geometry.positions.len()];
     let mut split: FxHashMap<(u32, Colour), u32> = FxHashMap::default();
@@ -96,6 +96,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::colour::srgb::linear;
 
     /// Triangles around one common vertex.
     fn fan(count: u32) -> Geometry {

@@ -7,6 +7,7 @@
 //! 5. Turn open surfaces.
 //! 6. Compute face normals and the stacking order of coplanar surfaces.
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -16,8 +17,7 @@ use super::weld::nearby_vertices;
 use super::{EdgeFaces, Edges, Mesh, MeshMetrics, RepairCounts, Soup, part_metrics};
 use crate::mesh::components::bodies::bodies;
 use crate::mesh::components::orientation::{ConnectedTriangles, OrientedSurfaces, TurnedFaces, turn_faces};
-use crate::mesh::normals::face_normals::normals_and_narrow;
-use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
+use crate::mesh::normals::normal_carriers::{CoplanarSearch, normals_and_carriers};
 use crate::mesh::normals::triangle_area::{has_own_area, may_have_flat_faces};
 use crate::mesh::overlaps::overlay_order::overlays;
 use crate::mesh::seams::face_split::cut_faces;
@@ -86,24 +86,24 @@ impl Mesh {
             let mut left = 0..;
             let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
             let renamed: Vec<u32> = keep.iter().map(of).collect();
-            edges = edges.without(&renamed, &soup.triangles);
+            edges = edges.updated(soup.positions.len(), &soup.triangles, &renamed);
             (is_final, is_as_found) = (false, false);
         }
         let mut seams = seam_search::find(&soup, &edges, &extents, true);
         if !seams.joined.is_empty() {
-            let changed = faces_of(&soup, |v| seams.joined[v as usize] != v);
+            let stays = |face: &[u32; 3]| face.iter().all(|v| seams.joined[*v as usize] == *v);
+            let renamed = (0..).zip(&soup.triangles).map(|(k, face)| if stays(face) { k } else { u32::MAX });
+            let renamed: Vec<u32> = renamed.collect();
             replace_vertices(&mut soup, &seams.joined, &mut cleaning);
-            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+            edges = edges.updated(soup.positions.len(), &soup.triangles, &renamed);
             seams = seam_search::find(&soup, &edges, &extents, false);
             is_as_found = false;
         }
         if !seams.cuts.is_empty() {
-            let before = soup.triangles.len() as u32;
+            let mut renamed: Vec<u32> = (0..soup.triangles.len() as u32).collect();
+            seams.cuts.iter().for_each(|(face, _)| renamed[*face as usize] = u32::MAX);
             cut_faces(&mut soup, &seams.cuts);
-            let mut changed: Vec<u32> = seams.cuts.iter().map(|(face, _)| *face).collect();
-            changed.sort_unstable();
-            changed.extend(before..soup.triangles.len() as u32);
-            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+            edges = edges.updated(soup.positions.len(), &soup.triangles, &renamed);
             is_as_found = false;
         }
         if !is_final {
@@ -123,15 +123,9 @@ impl Mesh {
             extents = of_bodies(&soup, &found);
             joined_parts = found;
         }
-        let measure = |face: usize| {
-            let part = extents.part(soup.triangle_part[face]);
-            (part.scale, part.rounding)
-        };
-        let (mut face_normals, narrow) = normals_and_narrow(&soup.positions, &soup.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
-        let carriers = CoplanarSearch { positions, triangles, parts, edges: &edges, extents: &extents }
-            .carriers(&narrow);
-        copy_carrier_normals(&carriers, &mut face_normals);
+        let search = CoplanarSearch { positions, triangles, parts, edges: &edges, extents: &extents };
+        let (face_normals, carriers) = normals_and_carriers(&search);
         cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
         cleaning.borders = edges.border_count() as u64;
         cleaning.non_manifold = edges.non_manifold_count() as u64;
@@ -183,30 +177,14 @@ fn turn(soup: &mut Soup, surfaces: &OrientedSurfaces, counts: &mut Vec<TurnedFac
 
 /// Box around all vertices of faces with `counts` and of wires with a length.
 fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let grow = |(low, high): (DVec3, DVec3), v: u32| {
-        let p = soup.positions[v as usize];
-        (low.min(p), high.max(p))
+    let at = |v: u32| soup.positions[v as usize];
+    let of_chunk = |chunk: &[[u32; 3]]| {
+        Bounds::of(chunk.iter().map(|t| t.map(at)).filter(|corners| counts(*corners)).flatten())
     };
-    let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
-    let faces = soup
-        .triangles
-        .par_chunks(1 << 14)
-        .map(|chunk| {
-            let counted = chunk.iter().filter(|t| counts(t.map(|v| soup.positions[v as usize])));
-            counted.flatten().fold(nothing, |b, v| grow(b, *v))
-        })
-        .reduce(|| nothing, join);
-    let wires = soup.wires.iter().map(|wire| wire.vertices);
-    let long = wires.filter(|[a, b]| soup.positions[*a as usize] != soup.positions[*b as usize]);
-    let all = long.flatten().fold(faces, grow);
-    (all.0.x <= all.1.x).then_some(all)
-}
-
-/// Faces with a corner that satisfies `moves`, ascending.
-fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
-    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
-    faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
+    let faces = soup.triangles.par_chunks(1 << 14).map(of_chunk).reduce(|| Bounds::EMPTY, Bounds::union);
+    let wires = soup.wires.iter().map(|wire| wire.vertices.map(at));
+    let all = faces.union(Bounds::of(wires.filter(|[a, b]| a != b).flatten()));
+    (all.low.x <= all.high.x).then_some((all.low, all.high))
 }
 
 fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut RepairCounts) {

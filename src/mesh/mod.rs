@@ -24,7 +24,7 @@ pub(crate) mod order;
 mod overlaps;
 pub(crate) mod part_metrics;
 pub(crate) mod quantization;
-mod seams;
+pub(crate) mod seams;
 pub(crate) mod soup;
 pub(crate) mod tolerances;
 pub(crate) mod vertex_sources;
@@ -32,7 +32,8 @@ pub(crate) mod weld;
 
 use glam::DVec3;
 
-pub(crate) use components::disjoint_sets::{DisjointSets, NumberedSets};
+use crate::geometry::space::triangles;
+
 pub(crate) use components::orientation::TurnedFaces;
 pub(crate) use edges::edge_set::EdgeSet;
 pub(crate) use edges::edge_table::EdgeFaces;
@@ -150,11 +151,7 @@ impl Mesh {
     /// corner.
     #[must_use]
     pub fn weights(&self, face: FaceId, at: DVec3) -> [f64; 3] {
-        let [a, b, c] = self.corners(face);
-        let normal = (b - a).cross(c - a);
-        let whole = normal.length_squared();
-        let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
-        if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] }
+        triangles::weights(self.corners(face), at)
     }
 
     /// Positions of the three corners of a face.
@@ -162,5 +159,37 @@ impl Mesh {
     #[must_use]
     pub fn corners(&self, face: FaceId) -> [DVec3; 3] {
         self.triangles[face.index()].map(|v| self.positions[v as usize])
+    }
+
+    /// Normal of a face, with the length of twice its area.
+    #[inline]
+    pub(crate) fn area_vector(&self, face: FaceId) -> DVec3 {
+        triangles::area_vector(self.corners(face))
+    }
+
+    /// Area of a face.
+    #[inline]
+    pub(crate) fn area(&self, face: FaceId) -> f64 {
+        triangles::area(self.corners(face))
+    }
+
+    /// Positions of the ends of an edge.
+    #[inline]
+    pub(crate) fn ends(&self, edge: usize) -> [DVec3; 2] {
+        self.edges.vertices[edge].map(|v| self.positions[v as usize])
+    }
+
+    /// The corner of a face that is not on one of its edges.
+    #[inline]
+    pub(crate) fn apex(&self, face: u32, ends: [u32; 2]) -> Option<u32> {
+        edges::triangle_sides::apex(self.triangles[face as usize], ends)
+    }
+
+    /// Height of the second face at an edge over the plane of the first, towards its outer side, times twice the
+    /// area of the first. It is positive for hollows and negative for ridges.
+    pub(crate) fn fold_height(&self, [first, second]: [u32; 2], ends: [u32; 2]) -> f64 {
+        let Some(apex) = self.apex(second, ends) else { return 0.0 };
+        let way = self.positions[apex as usize] - self.positions[ends[0] as usize];
+        self.area_vector(FaceId(first)).dot(way)
     }
 }

@@ -5,6 +5,7 @@
 
 use std::cmp::Ordering;
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -123,16 +124,13 @@ impl MeshMetrics {
     /// Boxes of all parts, from the triangles with `counts` and the wires with a length.
     fn of_all(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Self {
         let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
-        type Boxes = Vec<(PartId, DVec3, DVec3)>;
+        type Boxes = Vec<(PartId, Bounds)>;
         let grow = |boxes: &mut Boxes, part: PartId, vertices: &[u32]| {
             if boxes.last().is_none_or(|last| last.0 != part) {
-                boxes.push((part, DVec3::INFINITY, DVec3::NEG_INFINITY));
+                boxes.push((part, Bounds::EMPTY));
             }
-            if let Some((_, low, high)) = boxes.last_mut() {
-                for v in vertices {
-                    let p = soup.positions[*v as usize];
-                    (*low, *high) = (low.min(p), high.max(p));
-                }
+            if let Some((_, around)) = boxes.last_mut() {
+                *around = around.union(Bounds::of(vertices.iter().map(|v| soup.positions[*v as usize])));
             }
         };
         let of_faces: Vec<Boxes> = soup
@@ -153,9 +151,9 @@ impl MeshMetrics {
         soup.wires.iter().for_each(|wire| grow(&mut boxes, wire.part, &wire.vertices));
 
         let mut all = PartMetrics::NOTHING;
-        let count = boxes.iter().map(|(part, ..)| part.index() + 1).max().unwrap_or(0);
+        let count = boxes.iter().map(|(part, _)| part.index() + 1).max().unwrap_or(0);
         let mut of_part = vec![PartMetrics::NOTHING; count];
-        for (part, low, high) in boxes {
+        for (part, Bounds { low, high }) in boxes {
             for extent in [&mut of_part[part.index()], &mut all] {
                 (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
             }

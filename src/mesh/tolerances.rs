@@ -110,10 +110,6 @@ pub(crate) const MAX_COPLANAR_ANGLE_RAD: f64 = 1e-6;
 /// the rounding of joints.
 pub(crate) const MAX_SPREAD_OF_MODEL: f64 = 1e-6;
 
-/// Minimum coordinate of a ray direction. Below it the inverse, which is stored in single precision, takes
-/// its maximum: the ray is parallel to that axis plane.
-pub(crate) const MIN_RAY_COORDINATE: f64 = 1e-30;
-
 /// Minimum size of a camera's plane in the dual tree, in radii of the mesh. With a smaller one, products in
 /// the computation of a face may leave the range of `f64`, and every edge is a candidate.
 pub(crate) const MIN_DUAL_PLANE_SIZE: f64 = 1e-6;
@@ -133,9 +129,6 @@ pub(crate) const MIN_MOVE_HALF_STEPS: f32 = 4e-3;
 /// Maximum difference of texture coordinates and colours (0 to 1) across a seam. Larger differences are
 /// intentional borders.
 pub(crate) const MAX_SEAM_PAINT_DIFFERENCE: f32 = 1e-3;
-
-/// Margin on the parameter of a segment (0 to 1) in box tests. Several roundings of `f64` are smaller.
-pub(crate) const PARAMETER_ROUNDING: f64 = 1e-9;
 
 /// Maximum error of a normal by rounding, radians, for a surface that may overlap others. The plane of a
 /// narrower sliver is unknown.

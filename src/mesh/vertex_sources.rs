@@ -11,8 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::tolerances;
 use super::{Mesh, MeshMetrics, Soup};
-use crate::mesh::normals::face_normals::normals_and_narrow;
-use crate::mesh::normals::normal_carriers::{CoplanarSearch, copy_carrier_normals};
+use crate::mesh::normals::normal_carriers::{CoplanarSearch, normals_and_carriers};
 use crate::mesh::overlaps::overlay_order::overlays;
 
 /// Mapping between the vertices of a soup and of its mesh.
@@ -86,15 +85,9 @@ impl Mesh {
         if vertices.par_iter().zip(&soup.positions).any(parted) {
             return None;
         }
-        let measure = |face: usize| {
-            let part = extents.part(moved.triangle_part[face]);
-            (part.scale, part.rounding)
-        };
-        let (mut face_normals, narrow) = normals_and_narrow(&moved.positions, &moved.triangles, measure);
         let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
-        let carriers = CoplanarSearch { positions, triangles, parts, edges: &self.edges, extents: &extents }
-            .carriers(&narrow);
-        copy_carrier_normals(&carriers, &mut face_normals);
+        let search = CoplanarSearch { positions, triangles, parts, edges: &self.edges, extents: &extents };
+        let (face_normals, carriers) = normals_and_carriers(&search);
         let mut posed = Self {
             face_normals,
             carriers,

@@ -10,6 +10,7 @@ use super::tolerances;
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::checked_number::{checked, fraction};
 use crate::strokes::Ink;
 
 /// Greatest number of lines per body, and of segments per line.
@@ -53,7 +54,7 @@ pub(crate) struct MotionOptions {
     #[serde(alias = "color")]
     pub colour: Ink,
     /// Share of the width lost towards the far end, 0 to 1. Default: 0.
-    #[serde(deserialize_with = "part")]
+    #[serde(deserialize_with = "fraction")]
     pub taper: f64,
     /// Changes of single lines of a body, in order. Default: none.
     pub line: Vec<LineChange>,
@@ -139,12 +140,9 @@ pub(crate) struct LineChange {
 
 /// Reads a number of lines or segments.
 fn count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
-    let count = f64::deserialize(deserializer)?;
-    if (1.0..=f64::from(MAX_COUNT)).contains(&count) && count.fract() == 0.0 {
-        Ok(count as u32)
-    } else {
-        Err(D::Error::custom(format!("{count} is not a count; write a whole number from 1 to {MAX_COUNT}")))
-    }
+    let is_count = |count: f64| (1.0..=f64::from(MAX_COUNT)).contains(&count) && count.fract() == 0.0;
+    let advice = format!("is not a count; write a whole number from 1 to {MAX_COUNT}");
+    Ok(checked(deserializer, is_count, &advice)? as u32)
 }
 
 fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
@@ -153,41 +151,22 @@ fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>,
 
 /// Reads a number of frames.
 fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
-    let frames = f64::deserialize(deserializer)?;
-    if (0.0..=f64::from(MAX_FADE_FRAMES)).contains(&frames) && frames.fract() == 0.0 {
-        Ok(frames as u32)
-    } else {
-        Err(D::Error::custom(format!(
-            "{frames} frames are not possible; write a whole number from 0 to {MAX_FADE_FRAMES}"
-        )))
-    }
+    let is_count =
+        |frames: f64| (0.0..=f64::from(MAX_FADE_FRAMES)).contains(&frames) && frames.fract() == 0.0;
+    let advice = format!("frames are not possible; write a whole number from 0 to {MAX_FADE_FRAMES}");
+    Ok(checked(deserializer, is_count, &advice)? as u32)
 }
 
 /// Reads a number per second.
 fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let rate = f64::deserialize(deserializer)?;
-    if tolerances::SEGMENT_RATES_PER_S.contains(&rate) {
-        Ok(rate)
-    } else {
-        Err(D::Error::custom(format!(
-            "{rate} segments per second are not possible; write a number from 0.001 to 10000"
-        )))
-    }
+    let advice = "segments per second are not possible; write a number from 0.001 to 10000";
+    checked(deserializer, |rate| tolerances::SEGMENT_RATES_PER_S.contains(&rate), advice)
 }
 
 /// Reads an angle from 0 to 180 degrees.
 fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let degrees = f64::deserialize(deserializer)?;
-    if (0.0..=180.0).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err(D::Error::custom(format!("{degrees} is not an angle; write degrees from 0 to 180")))
-    }
-}
-
-/// Reads a share from 0 to 1.
-fn part<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(crate::strokes::fraction::fraction(deserializer)?.unwrap_or_default())
+    let advice = "is not an angle; write degrees from 0 to 180";
+    checked(deserializer, |degrees| (0.0..=180.0).contains(&degrees), advice)
 }
 
 /// Reads one name or a list of names.

@@ -146,12 +146,7 @@ impl PageFile {
                 .in_file(&path)
                 .remedy("check the path; `ligne page --new comic OUT.toml` writes a page file to start from")
         })?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            Error::new("is not UTF-8 text")
-                .in_file(&path)
-                .at(format!("byte {}", error.utf8_error().valid_up_to()))
-                .remedy("save the page file as UTF-8")
-        })?;
+        let text = Error::utf8_text(bytes, &path, "the page file")?;
         self.files.push(path.clone());
         above.push(fs::canonicalize(&path).unwrap_or_else(|_| path.clone()));
         self.add(PageSource { path, text, models: ModelReader::default() }, above)?;

@@ -50,12 +50,18 @@ impl PageSize {
         NAMED_SIZES.iter().map(|(name, ..)| *name)
     }
 
+    /// The size with a name.
+    pub(crate) fn named(text: &str) -> Option<Self> {
+        let mut sizes = NAMED_SIZES.into_iter();
+        let (_, width, height) = sizes.find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()))?;
+        Some(Self { width, height })
+    }
+
     /// Parses a name or `170x260mm`.
     #[must_use]
     pub(crate) fn parse(text: &str) -> Option<Self> {
-        let named = NAMED_SIZES.iter().find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()));
-        if let Some((_, width, height)) = named {
-            return Some(Self { width: *width, height: *height });
+        if let Some(size) = Self::named(text) {
+            return Some(size);
         }
         let (width, height) = text.split_once(['x', 'X', '×'])?;
         let unit = height.trim().trim_start_matches(|c: char| !c.is_ascii_alphabetic());

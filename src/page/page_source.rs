@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::model_reader::ModelReader;
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::style::sheet_errors;
 use crate::style::toml_reader::TomlFault;
 
@@ -27,6 +27,21 @@ impl PageSource {
     #[must_use]
     pub fn fault(&self, span: &Range<usize>, message: &str, advice: &str) -> Error {
         sheet_errors::at_span(&self.text, span, message, Some(advice)).in_file(&self.path)
+    }
+
+    /// Returns an error at the first key whose value is not right.
+    ///
+    /// # Errors
+    /// If there is such a key.
+    pub(crate) fn check<'k, T: 'k>(
+        &self,
+        keys: impl IntoIterator<Item = &'k Spanned<T>>,
+        is_right: impl Fn(&T) -> bool,
+        message: &str,
+        advice: &str,
+    ) -> Result<(), Error> {
+        let wrong = keys.into_iter().find(|key| !is_right(key.get_ref()));
+        wrong.map_or(Ok(()), |key| Err(self.fault(&key.span(), message, advice)))
     }
 
     /// An error from reading the file.
@@ -62,10 +77,7 @@ impl PageSource {
     /// An error about an unknown word; it names the nearest known word or all of them.
     #[must_use]
     pub fn unknown(&self, word: &Spanned<String>, what: &str, known: &[&str]) -> Error {
-        let advice = match nearest(word.get_ref(), known) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are {}", known.join(", ")),
-        };
+        let advice = suggestion(nearest(word.get_ref(), known), || format!("there are {}", known.join(", ")));
         self.fault(&word.span(), &format!("there is no {what} `{}`", word.get_ref()), &advice)
     }
 

@@ -82,10 +82,9 @@ impl PrintInks {
             set_once(&mut self.icc, source.existing(icc, "ICC profile")?, icc, source)?;
         }
         if let Some(limit) = &keys.ink_limit {
-            if !(100.0..=400.0).contains(limit.get_ref()) {
-                let advice = "write percent of one ink, from 100 to 400, such as 300";
-                return Err(source.fault(&limit.span(), "this is not an ink limit", advice));
-            }
+            let advice = "write percent of one ink, from 100 to 400, such as 300";
+            let is_limit = |percent: &f64| (100.0..=400.0).contains(percent);
+            source.check([limit], is_limit, "this is not an ink limit", advice)?;
             if let Some(ink) = keys.ink.as_ref().filter(|ink| !ink.get_ref().eq_ignore_ascii_case("cmyk")) {
                 let message = format!("an ink limit needs four inks, and these are `{}`", ink.get_ref());
                 return Err(source.fault(&limit.span(), &message, "leave it out, or write ink = \"cmyk\""));
@@ -98,10 +97,9 @@ impl PrintInks {
             SpotColours::Several(several) => several,
         };
         for spot in several {
-            if spot.name.trim().is_empty() {
-                let advice = "write its name, such as name = \"PANTONE 185 C\"";
-                return Err(source.fault(&spots.span(), "a spot colour needs a name", advice));
-            }
+            let (has_name, advice) =
+                (!spot.name.trim().is_empty(), "write its name, such as name = \"PANTONE 185 C\"");
+            source.check([spots], |_| has_name, "a spot colour needs a name", advice)?;
             let same = self.spots.iter().find(|other| other.colour == spot.colour);
             match same {
                 Some(other) if other.name != spot.name => {

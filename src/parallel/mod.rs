@@ -17,7 +17,6 @@
 
 pub(crate) mod concatenation;
 mod ends;
-pub(crate) mod scratch_pool;
 mod sort;
 mod sources;
 mod starts;

@@ -16,9 +16,12 @@ pub enum Step {
     Strokes,
 }
 
+/// Signature of the function.
+type GoesOn = dyn Fn(Step) -> bool + Send + Sync;
+
 /// A function that returns whether drawing goes on.
 #[derive(Default)]
-pub(crate) struct ProgressFunction(pub Option<Box<dyn Fn(Step) -> bool + Send + Sync>>);
+pub(crate) struct ProgressFunction(pub Option<Box<GoesOn>>);
 
 impl fmt::Debug for ProgressFunction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

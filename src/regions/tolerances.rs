@@ -26,10 +26,6 @@ pub(crate) const MAX_BRIDGE_PX: f64 = 1.0;
 /// Simplification tolerance of borders, px.
 pub(crate) const BORDER_SIMPLIFY_PX: f64 = 0.01;
 
-/// Margin of the columns of tiles that a border piece crosses in a row, in tiles. Exceeds rounding, so no
-/// tile is missed.
-pub(crate) const COLUMN_MARGIN_TILES: f64 = 1e-6;
-
 /// Maximum difference between the unit normals of neighbouring lattice points on a flat face: an angle of
 /// 0.06 degrees.
 pub(crate) const MAX_NEIGHBOUR_NORMAL_DISTANCE: f64 = 1e-3;

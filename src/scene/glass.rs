@@ -1,10 +1,10 @@
 //! [`GlassOptions`]: treatment of see-through materials.
 
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::{Geometry, Material, Scene};
 use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::checked_number::share;
 
 /// How see-through materials are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -29,10 +29,10 @@ pub(crate) struct GlassOptions {
     /// none.
     pub materials: Vec<Glob>,
     /// Opacity of these materials, 0 to 1, if the file does not give one. Default: 0.35.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "share")]
     pub opacity: f64,
     /// Width of lines behind glass, as a fraction of their pen's width, 0 to 1. Default: 0.5.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "share")]
     pub width: f64,
 }
 
@@ -101,13 +101,4 @@ pub(crate) fn without_materials(scene: &Scene, is_gone: impl Fn(usize) -> bool) 
 fn keep<T>(list: &mut Vec<T>, stays: &[bool]) {
     let mut stays = stays.iter();
     list.retain(|_| stays.next().copied().unwrap_or(true));
-}
-
-fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
-    }
 }

@@ -1,6 +1,7 @@
 //! Selection of parts by name.
 
 use super::Scene;
+use crate::geometry::names::glob::glob_matches;
 
 impl Scene {
     /// Keeps the parts whose names match a pattern of `only` (all, if it is empty) and none of `hide`.
@@ -36,57 +37,12 @@ impl Scene {
     }
 }
 
-/// Whether the pattern matches the whole name.
-#[must_use]
-pub(crate) fn glob_matches(glob: &str, name: &str) -> bool {
-    let (glob, name): (Vec<char>, Vec<char>) = (glob.chars().collect(), name.chars().collect());
-    let (mut g, mut n) = (0, 0);
-    // After a mismatch the last star takes one more character. Earlier choices never need to be undone.
-    let mut star = None;
-    while n < name.len() {
-        match glob.get(g) {
-            Some('*') => {
-                star = Some((g, n));
-                g += 1;
-            }
-            Some(c) if *c == '?' || name.get(n) == Some(c) => (g, n) = (g + 1, n + 1),
-            _ => match &mut star {
-                Some((at, taken)) => {
-                    *taken += 1;
-                    (g, n) = (*at + 1, *taken);
-                }
-                None => return false,
-            },
-        }
-    }
-    glob.iter().skip(g).all(|c| *c == '*')
-}
-
 #[cfg(test)]
 mod tests {
     use glam::DAffine3;
 
     use super::super::Part;
     use super::*;
-
-    #[test]
-    fn glob_matches_handles_stars_and_question_marks() {
-        for (glob, name) in [
-            ("*", ""),
-            ("a", "a"),
-            ("a*", "abc"),
-            ("*c", "abcc"),
-            ("a*b*c", "axbxbc"),
-            ("?é?", "aéb"),
-            ("**a", "a"),
-        ] {
-            assert!(glob_matches(glob, name), "{glob} {name}");
-        }
-        for (glob, name) in [("", "a"), ("a", "A"), ("?", ""), ("a*b", "ac"), ("a?", "a"), ("*a*b", "ba")] {
-            assert!(!glob_matches(glob, name), "{glob} {name}");
-        }
-        assert!(!glob_matches(&"*a".repeat(40), &"a".repeat(39)));
-    }
 
     #[test]
     fn keep_parts_applies_only_and_hide_patterns() {

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::tolerances;
+use crate::geometry::space::triangles::area;
 use crate::geometry::tolerances::F32_STEP;
 use crate::mesh::EdgeMark;
 use crate::mesh::normals::triangle_area::has_own_area;
@@ -118,4 +119,12 @@ pub struct Part {
     pub geometry: usize,
     /// Transform from local to world space. A negative determinant reverses the winding.
     pub world_from_part: DAffine3,
+}
+
+impl Part {
+    /// Area of a triangle of its geometry, world units squared; `None` if a vertex is missing.
+    pub(crate) fn area_of(&self, geometry: &Geometry, triangle: usize) -> Option<f64> {
+        let [a, b, c] = geometry.triangles[triangle].map(|corner| geometry.positions.get(corner as usize));
+        Some(area([*a?, *b?, *c?].map(|p| self.world_from_part.transform_point3(p))))
+    }
 }

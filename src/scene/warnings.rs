@@ -53,6 +53,15 @@ pub struct Warnings {
     notes: Vec<(WarningKind, String)>,
 }
 
+/// Adds the items that a list lacks.
+pub(crate) fn add_new<T: PartialEq>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) {
+    for item in items {
+        if !list.contains(&item) {
+            list.push(item);
+        }
+    }
+}
+
 impl Warnings {
     /// Adds `n` defects of one kind, described in the plural: `triangles without area`.
     pub fn count(&mut self, what: impl Into<String>, n: u64) {
@@ -63,18 +72,12 @@ impl Warnings {
 
     /// Adds a sentence, once.
     pub fn note(&mut self, sentence: impl Into<String>) {
-        self.add((WarningKind::Note, sentence.into()));
+        add_new(&mut self.notes, [(WarningKind::Note, sentence.into())]);
     }
 
     /// Adds a sentence about a file that is not there, once.
     pub(crate) fn missing_file(&mut self, sentence: impl Into<String>) {
-        self.add((WarningKind::MissingFile, sentence.into()));
-    }
-
-    fn add(&mut self, note: (WarningKind, String)) {
-        if !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
+        add_new(&mut self.notes, [(WarningKind::MissingFile, sentence.into())]);
     }
 
     /// All warnings: defects first.
@@ -94,9 +97,7 @@ impl Warnings {
         for (what, n) in &other.counts {
             self.count(what.clone(), *n);
         }
-        for note in &other.notes {
-            self.add(note.clone());
-        }
+        add_new(&mut self.notes, other.notes.iter().cloned());
     }
 
     /// Whether there are no warnings.

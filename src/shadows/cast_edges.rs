@@ -93,9 +93,8 @@ fn outward(mesh: &Mesh, view: &View, edge: &CastEdge) -> Option<DVec2> {
     let across = (edge.b - edge.a).truncate().perp().try_normalize()?;
     let mut farthest = 0.0_f64;
     for face in edge.hosts.iter().filter(|face| **face != NO_FACE) {
-        let corners = mesh.triangles[*face as usize];
-        let Some(third) = corners.iter().find(|v| !edge.vertices.contains(v)) else { continue };
-        let height = (view.points[*third as usize] - edge.a).truncate().dot(across);
+        let Some(third) = mesh.apex(*face, edge.vertices) else { continue };
+        let height = (view.points[third as usize] - edge.a).truncate().dot(across);
         if height.abs() > farthest.abs() {
             farthest = height;
         }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh};
+use crate::geometry::lists::disjoint_sets::DisjointSets;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
 /// Outer side of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

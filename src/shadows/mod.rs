@@ -77,18 +77,11 @@ impl Shadows {
         &self.casters
     }
 
-    /// Mask of the lights that do not reach a point (local space) on a face: bit k is set where another face
-    /// lies between it and light k.
+    /// Masks of the lights that do not reach points (local space), each on a face: bit k is set where another
+    /// face lies between the point and light k.
     ///
     /// Faces of solids that are turned away from a light are dark anyway, so their bit is never set. On
-    /// sheets, which are visible from both sides, it is. For many points, [`Shadows::shadowed`] is much
-    /// faster.
-    #[must_use]
-    pub fn unlit(&self, mesh: &Mesh, face: u32, point: DVec3) -> u32 {
-        self.shadowed(mesh, &[(face, point)])[0]
-    }
-
-    /// Masks of many points, each on a face: the lights that do not reach them.
+    /// sheets, which are visible from both sides, it is.
     #[must_use]
     pub fn shadowed(&self, mesh: &Mesh, points: &[(u32, DVec3)]) -> Vec<u32> {
         let mut masks = vec![0; points.len()];

@@ -3,9 +3,8 @@
 use glam::DVec3;
 
 use super::border_segments::JoinedBorders;
-use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE};
 use crate::mesh::Mesh;
-use crate::surface::MeshSource;
 
 /// Straight piece of a shadow border.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,17 +44,10 @@ impl ShadowLines {
     pub fn append_to(&self, mesh: &Mesh, lines: &mut FeatureLines) {
         let first = (mesh.positions.len() + lines.points.len()) as u32;
         lines.points.extend_from_slice(&self.points);
-        lines.segments.extend(self.segments.iter().map(|segment| FeatureSegment {
-            ends: segment.ends.map(|end| first + end),
-            hosts: [segment.face, NO_FACE],
-            kind: LineKind::Isophote,
-            both_seen: true,
-            smooth: false,
-            origin: MeshSource::default(),
-            role: Role::Line,
-            strength: 0.0,
-            part: mesh.face_part[segment.face as usize],
-            material: mesh.face_material[segment.face as usize],
+        lines.segments.extend(self.segments.iter().map(|ShadowSegment { face, ends, .. }| {
+            let ends = ends.map(|end| first + end);
+            let own = FeatureSegment::on_face(mesh, *face, [*face, NO_FACE], LineKind::Isophote, ends);
+            FeatureSegment { strength: 0.0, ..own }
         }));
     }
 }

@@ -7,12 +7,10 @@
 //!    an outline of varying width ([`outlines`]) or a brushed shape ([`brushes`]).
 //!
 //! Files, in reading order: [`pens`]; [`axes`]; [`gaps`]; [`widths`]; [`outlines`]; [`brushes`]; [`inking`];
-//! [`travel_order`] short pen-up ways for plotters; [`fraction`] numbers from 0 to 1 in style sheets;
-//! [`tolerances`] all thresholds for rounding.
+//! [`travel_order`] short pen-up ways for plotters; [`tolerances`] all thresholds for rounding.
 
 mod axes;
 pub(crate) mod brushes;
-pub(crate) mod fraction;
 pub(crate) mod gaps;
 mod inking;
 mod outlines;
@@ -290,17 +288,13 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     if chain.veiled {
         classes.push("veiled");
     }
-    let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
+    let material = context.materials.get(chain.material.index()).map(|(name, _)| name);
     Provenance {
         classes,
-        tone: None,
-        part: context.parts.get(chain.part.index()).and_then(name),
-        material: context.materials.get(chain.material.index()).and_then(|(text, _)| name(text)),
         invisibility: chain.invisibility,
         identity: chain.identity,
         places: Arc::clone(&chain.rest_cells),
-        note: None,
-        text: None,
+        ..Provenance::of_names(context.parts.get(chain.part.index()), material)
     }
 }
 

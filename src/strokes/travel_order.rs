@@ -3,10 +3,13 @@
 //! Algorithm: nearest neighbour over the ends of all paths. The search uses a grid over the page that is
 //! rebuilt as it empties.
 
-use kurbo::{BezPath, PathEl, Point};
+use kurbo::Point;
 
 use super::tolerances;
 use crate::drawing::{Layer, Mark, Paint};
+use crate::geometry::plane::planar_grid::PlanarGrid;
+use crate::geometry::plane::polyline_path::subpaths;
+use crate::geometry::plane::polylines::bounds;
 
 /// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
 /// layers are unchanged.
@@ -28,14 +31,7 @@ pub(crate) fn in_travel_order(layer: Layer) -> Layer {
 
 /// The subpaths of a mark, one mark each.
 fn single(mark: &Mark) -> Vec<Mark> {
-    let mut paths: Vec<BezPath> = Vec::new();
-    for element in mark.path.elements() {
-        match (element, paths.last_mut()) {
-            (PathEl::MoveTo(_), _) | (_, None) => paths.push(BezPath::from_vec(vec![*element])),
-            (_, Some(path)) => path.push(*element),
-        }
-    }
-    let begun = paths.into_iter().filter(|path| path.elements().len() > 1);
+    let begun = subpaths(&mark.path).into_iter().filter(|path| path.elements().len() > 1);
     begun.map(|path| Mark { path, ..mark.clone() }).collect()
 }
 
@@ -134,75 +130,46 @@ fn turns_well(mark: &Mark) -> bool {
 
 /// Ends in a uniform grid over their bounding box.
 struct PathEndGrid {
-    origin: Point,
-    cell: f64,
-    columns: usize,
-    rows: usize,
+    grid: PlanarGrid,
     cells: Vec<Vec<PathEnd>>,
 }
 
 impl PathEndGrid {
     /// A grid with about two ends per cell.
     fn new(ends: &[PathEnd]) -> Self {
-        let mut low = Point::new(f64::INFINITY, f64::INFINITY);
-        let mut high = Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for end in ends {
-            low = Point::new(low.x.min(end.at.x), low.y.min(end.at.y));
-            high = Point::new(high.x.max(end.at.x), high.y.max(end.at.y));
-        }
-        let (width, height) = (
-            (high.x - low.x).max(tolerances::MIN_GRID_EXTENT_UNITS),
-            (high.y - low.y).max(tolerances::MIN_GRID_EXTENT_UNITS),
-        );
+        let bounds = bounds(ends.iter().map(|end| end.at)).unwrap_or_default();
+        let [width, height] =
+            [bounds.width(), bounds.height()].map(|size| size.max(tolerances::MIN_GRID_EXTENT_UNITS));
         // The longer side limits the number of cells for a thin drawing.
-        let longer = width.max(height);
         let wished = (ends.len() as f64 / 2.0).max(1.0);
-        let cell = (width * height / wished).sqrt().max(longer / wished);
-        let columns = (width / cell) as usize + 1;
-        let rows = (height / cell) as usize + 1;
-        let mut grid = Self { origin: low, cell, columns, rows, cells: vec![Vec::new(); columns * rows] };
+        let cell = (width * height / wished).sqrt().max(width.max(height) / wished);
+        let grid = PlanarGrid::new(bounds, 1.0 / cell);
+        let mut cells = vec![Vec::new(); grid.count()];
         for end in ends {
-            let (column, row) = grid.cell_of(end.at);
-            grid.cells[row * columns + column].push(*end);
+            cells[grid.number(grid.cell(end.at))].push(*end);
         }
-        grid
-    }
-
-    /// The cell of a point, or the closest cell.
-    fn cell_of(&self, at: Point) -> (usize, usize) {
-        let column = ((at.x - self.origin.x) / self.cell).max(0.0) as usize;
-        let row = ((at.y - self.origin.y) / self.cell).max(0.0) as usize;
-        (column.min(self.columns - 1), row.min(self.rows - 1))
+        Self { grid, cells }
     }
 
     /// The closest end of a mark not yet drawn. Among equally close ends, the first mark wins.
     fn take_nearest(&mut self, pen: Point, used: &[bool]) -> Option<PathEnd> {
-        let (column, row) = self.cell_of(pen);
+        let middle = self.grid.cell(pen);
         let mut best: Option<(f64, usize, bool, PathEnd)> = None;
-        for ring in 0..self.columns.max(self.rows) {
-            // Cells of this ring are at least this far from any point of the middle cell.
-            let nearest = (ring.saturating_sub(1)) as f64 * self.cell;
+        for ring in 0..self.grid.ring_count() {
+            let nearest = self.grid.ring_distance(ring);
             if best.is_some_and(|(distance, ..)| distance < nearest * nearest) {
                 break;
             }
-            for r in row.saturating_sub(ring)..=(row + ring).min(self.rows - 1) {
-                let whole_row = r + ring == row || r == row + ring;
-                let step = if whole_row || ring == 0 { 1 } else { 2 * ring };
-                let first = column as isize - ring as isize;
-                for c in (first..=(column + ring) as isize).step_by(step) {
-                    if c < 0 || c as usize >= self.columns {
-                        continue;
-                    }
-                    let cell = &mut self.cells[r * self.columns + c as usize];
-                    cell.retain(|end| !used[end.mark]);
-                    for end in cell.iter() {
-                        let candidate = ((end.at - pen).hypot2(), end.mark, end.turned, *end);
-                        let nearer = best.is_none_or(|(distance, mark, turned, _)| {
-                            (candidate.0, candidate.1, candidate.2) < (distance, mark, turned)
-                        });
-                        if nearer {
-                            best = Some(candidate);
-                        }
+            for number in self.grid.ring(middle, ring) {
+                let cell = &mut self.cells[number];
+                cell.retain(|end| !used[end.mark]);
+                for end in cell.iter() {
+                    let candidate = ((end.at - pen).hypot2(), end.mark, end.turned, *end);
+                    let nearer = best.is_none_or(|(distance, mark, turned, _)| {
+                        (candidate.0, candidate.1, candidate.2) < (distance, mark, turned)
+                    });
+                    if nearer {
+                        best = Some(candidate);
                     }
                 }
             }
@@ -224,14 +191,7 @@ mod tests {
         path.line_to((x1, y1));
         Mark {
             path,
-            paint: Paint::Stroke(StrokePaint {
-                width: 1.0,
-                colour: Colour::BLACK,
-                cap: Cap::Round,
-                join: Join::Round,
-                dash: vec![],
-                dash_offset: 0.0,
-            }),
+            paint: Paint::Stroke(StrokePaint::solid(1.0, Colour::BLACK, Cap::Round, Join::Round)),
             provenance: Provenance::default(),
         }
     }

@@ -228,7 +228,7 @@ impl Style {
     /// corners on a circle become an arc.
     #[must_use]
     pub fn to_scale(self) -> Self {
-        Self { chain: self.chain.to_scale(), ..self }
+        Self { chain: self.chain.drawn_to_scale(), ..self }
     }
 
     /// Reads the text of a style sheet. Paths that it extends are relative to the working folder.

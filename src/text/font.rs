@@ -10,6 +10,7 @@ use skrifa::font::{Font as Face, glyph::outline::PathSink};
 use skrifa::{DrawMemory, GlyphId, ScalerFont};
 
 use crate::drawing::FontFile;
+use crate::error::bounded_read::read_up_to;
 use crate::error::{Error, ErrorKind};
 
 /// The bundled fonts, in the order of fallback.
@@ -74,24 +75,9 @@ impl Font {
     /// Returns an error that names the file if it cannot be read or is not a font.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let read = || {
-            let length = std::fs::metadata(path)?.len();
-            if length > MAX_FILE_BYTES {
-                return Ok(Vec::new());
-            }
-            std::fs::read(path)
-        };
-        let bytes = read().map_err(|error| Error::io("cannot be read", error).in_file(path))?;
-        Self::from_bytes(&bytes).map_err(|error| error.in_file(path))
-    }
-
-    /// A bundled font by name, or a font file by path.
-    ///
-    /// # Errors
-    /// Returns an error if it is neither.
-    pub fn of(name_or_file: &str) -> Result<Self, Error> {
-        let is_name = !name_or_file.contains(['/', '\\', '.']);
-        if is_name { Self::named(name_or_file) } else { Self::open(name_or_file) }
+        let bytes = read_up_to(path, MAX_FILE_BYTES);
+        let bytes = bytes.map_err(|error| Error::io("cannot be read", error).in_file(path))?;
+        Self::from_bytes(&bytes.unwrap_or_default()).map_err(|error| error.in_file(path))
     }
 
     /// Reads the bytes of a TTF or OTF file, or the first font of a collection.

@@ -1,7 +1,7 @@
 //! Text: words shaped with fonts, broken into lines, and set as marks of a drawing.
 //!
 //! 1. `break_opportunities` finds where lines may break (UAX 14 and hyphenation).
-//! 2. `shaped_pieces` shapes the text between two breaks once, with `bidi`, `font_fallback` and `shaping`.
+//! 2. `shaped_pieces` shapes the text between two breaks once, with `font_fallback` and `shaping`.
 //! 3. `measured_text` computes the width of any line; `line_breaking` chooses the breaks (greedy or by
 //!    dynamic programming).
 //! 4. [`text_block`] sets the lines and makes marks of them.
@@ -19,7 +19,6 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
-mod bidi;
 mod break_opportunities;
 pub(crate) mod font;
 mod font_fallback;

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kurbo::{Affine, Rect, Shape};
+use unicode_bidi::{BidiInfo, Direction, Level, get_base_direction_full};
 
-use super::bidi::{embedding_levels, runs_left};
 use super::font_fallback::{FontChain, FontFallback, letters};
 use super::shaping::shape_glyphs;
 use super::{Font, Setting};
@@ -22,8 +22,8 @@ pub(crate) struct GlyphRun {
     pub font: Font,
     /// Em of its font, in ems of the requested font.
     pub em: f64,
-    /// Embedding level: even levels run to the right, odd ones to the left.
-    pub level: u8,
+    /// Embedding level (UAX 9): even levels run to the right, odd ones to the left.
+    pub level: Level,
     pub words: String,
     /// Glyphs from the left, in ems of their font.
     pub glyphs: Vec<SetGlyph>,
@@ -51,7 +51,7 @@ pub(crate) struct ShapedPieces<'a> {
     setting: &'a Setting,
     chain: FontChain,
     /// Embedding level of the character at each byte.
-    levels: BTreeMap<usize, u8>,
+    levels: Vec<Level>,
     /// Whether the base direction is right to left.
     pub runs_left: bool,
     known: BTreeMap<(usize, usize, bool), Arc<ShapedPiece>>,
@@ -59,9 +59,8 @@ pub(crate) struct ShapedPieces<'a> {
 
 impl<'a> ShapedPieces<'a> {
     pub(crate) fn new(text: &'a str, setting: &'a Setting) -> Self {
-        let runs_left = runs_left(text);
-        let levels = embedding_levels(text, u8::from(runs_left));
-        let levels = text.char_indices().map(|(at, _)| at).zip(levels).collect();
+        let runs_left = get_base_direction_full(text) == Direction::Rtl;
+        let levels = BidiInfo::new(text, Some(base_level(runs_left))).levels;
         let chain = FontChain::new(&setting.font);
         Self { text, setting, chain, levels, runs_left, known: BTreeMap::new() }
     }
@@ -78,7 +77,7 @@ impl<'a> ShapedPieces<'a> {
         let measured = |runs: &[GlyphRun]| runs.iter().map(|run| run.width).sum::<f64>();
         (piece.width, piece.blank_width) = (measured(&piece.runs), measured(&piece.blanks));
         let mut x = 0.0;
-        let order = super::bidi::visual_order(&piece.runs.iter().map(|run| run.level).collect::<Vec<_>>());
+        let order = BidiInfo::reorder_visual(&piece.runs.iter().map(|run| run.level).collect::<Vec<_>>());
         for run in order.into_iter().filter_map(|number| piece.runs.get(number)) {
             if let Some(ink) = run.ink {
                 let [left, right] = &mut piece.overhang;
@@ -101,11 +100,11 @@ impl<'a> ShapedPieces<'a> {
     }
 
     fn runs(&mut self, from: usize, text: &str, hyphen: bool) -> Result<Vec<GlyphRun>, Error> {
-        let mut runs: Vec<(usize, u8, String)> = Vec::new();
-        let mut last = u8::from(self.runs_left);
+        let mut runs: Vec<(usize, Level, String)> = Vec::new();
+        let mut last = base_level(self.runs_left);
         let mut at = from;
         for letter in letters(text) {
-            let level = self.levels.get(&at).copied().unwrap_or(last);
+            let level = self.levels.get(at).copied().unwrap_or(last);
             at += letter.len();
             last = level;
             // Soft hyphens and zero-width spaces are dropped; control characters become blanks.
@@ -125,7 +124,12 @@ impl<'a> ShapedPieces<'a> {
         runs.into_iter().map(|(font, level, words)| self.run(font, level, words)).collect()
     }
 
-    fn add(&mut self, runs: &mut Vec<(usize, u8, String)>, level: u8, cased: &str) -> Result<(), Error> {
+    fn add(
+        &mut self,
+        runs: &mut Vec<(usize, Level, String)>,
+        level: Level,
+        cased: &str,
+    ) -> Result<(), Error> {
         for letter in letters(cased) {
             let font = self.chain.font_of(letter)?;
             match runs.last_mut() {
@@ -138,13 +142,13 @@ impl<'a> ShapedPieces<'a> {
         Ok(())
     }
 
-    fn run(&self, number: usize, level: u8, words: String) -> Result<GlyphRun, Error> {
+    fn run(&self, number: usize, level: Level, words: String) -> Result<GlyphRun, Error> {
         let asked = &self.setting.font;
         let font = self.chain.fonts.get(number).unwrap_or(asked).clone();
         // Fallback fonts are scaled to the height of capitals of the requested font.
         let em = if number == 0 { 1.0 } else { asked.file().cap_height / font.file().cap_height };
         let language = self.setting.language.as_deref();
-        let (mut glyphs, _) = shape_glyphs(&font, &words, level % 2 == 1, language)?;
+        let (mut glyphs, _) = shape_glyphs(&font, &words, level.is_rtl(), language)?;
         let width = glyphs.pop().map_or(0.0, |end| end.x) * em;
         let boxes = glyphs.iter().filter_map(|glyph| {
             let outline = font.outline(glyph.id);
@@ -154,4 +158,9 @@ impl<'a> ShapedPieces<'a> {
         let ink = boxes.reduce(|a, b| a.union(b));
         Ok(GlyphRun { font, em, level, words, glyphs, width, ink })
     }
+}
+
+/// The embedding level of a paragraph.
+fn base_level(runs_left: bool) -> Level {
+    if runs_left { Level::rtl() } else { Level::ltr() }
 }

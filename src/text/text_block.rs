@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use kurbo::{Affine, BezPath, Point, Rect, Vec2};
+use unicode_bidi::{BidiInfo, Level};
 
-use super::bidi::visual_order;
 use super::font_fallback::FontFallback;
 use super::measured_text::MeasuredText;
 use super::shaped_pieces::GlyphRun;
@@ -178,7 +178,7 @@ impl TextBlock {
         let mut glyphs: Vec<SetGlyph> = Vec::new();
         let mut path = BezPath::new();
         // Runs from right to left hold their words in reverse order.
-        let leftward = first.level % 2 == 1;
+        let leftward = first.level.is_rtl();
         let reading: Vec<&str> = {
             let words = runs.iter().map(|(_, run)| run.words.as_str());
             if leftward { words.rev().collect() } else { words.collect() }
@@ -268,10 +268,10 @@ fn set_line(source: &mut MeasuredText, from: usize, to: usize, baseline: f64) ->
         }
     }
     let words = runs.iter().map(|run| run.words.as_str()).collect();
-    let levels: Vec<u8> = runs.iter().map(|run| run.level).collect();
+    let levels: Vec<Level> = runs.iter().map(|run| run.level).collect();
     let mut x = 0.0;
     let mut placed = Vec::with_capacity(runs.len());
-    for number in visual_order(&levels) {
+    for number in BidiInfo::reorder_visual(&levels) {
         let run = runs[number].clone();
         let width = run.width;
         placed.push((x, run));

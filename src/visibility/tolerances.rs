@@ -76,10 +76,6 @@ pub(crate) const FUSED_FACE_MARGIN_OF_SQUARE: f64 = 1e-4;
 /// More than twice [`FUSED_FACE_MARGIN_OF_SQUARE`], so no square on the border counts as covered.
 pub(crate) const FUSED_BORDER_MARGIN_OF_SQUARE: f64 = 1e-2;
 
-/// Bound for the rounding error of an edge function in single precision, as a fraction of its terms: about 16
-/// times 2⁻²⁴.
-pub(crate) const EDGE_FUNCTION_ROUNDING_SHARE: f64 = 1e-6;
-
 /// Bound for the rounding error of a nearness in single precision, as a fraction of the largest term: that of
 /// a sum, its terms, a product and its factor, six times 2⁻²⁴ for values up to 1.
 pub(crate) const NEARNESS_ROUNDING_SHARE: f64 = 5e-7;
@@ -87,10 +83,6 @@ pub(crate) const NEARNESS_ROUNDING_SHARE: f64 = 5e-7;
 /// Bound for the rounding error of a nearness near zero. Numbers of single precision below 1.2e-38 have fewer
 /// digits, so their error is not a fraction of them.
 pub(crate) const MIN_NEARNESS_MAGNITUDE: f64 = 1e-37;
-
-/// Margin between a tile and the blocks of triangles that may reach it, as a fraction of the larger of the
-/// two grids' tiles. Exceeds [`BOX_MARGIN_OF_TILE`] and rounding; a larger block only costs time.
-pub(crate) const BLOCK_MARGIN_OF_TILE: f64 = 1e-3;
 
 /// Rounding error of the column where a side of a triangle crosses a row of tiles, in tiles.
 pub(crate) const COLUMN_ROUNDING_TILES: f64 = 1e-6;

@@ -5,7 +5,7 @@
 //! where a fit fails, each cubic reaches as far as it can. This takes about half as many cubics.
 
 use crate::chains::tolerances;
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
 use kurbo::{BezPath, CubicBez, ParamCurve, Point, Vec2};
 
 /// Rounds of reparameterization: each point's parameter moves to the foot point on the curve.
@@ -79,11 +79,6 @@ pub(crate) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2
     }
     // The tangent turns away from the chords as they turn from each other, in proportion to length.
     unit(unit(a) * (1.0 + la / (lb - la).max(0.1 * lb)) - unit(b) * (la / (lb - la).max(0.1 * lb)))
-}
-
-pub(crate) fn unit(v: Vec2) -> Vec2 {
-    let length = length(v);
-    if length > 0.0 { v / length } else { Vec2::ZERO }
 }
 
 /// Cubic through the first and last point that passes all others within `tolerance`.

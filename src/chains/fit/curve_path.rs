@@ -6,9 +6,10 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::bezier_fit::{end_tangent, fit, tangent_of, unit};
+use super::bezier_fit::{end_tangent, fit, tangent_of};
 use crate::chains::sampled_line::SampledLine;
-use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared, unit};
+use crate::geometry::plane::polyline_path;
 
 /// Cosine of the largest turn (20 degrees) within a tessellated curve.
 const MIN_STEP_COSINE: f64 = 0.9397;
@@ -18,17 +19,8 @@ const MIN_CURVE_SIDES: usize = 4;
 
 /// Path of straight segments through all points.
 pub(crate) fn polyline(line: &SampledLine) -> BezPath {
-    let mut path = BezPath::new();
-    if let Some((first, rest)) = line.points.split_first() {
-        path.move_to(*first);
-        for p in rest {
-            path.line_to(*p);
-        }
-        if line.closed {
-            path.close_path();
-        }
-    }
-    path
+    let points = &line.points;
+    if line.closed { polyline_path::polygon(points.iter().copied()) } else { polyline_path::polyline(points) }
 }
 
 /// Appends an open stretch of dense, smooth points to a path that ends at the first of them.

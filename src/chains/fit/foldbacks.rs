@@ -43,6 +43,7 @@ pub(crate) fn remove_foldbacks(line: &SampledLine, tolerance: f64, reach: f64) -
 fn is_thin(line: &SampledLine, i: usize, j: usize, tolerance: f64) -> bool {
     let (a, b) = (line.points[i], line.points[j]);
     let near = tolerance * tolerance;
-    (i + 1..j)
-        .all(|k| line.soft[k - 1] && line.soft[k] && segment_distance_squared(line.points[k], a, b) <= near)
+    (i + 1..j).all(|k| {
+        line.sides[k - 1].soft && line.sides[k].soft && segment_distance_squared(line.points[k], a, b) <= near
+    })
 }

@@ -9,11 +9,13 @@ use kurbo::{BezPath, Point};
 use super::circular_arcs::{CircleTolerance, CircularArc, arcs, circle_path, extend_to_ends};
 use super::corner_points::corners;
 use super::curve_path::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
-use super::douglas_peucker::{simplify, straighten};
 use super::foldbacks::remove_foldbacks;
+use super::line_simplification::{simplify, straighten};
 use super::resampling::resample;
 use super::whittaker_smoothing::smooth;
+use crate::chains::options::ChainOptions;
 use crate::chains::sampled_line::SampledLine;
+use crate::drawing::{Length, Unit};
 use crate::geometry::plane::planar_distance::length;
 
 /// Chain options in user units.
@@ -32,6 +34,23 @@ pub(crate) struct FinishTolerances {
     pub circle: Option<CircleTolerance>,
     /// Whether points are needed in addition to a fitted curve.
     pub points: bool,
+}
+
+impl FinishTolerances {
+    /// Tolerances of a line with triangle noise and without arcs.
+    pub(crate) fn new(options: &ChainOptions, unit: Unit) -> Self {
+        let distance = |length: Length| length.in_unit(unit).max(0.0);
+        Self {
+            px: Length::px(1.0).in_unit(unit),
+            smooth: distance(options.smooth),
+            simplify: distance(options.simplify),
+            tidy: distance(options.tidy),
+            clean: false,
+            fit: if options.fit { distance(options.fit_tolerance) } else { 0.0 },
+            circle: None,
+            points: true,
+        }
+    }
 }
 
 /// Spacing of the resampled points that are smoothed, px.
@@ -115,7 +134,7 @@ fn finish_between(raw: SampledLine, t: FinishTolerances) -> (SampledLine, BezPat
         return exact(raw, t);
     }
     if raw.closed {
-        let parts = |i: usize| !raw.soft[i] || is_sharp(&raw, i, t);
+        let parts = |i: usize| !raw.sides[i].soft || is_sharp(&raw, i, t);
         return match (0..raw.len()).find(|i| parts(*i)) {
             None => closed(&raw, t),
             // Start at a hard stretch or at a corner, so that no smooth stretch is cut.
@@ -211,9 +230,9 @@ fn open(raw: &SampledLine, t: FinishTolerances) -> (SampledLine, BezPath) {
     let sides = raw.len().saturating_sub(1);
     let mut i = 0;
     while i < sides {
-        let soft = raw.soft[i];
-        let more = raw.soft[i + 1..sides].iter().enumerate();
-        let run = 1 + more.take_while(|(k, s)| **s == soft && !is_sharp(raw, i + 1 + k, t)).count();
+        let soft = raw.sides[i].soft;
+        let more = raw.sides[i + 1..sides].iter().enumerate();
+        let run = 1 + more.take_while(|(k, side)| side.soft == soft && !is_sharp(raw, i + 1 + k, t)).count();
         let stretch = raw.slice(i, i + run);
         let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(stretch, t) };
         append(&mut line, &part);
@@ -308,7 +327,7 @@ fn between(dense: &SampledLine, cuts: &[usize], t: FinishTolerances) -> (Sampled
 /// Appends a line that starts where the other ends.
 fn append(line: &mut SampledLine, part: &SampledLine) {
     for i in 0..part.len() {
-        line.push_of(part.points[i], part.samples[i], part.soft[i], part.silhouette[i], part.part[i]);
+        line.push(part.points[i], part.samples[i], part.sides[i]);
     }
 }
 
@@ -316,6 +335,7 @@ fn append(line: &mut SampledLine, part: &SampledLine) {
 mod tests {
     use super::*;
     use crate::chains::Sample;
+    use crate::chains::sampled_line::LineSide;
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     #[test]
@@ -339,7 +359,7 @@ mod tests {
                     let turn = std::f64::consts::TAU * i as f64 / n as f64;
                     let far = 200.0 + if i > n / 2 { 40.0 } else { 0.0 };
                     let point = Point::new(far * cos(turn), far * sin(turn));
-                    line.push(point, Sample::new(0.0, 1.0), is_soft(i), false);
+                    line.push(point, Sample::new(0.0, 1.0), LineSide::soft(is_soft(i)));
                 }
                 let (points, with) = finish(line.clone(), t);
                 let (none, without) = finish(line.clone(), FinishTolerances { points: false, ..t });

@@ -6,16 +6,16 @@
 //! 4. A line that runs over several parts of a body is cut where the part changes.
 //!
 //! Files, in reading order: [`line_finish`] the order of the steps; [`circular_arcs`]; [`foldbacks`];
-//! [`resampling`]; [`corner_points`]; [`whittaker_smoothing`]; [`douglas_peucker`]; [`bezier_fit`] (Schneider
+//! [`resampling`]; [`corner_points`]; [`whittaker_smoothing`]; [`line_simplification`]; [`bezier_fit`] (Schneider
 //! 1990); [`curve_path`] straight and curved pieces as one path; [`part_runs`].
 
 pub(crate) mod bezier_fit;
 pub(crate) mod circular_arcs;
 mod corner_points;
 pub(crate) mod curve_path;
-pub(crate) mod douglas_peucker;
 mod foldbacks;
 pub(crate) mod line_finish;
+pub(crate) mod line_simplification;
 pub(crate) mod part_runs;
 mod resampling;
 pub(crate) mod whittaker_smoothing;

@@ -9,7 +9,7 @@ use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, P
 
 use crate::chains::sampled_line::SampledLine;
 use crate::chains::tolerances;
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, nearest_parameter};
 use crate::mesh::PartId;
 
 /// Largest shift of a cut along the line by smoothing: a length in px, plus a share of the way from the cut
@@ -47,14 +47,14 @@ impl PartRuns {
     pub(crate) fn of(line: &SampledLine) -> Option<Self> {
         let n = line.len();
         let sides = if line.closed { n } else { n.saturating_sub(1) };
-        let first = line.part.first()?;
-        if line.part[..sides].iter().all(|part| part == first) {
+        let first = line.sides.first()?.part;
+        if line.sides[..sides].iter().all(|side| side.part == first) {
             return None;
         }
         let (mut runs, mut at) = (Vec::<(f64, Point, PartId)>::new(), 0.0);
         for side in 0..sides {
-            if runs.last().is_none_or(|run| run.2 != line.part[side]) {
-                runs.push((at, line.points[side], line.part[side]));
+            if runs.last().is_none_or(|run| run.2 != line.sides[side].part) {
+                runs.push((at, line.points[side], line.sides[side].part));
             }
             at += length(line.points[(side + 1) % n] - line.points[side]);
         }
@@ -114,14 +114,12 @@ impl PartRuns {
         let (mut at, mut nearest) = (0.0, (f64::INFINITY, 0.0));
         for side in 0..n {
             let (a, b) = (self.points[side], self.points[(side + 1) % n]);
-            let side_vector = b - a;
-            let share =
-                ((start - a).dot(side_vector) / side_vector.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let share = nearest_parameter(start, a, b);
             let distance = length(start - a.lerp(b, share));
             if distance < nearest.0 {
-                nearest = (distance, at + share * length(side_vector));
+                nearest = (distance, at + share * length(b - a));
             }
-            at += length(side_vector);
+            at += length(b - a);
         }
         for run in &mut self.runs {
             run.0 = (run.0 - nearest.1).rem_euclid(self.length);
@@ -229,7 +227,7 @@ fn line_between(
             share if share >= 1.0 => (line.points[j], line.samples[j]),
             _ => (line.points[i].lerp(line.points[j], share), line.samples[i].lerp(line.samples[j], share)),
         };
-        part.push_of(point, sample, line.soft[i], line.silhouette[i], line.part[i]);
+        part.push(point, sample, line.sides[i]);
     };
     for (i, from, to) in stretches {
         add(i, from);
@@ -242,6 +240,8 @@ fn line_between(
 mod tests {
     use super::*;
     use crate::chains::Sample;
+    use crate::chains::fit::curve_path::polyline;
+    use crate::chains::sampled_line::LineSide;
     use crate::geometry::numbers::portable_math::{cos, sin};
 
     fn ring_of_parts(closed: bool, part: impl Fn(usize) -> u32) -> SampledLine {
@@ -249,21 +249,10 @@ mod tests {
         for i in 0..60 {
             let turn = std::f64::consts::TAU * i as f64 / 60.0;
             let point = Point::new(100.0 * cos(turn), 100.0 * sin(turn));
-            line.push_of(point, Sample::new(i as f64, 1.0), true, false, PartId(part(i)));
+            let side = LineSide { soft: true, silhouette: false, part: PartId(part(i)) };
+            line.push(point, Sample::new(i as f64, 1.0), side);
         }
         line
-    }
-
-    fn polyline(line: &SampledLine) -> BezPath {
-        let mut path = BezPath::new();
-        line.points
-            .iter()
-            .enumerate()
-            .for_each(|(i, p)| if i == 0 { path.move_to(*p) } else { path.line_to(*p) });
-        if line.closed {
-            path.close_path();
-        }
-        path
     }
 
     #[test]
@@ -290,7 +279,7 @@ mod tests {
                     let middle_distance = |i: &usize| length(line.points[*i] - middle);
                     let at =
                         (0..60).min_by(|a, b| middle_distance(a).total_cmp(&middle_distance(b))).unwrap();
-                    assert_eq!(line.part[at], piece.part);
+                    assert_eq!(line.sides[at].part, piece.part);
                     let start = piece.path.segments().next().unwrap().start();
                     assert!(length(piece.line.points[0] - start) < 1e-9);
                 }

@@ -21,9 +21,7 @@ pub(crate) fn resample(line: &SampledLine, spacing: f64) -> (SampledLine, f64) {
     let mut even = SampledLine {
         points: Vec::with_capacity(last),
         samples: Vec::with_capacity(last),
-        soft: Vec::with_capacity(last),
-        silhouette: Vec::with_capacity(last),
-        part: Vec::with_capacity(last),
+        sides: Vec::with_capacity(last),
         closed: line.closed,
     };
     let (mut side, mut before) = (0, 0.0);
@@ -37,9 +35,7 @@ pub(crate) fn resample(line: &SampledLine, spacing: f64) -> (SampledLine, f64) {
         let t = if lengths[side] > 0.0 { ((at - before) / lengths[side]).clamp(0.0, 1.0) } else { 0.0 };
         even.points.push(line.points[i].lerp(line.points[j], t));
         even.samples.push(line.samples[i].lerp(line.samples[j], t));
-        even.soft.push(line.soft[i]);
-        even.silhouette.push(line.silhouette[i]);
-        even.part.push(line.part[i]);
+        even.sides.push(line.sides[i]);
     }
     if !line.closed {
         // The last point stays exact to the bit.

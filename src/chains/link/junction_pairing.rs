@@ -9,6 +9,7 @@ use kurbo::Vec2;
 use super::directed_edge::{DirectedEdge, order};
 use super::edge_class::EdgeClass;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::plane::planar_distance::unit;
 use crate::visibility::ViewMap;
 
 /// Marks an end that nothing continues.
@@ -223,9 +224,7 @@ fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
             next => at = next,
         }
     }
-    let chord = to - from;
-    let length = chord.hypot2().sqrt();
-    if length > 0.0 { chord / length } else { Vec2::ZERO }
+    unit(to - from)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Tests of the whole stage on random walks over a coarse grid.
 
 use super::*;
-use crate::chains::fit::douglas_peucker::simplify;
+use crate::chains::fit::line_simplification::simplify;
 use crate::geometry::numbers::noise::hash;
 
 /// Text form of everything that a set of chains draws, independent of order.
@@ -129,9 +129,9 @@ fn simplify_is_idempotent() {
         let tolerance = 0.1 + f64::from(dice.below(90)) / 10.0;
         for (points, ..) in lines {
             let mut line = SampledLine::default();
-            points
-                .iter()
-                .for_each(|(x, y)| line.push(Point::new(*x, *y), Sample::new(1.0, 1.0), true, false));
+            points.iter().for_each(|(x, y)| {
+                line.push(Point::new(*x, *y), Sample::new(1.0, 1.0), LineSide::soft(true))
+            });
             let once = simplify(&line, tolerance);
             assert_eq!(simplify(&once, tolerance), once, "{tolerance} {points:?}");
         }

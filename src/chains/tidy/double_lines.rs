@@ -185,7 +185,7 @@ fn parts_alone(raw: &RawLine, uncovered: &[bool], distance: f64) -> Vec<RawLine>
         let last = (first..sides).take_while(|side| is_alone(*side)).last().unwrap_or(first);
         let long = |side: usize| length(open.points[side + 1] - open.points[side]);
         let all: f64 = (first..=last).map(long).sum();
-        let outline: f64 = (first..=last).filter(|side| open.silhouette[*side]).map(long).sum();
+        let outline: f64 = (first..=last).filter(|side| open.sides[*side].silhouette).map(long).sum();
         if all > MIN_UNCOVERED_DISTANCES * distance || outline > distance {
             let ends = [first == 0, last + 1 == sides];
             let covered = [0, 1].map(|end| !raw.line.closed && ends[end] && raw.covered[end]);
@@ -221,13 +221,15 @@ mod tests {
     use super::*;
     use crate::chains::link::edge_class::EdgeClass;
     use crate::chains::sample::Sample;
-    use crate::chains::sampled_line::SampledLine;
+    use crate::chains::sampled_line::{LineSide, SampledLine};
     use crate::mesh::{MaterialId, PartId};
     use crate::visibility::ViewMap;
 
     fn contour(points: &[(f64, f64)], ends: [u32; 2]) -> RawLine {
         let mut line = SampledLine::default();
-        points.iter().for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), true, false));
+        points
+            .iter()
+            .for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), LineSide::soft(true)));
         let class = EdgeClass {
             kind: LineKind::Contour,
             body: PartId(0),

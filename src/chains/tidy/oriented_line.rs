@@ -3,8 +3,8 @@
 use kurbo::{Point, Vec2};
 
 use crate::chains::Sample;
-use crate::chains::sampled_line::SampledLine;
-use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::chains::sampled_line::{LineSide, SampledLine};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared, unit};
 
 /// Largest gap at an overhang that is cut off, and largest distance of a short overhang from the other line.
 pub(crate) const MAX_TRIMMED_JUMP_TIDY_LENGTHS: f64 = 0.6;
@@ -90,7 +90,7 @@ impl<'a> OrientedLine<'a> {
     /// Unit direction of the line at a cut.
     pub(crate) fn direction(&self, cut: &StitchEnd, window: f64) -> Vec2 {
         let end_index = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
-        crate::chains::fit::bezier_fit::unit(self.point(end_index.unwrap_or(self.line.len() - 1)) - cut.point)
+        unit(self.point(end_index.unwrap_or(self.line.len() - 1)) - cut.point)
     }
 
     /// Whether any point that is cut off lies too far from the start of the other line.
@@ -135,16 +135,15 @@ pub(crate) fn append_trimmed(
     let side_before = |k: usize| index(k.saturating_sub(1)).min(index(k.min(n - 1)));
     if let Some(cut) = begin {
         let side = side_before(first);
-        target.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+        target.push(cut.point, cut.sample, LineSide { soft: true, ..line.sides[side] });
     }
     for k in first..last.max(first) {
         // In reverse, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
-        let (soft, silhouette) = (line.soft[side], line.silhouette[side]);
-        target.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);
+        target.push(line.points[index(k)], line.samples[index(k)], line.sides[side]);
     }
     if let Some(cut) = end {
         let side = side_before(last);
-        target.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+        target.push(cut.point, cut.sample, LineSide { soft: true, ..line.sides[side] });
     }
 }

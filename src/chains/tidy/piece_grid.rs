@@ -1,13 +1,13 @@
 //! [`PieceGrid`]: straight pieces of lines in a grid over the page, and the test for parallel pieces nearby.
 
-use std::ops::RangeInclusive;
-
 use crate::parallel::prelude::*;
-use kurbo::{Point, Vec2};
+use kurbo::{Point, Rect, Vec2};
 
 use crate::chains::sampled_line::SampledLine;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
-use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared, unit};
+use crate::geometry::plane::planar_grid::PlanarGrid;
+use crate::geometry::plane::polylines::bounds;
 
 /// Cosine of the largest angle (35 degrees) between parallel lines.
 const MIN_PARALLEL_COSINE: f64 = 0.82;
@@ -35,10 +35,7 @@ pub(crate) struct LinePiece {
 
 /// Pieces of lines by square cells of the page.
 pub(crate) struct PieceGrid {
-    cell: f64,
-    corner: Point,
-    columns: usize,
-    rows: usize,
+    grid: PlanarGrid,
     pieces: CsrLists<u32>,
 }
 
@@ -58,7 +55,7 @@ pub(crate) fn collect(index: u32, line: &SampledLine, distance: f64) -> Vec<Line
         while high < sides && length(line.points[high % n] - b) < reach {
             high += 1;
         }
-        let direction = crate::chains::fit::bezier_fit::unit(line.points[high % n] - line.points[low]);
+        let direction = unit(line.points[high % n] - line.points[low]);
         pieces.push(LinePiece { line: index, a, b, direction });
     }
     pieces
@@ -66,57 +63,26 @@ pub(crate) fn collect(index: u32, line: &SampledLine, distance: f64) -> Vec<Line
 
 impl PieceGrid {
     pub(crate) fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
-        let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
-        let mut low = ends().next()?;
-        let mut high = low;
-        for p in ends() {
-            low = Point::new(low.x.min(p.x), low.y.min(p.y));
-            high = Point::new(high.x.max(p.x), high.y.max(p.y));
-        }
+        let bounds = bounds(pieces.iter().flat_map(|p| [p.a, p.b]))?;
         // At most a million cells on giant pages, and few cells for few pieces.
-        let (width, height) = (high.x - low.x, high.y - low.y);
+        let (width, height) = (bounds.width(), bounds.height());
         let of_piece = (width * height / (MAX_CELLS_PER_PIECE * pieces.len()) as f64).sqrt();
         let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
         if !cell.is_finite() || cell <= 0.0 {
             return None;
         }
-        let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
-        let mut buckets = Self { cell, corner: low, columns, rows, pieces: CsrLists::default() };
+        let grid = PlanarGrid::new(bounds, 1.0 / cell);
         let cells_of = |(chunk, some): (usize, &[LinePiece])| {
             let mut found = Vec::with_capacity(2 * some.len());
             for (i, piece) in (chunk * PIECES_PER_TASK..).zip(some) {
-                buckets.each_cell(piece.a, piece.b, |cell| found.push((cell, i as u32)));
+                grid.visit_passed(piece.a, piece.b, |cell| found.push((cell, i as u32)));
             }
             found
         };
         let found: Vec<Vec<(usize, u32)>> =
             pieces.par_chunks(PIECES_PER_TASK).enumerate().with_max_len(1).map(cells_of).collect();
-        buckets.pieces = csr_lists_from_pairs(columns * rows, found.iter().flatten().copied());
-        Some(buckets)
-    }
-
-    /// Column and row ranges of the bounding box of two points, widened by `margin`.
-    fn range(&self, p: Point, q: Point, margin: f64) -> (RangeInclusive<usize>, RangeInclusive<usize>) {
-        let column = |x: f64| (((x - self.corner.x) / self.cell).max(0.0) as usize).min(self.columns - 1);
-        let row = |y: f64| (((y - self.corner.y) / self.cell).max(0.0) as usize).min(self.rows - 1);
-        (
-            column(p.x.min(q.x) - margin)..=column(p.x.max(q.x) + margin),
-            row(p.y.min(q.y) - margin)..=row(p.y.max(q.y) + margin),
-        )
-    }
-
-    /// Visits the cells that a segment touches. Long segments are taken in parts with small boxes, so a cell
-    /// may be visited twice.
-    fn each_cell(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
-        let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
-        for part in 0..parts {
-            let p = a.lerp(b, part as f64 / parts as f64);
-            let q = a.lerp(b, (part + 1) as f64 / parts as f64);
-            let (columns, rows) = self.range(p, q, 0.0);
-            for row in rows {
-                columns.clone().for_each(|column| visit(row * self.columns + column));
-            }
-        }
+        let pieces = csr_lists_from_pairs(grid.count(), found.iter().flatten().copied());
+        Some(Self { grid, pieces })
     }
 
     /// Whether a parallel piece of an admitted line lies within `distance` of `point`.
@@ -128,14 +94,13 @@ impl PieceGrid {
         distance: f64,
         admit: impl Fn(u32) -> bool,
     ) -> bool {
-        let (columns, rows) = self.range(point, point, distance);
-        rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
-            self.pieces.of(row * self.columns + column).iter().map(|i| &pieces[*i as usize]).any(|other| {
-                other.direction.dot(direction).abs() >= MIN_PARALLEL_COSINE
-                    && other.is_abreast(point, MAX_OVERHANG_RATIO * distance)
-                    && admit(other.line)
-                    && segment_distance_squared(point, other.a, other.b) <= distance * distance
-            })
+        let around = Rect::from_points(point, point).inflate(distance, distance);
+        let near = self.grid.rows_in(around).flat_map(|cells| self.pieces.of_all(cells));
+        near.map(|i| &pieces[*i as usize]).any(|other| {
+            other.direction.dot(direction).abs() >= MIN_PARALLEL_COSINE
+                && other.is_abreast(point, MAX_OVERHANG_RATIO * distance)
+                && admit(other.line)
+                && segment_distance_squared(point, other.a, other.b) <= distance * distance
         })
     }
 }

@@ -4,6 +4,7 @@ use crate::chains::link::edge_class::EdgeClass;
 use crate::chains::link::routes::Routes;
 use crate::chains::sampled_line::SampledLine;
 use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::polylines::polyline_length;
 use crate::lines::LineKind;
 use crate::surface::MeshSource;
 use crate::visibility::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
@@ -80,7 +81,7 @@ impl RawLine {
     /// Length in the image.
     pub(crate) fn length(&self) -> f64 {
         let points = &self.line.points;
-        let open: f64 = points.windows(2).map(|pair| length(pair[1] - pair[0])).sum();
+        let open = polyline_length(points);
         match (points.first(), points.last()) {
             (Some(first), Some(last)) if self.line.closed => open + length(*first - *last),
             _ => open,
@@ -90,8 +91,8 @@ impl RawLine {
     /// Share of its length that is silhouette, 0 to 1.
     pub(crate) fn silhouette_part(&self) -> f64 {
         let sides = || self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
-        let silhouette = sides().zip(&self.line.silhouette).filter(|(_, is)| **is);
-        silhouette.map(|(side, _)| side).sum::<f64>() / sides().sum::<f64>().max(f64::MIN_POSITIVE)
+        let silhouette = sides().zip(&self.line.sides).filter(|(_, side)| side.silhouette);
+        silhouette.map(|(length, _)| length).sum::<f64>() / sides().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 
     /// Whether it ends where it starts.

@@ -31,13 +31,14 @@ pub(crate) struct MinRunLengths {
 ///
 /// Returns `None` for a line with a single part. Its class is then set.
 pub(crate) fn split_at_silhouette(raw: &mut RawLine, shortest: MinRunLengths) -> Option<Vec<RawLine>> {
-    if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
-        raw.class.silhouette = raw.line.silhouette[0];
+    let sides = &raw.line.sides;
+    if sides.iter().all(|side| side.silhouette == sides[0].silhouette) {
+        raw.class.silhouette = sides[0].silhouette;
         return None;
     }
     // A closed line is opened where the value changes, so that no run passes its seam.
     let n = raw.line.len();
-    let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
+    let change = (0..n).find(|i| sides[*i].silhouette != sides[(i + n - 1) % n].silhouette);
     let opened = raw.line.closed.then(|| raw.line.opened_at(change.unwrap_or(0)));
     let open = opened.as_ref().unwrap_or(&raw.line);
     let runs = merge_short_runs(runs(open), shortest);
@@ -61,8 +62,8 @@ fn with_silhouette(raw: &RawLine, line: SampledLine, silhouette: bool) -> RawLin
 fn runs(line: &SampledLine) -> Vec<SilhouetteRun> {
     let mut runs: Vec<SilhouetteRun> = Vec::new();
     for i in 0..line.len() - 1 {
-        let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
-        let is_hard = !line.soft[i];
+        let (value, side) = (line.sides[i].silhouette, length(line.points[i + 1] - line.points[i]));
+        let is_hard = !line.sides[i].soft;
         match runs.last_mut() {
             Some(run) if run.value == value => {
                 run.end = i + 1;

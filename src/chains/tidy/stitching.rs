@@ -21,7 +21,7 @@ use super::oriented_line::{
 use super::raw_line::{RawLine, VertexDegrees};
 use super::removed_lines::{RemovalLog, RemovalReason};
 use crate::chains::sampled_line::SampledLine;
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
 use crate::visibility::{GapOcclusion, GapSegment};
 
 /// Largest gap without an overhang.
@@ -226,7 +226,7 @@ fn best_stitch(raws: &[RawLine], a: usize, b: usize, tidy: f64) -> Option<Stitch
         let back = from.direction(&cut_a, DIRECTION_TIDY_LENGTHS * tidy);
         let forward = to.direction(&cut_b, DIRECTION_TIDY_LENGTHS * tidy);
         let bent = -back.dot(forward) < MIN_STITCH_COSINE;
-        let jump_direction = crate::chains::fit::bezier_fit::unit(jump);
+        let jump_direction = unit(jump);
         let min_cosine = match length(jump) / tidy {
             far if far > GAP_LARGE_TIDY_LENGTHS => MIN_LARGE_GAP_COSINE,
             far if far > GAP_MEDIUM_TIDY_LENGTHS => MIN_MEDIUM_GAP_COSINE,

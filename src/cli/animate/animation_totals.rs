@@ -45,7 +45,7 @@ pub(crate) fn refuse_warnings<'a>(
     request: &DrawRequest,
     mut warnings: impl Iterator<Item = &'a String>,
 ) -> Result<(), Error> {
-    match warnings.next().filter(|_| request.strict) {
+    match warnings.next().filter(|_| request.how.strict) {
         Some(warning) => Err(Error::new(warning.clone())
             .in_file(&request.model)
             .remedy("repair the model, or draw without --strict")),

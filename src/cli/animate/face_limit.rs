@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::cli::json_files;
 use crate::error::Error;
 
 /// Limit on the number of faces of frames.
@@ -33,10 +34,7 @@ pub(crate) fn budget(text: &str) -> Result<f64, String> {
 /// Reads the face counts of a file written by `--save-levels`, one per drawing.
 pub(crate) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Error> {
     let remedy = "write one with --budget TIME --save-levels FILE";
-    let text =
-        std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
-    let value: Value = serde_json::from_str(&text)
-        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
+    let value = json_files::read(path, remedy)?;
     let list = value.get("faces").and_then(Value::as_array);
     let faces: Option<Vec<u64>> = list.and_then(|list| list.iter().map(Value::as_u64).collect());
     let faces =

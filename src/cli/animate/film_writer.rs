@@ -7,8 +7,8 @@ use std::path::Path;
 use super::destination::FilmFormat;
 use super::ffmpeg_video::Video;
 use crate::cli::library_calls;
+use crate::cli::options::draw_args::HowArgs;
 use crate::cli::output::output_files::Staging;
-use crate::cli::request::draw_request::SvgChoices;
 use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::Pixels;
@@ -53,7 +53,7 @@ impl FilmFile {
         format: FilmFormat,
         fps: f64,
         frames: usize,
-        svg: &SvgChoices,
+        how: &HowArgs,
     ) -> Result<Self, Error> {
         let mut staging = Staging::default();
         if let FilmFormat::Mp4 | FilmFormat::Webm = format {
@@ -63,7 +63,7 @@ impl FilmFile {
         let file = staging.create(path)?;
         let copy = || file.try_clone().map(BufWriter::new).map_err(|error| Error::io("cannot write", error));
         let writer = match format {
-            FilmFormat::Svg => FilmWriter::Svg(Box::new(SvgFilm::new(fps, &library_calls::svg_options(svg)))),
+            FilmFormat::Svg => FilmWriter::Svg(Box::new(SvgFilm::new(fps, &library_calls::svg_options(how)))),
             FilmFormat::Gif => FilmWriter::Gif(Box::new(GifFilm::new(copy()?, fps))),
             FilmFormat::Apng => FilmWriter::Apng(Box::new(ApngFilm::new(copy()?, fps, frames as u32))),
             FilmFormat::Webp => FilmWriter::Webp(WebpFilm::new(fps)),

@@ -10,6 +10,7 @@ use super::animate_args::AnimateArgs;
 use crate::animate::{FrameSpec, Timeline, Turntable, film_points};
 use crate::animation::{Playing, Rigged};
 use crate::cli::draw::contact_sheet::PICTURE_COUNT;
+use crate::cli::json_files;
 use crate::cli::models::clip_blend::ClipBlend;
 use crate::cli::options::values::paper_size::PictureSheet;
 use crate::cli::request::draw_request::DrawRequest;
@@ -59,16 +60,16 @@ impl FramePlan {
     pub(crate) fn new(args: &AnimateArgs, request: &DrawRequest, rigged: &Rigged) -> Result<Self, Error> {
         let clips = &rigged.rig.clips;
         let moves = args.turntable.is_some() || args.path.is_some();
-        let has_no_clips = clips.is_empty() && request.animation.is_empty();
+        let has_no_clips = clips.is_empty() && request.how.animation.is_empty();
         if has_no_clips && !moves {
             return Err(Error::new("the model has no animation")
                 .in_file(&request.model)
                 .remedy("give --turntable 36, or a camera path with --path FILE.json"));
         }
-        let clip_blend = if moves && request.animation.is_empty() {
+        let clip_blend = if moves && request.how.animation.is_empty() {
             None
         } else {
-            let blend = ClipBlend::new(clips, &request.animation, request.repeat);
+            let blend = ClipBlend::new(clips, &request.how.animation, request.how.repeat);
             Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
         };
         let notes = clip_blend.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
@@ -194,11 +195,7 @@ fn without_time(error: Error) -> Error {
 /// Reads the cameras of a path: a JSON list of camera records.
 fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
     let remedy = "write a list of camera records: [{\"type\": \"perspective\", …}, …]";
-    let text =
-        std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
-    let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
-    let Value::Array(records) = value else {
+    let Value::Array(records) = json_files::read(path, remedy)? else {
         return Err(Error::new("this is not a list").in_file(path).remedy(remedy));
     };
     if records.is_empty() {

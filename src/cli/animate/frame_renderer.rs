@@ -17,7 +17,7 @@ use crate::cli::draw::model_drawing;
 use crate::cli::library_calls;
 use crate::cli::options::values::shard::ShardSpec;
 use crate::cli::output::numbered_files::NumberedFiles;
-use crate::cli::output::output_files::{Format, Staging};
+use crate::cli::output::output_files::{Format, write_file};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::drawing::Drawing;
@@ -81,14 +81,12 @@ impl FrameRenderer<'_> {
                     Format::Png => library_calls::png(&drawing, self.dpi(&drawing))?,
                     #[cfg(feature = "pdf")]
                     Format::Pdf => drawing.to_pdf(),
-                    Format::Svg | Format::SvgToStdout => library_calls::svg(&drawing, &self.request.svg),
+                    Format::Svg | Format::SvgToStdout => library_calls::svg(&drawing, &self.request.how),
                     Format::Dxf => drawing.to_dxf(&DxfOptions::default()),
-                    Format::Svgz => gzip::packed(&library_calls::svg(&drawing, &self.request.svg)),
+                    Format::Svgz => gzip::packed(&library_calls::svg(&drawing, &self.request.how)),
                 };
                 for repeat_offset in 0..timeline.repeat_count(frame_index) {
-                    let mut staging = Staging::default();
-                    staging.add(&numbered.path(frame_index + repeat_offset), &bytes)?;
-                    staging.commit()?;
+                    write_file(&numbered.path(frame_index + repeat_offset), &bytes)?;
                     report.counts.bytes_out += bytes.len() as u64;
                 }
                 report.stages_ms.write = watch.lap_ms();
@@ -107,12 +105,9 @@ impl FrameRenderer<'_> {
         let timeline = self.plan.schedule.timeline;
         let frames: Vec<usize> = timeline.drawn_frames().collect();
         total.frames = timeline.frames() as u64;
-        let in_file = |error: Error| match error.file {
-            None => error.in_file(path),
-            Some(_) => error,
-        };
+        let in_file = |error: Error| error.or_in_file(path);
         let mut film =
-            FilmFile::new(path, format, timeline.fps(), frames.len(), &self.request.svg).map_err(in_file)?;
+            FilmFile::new(path, format, timeline.fps(), frames.len(), &self.request.how).map_err(in_file)?;
         let one = |_: usize, (drawing, mut report, ms): TimedDrawing| -> Result<FinishedFrame, Error> {
             let mut watch = Stopwatch::start();
             let frame = if format.is_vector() {
@@ -150,10 +145,8 @@ impl FrameRenderer<'_> {
     pub(crate) fn draw(&self, animator: &Animator, frame: usize) -> Result<TimedDrawing, Error> {
         let mut watch = Stopwatch::start();
         let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
-        let (drawing, mut report) = animator.draw(&moment).map_err(|error| match error.file {
-            None => error.in_file(&self.request.model),
-            Some(_) => error,
-        })?;
+        let (drawing, mut report) =
+            animator.draw(&moment).map_err(|error| error.or_in_file(&self.request.model))?;
         let ms = watch.lap_ms();
         report.counts.triangles = model_drawing::triangles(animator.rest());
         report.counts.paths = model_drawing::paths(&drawing);
@@ -162,7 +155,7 @@ impl FrameRenderer<'_> {
     }
 
     fn dpi(&self, drawing: &Drawing) -> f64 {
-        self.request.dpi.unwrap_or(model_drawing::default_dpi(drawing.page.unit))
+        self.request.how.dpi.unwrap_or(model_drawing::default_dpi(drawing.page.unit))
     }
 
     /// Draws frames within their face limits and passes them on in order.

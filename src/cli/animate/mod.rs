@@ -21,7 +21,6 @@ mod frame_plan;
 mod frame_renderer;
 mod moment_grid;
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use crate::cli::output::output_files::{Format, Output};
@@ -33,21 +32,20 @@ use frame_plan::FramePlan;
 use frame_renderer::FrameRenderer;
 
 use super::models::lod;
+use super::models::opened_model::cut_and_explode;
 use super::output::number_text;
 use super::request::usage_warnings;
 use super::step::open_rigged;
 use super::tolerances;
-use super::{library_calls, print, say};
+use super::{json_files, library_calls, print, say};
 use crate::animation::Rigged;
 use crate::cli::draw::contact_sheet::{check_outputs, picture_request};
 use crate::cli::options::framing_args::FramedParts;
-use crate::cli::output::output_files::{Staging, check_place, is_stdout};
+use crate::cli::output::output_files::{check_place, is_stdout, write_file};
 use crate::cli::output::progress::Progress;
-use crate::cli::request::draw_request::{DrawRequest, check_apart};
-use crate::cli::request::viewpoint::viewpoint;
+use crate::cli::request::draw_request::{DrawRequest, check_apart, refuse_overwriting};
 use crate::error::Error;
-use crate::pipeline::{Stopwatch, with_cut_hatching_for, with_trail_lines};
-use crate::scene::cameras::framing::world_points;
+use crate::pipeline::Stopwatch;
 use crate::style::Style;
 
 /// Style setting for limited face counts: contours along mesh edges, which are faster than smooth curves.
@@ -65,8 +63,8 @@ pub(crate) fn run(mut args: AnimateArgs) -> Result<(), Error> {
         Destination::of(&args.out)?
     };
     check(&args, &request, &destination)?;
-    let total = library_calls::in_threads(request.threads, || draw(&args, &request, &destination))??;
-    if !request.quiet {
+    let total = library_calls::in_threads(request.how.threads, || draw(&args, &request, &destination))??;
+    if !request.how.quiet {
         for warning in &total.warnings {
             say(&format!("warning: {}: {warning}", request.model.display()));
         }
@@ -98,19 +96,19 @@ fn split_levels(args: &mut AnimateArgs) -> Result<(), Error> {
 
 /// Refuses contradictory options before any work.
 fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -> Result<(), Error> {
-    if request.time.is_some() {
+    if request.how.time.is_some() {
         return Err(Error::new("an animation has no single moment")
             .at("--time")
             .remedy("give --from and --to, or draw one moment with ligne draw"));
     }
-    if request.section.is_requested() {
+    if request.how.section.is_requested() {
         let goes_round = args.turntable.is_some() || args.path.is_some();
-        if !goes_round || !request.animation.is_empty() {
+        if !goes_round || !request.how.animation.is_empty() {
             return Err(Error::new("a moving model can be neither cut nor exploded")
                 .at("--section, --explode")
                 .remedy("give --turntable 36, or draw one moment with ligne draw"));
         }
-        if args.budget.is_some() || args.levels.is_some() || request.faces.is_some() {
+        if args.budget.is_some() || args.levels.is_some() || request.how.faces.is_some() {
             return Err(Error::new("a cut or exploded model cannot be simplified")
                 .at("--section, --explode")
                 .remedy("leave out --faces, --budget and --levels"));
@@ -133,13 +131,7 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
                     .remedy("write one file per frame, such as 'frames/%04d.svg'"));
             }
             check_place(path)?;
-            let same = |path: &Path| path.canonicalize().ok();
-            if same(path).is_some() && same(path) == same(&request.model) {
-                return Err(Error::new("the film would overwrite the model")
-                    .in_file(path)
-                    .remedy("give the film another name"));
-            }
-            Ok(())
+            refuse_overwriting(path, "the film", &request.model, "the model")
         }
     }
 }
@@ -156,7 +148,7 @@ fn draw(
         .into_iter()
         .chain(request.sets.iter().cloned())
         .collect();
-    let mut style = library_calls::load_style(&request.style, &sets, request.background)?;
+    let mut style = library_calls::load_style(&request.how.style, &sets, request.background)?;
     let is_dxf = matches!(destination, Destination::Numbered(numbered) if numbered.format == Format::Dxf);
     if is_dxf || request.is_to_scale() {
         style = style.to_scale();
@@ -166,28 +158,28 @@ fn draw(
             .at("motion.fade")
             .remedy("leave out --budget and --levels, or --set motion.fade=0"));
     }
-    let progress = Progress::start(request.quiet, &request.model);
+    let progress = Progress::start(request.how.quiet, &request.model);
     progress.step("reading");
     let mut watch = Stopwatch::start();
-    let mut rigged = open_rigged(&request.model, &request.step)?;
-    let coarse = args.budget.is_some() || args.levels.is_some() || request.faces.is_some();
+    let mut rigged = open_rigged(&request.model, &request.how.step)?;
+    let coarse = args.budget.is_some() || args.levels.is_some() || request.how.faces.is_some();
     // Levels of detail belong to the stored model, before any part is removed.
     let detail = coarse.then(|| {
-        let fewest = if args.budget.is_none() { request.faces } else { None };
+        let fewest = if args.budget.is_none() { request.how.faces } else { None };
         lod::detail(&request.model, &mut rigged.scene, fewest.unwrap_or(0))
     });
-    if let Some(up) = request.up {
+    if let Some(up) = request.how.up {
         rigged.scene.up = up;
     }
-    let mut notes = usage_warnings::unmatched_patterns(&rigged.scene, &request.only, &request.hide);
+    let mut notes = usage_warnings::unmatched_patterns(&rigged.scene, &request.how.only, &request.how.hide);
     notes.extend(usage_warnings::bare_lengths(request));
-    let mut whole = (request.frame == FramedParts::All).then(|| rigged.clone());
-    library_calls::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
-    if request.section.is_requested() {
+    let mut whole = (request.how.framing.frame == FramedParts::All).then(|| rigged.clone());
+    library_calls::keep_moving_parts(&mut rigged, &request.how.only, &request.how.hide)?;
+    if request.how.section.is_requested() {
         open_up(request, &mut rigged, &mut whole, &mut style)?;
     }
     let plan = FramePlan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
-    if !request.quiet {
+    if !request.how.quiet {
         for note in &plan.notes {
             progress.print_line(&format!("note: {}: {note}", request.model.display()));
         }
@@ -201,7 +193,7 @@ fn draw(
     }
     refuse_warnings(request, total.warned.keys())?;
     let drawings = timeline.drawn_frames().count();
-    let faces = match (&args.levels, args.budget, request.faces) {
+    let faces = match (&args.levels, args.budget, request.how.faces) {
         (_, Some(ms), _) => FaceLimit::Budget(ms),
         (Some(path), None, _) => FaceLimit::Listed(face_limit::read_levels(path, drawings)?),
         (None, None, Some(most)) => FaceLimit::AtMost(most),
@@ -224,7 +216,7 @@ fn draw(
     }
     drop(progress);
     if let (Some(ms), Some(path)) = (args.budget, &args.save_levels) {
-        write(path, &face_limit::written_levels(&total.faces, ms))?;
+        write_file(path, &face_limit::written_levels(&total.faces, ms))?;
     }
     let counted = |(warning, drawings): (&String, &usize)| match drawings {
         0 => warning.clone(),
@@ -246,33 +238,16 @@ fn open_up(
     style: &mut Style,
 ) -> Result<(), Error> {
     let mut scene = std::mem::take(&mut rigged.scene);
-    if request.section.section.is_some() {
-        let points = world_points(&scene);
-        let eye = viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*points)))?;
-        let [_, _, forward] = eye.camera.axes();
-        if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            *style = with_cut_hatching_for(style, &mut scene, &mut section.faces, &[eye.camera]);
-        }
-    }
-    if request.section.explode(&mut scene)? {
+    if cut_and_explode(&[request], &mut scene, &mut None, style)? {
         *whole = None;
-        *style = with_trail_lines(style);
     }
     *rigged = Rigged::from(scene);
     Ok(())
 }
 
 fn write_report(path: &Path, total: &AnimationTotals) -> Result<(), Error> {
-    // Numbers and strings always serialise.
-    let mut json = serde_json::to_string_pretty(total).unwrap_or_default();
-    json.push('\n');
-    if is_stdout(path) { print(json.as_bytes()) } else { write(path, json.as_bytes()) }
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let mut staging = Staging::default();
-    staging.add(path, bytes)?;
-    staging.commit()
+    let json = json_files::text(total);
+    if is_stdout(path) { print(json.as_bytes()) } else { write_file(path, json.as_bytes()) }
 }
 
 /// Summary line: `48 frames, 24 drawings, 91.2 kB, 1.30 s, 18.5 drawings a second`

@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::error::spelling::british;
 use crate::style::{self, Style, sheet_errors};
 
@@ -35,12 +35,7 @@ impl TomlFile {
         let bytes = std::fs::read(path).map_err(|error| {
             Error::io(format!("cannot read {what}"), error).in_file(path).remedy("check the path")
         })?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            Error::new("is not UTF-8 text")
-                .in_file(path)
-                .at(format!("byte {}", error.utf8_error().valid_up_to()))
-                .remedy(format!("save {what} as UTF-8"))
-        })?;
+        let text = Error::utf8_text(bytes, path, what)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         Ok(Self { path: path.to_path_buf(), folder, text })
     }
@@ -65,10 +60,7 @@ impl TomlFile {
     /// Error about an unknown key.
     pub(crate) fn unknown(&self, key: &Spanned<impl AsRef<str>>, known: &[&str]) -> Error {
         let word = key.get_ref().as_ref();
-        let advice = match nearest(word, known) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known keys: {}", known.join(", ")),
-        };
+        let advice = suggestion(nearest(word, known), || format!("known keys: {}", known.join(", ")));
         self.fault(&key.span(), &format!("unknown key `{word}`"), Some(&advice))
     }
 

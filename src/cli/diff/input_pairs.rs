@@ -9,6 +9,7 @@ use crate::cli::options::draw_args::HowArgs;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::diff::Picture;
 use crate::error::Error;
+use crate::error::bounded_read::read_up_to;
 use crate::export::encoding::gzip;
 
 /// Maximum size of a drawing file, bytes.
@@ -63,7 +64,7 @@ impl InputPairs {
 pub(crate) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Picture; 2], Error> {
     let request = |path: &Path| -> Result<DrawRequest, Error> {
         let mut request = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
-        request.quiet = true;
+        request.how.quiet = true;
         Ok(request)
     };
     if is_model(before) {
@@ -103,13 +104,9 @@ fn text(path: &Path) -> Result<String, Error> {
     let unread = |error: std::io::Error| {
         Error::io("cannot read the drawing", error).in_file(path).remedy("check the path")
     };
-    let size = std::fs::metadata(path).map_err(unread)?.len();
-    if size > MAX_DRAWING_BYTES {
-        return Err(Error::new("the file is larger than 1 GB")
-            .in_file(path)
-            .remedy("give a smaller drawing"));
-    }
-    let bytes = std::fs::read(path).map_err(unread)?;
+    let too_large =
+        || Error::new("the file is larger than 1 GB").in_file(path).remedy("give a smaller drawing");
+    let bytes = read_up_to(path, MAX_DRAWING_BYTES).map_err(unread)?.ok_or_else(too_large)?;
     let bytes = gzip::plain(bytes, MAX_DRAWING_BYTES as usize).map_err(|error| error.in_file(path))?;
     String::from_utf8(bytes).map_err(|error| {
         Error::new("the file is not SVG: it is not UTF-8 text")

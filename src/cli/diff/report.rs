@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::DiffArgs;
 use super::comparison::FileComparison;
 use super::input_pairs::InputPairs;
+use crate::cli::json_files;
 use crate::diff::Verdict;
 
 /// Text for a terminal: the findings of one drawing, or a heading and findings for each drawing of a folder.
@@ -72,8 +73,7 @@ pub(crate) fn json(comparisons: &[(String, FileComparison)], pairing: &InputPair
     } else {
         comparisons.first().map_or(Value::Null, |(_, told)| value(told))
     };
-    // Serialising values cannot fail.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    json_files::text(&document)
 }
 
 /// Markdown with a section for each drawing that differs.

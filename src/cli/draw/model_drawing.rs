@@ -2,17 +2,14 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
-
 use super::web_output;
 use crate::animation::Rigged;
-use crate::cli::models::opened_model::{OpenedModel, open};
+use crate::cli::models::opened_model::{OpenedModel, cut_and_explode, open};
 use crate::cli::options::dxf_args;
-use crate::cli::options::framing_args::FramedParts;
 #[cfg(feature = "pdf")]
 use crate::cli::options::print_args;
 use crate::cli::output::number_text;
-use crate::cli::output::output_files::{Format, Staging, check_place, is_stdout};
+use crate::cli::output::output_files::{Format, Output, Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
 use crate::cli::request::draw_request::DrawRequest;
 use crate::cli::request::viewpoint::{ViewRequest, Viewpoint, viewpoint};
@@ -21,9 +18,10 @@ use crate::cli::{library_calls, print, say};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::encoding::gzip;
-use crate::pipeline::{MapFiles, Renderer, Report, Stopwatch, with_cut_hatching_for, with_trail_lines};
+use crate::pipeline::{MapFiles, Renderer, Report, Stopwatch};
+use crate::scene::Scene;
 use crate::scene::cameras::framing::world_points;
-use crate::scene::{Camera, Scene};
+use crate::scene::warnings::add_new;
 use crate::style::Style;
 
 /// Default resolution of PNG, pixels per inch: one pixel per px, and print resolution on a page in mm.
@@ -70,10 +68,10 @@ pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
                 .remedy("name a folder for the maps"));
         }
     }
-    let mut drawn = library_calls::in_threads(request.threads, || draw(request, &mut watch))??;
+    let mut drawn = library_calls::in_threads(request.how.threads, || draw(request, &mut watch))??;
     drawn.report.warnings.extend(usage_warnings::bare_lengths(request));
     refuse_warnings(request, &drawn.report)?;
-    if !request.quiet {
+    if !request.how.quiet {
         for warning in &drawn.report.warnings {
             say(&format!("warning: {}: {warning}", request.model.display()));
         }
@@ -82,7 +80,7 @@ pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
         }
     }
     write(request, &mut drawn, &mut watch)?;
-    if !request.quiet {
+    if !request.how.quiet {
         for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
             say(&format!("{}: {}", output.name(), summary(&drawn, bytes, watch.seconds())));
         }
@@ -94,27 +92,17 @@ pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
 
 /// Draws one view and encodes its outputs.
 fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<EncodedDrawing, Error> {
-    let progress = Progress::start(request.quiet, &request.model);
+    let progress = Progress::start(request.how.quiet, &request.model);
     let mut drawn = None;
-    draw_views(&[request], watch, &progress, |_, view| {
+    draw_model(None, &[request], watch, &progress, |_, view| {
         drawn = Some(view);
         Ok(())
     })?;
     drawn.ok_or_else(|| Error::new("no view was given"))
 }
 
-/// Draws several views of one model, which is read once. Options except views and outputs come from the first
-/// request. Each view is passed to `take` before the next is drawn.
-pub(crate) fn draw_views(
-    requests: &[&DrawRequest],
-    watch: &mut Stopwatch,
-    progress: &Progress,
-    take: impl FnMut(&DrawRequest, EncodedDrawing) -> Result<(), Error>,
-) -> Result<(), Error> {
-    draw_model(None, requests, watch, progress, take)
-}
-
-/// Draws several views of a model, which is read only if `model` is none.
+/// Draws several views of one model, which is read only if `model` is none, and once. Options except views and
+/// outputs come from the first request. Each view is passed to `take` before the next is drawn.
 pub(crate) fn draw_model(
     model: Option<Rigged>,
     requests: &[&DrawRequest],
@@ -123,14 +111,14 @@ pub(crate) fn draw_model(
     mut take: impl FnMut(&DrawRequest, EncodedDrawing) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let Some(request) = requests.first() else { return Ok(()) };
-    let mut style = library_calls::load_style(&request.style, &request.sets, request.background)?;
+    let mut style = library_calls::load_style(&request.how.style, &request.sets, request.background)?;
     if request.is_to_scale() {
         style = style.to_scale();
     }
     progress.step("reading");
     let OpenedModel { mut scene, mut framed, mut warnings, mut notes } = open(request, model, &style)?;
     notes.extend(model_hints::of_drawing(request, &scene));
-    if let Some(up) = request.up {
+    if let Some(up) = request.how.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
@@ -138,25 +126,7 @@ pub(crate) fn draw_model(
     if !request.outputs.is_empty() {
         warnings.extend(usage_warnings::unused_options(request, std::env::args_os()));
     }
-    if request.section.section.is_some() {
-        // The section plane and its hatching depend on the view of the uncut model. The frame fits the
-        // remaining parts, or the whole model under `--frame all`.
-        let uncut_points = framed.take().unwrap_or_else(|| world_points(&scene));
-        let viewpoint_of = |request: &&DrawRequest| {
-            viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*uncut_points)))
-        };
-        let cameras = requests.iter().map(viewpoint_of).map(|eye| Ok(eye?.camera));
-        let cameras: Vec<Camera> = cameras.collect::<Result<_, Error>>()?;
-        let forward = cameras.first().map_or(DVec3::NEG_Z, |camera| camera.axes()[2]);
-        if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
-            style = with_cut_hatching_for(&style, &mut scene, &mut section.faces, &cameras);
-        }
-        framed = (request.frame == FramedParts::All).then_some(uncut_points);
-    }
-    if request.section.explode(&mut scene)? {
-        framed = None;
-        style = with_trail_lines(&style);
-    }
+    cut_and_explode(requests, &mut scene, &mut framed, &mut style)?;
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
@@ -221,11 +191,8 @@ fn draw_view(
     report.counts.paths = paths(&drawing);
     let told = of_scene.warnings.iter().cloned();
     let hidden = of_scene.hidden.clone().filter(|_| report.counts.paths == 0);
-    for warning in told.chain(hidden).chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
-        if !report.warnings.contains(&warning) {
-            report.warnings.push(warning);
-        }
-    }
+    let all = told.chain(hidden).chain(warning).chain(bare.map(str::to_owned)).chain(enclosed);
+    add_new(&mut report.warnings, all);
     if report.warnings.is_empty() {
         report.warnings.extend(usage_warnings::tiny_drawing(&drawing));
     }
@@ -237,7 +204,7 @@ fn draw_view(
     let mut encode = |format| match format {
         Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
         Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
-        Format::Png => library_calls::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
+        Format::Png => library_calls::png(&drawing, request.how.dpi.unwrap_or(default_dpi(page.unit))),
         #[cfg(feature = "pdf")]
         Format::Pdf => print_args::encode(&drawing, request.print.as_ref()),
         Format::Dxf => {
@@ -246,12 +213,9 @@ fn draw_view(
             Ok(bytes)
         }
     };
-    let encoded = request.outputs.iter().map(|output| {
-        encode(output.format).map_err(|error| match error.file {
-            None => error.in_file(&output.path),
-            Some(_) => error,
-        })
-    });
+    let mut encode_output =
+        |output: &Output| encode(output.format).map_err(|error| error.or_in_file(&output.path));
+    let encoded = request.outputs.iter().map(&mut encode_output);
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
     report.warnings.extend(left_out);
     let notes = of_scene.notes.clone();
@@ -274,7 +238,7 @@ pub(crate) fn default_dpi(unit: Unit) -> f64 {
 
 /// Turns warnings into an error under `--strict`.
 pub(crate) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
-    if !request.strict || report.warnings.is_empty() {
+    if !request.how.strict || report.warnings.is_empty() {
         return Ok(());
     }
     Err(Error::new(report.warnings.join("; "))

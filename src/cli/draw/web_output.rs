@@ -32,7 +32,7 @@ pub(crate) fn complete(
 
 /// Options of the SVG exporter.
 pub(crate) fn svg_options(request: &DrawRequest, style: &Style) -> Result<SvgOptions, Error> {
-    let mut options = library_calls::svg_options(&request.svg);
+    let mut options = library_calls::svg_options(&request.how);
     if request.web.title.is_some() || request.web.desc.is_some() {
         options = options.read_aloud(request.web.desc.as_deref().unwrap_or_default());
     }

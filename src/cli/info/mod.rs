@@ -23,18 +23,13 @@ mod text_summary;
 
 pub(crate) use self::info_args::InfoArgs;
 use self::model_contents::ModelInfo;
-use super::print;
 use super::step::open_rigged;
+use super::{json_files, print};
 use crate::error::Error;
 
 /// Reads the model and prints its contents.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let rigged = open_rigged(&args.model, &args.step)?;
     let info = ModelInfo::of(&rigged.posed(&[])?, &rigged.rig, args);
-    if args.json {
-        let json = serde_json::to_string_pretty(&info).unwrap_or_default();
-        print(format!("{json}\n").as_bytes())
-    } else {
-        print(info.text(args.all).as_bytes())
-    }
+    if args.json { print(json_files::text(&info).as_bytes()) } else { print(info.text(args.all).as_bytes()) }
 }

@@ -7,7 +7,7 @@ use super::info_args::InfoArgs;
 use super::joints::{self, JointInfo};
 use super::lights_cameras_clips::{CameraInfo, ClipInfo, LightInfo};
 use super::materials::MaterialInfo;
-use super::parts::{PartInfo, TurnedInfo};
+use super::parts::{BoundsInfo, PartInfo, TurnedInfo};
 use super::precision;
 use crate::animation::Rig;
 use crate::cli::library_calls;
@@ -45,16 +45,6 @@ pub(crate) struct ModelInfo {
     pub warnings: Vec<String>,
     /// Hints, each with the option that helps.
     pub notes: Vec<String>,
-}
-
-/// Bounding box of everything that is drawn.
-#[derive(Debug, Serialize)]
-pub(crate) struct BoundsInfo {
-    pub min: [f64; 3],
-    pub max: [f64; 3],
-    /// Extent along x, y and z in mm, if the unit is known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub size_mm: Option<[f64; 3]>,
 }
 
 impl ModelInfo {
@@ -108,11 +98,7 @@ impl ModelInfo {
             cameras: scene.cameras.iter().map(CameraInfo::of).collect(),
             animations: rig.clips.iter().map(ClipInfo::of).collect(),
             joints: joints::of_rig(rig),
-            bounds: bounds.map(|(min, max)| BoundsInfo {
-                min: min.to_array(),
-                max: max.to_array(),
-                size_mm: unit.map(|unit| ((max - min) * unit.mm()).to_array()),
-            }),
+            bounds: bounds.map(|bounds| BoundsInfo::new(bounds, unit)),
             left_out,
             unused_vertices,
             unit: unit.map(ModelUnit::name),

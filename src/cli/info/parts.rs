@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::precision::PrecisionInfo;
 use super::text_lists::named;
+use crate::cli::options::values::model_unit::ModelUnit;
 use crate::cli::output::number_text::{counted, short};
 use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
@@ -24,16 +25,33 @@ pub(crate) struct PartInfo {
     /// Triangles whose winding was reversed when the model was read.
     pub turned: TurnedInfo,
     /// World-space bounding box; none if nothing of the part is drawn.
-    pub bounds: Option<PartBounds>,
+    pub bounds: Option<BoundsInfo>,
     #[serde(flatten)]
     pub precision: PrecisionInfo,
 }
 
-/// Lowest and highest corner of a part, world space.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct PartBounds {
-    min: [f64; 3],
-    max: [f64; 3],
+/// Bounding box of everything that is drawn, or of a part, in world space.
+#[derive(Debug, Serialize)]
+pub(crate) struct BoundsInfo {
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Extent along x, y and z in mm, if the unit is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<[f64; 3]>,
+}
+
+impl BoundsInfo {
+    pub(crate) fn new((min, max): (DVec3, DVec3), unit: Option<ModelUnit>) -> Self {
+        let size_mm = unit.map(|unit| ((max - min) * unit.mm()).to_array());
+        Self { min: min.to_array(), max: max.to_array(), size_mm }
+    }
+
+    /// Size and corners as text: `20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`; `unit` follows the size.
+    pub(crate) fn words(&self, unit: &str) -> String {
+        let size: Vec<String> = self.min.iter().zip(self.max).map(|(low, high)| short(high - low)).collect();
+        let corner = |corner: [f64; 3]| corner.map(short).join(", ");
+        format!("{}{unit} from ({}) to ({})", size.join(" x "), corner(self.min), corner(self.max))
+    }
 }
 
 /// Triangles that were wound inward or against their neighbours, and were reversed: their number, and the
@@ -68,7 +86,7 @@ impl PartInfo {
             texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
             vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
             turned: TurnedInfo::of(turned),
-            bounds: bounds.map(|(min, max)| PartBounds { min: min.to_array(), max: max.to_array() }),
+            bounds: bounds.map(|bounds| BoundsInfo::new(bounds, None)),
             precision,
         })
     }
@@ -86,17 +104,9 @@ impl PartInfo {
         let precision = self.precision.words().filter(|_| is_full);
         let precision = precision.map_or_else(String::new, |words| format!(", {words}"));
         let triangles = counted(self.triangles, "triangle");
-        let bounds = self.bounds.filter(|_| is_full).map_or_else(String::new, |bounds| bounds.words());
+        let bounds = self.bounds.as_ref().filter(|_| is_full);
+        let bounds = bounds.map_or_else(String::new, |bounds| format!(", {}", bounds.words("")));
         format!("{}: {triangles}{lines}{painted}{turned}{bounds}{precision}", named(&self.name))
-    }
-}
-
-impl PartBounds {
-    /// Size and corners as text: `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`.
-    fn words(&self) -> String {
-        let size: Vec<String> = self.min.iter().zip(self.max).map(|(low, high)| short(high - low)).collect();
-        let corner = |corner: [f64; 3]| corner.map(short).join(", ");
-        format!(", {} from ({}) to ({})", size.join(" x "), corner(self.min), corner(self.max))
     }
 }
 

@@ -6,9 +6,9 @@ use super::degenerate_elements;
 use super::joints::JointInfo;
 use super::lights_cameras_clips::{CameraInfo, ClipInfo, LightInfo};
 use super::materials::MaterialInfo;
-use super::model_contents::{BoundsInfo, ModelInfo};
+use super::model_contents::ModelInfo;
 use super::text_lists::{MAX_SHOWN_ENTRIES, list};
-use crate::cli::output::number_text::{counted, short};
+use crate::cli::output::number_text::counted;
 
 impl ModelInfo {
     /// Formats the contents as text. A full text lists everything, with bounds and precision of each part. A
@@ -19,12 +19,9 @@ impl ModelInfo {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
         let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
-        if let Some(BoundsInfo { min, max, .. }) = &self.bounds {
-            let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
-            let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
-            let unit = self.unit.map_or_else(String::new, |unit| format!(" {unit}"));
-            let _ =
-                writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+        if let Some(bounds) = &self.bounds {
+            let unit = self.unit.map_or_else(|| ",".to_owned(), |unit| format!(" {unit},"));
+            let _ = writeln!(text, "  {}", bounds.words(&unit));
         }
         if self.unused_vertices > 0 {
             let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));

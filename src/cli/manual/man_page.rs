@@ -7,7 +7,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 use super::command_reference;
 use super::conventions::{EXIT_STATUS, FILES, environment};
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 
 /// Options of `ligne man`.
 #[derive(Debug, Args)]
@@ -56,10 +56,8 @@ pub(crate) fn run(args: &ManArgs) -> Result<(), Error> {
         None => &program,
         Some(name) => program.find_subcommand(name).ok_or_else(|| {
             let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
-            let remedy = match nearest(name, &names) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("the commands are {}", names.join(", ")),
-            };
+            let remedy =
+                suggestion(nearest(name, &names), || format!("the commands are {}", names.join(", ")));
             Error::new(format!("there is no command `{name}`")).remedy(remedy)
         })?,
     };

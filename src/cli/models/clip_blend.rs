@@ -2,7 +2,7 @@
 
 use crate::animation::{Clip, Playing};
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::geometry::names::glob::Glob;
 
 /// Maximum number of clip names in a message.
@@ -151,10 +151,9 @@ fn matching(clips: &[Clip], pattern: &str, notes: &mut Vec<String>) -> Result<us
     }
     let known: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
     let other_case = known.iter().find(|name| name.eq_ignore_ascii_case(pattern)).copied();
-    let remedy = match other_case.or_else(|| nearest(pattern, &known)) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("its animations are {}", names(clips)),
-    };
+    let remedy = suggestion(other_case.or_else(|| nearest(pattern, &known)), || {
+        format!("its animations are {}", names(clips))
+    });
     Err(Error::new(format!("the model has no animation `{pattern}`")).remedy(remedy))
 }
 

@@ -6,8 +6,8 @@ use clap::Args;
 
 use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::number_text::{bytes as size, counted, grouped};
-use crate::cli::output::output_files::{Staging, check_place};
-use crate::cli::request::draw_request::same_file;
+use crate::cli::output::output_files::{check_place, write_file};
+use crate::cli::request::draw_request::refuse_overwriting;
 use crate::cli::say;
 use crate::cli::step::open_scene;
 use crate::edit::simplify::Detail;
@@ -43,19 +43,13 @@ pub(crate) struct LodArgs {
 pub(crate) fn run(args: &LodArgs) -> Result<(), Error> {
     let out = args.out.clone().unwrap_or_else(|| Detail::beside(&args.model));
     check_place(&out)?;
-    if same_file(&out, &args.model) {
-        return Err(Error::new("the output would overwrite the model")
-            .in_file(&out)
-            .remedy("give the output another name"));
-    }
+    refuse_overwriting(&out, "the output", &args.model, "the model")?;
     let scene = open_scene(&args.model, &args.step)?;
     let mut watch = Stopwatch::start();
     let detail = Detail::of(&scene);
     let took = watch.lap_ms();
     let bytes = detail.to_bytes(&scene);
-    let mut staging = Staging::default();
-    staging.add(&out, &bytes)?;
-    staging.commit()?;
+    write_file(&out, &bytes)?;
     if !args.quiet {
         let mut levels = detail.levels();
         let fewest = levels.seek(&scene, 0)?;

@@ -22,11 +22,11 @@ pub(crate) fn scene_at(
         return Ok((rigged.scene, Vec::new()));
     }
     let in_file = |error: Error| match &rigged.scene.file {
-        Some(file) if error.file.is_none() => error.in_file(file),
-        _ => error,
+        Some(file) => error.or_in_file(file),
+        None => error,
     };
-    let (clips, time) = (&rigged.rig.clips, request.time.unwrap_or(0.0));
-    let blend = ClipBlend::new(clips, &request.animation, request.repeat).map_err(in_file)?;
+    let (clips, time) = (&rigged.rig.clips, request.how.time.unwrap_or(0.0));
+    let blend = ClipBlend::new(clips, &request.how.animation, request.how.repeat).map_err(in_file)?;
     let playing = blend.playing(time);
     let mut scene = motion::posed(&rigged, &playing, &style.motion, style.seed).map_err(in_file)?;
     if let Some(reason) = motion::no_lines_reason(&rigged, &playing, &style.motion, &scene) {

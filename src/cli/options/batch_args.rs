@@ -134,22 +134,26 @@ impl BatchArgs {
             (true, _) => Err(Error::new("standard output can hold a single SVG only")
                 .at("--format")
                 .remedy("name the drawing, such as model.png")),
-            (false, []) => Ok(vec![named(model, "svg")]),
-            (false, endings) => Ok(endings.iter().map(|ending| named(model, ending)).collect()),
+            (false, _) => Ok(self.names(model)),
         }
+    }
+
+    /// Names of the drawings of one model: its name with each ending, or with `.svg`.
+    pub(crate) fn names(&self, model: &Path) -> Vec<PathBuf> {
+        let endings = self.endings();
+        let endings = if endings.is_empty() { vec!["svg"] } else { endings };
+        let named = |ending: &str| {
+            let mut name = stem(model);
+            name.push(".");
+            name.push(ending);
+            PathBuf::from(name)
+        };
+        endings.into_iter().map(named).collect()
     }
 }
 
-/// Name of the model with another ending, without its folder.
-fn named(model: &Path, ending: &str) -> PathBuf {
-    let mut name = stem(model);
-    name.push(".");
-    name.push(ending);
-    PathBuf::from(name)
-}
-
 /// Name of the model without folder and ending; `model` for standard input.
-pub(crate) fn stem(model: &Path) -> std::ffi::OsString {
+fn stem(model: &Path) -> std::ffi::OsString {
     if is_stdout(model) {
         return "model".into();
     }

@@ -121,17 +121,17 @@ pub(crate) struct HowArgs {
 
     /// Camera angle to the right of the front: 0 front, 90 right [default: 35]
     #[arg(long, value_name = "DEGREES", help_heading = "View", allow_negative_numbers = true,
-        value_parser = degrees)]
+        value_parser = number("write a number of degrees", |d| d.is_finite()))]
     pub(crate) azimuth: Option<f64>,
 
     /// Camera angle above the horizon, -90 to 90 [default: 22]
     #[arg(long, value_name = "DEGREES", help_heading = "View", allow_negative_numbers = true,
-        value_parser = elevation)]
+        value_parser = number("write degrees from -90 to 90", |d| d.abs() <= 90.0))]
     pub(crate) elevation: Option<f64>,
 
     /// Perspective with this vertical field of view [default: 35]
     #[arg(long, value_name = "DEGREES", help_heading = "View", conflicts_with = "ortho",
-        value_parser = field_of_view)]
+        value_parser = number("write degrees between 0 and 180", |d| *d > 0.0 && *d < 180.0))]
     pub(crate) fov: Option<f64>,
 
     /// Parallel projection
@@ -160,8 +160,8 @@ pub(crate) struct HowArgs {
     pub(crate) repeat: bool,
 
     /// Time within the animation [default: 0]
-    #[arg(long, value_name = "SECONDS", help_heading = "View", value_parser = seconds,
-        allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", help_heading = "View", allow_hyphen_values = true,
+        value_parser = number("write a number of seconds", |time| time.is_finite()))]
     pub(crate) time: Option<f64>,
 
     /// Simplify the model to at most N faces
@@ -184,7 +184,7 @@ pub(crate) struct HowArgs {
 
     /// Page in mm: A0 to A6, Letter, Legal, Tabloid, or such as 210x297mm
     #[arg(long, value_name = "NAME|WIDTHxHEIGHT", help_heading = "Page", hide_possible_values = true,
-        value_parser = CompletionValues::new(paper_size::sheet_names(), paper_size::page_mm))]
+        value_parser = CompletionValues::new(paper_size::SHEET_NAMES, paper_size::page_mm))]
     pub(crate) page: Option<PaperSize>,
 
     /// Turn the page to landscape
@@ -209,7 +209,7 @@ pub(crate) struct HowArgs {
     pub(crate) precision: Option<u8>,
 
     /// PNG resolution in pixels per inch [default: 96 in px, 300 on a page]
-    #[arg(long, value_name = "N", help_heading = "Output", value_parser = dots_per_inch)]
+    #[arg(long, value_name = "N", help_heading = "Output", value_parser = dots_per_inch())]
     pub(crate) dpi: Option<f64>,
 
     /// SVG groups by layer of the drawing or by part of the model [default: layer]
@@ -267,29 +267,17 @@ fn setting(text: &str) -> Result<String, String> {
     }
 }
 
-fn degrees(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|d: &f64| d.is_finite()).ok_or_else(|| "write a number of degrees".to_owned())
+/// Parser of a number that is right, or of a message.
+pub(crate) fn number(
+    message: &'static str,
+    is_right: fn(&f64) -> bool,
+) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| text.parse().ok().filter(is_right).ok_or_else(|| message.to_owned())
 }
 
-fn elevation(text: &str) -> Result<f64, String> {
-    degrees(text).ok().filter(|d| d.abs() <= 90.0).ok_or_else(|| "write degrees from -90 to 90".to_owned())
-}
-
-fn field_of_view(text: &str) -> Result<f64, String> {
-    degrees(text)
-        .ok()
-        .filter(|d| *d > 0.0 && *d < 180.0)
-        .ok_or_else(|| "write degrees between 0 and 180".to_owned())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let time = text.parse().ok().filter(|time: &f64| time.is_finite());
-    time.ok_or_else(|| "write a number of seconds".to_owned())
-}
-
-pub(crate) fn dots_per_inch(text: &str) -> Result<f64, String> {
-    let dpi = text.parse().ok().filter(|dpi: &f64| (1.0..=9600.0).contains(dpi));
-    dpi.ok_or_else(|| "write a number from 1 to 9600".to_owned())
+/// Parser of a resolution.
+pub(crate) fn dots_per_inch() -> impl Fn(&str) -> Result<f64, String> + Clone {
+    number("write a number from 1 to 9600", |dpi| (1.0..=9600.0).contains(dpi))
 }
 
 fn id_prefix(text: &str) -> Result<String, String> {

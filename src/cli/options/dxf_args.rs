@@ -14,8 +14,7 @@ use crate::scene::Projection;
 pub(crate) struct DxfArgs {
     /// DXF release: r12 (read by every program) or 2000 (with fills, line widths and units)
     #[arg(long, value_name = "RELEASE", help_heading = "Output", default_value = "r12", ignore_case = true,
-        value_parser = PossibleValuesParser::new(["r12", "2000"])
-            .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
+        value_parser = dxf_version())]
     dxf: DxfVersion,
 
     /// DXF lengths: page (mm, 1 px = 1/96 inch) or model (model units; needs an orthographic view)
@@ -23,6 +22,12 @@ pub(crate) struct DxfArgs {
         value_parser = PossibleValuesParser::new(["page", "model"])
             .map(|name| if name == "model" { DxfLengthSource::Model } else { DxfLengthSource::Page }))]
     dxf_length: DxfLengthSource,
+}
+
+/// Parser of a DXF release.
+pub(crate) fn dxf_version() -> impl TypedValueParser<Value = DxfVersion> {
+    PossibleValuesParser::new(["r12", "2000"])
+        .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 })
 }
 
 /// Source of the lengths in a DXF file.

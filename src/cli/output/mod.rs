@@ -3,7 +3,7 @@
 //! Files, in reading order:
 //! - [`output_files`]: formats and staged files, which are renamed at the end, all or none.
 //! - [`numbered_files`]: names such as `frames/%04d.svg`.
-//! - [`file_stamp`]: time and size of a file.
+//! - [`file_stamp`]: time and size of a file, and waiting until they change.
 //! - [`progress`]: the progress bar.
 //! - [`number_text`]: numbers as text.
 //! - [`exit_status`]: the exit status of an error.

@@ -101,6 +101,13 @@ pub(crate) fn check_place(path: &Path) -> Result<(), Error> {
     }
 }
 
+/// Writes one file under a temporary name, and renames it.
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let mut staging = Staging::default();
+    staging.add(path, bytes)?;
+    staging.commit()
+}
+
 /// Files under temporary names next to their final paths. Files that are not committed are removed on drop.
 #[derive(Debug, Default)]
 pub(crate) struct Staging {

@@ -12,7 +12,7 @@ mod page_watch;
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 
 use super::output::number_text;
@@ -22,7 +22,7 @@ use crate::cli::options::step_args::StepArgs;
 use crate::cli::output::numbered_files::NumberedFiles;
 use crate::cli::output::output_files::{Format, Output, Staging, check_place, is_stdout};
 use crate::cli::output::progress::Progress;
-use crate::cli::request::draw_request::same_file;
+use crate::cli::request::draw_request::refuse_overwriting;
 use crate::drawing::Composition;
 use crate::error::Error;
 use crate::export::encoding::gzip;
@@ -63,12 +63,11 @@ pub(crate) struct PageArgs {
 
     /// DXF release: 2000, or r12 (read by every program; no letters, fills or line widths)
     #[arg(long, value_name = "RELEASE", default_value = "2000", ignore_case = true,
-        value_parser = PossibleValuesParser::new(["r12", "2000"])
-            .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
+        value_parser = crate::cli::options::dxf_args::dxf_version())]
     dxf: DxfVersion,
 
     /// PNG resolution in pixels per inch [default: 300]
-    #[arg(long, value_name = "N", value_parser = crate::cli::options::draw_args::dots_per_inch)]
+    #[arg(long, value_name = "N", value_parser = crate::cli::options::draw_args::dots_per_inch())]
     dpi: Option<f64>,
 
     /// Decimals of SVG coordinates [default: 3]
@@ -167,11 +166,7 @@ fn target(path: &Path, page: &Path) -> Result<PageTarget, Error> {
         && *format != Format::SvgToStdout
     {
         check_place(path)?;
-        if same_file(path, page) {
-            return Err(Error::new("the page would overwrite its page file")
-                .in_file(path)
-                .remedy("give the page another name"));
-        }
+        refuse_overwriting(path, "the page", page, "its page file")?;
     }
     Ok(target)
 }
@@ -259,13 +254,9 @@ fn encoded(
     pages: &[Composition],
     args: (&PageArgs, &PrintInks),
 ) -> Result<Vec<EncodedFile>, Error> {
-    let in_file = |path: &Path, error: Error| match error.file {
-        None => error.in_file(path),
-        Some(_) => error,
-    };
     match target {
         PageTarget::One(Output { path, format }) => {
-            let bytes = encode(pages, *format, args).map_err(|error| in_file(path, error))?;
+            let bytes = encode(pages, *format, args).map_err(|error| error.or_in_file(path))?;
             let name = (!is_stdout(path)).then(|| path.clone());
             Ok(vec![(name, bytes, pages.len())])
         }
@@ -273,7 +264,7 @@ fn encoded(
             let page = |(number, page): (usize, &Composition)| {
                 let path = numbered.path(number + 1);
                 let bytes = encode(std::slice::from_ref(page), numbered.format, args);
-                bytes.map_err(|error| in_file(&path, error)).map(|bytes| (Some(path), bytes, 1))
+                bytes.map_err(|error| error.or_in_file(&path)).map(|bytes| (Some(path), bytes, 1))
             };
             pages.iter().enumerate().map(page).collect()
         }

@@ -3,11 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::viewpoint::{Lens, SheetRequest, ViewRequest};
-use crate::cli::options::draw_args::{DrawArgs, GroupBy, HowArgs};
+use crate::cli::options::draw_args::{DrawArgs, HowArgs};
 use crate::cli::options::dxf_args::DxfArgs;
-use crate::cli::options::framing_args::FramedParts;
-use crate::cli::options::section_and_explode_args::SectionArgs;
-use crate::cli::options::step_args::StepArgs;
 use crate::cli::options::web_args::WebArgs;
 use crate::cli::output::output_files::{Format, Output, is_stdout};
 use crate::colour::srgb::Colour;
@@ -17,63 +14,33 @@ use crate::error::Error;
 use crate::export::PdfOptions;
 use crate::load::ModelFormat;
 use crate::pipeline::{MapFiles, Stage};
-use crate::scene::UpAxis;
 
 /// One drawing in one or several formats.
 #[derive(Debug)]
 pub(crate) struct DrawRequest {
     pub(crate) model: PathBuf,
+    /// The options as they were given. `sets`, `view` and `sheet` below are made from them.
+    pub(crate) how: HowArgs,
     /// Format of the model on standard input; none if the model is a file.
     pub(crate) piped: Option<ModelFormat>,
-    /// Conversion options of STEP models.
-    pub(crate) step: StepArgs,
     /// At least one output. No two share a path.
     pub(crate) outputs: Vec<Output>,
     pub(crate) report: Option<PathBuf>,
     /// Folder for the maps of the view.
     pub(crate) maps: Option<PathBuf>,
-    pub(crate) style: String,
     pub(crate) sets: Vec<String>,
     /// Background that replaces the one of the style; the inner `None` is transparent.
     pub(crate) background: Option<Option<Colour>>,
     pub(crate) view: ViewRequest,
-    pub(crate) up: Option<UpAxis>,
-    pub(crate) only: Vec<String>,
-    pub(crate) hide: Vec<String>,
-    /// Animations to play, with weights.
-    pub(crate) animation: Vec<String>,
-    /// Whether animations loop.
-    pub(crate) repeat: bool,
-    pub(crate) time: Option<f64>,
-    /// Maximum number of faces.
-    pub(crate) faces: Option<u64>,
     pub(crate) sheet: SheetRequest,
-    /// Parts that must fit into the frame.
-    pub(crate) frame: FramedParts,
-    /// Section plane and exploded view.
-    pub(crate) section: SectionArgs,
     /// Path for the camera record of the drawing.
     pub(crate) save_camera: Option<PathBuf>,
-    pub(crate) svg: SvgChoices,
     pub(crate) web: WebArgs,
     pub(crate) dxf: DxfArgs,
     /// Options of PDF output, if any are given.
     #[cfg(feature = "pdf")]
     pub(crate) print: Option<PdfOptions>,
-    pub(crate) dpi: Option<f64>,
     pub(crate) stage: Option<Stage>,
-    pub(crate) threads: Option<u16>,
-    pub(crate) quiet: bool,
-    pub(crate) strict: bool,
-}
-
-/// Options of SVG output.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SvgChoices {
-    /// Decimals of coordinates; `None` for the default of the exporter.
-    pub(crate) precision: Option<u8>,
-    pub(crate) id_prefix: Option<String>,
-    pub(crate) group: GroupBy,
 }
 
 impl DrawRequest {
@@ -84,7 +51,7 @@ impl DrawRequest {
 
     /// Whether the model is drawn in its stored pose.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.animation.is_empty() && self.time.is_none()
+        self.how.animation.is_empty() && self.how.time.is_none()
     }
 
     /// Checks the arguments of `ligne draw`.
@@ -148,8 +115,8 @@ impl DrawRequest {
                 .at("--view")
                 .remedy("give one view"));
         }
-        let view = match (args.camera, args.view.first().copied()) {
-            (Some(camera), _) => ViewRequest::Recorded(camera),
+        let view = match (&args.camera, args.view.first().copied()) {
+            (Some(camera), _) => ViewRequest::Recorded(camera.clone()),
             (None, Some(view)) => ViewRequest::Named(view, lens),
             (None, None) => {
                 ViewRequest::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens }
@@ -159,21 +126,12 @@ impl DrawRequest {
         Ok(Self {
             model,
             piped: None,
-            step: args.step,
             outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
             report: None,
             maps: None,
-            style: args.style,
-            sets: args.sets.into_iter().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
+            sets: args.sets.iter().cloned().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
             background: args.background.map(|background| background.0),
             view,
-            up: args.up,
-            only: args.only,
-            hide: args.hide,
-            animation: args.animation,
-            repeat: args.repeat,
-            time: args.time,
-            faces: args.faces,
             sheet: SheetRequest {
                 extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
                 margin: args.margin,
@@ -181,19 +139,13 @@ impl DrawRequest {
                 centre: args.framing.centre,
                 unit: args.framing.unit,
             },
-            frame: args.framing.frame,
-            section: args.section,
             save_camera: None,
-            svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
             web: WebArgs::default(),
             dxf: DxfArgs::default(),
             #[cfg(feature = "pdf")]
             print: None,
-            dpi: args.dpi,
             stage: None,
-            threads: args.threads,
-            quiet: args.quiet,
-            strict: args.strict,
+            how: args,
         })
     }
 }
@@ -212,11 +164,7 @@ pub(crate) fn check_apart(
         maps.into_iter().flat_map(|folder| MapFiles::NAMES.map(|name| folder.join(name))).collect();
     let paths = files.map(|output| output.path.as_path()).chain(besides_files);
     for path in paths.chain(in_folder.iter().map(PathBuf::as_path)) {
-        if same_file(path, model) {
-            return Err(Error::new("the drawing would overwrite the model")
-                .in_file(path)
-                .remedy("give the drawing another name"));
-        }
+        refuse_overwriting(path, "the drawing", model, "the model")?;
         if taken.iter().any(|other| same_file(path, other)) {
             return Err(Error::new("this output is named twice").in_file(path).remedy("leave one out"));
         }
@@ -227,6 +175,15 @@ pub(crate) fn check_apart(
         return Err(Error::new("standard output is named twice").remedy("leave one `-` out"));
     }
     Ok(())
+}
+
+/// Refuses an output that would overwrite an input; both are named in the error.
+pub(crate) fn refuse_overwriting(output: &Path, what: &str, input: &Path, of: &str) -> Result<(), Error> {
+    if !same_file(output, input) {
+        return Ok(());
+    }
+    let error = Error::new(format!("{what} would overwrite {of}")).in_file(output);
+    Err(error.remedy(format!("give {what} another name")))
 }
 
 /// Whether two paths lead to the same file. Files that do not exist are compared by path.

@@ -37,7 +37,7 @@ pub(crate) fn of_drawing(request: &DrawRequest, scene: &Scene) -> Vec<String> {
     if matches!(request.view, ViewRequest::Recorded(_) | ViewRequest::Fixed(..)) {
         return Vec::new();
     }
-    let up = request.up;
+    let up = request.how.up;
     of_scene(scene)
         .into_iter()
         .filter(|hint| up.is_none() || !hint.is_about_up)

@@ -8,7 +8,7 @@ use super::draw_request::DrawRequest;
 use crate::cli::output::number_text::plain;
 use crate::cli::output::output_files::Format;
 use crate::drawing::{Drawing, Unit};
-use crate::scene::part_selection::glob_matches;
+use crate::geometry::names::glob::glob_matches;
 use crate::scene::{Camera, Projection, Scene};
 use crate::style::unitless_length_warning as bare_lengths_of;
 
@@ -45,7 +45,8 @@ pub(crate) fn unused_options(request: &DrawRequest, words: impl Iterator<Item = 
     };
     let has = |wanted: &[Format]| request.outputs.iter().any(|output| wanted.contains(&output.format));
     let svg = has(&[Format::Svg, Format::SvgToStdout]);
-    let draws_all = request.only.is_empty() && request.hide.is_empty() && request.section.section.is_none();
+    let draws_all =
+        request.how.only.is_empty() && request.how.hide.is_empty() && request.how.section.section.is_none();
     let rules = [
         ("--dpi", !has(&[Format::Png]), "no PNG is written"),
         ("--precision", !svg, "no SVG is written"),
@@ -61,7 +62,7 @@ pub(crate) fn unused_options(request: &DrawRequest, words: impl Iterator<Item = 
 /// Warning about style lengths without a unit on a page in mm.
 pub(crate) fn bare_lengths(request: &DrawRequest) -> Option<String> {
     match request.sheet.extent {
-        Some((_, Unit::Mm)) => bare_lengths_of(&request.style, &request.sets),
+        Some((_, Unit::Mm)) => bare_lengths_of(&request.how.style, &request.sets),
         _ => None,
     }
 }
@@ -76,7 +77,7 @@ pub(crate) fn camera_inside_part(scene: &Scene, camera: &Camera) -> Option<Strin
 
 /// Warning that lists the visible parts, if `--only` or `--hide` is given.
 pub(crate) fn remaining_parts(request: &DrawRequest, scene: &Scene) -> Option<String> {
-    if request.only.is_empty() && request.hide.is_empty() {
+    if request.how.only.is_empty() && request.how.hide.is_empty() {
         return None;
     }
     let mut names: Vec<&str> =

@@ -153,7 +153,7 @@ fn apply_sheet(
     }
     if let Some(scale) = sheet.scale {
         let unit = ModelUnit::of(scene, sheet.unit).mm();
-        let height = found.camera.height * found.paper.mm_per_unit() / (scale * unit);
+        let height = found.camera.height * found.paper.unit.mm() / (scale * unit);
         found.camera.projection = Projection::Orthographic { height };
     }
     found.warning = framing_warning(found, points).or_else(|| too_large(found, sheet, points));

@@ -72,8 +72,7 @@ pub(crate) fn open_other(model: &Path, args: &StepArgs) -> Result<Option<Scene>,
 }
 
 fn open(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
-    let scene = converted(model, args);
-    scene.map_err(|error| if error.file.is_none() { error.in_file(model) } else { error })
+    converted(model, args).map_err(|error| error.or_in_file(model))
 }
 
 fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {

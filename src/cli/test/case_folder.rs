@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure_files::FAILURE_FILE_ENDINGS;
 use super::test_case::TestCase;
+use crate::cli::request::draw_request::same_file;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 
@@ -38,7 +39,7 @@ impl CaseFolder {
         }
         folder.refuse_shared();
         let of_no_case =
-            |drawing: &PathBuf| folder.cases.iter().all(|case| !same_place(&case.drawing, drawing));
+            |drawing: &PathBuf| folder.cases.iter().all(|case| !same_file(&case.drawing, drawing));
         folder.orphans = found.drawings.into_iter().filter(of_no_case).collect();
         if folder.cases.is_empty() {
             return Err(Error::new("this folder contains no case")
@@ -59,7 +60,7 @@ impl CaseFolder {
             let other_cases =
                 self.cases.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other_case)| other_case);
             let other_case =
-                other_cases.into_iter().find(|other| same_place(&other.drawing, &case.drawing))?;
+                other_cases.into_iter().find(|other| same_file(&other.drawing, &case.drawing))?;
             Some(
                 Error::new(format!("the case `{}` uses the same drawing", other_case.name))
                     .in_file(&case.drawing)
@@ -108,13 +109,5 @@ impl FoundFiles {
             }
         }
         Ok(())
-    }
-}
-
-/// Whether two paths lead to the same file, which may not exist yet.
-fn same_place(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
     }
 }

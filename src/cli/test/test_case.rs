@@ -110,6 +110,6 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, CaseSettings), Error> {
         Error::new(first.trim_start_matches("error: ")).in_file(path)
     })?;
     let mut request = DrawRequest::of_model(model, how).map_err(|error| error.in_file(path))?;
-    request.quiet = true;
+    request.how.quiet = true;
     Ok((drawing, CaseSettings { subject: CaseSubject::Drawing(Box::new(request)), tolerances }))
 }

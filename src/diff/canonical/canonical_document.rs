@@ -9,12 +9,13 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::parallel::prelude::*;
-use kurbo::{BezPath, PathEl, Point};
+use kurbo::BezPath;
 use usvg::roxmltree::{Attribute, Document, Node};
 
 use super::computed_style::{ComputedStyle, DocumentContext, PathRewrite, painted_alike};
 use super::{path_parser, presentation_attributes};
-use crate::diff::markup::{input_limits, number_scan};
+use crate::diff::curves::segment::points;
+use crate::diff::markup::{input_limits, is_svg, number_scan};
 use crate::error::Error;
 use crate::export::encoding::decimals::{Decimals, MAX_DECIMALS};
 use crate::export::paths::canonical_path::{CanonicalWriter, PathForm};
@@ -114,8 +115,7 @@ impl<'a, 'input> Paths<'a, 'input> {
                 continue;
             }
             let before = neighbour.take();
-            let svg = matches!(child.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
-            if !child.is_element() || !svg {
+            if !child.is_element() || !is_svg(&child) {
                 continue;
             }
             if child.tag_name().name() != "path" {
@@ -238,14 +238,6 @@ fn rewritten(data: &str, leave: PathRewrite, decimals: Decimals) -> (Option<Stri
 
 /// Whether the written text reads back as exactly the same steps.
 fn is_exact(path: &BezPath, decimals: Decimals) -> bool {
-    let most = |points: &[Point]| points.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
-    let elements = path.elements();
-    let of_element = |element: &PathEl| match *element {
-        PathEl::MoveTo(p) | PathEl::LineTo(p) => most(&[p]),
-        PathEl::QuadTo(c, p) => most(&[c, p]),
-        PathEl::CurveTo(c1, c2, p) => most(&[c1, c2, p]),
-        PathEl::ClosePath => 0.0,
-    };
-    let largest = elements.iter().map(of_element).fold(0.0, f64::max);
-    largest * decimals.scale() * (elements.len() as f64) < MAX_EXACT_STEPS
+    let largest = points(path).into_iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
+    largest * decimals.scale() * (path.elements().len() as f64) < MAX_EXACT_STEPS
 }

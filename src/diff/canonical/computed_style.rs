@@ -8,6 +8,8 @@
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Attribute, Document, Node, NodeType};
 
+use crate::diff::markup::css_sheet::{self, Declaration};
+use crate::diff::markup::references;
 use crate::export::paths::canonical_path::PathForm;
 
 /// Elements whose content is not drawn in place, but where it is referenced.
@@ -15,25 +17,8 @@ const INDIRECT_ELEMENTS: [&str; 7] = ["defs", "symbol", "clipPath", "mask", "pat
 /// Elements that describe their parent and are not drawn.
 const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 /// Prefixes of properties under which a path may change its order or direction without changing the picture.
-const SAFE_PROPERTY_PREFIXES: [&str; 17] = [
-    "fill",
-    "stroke",
-    "opacity",
-    "color",
-    "display",
-    "visibility",
-    "shape-rendering",
-    "clip-rule",
-    "paint-order",
-    "vector-effect",
-    "font",
-    "text",
-    "line-height",
-    "letter-spacing",
-    "word-spacing",
-    "overflow",
-    "solid-",
-];
+const SAFE_PROPERTY_PREFIXES: &str = "fill stroke opacity color display visibility shape-rendering clip-rule \
+     paint-order vector-effect font text line-height letter-spacing word-spacing overflow solid-";
 /// Attributes of editors that store how a path was made.
 const EDITOR_ATTRIBUTES: [&str; 4] = ["nodetypes", "type", "original-d", "path-effect"];
 
@@ -62,11 +47,7 @@ impl<'a> DocumentContext<'a> {
                 if attribute.name() == "href" {
                     afar.referenced_ids.extend(value.trim().strip_prefix('#'));
                 }
-                for rest in value.split("url(").skip(1) {
-                    let rest = rest.trim_start_matches(['"', '\'', ' ']);
-                    let id = rest.strip_prefix('#').and_then(|rest| rest.split(['"', '\'', ')', ' ']).next());
-                    afar.referenced_ids.extend(id);
-                }
+                afar.referenced_ids.extend(references(value).flatten());
             }
         }
         afar
@@ -125,7 +106,7 @@ impl<'a> ComputedStyle<'a> {
         }
         // The `style` attribute has precedence over presentation attributes.
         match declarations(node.attribute("style").unwrap_or_default()) {
-            Some(list) => list.iter().for_each(|(name, value)| look.set(name, value)),
+            Some(list) => list.iter().for_each(|d| look.set(d.name, d.value)),
             None => look.is_uncertain = true,
         }
         let moves =
@@ -189,7 +170,7 @@ impl<'a> ComputedStyle<'a> {
         let knows = |attribute: Attribute| match (attribute.namespace(), attribute.name()) {
             (Some(_), _) | (None, "class" | "id" | "d" | "transform" | "role") => true,
             (None, "style") => declarations(attribute.value())
-                .is_some_and(|list| list.iter().all(|(n, v)| is_harmless(n, v))),
+                .is_some_and(|list| list.iter().all(|d| is_harmless(d.name, d.value))),
             (None, name) => name.starts_with("data-") || is_harmless(name, attribute.value()),
         };
         let described = path.children().filter(Node::is_element).all(|child| describes(&child));
@@ -222,7 +203,7 @@ fn describes(child: &Node) -> bool {
 }
 
 fn is_harmless(name: &str, value: &str) -> bool {
-    SAFE_PROPERTY_PREFIXES.iter().any(|known| name.starts_with(known))
+    SAFE_PROPERTY_PREFIXES.split(' ').any(|known| name.starts_with(known))
         || matches!(value.trim(), "none" | "normal" | "auto")
 }
 
@@ -232,22 +213,11 @@ fn is_flat(paint: &str) -> bool {
     word || paint.starts_with('#') || paint.starts_with("rgb")
 }
 
-/// Declarations of a `style` attribute; `None` if it is more than a plain list.
-fn declarations(style: &str) -> Option<Vec<(&str, &str)>> {
-    if style.contains("/*") || style.contains(['{', '}', '\\']) {
-        return None;
-    }
-    let parts = style.split(';').map(str::trim).filter(|part| !part.is_empty());
-    parts
-        .map(|part| {
-            let (name, value) = part.split_once(':')?;
-            let name = name.trim();
-            let value = value.split('!').next()?.trim();
-            // A semicolon inside quotes or brackets would have split the value.
-            let whole =
-                !value.contains(['"', '\'']) && value.matches('(').count() == value.matches(')').count();
-            (whole && !name.starts_with("--") && !name.contains(|c: char| c.is_ascii_uppercase()))
-                .then_some((name, value))
-        })
-        .collect()
+/// Declarations of a `style` attribute; `None` if it is more than a list of plain values.
+fn declarations(style: &str) -> Option<Vec<Declaration<'_>>> {
+    let list = css_sheet::declarations(style).filter(|_| !style.contains("/*"))?;
+    let is_plain = |d: &Declaration| {
+        !d.value.contains(['"', '\'']) && !d.name.starts_with("--") && !d.name.contains(char::is_uppercase)
+    };
+    list.iter().all(is_plain).then_some(list)
 }

@@ -1,6 +1,7 @@
-//! Parser for SVG path data. Invalid data is rejected as a whole.
+//! SVG path data with absolute coordinates, parsed by the crate `svgtypes`. Invalid data is rejected as a whole.
 
 use kurbo::{BezPath, Point, Vec2};
+use svgtypes::{PathParser, PathSegment};
 
 /// Parsed path data.
 #[derive(Debug, Default)]
@@ -17,168 +18,78 @@ pub(crate) struct ParsedPath {
 
 /// Parses path data; `None` if it is invalid.
 pub(crate) fn read(data: &str) -> Option<ParsedPath> {
-    let mut reader = PathReader { bytes: data.as_bytes(), at: 0 };
+    // The crate accepts a comma at the end.
+    if data.trim_end().ends_with(',') {
+        return None;
+    }
     let mut found = ParsedPath::default();
     // Current point, start of the subpath, and a pending move.
     let (mut pen, mut start, mut move_to) = (Point::ZERO, Point::ZERO, None);
+    // Segments after a close without a move start where the closed subpath did.
+    let mut closed = false;
     // Last control point of each kind, for the shorthand curve commands.
     let (mut quad, mut cubic) = (None, None);
-    let mut command = None;
-    loop {
-        reader.blanks();
-        let Some(&next) = reader.bytes.get(reader.at) else { break };
-        let letter = match next {
-            letter if letter.is_ascii_alphabetic() => {
-                reader.at += 1;
-                letter
-            }
-            // More arguments of the same command; after a move they are lines.
-            _ => {
-                reader.comma();
-                match command? {
-                    b'M' => b'L',
-                    b'm' => b'l',
-                    b'Z' | b'z' => return None,
-                    same => same,
-                }
-            }
-        };
-        let origin = if letter.is_ascii_lowercase() { pen.to_vec2() } else { Vec2::ZERO };
-        let is_move = matches!(letter, b'M' | b'm');
-        if !is_move {
-            found.start?;
-            if let Some(at) = move_to.take() {
-                found.path.move_to(at);
-            }
+    for segment in PathParser::from(data) {
+        let segment = segment.ok()?;
+        let origin = if segment.is_abs() { Vec2::ZERO } else { pen.to_vec2() };
+        let at = |x: f64, y: f64| Point::new(x, y) + origin;
+        let after_close = std::mem::take(&mut closed);
+        if !matches!(segment, PathSegment::MoveTo { .. }) {
+            let from = move_to.take().or(after_close.then_some(start));
+            from.into_iter().for_each(|from| found.path.move_to(from));
         }
         let (last_quad, last_cubic) = (quad.take(), cubic.take());
         let mirrored = |control: Option<Point>| control.map_or(pen, |c| pen + (pen - c));
-        match letter.to_ascii_uppercase() {
-            b'M' => {
-                pen = reader.point()? + origin;
-                found.start.get_or_insert(pen);
+        match segment {
+            PathSegment::MoveTo { x, y, .. } => {
+                pen = at(x, y);
                 start = pen;
+                found.start.get_or_insert(pen);
                 found.has_lone_moves |= move_to.replace(pen).is_some();
             }
-            b'L' => {
-                pen = reader.point()? + origin;
+            PathSegment::LineTo { x, y, .. } => {
+                pen = at(x, y);
                 found.path.line_to(pen);
             }
-            b'H' => {
-                pen.x = reader.number()? + origin.x;
+            PathSegment::HorizontalLineTo { x, .. } => {
+                pen.x = x + origin.x;
                 found.path.line_to(pen);
             }
-            b'V' => {
-                pen.y = reader.number()? + origin.y;
+            PathSegment::VerticalLineTo { y, .. } => {
+                pen.y = y + origin.y;
                 found.path.line_to(pen);
             }
-            b'Q' | b'T' => {
-                let control = match letter {
-                    b'Q' | b'q' => reader.next_point()? + origin,
+            PathSegment::Quadratic { x, y, .. } | PathSegment::SmoothQuadratic { x, y, .. } => {
+                let control = match segment {
+                    PathSegment::Quadratic { x1, y1, .. } => at(x1, y1),
                     _ => mirrored(last_quad),
                 };
-                pen = reader.point()? + origin;
+                pen = at(x, y);
                 found.path.quad_to(control, pen);
                 quad = Some(control);
             }
-            b'C' | b'S' => {
-                let first = match letter {
-                    b'C' | b'c' => reader.next_point()? + origin,
+            PathSegment::CurveTo { x2, y2, x, y, .. } | PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
+                let first = match segment {
+                    PathSegment::CurveTo { x1, y1, .. } => at(x1, y1),
                     _ => mirrored(last_cubic),
                 };
-                let second = reader.next_point()? + origin;
-                pen = reader.point()? + origin;
+                let second = at(x2, y2);
+                pen = at(x, y);
                 found.path.curve_to(first, second, pen);
                 cubic = Some(second);
             }
-            b'Z' => {
+            PathSegment::ClosePath { .. } => {
                 found.path.close_path();
-                pen = start;
+                (pen, closed) = (start, true);
             }
-            b'A' => {
+            PathSegment::EllipticalArc { .. } => {
                 found.has_arcs = true;
                 return Some(found);
             }
-            _ => return None,
         }
-        if letter == b'Z' || letter == b'z' {
-            // Segments after a close without a move start here.
-            reader.blanks();
-            let next = reader.bytes.get(reader.at);
-            if next.is_some_and(|next| !matches!(next, b'M' | b'm')) {
-                found.path.move_to(start);
-            }
-        }
-        command = Some(letter);
     }
     found.has_lone_moves |= move_to.is_some();
     found.path.elements().iter().all(|element| element.is_finite()).then_some(found)
-}
-
-/// Reader of path data.
-struct PathReader<'a> {
-    bytes: &'a [u8],
-    at: usize,
-}
-
-impl PathReader<'_> {
-    fn blanks(&mut self) {
-        let rest = self.bytes.get(self.at..).unwrap_or_default();
-        self.at += rest.iter().take_while(|b| matches!(b, b' ' | b'\t' | b'\n' | b'\r' | 0x0c)).count();
-    }
-
-    /// An optional comma between numbers.
-    fn comma(&mut self) {
-        self.blanks();
-        if self.bytes.get(self.at) == Some(&b',') {
-            self.at += 1;
-            self.blanks();
-        }
-    }
-
-    fn point(&mut self) -> Option<Point> {
-        self.blanks();
-        let x = self.number()?;
-        self.comma();
-        Some(Point::new(x, self.number()?))
-    }
-
-    /// A point followed by another point.
-    fn next_point(&mut self) -> Option<Point> {
-        let point = self.point()?;
-        self.comma();
-        Some(point)
-    }
-
-    fn number(&mut self) -> Option<f64> {
-        self.blanks();
-        let begin = self.at;
-        let is = |at: usize, what: &[u8]| self.bytes.get(at).is_some_and(|b| what.contains(b));
-        let digits = |from: usize| {
-            self.bytes.get(from..).unwrap_or_default().iter().take_while(|b| b.is_ascii_digit()).count()
-        };
-        let mut at = begin + usize::from(is(begin, b"+-"));
-        let whole = digits(at);
-        at += whole;
-        let mut fraction = 0;
-        if is(at, b".") {
-            fraction = digits(at + 1);
-            at += 1 + fraction;
-        }
-        if whole + fraction == 0 {
-            return None;
-        }
-        if is(at, b"eE") {
-            let sign = usize::from(is(at + 1, b"+-"));
-            let exponent = digits(at + 1 + sign);
-            if exponent > 0 {
-                at += 1 + sign + exponent;
-            }
-        }
-        let text = std::str::from_utf8(self.bytes.get(begin..at)?).ok()?;
-        self.at = at;
-        text.parse().ok()
-    }
 }
 
 #[cfg(test)]

@@ -7,64 +7,17 @@ use usvg::roxmltree::{Document, Node, NodeType};
 
 use crate::diff::markup::cascade::Cascade;
 use crate::diff::markup::css_sheet::{self, Declaration};
-use crate::diff::markup::inline_style::escaped;
-use crate::diff::markup::input_limits;
-use crate::diff::markup::sheet_inlining::{after_name, edited};
+use crate::diff::markup::{input_limits, is_svg};
 use crate::error::Error;
 
 /// Properties that also exist as attributes with the same values.
-const PRESENTATION_PROPERTIES: [&str; 50] = [
-    "alignment-baseline",
-    "baseline-shift",
-    "clip-path",
-    "clip-rule",
-    "color",
-    "color-interpolation",
-    "color-interpolation-filters",
-    "color-rendering",
-    "direction",
-    "display",
-    "dominant-baseline",
-    "fill",
-    "fill-opacity",
-    "fill-rule",
-    "filter",
-    "flood-color",
-    "flood-opacity",
-    "font-family",
-    "font-size",
-    "font-stretch",
-    "font-style",
-    "font-variant",
-    "font-weight",
-    "image-rendering",
-    "letter-spacing",
-    "lighting-color",
-    "marker-end",
-    "marker-mid",
-    "marker-start",
-    "mask",
-    "opacity",
-    "overflow",
-    "paint-order",
-    "pointer-events",
-    "shape-rendering",
-    "stop-color",
-    "stop-opacity",
-    "stroke",
-    "stroke-dasharray",
-    "stroke-dashoffset",
-    "stroke-linecap",
-    "stroke-linejoin",
-    "stroke-miterlimit",
-    "stroke-opacity",
-    "stroke-width",
-    "text-anchor",
-    "text-decoration",
-    "text-rendering",
-    "visibility",
-    "word-spacing",
-];
+const PRESENTATION_PROPERTIES: &str = "alignment-baseline baseline-shift clip-path clip-rule color color-interpolation \
+     color-interpolation-filters color-rendering direction display dominant-baseline fill fill-opacity \
+     fill-rule filter flood-color flood-opacity font-family font-size font-stretch font-style font-variant \
+     font-weight image-rendering letter-spacing lighting-color marker-end marker-mid marker-start mask \
+     opacity overflow paint-order pointer-events shape-rendering stop-color stop-opacity stroke \
+     stroke-dasharray stroke-dashoffset stroke-linecap stroke-linejoin stroke-miterlimit stroke-opacity \
+     stroke-width text-anchor text-decoration text-rendering visibility word-spacing";
 
 /// Most declarations of one element.
 const MAX_DECLARATIONS: usize = 512;
@@ -79,16 +32,35 @@ pub(crate) fn plain(text: &str) -> Result<Option<String>, Error> {
     {
         return Ok(None);
     }
-    let mut cascade = Cascade::of(&document);
+    let cascade = Cascade::of(&document);
     let mut edits = StyleEdits { text, list: Vec::new() };
-    if cascade.has_more || !edits.inside(document.root_element(), &mut cascade)? {
+    if cascade.has_more {
         return Ok(None);
     }
-    Ok((!edits.list.is_empty()).then(|| edited(text, edits.list)))
+    for node in document.descendants().filter(Node::is_element) {
+        let declared = cascade.declared(node)?;
+        let is_fine = match is_svg(&node) {
+            true if node.tag_name().name() == "style" => {
+                edits.list.push((node.range(), String::new()));
+                true
+            }
+            true => edits.element(node, &declared),
+            false => declared.is_empty(),
+        };
+        if !is_fine {
+            return Ok(None);
+        }
+    }
+    Ok((!edits.list.is_empty()).then(|| edits.apply()))
 }
 
-fn is_svg(node: &Node) -> bool {
-    matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"))
+fn is_presentation(name: &str) -> bool {
+    PRESENTATION_PROPERTIES.split(' ').any(|known| known == name)
+}
+
+/// Escapes text for an attribute.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 fn has_style(node: &Node) -> bool {
@@ -114,28 +86,17 @@ struct StyleEdits<'a> {
 }
 
 impl StyleEdits<'_> {
-    /// Collects the edits of an element and its children; `false` if something cannot be expressed as
-    /// attributes.
-    fn inside(&mut self, node: Node, cascade: &mut Cascade) -> Result<bool, Error> {
-        let declared = cascade.enter(node)?;
-        let fine = match is_svg(&node) {
-            true if node.tag_name().name() == "style" => {
-                self.list.push((node.range(), String::new()));
-                true
-            }
-            true => self.element(node, &declared),
-            false => declared.is_empty(),
-        };
-        if !fine {
-            return Ok(false);
+    /// The edited text.
+    fn apply(mut self) -> String {
+        self.list.sort_by_key(|(range, _)| range.start);
+        let mut out = String::with_capacity(self.text.len());
+        let mut at = 0;
+        for (range, new) in self.list {
+            out.push_str(self.text.get(at..range.start).unwrap_or_default());
+            out.push_str(&new);
+            at = range.end;
         }
-        for child in node.children().filter(Node::is_element) {
-            if !self.inside(child, cascade)? {
-                return Ok(false);
-            }
-        }
-        cascade.leave();
-        Ok(true)
+        out + self.text.get(at..).unwrap_or_default()
     }
 
     /// Collects the edits of one element; `false` if its style cannot be expressed as attributes.
@@ -161,13 +122,13 @@ impl StyleEdits<'_> {
             let words = ["initial", "unset", "revert", "revert-layer"];
             let value = declaration.value;
             let computed = value.contains("var(") || value.contains("calc(");
-            PRESENTATION_PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
+            is_presentation(declaration.name) && !words.contains(&value) && !computed
         };
         let (plain, rest): (Vec<Declaration>, Vec<Declaration>) = won.into_iter().partition(is_plain);
         // A shorthand property would be written after its longhands and override them. Values that exist in
         // style sheets only stay in the style.
         let several = |other: &Declaration| matches!(other.name, "font" | "marker" | "all" | "mask-image");
-        let unsure = rest.iter().any(|other| several(other) || PRESENTATION_PROPERTIES.contains(&other.name));
+        let unsure = rest.iter().any(|other| several(other) || is_presentation(other.name));
         if unsure || plain.is_empty() {
             return declared.is_empty() || !unsure && own_list.is_empty() && rest.is_empty();
         }
@@ -182,7 +143,10 @@ impl StyleEdits<'_> {
             let said: Vec<String> = rest.iter().map(said).collect();
             let _ = write!(new, " style=\"{}\"", escaped(&said.join(";")));
         }
-        let at = after_name(self.text, node);
+        // The end of the element's name.
+        let start = node.range().start;
+        let rest = self.text.get(start..).unwrap_or_default();
+        let at = start + rest.find(|c: char| c.is_whitespace() || "/>".contains(c)).unwrap_or(rest.len());
         self.list.push((at..at, new));
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let replaced = plain.iter().any(|declaration| declaration.name == attribute.name());

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 use kurbo::{BezPath, Point, Rect, Shape as _, Vec2};
 
 use super::cause_sentences::MAX_DIRECTIONS;
-use super::motion::points;
-use crate::diff::findings::finding::{Cause, Finding, FindingBox, Verdict};
+use crate::diff::curves::segment::points;
+use crate::diff::findings::finding::{Cause, Finding, Verdict};
 use crate::diff::matching::equal_shapes::ShapeMatching;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
@@ -71,8 +71,9 @@ pub(crate) fn find(pictures: [&Picture; 2], parted: &ShapeMatching, reach: f64) 
     if ways.len() <= MAX_DIRECTIONS {
         return None;
     }
-    let place = FindingBox::of(Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height));
-    let finding = Finding::in_place(Verdict::Moved, ShapeKind::Line, Label::default(), Vec::new(), place);
+    let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
+    let finding = Finding::in_place(Verdict::Moved, Label::default(), Vec::new(), place);
+    let finding = Finding { kind: ShapeKind::Line, ..finding };
     let sentence = format!("the drawing is seen from another side: {marks} marks of {} parts", both.len());
     Some((finding, Cause { verdict: Verdict::Moved, sentence, findings: vec![0] }))
 }

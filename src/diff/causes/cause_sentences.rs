@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use kurbo::{Rect, Vec2};
+use kurbo::Rect;
 
 use super::motion::Motion;
 use crate::diff::findings::finding::{Cause, Change, Diff, Finding, FindingBox, Verdict};
 use crate::diff::report::text_report::changed;
 use crate::diff::report::unit_format::UnitFormat;
+use crate::diff::shapes::ink::trimmed;
 use crate::diff::shapes::picture::ShapeKind;
 use crate::diff::tolerances;
 use crate::drawing::LayerKind;
@@ -64,17 +65,6 @@ fn take(diff: &Diff, is_unexplained: &mut [bool], is_such: impl Fn(&Finding) -> 
     matching_findings
 }
 
-/// The box of a finding as a rectangle.
-fn rect(finding: &Finding) -> Rect {
-    let bounding_box = &finding.place;
-    Rect::new(
-        bounding_box.x,
-        bounding_box.y,
-        bounding_box.x + bounding_box.width,
-        bounding_box.y + bounding_box.height,
-    )
-}
-
 /// Whether at least `MIN_OVERLAP_SHARE` of a box is inside the margin around a part.
 fn holds(outer: &Rect, inner: Rect) -> bool {
     let margin = PART_MARGIN_PX + PART_MARGIN_SHARE * (outer.width() + outer.height());
@@ -108,14 +98,47 @@ fn is_of_hidden_lines(finding: &Finding) -> bool {
     finding.label.layer.as_ref() == hidden || finding.changes.iter().any(is_hiding)
 }
 
+/// Distinct items with the number of times each occurs, the most frequent first.
+fn by_count<T: Ord>(items: impl Iterator<Item = T>) -> Vec<(T, usize)> {
+    let mut counts: BTreeMap<T, usize> = BTreeMap::new();
+    items.for_each(|item| *counts.entry(item).or_default() += 1);
+    let mut counts: Vec<(T, usize)> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
+}
+
+/// Unclaimed findings by a key, if more than [`MAX_UNGROUPED_FINDINGS`] share it.
+fn grouped<'a, K: Ord>(
+    diff: &'a Diff,
+    is_unexplained: &[bool],
+    key: impl Fn(&'a Finding) -> Option<K>,
+) -> BTreeMap<K, Vec<usize>> {
+    let mut groups: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| is_unexplained[*index]) {
+        if let Some(key) = key(finding) {
+            groups.entry(key).or_default().push(index);
+        }
+    }
+    groups.retain(|_, findings| findings.len() > MAX_UNGROUPED_FINDINGS);
+    groups
+}
+
+/// Parts by common motion.
+fn by_motion<'a>(movers: impl Iterator<Item = &'a MovedPart>) -> Vec<Vec<&'a MovedPart>> {
+    let mut groups: Vec<Vec<&MovedPart>> = Vec::new();
+    for mover in movers {
+        match groups.iter_mut().find(|group| group.iter().all(|other| same_way(other, mover))) {
+            Some(group) => group.push(mover),
+            None => groups.push(vec![mover]),
+        }
+    }
+    groups
+}
+
 /// The parts that findings belong to, such as ``3 marks of `base` ``.
 fn whose(diff: &Diff, finding_indices: &[usize]) -> String {
-    let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
-    for finding in finding_indices.iter().filter_map(|index| diff.findings.get(*index)) {
-        *parts.entry(finding.label.part.as_deref().unwrap_or("")).or_default() += 1;
-    }
-    let mut parts: Vec<(&str, usize)> = parts.into_iter().collect();
-    parts.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)));
+    let findings = finding_indices.iter().filter_map(|index| diff.findings.get(*index));
+    let parts = by_count(findings.map(|finding| finding.label.part.as_deref().unwrap_or("")));
     let marks = |count: usize| if count == 1 { "1 mark".to_owned() } else { format!("{count} marks") };
     match parts.as_slice() {
         [("", count)] => marks(*count),
@@ -134,28 +157,20 @@ fn gone(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
             }
             let part_findings =
                 take(diff, is_unexplained, |f| f.verdict == verdict && f.label.part.as_deref() == Some(part));
-            let Some(part_rect) =
-                part_findings.iter().map(|index| rect(&diff.findings[*index])).reduce(|a, b| a.union(b))
-            else {
-                continue;
-            };
+            let places = part_findings.iter().map(|index| diff.findings[*index].place.rect());
+            let Some(part_rect) = places.reduce(|a, b| a.union(b)) else { continue };
             let following_findings =
-                take(diff, is_unexplained, |f| may_follow(f) && holds(&part_rect, rect(f)));
+                take(diff, is_unexplained, |f| may_follow(f) && holds(&part_rect, f.place.rect()));
             let unit = diff.unit();
             let place_text = unit.place(&FindingBox::of(part_rect));
-            let marks_text = if part_findings.len() == 1 {
-                "its only mark".to_owned()
-            } else {
-                format!("all its {} marks", part_findings.len())
+            let marks_text = match part_findings.len() {
+                1 => "its only mark".to_owned(),
+                count => format!("all its {count} marks"),
             };
-            let following_text = match (following_findings.is_empty(), verdict) {
-                (true, _) => String::new(),
-                (_, Verdict::Removed) => {
-                    format!("; now visible behind it: {}", whose(diff, &following_findings))
-                }
-                _ => format!("; now hidden or cut by it: {}", whose(diff, &following_findings)),
-            };
-            let ink = ink(diff, &part_findings, unit);
+            let effect =
+                if verdict == Verdict::Removed { "now visible behind it" } else { "now hidden or cut by it" };
+            let following_text = following(diff, effect, &following_findings);
+            let ink = unit.ink(part_findings.iter().map(|index| &diff.findings[*index]));
             let sentence = format!("part `{part}`: {marks_text} {place_text}: {ink}{following_text}");
             causes.push(Cause { verdict, sentence, findings: [part_findings, following_findings].concat() });
         }
@@ -163,31 +178,10 @@ fn gone(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
     causes
 }
 
-/// Length of lines and area of fills of some findings, in words.
-fn ink(diff: &Diff, list: &[usize], unit: UnitFormat) -> String {
-    let sum = |kind: ShapeKind| -> f64 {
-        list.iter().map(|index| &diff.findings[*index]).filter(|f| f.kind == kind).map(|f| f.size).sum()
-    };
-    let (length, area) = (sum(ShapeKind::Line), sum(ShapeKind::Region));
-    let lines = (length > 0.0).then(|| format!("{} of lines", unit.length(length)));
-    let fills = (area > 0.0).then(|| format!("{} of fills", unit.area(area)));
-    lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
-}
-
 /// The cause "another camera": parts move in more directions than an edit of the model explains. It claims
 /// all other changes of geometry.
 fn camera_cause(diff: &Diff, movers: &[MovedPart], is_unexplained: &mut [bool]) -> Option<Cause> {
-    let mut directions: Vec<Vec<&MovedPart>> = Vec::new();
-    for mover in movers {
-        match directions
-            .iter_mut()
-            .find(|group_members| group_members.iter().all(|other| same_way(other, mover)))
-        {
-            Some(direction_group) => direction_group.push(mover),
-            None => directions.push(vec![mover]),
-        }
-    }
-    if directions.len() <= MAX_DIRECTIONS {
+    if by_motion(movers.iter()).len() <= MAX_DIRECTIONS {
         return None;
     }
     let findings = take(diff, is_unexplained, |f| !matches!(f.verdict, Verdict::Page | Verdict::Relabelled));
@@ -200,27 +194,17 @@ fn moved(diff: &Diff, movers: &[MovedPart], is_unexplained: &mut [bool]) -> Vec<
     let unit = diff.unit();
     let mut findings_of_movers: Vec<(&MovedPart, Vec<usize>)> = Vec::new();
     for mover in movers {
-        let findings =
-            take(diff, is_unexplained, |f| f.label.part.as_ref() == Some(&mover.part) && may_follow(f));
-        if !findings.is_empty() {
-            findings_of_movers.push((mover, findings));
-        }
+        let is_own = |f: &Finding| f.label.part.as_ref() == Some(&mover.part) && may_follow(f);
+        findings_of_movers.push((mover, take(diff, is_unexplained, is_own)));
     }
-    let mut causes: Vec<(Vec<&MovedPart>, Vec<usize>)> = Vec::new();
-    for (mover, findings) in &findings_of_movers {
-        let is_same_motion = |others: &Vec<&MovedPart>| others.iter().all(|other| same_way(other, mover));
-        match causes.iter_mut().find(|(others, _)| is_same_motion(others)) {
-            Some((others, cause_findings)) => {
-                others.push(mover);
-                cause_findings.extend(findings);
-            }
-            None => causes.push((vec![mover], findings.clone())),
-        }
-    }
-    let cause_of_group = |(movers, mut findings): (Vec<&MovedPart>, Vec<usize>)| {
+    findings_of_movers.retain(|(_, findings)| !findings.is_empty());
+    let cause_of_group = |movers: Vec<&MovedPart>| {
+        let is_of_group = |mover: &MovedPart| movers.iter().any(|other| std::ptr::eq(*other, mover));
+        let own = findings_of_movers.iter().filter(|(mover, _)| is_of_group(mover));
+        let mut findings: Vec<usize> = own.flat_map(|(_, findings)| findings).copied().collect();
         let swept_rects: Vec<Rect> =
             movers.iter().map(|mover| mover.places[0].union(mover.places[1])).collect();
-        let is_round = |f: &Finding| swept_rects.iter().any(|place| holds(place, rect(f)));
+        let is_round = |f: &Finding| swept_rects.iter().any(|place| holds(place, f.place.rect()));
         let nearby_findings = take(diff, is_unexplained, |f| may_follow(f) && is_round(f));
         let names: Vec<String> =
             movers.iter().take(MAX_NAMED_PARTS).map(|mover| format!("`{}`", mover.part)).collect();
@@ -234,15 +218,17 @@ fn moved(diff: &Diff, movers: &[MovedPart], is_unexplained: &mut [bool]) -> Vec<
             movers.iter().map(|mover| mover.places[0]).reduce(|a, b| a.union(b)).unwrap_or_default();
         let motion_text =
             movers.first().map(|mover| motion(&mover.motion, rect_before, unit)).unwrap_or_default();
-        let following_text = match nearby_findings.is_empty() {
-            true => String::new(),
-            false => format!("; also changed around it: {}", whose(diff, &nearby_findings)),
-        };
+        let following_text = following(diff, "also changed around it", &nearby_findings);
         findings.extend(nearby_findings);
         let sentence = format!("{names} {motion_text}{following_text}");
         Cause { verdict: Verdict::Moved, sentence, findings }
     };
-    causes.into_iter().map(cause_of_group).collect()
+    by_motion(findings_of_movers.iter().map(|(mover, _)| *mover)).into_iter().map(cause_of_group).collect()
+}
+
+/// End of a sentence about findings that follow from a cause; empty if there are none.
+fn following(diff: &Diff, effect: &str, findings: &[usize]) -> String {
+    if findings.is_empty() { String::new() } else { format!("; {effect}: {}", whose(diff, findings)) }
 }
 
 /// Whether two parts moved alike: at the corners of both boxes, within a fiftieth of the shift plus 0.05 px.
@@ -264,17 +250,14 @@ pub(crate) fn motion(motion: &Motion, rect: Rect, unit: UnitFormat) -> String {
     let is_scaled =
         (scale - 1.0).abs() * half_size > 0.05 && (scale - 1.0).abs() > tolerances::MIN_STATED_GROWTH_SHARE;
     let is_turned = turn.abs().to_radians() * half_size > 0.05 && turn.abs() > 0.05;
-    let shift_text = unit.sides(motion.displacement(rect.center()));
+    let shift_text = unit.sides(motion.displacement(rect.center()), &format!(" {}", unit.name()));
     let mut clauses = Vec::new();
     if is_scaled {
-        clauses.push(format!("{} times as large", crate::diff::shapes::ink::trimmed(scale)));
+        clauses.push(format!("{} times as large", trimmed(scale)));
     }
     if is_turned {
         let side = if turn > 0.0 { "clockwise" } else { "counter-clockwise" };
-        clauses.push(format!(
-            "turned by {}° {side}",
-            crate::diff::shapes::ink::trimmed((turn.abs() * 100.0).round() / 100.0)
-        ));
+        clauses.push(format!("turned by {}° {side}", trimmed((turn.abs() * 100.0).round() / 100.0)));
     }
     if !shift_text.is_empty() {
         clauses.push(if clauses.is_empty() { shift_text } else { format!("its middle {shift_text}") });
@@ -284,31 +267,18 @@ pub(crate) fn motion(motion: &Motion, rect: Rect, unit: UnitFormat) -> String {
 
 /// Materials that changed their colour; marks without a material form one group.
 fn recoloured(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
-    let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| is_unexplained[*index]) {
-        let [change] = finding.changes.as_slice() else { continue };
-        if finding.verdict != Verdict::Restyled || change.what != "colour" {
-            continue;
-        }
-        let name = match &finding.material {
+    let material = |finding: &Finding| {
+        let is_recoloured = finding.verdict == Verdict::Restyled
+            && matches!(finding.changes.as_slice(), [change] if change.what == "colour");
+        is_recoloured.then(|| match &finding.material {
             Some(material) => format!("material `{material}`"),
             None => "marks of no material".to_owned(),
-        };
-        groups.entry(name).or_default().push(index);
-    }
+        })
+    };
     let mut causes = Vec::new();
-    for (name, findings) in groups {
-        if findings.len() <= MAX_UNGROUPED_FINDINGS {
-            continue;
-        }
-        let mut changes: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-        for finding in findings.iter().map(|index| &diff.findings[*index]) {
-            for change in &finding.changes {
-                *changes.entry((&change.old, &change.new)).or_default() += 1;
-            }
-        }
-        let mut changes: Vec<((&str, &str), usize)> = changes.into_iter().collect();
-        changes.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    for (name, findings) in grouped(diff, is_unexplained, material) {
+        let changes = findings.iter().flat_map(|index| &diff.findings[*index].changes);
+        let changes = by_count(changes.map(|change| (&change.old, &change.new)));
         let colour_changes: Vec<String> =
             changes.iter().take(MAX_NAMED_COLOURS).map(|((old, new), _)| format!("{old} → {new}")).collect();
         let more = match changes.len().saturating_sub(MAX_NAMED_COLOURS) {
@@ -326,23 +296,16 @@ fn recoloured(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
 /// Pen changes shared by lines of several parts: width, dash, ends, corners or colour. One sentence for each
 /// change.
 fn pen_causes(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
-    let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
-    for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| is_unexplained[*index]) {
-        let is_pen = |change: &Change| {
-            matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour")
-        };
-        if finding.verdict == Verdict::Restyled
-            && finding.kind == ShapeKind::Line
-            && !finding.changes.is_empty()
-            && finding.changes.iter().all(is_pen)
-        {
-            groups.entry(&finding.changes).or_default().push(index);
-        }
-    }
+    let is_pen =
+        |change: &Change| matches!(change.what.as_str(), "width" | "dash" | "ends" | "corners" | "colour");
     let mut causes = Vec::new();
-    for (changes, findings) in groups {
+    for (changes, findings) in grouped(diff, is_unexplained, |finding| {
+        let is_line = finding.verdict == Verdict::Restyled && finding.kind == ShapeKind::Line;
+        let changes = finding.changes.as_slice();
+        (is_line && !changes.is_empty() && changes.iter().all(is_pen)).then_some(changes)
+    }) {
         let parts: BTreeSet<_> = findings.iter().map(|index| &diff.findings[*index].label.part).collect();
-        if findings.len() <= MAX_UNGROUPED_FINDINGS || parts.len() < 2 {
+        if parts.len() < 2 {
             continue;
         }
         findings.iter().for_each(|index| is_unexplained[*index] = false);
@@ -350,21 +313,4 @@ fn pen_causes(diff: &Diff, is_unexplained: &mut [bool]) -> Vec<Cause> {
         causes.push(Cause { verdict: Verdict::Restyled, sentence, findings });
     }
     causes
-}
-
-impl UnitFormat {
-    /// A shift in words: `3 px right, 4 px down`.
-    fn sides(self, displacement: Vec2) -> String {
-        let side = |value: f64, plus: &str, minus: &str| {
-            let length_text = self.length(value.abs());
-            // A length that rounds to 0 is left out.
-            let is_zero = length_text.starts_with("0 ");
-            (!is_zero).then(|| format!("{length_text} {}", if value > 0.0 { plus } else { minus }))
-        };
-        let parts: Vec<String> = side(displacement.x, "right", "left")
-            .into_iter()
-            .chain(side(displacement.y, "down", "up"))
-            .collect();
-        parts.join(", ")
-    }
 }

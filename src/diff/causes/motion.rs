@@ -8,9 +8,9 @@
 //!
 //! Coordinates and distances are in px.
 
-use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
+use kurbo::{Affine, BezPath, Point, Rect, Vec2};
 
-use crate::diff::curves::segment::Segment;
+use crate::diff::curves::segment::{Segment, bounds, points};
 use crate::diff::curves::segment_clusters::SegmentClusters;
 use crate::diff::tolerances;
 
@@ -60,6 +60,13 @@ pub(crate) struct MotionInput<'a> {
     pub path_pairs: Vec<[&'a BezPath; 2]>,
     /// All marks of each drawing as polylines.
     pub lines: [Vec<Vec<Point>>; 2],
+}
+
+impl MotionInput<'_> {
+    /// Bounding boxes of the marks of each drawing.
+    pub(crate) fn boxes(&self) -> [Rect; 2] {
+        [0, 1].map(|side: usize| bounds(self.lines[side].iter().flatten()))
+    }
 }
 
 /// Scores motions on two drawings.
@@ -162,20 +169,6 @@ fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
     Some(Affine::translate(mean_b - (linear * mean_a.to_point()).to_vec2()) * linear)
 }
 
-/// All points of a path, including control points.
-pub(crate) fn points(path: &BezPath) -> Vec<Point> {
-    let mut points = Vec::new();
-    for element in path.elements() {
-        match *element {
-            PathEl::MoveTo(p) | PathEl::LineTo(p) => points.push(p),
-            PathEl::QuadTo(c, p) => points.extend([c, p]),
-            PathEl::CurveTo(c, d, p) => points.extend([c, d, p]),
-            PathEl::ClosePath => {}
-        }
-    }
-    points
-}
-
 /// About [`MOTION_SAMPLES`] points, evenly spaced along all lines together.
 fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
     let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
@@ -213,11 +206,4 @@ impl LineIndex {
     fn has(&self, p: Point, reach: f64) -> bool {
         self.clusters.any(&self.segments, p, reach)
     }
-}
-
-/// Bounding box of lines.
-pub(crate) fn extent(lines: &[Vec<Point>]) -> Rect {
-    let mut points = lines.iter().flatten();
-    let Some(first) = points.next() else { return Rect::ZERO };
-    points.fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
 }

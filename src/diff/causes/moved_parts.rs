@@ -61,7 +61,7 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
         }
     }
     let marks = whole_motion::marks([&shapes[0], &shapes[1]], 0.02);
-    let places = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
+    let places = marks.boxes();
     let between = kurbo::Affine::translate(places[1].center() - places[0].center());
     let way = (places[1].center() - places[0].center()).hypot();
     let reach = (SHIFT_RESIDUAL_SHARE * way).clamp(MIN_RESIDUAL_PX, MAX_RESIDUAL_PX);

@@ -7,6 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::motion::{self, Motion, MotionInput};
 use crate::diff::curves::chain::flatten;
+use crate::diff::curves::region_area::size;
 use crate::diff::findings::finding::{Finding, FindingBox, FindingBoxKey, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
@@ -54,19 +55,19 @@ pub(crate) fn whole(
     let marks = marks([&changed_shapes[0], &changed_shapes[1]], tolerance);
     let page_size = after.width.max(after.height);
     let page_growth = page_size / before.width.max(before.height);
-    let boxes = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
+    let boxes = marks.boxes();
     let box_growth = boxes[1].width().max(boxes[1].height()) / boxes[0].width().max(boxes[0].height());
     let box_motion = Affine::translate(boxes[1].center().to_vec2())
         * Affine::scale(box_growth)
         * Affine::translate(-boxes[0].center().to_vec2());
     let reach = tolerance * 2.0;
-    let mut best_motion = motion::find(&marks, &[Affine::scale(page_growth), box_motion], reach, true);
-    let mut used_tolerance = reach;
-    if best_motion.is_none_or(|found| found.share < MIN_CARRIED_SHARE) {
-        used_tolerance = reach.max(tolerances::MAX_REDRAW_OFFSET_OF_PAGE * page_size);
-        best_motion = motion::find(&marks, &[Affine::scale(page_growth), box_motion], used_tolerance, true);
-    }
-    let motion = best_motion.filter(|found| found.share >= MIN_CARRIED_SHARE)?;
+    let fits = [reach, reach.max(tolerances::MAX_REDRAW_OFFSET_OF_PAGE * page_size)].into_iter();
+    let (motion, used_tolerance) = fits
+        .filter_map(|reach| {
+            let found = motion::find(&marks, &[Affine::scale(page_growth), box_motion], reach, true)?;
+            (found.share >= MIN_CARRIED_SHARE).then_some((found, reach))
+        })
+        .next()?;
     let corner_shifts = motion.corner_displacements(boxes[0]);
     if corner_shifts.iter().all(|displacement| displacement.hypot() <= 2.0 * used_tolerance) {
         return None;
@@ -171,8 +172,9 @@ pub(crate) fn findings(
     let mut motion_findings = Vec::new();
     for shape in unequal_indices.iter().filter_map(|index| before.shapes.get(*index)) {
         let moved_path = motion.affine * &shape.path;
-        let bounding_box = FindingBox::of(moved_path.control_box());
-        if shape.kind == ShapeKind::Clip || removed_boxes.contains(&(bounding_box.key(), &*shape.label)) {
+        let moved_box = moved_path.control_box().union(shape.path.control_box());
+        let key = FindingBox::of(moved_path.control_box()).key();
+        if shape.kind == ShapeKind::Clip || removed_boxes.contains(&(key, &*shape.label)) {
             continue;
         }
         let mut distances: Vec<f64> =
@@ -188,27 +190,13 @@ pub(crate) fn findings(
                 .copied()
                 .unwrap_or(largest),
             shift: is_translation.then_some([displacement_of_centre.x, displacement_of_centre.y]),
-            place: FindingBox::of(moved_path.control_box().union(shape.path.control_box())),
             removed_path: shape.path.clone(),
             follows_motion: true,
-            material: shape.material.clone(),
             added_path: moved_path,
-            ..Finding::in_place(Verdict::Moved, shape.kind, (*shape.label).clone(), Vec::new(), bounding_box)
+            ..Finding::of_shape(Verdict::Moved, shape, Vec::new(), moved_box)
         });
     }
     motion_findings
-}
-
-/// Whether a finding follows from the motion of the whole drawing.
-pub(crate) fn is_carried(finding: &Finding) -> bool {
-    finding.follows_motion
-}
-
-fn size(shape: &Shape) -> f64 {
-    match shape.kind {
-        ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX),
-        _ => crate::diff::curves::region_area::area(shape),
-    }
 }
 
 /// All points of a path except control points.

@@ -1,8 +1,10 @@
 //! Data and helpers shared by the findings about lines and regions.
 
+use kurbo::Rect;
+
 use crate::diff::curves::chain::OutlineChain;
-use crate::diff::findings::finding::Change;
-use crate::diff::matching::chain_pairs::CoveredChains;
+use crate::diff::findings::finding::{Change, Finding, Verdict};
+use crate::diff::matching::interval_cover::CoveredChains;
 use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape};
@@ -21,17 +23,21 @@ impl<'a> FindingWriter<'a> {
         self.pictures[side].shapes.get(*chain.shapes.first()?)
     }
 
-    /// Changed properties of a shape, without ignored ones.
-    pub(crate) fn changes(&self, shapes: [Option<&Shape>; 2]) -> Vec<Change> {
+    /// Index of the first shape of a chain, given by its index.
+    pub(crate) fn shape_index(&self, side: usize, chain: Option<usize>) -> Option<usize> {
+        self.sides[side].chains.get(chain?)?.shapes.first().copied()
+    }
+
+    /// A finding about an old and a new shape, without measures. It has the label of the old shape if there is
+    /// one.
+    pub(crate) fn finding(&self, verdict: Verdict, shapes: [Option<&Shape>; 2], place: Rect) -> Finding {
         let mut changes = changes(shapes);
         changes.retain(|change| self.ignore.counts(&change.what));
-        changes
+        match shapes.into_iter().flatten().next() {
+            Some(shape) => Finding::of_shape(verdict, shape, changes, place),
+            None => Finding::in_place(verdict, Label::default(), changes, place),
+        }
     }
-}
-
-/// Label of a finding: that of the old shape if there is one.
-pub(crate) fn label(shapes: [Option<&Shape>; 2]) -> Label {
-    shapes.into_iter().flatten().next().map_or_else(Label::default, |shape| (*shape.label).clone())
 }
 
 /// Changed properties of a shape.

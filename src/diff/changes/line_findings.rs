@@ -4,12 +4,11 @@ use crate::diff::tolerances;
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
 
-use super::finding_writer::{FindingWriter, label};
+use super::finding_writer::FindingWriter;
 use crate::diff::curves::chain::OutlineChain;
-use crate::diff::findings::finding::{Finding, FindingBox, Verdict};
+use crate::diff::curves::segment::bounds;
+use crate::diff::findings::finding::{Finding, Verdict};
 use crate::diff::matching::chain_events::ChainEvent;
-use crate::diff::matching::chain_pairs::bounds;
-use crate::diff::shapes::picture::ShapeKind;
 
 /// One finding for each change of a line.
 pub(crate) fn findings(teller: &FindingWriter, events: Vec<ChainEvent>) -> Vec<Finding> {
@@ -22,13 +21,14 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
     let (old, new) = (chain(0, event.old), chain(1, event.new));
     let shapes = [old.and_then(|c| teller.shape(0, c)), new.and_then(|c| teller.shape(1, c))];
     let length = |chain: Option<&OutlineChain>| chain.map_or(0.0, OutlineChain::length);
-    let boxes = [(0, old), (1, new)].into_iter().filter_map(|(_, c)| Some(bounds(&c?.points)));
+    let boxes = [old, new].into_iter().flatten().map(|chain| bounds(&chain.points));
     // If only a piece changed, its box is the place.
     let bare = [&event.removed, &event.added].into_iter().filter(|path| !path.elements().is_empty());
     let bare: Vec<Rect> = bare.map(BezPath::bounding_box).collect();
+    let whole = boxes.reduce(|a, b| a.union(b));
     let place = match event.verdict {
-        Verdict::Moved => union(boxes),
-        _ => union(bare.into_iter()).or(union(boxes)),
+        Verdict::Moved => whole,
+        _ => bare.into_iter().reduce(|a, b| a.union(b)).or(whole),
     };
     let size = match event.verdict {
         Verdict::Reshaped | Verdict::Moved => length(old).max(0.0),
@@ -40,25 +40,16 @@ fn line_finding(teller: &FindingWriter, event: ChainEvent) -> Finding {
         }
         _ => [0.0; 2],
     };
+    let pieces = if old.is_some() && new.is_some() { pieces } else { [0.0; 2] };
     Finding {
-        verdict: event.verdict,
-        kind: shapes.iter().flatten().next().map_or(ShapeKind::Line, |shape| shape.kind),
-        label: label(shapes),
-        changes: teller.changes(shapes),
-        place: FindingBox::of(place.unwrap_or_default()),
         size,
-        growth: if old.is_some() && new.is_some() { pieces[1] - pieces[0] } else { 0.0 },
-        pieces: if old.is_some() && new.is_some() { pieces } else { [0.0; 2] },
-        material: shapes.iter().flatten().next().and_then(|shape| shape.material.clone()),
+        growth: pieces[1] - pieces[0],
+        pieces,
         largest: event.largest,
         p95: event.p95,
         shift: event.shift,
         removed_path: event.removed,
         added_path: event.added,
-        follows_motion: false,
+        ..teller.finding(event.verdict, shapes, place.unwrap_or_default())
     }
-}
-
-fn union(boxes: impl Iterator<Item = Rect>) -> Option<Rect> {
-    boxes.reduce(|a, b| a.union(b))
 }

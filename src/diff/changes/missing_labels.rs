@@ -1,14 +1,12 @@
 //! Labels lost in another program: one drawing has parts and classes, the other has none.
 
-use std::sync::Arc;
-
 use kurbo::Rect;
 use rustc_hash::FxHashMap;
 
-use crate::diff::findings::finding::{Cause, Change, Finding, FindingBox, Verdict};
+use crate::diff::curves::region_area::size;
+use crate::diff::findings::finding::{Cause, Change, Finding, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
-use crate::diff::tolerances;
 
 /// Index of the labelled drawing if the other one has no labels. Layers do not count, because programs create
 /// their own.
@@ -38,13 +36,11 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
     // Removed lines are reported as joined chains. The box of a chain contains each of its pieces.
     let mut lonely: FxHashMap<&Label, Vec<Rect>> = FxHashMap::default();
     for finding in others.iter().filter(|finding| finding.verdict == alone) {
-        let FindingBox { x, y, width, height } = finding.place;
-        let place = Rect::new(x, y, x + width, y + height).inflate(ROUNDING_PX, ROUNDING_PX);
+        let place = finding.place.rect().inflate(ROUNDING_PX, ROUNDING_PX);
         lonely.entry(&finding.label).or_default().push(place);
     }
     let marks = labelled.shapes.iter().filter(|shape| is_labelled(shape) && shape.kind != ShapeKind::Clip);
     let one = |shape: &Shape| {
-        let place = FindingBox::of(kurbo::Shape::bounding_box(&shape.path));
         let bounds = kurbo::Shape::bounding_box(&shape.path);
         let is_alone = |places: &Vec<Rect>| {
             places.iter().take(MAX_PLACES_PER_LABEL).any(|place| place.contains_rect(bounds))
@@ -64,16 +60,10 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
         if !shape.label.classes.is_empty() {
             note("class", shape.label.classes.join(" "));
         }
-        let size = match shape.kind {
-            ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX),
-            _ => crate::diff::curves::region_area::area(shape),
-        };
-        let label: Label = (*shape.label).clone();
         Some(Finding {
-            size,
+            size: size(shape),
             added_path: shape.path.clone(),
-            material: shape.material.as_ref().map(Arc::clone),
-            ..Finding::in_place(Verdict::Relabelled, shape.kind, label, changes, place)
+            ..Finding::of_shape(Verdict::Relabelled, shape, changes, bounds)
         })
     };
     marks.filter_map(one).collect()

@@ -8,13 +8,11 @@ use rustc_hash::FxHashSet;
 use super::finding_writer::FindingWriter;
 use crate::diff::curves::chain::{self, OutlineChain};
 use crate::diff::curves::hausdorff_distance::NearestPointQuery;
-use crate::diff::curves::segment_grid::SegmentGrid;
-use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
-use crate::diff::matching::chain_pairs::bounds;
+use crate::diff::curves::segment::bounds;
+use crate::diff::findings::finding::{Change, Finding, Verdict};
 use crate::diff::matching::interval_cover::{ChainCover, cover};
 use crate::diff::shapes::ink::trimmed;
 use crate::diff::shapes::mark_groups::MarkGroups;
-use crate::diff::shapes::picture::ShapeKind;
 
 /// One finding for each line whose width varies differently.
 pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Finding> {
@@ -22,15 +20,14 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
     if rings.iter().all(Vec::is_empty) {
         return Vec::new();
     }
-    let firsts = [chain::first_copies(&rings[0]), chain::first_copies(&rings[1])];
-    let grids = [0, 1].map(|side: usize| SegmentGrid::new(&rings[side]));
-    let all = |side: usize| (rings[side].as_slice(), firsts[side].as_slice());
-    let covers = [cover(all(0), all(1), &grids[1], groups), cover(all(1), all(0), &grids[0], groups)];
+    let sides = cover(rings, groups);
     // Largest difference for each old shape.
     let mut differ: BTreeMap<usize, f64> = BTreeMap::new();
     for side in 0..2 {
-        for (ring, cover) in rings[side].iter().zip(&covers[side]).filter(|(_, cover)| !cover.is_whole()) {
-            let other = cover.partners.first().and_then(|(other, ..)| rings[1 - side].get(*other as usize));
+        let all = sides[side].chains.iter().zip(&sides[side].covers);
+        for (ring, cover) in all.filter(|(_, cover)| !cover.is_whole()) {
+            let other = cover.partners.first();
+            let other = other.and_then(|(other, ..)| sides[1 - side].chains.get(*other as usize));
             let old = if side == 0 { Some(ring) } else { other };
             let Some(shape) = old.and_then(|old| old.shapes.first()) else { continue };
             let wider = differ.entry(*shape).or_default();
@@ -41,7 +38,7 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
     let lines = lines.filter(|(chain, cover)| chain.shapes.len() == 1 && cover.is_same());
     let perimeters = [0, 1].map(|side: usize| {
         let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
-        for ring in &rings[side] {
+        for ring in &sides[side].chains {
             *sums.entry(ring.shapes.first().copied().unwrap_or_default()).or_default() += ring.length();
         }
         sums
@@ -52,6 +49,11 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
         if trimmed(*wider) == "0" {
             return None;
         }
+        let finding = |verdict: Verdict, changes: Vec<Change>| Finding {
+            size: cover.length,
+            added_path: shape.path.clone(),
+            ..Finding::of_shape(verdict, shape, changes, bounds(&chain.points))
+        };
         if *wider > shape.ink.width {
             // The line is shorter or longer. Both sides of its outline have the length of the line.
             let new = cover.partners.first().and_then(|(new, ..)| {
@@ -60,16 +62,11 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
             let long = |side: usize, shape: Option<&usize>| {
                 shape.and_then(|shape| perimeters[side].get(shape)).copied().unwrap_or_default() / 2.0
             };
-            let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
-            let place = FindingBox::of(bounds(&chain.points));
             return Some(Finding {
-                size: cover.length,
                 growth: long(1, new) - long(0, chain.shapes.first()),
                 largest: *wider,
                 p95: *wider,
-                added_path: shape.path.clone(),
-                material: shape.material.clone(),
-                ..Finding::in_place(Verdict::Reshaped, kind, label, Vec::new(), place)
+                ..finding(Verdict::Reshaped, Vec::new())
             });
         }
         let change = Change {
@@ -77,14 +74,7 @@ pub(crate) fn findings(teller: &FindingWriter, groups: &MarkGroups) -> Vec<Findi
             old: format!("{} px on average", trimmed(shape.ink.width)),
             new: format!("up to {} px wider or thinner on one side", trimmed(*wider)),
         };
-        let place = FindingBox::of(bounds(&chain.points));
-        let (kind, label) = (ShapeKind::Line, (*shape.label).clone());
-        Some(Finding {
-            size: cover.length,
-            added_path: shape.path.clone(),
-            material: shape.material.clone(),
-            ..Finding::in_place(Verdict::Restyled, kind, label, vec![change], place)
-        })
+        Some(finding(Verdict::Restyled, vec![change]))
     });
     told.collect()
 }
@@ -94,15 +84,11 @@ fn rings(teller: &FindingWriter, side: usize, groups: &MarkGroups) -> Vec<Outlin
     let mut found = Vec::new();
     let mut seen: FxHashSet<usize> = FxHashSet::default();
     for chain in &teller.sides[side].chains {
-        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
         for index in chain.shapes.iter().filter(|index| seen.insert(**index)) {
             let outline = teller.pictures[side].shapes.get(*index).and_then(|shape| shape.outline.as_ref());
-            let of_shape = chain::rings(outline, tolerance).into_iter();
-            found.extend(of_shape.map(|ring| OutlineChain {
-                group: chain.group,
-                shapes: vec![*index],
-                ..ring
-            }));
+            let rings =
+                outline.map(|outline| OutlineChain::of_path(outline, (chain.group, *index), groups, true));
+            found.extend(rings.into_iter().flatten().map(OutlineChain::canonical));
         }
     }
     chain::sort(&mut found);

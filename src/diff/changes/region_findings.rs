@@ -2,14 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kurbo::{BezPath, Rect, Shape as _};
+use kurbo::{BezPath, Shape as _};
 use rustc_hash::FxHashMap;
 
-use super::finding_writer::{FindingWriter, label};
-use crate::diff::curves::region_area::{area, ring_area, winds_round};
-use crate::diff::findings::finding::{Finding, FindingBox, Verdict};
+use super::finding_writer::FindingWriter;
+use crate::diff::curves::region_area::{area, ring_area};
+use crate::diff::findings::finding::{Finding, Verdict};
 use crate::diff::matching::chain_events::ChainEvent;
-use crate::diff::shapes::picture::{Picture, ShapeKind};
 
 /// Most rings of a shape tested for nesting.
 const MAX_NESTED_RINGS: usize = 200;
@@ -25,10 +24,7 @@ pub(crate) fn findings(teller: &FindingWriter, borders: Vec<ChainEvent>) -> Vec<
     let partner = Partners::of(teller, &borders);
     let mut by_shape: BTreeMap<RegionPair, Vec<ChainEvent>> = BTreeMap::new();
     for event in borders {
-        let shape = |side: usize, index: Option<usize>| {
-            index.and_then(|index| teller.sides[side].chains[index].shapes.first().copied())
-        };
-        let (old, new) = (shape(0, event.old), shape(1, event.new));
+        let (old, new) = (teller.shape_index(0, event.old), teller.shape_index(1, event.new));
         let key = (
             old.or_else(|| partner.0[1].get(&new?).copied()),
             new.or_else(|| partner.0[0].get(&old?).copied()),
@@ -42,11 +38,7 @@ pub(crate) fn findings(teller: &FindingWriter, borders: Vec<ChainEvent>) -> Vec<
         }
         of_shape
     });
-    let mut areas = Areas::default();
-    by_shape
-        .into_iter()
-        .map(|(key, events)| region_finding(teller, &of_shape, key, events, &mut areas))
-        .collect()
+    by_shape.into_iter().map(|(key, events)| region_finding(teller, &of_shape, key, events)).collect()
 }
 
 /// For each shape, the shape of the other picture that shares the longest border with it.
@@ -56,32 +48,28 @@ impl Partners {
     /// Finds partners by the common length of borders.
     fn of(teller: &FindingWriter, borders: &[ChainEvent]) -> Self {
         let mut lengths: [BTreeMap<(usize, usize), f64>; 2] = Default::default();
-        let mut add = |side: usize, from: Option<&usize>, to: Option<&usize>, length: f64| {
-            if let Some((from, to)) = from.zip(to) {
-                *lengths[side].entry((*from, *to)).or_default() += length;
+        let mut add = |side: usize, from: Option<usize>, to: Option<usize>, length: f64| {
+            if let Some(pair) = from.zip(to) {
+                *lengths[side].entry(pair).or_default() += length;
             }
         };
         for side in 0..2 {
-            let (own, others) = (&teller.sides[side], &teller.sides[1 - side]);
-            for (chain, cover) in own.chains.iter().zip(&own.covers) {
+            for (index, cover) in teller.sides[side].covers.iter().enumerate() {
+                let own = teller.shape_index(side, Some(index));
                 for &(partner, _, length) in &cover.partners {
-                    let other = others.chains.get(partner as usize).and_then(|other| other.shapes.first());
-                    let part = |side: usize, shape: Option<&usize>| {
-                        teller.pictures[side].shapes.get(*shape?).and_then(|shape| shape.label.part.as_ref())
+                    let other = teller.shape_index(1 - side, Some(partner as usize));
+                    let part = |side: usize, shape: Option<usize>| {
+                        teller.pictures[side].shapes.get(shape?).and_then(|shape| shape.label.part.as_ref())
                     };
                     // Neighbours share borders: a removed region did not become its neighbour.
-                    let own_part = part(side, chain.shapes.first()) == part(1 - side, other);
-                    if own_part || length >= 0.9 * cover.length {
-                        add(side, chain.shapes.first(), other, length);
+                    if part(side, own) == part(1 - side, other) || length >= 0.9 * cover.length {
+                        add(side, own, other, length);
                     }
                 }
             }
         }
         for event in borders {
-            let shape = |side: usize, index: Option<usize>| {
-                index.and_then(|index| teller.sides[side].chains[index].shapes.first())
-            };
-            let (old, new) = (shape(0, event.old), shape(1, event.new));
+            let (old, new) = (teller.shape_index(0, event.old), teller.shape_index(1, event.new));
             add(0, old, new, event.size);
             add(1, new, old, event.size);
         }
@@ -104,7 +92,6 @@ fn region_finding(
     of_shape: &RingsOfShape,
     (old, new): RegionPair,
     events: Vec<ChainEvent>,
-    areas: &mut Areas,
 ) -> Finding {
     let shape = |side: usize, index: Option<usize>| teller.pictures[side].shapes.get(index?);
     let shapes = [shape(0, old), shape(1, new)];
@@ -122,41 +109,28 @@ fn region_finding(
         _ if all(Verdict::Moved) && rings(0, old).is_none_or(|count| count <= events.len()) => Verdict::Moved,
         _ => Verdict::Reshaped,
     };
-    let mut area = |side: usize, index: Option<usize>| index.map(|i| areas.of(teller.pictures, side, i));
-    let (before, after) = (area(0, old), area(1, new));
+    let [before, after] = shapes.map(|shape| shape.map(area));
     let first = events.first().and_then(|event| event.shift);
-    let mut finding = Finding {
-        verdict,
-        kind: shapes.iter().flatten().next().map_or(ShapeKind::Region, |shape| shape.kind),
-        label: label(shapes),
-        changes: teller.changes(shapes),
-        place: FindingBox::of(Rect::ZERO),
+    let removed_path: BezPath = events.iter().flat_map(|event| event.removed.iter()).collect();
+    let added_path: BezPath = events.iter().flat_map(|event| event.added.iter()).collect();
+    let parts: Vec<&BezPath> = match verdict {
+        Verdict::Reshaped => vec![&removed_path, &added_path],
+        _ => shapes.into_iter().flatten().map(|shape| &shape.path).collect(),
+    };
+    let is_drawn = |path: &&&BezPath| verdict != Verdict::Reshaped || !path.elements().is_empty();
+    let boxes = parts.iter().filter(is_drawn).map(|path| path.bounding_box());
+    let place = boxes.reduce(|a, b| a.union(b));
+    Finding {
         size: before.or(after).unwrap_or(0.0),
         growth: if before.is_some() && after.is_some() { growth(teller, of_shape, &events) } else { 0.0 },
-        pieces: [0.0; 2],
-        material: shapes.iter().flatten().next().and_then(|shape| shape.material.clone()),
         largest: events.iter().map(|event| event.largest).fold(0.0, f64::max),
         p95: events.iter().map(|event| event.p95).fold(0.0, f64::max),
         shift: first
             .filter(|_| verdict == Verdict::Moved && events.iter().all(|event| event.shift.is_some())),
-        removed_path: BezPath::new(),
-        added_path: BezPath::new(),
-        follows_motion: false,
-    };
-    for event in &events {
-        finding.removed_path.extend(event.removed.iter());
-        finding.added_path.extend(event.added.iter());
+        removed_path,
+        added_path,
+        ..teller.finding(verdict, shapes, place.unwrap_or_default())
     }
-    let pieces =
-        [&finding.removed_path, &finding.added_path].into_iter().filter(|path| !path.elements().is_empty());
-    let pieces: Vec<Rect> = pieces.map(|path| path.bounding_box()).collect();
-    let whole = shapes.into_iter().flatten().map(|shape| shape.path.bounding_box());
-    let place = match verdict {
-        Verdict::Reshaped => pieces.into_iter().reduce(|a, b| a.union(b)),
-        _ => whole.reduce(|a, b| a.union(b)),
-    };
-    finding.place = FindingBox::of(place.unwrap_or_default());
-    finding
 }
 
 /// Increase of the area of a region, from its changed rings only, so that it agrees with the reported
@@ -167,9 +141,7 @@ fn growth(teller: &FindingWriter, of_shape: &RingsOfShape, events: &[ChainEvent]
         let Some(chain) = index.and_then(|index| chains.get(index)) else { return 0.0 };
         let own = chain.shapes.first().and_then(|shape| of_shape[side].get(shape)).into_iter().flatten();
         let others = own.filter(|other| Some(**other) != index).filter_map(|other| chains.get(*other));
-        let start = chain.points.first().copied().unwrap_or_default();
-        let around = others.take(MAX_NESTED_RINGS).filter(|other| winds_round(&other.points, start)).count();
-        ring_area(&chain.points) * if around % 2 == 0 { 1.0 } else { -1.0 }
+        ring_area(&chain.points, others.take(MAX_NESTED_RINGS).map(|other| other.points.as_slice()))
     };
     let changed =
         events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
@@ -180,14 +152,4 @@ fn growth(teller: &FindingWriter, of_shape: &RingsOfShape, events: &[ChainEvent]
     ];
     let area = |side: usize| rings[side].iter().map(|index| ring(side, Some(*index))).sum::<f64>();
     area(1) - area(0)
-}
-
-/// Cache of shape areas.
-#[derive(Default)]
-struct Areas(FxHashMap<(usize, usize), f64>);
-
-impl Areas {
-    fn of(&mut self, pictures: [&Picture; 2], side: usize, shape: usize) -> f64 {
-        *self.0.entry((side, shape)).or_insert_with(|| pictures[side].shapes.get(shape).map_or(0.0, area))
-    }
 }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use kurbo::{Rect, Shape as _};
 
-use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
+use crate::diff::curves::region_area::size;
+use crate::diff::findings::finding::{Change, Finding, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
-use crate::diff::tolerances;
 
 /// The old drawing with the new names, and a finding for each name.
 pub(crate) struct Renamed {
@@ -44,20 +44,17 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
         return None;
     }
     let of_part = |shape: &Shape| names.get_key_value(shape.label.part.as_ref()?);
-    let mut places: BTreeMap<&Arc<str>, (Rect, f64, usize)> = BTreeMap::new();
+    let mut places: BTreeMap<&Arc<str>, (Rect, f64)> = BTreeMap::new();
     let mut shapes = pictures[0].shapes.to_vec();
     for shape in &mut shapes {
         let Some((old, new)) = of_part(shape) else { continue };
         let bounds = shape.path.bounding_box();
-        let length = match shape.kind {
-            ShapeKind::Line => shape.path.perimeter(tolerances::MAX_LENGTH_ERROR_PX),
-            _ => 0.0,
-        };
-        let entry = places.entry(old).or_insert((bounds, 0.0, 0));
-        *entry = (entry.0.union(bounds), entry.1 + length, entry.2 + 1);
+        let length = if shape.kind == ShapeKind::Line { size(shape) } else { 0.0 };
+        let entry = places.entry(old).or_insert((bounds, 0.0));
+        *entry = (entry.0.union(bounds), entry.1 + length);
         shape.label = Arc::new(Label { part: Some(Arc::clone(new)), ..(*shape.label).clone() });
     }
-    let findings = places.into_iter().map(|(old, (place, length, _))| {
+    let findings = places.into_iter().map(|(old, (place, length))| {
         let change = Change {
             what: "part".to_owned(),
             old: old.to_string(),
@@ -65,15 +62,10 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
         };
         let label = Label { part: Some(Arc::clone(old)), ..Label::default() };
         Finding {
+            kind: ShapeKind::Line,
             size: length,
             added_path: place.to_path(0.1),
-            ..Finding::in_place(
-                Verdict::Relabelled,
-                ShapeKind::Line,
-                label,
-                vec![change],
-                FindingBox::of(place),
-            )
+            ..Finding::in_place(Verdict::Relabelled, label, vec![change], place)
         }
     });
     let findings = findings.collect();

@@ -3,7 +3,7 @@
 use kurbo::{Point, Rect, Shape as _};
 
 use crate::diff::curves::chain::flatten;
-use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
+use crate::diff::findings::finding::{Change, Finding, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// Most pairs of marks tested.
@@ -37,11 +37,9 @@ pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize
             let side = |over: bool| format!("{} {}", if over { "over" } else { "under" }, other.label);
             let change =
                 Change { what: "order".to_owned(), old: side(new < other_new), new: side(new > other_new) };
-            let place = FindingBox::of(boxes[item]);
-            let label = (*was.label).clone();
             found.push(Finding {
                 added_path: shape.path.clone(),
-                ..Finding::in_place(Verdict::Restacked, shape.kind, label, vec![change], place)
+                ..Finding::of_shape(Verdict::Restacked, was, vec![change], boxes[item])
             });
         }
     }

@@ -36,8 +36,19 @@ impl OutlineChain {
         self.points.windows(2).map(|pair| (pair[0], pair[1]))
     }
 
+    /// Chains of a path that belongs to a shape. With `closes`, open subpaths are closed.
+    pub(crate) fn of_path(
+        path: &kurbo::BezPath,
+        (group, shape): (usize, usize),
+        groups: &MarkGroups,
+        closes: bool,
+    ) -> impl Iterator<Item = Self> {
+        let flat = flatten(path, groups.tolerance(group) * FLATTENING_OF_TOLERANCE, closes);
+        flat.into_iter().map(move |(points, closed)| Self { group, points, closed, shapes: vec![shape] })
+    }
+
     /// Gives the chain its canonical start and direction.
-    fn canonical(mut self) -> Self {
+    pub(crate) fn canonical(mut self) -> Self {
         let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
         if self.closed {
             self.points.pop();
@@ -79,12 +90,8 @@ pub(crate) fn chains_of_shapes(
             let (Some(shape), Some(group)) = (picture.shapes.get(*index), of_shape.get(*index)) else {
                 return Vec::new();
             };
-            let tolerance = groups.groups.get(*group).map_or(0.01, |group| group.tolerance);
             let closes = shape.kind != ShapeKind::Line;
-            flatten(&shape.path, tolerance * FLATTENING_OF_TOLERANCE, closes)
-                .into_iter()
-                .map(|(points, closed)| OutlineChain { group: *group, points, closed, shapes: vec![*index] })
-                .collect()
+            OutlineChain::of_path(&shape.path, (*group, *index), groups, closes).collect()
         })
         .collect();
     let mut by_group: FxHashMap<usize, Vec<OutlineChain>> = FxHashMap::default();
@@ -98,10 +105,8 @@ pub(crate) fn chains_of_shapes(
     let mut open: Vec<(usize, Vec<OutlineChain>)> = by_group.into_iter().collect();
     open.sort_unstable_by_key(|(group, _)| *group);
     for (group, chains) in open {
-        let tolerance = groups.groups.get(group).map_or(0.01, |group| group.tolerance);
-        done.extend(
-            join(chains, tolerance * MAX_JOIN_GAP_OF_TOLERANCE).into_iter().map(OutlineChain::canonical),
-        );
+        let joined = join(chains, groups.tolerance(group) * MAX_JOIN_GAP_OF_TOLERANCE);
+        done.extend(joined.into_iter().map(OutlineChain::canonical));
     }
     sort(&mut done);
     done
@@ -135,17 +140,6 @@ pub(crate) fn first_copies(chains: &[OutlineChain]) -> Vec<usize> {
         firsts.push(before.unwrap_or(index));
     }
     firsts
-}
-
-/// The rings of an outline as closed chains of group 0, sorted by their start points.
-pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<OutlineChain> {
-    let flat = outline
-        .map(|outline| flatten(outline, tolerance * FLATTENING_OF_TOLERANCE, true))
-        .unwrap_or_default();
-    let ring = |(points, closed)| OutlineChain { group: 0, points, closed, shapes: Vec::new() }.canonical();
-    let mut rings: Vec<OutlineChain> = flat.into_iter().map(ring).collect();
-    rings.sort_by(|a, b| order(a.points[0], b.points[0]));
-    rings
 }
 
 /// Subpaths of a path as polylines, each with a flag that is true if it is closed. With `closes`, open
@@ -185,11 +179,11 @@ pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Ve
             points.extend(points.first().copied());
         }
     }
-    let after_a_close = |index: usize| index > 0 && found[index - 1].1 && is_dot(&found[index].0);
-    let keep: Vec<bool> =
-        (0..found.len()).map(|index| found[index].0.len() > 1 && !after_a_close(index)).collect();
-    let mut keep = keep.into_iter();
-    found.retain(|_| keep.next().unwrap_or(false));
+    let mut is_after_close = false;
+    found.retain(|(points, closed)| {
+        let is_end_of_last = std::mem::replace(&mut is_after_close, *closed) && is_dot(points);
+        points.len() > 1 && !is_end_of_last
+    });
     found
 }
 

@@ -80,13 +80,9 @@ impl<'a> NearestPointQuery<'a> {
 
     /// The nearest segment and its distance.
     pub(crate) fn nearest(&self, p: Point) -> (usize, f64) {
-        let distance = |index: usize| match self.chain.points.get(index..index + 2) {
-            Some(&[from, to]) => p.distance_squared(nearest_on(from, to, p)),
-            _ => f64::INFINITY,
-        };
         let best = std::cell::Cell::new((0, f64::INFINITY));
         let see = |index: usize| {
-            let found = distance(index);
+            let found = self.to_segment(p, index);
             let (at, least) = best.get();
             if found < least || (found == least && index < at) {
                 best.set((index, found));
@@ -103,16 +99,20 @@ impl<'a> NearestPointQuery<'a> {
         (index, squared.sqrt())
     }
 
+    /// Squared distance of a point to a segment.
+    fn to_segment(&self, p: Point, index: usize) -> f64 {
+        match self.chain.points.get(index..index + 2) {
+            Some(&[from, to]) => p.distance_squared(nearest_on(from, to, p)),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Largest distance of a point of `other` if it exceeds `known`, by branch and bound.
     ///
     /// Between two points, the distance to one segment is convex, and the distance to the whole chain is no
     /// larger. So the larger end distance to the segment nearest to either end bounds all points between.
     pub(crate) fn farthest(&self, other: &OutlineChain, known: f64) -> f64 {
         let mut most = known;
-        let to_segment = |p: Point, index: usize| match self.chain.points.get(index..index + 2) {
-            Some(&[from, to]) => p.distance(nearest_on(from, to, p)),
-            _ => f64::INFINITY,
-        };
         let mut open: Vec<(Point, usize, Point, usize)> = Vec::new();
         let mut before: Option<(Point, usize)> = None;
         for p in &other.points {
@@ -124,7 +124,7 @@ impl<'a> NearestPointQuery<'a> {
             before = Some((*p, segment));
         }
         while let Some((p, near_p, q, near_q)) = open.pop() {
-            let bound = |segment| to_segment(p, segment).max(to_segment(q, segment));
+            let bound = |segment| self.to_segment(p, segment).max(self.to_segment(q, segment)).sqrt();
             let limit = most * (1.0 + MAX_DISTANCE_ERROR_SHARE) + DISTANCE_RESOLUTION_PX;
             if bound(near_p).min(bound(near_q)) <= limit || p.distance(q) <= DISTANCE_RESOLUTION_PX {
                 continue;

@@ -7,7 +7,7 @@
 //! 4. [`hausdorff_distance`] measures two chains by branch and bound.
 //! 5. [`chain_alignment`] fits a shift and a similarity to corresponding points.
 //!
-//! Also: [`segment`] nearest point of a segment; [`region_area`] area of a region minus its holes.
+//! Also: [`segment`] nearest point of a segment, points and boxes; [`region_area`] area of a region minus its holes.
 
 pub(crate) mod chain;
 pub(crate) mod chain_alignment;

@@ -3,13 +3,22 @@
 use kurbo::{Point, Shape as _};
 
 use super::chain::flatten;
-use crate::diff::shapes::picture::Shape;
+use crate::diff::shapes::picture::{Shape, ShapeKind};
+use crate::diff::tolerances::MAX_LENGTH_ERROR_PX;
 
 /// Regions with more rings are measured by their signed area. Nesting tests are quadratic in the number of
 /// rings.
 const MAX_NESTED_RINGS: usize = 200;
 /// Flatness of curves in px; areas are reported to about one square px.
 const FLATNESS_PX: f64 = 0.05;
+
+/// Length of a line in px, or area of a region in square px.
+pub(crate) fn size(shape: &Shape) -> f64 {
+    match shape.kind {
+        ShapeKind::Line => shape.path.perimeter(MAX_LENGTH_ERROR_PX),
+        ShapeKind::Region | ShapeKind::Clip => area(shape),
+    }
+}
 
 /// Area of a region in square px.
 pub(crate) fn area(shape: &Shape) -> f64 {
@@ -22,22 +31,21 @@ pub(crate) fn area(shape: &Shape) -> f64 {
     if rings.len() < 2 || rings.len() > MAX_NESTED_RINGS {
         return turned();
     }
-    let depth = |index: usize| {
-        let point = rings[index].first().copied().unwrap_or_default();
-        let around = |other: &usize| *other != index && winds_round(&rings[*other], point);
-        (0..rings.len()).filter(around).count()
-    };
-    let signed = |index: usize| ring_area(&rings[index]) * if depth(index) % 2 == 0 { 1.0 } else { -1.0 };
+    let others = |index: usize| rings.iter().enumerate().filter(move |(other, _)| *other != index);
+    let signed = |index: usize| ring_area(&rings[index], others(index).map(|(_, ring)| ring.as_slice()));
     (0..rings.len()).map(signed).sum()
 }
 
-/// Area enclosed by a ring.
-pub(crate) fn ring_area(ring: &[Point]) -> f64 {
-    ring.windows(2).map(|pair| pair[0].to_vec2().cross(pair[1].to_vec2())).sum::<f64>().abs() / 2.0
+/// Area enclosed by a ring. It is negative for holes: rings inside an odd number of the others.
+pub(crate) fn ring_area<'a>(ring: &[Point], others: impl Iterator<Item = &'a [Point]>) -> f64 {
+    let start = ring.first().copied().unwrap_or_default();
+    let is_hole = others.filter(|other| winds_round(other, start)).count() % 2 == 1;
+    let crosses = ring.windows(2).map(|pair| pair[0].to_vec2().cross(pair[1].to_vec2()));
+    crosses.sum::<f64>().abs() / 2.0 * if is_hole { -1.0 } else { 1.0 }
 }
 
 /// Whether a ray from the point crosses the ring an odd number of times.
-pub(crate) fn winds_round(ring: &[Point], p: Point) -> bool {
+fn winds_round(ring: &[Point], p: Point) -> bool {
     let crosses = |pair: &&[Point]| {
         let (a, b) = (pair[0], pair[1]);
         (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
@@ -52,7 +60,6 @@ mod tests {
     use super::*;
     use crate::colour::srgb::Colour;
     use crate::diff::shapes::ink::{ShapeInk, ShapePaint};
-    use crate::diff::shapes::picture::ShapeKind;
 
     #[test]
     fn region_area_subtracts_holes() {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::ink_totals::Totals;
 use super::pixel_count::PixelDiff;
 use crate::diff::shapes::label::Label;
-use crate::diff::shapes::picture::{Picture, ShapeKind};
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
 /// How a mark changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -123,6 +123,11 @@ impl FindingBox {
         [self.x, self.y, self.width, self.height].map(f64::to_bits)
     }
 
+    /// The box as a rectangle.
+    pub(crate) fn rect(&self) -> Rect {
+        Rect::new(self.x, self.y, self.x + self.width, self.y + self.height)
+    }
+
     /// Centre of the box.
     #[must_use]
     pub fn middle(&self) -> (f64, f64) {
@@ -165,20 +170,20 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// A finding about a mark that did not move.
-    pub(crate) fn in_place(
-        verdict: Verdict,
-        kind: ShapeKind,
-        label: Label,
-        changes: Vec<Change>,
-        place: FindingBox,
-    ) -> Self {
+    /// A finding about a shape.
+    pub(crate) fn of_shape(verdict: Verdict, shape: &Shape, changes: Vec<Change>, place: Rect) -> Self {
+        let finding = Self::in_place(verdict, (*shape.label).clone(), changes, place);
+        Self { kind: shape.kind, material: shape.material.clone(), ..finding }
+    }
+
+    /// A finding about a place of the drawing.
+    pub(crate) fn in_place(verdict: Verdict, label: Label, changes: Vec<Change>, place: Rect) -> Self {
         Self {
             verdict,
-            kind,
+            kind: ShapeKind::Region,
             label,
             changes,
-            place,
+            place: FindingBox::of(place),
             size: 0.0,
             growth: 0.0,
             pieces: [0.0; 2],

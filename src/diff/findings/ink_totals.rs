@@ -7,9 +7,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::diff::curves::region_area::area;
+use crate::diff::curves::region_area::size;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
-use crate::diff::tolerances;
 
 /// Ink of a set of marks, before and after. Lengths are in px, areas in square px.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -42,10 +41,8 @@ impl Totals {
         for (side, picture) in [before, after].into_iter().enumerate() {
             for shape in picture.shapes.iter() {
                 let (length, area) = match shape.kind {
-                    ShapeKind::Line => {
-                        (kurbo::Shape::perimeter(&shape.path, tolerances::MAX_LENGTH_ERROR_PX), 0.0)
-                    }
-                    ShapeKind::Region => (0.0, area(shape)),
+                    ShapeKind::Line => (size(shape), 0.0),
+                    ShapeKind::Region => (0.0, size(shape)),
                     ShapeKind::Clip => continue,
                 };
                 let label = &shape.label;

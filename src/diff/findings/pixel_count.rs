@@ -3,7 +3,9 @@
 use resvg::tiny_skia::{Pixmap, Transform};
 use serde::Serialize;
 
-use crate::diff::markup::sheet_inlining;
+use crate::diff::markup::input_limits;
+use crate::diff::raster_check::raster_cost;
+use crate::diff::read::tagged_svg;
 use crate::diff::shapes::picture::Picture;
 use crate::export::raster::tree_painter;
 
@@ -11,8 +13,6 @@ use crate::export::raster::tree_painter;
 const MIN_VISIBLE_DIFFERENCE: u8 = 24;
 /// Most pixels of the longer side; larger drawings are scaled down.
 const MAX_SIDE_PIXELS: f64 = 4000.0;
-/// Most dashes of one line, because each is drawn separately.
-const MAX_DASHES: f64 = 200_000.0;
 
 /// Number of pixels that look different.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -47,6 +47,7 @@ impl PixelDiff {
 /// Compares the pixels of two drawings; `None` if one would take too long to rasterise.
 pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
     let (width, height) = (before.width.max(after.width), before.height.max(after.height));
+    raster_cost::scale([before, after], [width, height])?;
     let scale = (MAX_SIDE_PIXELS / width.max(height)).min(1.0);
     let (columns, rows) = ((width * scale).ceil() as u32, (height * scale).ceil() as u32);
     let a = rasterise(before, columns, rows, scale)?;
@@ -62,13 +63,6 @@ pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
 
 /// The drawing on white.
 fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<Pixmap> {
-    let dashes = picture.shapes.iter().filter(|shape| !shape.ink.dash.is_empty()).map(|shape| {
-        let pattern: f64 = shape.ink.dash.iter().sum();
-        kurbo::Shape::perimeter(&shape.path, 1.0) / pattern * shape.ink.dash.len() as f64
-    });
-    if dashes.fold(0.0, f64::max) > MAX_DASHES {
-        return None;
-    }
     let options = usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: usvg::ImageHrefResolver::default_data_resolver(),
@@ -77,7 +71,8 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
         },
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_str(&sheet_inlining::inline_sheets(&picture.svg).ok()??, &options).ok()?;
+    let markup = tagged_svg::rewrite(&input_limits::parse(&picture.svg).ok()?, false).ok()?;
+    let tree = usvg::Tree::from_str(&markup.svg, &options).ok()?;
     let mut pixmap = Pixmap::new(columns, rows)?;
     pixmap.fill(resvg::tiny_skia::Color::WHITE);
     let scale = scale as f32;

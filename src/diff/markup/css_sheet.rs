@@ -1,8 +1,9 @@
 //! CSS style sheets of a file, parsed in one pass into selectors and declarations.
 
-use rustc_hash::FxHashMap;
-
 use super::css_reader::CssReader;
+
+/// Most compound selectors of one selector.
+const MAX_COMPOUNDS: usize = 64;
 
 /// A CSS declaration such as `fill: red !important`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,39 +41,41 @@ pub(crate) enum AttributeTest<'a> {
 }
 
 /// A compound selector such as `path.crease#lid`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct CompoundSelector<'a> {
+    /// Relation to the compound selector before it.
+    pub relation: Combinator,
     pub name: Option<&'a str>,
     pub tests: Vec<(&'a str, AttributeTest<'a>)>,
     pub first_child: bool,
 }
 
-/// A compound selector with its position in its selector.
-#[derive(Debug, Clone)]
-pub(crate) struct SelectorPart<'a> {
-    pub compound: CompoundSelector<'a>,
-    pub relation: Combinator,
-    /// Index of the rule, if the selector ends here.
-    pub rule: Option<usize>,
-    /// Relation of the next compound selector to this one.
-    pub next: Option<Combinator>,
-}
-
 /// A selector with its declarations.
 #[derive(Debug, Clone)]
-pub(crate) struct CssRule {
-    /// Specificity: numbers of ids, of classes and attributes, and of element names.
-    pub weight: [u32; 3],
+pub(crate) struct CssRule<'a> {
+    pub selector: Vec<CompoundSelector<'a>>,
     /// Index of the declarations in [`CssSheet::blocks`].
     pub block: usize,
+}
+
+impl CssRule<'_> {
+    /// Specificity: numbers of ids, of classes and attributes, and of element names.
+    pub(crate) fn weight(&self) -> [usize; 3] {
+        let mut weight = [0; 3];
+        for compound in &self.selector {
+            let ids = compound.tests.iter().filter(|(name, _)| *name == "id").count();
+            weight[0] += ids;
+            weight[1] += compound.tests.len() - ids + usize::from(compound.first_child);
+            weight[2] += usize::from(compound.name.is_some());
+        }
+        weight
+    }
 }
 
 /// All style sheets of a file.
 #[derive(Debug, Default)]
 pub(crate) struct CssSheet<'a> {
-    /// Compound selectors of all rules; those of one selector are neighbours.
-    pub parts: Vec<SelectorPart<'a>>,
-    pub rules: Vec<CssRule>,
+    pub rules: Vec<CssRule<'a>>,
     pub blocks: Vec<Vec<Declaration<'a>>>,
     /// Whether the sheets contain rules that are not applied: at-rules, pseudo-classes or errors.
     pub has_more: bool,
@@ -113,60 +116,12 @@ impl<'a> CssSheet<'a> {
         let block = self.blocks.len();
         self.blocks.push(found.unwrap_or_default());
         for selector in split(selectors, b',') {
-            match parts(selector) {
-                Some(parts) => {
-                    let mut weight = [0u32; 3];
-                    for (compound, _) in &parts {
-                        let ids = compound.tests.iter().filter(|(name, _)| *name == "id").count() as u32;
-                        weight[0] += ids;
-                        weight[1] += compound.tests.len() as u32 - ids + u32::from(compound.first_child);
-                        weight[2] += u32::from(compound.name.is_some());
-                    }
-                    let last = parts.len() - 1;
-                    let nexts: Vec<Option<Combinator>> =
-                        (0..parts.len()).map(|index| parts.get(index + 1).map(|(_, next)| *next)).collect();
-                    for (index, ((compound, relation), next)) in parts.into_iter().zip(nexts).enumerate() {
-                        let rule = (index == last).then_some(self.rules.len());
-                        self.parts.push(SelectorPart { compound, relation, rule, next });
-                    }
-                    self.rules.push(CssRule { weight, block });
-                }
+            match parse_selector(selector) {
+                Some(selector) => self.rules.push(CssRule { selector, block }),
                 None => self.has_more = true,
             }
         }
     }
-
-    /// Index of the compound selectors by their most selective condition.
-    pub(crate) fn index(&self) -> SelectorIndex<'a> {
-        let mut index = SelectorIndex::default();
-        for (number, part) in self.parts.iter().enumerate() {
-            let of = |wanted: &str| {
-                part.compound.tests.iter().find_map(|(name, test)| match test {
-                    AttributeTest::Equals(value) | AttributeTest::Word(value) if *name == wanted => {
-                        Some(*value)
-                    }
-                    _ => None,
-                })
-            };
-            let list = match (of("id"), of("class"), part.compound.name) {
-                (Some(id), ..) => index.ids.entry(id).or_default(),
-                (_, Some(class), _) => index.classes.entry(class).or_default(),
-                (.., Some(name)) => index.names.entry(name).or_default(),
-                _ => &mut index.any,
-            };
-            list.push(number as u32);
-        }
-        index
-    }
-}
-
-/// Numbers of compound selectors by the condition on which they are looked up.
-#[derive(Debug, Default)]
-pub(crate) struct SelectorIndex<'a> {
-    pub ids: FxHashMap<&'a str, Vec<u32>>,
-    pub classes: FxHashMap<&'a str, Vec<u32>>,
-    pub names: FxHashMap<&'a str, Vec<u32>>,
-    pub any: Vec<u32>,
 }
 
 /// Declarations of a block or of a `style` attribute; `None` if any part of it is not a plain declaration.
@@ -220,10 +175,10 @@ fn split(text: &str, separator: u8) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Compound selectors of one selector; `None` if it is invalid or not supported.
-fn parts(text: &str) -> Option<Vec<(CompoundSelector<'_>, Combinator)>> {
+/// Compound selectors of one selector; `None` if it is invalid, not supported, or too long.
+fn parse_selector(text: &str) -> Option<Vec<CompoundSelector<'_>>> {
     let mut reader = CssReader { text, at: 0 };
-    let mut found: Vec<(CompoundSelector, Combinator)> = Vec::new();
+    let mut found: Vec<CompoundSelector> = Vec::new();
     let mut relation = Combinator::First;
     loop {
         let before = reader.at;
@@ -237,8 +192,7 @@ fn parts(text: &str) -> Option<Vec<(CompoundSelector<'_>, Combinator)>> {
             _ => None,
         };
         if let Some(sign) = sign {
-            let may = !found.is_empty() && relation == Combinator::First;
-            if !may {
+            if found.is_empty() || relation != Combinator::First {
                 return None;
             }
             reader.at += 1;
@@ -250,10 +204,10 @@ fn parts(text: &str) -> Option<Vec<(CompoundSelector<'_>, Combinator)>> {
                 (false, Combinator::First) => Combinator::Inside,
                 _ => relation,
             };
-            found.push((CompoundSelector::default(), relation));
+            found.push(CompoundSelector { relation, name: None, tests: Vec::new(), first_child: false });
         }
         relation = Combinator::First;
-        let (compound, _) = found.last_mut()?;
+        let compound = found.last_mut()?;
         match next {
             b'*' => reader.at += 1,
             b'.' => {
@@ -284,7 +238,8 @@ fn parts(text: &str) -> Option<Vec<(CompoundSelector<'_>, Combinator)>> {
             _ => return None,
         }
     }
-    (relation == Combinator::First && !found.is_empty()).then_some(found)
+    let is_whole = relation == Combinator::First && !found.is_empty();
+    (is_whole && found.len() <= MAX_COMPOUNDS).then_some(found)
 }
 
 /// Condition between `[` and `]`.
@@ -315,9 +270,11 @@ mod tests {
             "/* a{} */ @media print { path{fill:red} } g > path.a.b , #c rect + [d|='x,}'] { fill : url(a;b) ; stroke:#000!important }\
              text:hover{fill:blue} ;x{stroke:none}",
         );
-        let told: Vec<([u32; 3], usize)> = sheet.rules.iter().map(|rule| (rule.weight, rule.block)).collect();
+        let told: Vec<([usize; 3], usize)> =
+            sheet.rules.iter().map(|rule| (rule.weight(), rule.block)).collect();
         assert_eq!(told, [([0, 2, 2], 0), ([1, 1, 1], 0), ([0, 0, 1], 2)]);
-        let relations: Vec<Combinator> = sheet.parts.iter().map(|part| part.relation).collect();
+        let compounds = sheet.rules.iter().flat_map(|rule| &rule.selector);
+        let relations: Vec<Combinator> = compounds.map(|compound| compound.relation).collect();
         use Combinator::{Child, First, Inside, Next};
         assert_eq!(relations, [First, Child, First, Inside, Next, First]);
         assert!(sheet.has_more);

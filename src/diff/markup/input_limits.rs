@@ -1,44 +1,33 @@
-//! Parsing of untrusted XML. Files that would take more time or memory than their length justifies are
-//! refused before anything is expanded.
+//! Parsing of untrusted XML. Files beyond plain limits on size, depth and number of elements are refused.
+//!
+//! 1. The tags are counted before the file is parsed. The tokenizer has the grammar of the parser, and files
+//!    that it does not accept are refused.
+//! 2. The elements of the parsed file are counted with each reference replaced by its target.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
+use xmlparser::{ElementEnd, EntityDefinition, Token, Tokenizer};
 
-use super::tag_limits::{self, MAX_DEPTH, too_deep, too_much};
+use super::url_references::references;
 use crate::error::Error;
 
-/// Most elements of a file.
+/// Most nodes of a file.
 const MAX_NODES: u32 = 8_000_000;
-/// Most bytes drawn through references, in addition to four times the length of the file.
-const MAX_REFERENCED_BYTES: u64 = 200_000_000;
+/// Most elements with each reference replaced by its target.
+const MAX_EXPANDED_ELEMENTS: u64 = 4_000_000;
+/// Greatest nesting depth of elements, including references.
+const MAX_DEPTH: usize = 256;
+/// Most attributes of one element. The parser compares each pair.
+const MAX_ATTRIBUTES: usize = 512;
+/// Most namespace prefixes of a file. The parser copies them for each element that declares one.
+const MAX_NAMESPACES: usize = 64;
+/// Most bytes of expanded entities.
+const MAX_ENTITY_BYTES: usize = 16_000_000;
+/// Character references that need no declaration.
+const PREDEFINED_ENTITIES: [&str; 6] = ["#", "amp;", "lt;", "gt;", "quot;", "apos;"];
 
 /// Parses an SVG file after checking its limits.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
-    before_parsing(text)?;
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(in_words)?;
-    let root = document.root_element();
-    if root.tag_name().name() != "svg" {
-        return Err(Error::new(format!("the root element is `{}`, not `svg`", root.tag_name().name()))
-            .at("line 1")
-            .remedy("give an SVG file"));
-    }
-    ElementWeights::new(&document).check(text.len())?;
-    Ok(document)
-}
-
-/// The parser's error message with its position in the file.
-fn in_words(error: roxmltree::Error) -> Error {
-    let line = error.pos();
-    let text = error.to_string();
-    let message = text.split(" at ").next().unwrap_or("cannot be read").to_owned();
-    Error::new(format!("the file is not well-formed XML: {message}"))
-        .at(format!("line {}, column {}", line.row, line.col))
-        .remedy("give a whole SVG file")
-}
-
-/// Checks that must happen before the parser runs.
-fn before_parsing(text: &str) -> Result<(), Error> {
     let start = text.trim_start_matches('\u{feff}').trim_start();
     if start.is_empty() {
         return Err(Error::new("the file is empty").remedy("give an SVG file"));
@@ -46,41 +35,114 @@ fn before_parsing(text: &str) -> Result<(), Error> {
     if !start.starts_with('<') {
         return Err(Error::new("is not SVG").at("line 1").remedy("give an SVG file"));
     }
-    tag_limits::check(text)
+    check_tags(text)?;
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error: roxmltree::Error| {
+        malformed(error.to_string().split(" at ").next(), error.pos().row, error.pos().col)
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        return Err(Error::new(format!("the root element is `{}`, not `svg`", root.tag_name().name()))
+            .at("line 1")
+            .remedy("give an SVG file"));
+    }
+    let named = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
+    let mut expansion = Expansion { ids: named.collect(), known: FxHashMap::default() };
+    if expansion.of(root, 0)?.elements > MAX_EXPANDED_ELEMENTS {
+        return Err(too_much("elements, with each reference replaced by its target"));
+    }
+    Ok(document)
 }
 
-/// Size of each element with all its references expanded.
-struct ElementWeights<'a, 'input> {
+fn malformed(message: Option<&str>, row: u32, column: u32) -> Error {
+    Error::new(format!("the file is not well-formed XML: {}", message.unwrap_or("cannot be read")))
+        .at(format!("line {row}, column {column}"))
+        .remedy("give a whole SVG file")
+}
+
+pub(super) fn too_much(what: &str) -> Error {
+    Error::new(format!("the file has too many {what}"))
+        .remedy("save the drawing as plain SVG, without references that multiply")
+}
+
+fn too_deep() -> Error {
+    Error::new(format!("elements are nested more than {MAX_DEPTH} deep"))
+        .remedy("ungroup the drawing, or save it as plain SVG")
+}
+
+/// Refuses files that the parser would take too long for.
+fn check_tags(text: &str) -> Result<(), Error> {
+    let (mut depth, mut attributes, mut entity_bytes, mut entity_uses) = (0usize, 0usize, 0usize, 0usize);
+    let mut prefixes: FxHashSet<&str> = FxHashSet::default();
+    for token in Tokenizer::from(text) {
+        // Errors such as `invalid element at 1:2 cause expected '=' not '/' at 1:9`.
+        let token = token.map_err(|error| {
+            let text = error.to_string();
+            let cause = text.split_once(" cause ").map_or(&*text, |(_, cause)| cause);
+            malformed(cause.split(" at ").next(), error.pos().row, error.pos().col)
+        })?;
+        match token {
+            Token::ElementStart { .. } => attributes = 0,
+            Token::Attribute { prefix, local, value, .. } => {
+                attributes += 1;
+                entity_uses += entity_references(&value);
+                if prefix == "xmlns" {
+                    prefixes.insert(local.as_str());
+                }
+            }
+            Token::ElementEnd { end: ElementEnd::Open, .. } => depth += 1,
+            Token::ElementEnd { end: ElementEnd::Close(..), .. } => depth = depth.saturating_sub(1),
+            Token::Text { text } => entity_uses += entity_references(&text),
+            Token::EntityDeclaration { definition: EntityDefinition::EntityValue(value), .. } => {
+                entity_bytes += value.len();
+                if entity_references(&value) > 0 {
+                    return Err(too_much("entities that are made of entities"));
+                }
+                if value.matches('=').count() > MAX_ATTRIBUTES || value.contains("xmlns") {
+                    return Err(too_much("attributes or namespaces in an entity"));
+                }
+            }
+            _ => {}
+        }
+        if attributes > MAX_ATTRIBUTES {
+            return Err(too_much("attributes of one element"));
+        }
+        if prefixes.len() > MAX_NAMESPACES {
+            return Err(too_much("namespaces"));
+        }
+        if depth > MAX_DEPTH {
+            return Err(too_deep());
+        }
+    }
+    match entity_uses.saturating_mul(entity_bytes) > MAX_ENTITY_BYTES {
+        true => Err(too_much(&format!("uses of entities ({entity_uses})"))),
+        false => Ok(()),
+    }
+}
+
+/// Number of references to entities that must be declared.
+fn entity_references(text: &str) -> usize {
+    let rests = text.split('&').skip(1);
+    rests.filter(|rest| !PREDEFINED_ENTITIES.iter().any(|known| rest.starts_with(known))).count()
+}
+
+/// Counts of each element with its references replaced by their targets.
+struct Expansion<'a, 'input> {
     ids: FxHashMap<&'a str, Node<'a, 'input>>,
-    known: FxHashMap<NodeId, Option<ElementWeight>>,
-    root: Node<'a, 'input>,
+    /// Counts by element; `None` while an element is being counted.
+    known: FxHashMap<NodeId, Option<ExpandedCount>>,
 }
 
-/// Expanded size of an element in bytes, and the height of its tree.
-#[derive(Clone, Copy, Default)]
-struct ElementWeight {
-    bytes: u64,
+/// Number of elements, and height of their tree.
+#[derive(Clone, Copy)]
+struct ExpandedCount {
+    elements: u64,
     height: usize,
 }
 
-impl<'a, 'input> ElementWeights<'a, 'input> {
-    fn new(document: &'a Document<'input>) -> Self {
-        let named = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
-        Self { ids: named.collect(), known: FxHashMap::default(), root: document.root_element() }
-    }
-
-    /// Refuses a document whose references expand to too many bytes.
-    fn check(mut self, length: usize) -> Result<(), Error> {
-        let weight = self.of(self.root, 0)?;
-        let limit = MAX_REFERENCED_BYTES.saturating_add(4 * length as u64);
-        if weight.bytes > limit {
-            return Err(too_much("the references in the file expand to hundreds of megabytes"));
-        }
-        Ok(())
-    }
-
-    /// Size of an element that is `depth` levels deep.
-    fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<ElementWeight, Error> {
+impl<'a, 'input> Expansion<'a, 'input> {
+    /// Counts an element that is `depth` levels deep.
+    fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<ExpandedCount, Error> {
         match self.known.get(&node.id()) {
             Some(Some(known)) if depth + known.height <= MAX_DEPTH => return Ok(*known),
             Some(Some(_)) => return Err(too_deep()),
@@ -89,37 +151,22 @@ impl<'a, 'input> ElementWeights<'a, 'input> {
                 return Err(Error::new(format!("`{name}` refers to itself")).remedy("remove the reference"));
             }
             None if depth > MAX_DEPTH => return Err(too_deep()),
-            None => {}
+            None => drop(self.known.insert(node.id(), None)),
         }
-        // Marks the element as in progress: reaching it again means that it refers to itself.
-        self.known.insert(node.id(), None);
-        let mut weight = ElementWeight { bytes: 64, height: 0 };
-        let mut add = |inner: ElementWeight, times: u64| {
-            weight.bytes = weight.bytes.saturating_add(inner.bytes.saturating_mul(times));
-            weight.height = weight.height.max(inner.height + 1);
+        let mut count = ExpandedCount { elements: 1, height: 0 };
+        let mut add = |inner: ExpandedCount, times: u64| {
+            count.elements = count.elements.saturating_add(inner.elements.saturating_mul(times));
+            count.height = count.height.max(inner.height + 1);
         };
         for attribute in node.attributes() {
             let value = attribute.value();
-            // Embedded pictures are not decoded: a rectangle stands for them.
-            let is_picture = node.tag_name().name() == "image" && attribute.name() == "href";
-            let bytes = if is_picture { 0 } else { value.len() as u64 };
-            add(ElementWeight { bytes, height: 0 }, 1);
             let href =
                 value.strip_prefix('#').filter(|_| attribute.name() == "href" && draws_its_target(node));
             // A marker is drawn at every point of a path.
-            let times = match value.contains("marker") || attribute.name().starts_with("marker") {
-                true => {
-                    node.attribute("d").or(node.attribute("points")).map_or(1, |d| 1 + d.len() as u64 / 2)
-                }
-                false => 1,
-            };
-            let references = value.split("url(").skip(1).filter_map(|rest| {
-                rest.trim_start_matches(['"', '\'', ' '])
-                    .strip_prefix('#')?
-                    .split(['"', '\'', ')', ' '])
-                    .next()
-            });
-            for id in references.chain(href) {
+            let is_marker = attribute.name().starts_with("marker") || value.contains("marker");
+            let course = node.attribute("d").or(node.attribute("points")).filter(|_| is_marker);
+            let times = course.map_or(1, |points| 1 + points.len() as u64 / 2);
+            for id in references(value).flatten().chain(href) {
                 if let Some(target) = self.ids.get(id).copied() {
                     add(self.of(target, depth + 1)?, times);
                 }
@@ -128,8 +175,8 @@ impl<'a, 'input> ElementWeights<'a, 'input> {
         for child in node.children().filter(Node::is_element) {
             add(self.of(child, depth + 1)?, 1);
         }
-        self.known.insert(node.id(), Some(weight));
-        Ok(weight)
+        self.known.insert(node.id(), Some(count));
+        Ok(count)
     }
 }
 
@@ -153,6 +200,10 @@ mod tests {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">{text}</svg>")
     }
 
+    fn attributes(count: usize) -> String {
+        (0..count).map(|i| format!(" a{i}=\"\"")).collect()
+    }
+
     #[test]
     fn parse_refuses_svg_bombs() {
         let mut laughs = String::from("<g id=\"a0\"><path d=\"M0 0h1\"/></g>");
@@ -165,17 +216,28 @@ mod tests {
         assert!(parse_result(&svg_with(&deep)).contains("256 deep"));
         let cycle = "<g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g>";
         assert!(parse_result(&svg_with(cycle)).contains("refers to itself"));
-        let entities =
-            "<!DOCTYPE svg [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>".to_owned() + &svg_with("&b;");
-        assert!(parse_result(&entities).contains("made of entities"));
-        let long =
-            format!("<!DOCTYPE svg [<!ENTITY a \"{}\">]>{}", "a".repeat(9000), svg_with(&"&a;".repeat(9000)));
-        assert!(parse_result(&long).contains("uses of entities"));
-        let many: String = (0..600).map(|i| format!(" a{i}=\"\"")).collect();
-        assert!(parse_result(&svg_with(&format!("<g{many}/>"))).contains("600 attributes"));
+        assert!(parse_result(&svg_with(&format!("<g{}/>", attributes(600)))).contains("attributes"));
         let marked = format!("<marker id=\"m\">{}</marker>", "<path d=\"M0 0h1\"/>".repeat(900))
             + &format!("<path marker-mid=\"url(#m)\" d=\"M0 0{}\"/>", "h1".repeat(90_000));
         assert!(parse_result(&svg_with(&marked)).contains("multiply"));
+        let names: String = (0..500).map(|i| format!(" xmlns:n{i}=\"u\"")).collect();
+        let copies = "<g xmlns:a=\"b\"/>".repeat(20_000);
+        assert!(parse_result(&svg_with(&format!("<g{names}>{copies}</g>"))).contains("namespaces"));
+    }
+
+    #[test]
+    fn parse_refuses_entities_that_multiply() {
+        let with = |value: &str, text: &str| {
+            parse_result(&format!("<!DOCTYPE svg [<!ENTITY e '{value}'>]>{}", svg_with(text)))
+        };
+        assert!(with("a'><!ENTITY b '&e;&e;", "&b;").contains("made of entities"));
+        assert!(with(&"a".repeat(9000), &"&e;".repeat(9000)).contains("uses of entities"));
+        assert!(with("<g/>", &"&e;".repeat(5_000_000)).contains("uses of entities"));
+        assert!(with(&format!("<g{}/>", attributes(600)), "&e;").contains("attributes"));
+        assert!(with(&("<g>".repeat(300) + &"</g>".repeat(300)), "&e;").contains("256 deep"));
+        assert!(with("<g xmlns:a=\"b\"/>", "&e;").contains("namespaces"));
+        assert_eq!(with("<g/>text<g a=\"1\"/>", "&e;<g/>"), "read");
+        assert_eq!(with(&"x".repeat(2000), &"<!-- &e; -->&amp;&#60;".repeat(9000)), "read");
     }
 
     #[test]
@@ -185,6 +247,10 @@ mod tests {
             ("solid cube", "not SVG"),
             ("<html/>", "`html`"),
             ("<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0", "well-formed"),
+            (
+                "<svg>\n<g a/></svg>",
+                "line 2, column 3: the file is not well-formed XML: expected '=' not '/'",
+            ),
             ("\u{0}\u{1}", "not SVG"),
         ] {
             assert!(parse_result(text).contains(word), "{text}: {}", parse_result(text));
@@ -200,7 +266,23 @@ mod tests {
         assert_eq!(parse_result(&svg_with(plain)), "read");
         let style = "g,h{fill:red;stroke:none}".repeat(20_000);
         assert_eq!(parse_result(&svg_with(&format!("<style>{style}</style>"))), "read");
-        let entity = "<!DOCTYPE svg [<!ENTITY ns \"http://x\">]>".to_owned() + &svg_with("<g a=\"&ns;\"/>");
-        assert_eq!(parse_result(&entity), "read");
+        let usual =
+            "<g xmlns=\"http://www.w3.org/2000/svg\" xmlns:i=\"u\" i:label=\"a\"><path i:x=\"\"/></g>";
+        assert_eq!(parse_result(&svg_with(&usual.repeat(100_000))), "read");
+        let many = attributes(600);
+        assert_eq!(parse_result(&svg_with(&format!("<!-- <g{many}> --><![CDATA[<g{many}>]]>"))), "read");
+    }
+
+    /// Work that grows faster than the text would not finish here.
+    #[test]
+    fn parse_terminates_on_millions_of_repetitions() {
+        let doctype = "<!DOCTYPE svg [<!ENTITY a 'b'>";
+        for piece in
+            ["<g a='1'>", "<!--", "<!-- - -->", "<![CDATA[", "]]", "<?a ", doctype, "<g ", "&", "'", "\n"]
+        {
+            for start in ["<svg>", "<!DOCTYPE svg [", ""] {
+                _ = parse(&(start.to_owned() + &piece.repeat(4_000_000 / piece.len())));
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
-//! Scan of the numbers of an attribute: their decimals and their range, without parsing them.
+//! Scan of the numbers of an attribute: their decimals and their range.
 
-/// Most digits before the point. Ten million px are 2.6 km, more than any drawing needs.
-const MAX_INTEGER_DIGITS: i64 = 8;
+/// Numbers from this on are refused. A hundred million px are 26 km, more than any drawing needs.
+const MAX_NUMBER: f64 = 1e8;
 
 /// Result of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,53 +17,29 @@ pub(crate) fn scan(text: &str) -> NumberScan {
     let bytes = text.as_bytes();
     let mut found = NumberScan::default();
     let mut at = 0;
-    let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
-    while at < bytes.len() {
-        if !(bytes[at].is_ascii_digit() || bytes[at] == b'.') {
-            at += 1;
-            continue;
-        }
-        let start = at;
-        let zeros = bytes[at..].iter().take_while(|b| **b == b'0').count();
-        let mut whole = (digits(at) - zeros) as i64;
-        at += digits(at);
-        let mut decimals = 0;
-        if bytes.get(at) == Some(&b'.') {
-            decimals = digits(at + 1) as i64;
-            if whole == 0 {
-                // Leading zeros of the fraction count against an exponent.
-                whole = -(bytes[at + 1..].iter().take_while(|b| **b == b'0').count() as i64);
-            }
-            at += 1 + decimals as usize;
-        }
-        if let Some((exponent, length)) = exponent(&bytes[at..]) {
-            at += length;
-            whole = whole.saturating_add(exponent);
-            decimals = decimals.saturating_sub(exponent).max(0);
+    let digits = |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let is = |at: usize, wanted: &[u8]| bytes.get(at).is_some_and(|b| wanted.contains(b));
+    while let Some(skipped) = bytes[at..].iter().position(|b| b.is_ascii_digit() || *b == b'.') {
+        let start = at + skipped;
+        let point = digits(start);
+        at = if is(point, b".") { digits(point + 1) } else { point };
+        let mut decimals = at.saturating_sub(point + 1) as i64;
+        // `em` and `ex` are units.
+        let exponent_start = at + 1 + usize::from(is(at + 1, b"+-"));
+        let has_exponent = is(at, b"eE") && is(exponent_start, b"0123456789");
+        if has_exponent {
+            let end = digits(exponent_start);
+            let exponent = text[at + 1..end].parse::<f64>().unwrap_or(0.0);
+            decimals = decimals.saturating_sub(exponent as i64).max(0);
+            at = end;
         }
         found.decimals = found.decimals.max(u8::try_from(decimals).unwrap_or(u8::MAX));
-        if whole > MAX_INTEGER_DIGITS && found.too_large.is_none() {
+        let may_be_large = found.too_large.is_none() && (has_exponent || at - start > 8);
+        if may_be_large && text[start..at].parse::<f64>().is_ok_and(|number| number >= MAX_NUMBER) {
             found.too_large = Some(start);
         }
     }
     found
-}
-
-/// Value and length of the exponent that continues a number. `em` and `ex` are units.
-fn exponent(bytes: &[u8]) -> Option<(i64, usize)> {
-    if !matches!(bytes.first(), Some(b'e' | b'E')) {
-        return None;
-    }
-    let signed = matches!(bytes.get(1), Some(b'+' | b'-'));
-    let from = 1 + usize::from(signed);
-    let count = bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
-    if count == 0 {
-        return None;
-    }
-    let digits = bytes[from..from + count].iter();
-    let value = digits.fold(0i64, |sum, b| sum.saturating_mul(10).saturating_add(i64::from(b - b'0')));
-    let value = value.min(1_000_000);
-    Some((if bytes[1] == b'-' { -value } else { value }, from + count))
 }
 
 #[cfg(test)]

@@ -6,11 +6,12 @@ use crate::parallel::prelude::*;
 use kurbo::BezPath;
 use rustc_hash::FxHashSet;
 
-use super::chain_pairs::{ChainPair, CoveredChains, bounds, pairs};
-use super::interval_cover::{ChainCover, CoverRun};
+use super::chain_pairs::{ChainPair, pairs};
+use super::interval_cover::{ChainCover, CoverRun, CoveredChains};
 use crate::diff::curves::chain::{OutlineChain, flatten};
 use crate::diff::curves::chain_alignment::align;
 use crate::diff::curves::hausdorff_distance::{NearestPointQuery, chain_distance};
+use crate::diff::curves::segment::bounds;
 use crate::diff::findings::finding::Verdict;
 use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
@@ -39,6 +40,23 @@ pub(crate) struct ChainEvent {
     pub shift: Option<[f64; 2]>,
     pub removed: BezPath,
     pub added: BezPath,
+}
+
+impl ChainEvent {
+    /// A change without distances and paths. `size` is the affected length in px.
+    fn new(verdict: Verdict, old: Option<usize>, new: Option<usize>, size: f64) -> Self {
+        let (removed, added) = (BezPath::new(), BezPath::new());
+        Self { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, removed, added }
+    }
+
+    /// The change of a chain that exists in one drawing only.
+    fn one_sided(sides: &[CoveredChains; 2], side: usize, index: usize, size: f64) -> Self {
+        let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
+        match side {
+            0 => Self { removed: path, ..Self::new(Verdict::Removed, Some(index), None, size) },
+            _ => Self { added: path, ..Self::new(Verdict::Added, None, Some(index), size) },
+        }
+    }
 }
 
 /// Changes of the chains of two drawings.
@@ -84,7 +102,7 @@ fn recoloured(events: Vec<ChainEvent>, sides: &[CoveredChains; 2], groups: &Mark
             let Some(a) = chain(0, &events[*removed_event]).map(|old| &sides[0].chains[old]) else {
                 return false;
             };
-            let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+            let tolerance = groups.tolerance(a.group);
             groups.likeness(a.group, b.group) == Some(Likeness::Ink)
                 && (a.length() - b.length()).abs() <= 4.0 * tolerance
                 && align(a, b).largest <= tolerance
@@ -112,7 +130,7 @@ fn recoloured(events: Vec<ChainEvent>, sides: &[CoveredChains; 2], groups: &Mark
 fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroups) -> ChainEvent {
     let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
     let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
-    let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+    let tolerance = groups.tolerance(a.group);
     let distance = chain_distance(a, b);
     let alignment = &pair.alignment;
     // A mean shift near zero means noise, not a motion.
@@ -123,16 +141,13 @@ fn paired_event(sides: &[CoveredChains; 2], pair: &ChainPair, groups: &MarkGroup
         <= (2.0 * tolerance).max(SIMILARITY_RESIDUAL_SHARE * alignment.largest)
         && length_difference <= (4.0 * tolerance).max(alignment.largest)
         && cover_a.share().max(cover_b.share()) < 0.5;
+    let verdict = if is_rigid || is_similar { Verdict::Moved } else { Verdict::Reshaped };
     let mut event = ChainEvent {
-        verdict: if is_rigid || is_similar { Verdict::Moved } else { Verdict::Reshaped },
-        old: Some(pair.old),
-        new: Some(pair.new),
-        size: cover_a.length,
         largest: distance.largest,
         p95: distance.p95,
-        shift: None,
         removed: bare(a, cover_a),
         added: bare(b, cover_b),
+        ..ChainEvent::new(verdict, Some(pair.old), Some(pair.new), cover_a.length)
     };
     if event.verdict == Verdict::Reshaped {
         event.largest = off(a, cover_a, b, tolerance).max(off(b, cover_b, a, tolerance));
@@ -158,36 +173,17 @@ fn unpaired_event(sides: &[CoveredChains; 2], side: usize, index: usize, groups:
         .iter()
         .find(is_same_part)
         .filter(|partner| partner.2 > MIN_REMAINING_SHARE * cover.length);
-    let partner_index = best_partner.map(|(partner, ..)| *partner as usize);
-    let (mut old, mut new) =
-        if side == 0 { (Some(index), partner_index) } else { (partner_index, Some(index)) };
-    let mut event = ChainEvent {
-        verdict: Verdict::Reshaped,
-        old,
-        new,
-        size: cover.uncovered_length(),
-        largest: 0.0,
-        p95: 0.0,
-        shift: None,
-        removed: BezPath::new(),
-        added: BezPath::new(),
+    let size = cover.uncovered_length();
+    let Some(partner) = best_partner.map(|(partner, ..)| *partner as usize) else {
+        return ChainEvent::one_sided(sides, side, index, size);
     };
-    if let Some((a, b)) = old.zip(new) {
-        let opposite_chain = if side == 0 { &sides[1].chains[b] } else { &sides[0].chains[a] };
-        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
-        event.largest = off(chain, cover, opposite_chain, tolerance);
-        event.p95 = event.largest;
-    } else {
-        event.verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
-        (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
-        (event.old, event.new) = (old, new);
-    }
-    let path = if partner_index.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
+    let largest = off(chain, cover, &sides[1 - side].chains[partner], groups.tolerance(chain.group));
+    let (old, new) = if side == 0 { (index, partner) } else { (partner, index) };
+    let event = ChainEvent::new(Verdict::Reshaped, Some(old), Some(new), size);
     match side {
-        0 => event.removed = path,
-        _ => event.added = path,
+        0 => ChainEvent { largest, p95: largest, removed: bare(chain, cover), ..event },
+        _ => ChainEvent { largest, p95: largest, added: bare(chain, cover), ..event },
     }
-    event
 }
 
 /// Largest distance of the uncovered runs of a chain from the other drawing. It is limited by the arc length
@@ -223,7 +219,7 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
         if !cover.is_whole() || cover.is_same() {
             return None;
         }
-        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        let tolerance = groups.tolerance(chain.group);
         let min_length = (MIN_REPAINT_TOLERANCES * tolerance)
             .max(MIN_REPAINT_SHARE * cover.length)
             .min(0.5 * cover.length);
@@ -248,6 +244,9 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
     };
     let of_new: Vec<Option<Vec<(usize, Likeness, f64)>>> =
         (0..sides[1].chains.len()).map(|index| repainting_partners(1, index)).collect();
+    let whole_event = |side: usize, index: usize| {
+        ChainEvent::one_sided(sides, side, index, sides[side].covers[index].length)
+    };
     let mut events = Vec::new();
     let mut reported_chains: FxHashSet<usize> = FxHashSet::default();
     for index in 0..sides[0].chains.len() {
@@ -260,44 +259,28 @@ fn repaint_events(sides: &[CoveredChains; 2], groups: &MarkGroups) -> Vec<ChainE
             if is_mutual {
                 drawn_over = false;
                 reported_chains.insert(partner);
+                let verdict = match likeness {
+                    Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
+                    Likeness::Label => Verdict::Relabelled,
+                };
                 events.push(ChainEvent {
-                    verdict: match likeness {
-                        Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
-                        Likeness::Label => Verdict::Relabelled,
-                    },
-                    old: Some(index),
-                    new: Some(partner),
-                    size: length,
-                    largest: 0.0,
-                    p95: 0.0,
-                    shift: None,
-                    removed: BezPath::new(),
                     added: stretches(&sides[0].chains[index], &sides[0].covers[index], |run| {
                         run.likeness.is_some_and(|likeness| likeness != Likeness::Same)
                     }),
+                    ..ChainEvent::new(verdict, Some(index), Some(partner), length)
                 });
             }
         }
         if drawn_over {
-            events.push(one_sided_event(sides, 0, index));
+            events.push(whole_event(0, index));
         }
     }
     for (index, list) in of_new.iter().enumerate() {
         if list.is_some() && !reported_chains.contains(&index) {
-            events.push(one_sided_event(sides, 1, index));
+            events.push(whole_event(1, index));
         }
     }
     events
-}
-
-/// Change of a chain that exists in one drawing only, although another chain covers its place.
-fn one_sided_event(sides: &[CoveredChains; 2], side: usize, index: usize) -> ChainEvent {
-    let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
-    let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
-    let (removed_path, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
-    let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
-    let size = sides[side].covers[index].length;
-    ChainEvent { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, removed: removed_path, added }
 }
 
 /// Uncovered runs of a chain as a path.

@@ -18,14 +18,14 @@ use std::collections::BTreeMap;
 
 use crate::diff::tolerances;
 use crate::parallel::prelude::*;
-use kurbo::{Point, Rect};
+use kurbo::Point;
 use rustc_hash::FxHashMap;
 
-use super::interval_cover::ChainCover;
+use super::interval_cover::{ChainCover, CoveredChains};
 use crate::diff::curves::chain::OutlineChain;
 use crate::diff::curves::chain_alignment::{Alignment, align};
 use crate::diff::curves::hausdorff_distance::evenly_spaced_points;
-use crate::diff::curves::segment::nearest_on;
+use crate::diff::curves::segment::{bounds, nearest_on};
 use crate::diff::curves::segment_grid::SegmentGrid;
 use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
 
@@ -47,15 +47,6 @@ const MAX_CANDIDATES: usize = 6;
 const MAX_CONGRUENT: usize = 64;
 /// Maximum number of segments visited per sample point. Where thousands coincide, any of them will do.
 const MAX_SEGMENTS_PER_SAMPLE: usize = 512;
-
-/// The chains of one drawing and their covers by the other drawing.
-#[derive(Debug)]
-pub(crate) struct CoveredChains {
-    pub chains: Vec<OutlineChain>,
-    /// For each chain, the index of its first copy.
-    pub firsts: Vec<usize>,
-    pub covers: Vec<ChainCover>,
-}
 
 /// Two chains that are the same mark: indices in the old and the new drawing.
 #[derive(Debug, Clone, Copy)]
@@ -148,8 +139,7 @@ fn congruent(
         lengths_and_indices.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         lengths_and_indices
     });
-    let tolerance =
-        |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
+    let tolerance = |index: usize| groups.tolerance(sides[0].chains[index].group);
     let mut partners_by_chain: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
     let mut pairs = Vec::new();
     for (length, old) in &chains_by_length[0] {
@@ -289,10 +279,7 @@ fn score_pair(
         0.0
     };
     let alignment = align(a, b);
-    let size = |chain: &OutlineChain| {
-        let bounds = bounds(&chain.points);
-        bounds.size().to_vec2().hypot()
-    };
+    let size = |chain: &OutlineChain| bounds(&chain.points).size().to_vec2().hypot();
     let max_offset = (MAX_SHIFT_MARK_SHARE * size(a).max(size(b)))
         .max(MIN_SHIFT_PAGE_SHARE * page)
         .min(MAX_SHIFT_PAGE_SHARE * page);
@@ -311,10 +298,4 @@ fn score_pair(
     };
     let cost = alignment.largest * unlikeness_factor * (1.0 - 0.9 * common_share);
     Some(ChainPair { old, new, alignment, cost })
-}
-
-/// Bounding box of points.
-pub(crate) fn bounds(points: &[Point]) -> Rect {
-    let Some(first) = points.first() else { return Rect::ZERO };
-    points.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
 }

@@ -3,9 +3,9 @@
 
 use std::hash::{Hash, Hasher};
 
-use kurbo::{BezPath, PathEl, Point};
 use rustc_hash::{FxHashMap, FxHasher};
 
+use crate::diff::curves::segment::points;
 use crate::diff::shapes::mark_groups::MarkGroups;
 use crate::diff::shapes::picture::{Picture, Shape};
 
@@ -23,7 +23,9 @@ pub(crate) fn part(before: &Picture, after: &Picture, groups: &MarkGroups) -> Sh
     let hash = |shape: &Shape, group: usize| {
         let mut hasher = FxHasher::default();
         group.hash(&mut hasher);
-        hash_path(&shape.path, &mut hasher);
+        for p in points(&shape.path) {
+            (p.x.to_bits(), p.y.to_bits()).hash(&mut hasher);
+        }
         hasher.finish()
     };
     let mut waiting: FxHashMap<u64, Vec<usize>> = FxHashMap::default();
@@ -53,20 +55,5 @@ pub(crate) fn part(before: &Picture, after: &Picture, groups: &MarkGroups) -> Sh
     ShapeMatching {
         equal: equal_pairs,
         unequal_shapes: [(0..gone.len()).filter(|index| gone[*index]).collect(), new],
-    }
-}
-
-fn hash_path(path: &BezPath, hasher: &mut FxHasher) {
-    let mut point = |p: &Point| {
-        p.x.to_bits().hash(hasher);
-        p.y.to_bits().hash(hasher);
-    };
-    for element in path.elements() {
-        match element {
-            PathEl::MoveTo(p) | PathEl::LineTo(p) => point(p),
-            PathEl::QuadTo(c, p) => [c, p].into_iter().for_each(&mut point),
-            PathEl::CurveTo(c1, c2, p) => [c1, c2, p].into_iter().for_each(&mut point),
-            PathEl::ClosePath => {}
-        }
     }
 }

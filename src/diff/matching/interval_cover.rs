@@ -10,10 +10,9 @@
 
 use crate::diff::tolerances;
 use crate::parallel::prelude::*;
-use kurbo::Point;
 
 use super::capsule_interval::within;
-use crate::diff::curves::chain::OutlineChain;
+use crate::diff::curves::chain::{OutlineChain, first_copies};
 use crate::diff::curves::segment_clusters::ClusterVisit;
 use crate::diff::curves::segment_grid::SegmentGrid;
 use crate::diff::shapes::mark_groups::{Likeness, MarkGroups};
@@ -52,8 +51,6 @@ pub(crate) struct ChainCover {
     pub partners: Vec<(u32, Likeness, f64)>,
     /// Length of the chain in px.
     pub length: f64,
-    /// Whether the chain has no length.
-    is_point: bool,
 }
 
 impl ChainCover {
@@ -74,10 +71,9 @@ impl ChainCover {
 
     /// Covered share of the length.
     pub(crate) fn share(&self) -> f64 {
-        if self.is_point {
-            f64::from(u8::from(self.is_whole()))
-        } else {
-            1.0 - self.uncovered_length() / self.length
+        match self.length == 0.0 {
+            true => f64::from(u8::from(self.is_whole())),
+            false => 1.0 - self.uncovered_length() / self.length,
         }
     }
 
@@ -112,100 +108,68 @@ impl ChainCover {
     }
 }
 
-/// Covers each chain of `own_chains` by the chains of `other_chains`, whose segments are in `grid`.
+/// The chains of one drawing and their covers by the other drawing.
+#[derive(Debug)]
+pub(crate) struct CoveredChains {
+    pub chains: Vec<OutlineChain>,
+    /// For each chain, the index of its first copy.
+    pub firsts: Vec<usize>,
+    pub covers: Vec<ChainCover>,
+}
+
+/// Covers the chains of each of two drawings by those of the other one. Chains must be sorted.
+pub(crate) fn cover(chains: [Vec<OutlineChain>; 2], groups: &MarkGroups) -> [CoveredChains; 2] {
+    let firsts = [first_copies(&chains[0]), first_copies(&chains[1])];
+    let covers = [(0, 1), (1, 0)].map(|(own, other): (usize, usize)| {
+        let others = chains[other].iter().enumerate();
+        let grid = SegmentGrid::of(others.filter(|(index, _)| firsts[other].get(*index) == Some(index)));
+        cover_side((&chains[own], &firsts[own]), (&chains[other], &firsts[other]), &grid, groups)
+    });
+    let ([a, b], [firsts_a, firsts_b], [covers_a, covers_b]) = (chains, firsts, covers);
+    [
+        CoveredChains { chains: a, firsts: firsts_a, covers: covers_a },
+        CoveredChains { chains: b, firsts: firsts_b, covers: covers_b },
+    ]
+}
+
+/// Covers each chain of one drawing by the chains of another one, whose segments are in `grid`.
 ///
 /// Each list of chains comes with the index of the first identical copy of each chain. Copies follow their
 /// first copy directly. The grid contains first copies only; the n-th copy of a chain is covered by the n-th
 /// copy of its partner.
-pub(crate) fn cover(
-    own_chains: (&[OutlineChain], &[usize]),
-    other_chains: (&[OutlineChain], &[usize]),
+fn cover_side(
+    (own, own_firsts): (&[OutlineChain], &[usize]),
+    (others, other_firsts): (&[OutlineChain], &[usize]),
     grid: &SegmentGrid,
     groups: &MarkGroups,
 ) -> Vec<ChainCover> {
-    let first_copy = |index: usize| own_chains.1.get(index).copied().unwrap_or(index);
-    let of_firsts: Vec<Option<ChainCover>> = own_chains
-        .0
-        .par_iter()
-        .enumerate()
-        .map_init(CoverScratch::default, |scratch, (index, chain)| {
-            (first_copy(index) == index).then(|| cover_chain(chain, other_chains.0, grid, groups, scratch))
-        })
-        .collect();
-    // A line crossed by thousands of others has many runs; storing them for thousands of copies would take
-    // too much memory.
-    let mut copy_counts = vec![0usize; own_chains.0.len()];
-    (0..copy_counts.len()).for_each(|index| copy_counts[first_copy(index)] += 1);
-    let limit_runs = |(index, cover): (usize, Option<ChainCover>)| {
-        cover.map(|cover| match cover.runs.len().saturating_mul(copy_counts[index] - 1) > MAX_COPIED_RUNS {
+    let mut copy_counts = vec![0usize; own.len()];
+    own_firsts.iter().for_each(|first| copy_counts[*first] += 1);
+    let of_first = |buffers: &mut _, (index, chain): (usize, &OutlineChain)| {
+        let cover = match own_firsts[index] == index {
+            true => cover_chain(chain, others, grid, groups, buffers),
+            false => return ChainCover::default(),
+        };
+        // A line crossed by thousands of others has many runs; storing them for thousands of copies would take
+        // too much memory.
+        match cover.runs.len().saturating_mul(copy_counts[index] - 1) > MAX_COPIED_RUNS {
             true => cover.without_crossings(),
             false => cover,
-        })
+        }
     };
-    let of_firsts: Vec<Option<ChainCover>> = of_firsts.into_iter().enumerate().map(limit_runs).collect();
-    let cover_of_copy = |index: usize| {
-        let mut cover = of_firsts.get(first_copy(index)).cloned().flatten().unwrap_or_default();
-        let rank = index - first_copy(index);
+    let of_firsts: Vec<ChainCover> =
+        own.par_iter().enumerate().map_init(Default::default, of_first).collect();
+    let cover_of_copy = |(index, first): (usize, &usize)| {
+        let mut cover = of_firsts[*first].clone();
         let partner_of_copy = |partner: u32| {
-            let copy = partner as usize + rank;
-            if other_chains.1.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
+            let copy = partner as usize + index - first;
+            if other_firsts.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
         };
         cover.runs.iter_mut().for_each(|run| run.partner = partner_of_copy(run.partner));
         cover.partners.iter_mut().for_each(|(partner, ..)| *partner = partner_of_copy(*partner));
         cover
     };
-    (0..own_chains.0.len()).map(cover_of_copy).collect()
-}
-
-/// Buffers reused from chain to chain.
-#[derive(Default)]
-struct CoverScratch {
-    near: Vec<u32>,
-    /// Likeness of the current chain to each group seen so far.
-    likeness: Vec<(usize, Option<Likeness>)>,
-    intervals: Vec<CoverInterval>,
-}
-
-/// A segment of the chain being covered; it starts at arc length `at`.
-struct ChainSegment {
-    from: Point,
-    to: Point,
-    at: f64,
-    length: f64,
-    tolerance: f64,
-}
-
-impl CoverScratch {
-    /// Stores the interval that another segment covers, and returns its likeness and its share of this
-    /// segment.
-    fn add_segment(
-        &mut self,
-        own_segment: &ChainSegment,
-        chain: &OutlineChain,
-        others: &[OutlineChain],
-        grid: &SegmentGrid,
-        groups: &MarkGroups,
-        item: u32,
-    ) -> Option<(Likeness, (f64, f64))> {
-        let segment = grid.segments.get(item as usize)?;
-        let other_chain = others.get(segment.chain as usize)?;
-        let cached_likeness = self.likeness.iter().find(|(group, _)| *group == other_chain.group);
-        let likeness = cached_likeness
-            .map_or_else(|| groups.likeness(chain.group, other_chain.group), |(_, known)| *known);
-        if cached_likeness.is_none() {
-            self.likeness.push((other_chain.group, likeness));
-        }
-        let likeness = likeness?;
-        let (start, end) =
-            within(own_segment.from, own_segment.to, segment.from, segment.to, own_segment.tolerance)?;
-        self.intervals.push(CoverInterval {
-            from: own_segment.at + start * own_segment.length,
-            to: own_segment.at + end * own_segment.length,
-            likeness,
-            partner: segment.chain,
-        });
-        Some((likeness, (start, end)))
-    }
+    own_firsts.iter().enumerate().map(cover_of_copy).collect()
 }
 
 /// Parameter ranges, 0 to 1, of a segment that are covered, in a place too dense to test all other segments.
@@ -240,90 +204,75 @@ impl DenseCover {
     }
 }
 
-/// An interval of a chain, covered by a chain of the other drawing; arc lengths in px.
-#[derive(Debug, Clone, Copy)]
-struct CoverInterval {
-    from: f64,
-    to: f64,
-    likeness: Likeness,
-    partner: u32,
-}
-
-/// Covers one chain by the chains of the other drawing.
+/// Covers one chain by the chains of the other drawing. The buffers are reused from chain to chain: numbers of
+/// near segments, and covered intervals of a segment, which may overlap.
 fn cover_chain(
     chain: &OutlineChain,
     other_chains: &[OutlineChain],
     grid: &SegmentGrid,
     groups: &MarkGroups,
-    scratch: &mut CoverScratch,
+    (near, intervals): &mut (Vec<u32>, Vec<CoverRun>),
 ) -> ChainCover {
-    let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+    let tolerance = groups.tolerance(chain.group);
     let mut cover = ChainCover { length: chain.length(), ..ChainCover::default() };
-    cover.is_point = cover.length == 0.0;
-    let mut start_offset = 0.0;
-    scratch.likeness.clear();
+    let mut at = 0.0;
     for (from, to) in chain.segments() {
         let length = from.distance(to);
-        scratch.intervals.clear();
-        let own_segment = ChainSegment { from, to, at: start_offset, length, tolerance };
-        let is_crowded = !grid.near(from, to, tolerance, &mut scratch.near);
-        let nearby_segments = std::mem::take(&mut scratch.near);
-        if is_crowded {
+        intervals.clear();
+        // Stores the interval that another segment covers, and returns its likeness and its parameters.
+        let mut add = |item: u32| {
+            let segment = grid.segments.get(item as usize)?;
+            let other_chain = other_chains.get(segment.chain as usize)?;
+            let likeness = groups.likeness(chain.group, other_chain.group)?;
+            let (start, end) = within(from, to, segment.from, segment.to, tolerance)?;
+            intervals.push(CoverRun {
+                from: at + start * length,
+                to: at + end * length,
+                likeness: Some(likeness),
+                partner: segment.chain,
+            });
+            Some((likeness, (start, end)))
+        };
+        if grid.near(from, to, tolerance, near) {
+            // An identical mark that covers the whole segment cannot be improved on.
+            near.iter().any(|item| add(*item) == Some((Likeness::Same, (0.0, 1.0))));
+        } else {
             let mut dense_cover = DenseCover::default();
             grid.bundles().search(|cluster_visit| match cluster_visit {
-                ClusterVisit::Bundle { from, to, radius } => {
+                ClusterVisit::Bundle { from: a, to: b, radius } => {
                     // A small margin for rounding.
                     let max_distance = (tolerance + radius) * (1.0 + tolerances::CLUSTER_MARGIN_SHARE);
-                    within(own_segment.from, own_segment.to, from, to, max_distance)
-                        .is_some_and(|share| !dense_cover.covers(share))
+                    within(from, to, a, b, max_distance).is_some_and(|share| !dense_cover.covers(share))
                 }
                 ClusterVisit::One(item) => {
-                    let item_match =
-                        scratch.add_segment(&own_segment, chain, other_chains, grid, groups, item);
-                    dense_cover.add(item_match);
+                    dense_cover.add(add(item));
                     dense_cover.covers((0.0, 1.0))
                 }
             });
         }
-        for item in nearby_segments.iter().filter(|_| !is_crowded) {
-            let segment_match = scratch.add_segment(&own_segment, chain, other_chains, grid, groups, *item);
-            // An identical mark that covers the whole segment cannot be improved on.
-            if segment_match
-                .is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0))
-            {
-                break;
-            }
-        }
-        scratch.near = nearby_segments;
-        runs(start_offset, start_offset + length, &mut scratch.intervals, &mut cover.runs);
-        start_offset += length;
+        runs(at, at + length, intervals, &mut cover.runs);
+        at += length;
     }
     merge(&mut cover.runs);
     let max_crossing_length = MAX_CROSSING_TOLERANCES * tolerance;
     // Crossings of uncovered stretches go first, because they may separate runs of equal likeness.
-    absorb(&mut cover.runs, max_crossing_length, |run, neighbour| {
-        neighbour.likeness.is_none() && run.likeness.is_some()
+    absorb(&mut cover.runs, max_crossing_length, |run, next| {
+        next.likeness.is_none() && run.likeness.is_some()
     });
-    absorb(&mut cover.runs, max_crossing_length, |run, neighbouring_run| {
-        run.likeness.is_some()
-            && neighbouring_run.likeness.is_some()
-            && run.likeness != neighbouring_run.likeness
+    absorb(&mut cover.runs, max_crossing_length, |run, next| {
+        run.likeness.is_some() && next.likeness.is_some() && run.likeness != next.likeness
     });
     cover.collect_partners();
     cover
 }
 
 /// Partitions the arc lengths `start`–`end` into runs, each with the best interval that covers it.
-fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], cover_runs: &mut Vec<CoverRun>) {
+fn runs(start: f64, end: f64, intervals: &mut [CoverRun], cover_runs: &mut Vec<CoverRun>) {
     if start == end {
         // A point is covered or not.
-        let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
-        cover_runs.push(CoverRun {
-            from: start,
-            to: end,
-            likeness: best.map(|best| best.likeness),
-            partner: best.map_or(0, |best| best.partner),
-        });
+        let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner)).copied();
+        let uncovered = CoverRun { from: start, to: end, likeness: None, partner: 0 };
+        cover_runs.push(CoverRun { from: start, to: end, ..best.unwrap_or(uncovered) });
         return;
     }
     intervals.sort_by(|a, b| {
@@ -342,26 +291,14 @@ fn runs(start: f64, end: f64, intervals: &mut [CoverInterval], cover_runs: &mut 
                 remaining_gaps.push((from, to));
                 continue;
             }
-            cover_runs.push(CoverRun {
-                from: low,
-                to: high,
-                likeness: Some(interval.likeness),
-                partner: interval.partner,
-            });
-            remaining_gaps.extend(
-                [(from, low), (high, to)]
-                    .into_iter()
-                    .filter(|(a, b)| b - a > tolerances::MIN_UNCOVERED_GAP_PX),
-            );
+            cover_runs.push(CoverRun { from: low, to: high, ..*interval });
+            let rests = [(from, low), (high, to)].into_iter();
+            remaining_gaps.extend(rests.filter(|(a, b)| b - a > tolerances::MIN_UNCOVERED_GAP_PX));
         }
         uncovered_gaps = remaining_gaps;
     }
-    cover_runs.extend(uncovered_gaps.into_iter().map(|(from, to)| CoverRun {
-        from,
-        to,
-        likeness: None,
-        partner: 0,
-    }));
+    let uncovered = |(from, to)| CoverRun { from, to, likeness: None, partner: 0 };
+    cover_runs.extend(uncovered_gaps.into_iter().map(uncovered));
     cover_runs[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
 }
 
@@ -377,8 +314,8 @@ fn merge(runs: &mut Vec<CoverRun>) {
     });
 }
 
-/// Absorbs runs of at most `max_length` px between two runs of equal likeness. `is_absorbable` receives the short run and
-/// the run before it, and returns whether it may be absorbed.
+/// Absorbs runs of at most `max_length` px between two runs of equal likeness. `is_absorbable` receives the
+/// short run and a neighbour, and returns whether it may be absorbed.
 fn absorb(runs: &mut Vec<CoverRun>, max_length: f64, is_absorbable: impl Fn(&CoverRun, &CoverRun) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {

@@ -1,5 +1,7 @@
 //! Pixels explained by findings of geometry, and findings for the others.
 
+use std::ops::Range;
+
 use kurbo::{BezPath, ParamCurve as _, ParamCurveArclen as _, Rect, Shape as _};
 use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 use rustc_hash::FxHashMap;
@@ -7,7 +9,7 @@ use rustc_hash::FxHashMap;
 use super::invisible_findings::is_seen;
 use super::pixel_comparison::{CoarseComparison, MAX_CHANNEL_DIFFERENCE};
 use crate::colour::srgb::Colour;
-use crate::diff::findings::finding::{Change, Finding, FindingBox, Verdict};
+use crate::diff::findings::finding::{Change, Finding, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
@@ -68,15 +70,13 @@ impl ExplainedPixels {
             places.claims = true;
             // A mitred corner may reach as far as two line widths.
             let near = EXPLAINED_MARGIN_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
-            let lines = finding.kind == ShapeKind::Line
-                && [&finding.removed_path, &finding.added_path]
-                    .iter()
-                    .any(|path| !path.elements().is_empty());
+            let paths = [&finding.removed_path, &finding.added_path];
+            let lines =
+                finding.kind == ShapeKind::Line && paths.iter().any(|path| !path.elements().is_empty());
             if lines && pieces < MAX_PIECES {
-                pieces += places.along(&finding.removed_path, near) + places.along(&finding.added_path, near);
+                pieces += paths.into_iter().map(|path| places.along(path, near)).sum::<usize>();
             } else {
-                let FindingBox { x, y, width, height } = finding.place;
-                places.mark(Rect::new(x, y, x + width, y + height).inflate(near, near));
+                places.mark(finding.place.rect().inflate(near, near));
             }
         }
         places
@@ -103,12 +103,8 @@ impl ExplainedPixels {
     }
 
     fn mark(&mut self, rect: Rect) {
-        let to = |value: f64, count: usize| (value * self.scale).clamp(0.0, count as f64) as usize;
-        let (left, right) = (to(rect.x0, self.columns), to(rect.x1 + 1.0 / self.scale, self.columns));
-        for row in to(rect.y0, self.rows)..to(rect.y1 + 1.0 / self.scale, self.rows) {
-            if let Some(pixels) =
-                self.explained.get_mut(row * self.columns + left..row * self.columns + right)
-            {
+        for line in pixel_lines(rect, self.columns, self.rows, self.scale) {
+            if let Some(pixels) = self.explained.get_mut(line) {
                 pixels.fill(true);
             }
         }
@@ -135,17 +131,14 @@ impl ExplainedPixels {
             pixels.sort_unstable_by_key(|(value, index)| (std::cmp::Reverse(*value), *index));
             let Some((most, _)) = pixels.first().copied() else { continue };
             let at = |(_, index): &(u8, usize)| [index % self.columns, index / self.columns];
-            let mut bounds = [usize::MAX, usize::MAX, 0, 0];
-            for [x, y] in pixels.iter().map(at) {
-                bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x + 1), bounds[3].max(y + 1)];
-            }
+            let boxes = pixels.iter().map(at).map(|[x, y]| [x, y, x + 1, y + 1]);
             found.push(CandidateTile {
                 column: number % across,
                 row: number / across,
                 pixels: pixels.iter().take(MAX_CANDIDATES_PER_TILE).map(at).collect(),
                 most,
                 count: pixels.len(),
-                bounds,
+                bounds: union(boxes),
             });
         }
         found.sort_by_key(|tile| std::cmp::Reverse(tile.most));
@@ -179,10 +172,7 @@ impl ExplainedPixels {
     /// The finding for one group of tiles.
     fn finding(&self, group: &[usize], tiles: &[CandidateTile], pictures: [&[Pixel]; 2]) -> Finding {
         let tiles = || group.iter().map(|index| &tiles[*index]);
-        let [x0, y0, x1, y1] = tiles().fold([usize::MAX, usize::MAX, 0, 0], |all, tile| {
-            let own = tile.bounds;
-            [all[0].min(own[0]), all[1].min(own[1]), all[2].max(own[2]), all[3].max(own[3])]
-        });
+        let [x0, y0, x1, y1] = union(tiles().map(|tile| tile.bounds));
         let px = |pixel: usize| pixel as f64 / self.scale;
         let place = Rect::new(px(x0), px(y0), px(x1), px(y1));
         // The first tile has the largest difference.
@@ -195,15 +185,16 @@ impl ExplainedPixels {
         Finding {
             size: pixels as f64 / (self.scale * self.scale),
             added_path: place.to_path(0.1),
-            ..Finding::in_place(
-                Verdict::Picture,
-                ShapeKind::Region,
-                Label::default(),
-                vec![change],
-                FindingBox::of(place),
-            )
+            ..Finding::in_place(Verdict::Picture, Label::default(), vec![change], place)
         }
     }
+}
+
+/// The box around boxes: left, top, right, bottom.
+fn union(boxes: impl Iterator<Item = [usize; 4]>) -> [usize; 4] {
+    boxes.fold([usize::MAX, usize::MAX, 0, 0], |all, own| {
+        [all[0].min(own[0]), all[1].min(own[1]), all[2].max(own[2]), all[3].max(own[3])]
+    })
 }
 
 /// Whether a change from one flat colour to another is visible: some pixel of the mark's box differs at all.
@@ -219,15 +210,19 @@ pub(crate) fn is_recoloured(
         finding.verdict == Verdict::Restyled && finding.changes.iter().any(flat)
     });
     let rows = coarse.difference.len() / columns.max(1);
-    let pixel = |value: f64, count: usize| (value * scale).clamp(0.0, count as f64) as usize;
     recoloured.take(MAX_RECOLOURED).any(|finding| {
-        let FindingBox { x, y, width, height } = finding.place;
-        let [left, right] = [x, x + width + 1.0 / scale].map(|value| pixel(value, columns));
-        (pixel(y, rows)..pixel(y + height + 1.0 / scale, rows)).any(|row| {
-            let line = coarse.difference.get(row * columns + left..row * columns + right);
-            line.is_some_and(|line| line.iter().any(|difference| *difference > 0))
-        })
+        pixel_lines(finding.place.rect(), columns, rows, scale)
+            .filter_map(|line| coarse.difference.get(line))
+            .any(|line| line.iter().any(|difference| *difference > 0))
     })
+}
+
+/// Index ranges of the pixels of a rectangle in px, one for each row of pixels.
+fn pixel_lines(rect: Rect, columns: usize, rows: usize, scale: f64) -> impl Iterator<Item = Range<usize>> {
+    let to = move |value: f64, count: usize| (value * scale).clamp(0.0, count as f64) as usize;
+    let (left, right) = (to(rect.x0, columns), to(rect.x1 + 1.0 / scale, columns));
+    (to(rect.y0, rows)..to(rect.y1 + 1.0 / scale, rows))
+        .map(move |row| row * columns + left..row * columns + right)
 }
 
 /// A colour in words: `#cc3333`, `#cc3333 at 40 %`, `nothing`.

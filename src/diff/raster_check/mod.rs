@@ -18,7 +18,7 @@ mod canvas;
 mod explained_pixels;
 mod invisible_findings;
 mod pixel_comparison;
-mod raster_cost;
+pub(crate) mod raster_cost;
 mod window_extremes;
 
 use self::canvas::{Canvas, CanvasWindow};

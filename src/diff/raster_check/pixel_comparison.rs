@@ -31,6 +31,27 @@ fn difference(a: Pixel, b: Pixel) -> u8 {
     a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }
 
+/// Visits each channel of each pixel of both pictures: the index of the pixel, the value in one picture, the
+/// value in the other one, and the extremes of the other one within `reach` pixels.
+fn visit_extremes(
+    [a, b]: [&[Pixel]; 2],
+    columns: usize,
+    reach: usize,
+    mut visit: impl FnMut(usize, [u8; 4]),
+) {
+    for channel in 0..4 {
+        let values = |picture: &[Pixel]| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>();
+        let (a, b) = (values(a), values(b));
+        for (own, other) in [(&a, &b), (&b, &a)] {
+            let minima = square_extremes(other, columns, reach, u8::min);
+            let maxima = square_extremes(other, columns, reach, u8::max);
+            for (index, value) in own.iter().enumerate() {
+                visit(index, [*value, other[index], minima[index], maxima[index]]);
+            }
+        }
+    }
+}
+
 /// Comparison of two anti-aliased pictures, one entry per pixel.
 pub(crate) struct CoarseComparison {
     /// Largest difference of a channel.
@@ -56,11 +77,7 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, tolerance_pixels: f6
     }
     // From one pixel on, any colour between those nearby counts as equal.
     let radius = (tolerance_pixels.ceil() as usize).max(1);
-    let edge_share = if EDGE_COVERAGE_PER_PIXEL * tolerance_pixels < 1.0 {
-        EDGE_COVERAGE_PER_PIXEL * tolerance_pixels
-    } else {
-        1.0
-    };
+    let edge_share = (EDGE_COVERAGE_PER_PIXEL * tolerance_pixels).min(1.0);
     let channel_excess = |value: u8, other_value: u8, min_value: u8, max_value: u8| {
         if value.abs_diff(other_value) <= MAX_CHANNEL_DIFFERENCE {
             return 0;
@@ -96,22 +113,9 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, tolerance_pixels: f6
             }
         }
     } else {
-        for channel in 0..4 {
-            let [a, b] =
-                [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
-            for (own, other) in [(&a, &b), (&b, &a)] {
-                let square_minima = square_extremes(other, columns, radius, u8::min);
-                let square_maxima = square_extremes(other, columns, radius, u8::max);
-                for (index, excess) in excess.iter_mut().enumerate() {
-                    *excess = (*excess).max(channel_excess(
-                        own[index],
-                        other[index],
-                        square_minima[index],
-                        square_maxima[index],
-                    ));
-                }
-            }
-        }
+        visit_extremes([a, b], columns, radius, |index, [own, other, min, max]| {
+            excess[index] = excess[index].max(channel_excess(own, other, min, max));
+        });
     }
     // A gap or an overlap between fills that is narrower than the tolerance is a thin line with equal pixels
     // around it.
@@ -120,11 +124,8 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, tolerance_pixels: f6
         let row = |centre_index: usize| {
             differences.get(centre_index.saturating_sub(1)..=centre_index + 1).unwrap_or_default()
         };
-        [index.checked_sub(columns), Some(index), Some(index + columns)].into_iter().flatten().any(
-            |neighbour_index| {
-                row(neighbour_index).iter().any(|difference| *difference <= MAX_CHANNEL_DIFFERENCE)
-            },
-        )
+        let rows = [index.checked_sub(columns), Some(index), Some(index + columns)].into_iter().flatten();
+        rows.flat_map(row).any(|difference| *difference <= MAX_CHANNEL_DIFFERENCE)
     };
     for index in 0..excess.len() {
         if excess[index] > 0 && differences[index] <= gap && is_alone(index) {
@@ -214,19 +215,10 @@ impl FineComparison {
     /// Pixels of the core outside the range of colours within the tolerance in the other picture.
     fn by_extremes(self, pictures: [&[Pixel]; 2], size: usize) -> Vec<bool> {
         let mut is_unmatched = vec![false; size * size];
-        for channel in 0..4 {
-            let [a, b] =
-                pictures.map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
-            for (own, other) in [(&a, &b), (&b, &a)] {
-                let minima = square_extremes(other, size, self.reach, u8::min);
-                let maxima = square_extremes(other, size, self.reach, u8::max);
-                for (index, lacks) in is_unmatched.iter_mut().enumerate() {
-                    let value = own[index];
-                    *lacks |= value > maxima[index].saturating_add(MAX_CHANNEL_DIFFERENCE)
-                        || value < minima[index].saturating_sub(MAX_CHANNEL_DIFFERENCE);
-                }
-            }
-        }
+        visit_extremes(pictures, size, self.reach, |index, [value, _, min, max]| {
+            is_unmatched[index] |= value > max.saturating_add(MAX_CHANNEL_DIFFERENCE)
+                || value < min.saturating_sub(MAX_CHANNEL_DIFFERENCE);
+        });
         self.core_pixels(size, |x, y| is_unmatched[y * size + x])
     }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use usvg::roxmltree::Node;
 
+use crate::diff::shapes::label::Label;
 use crate::diff::shapes::placeholder::Props;
 use crate::drawing::LayerKind;
 
@@ -51,6 +52,12 @@ impl InheritedContext {
             inner.part = Some(Arc::from(part));
         }
         inner
+    }
+
+    /// Label of an element with these classes.
+    pub(crate) fn label(&self, classes: Vec<Arc<str>>) -> Arc<Label> {
+        let Self { layer, drawing, part, .. } = self.clone();
+        Arc::new(Label { layer, drawing, classes, part })
     }
 }
 

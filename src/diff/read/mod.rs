@@ -12,5 +12,5 @@
 mod inherited_context;
 mod paint_description;
 mod svg_reader;
-mod tagged_svg;
+pub(crate) mod tagged_svg;
 mod unsupported_features;

@@ -1,15 +1,14 @@
 //! SVG files to a [`Picture`], with transforms, units and styles resolved by usvg.
 
-use std::panic::catch_unwind;
 use std::sync::Arc;
 
-use kurbo::{Affine, BezPath, Point};
-use usvg::tiny_skia_path::PathSegment;
+use kurbo::{Affine, BezPath};
 
 use super::paint_description;
 use super::tagged_svg::{self, ShapeOrigin, TaggedSvg};
 use super::unsupported_features::unread;
 use crate::colour::srgb::Colour;
+use crate::diff::comparison::on_large_stack;
 use crate::diff::markup::input_limits;
 use crate::diff::shapes::ink::{self, ShapeInk, ShapePaint};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
@@ -18,11 +17,10 @@ use crate::diff::shapes::render_tree::RenderTree;
 use crate::drawing::{Cap, Drawing, Join};
 use crate::error::Error;
 use crate::export::SvgOptions;
+use crate::export::raster::tree_painter::bez_path;
 
 /// Largest coordinate accepted, in px.
 const MAX_COORDINATE_PX: f64 = 1e8;
-/// Stack size for the recursion over nested elements, independent of the calling thread.
-const STACK_BYTES: usize = 64 << 20;
 
 impl Picture {
     /// Reads an SVG file in any form that resvg reads. Texts are compared by their words and pictures by
@@ -33,7 +31,8 @@ impl Picture {
     /// deeply nested groups, references that multiply, or numbers above ten million px. The error has no file
     /// name.
     pub fn from_svg(svg: &str) -> Result<Self, Error> {
-        picture(svg)
+        let gave_up = || Error::new("the SVG parser failed").remedy("save it as plain SVG");
+        on_large_stack(1, || read(svg)).unwrap_or_else(|| Err(gave_up()))
     }
 
     /// Converts a drawing to the picture that its file would give.
@@ -45,18 +44,10 @@ impl Picture {
     }
 }
 
-/// Reads a file on a thread with a large stack.
-fn picture(svg: &str) -> Result<Picture, Error> {
-    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
-    let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
-    let gave_up = |_| Error::new("the SVG parser failed").remedy("save it as plain SVG");
-    pool.install(|| catch_unwind(|| read(svg))).map_err(gave_up)?
-}
-
 /// Reads a file: limits, markup, usvg tree, shapes.
 fn read(svg: &str) -> Result<Picture, Error> {
     let document = input_limits::parse(svg)?;
-    let mut markup = tagged_svg::rewrite(&document)?;
+    let mut markup = tagged_svg::rewrite(&document, true)?;
     let unread: Arc<[&'static str]> = unread(&document, markup.has_unapplied_rules).into_iter().collect();
     drop(document);
     let stand_ins = markup.origins.iter().filter_map(|(id, origin)| {
@@ -82,7 +73,11 @@ fn read(svg: &str) -> Result<Picture, Error> {
         ))
         .remedy("remove it from the drawing"));
     }
-    let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(tree)));
+    // usvg adds a group without an id for the transform from user units to px.
+    let scale = match tree.root().children() {
+        [usvg::Node::Group(only)] if only.id().is_empty() => scale(affine(only.transform())),
+        _ => 1.0,
+    };
     let shapes = Arc::from(reader.shapes);
     Ok(Picture {
         width: f64::from(size.width()),
@@ -97,16 +92,8 @@ fn read(svg: &str) -> Result<Picture, Error> {
     })
 }
 
-/// Transform from user units to px: that of the group without an id that usvg adds.
-fn svg_root(tree: &usvg::Tree) -> usvg::Transform {
-    match tree.root().children() {
-        [usvg::Node::Group(only)] if only.id().is_empty() => only.transform(),
-        _ => usvg::Transform::identity(),
-    }
-}
-
-fn root_scale(transform: usvg::Transform) -> f64 {
-    affine(transform).determinant().abs().sqrt()
+fn scale(transform: Affine) -> f64 {
+    transform.determinant().abs().sqrt()
 }
 
 /// State inherited from groups.
@@ -143,15 +130,10 @@ impl<'a> ShapeReader<'a> {
         if group.blend_mode() != usvg::BlendMode::Normal {
             inherited.effects.push(Arc::from(format!("{:?}", group.blend_mode()).to_lowercase()));
         }
-        let mut clip = group.clip_path();
-        while let Some(path) = clip {
-            self.group(path.root(), &GroupContext { clip: true, ..inherited.clone() });
-            clip = path.clip_path();
-        }
-        let mut mask = group.mask();
-        while let Some(content) = mask {
-            self.group(content.root(), &GroupContext { clip: true, ..inherited.clone() });
-            mask = content.mask();
+        let clips = std::iter::successors(group.clip_path(), |clip| clip.clip_path()).map(|clip| clip.root());
+        let masks = std::iter::successors(group.mask(), |mask| mask.mask()).map(|mask| mask.root());
+        for content in clips.chain(masks) {
+            self.group(content, &GroupContext { clip: true, ..inherited.clone() });
         }
         for child in group.children() {
             match child {
@@ -167,11 +149,19 @@ impl<'a> ShapeReader<'a> {
         let plain = ShapeOrigin::default();
         let origin = self.origin(path.id()).or(inherited.origin).unwrap_or(&plain);
         let to_page = affine(path.abs_transform());
-        let scale = to_page.determinant().abs().sqrt();
+        let scale = scale(to_page);
         let geometry = to_page * bez_path(path.data());
         let is_crisp = !path.rendering_mode().use_shape_antialiasing();
         let details = origin.words.as_ref().and_then(|_| details(origin, to_page));
-        let kind = |kind| if inherited.clip { ShapeKind::Clip } else { kind };
+        let shape = |kind: ShapeKind, ink: ShapeInk| Shape {
+            path: geometry.clone(),
+            outline: None,
+            kind: if inherited.clip { ShapeKind::Clip } else { kind },
+            even_odd: false,
+            ink,
+            label: Arc::clone(&origin.label),
+            material: origin.material.clone(),
+        };
         let fill = path.fill().and_then(|fill| {
             let paint = painted(fill.paint(), fill.opacity().get(), inherited, origin)?;
             let even_odd = fill.rule() == usvg::FillRule::EvenOdd;
@@ -179,58 +169,38 @@ impl<'a> ShapeReader<'a> {
                 Some((BezPath::from_svg(axis).ok()?, *width)).filter(|(axis, _)| axis.elements().len() > 1)
             });
             Some(match axis {
-                Some((axis, width)) => Shape {
-                    path: to_page * axis,
-                    outline: Some(geometry.clone()),
-                    kind: kind(ShapeKind::Line),
-                    even_odd,
-                    ink: ShapeInk {
+                Some((axis, width)) => {
+                    let ink = ShapeInk {
                         width: width * scale,
                         outlined: true,
                         cap: Cap::Round,
                         join: Join::Round,
                         invisibility: origin.invisibility,
                         ..ShapeInk::region(paint, None)
-                    },
-                    label: Arc::clone(&origin.label),
-                    material: origin.material.clone(),
-                },
-                None => Shape {
-                    path: geometry.clone(),
-                    outline: None,
-                    kind: kind(ShapeKind::Region),
-                    even_odd,
-                    ink: ShapeInk {
-                        is_crisp,
-                        details: details.clone(),
-                        ..ShapeInk::region(paint, origin.tone)
-                    },
-                    label: Arc::clone(&origin.label),
-                    material: origin.material.clone(),
-                },
+                    };
+                    let outline = Some(geometry.clone());
+                    Shape { path: to_page * axis, outline, even_odd, ..shape(ShapeKind::Line, ink) }
+                }
+                None => {
+                    let details = details.clone();
+                    let ink = ShapeInk { is_crisp, details, ..ShapeInk::region(paint, origin.tone) };
+                    Shape { even_odd, ..shape(ShapeKind::Region, ink) }
+                }
             })
         });
         let stroke = path.stroke().and_then(|stroke| {
             let paint = painted(stroke.paint(), stroke.opacity().get(), inherited, origin)?;
             let dash = stroke.dasharray().unwrap_or_default();
-            Some(Shape {
-                path: geometry.clone(),
-                outline: None,
-                kind: kind(ShapeKind::Line),
-                even_odd: false,
-                ink: ShapeInk {
-                    width: f64::from(stroke.width().get()) * scale,
-                    dash: dash.iter().map(|length| f64::from(*length) * scale).collect(),
-                    cap: cap(stroke.linecap()),
-                    join: join(stroke.linejoin()),
-                    tone: origin.tone,
-                    invisibility: origin.invisibility,
-                    is_crisp,
-                    ..ShapeInk::region(paint, None)
-                },
-                label: Arc::clone(&origin.label),
-                material: origin.material.clone(),
-            })
+            let ink = ShapeInk {
+                width: f64::from(stroke.width().get()) * scale,
+                dash: dash.iter().map(|length| f64::from(*length) * scale).collect(),
+                cap: cap(stroke.linecap()),
+                join: join(stroke.linejoin()),
+                invisibility: origin.invisibility,
+                is_crisp,
+                ..ShapeInk::region(paint, origin.tone)
+            };
+            Some(shape(ShapeKind::Line, ink))
         });
         match path.paint_order() {
             usvg::PaintOrder::FillAndStroke => self.shapes.extend(fill.into_iter().chain(stroke)),
@@ -282,21 +252,6 @@ fn details(origin: &ShapeOrigin, to_page: Affine) -> Option<Arc<Details>> {
 
 fn affine(t: usvg::Transform) -> Affine {
     Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
-}
-
-fn bez_path(path: &usvg::tiny_skia_path::Path) -> BezPath {
-    let at = |p: usvg::tiny_skia_path::Point| Point::new(f64::from(p.x), f64::from(p.y));
-    let mut out = BezPath::new();
-    for segment in path.segments() {
-        match segment {
-            PathSegment::MoveTo(p) => out.move_to(at(p)),
-            PathSegment::LineTo(p) => out.line_to(at(p)),
-            PathSegment::QuadTo(c, p) => out.quad_to(at(c), at(p)),
-            PathSegment::CubicTo(c1, c2, p) => out.curve_to(at(c1), at(c2), at(p)),
-            PathSegment::Close => out.close_path(),
-        }
-    }
-    out
 }
 
 fn cap(cap: usvg::LineCap) -> Cap {

@@ -17,8 +17,7 @@ use usvg::roxmltree::{Document, Node};
 use super::inherited_context::InheritedContext;
 use crate::diff::markup::cascade::Cascade;
 use crate::diff::markup::css_sheet::{self, Declaration};
-use crate::diff::markup::inline_style::merged_declarations;
-use crate::diff::markup::number_scan;
+use crate::diff::markup::{escape, is_svg, number_scan, style_text};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::placeholder::{self, Details};
 use crate::drawing::Unit;
@@ -26,27 +25,11 @@ use crate::error::Error;
 
 /// Elements that draw shapes.
 const SHAPE_ELEMENTS: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
-/// Attributes that hold coordinates, which must be in range.
-const POSITION_ATTRIBUTES: [&str; 16] = [
-    "d",
-    "points",
-    "x",
-    "y",
-    "x1",
-    "y1",
-    "x2",
-    "y2",
-    "cx",
-    "cy",
-    "r",
-    "rx",
-    "ry",
-    "width",
-    "height",
-    "data-axis",
-];
+/// Attributes whose numbers must be in range: those that set the precision of a drawing, and others.
+const COORDINATE_ATTRIBUTES: [&str; 8] = ["d", "points", "x1", "y1", "x2", "y2", "cx", "cy"];
 /// Other attributes whose numbers have the same limits.
-const LENGTH_ATTRIBUTES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
+const LENGTH_ATTRIBUTES: &str =
+    "x y r rx ry width height data-axis transform viewBox stroke-width stroke-dasharray";
 /// Attributes copied to the rectangle in place of a text or a picture.
 const BOX_ATTRIBUTES: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
 /// Properties copied to that rectangle, because they change its visibility.
@@ -89,53 +72,43 @@ pub(crate) struct TaggedSvg {
     has_placeholders: bool,
 }
 
-/// Rewrites a document for usvg.
+/// Rewrites a document for usvg. Without `placeholders`, texts and pictures stay.
 ///
 /// # Errors
 /// If a number or a style exceeds the limits.
-pub(crate) fn rewrite(document: &Document) -> Result<TaggedSvg, Error> {
+pub(crate) fn rewrite(document: &Document, placeholders: bool) -> Result<TaggedSvg, Error> {
     let mut markup = TaggedSvg::default();
     let root = document.root_element();
     if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
         markup.unit = Unit::Mm;
     }
     markup.has_placeholders =
-        document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
-    let mut cascade = Cascade::of(document);
+        placeholders && document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
+    let cascade = Cascade::of(document);
     markup.has_unapplied_rules = cascade.has_more;
-    markup.element(root, &InheritedContext::default(), &mut cascade)?;
+    markup.element(root, &InheritedContext::default(), &cascade)?;
     Ok(markup)
 }
 
 impl TaggedSvg {
     /// Writes an element, its declarations from the style sheets, and its children.
-    fn element(&mut self, node: Node, around: &InheritedContext, cascade: &mut Cascade) -> Result<(), Error> {
-        let declared = cascade.enter(node)?;
-        let name = node.tag_name().name();
-        let is_svg = matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
-        match name {
+    fn element(&mut self, node: Node, around: &InheritedContext, cascade: &Cascade) -> Result<(), Error> {
+        match node.tag_name().name() {
             // Style sheets are applied to the elements instead.
-            "style" => {}
-            "text" | "image" if is_svg => self.write_placeholder(node, around, &declared, cascade)?,
-            _ if is_svg => self.plain(node, around, &declared, cascade)?,
-            _ => {}
+            "style" => Ok(()),
+            _ if !is_svg(&node) => Ok(()),
+            "text" | "image" if self.has_placeholders => self.write_placeholder(node, around, cascade),
+            _ => self.plain(node, around, cascade),
         }
-        cascade.leave();
-        Ok(())
     }
 
     /// Writes an SVG element that is neither a text nor a picture, and its children.
-    fn plain(
-        &mut self,
-        node: Node,
-        around: &InheritedContext,
-        declared: &[Declaration],
-        cascade: &mut Cascade,
-    ) -> Result<(), Error> {
+    fn plain(&mut self, node: Node, around: &InheritedContext, cascade: &Cascade) -> Result<(), Error> {
+        let declared = cascade.declared(node)?;
         let name = node.tag_name().name();
         let mut around = around.enter(node);
         if self.has_placeholders {
-            around.props = placeholder::inherit(&around.props, node, declared);
+            around.props = placeholder::inherit(&around.props, node, &declared);
         }
         self.svg.push('<');
         self.svg.push_str(name);
@@ -150,23 +123,20 @@ impl TaggedSvg {
         for attribute in node.attributes() {
             let (name, value) = (attribute.name(), attribute.value());
             self.check(node, name, value)?;
-            match attribute.namespace() {
+            let prefix = match attribute.namespace() {
                 None if name == "style" => continue,
-                None => {
-                    let _ = write!(self.svg, " {name}=\"");
-                }
-                Some("http://www.w3.org/1999/xlink") => {
-                    let _ = write!(self.svg, " xlink:{name}=\"");
-                }
-                Some("http://www.w3.org/XML/1998/namespace") => {
-                    let _ = write!(self.svg, " xml:{name}=\"");
-                }
+                None => "",
+                Some("http://www.w3.org/1999/xlink") => "xlink:",
+                Some("http://www.w3.org/XML/1998/namespace") => "xml:",
                 Some(_) => continue,
-            }
-            escape(&mut self.svg, value);
-            self.svg.push('"');
+            };
+            self.attribute(prefix, name, value);
         }
-        self.style(node, declared)?;
+        // The element's own declarations take precedence.
+        let own = node.attribute("style").unwrap_or_default();
+        if !(declared.is_empty() && own.is_empty()) {
+            let _ = write!(self.svg, " style=\"{}\"", style_text(&declared, own)?);
+        }
         self.svg.push('>');
         for child in node.children() {
             if child.is_element() {
@@ -182,14 +152,10 @@ impl TaggedSvg {
         Ok(())
     }
 
-    /// Writes the declarations of style sheets, then those of the element itself, which take precedence.
-    fn style(&mut self, node: Node, declared: &[Declaration]) -> Result<(), Error> {
-        let own = node.attribute("style").unwrap_or_default();
-        if declared.is_empty() && own.is_empty() {
-            return Ok(());
-        }
-        let _ = write!(self.svg, " style=\"{}\"", merged_declarations(declared, own)?);
-        Ok(())
+    fn attribute(&mut self, prefix: &str, name: &str, value: &str) {
+        let _ = write!(self.svg, " {prefix}{name}=\"");
+        escape(&mut self.svg, value);
+        self.svg.push('"');
     }
 
     /// Stores the data of a shape, and writes an id if it has none.
@@ -203,18 +169,16 @@ impl TaggedSvg {
             }
         }
         classes.sort_unstable();
-        let InheritedContext { layer, drawing, part, .. } = around.clone();
-        let label = Label { layer, drawing, classes, part };
-        let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
-        let axis = node.attribute("data-axis").zip(number("data-width"));
+        let width = node.attribute("data-width").and_then(|text| text.parse().ok());
+        let axis = node.attribute("data-axis").zip(width);
+        let invisibility = node.attribute("data-invisibility").and_then(|text| text.parse().ok());
         let origin = ShapeOrigin {
-            label: Arc::new(label),
+            label: around.label(classes),
             tone,
-            invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
+            invisibility: invisibility.unwrap_or(0),
             axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
-            words: None,
-            details: Details::new(),
             material: node.attribute("data-material").map(Arc::from),
+            ..ShapeOrigin::default()
         };
         self.remember(node, origin);
     }
@@ -238,14 +202,14 @@ impl TaggedSvg {
         &mut self,
         node: Node,
         around: &InheritedContext,
-        declared: &[Declaration],
-        cascade: &mut Cascade,
+        cascade: &Cascade,
     ) -> Result<(), Error> {
+        let declared = cascade.declared(node)?;
         let around = around.enter(node);
         let is_text = node.tag_name().name() == "text";
         let said = match is_text {
-            true => Some(placeholder::text(node, &around.props, declared, cascade)?),
-            false => placeholder::picture(node, &around.props, declared),
+            true => Some(placeholder::text(node, &around.props, &declared, cascade)?),
+            false => placeholder::picture(node, &around.props, &declared),
         };
         // A picture without a target draws nothing.
         let Some(said) = said else { return Ok(()) };
@@ -257,10 +221,8 @@ impl TaggedSvg {
             "<linearGradient id=\"ligne.stand-in.{number}\" x2=\"1\" y2=\"1\"><stop stop-color=\"{first}\"/>\
              <stop offset=\"1\" stop-color=\"{last}\"/></linearGradient>"
         );
-        let InheritedContext { layer, drawing, part, .. } = around;
-        let label = Label { layer, drawing, classes: Vec::new(), part };
         let origin = ShapeOrigin {
-            label: Arc::new(label),
+            label: around.label(Vec::new()),
             words: Some(Arc::from(said.words)),
             details: said.details,
             ..ShapeOrigin::default()
@@ -274,38 +236,29 @@ impl TaggedSvg {
                 // A text may have a position for every letter.
                 let first =
                     if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
-                let _ = write!(self.svg, " {name}=\"");
-                escape(&mut self.svg, first);
-                self.svg.push('"');
+                self.attribute("", name, first);
                 sized |= name == "width";
             }
         }
         // The visibility may be set in a style.
         let own = css_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
-        let style = declared
-            .iter()
-            .chain(&own)
-            .filter(|declaration| BOX_STYLE_PROPERTIES.contains(&declaration.name));
-        self.svg.push_str(" style=\"");
-        for Declaration { name, value, .. } in style {
-            let _ = write!(self.svg, "{name}:");
-            escape(&mut self.svg, value);
-            self.svg.push(';');
-        }
+        let all = declared.iter().chain(&own).map(|d| Declaration { important: false, ..*d });
+        let style: Vec<Declaration> = all.filter(|d| BOX_STYLE_PROPERTIES.contains(&d.name)).collect();
+        let _ = write!(self.svg, " style=\"{}\"", style_text(&style, "")?);
         let size = match (sized, is_text) {
             (true, _) => "",
             // About the size of two letters.
             (_, true) => " width=\"24\" height=\"12\"",
             (_, false) => " width=\"1\" height=\"1\"",
         };
-        let _ = write!(self.svg, "\"{size} stroke=\"none\" fill=\"url(#ligne.stand-in.{number})\"/>");
+        let _ = write!(self.svg, "{size} stroke=\"none\" fill=\"url(#ligne.stand-in.{number})\"/>");
         Ok(())
     }
 
     /// Refuses numbers out of range, and records the precision of coordinates.
     fn check(&mut self, node: Node, name: &str, value: &str) -> Result<(), Error> {
-        let place = POSITION_ATTRIBUTES.contains(&name);
-        if !place && !LENGTH_ATTRIBUTES.contains(&name) {
+        let is_coordinate = COORDINATE_ATTRIBUTES.contains(&name);
+        if !is_coordinate && !LENGTH_ATTRIBUTES.split(' ').any(|known| known == name) {
             return Ok(());
         }
         let numbers = number_scan::scan(value);
@@ -316,22 +269,10 @@ impl TaggedSvg {
                 .at(format!("line {}, column {}", line.row, line.col))
                 .remedy("keep coordinates below a hundred million"));
         }
-        if matches!(name, "d" | "points" | "x1" | "y1" | "x2" | "y2" | "cx" | "cy") {
+        if is_coordinate {
             self.decimals = self.decimals.max(numbers.decimals);
             self.arcs |= name == "d" && value.contains(['a', 'A']);
         }
         Ok(())
-    }
-}
-
-fn escape(out: &mut String, text: &str) {
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            _ => out.push(c),
-        }
     }
 }

@@ -5,57 +5,36 @@ use std::collections::BTreeSet;
 
 use usvg::roxmltree::{Document, Node};
 
+use crate::diff::markup::references;
+
 /// Unsupported elements, with their names in reports.
-const UNSUPPORTED_ELEMENTS: [(&str, &str); 14] = [
+const UNSUPPORTED_ELEMENTS: [(&str, &str); 9] = [
     ("foreignObject", "what is in a foreignObject"),
-    ("animate", "animations"),
-    ("animateMotion", "animations"),
-    ("animateTransform", "animations"),
-    ("animateColor", "animations"),
-    ("set", "animations"),
+    ("animate animateMotion animateTransform animateColor set", "animations"),
     ("script", "scripts"),
-    ("meshgradient", "mesh gradients"),
-    ("mesh", "mesh gradients"),
+    ("meshgradient mesh", "mesh gradients"),
     ("hatch", "hatches"),
     ("video", "videos"),
     ("audio", "sounds"),
     ("canvas", "a canvas"),
     ("iframe", "other pages"),
 ];
-/// Unsupported values by a substring, with their names in reports.
-const UNSUPPORTED_VALUES: [(&str, &str); 14] = [
-    ("var(", "var()"),
-    ("calc(", "calc()"),
-    ("env(", "env()"),
-    ("attr(", "attr()"),
-    ("color-mix(", "color-mix()"),
-    ("light-dark(", "light-dark()"),
-    ("oklch(", "oklch()"),
-    ("oklab(", "oklab()"),
-    ("lab(", "lab()"),
-    ("lch(", "lch()"),
+/// Unsupported functions in values.
+const UNSUPPORTED_FUNCTIONS: &str =
+    "var() calc() env() attr() color-mix() light-dark() oklch() oklab() lab() lch()";
+/// Other unsupported values by a substring, with their names in reports.
+const UNSUPPORTED_VALUES: [(&str, &str); 4] = [
     ("polygon(", "shapes of CSS"),
     ("inset(", "shapes of CSS"),
     ("BackgroundImage", "BackgroundImage in filters"),
     ("BackgroundAlpha", "BackgroundAlpha in filters"),
 ];
-/// Unsupported rules of style sheets by a substring, with their names in reports.
-const UNSUPPORTED_RULES: [(&str, &str); 14] = [
-    ("@media", "@media"),
-    ("@font-face", "@font-face"),
-    ("@import", "@import"),
-    ("@keyframes", "animations"),
-    ("@supports", "@supports"),
-    ("@container", "@container"),
-    ("@layer", "@layer"),
-    (":not(", ":not()"),
-    (":is(", ":is()"),
-    (":where(", ":where()"),
-    (":has(", ":has()"),
-    (":nth-", ":nth-child()"),
-    (":last-", ":last-child"),
-    (":hover", ":hover"),
-];
+/// Unsupported rules and selectors of style sheets.
+const UNSUPPORTED_RULES: &str =
+    "@media @font-face @import @supports @container @layer :hover :not() :is() :where() :has()";
+/// Other unsupported rules by a substring, with their names in reports.
+const UNSUPPORTED_RULE_STARTS: [(&str, &str); 3] =
+    [("@keyframes", "animations"), (":nth-", ":nth-child()"), (":last-", ":last-child")];
 /// Properties that are supported with this value only.
 const UNSUPPORTED_PROPERTIES: [(&str, &str); 12] = [
     ("pathLength", ""),
@@ -87,9 +66,8 @@ pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> 
         let before = found.len();
         for sheet in document.descendants().filter(|node| node.has_tag_name("style")) {
             let text = sheet.text().unwrap_or_default();
-            found.extend(
-                UNSUPPORTED_RULES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name),
-            );
+            let rules = rows(UNSUPPORTED_RULES, &UNSUPPORTED_RULE_STARTS);
+            found.extend(rules.filter(|(word, _)| text.contains(word)).map(|(_, name)| name));
         }
         if found.len() == before {
             found.insert("some style rules");
@@ -101,14 +79,15 @@ pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> 
 /// Adds the unsupported contents of one element.
 fn element(node: Node, found: &mut BTreeSet<&'static str>) {
     let name = node.tag_name().name();
-    found.extend(UNSUPPORTED_ELEMENTS.iter().filter(|(known, _)| *known == name).map(|(_, words)| *words));
+    let is_named = |(names, _): &&(&str, &str)| names.split(' ').any(|known| known == name);
+    found.extend(UNSUPPORTED_ELEMENTS.iter().filter(is_named).map(|(_, words)| *words));
     if name == "text" {
         found.insert("fonts (texts are compared by their words and properties)");
     }
     if name == "style" {
         let text = node.text().unwrap_or_default();
-        found
-            .extend(UNSUPPORTED_VALUES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
+        let values = rows(UNSUPPORTED_FUNCTIONS, &UNSUPPORTED_VALUES);
+        found.extend(values.filter(|(word, _)| text.contains(word)).map(|(_, name)| name));
         let properties =
             UNSUPPORTED_PROPERTIES.iter().filter(|(known, _)| known.contains('-') || *known == "animation");
         found.extend(properties.filter(|(known, _)| text.contains(known)).map(|(known, _)| *known));
@@ -127,12 +106,7 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
             }
             continue;
         }
-        if value.contains("url(")
-            && value
-                .split("url(")
-                .skip(1)
-                .any(|rest| !rest.trim_start_matches(['"', '\'', ' ']).starts_with('#'))
-        {
+        if references(value).any(|id| id.is_none()) {
             found.insert("elements of other files");
         }
         // Skip the bulk of the file.
@@ -140,9 +114,8 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
             continue;
         }
         if value.contains('(') || name.starts_with("in") {
-            found.extend(
-                UNSUPPORTED_VALUES.iter().filter(|(word, _)| is_in(value, word)).map(|(_, name)| *name),
-            );
+            let values = rows(UNSUPPORTED_FUNCTIONS, &UNSUPPORTED_VALUES);
+            found.extend(values.filter(|(word, _)| is_in(value, word)).map(|(_, name)| name));
         }
         let other = |(known, initial): &&(&str, &str)| *known == name && value.trim() != *initial;
         found.extend(UNSUPPORTED_PROPERTIES.iter().filter(other).map(|(known, _)| *known));
@@ -154,6 +127,14 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
             found.extend(UNSUPPORTED_PROPERTIES.iter().filter(said).map(|(known, _)| *known));
         }
     }
+}
+
+/// Pairs of a substring and a name in reports: `var(` and `var()`.
+fn rows(
+    names: &'static str,
+    others: &'static [(&'static str, &'static str)],
+) -> impl Iterator<Item = (&'static str, &'static str)> {
+    names.split(' ').map(|name| (name.trim_end_matches(')'), name)).chain(others.iter().copied())
 }
 
 /// Whether a value contains a function: `lab(` is not contained in `oklab(`.

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _, Size};
 
 use super::legend;
-use super::text_report::line;
 use crate::colour::srgb::Colour;
 use crate::diff::curves::chain;
 use crate::diff::curves::segment::nearest_on;
@@ -15,6 +14,7 @@ use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
+use crate::geometry::plane::polyline_path::subpaths;
 
 /// Unchanged lines.
 const KEPT_LINE_COLOUR: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
@@ -60,19 +60,18 @@ impl Diff {
         let (width, height) = (before.width.max(after.width), before.height.max(after.height));
         // A line width that is visible when the whole page is displayed.
         let width_of_line = (width.max(height) / 500.0).max(0.5);
+        let notes: Vec<Arc<str>> = self.all_lines().into_iter().map(Arc::from).collect();
         let mut layers = OverlayMarks::default();
         let mut page = Page { width, height, unit: Unit::Px, background: Some(Colour::WHITE) };
         match view {
             View::Over => {
                 layers.picture(after, Affine::IDENTITY, grey);
-                for finding in &self.findings {
-                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
-                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                for (finding, note) in self.findings.iter().zip(&notes) {
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, note);
                 }
-                for finding in &self.findings {
-                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
-                    layers.brought(finding, Affine::IDENTITY, width_of_line, &note);
-                    layers.way(finding, width_of_line * 0.6, &note);
+                for (finding, note) in self.findings.iter().zip(&notes) {
+                    layers.brought(finding, Affine::IDENTITY, width_of_line, note);
+                    layers.way(finding, width_of_line * 0.6, note);
                 }
             }
             View::SideBySide => {
@@ -81,10 +80,9 @@ impl Diff {
                 page.width = 2.0 * width + gap;
                 layers.picture(before, Affine::IDENTITY, own);
                 layers.picture(after, beside, own);
-                for finding in &self.findings {
-                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
-                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
-                    layers.brought(finding, beside, width_of_line, &note);
+                for (finding, note) in self.findings.iter().zip(&notes) {
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, note);
+                    layers.brought(finding, beside, width_of_line, note);
                 }
             }
         }
@@ -170,11 +168,8 @@ impl OverlayMarks {
     /// Adds the removed part of a finding.
     fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
-            Verdict::Page
-            | Verdict::Restyled
-            | Verdict::Restacked
-            | Verdict::Relabelled
-            | Verdict::Picture => {}
+            Verdict::Page | Verdict::Restyled | Verdict::Restacked => {}
+            Verdict::Relabelled | Verdict::Picture => {}
             // Added lines are painted later. If the distance is short, wider red lines show on both sides of
             // green ones.
             _ => {
@@ -256,13 +251,7 @@ fn nearest(lines: &[Vec<Point>], p: Point) -> Option<Point> {
 
 /// Converts an even-odd region to nonzero winding: rings inside an odd number of others are reversed.
 fn unwound(path: &BezPath) -> BezPath {
-    let mut rings: Vec<BezPath> = Vec::new();
-    for element in path.elements() {
-        match (element, rings.last_mut()) {
-            (PathEl::MoveTo(_), _) | (_, None) => rings.push([*element].into_iter().collect()),
-            (_, Some(ring)) => ring.push(*element),
-        }
-    }
+    let rings = subpaths(path);
     if rings.len() < 2 || rings.len() > 200 {
         return path.clone();
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kurbo::{Rect, Vec2};
+use kurbo::Vec2;
 use rustc_hash::FxHashSet;
 
 use super::unit_format::UnitFormat;
@@ -18,23 +18,15 @@ impl Diff {
     pub fn summary(&self) -> String {
         let pixels = self.pixels.as_ref().map(|pixels| format!(", {}", pixels.words())).unwrap_or_default();
         let unit = self.unit();
-        let same = match self.same_at {
-            Some(Stage::Bytes) => Some("the same bytes".to_owned()),
-            Some(Stage::Structure) => Some("the same marks".to_owned()),
-            Some(Stage::Picture) => {
-                Some(format!("the same picture within {}", unit.length(self.tolerance_px)))
-            }
-            Some(Stage::Geometry) => Some(format!("the same within {}", unit.length(self.tolerance_px))),
-            None if self.findings.is_empty() => {
-                Some(format!("the same marks within {}", unit.length(self.tolerance_px)))
-            }
-            None => None,
-        };
-        if let Some(same) = same {
-            return same + &pixels;
-        }
-        if self.is_brief {
-            return "the marks were not compared individually".to_owned() + &pixels;
+        let within = unit.length(self.tolerance_px);
+        match self.same_at {
+            Some(Stage::Bytes) => return format!("the same bytes{pixels}"),
+            Some(Stage::Structure) => return format!("the same marks{pixels}"),
+            Some(Stage::Picture) => return format!("the same picture within {within}{pixels}"),
+            Some(Stage::Geometry) => return format!("the same within {within}{pixels}"),
+            None if self.findings.is_empty() => return format!("the same marks within {within}{pixels}"),
+            None if self.is_brief => return format!("the marks were not compared individually{pixels}"),
+            None => {}
         }
         let mut words = Vec::new();
         for verdict in Verdict::ALL {
@@ -108,15 +100,12 @@ impl Diff {
             // A part that came or went is one line for all kinds of marks.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
             let kind = !alone && finding.kind == ShapeKind::Line;
-            let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) {
-                &[]
-            } else {
-                &finding.changes
+            let changes: &[Change] = match finding.verdict {
+                Verdict::Moved | Verdict::Picture => &[],
+                _ => &finding.changes,
             };
-            groups
-                .entry((finding.verdict, finding.label.part.as_deref(), changes, kind))
-                .or_default()
-                .push(finding);
+            let key = (finding.verdict, finding.label.part.as_deref(), changes, kind);
+            groups.entry(key).or_default().push(finding);
         }
         for ((verdict, part, changes, _), findings) in groups {
             let whole =
@@ -130,17 +119,13 @@ impl Diff {
                 continue;
             }
             let count = findings.len();
-            let noun = if verdict == Verdict::Picture {
-                format!("{count} places look different")
-            } else if whole {
-                format!("part `{}`: all its {count} marks", part.unwrap_or_default())
-            } else {
-                match part {
-                    Some(part) => format!("{count} marks of `{part}`"),
-                    None => format!("{count} marks"),
-                }
+            let noun = match part {
+                _ if verdict == Verdict::Picture => format!("{count} places look different"),
+                Some(part) if whole => format!("part `{part}`: all its {count} marks"),
+                Some(part) => format!("{count} marks of `{part}`"),
+                None => format!("{count} marks"),
             };
-            let boxes = findings.iter().map(|finding| rect(&finding.place));
+            let boxes = findings.iter().map(|finding| finding.place.rect());
             let place = FindingBox::of(boxes.reduce(|a, b| a.union(b)).unwrap_or_default());
             let detail = shared_detail(&findings, changes, unit);
             let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
@@ -163,21 +148,11 @@ pub(crate) struct ReportLine {
     pub line: String,
 }
 
-fn rect(place: &FindingBox) -> Rect {
-    Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
-}
-
 /// Common detail of several findings of one verdict.
 fn shared_detail(findings: &[&Finding], changes: &[Change], unit: UnitFormat) -> String {
     let largest = findings.iter().map(|f| f.largest).fold(0.0, f64::max);
     let p95 = findings.iter().map(|f| f.p95).fold(0.0, f64::max);
-    let sum = |kind: ShapeKind| findings.iter().filter(|f| f.kind == kind).map(|f| f.size).sum::<f64>();
-    let (length, area) = (sum(ShapeKind::Line), sum(ShapeKind::Region));
-    let ink = || {
-        let lines = (length > 0.0).then(|| format!("{} of lines", unit.length(length)));
-        let fills = (area > 0.0).then(|| format!("{} of fills", unit.area(area)));
-        lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
-    };
+    let ink = || unit.ink(findings.iter().copied());
     match findings.first().map(|f| f.verdict) {
         Some(Verdict::Moved) => {
             let first = findings.first().and_then(|f| f.shift);
@@ -186,10 +161,8 @@ fn shared_detail(findings: &[&Finding], changes: &[Change], unit: UnitFormat) ->
                 let near = |s: [f64; 2]| (way(s) - way(*first)).hypot() <= 0.02 * way(*first).hypot();
                 findings.iter().all(|f| f.shift.is_some_and(near))
             });
-            match together {
-                Some(shift) => format!("all by {}", way(shift, unit)),
-                None => format!("by up to {}, 95 % within {}", unit.length(largest), unit.length(p95)),
-            }
+            let all = if together.is_some() { "all " } else { "" };
+            all.to_owned() + &motion(together, largest, p95, unit)
         }
         Some(Verdict::Restacked) => changed(changes),
         Some(Verdict::Restyled | Verdict::Relabelled) if changes.is_empty() => ink(),
@@ -213,14 +186,10 @@ pub(crate) fn line(finding: &Finding, unit: UnitFormat) -> String {
         Verdict::Page | Verdict::Restacked => changed(&finding.changes),
         Verdict::Removed | Verdict::Added => size(),
         Verdict::Restyled | Verdict::Relabelled if finding.changes.is_empty() => size(),
-        Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
-        Verdict::Picture => format!("{}, {}", changed(&finding.changes), size()),
-        Verdict::Moved => match finding.shift {
-            Some(shift) => format!("by {}", way(shift, unit)),
-            None => {
-                format!("by up to {}, 95 % within {}", unit.length(finding.largest), unit.length(finding.p95))
-            }
-        },
+        Verdict::Restyled | Verdict::Relabelled | Verdict::Picture => {
+            format!("{}, {}", changed(&finding.changes), size())
+        }
+        Verdict::Moved => motion(finding.shift, finding.largest, finding.p95, unit),
         Verdict::Reshaped => {
             // If a whole border came or went, no distance is reported.
             let off = (unit.number(finding.largest) != "0")
@@ -265,14 +234,12 @@ fn grown(growth: f64, lines: bool, unit: UnitFormat) -> Option<String> {
     (!amount.starts_with("0 ")).then(|| format!("{amount} {}", if growth > 0.0 { more } else { less }))
 }
 
-/// A shift in words with its length and both directions.
-fn way([x, y]: [f64; 2], unit: UnitFormat) -> String {
-    let side = |value: f64, plus: &str, minus: &str| match value {
-        v if unit.number(v.abs()) == "0" => None,
-        v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),
-    };
-    let parts: Vec<String> = side(x, "right", "left").into_iter().chain(side(y, "down", "up")).collect();
-    format!("{} ({})", unit.length(Vec2::new(x, y).hypot()), parts.join(", "))
+/// A shift in words with its length and both directions, or the distances of another motion.
+fn motion(shift: Option<[f64; 2]>, largest: f64, p95: f64, unit: UnitFormat) -> String {
+    match shift.map(|[x, y]| Vec2::new(x, y)) {
+        Some(shift) => format!("by {} ({})", unit.length(shift.hypot()), unit.sides(shift, "")),
+        None => format!("by up to {}, 95 % within {}", unit.length(largest), unit.length(p95)),
+    }
 }
 
 /// Changed properties in words: `width 1 px → 2 px`.

@@ -1,7 +1,10 @@
 //! Numbers in the unit of the drawing, rounded for reports.
 
-use crate::diff::findings::finding::{Diff, FindingBox};
+use kurbo::Vec2;
+
+use crate::diff::findings::finding::{Diff, Finding, FindingBox};
 use crate::diff::shapes::ink::trimmed;
+use crate::diff::shapes::picture::ShapeKind;
 use crate::drawing::Unit;
 
 /// The unit of reported lengths.
@@ -29,6 +32,37 @@ impl UnitFormat {
 
     pub(crate) fn area(self, px2: f64) -> String {
         format!("{} {}²", rounded(px2 * self.per_px * self.per_px), self.unit.name())
+    }
+
+    /// Name of the unit.
+    pub(crate) fn name(self) -> &'static str {
+        self.unit.name()
+    }
+
+    /// Length of the lines and area of the fills of some findings.
+    pub(crate) fn ink<'a>(self, findings: impl Iterator<Item = &'a Finding>) -> String {
+        let (mut length, mut area) = (0.0, 0.0);
+        for finding in findings {
+            match finding.kind {
+                ShapeKind::Line => length += finding.size,
+                ShapeKind::Region => area += finding.size,
+                ShapeKind::Clip => {}
+            }
+        }
+        let lines = (length > 0.0).then(|| format!("{} of lines", self.length(length)));
+        let fills = (area > 0.0).then(|| format!("{} of fills", self.area(area)));
+        lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A shift by its directions: `3 right, 4 down`, with `unit` after each number. Directions that round to 0
+    /// are left out.
+    pub(crate) fn sides(self, shift: Vec2, unit: &str) -> String {
+        let side = |value: f64, plus: &str, minus: &str| {
+            let number = self.number(value.abs());
+            (number != "0").then(|| format!("{number}{unit} {}", if value > 0.0 { plus } else { minus }))
+        };
+        let sides = side(shift.x, "right", "left").into_iter().chain(side(shift.y, "down", "up"));
+        sides.collect::<Vec<_>>().join(", ")
     }
 
     /// A position in words, by the centre of its box.

@@ -28,9 +28,7 @@ impl ShapePaint {
             _ => self == other,
         }
     }
-}
 
-impl ShapePaint {
     /// Target of a linked picture.
     pub(crate) fn link(&self) -> Option<&str> {
         match self {
@@ -141,8 +139,8 @@ impl ShapeInk {
         note("tone", self.tone != other.tone, &|ink| {
             ink.tone.map_or_else(|| "none".to_owned(), |tone| tone.to_string())
         });
-        note("ends", self.cap != other.cap, &|ink| cap(ink.cap).to_owned());
-        note("corners", self.join != other.join, &|ink| join(ink.join).to_owned());
+        note("ends", self.cap != other.cap, &|ink| format!("{:?}", ink.cap).to_lowercase());
+        note("corners", self.join != other.join, &|ink| format!("{:?}", ink.join).to_lowercase());
         note("drawn as", self.outlined != other.outlined, &|ink| {
             if ink.outlined { "outline" } else { "stroke" }.to_owned()
         });
@@ -168,22 +166,6 @@ impl ShapeInk {
 /// Whether two dash patterns are equal within a tolerance.
 fn same_dash(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= MAX_DASH_DIFFERENCE_PX)
-}
-
-fn cap(cap: Cap) -> &'static str {
-    match cap {
-        Cap::Butt => "butt",
-        Cap::Round => "round",
-        Cap::Square => "square",
-    }
-}
-
-fn join(join: Join) -> &'static str {
-    match join {
-        Join::Miter => "miter",
-        Join::Round => "round",
-        Join::Bevel => "bevel",
-    }
 }
 
 /// A number with at most three decimals, without trailing zeros.

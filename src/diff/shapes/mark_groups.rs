@@ -73,6 +73,11 @@ impl MarkGroups {
         Self { groups, of_shape }
     }
 
+    /// Largest distance in px between marks of a group that count as equal.
+    pub(crate) fn tolerance(&self, group: usize) -> f64 {
+        self.groups.get(group).map_or(0.01, |group| group.tolerance)
+    }
+
     /// Whether two groups belong to the same part.
     pub(crate) fn same_part(&self, a: usize, b: usize) -> bool {
         self.groups.get(a).map(|group| &group.part) == self.groups.get(b).map(|group| &group.part)

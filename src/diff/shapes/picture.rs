@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
-use kurbo::BezPath;
+use kurbo::{BezPath, Shape as _};
 
 use super::ink::ShapeInk;
 use super::label::Label;
 use super::render_tree::RenderTree;
+use crate::diff::tolerances::MIN_DIVISOR_PX;
 use crate::drawing::Unit;
+
+/// Most dashes of a drawing that is rasterised.
+const MAX_DASHES: f64 = 400_000.0;
 
 /// Kind of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -76,6 +80,15 @@ impl Picture {
             self.shapes = Arc::from(shapes);
         }
         self
+    }
+
+    /// Whether the lines have too many dashes to be rasterised. Each dash is drawn separately.
+    pub(crate) fn has_too_many_dashes(&self) -> bool {
+        let dashes = self.shapes.iter().filter(|shape| !shape.ink.dash.is_empty()).map(|shape| {
+            let pattern: f64 = shape.ink.dash.iter().sum();
+            shape.path.perimeter(1.0) / pattern.max(MIN_DIVISOR_PX) * shape.ink.dash.len() as f64
+        });
+        dashes.sum::<f64>() > MAX_DASHES
     }
 
     /// Size of a user unit in px.

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use kurbo::BezPath;
 use rustc_hash::FxHasher;
@@ -21,75 +21,36 @@ pub(crate) const LINKED_PICTURE_PREFIX: &str = "the picture linked as `";
 pub(crate) type Details = BTreeMap<String, String>;
 /// Inherited properties.
 pub(crate) type Props = BTreeMap<&'static str, String>;
+/// Known properties with their initial values.
+type Initial = BTreeMap<&'static str, &'static str>;
+
+/// Reads a table of properties with their initial values.
+fn initial(table: &'static str) -> Initial {
+    table.split(' ').filter_map(|row| row.split_once('=')).collect()
+}
 
 /// Inherited properties of texts and pictures, with initial values.
-const INHERITED_PROPERTIES: [(&str, &str); 39] = [
-    ("font", ""),
-    ("font-family", ""),
-    ("font-size", "medium"),
-    ("font-size-adjust", "none"),
-    ("font-style", "normal"),
-    ("font-weight", "normal"),
-    ("font-variant", "normal"),
-    ("font-stretch", "normal"),
-    ("font-kerning", "auto"),
-    ("font-feature-settings", "normal"),
-    ("letter-spacing", "normal"),
-    ("word-spacing", "normal"),
-    ("text-anchor", "start"),
-    ("text-transform", "none"),
-    ("text-orientation", "mixed"),
-    ("text-indent", "0"),
-    ("text-rendering", "auto"),
-    ("text-shadow", "none"),
-    ("direction", "ltr"),
-    ("writing-mode", "horizontal-tb"),
-    ("glyph-orientation-vertical", "auto"),
-    ("glyph-orientation-horizontal", "auto"),
-    ("dominant-baseline", "auto"),
-    ("white-space", "normal"),
-    ("color", "#000000"),
-    ("fill", "#000000"),
-    ("fill-opacity", "1"),
-    ("fill-rule", "nonzero"),
-    ("stroke", "none"),
-    ("stroke-opacity", "1"),
-    ("stroke-width", "1"),
-    ("stroke-dasharray", "none"),
-    ("stroke-dashoffset", "0"),
-    ("stroke-linecap", "butt"),
-    ("stroke-linejoin", "miter"),
-    ("stroke-miterlimit", "4"),
-    ("paint-order", "normal"),
-    ("visibility", "visible"),
-    ("image-rendering", "auto"),
-];
+static INHERITED_PROPERTIES: LazyLock<Initial> = LazyLock::new(|| {
+    initial(
+        "font= font-family= font-size=medium font-size-adjust=none font-style=normal font-weight=normal \
+     font-variant=normal font-stretch=normal font-kerning=auto font-feature-settings=normal \
+     letter-spacing=normal word-spacing=normal text-anchor=start text-transform=none text-orientation=mixed \
+     text-indent=0 text-rendering=auto text-shadow=none direction=ltr writing-mode=horizontal-tb \
+     glyph-orientation-vertical=auto glyph-orientation-horizontal=auto dominant-baseline=auto \
+     white-space=normal color=#000000 fill=#000000 fill-opacity=1 fill-rule=nonzero stroke=none \
+     stroke-opacity=1 stroke-width=1 stroke-dasharray=none stroke-dashoffset=0 stroke-linecap=butt \
+     stroke-linejoin=miter stroke-miterlimit=4 paint-order=normal visibility=visible image-rendering=auto",
+    )
+});
 /// Properties and attributes that are not inherited, with initial values.
-const OWN_PROPERTIES: [(&str, &str); 23] = [
-    ("text-decoration", "none"),
-    ("text-decoration-line", "none"),
-    ("text-decoration-style", "solid"),
-    ("text-decoration-color", ""),
-    ("baseline-shift", "0"),
-    ("alignment-baseline", "auto"),
-    ("unicode-bidi", "normal"),
-    ("opacity", "1"),
-    ("filter", "none"),
-    ("clip-path", "none"),
-    ("mask", "none"),
-    ("display", "inline"),
-    ("x", ""),
-    ("y", ""),
-    ("dx", "0"),
-    ("dy", "0"),
-    ("rotate", "0"),
-    ("textLength", ""),
-    ("lengthAdjust", "spacing"),
-    ("startOffset", "0"),
-    ("method", "align"),
-    ("spacing", "exact"),
-    ("side", "left"),
-];
+static OWN_PROPERTIES: LazyLock<Initial> = LazyLock::new(|| {
+    initial(
+        "text-decoration=none text-decoration-line=none text-decoration-style=solid text-decoration-color= \
+     baseline-shift=0 alignment-baseline=auto unicode-bidi=normal opacity=1 filter=none clip-path=none \
+     mask=none display=inline x= y= dx=0 dy=0 rotate=0 textLength= lengthAdjust=spacing startOffset=0 \
+     method=align spacing=exact side=left",
+    )
+});
 /// Properties already set on the rectangle of a text.
 const BOX_PROPERTIES: [&str; 8] =
     ["opacity", "filter", "clip-path", "mask", "display", "visibility", "x", "y"];
@@ -98,11 +59,7 @@ const DESCRIPTIVE_ELEMENTS: [&str; 3] = ["title", "desc", "metadata"];
 
 /// Properties of an element in order of increasing precedence: attributes, style sheets, own style, important
 /// declarations.
-fn cascaded_properties(
-    node: Node,
-    declared: &[Declaration],
-    known: &[(&'static str, &str)],
-) -> Vec<(&'static str, String)> {
+fn cascaded_properties(node: Node, declared: &[Declaration], known: &Initial) -> Vec<(&'static str, String)> {
     let own = css_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
     let attributes = node.attributes().filter(|a| a.namespace().is_none()).map(|a| (a.name(), a.value()));
     let listed = |important: bool| {
@@ -110,7 +67,7 @@ fn cascaded_properties(
         all.map(|d| (d.name, d.value))
     };
     let all = attributes.chain(listed(false)).chain(listed(true));
-    let find = |name: &str| known.iter().find(|(known, _)| *known == name).map(|(known, _)| *known);
+    let find = |name: &str| known.get_key_value(name).map(|(known, _)| *known);
     let mut said: Vec<(&'static str, String)> =
         all.filter_map(|(name, value)| Some((find(name)?, normal(node, name, value)))).collect();
     if node.attributes().any(|a| a.name() == "space" && a.value() == "preserve") {
@@ -130,9 +87,14 @@ pub(crate) fn inherit(around: &Arc<Props>, node: Node, declared: &[Declaration])
     Arc::new(props)
 }
 
+/// Text with single spaces.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// A value in normal form: numbers and colours in one notation, references by the content of their target.
 fn normal(node: Node, name: &str, value: &str) -> String {
-    let value = value.split_whitespace().collect::<Vec<_>>().join(" ");
+    let value = one_line(value);
     if matches!(name, "fill" | "stroke" | "color")
         && let Some(colour) = Colour::parse(&value)
     {
@@ -204,7 +166,7 @@ pub(crate) fn text(
     node: Node,
     around: &Props,
     declared: &[Declaration],
-    cascade: &mut Cascade,
+    cascade: &Cascade,
 ) -> Result<Placeholder, Error> {
     let mut text = TextRuns::default();
     let mut props = around.clone();
@@ -218,20 +180,19 @@ pub(crate) fn text(
     let all: String = text.runs.iter().map(|(_, run)| run.as_str()).collect();
     let words = match preserved {
         true => all,
-        false => all.split_whitespace().collect::<Vec<_>>().join(" "),
+        false => one_line(&all),
     };
-    let mut details = match text.runs.as_slice() {
-        [(only, _)] => details(only),
-        _ => details(&props),
+    let run = |(props, run): &(Props, String)| (details(props), one_line(run));
+    let runs: Vec<(Details, String)> = text.runs.iter().map(run).collect();
+    let details = match runs.as_slice() {
+        [(only, _)] => only.clone(),
+        [] => details(&props),
+        several => {
+            let mut details = details(&props);
+            details.insert("spans".to_owned(), format!("{} as {:08x}", several.len(), hash(&runs) as u32));
+            details
+        }
     };
-    if text.runs.len() > 1 {
-        let runs: Vec<(Details, String)> = text
-            .runs
-            .iter()
-            .map(|(props, run)| (self::details(props), run.split_whitespace().collect::<Vec<_>>().join(" ")))
-            .collect();
-        details.insert("spans".to_owned(), format!("{} as {:08x}", runs.len(), hash(runs) as u32));
-    }
     Ok(Placeholder { words: format!("the text `{words}`"), details })
 }
 
@@ -244,7 +205,7 @@ struct TextRuns {
 
 impl TextRuns {
     /// Collects the runs of an element and its children.
-    fn inside(&mut self, node: Node, props: &Props, cascade: &mut Cascade) -> Result<(), Error> {
+    fn inside(&mut self, node: Node, props: &Props, cascade: &Cascade) -> Result<(), Error> {
         for child in node.children() {
             if child.is_text() {
                 let text = child.text().unwrap_or_default();
@@ -258,7 +219,7 @@ impl TextRuns {
             if !child.is_element() || DESCRIPTIVE_ELEMENTS.contains(&child.tag_name().name()) {
                 continue;
             }
-            let declared = cascade.enter(child)?;
+            let declared = cascade.declared(child)?;
             let mut inner = props.clone();
             // Letter positions apply only to the piece that sets them.
             inner.retain(|name, _| !matches!(*name, "x" | "y" | "dx" | "dy" | "rotate"));
@@ -284,7 +245,6 @@ impl TextRuns {
             if inner.get("display").is_none_or(|display| display != "none") {
                 self.inside(child, &inner, cascade)?;
             }
-            cascade.leave();
         }
         Ok(())
     }
@@ -292,13 +252,7 @@ impl TextRuns {
 
 /// The properties that are visible and differ from their initial value.
 fn details(props: &Props) -> Details {
-    let initial = |name: &str| {
-        INHERITED_PROPERTIES
-            .iter()
-            .chain(&OWN_PROPERTIES)
-            .find(|(known, _)| *known == name)
-            .map(|(_, value)| *value)
-    };
+    let initial = |name: &str| INHERITED_PROPERTIES.get(name).or(OWN_PROPERTIES.get(name)).copied();
     let stroked = props.get("stroke").is_some_and(|stroke| stroke != "none");
     let shown = |(name, value): &(&&str, &String)| {
         let counts = stroked || !name.starts_with("stroke");

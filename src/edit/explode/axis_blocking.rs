@@ -1,13 +1,11 @@
 //! [`AxisBlocking`]: blocking relations of bodies along one axis, and the groups that move as one.
 
-use std::sync::atomic::AtomicUsize;
-use std::sync::atomic::Ordering::Relaxed;
-
+use crate::geometry::lists::disjoint_sets::UnionFind;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::assembly::{Assembly, frame};
-use super::axis_offsets::{AxisExtent, AxisRelation, PairContacts, offsets, root, unite};
+use super::axis_offsets::{AxisExtent, AxisRelation, PairContacts, offsets};
 use super::axis_projection::{AxisProjection, PairContact};
 use super::body_axes;
 
@@ -25,29 +23,16 @@ pub(crate) struct AxisBlocking {
 impl AxisBlocking {
     /// Computes the relations of bodies along an axis.
     pub(crate) fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
-        let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: PairContacts::new() };
-        Self::with_held_limit(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
-    }
-
-    /// Computes the relations of bodies along an axis, if at most `most_held` pairs interlock. The limit has
-    /// no effect at present, because the counter `held` is never increased.
-    pub(crate) fn with_held_limit(
-        assembly: &Assembly,
-        of: &[usize],
-        axis: DVec3,
-        most_held: usize,
-    ) -> Option<Self> {
         let axes = frame(axis);
         let shadows: Vec<AxisProjection> =
             of.par_iter().map(|k| AxisProjection::new(&assembly.bodies[*k], &axes)).collect();
         let stretch = |(unit, shadow): (&usize, &AxisProjection)| AxisExtent {
-            low: shadow.low,
-            high: shadow.high,
-            size: shadow.area * (shadow.high - shadow.low),
+            low: shadow.bounds.low.z,
+            high: shadow.bounds.high.z,
+            size: shadow.area * (shadow.bounds.high.z - shadow.bounds.low.z),
             order: assembly.orders[*unit],
         };
         let stretches: Vec<AxisExtent> = of.iter().zip(&shadows).map(stretch).collect();
-        let held = AtomicUsize::new(0);
         let of_one = |a: usize| {
             let meeting = |b: usize| ([a, b], shadows[a].contact_with(&shadows[b], assembly.touch));
             (0..a)
@@ -56,8 +41,7 @@ impl AxisBlocking {
                 .collect::<Vec<_>>()
         };
         let meetings = (0..of.len()).into_par_iter().with_max_len(1).flat_map_iter(of_one).collect();
-        let is_known = held.load(Relaxed) <= most_held;
-        is_known.then(|| Self { axis, of: of.to_vec(), stretches, meetings })
+        Self { axis, of: of.to_vec(), stretches, meetings }
     }
 
     /// The same relations for a subset of the bodies.
@@ -96,7 +80,7 @@ impl AxisBlocking {
 
     /// Groups of interlocking bodies, each group at the position of its lowest body.
     pub(crate) fn held(&self) -> Vec<Vec<usize>> {
-        self.grouped((0..self.of.len()).collect())
+        self.grouped(UnionFind::new(self.of.len()))
     }
 
     /// Groups of interlocking bodies, where sub-assemblies at an angle also form groups. They consist of
@@ -111,26 +95,26 @@ impl AxisBlocking {
             .copied()
             .filter(|k| !assembly.axes[*k].is_empty() && !has(*k, self.axis))
             .collect();
-        let mut group: Vec<usize> = (0..self.of.len()).collect();
+        let group = UnionFind::new(self.of.len());
         for axis in assembly.shared_axes(&askew) {
             let of: Vec<usize> = askew.iter().copied().filter(|k| has(*k, axis)).collect();
             let level = Self::new(assembly, &of, axis);
             for pair in level.pairs() {
                 let [a, b] = pair.map(|k| self.of.binary_search(&level.of[k]).unwrap_or_default());
-                unite(&mut group, a, b);
+                group.join(a as u32, b as u32);
             }
         }
         self.grouped(group)
     }
 
     /// Joins interlocking bodies with the given groups.
-    fn grouped(&self, mut group: Vec<usize>) -> Vec<Vec<usize>> {
+    fn grouped(&self, group: UnionFind) -> Vec<Vec<usize>> {
         for [a, b] in self.pairs().filter(|pair| self.standing(*pair) == AxisRelation::Held) {
-            unite(&mut group, a, b);
+            group.join(a as u32, b as u32);
         }
-        let mut groups: Vec<Vec<usize>> = vec![Vec::new(); group.len()];
+        let mut groups: Vec<Vec<usize>> = vec![Vec::new(); self.of.len()];
         for (k, unit) in self.of.iter().enumerate() {
-            groups[root(&group, k)].push(*unit);
+            groups[group.root(k as u32) as usize].push(*unit);
         }
         groups.retain(|group| !group.is_empty());
         groups

@@ -1,5 +1,6 @@
 //! [`offsets`]: order of separated bodies along an axis, and the displacement of each.
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use std::collections::BTreeMap;
 
 use super::axis_projection::PairContact;
@@ -128,35 +129,23 @@ pub(crate) fn offsets(bodies: &[AxisExtent], meetings: &PairContacts, gap: f64) 
 
 /// Shifts each connected group so that its largest body stays.
 fn anchor_largest(bodies: &[AxisExtent], under: &[Vec<usize>], offsets: &mut [f64]) {
-    let mut piece: Vec<usize> = (0..bodies.len()).collect();
-    for (upper, lower) in (0..bodies.len()).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
-        unite(&mut piece, upper, lower);
-    }
+    let pieces = DisjointSets::new(bodies.len(), |join| {
+        for (upper, lower) in under.iter().enumerate() {
+            lower.iter().for_each(|lower| join(upper as u32, *lower as u32));
+        }
+    });
+    let piece = |k: usize| pieces.representative(k as u32) as usize;
     let mut stays: Vec<Option<usize>> = vec![None; bodies.len()];
     for k in 0..bodies.len() {
-        let largest = &mut stays[root(&piece, k)];
+        let largest = &mut stays[piece(k)];
         if largest.is_none_or(|known| bodies[k].size > bodies[known].size) {
             *largest = Some(k);
         }
     }
     let shift: Vec<f64> = stays.iter().map(|stays| stays.map_or(0.0, |k| offsets[k])).collect();
     for (k, offset) in offsets.iter_mut().enumerate() {
-        *offset -= shift[root(&piece, k)];
+        *offset -= shift[piece(k)];
     }
-}
-
-/// Root of the group of `k`: its lowest member (union-find).
-pub(crate) fn root(group: &[usize], mut k: usize) -> usize {
-    while group[k] != k {
-        k = group[k];
-    }
-    k
-}
-
-/// Joins the groups of two members.
-pub(crate) fn unite(group: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(group, a), root(group, b));
-    group[a.max(b)] = a.min(b);
 }
 
 /// Transitive relation: which body is above which.

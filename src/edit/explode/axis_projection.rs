@@ -16,25 +16,25 @@ use kurbo::Point;
 
 use super::bodies::Body;
 use super::polygon_overlap::{area, common, cut};
-use super::rect_tree::{EMPTY_RECT, Rect, RectTree, overlap, union};
 use crate::edit::tolerances::{ANGLE_ROUNDING_RAD, MAX_UPRIGHT_AREA_RATIO};
 use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::numbers::ranges::joined;
 use crate::geometry::plane::convex_hull::convex_hull;
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::bounds_tree::BoundsTree;
+use crate::geometry::space::triangles::area_vector;
 
 /// Maximum overlap, as a share of the smaller projected area, that counts as grazing. Facets of a shaft and
 /// its bore graze each other.
 const MAX_GRAZE_AREA_RATIO: f64 = 0.02;
 
 /// Body projected along an axis.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct AxisProjection {
     triangles: Vec<ProjectedTriangle>,
-    tree: RectTree,
-    /// Bounding box in the plane.
-    bounds: Rect,
-    /// Lowest and highest point along the axis.
-    pub low: f64,
-    pub high: f64,
+    tree: BoundsTree,
+    /// Bounding box, with the heights along z.
+    pub(crate) bounds: Bounds,
     /// Projected area of the upper or lower side. Overlapping surfaces count several times.
     pub area: f64,
 }
@@ -84,20 +84,17 @@ impl PairContact {
 impl AxisProjection {
     /// Projects a body along the third vector of a right-handed orthonormal basis.
     pub(crate) fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
-        let mut shadow =
-            Self { bounds: EMPTY_RECT, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
+        let (triangles, tree) = (Vec::new(), BoundsTree::default());
+        let mut shadow = Self { triangles, tree, bounds: Bounds::EMPTY, area: 0.0 };
         let mut boxes = Vec::new();
         for corners in &body.triangles {
             let placed = corners.map(|p| axes.map(|axis| p.dot(axis)));
             let mut at = placed.map(|[x, y, _]| DVec2::new(x, y));
             let mut height = placed.map(|[.., z]| z);
-            for z in height {
-                (shadow.low, shadow.high) = (shadow.low.min(z), shadow.high.max(z));
-            }
-            let own = at.iter().fold(EMPTY_RECT, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
-            shadow.bounds = union(shadow.bounds, own);
+            let own = Bounds::of(placed.map(DVec3::from_array));
+            shadow.bounds = shadow.bounds.union(own);
             let area = (at[1] - at[0]).perp_dot(at[2] - at[0]);
-            let whole = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+            let whole = area_vector(*corners).length();
             if area.abs() <= MAX_UPRIGHT_AREA_RATIO * whole {
                 continue;
             }
@@ -111,13 +108,13 @@ impl AxisProjection {
             shadow.area += area.abs() / 4.0;
             boxes.push(own);
         }
-        shadow.tree = RectTree::new(&boxes);
+        shadow.tree = BoundsTree::new(&boxes);
         shadow
     }
 
     /// Contact with another body. Surfaces within `touch` of each other touch.
     pub(crate) fn contact_with(&self, other: &Self, touch: f64) -> PairContact {
-        if !overlap(&self.bounds, &other.bounds) {
+        if !column(&self.bounds).meets(&other.bounds) {
             return PairContact::default();
         }
         let graze = MAX_GRAZE_AREA_RATIO * self.area.min(other.area);
@@ -130,23 +127,26 @@ impl AxisProjection {
     fn blocked_areas(&self, other: &Self, touch: f64, graze: f64) -> PairContact {
         let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
         // A body completely above the other does not block it downward, and vice versa.
-        let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
+        let [may_be_above, may_be_below] = [
+            other.bounds.high.z > self.bounds.low.z + touch,
+            other.bounds.low.z < self.bounds.high.z - touch,
+        ];
         let is_open = |both: f64, above: f64, below: f64| {
             both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
         };
-        for own in &self.triangles {
-            let bounds = own.at.iter().fold(EMPTY_RECT, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
-            let goes_on = other.tree.overlapping(&bounds, &mut |number| {
+        'all: for own in &self.triangles {
+            let own_column = column(&Bounds::of(own.at.map(|p| p.extend(0.0))));
+            for number in other.tree.near(|around| around.meets(&own_column)) {
                 let its = &other.triangles[number as usize];
                 let counts = own.is_up && its.is_up;
                 let up = own.is_up && its.is_down && may_be_above && above <= graze;
                 let down = own.is_down && its.is_up && may_be_below && below <= graze;
                 if !(counts || up || down) {
-                    return true;
+                    continue;
                 }
                 let common = common(&own.at, &its.at);
                 if common.len() < 3 {
-                    return true;
+                    continue;
                 }
                 // Height difference at a point of the common polygon.
                 let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
@@ -165,10 +165,9 @@ impl AxisProjection {
                         below += other.protruding_area([its, own], self, &cut(&common, |p| -touch - gap(p)));
                     }
                 }
-                is_open(both, above, below)
-            });
-            if !goes_on {
-                break;
+                if !is_open(both, above, below) {
+                    break 'all;
+                }
             }
         }
         let meets = both > graze;
@@ -194,7 +193,8 @@ impl AxisProjection {
     /// Highest downward face below `top` at a point.
     fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
         let mut floor = None;
-        self.tree.overlapping(&[point.x, point.y, point.x, point.y], &mut |number| {
+        let column = column(&Bounds::of([point.extend(0.0)]));
+        for number in self.tree.near(|around| around.meets(&column)) {
             let triangle = &self.triangles[number as usize];
             if triangle.is_down && triangle.holds(point) {
                 let height = triangle.height_at(point);
@@ -202,16 +202,14 @@ impl AxisProjection {
                     floor = Some(height);
                 }
             }
-            true
-        });
+        }
         floor
     }
 
     /// Whether the other projection surrounds this one: no corner of the convex hull has a free straight path
     /// outward.
     fn lies_within(&self, other: &Self) -> bool {
-        let [a, b] = [&self.bounds, &other.bounds];
-        if self.triangles.is_empty() || a[0] < b[0] || a[1] < b[1] || a[2] > b[2] || a[3] > b[3] {
+        if self.triangles.is_empty() || !column(&other.bounds).contains(&self.bounds) {
             return false;
         }
         let corners = self.triangles.iter().flat_map(|t| t.at).map(|p| Point::new(p.x, p.y)).collect();
@@ -221,7 +219,7 @@ impl AxisProjection {
     /// Whether the triangles cover all directions around a point.
     fn surrounds(&self, point: DVec2) -> bool {
         let full = std::f64::consts::TAU;
-        let mut covered: Vec<[f64; 2]> = Vec::new();
+        let mut covered: Vec<(f64, f64)> = Vec::new();
         for triangle in &self.triangles {
             if triangle.holds(point) {
                 return true;
@@ -236,21 +234,16 @@ impl AxisProjection {
             let from = angle(corner_offsets[first]);
             let wide = |direction: DVec2| (angle(direction) - from).rem_euclid(full);
             let widest = corner_offsets.map(wide).into_iter().filter(|w| *w < full / 2.0).fold(0.0, f64::max);
-            covered.push([from, from + widest]);
-            covered.push([from + full, from + full + widest]);
+            covered.extend([(from, from + widest), (from + full, from + full + widest)]);
         }
-        covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let Some(first) = covered.first() else { return false };
-        let mut until = first[1];
-        let end = first[0] + full;
-        for [from, to] in &covered {
-            if *from > until + ANGLE_ROUNDING_RAD {
-                return false;
-            }
-            until = until.max(*to);
-        }
-        until >= end - ANGLE_ROUNDING_RAD
+        let covered = joined(covered, ANGLE_ROUNDING_RAD);
+        matches!(covered[..], [(from, to)] if to >= from + full - ANGLE_ROUNDING_RAD)
     }
+}
+
+/// The box without limits along the axis.
+fn column(around: &Bounds) -> Bounds {
+    Bounds { low: around.low.with_z(f64::NEG_INFINITY), high: around.high.with_z(f64::INFINITY) }
 }
 
 impl ProjectedTriangle {

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geometry::space::bounds::Bounds;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::scene::Scene;
 
@@ -15,11 +16,9 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    /// Lowest and highest corner of the bounding box, world space; none without triangles.
-    pub(crate) fn bounds(&self) -> Option<[DVec3; 2]> {
-        let corners = self.triangles.as_flattened().iter();
-        let grow = |[low, high]: [DVec3; 2], p: &DVec3| [low.min(*p), high.max(*p)];
-        (!self.triangles.is_empty()).then(|| corners.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], grow))
+    /// The bounding box, world space.
+    pub(crate) fn bounds(&self) -> Bounds {
+        Bounds::of(self.triangles.as_flattened().iter().copied())
     }
 
     fn add(&mut self, other: &Self) {

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::bodies::Body;
 use crate::edit::tolerances::MAX_PARALLEL_SINE;
+use crate::geometry::space::triangles::area_vector;
 
 /// Maximum number of face directions that are kept. The largest faces come first.
 const MAX_PLANE_DIRECTIONS: usize = 64;
@@ -23,7 +24,7 @@ pub(crate) fn is_parallel(a: DVec3, b: DVec3) -> bool {
 
 /// Axes of a body as unit vectors, those of the largest faces first.
 pub(crate) fn body_axes(body: &Body) -> Vec<DVec3> {
-    let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
+    let normal = |corners: &[DVec3; 3]| area_vector(*corners);
     let mut normals: Vec<DVec3> = body.triangles.iter().map(normal).collect();
     normals.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
     let mut planes: Vec<(DVec3, f64)> = Vec::new();

@@ -3,7 +3,7 @@
 //! 1. `bodies` takes the surface of each part from the mesh. `part_rules` joins parts of one group into a
 //!    unit.
 //! 2. `body_axes` finds the candidate axes. `axis_blocking` tests along an axis which bodies block each
-//!    other, with the projections of `axis_projection` (pairs from `rect_tree`, areas from `polygon_overlap`).
+//!    other, with the projections of `axis_projection` (areas from `polygon_overlap`).
 //! 3. Bodies that block each other in both directions move as one. Sub-assemblies at an angle to the axis do,
 //!    too.
 //! 4. `axis_offsets` sorts the others along the axis and computes offsets with gaps between them.
@@ -22,7 +22,6 @@ mod bodies;
 mod body_axes;
 mod part_rules;
 mod polygon_overlap;
-mod rect_tree;
 mod trail_lines;
 
 use glam::{DAffine3, DVec3};
@@ -180,13 +179,11 @@ impl Assembly<'_> {
                 axes.iter().filter(|axis| !but.iter().any(|tried| body_axes::is_parallel(*tried, **axis)))
             {
                 let known_level = known_levels.iter().find(|level| level.axis == *axis).cloned();
-                let most_held = best.as_ref().map_or(usize::MAX, |((held_count, _), _)| *held_count);
-                let search = || {
-                    let level = AxisBlocking::with_held_limit(self, of, *axis, most_held)?;
+                let level = known_level.unwrap_or_else(|| {
+                    let level = AxisBlocking::new(self, of, *axis);
                     known_levels.push(level.clone());
-                    Some(level)
-                };
-                let Some(level) = known_level.or_else(search) else { continue };
+                    level
+                });
                 let rank = (level.held_pairs(), usize::MAX - level.separable_pairs());
                 let is_better = best.as_ref().is_none_or(|(best_rank, _)| rank < *best_rank);
                 if is_better && level.separable_pairs() > 0 && level.held().len() > 1 {

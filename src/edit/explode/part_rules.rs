@@ -132,8 +132,8 @@ fn offsets_along(assembly: &Assembly, moved_units: &[usize], move_direction: DVe
     // The other bodies form the last entry, and stay.
     let last = moved_units.len();
     let stretch = |shadow: &AxisProjection, size: f64, order| AxisExtent {
-        low: shadow.low,
-        high: shadow.high,
+        low: shadow.bounds.low.z,
+        high: shadow.bounds.high.z,
         size,
         order,
     };

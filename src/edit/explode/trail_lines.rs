@@ -18,8 +18,11 @@ pub fn with_trails(scene: Scene, part_offsets: &PartOffsets) -> Scene {
     let bodies = bodies(&scene);
     let both = part_offsets.offsets.iter().zip(&part_offsets.alone).enumerate();
     for (part, (total_offset, last_move)) in both.filter(|(_, (_, alone))| **alone != DVec3::ZERO) {
-        let Some([low, high]) = bodies[part].bounds() else { continue };
-        let from = (low + high) / 2.0;
+        let bounds = bodies[part].bounds();
+        if bounds.is_empty() {
+            continue;
+        }
+        let from = bounds.middle();
         let first = wires.positions.len() as u32;
         wires.positions.extend([from + (*total_offset - *last_move), from + *total_offset]);
         wires.wires.push([first, first + 1]);

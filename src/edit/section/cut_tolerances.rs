@@ -1,8 +1,9 @@
 //! [`CutTolerances`]: distances within which points coincide when a shape is cut.
 
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 
 use crate::edit::tolerances;
+use crate::geometry::space::bounds::Bounds;
 use crate::scene::Geometry;
 
 /// Distances within which points of a shape coincide, world units.
@@ -19,18 +20,14 @@ pub(crate) struct CutTolerances {
 impl CutTolerances {
     /// Distances for a shape, from its size and the precision of its coordinates.
     pub(crate) fn of(geometry: &Geometry, place: &DAffine3) -> Self {
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corner in geometry.triangles.as_flattened() {
-            let Some(p) = geometry.positions.get(*corner as usize) else { continue };
-            let p = place.transform_point3(*p);
-            if p.is_finite() {
-                (low, high) = (low.min(p), high.max(p));
-            }
-        }
-        if low.x > high.x {
+        let corners = geometry.triangles.as_flattened().iter();
+        let points = corners.filter_map(|corner| geometry.positions.get(*corner as usize));
+        let placed = points.map(|p| place.transform_point3(*p));
+        let around = Bounds::of(placed.filter(|p| p.is_finite()));
+        if around.is_empty() {
             return Self::default();
         }
-        let (size, largest) = (low.distance(high), low.abs().max(high.abs()).max_element());
+        let (size, largest) = (around.diagonal(), around.largest_coordinate());
         let of_coordinate = if geometry.single_precision {
             crate::mesh::tolerances::WELD_OF_F32_COORDINATE
         } else {

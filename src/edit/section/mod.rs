@@ -44,8 +44,9 @@ pub(crate) use neighbour_kinds::are_neighbours;
 pub use plane::Plane;
 pub use plane_spec::CutPlane;
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
+use crate::mesh::EdgeMark;
 use crate::mesh::weld::nearby_vertices;
-use crate::mesh::{DisjointSets, EdgeMark};
 use crate::scene::{Alpha, Geometry, Material, Part, Scene};
 use cut_tolerances::CutTolerances;
 use plane_clip::Clipped;

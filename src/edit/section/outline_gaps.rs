@@ -4,42 +4,37 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::plane_clip::Clipped;
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 
 /// Edges of closed outlines, and the number of connected outlines that do not close.
 pub(crate) fn closed_outlines(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
-    let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
-    let mut excess = vec![0_i64; cut.nodes.len()];
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
-    for ([a, b], times) in &cut.open {
-        excess[*a as usize] += i64::from(*times);
-        excess[*b as usize] -= i64::from(*times);
-        let (a, b) = (root(&mut parent, *a), root(&mut parent, *b));
-        parent[a.max(b) as usize] = a.min(b);
-    }
+    let outlines =
+        DisjointSets::new(cut.nodes.len(), |join| cut.open.iter().for_each(|([a, b], _)| join(*a, *b)));
+    let excess = excess(cut);
     let mut is_open = vec![false; cut.nodes.len()];
     for v in 0..cut.nodes.len() as u32 {
         if excess[v as usize] != 0 {
-            is_open[root(&mut parent, v) as usize] = true;
+            is_open[outlines.representative(v) as usize] = true;
         }
     }
     let unclosed = is_open.iter().filter(|open| **open).count() as u64;
-    let closes = |([a, _], _): &&([u32; 2], i32)| !is_open[root(&mut parent, *a) as usize];
+    let closes = |([a, _], _): &&([u32; 2], i32)| !is_open[outlines.representative(*a) as usize];
     (cut.open.iter().filter(closes).copied().collect(), unclosed)
+}
+
+/// For each node, how many edges start there minus how many end there.
+fn excess(cut: &Clipped) -> Vec<i64> {
+    let mut excess = vec![0_i64; cut.nodes.len()];
+    for ([a, b], times) in &cut.open {
+        excess[*a as usize] += i64::from(*times);
+        excess[*b as usize] -= i64::from(*times);
+    }
+    excess
 }
 
 /// Joins ends of outlines to starts of outlines within `reach` (world units), nearest first.
 pub(crate) fn close_gaps(cut: &mut Clipped, reach: f64) {
-    let mut excess = vec![0_i64; cut.nodes.len()];
-    for ([a, b], times) in &cut.open {
-        excess[*a as usize] += i64::from(*times);
-        excess[*b as usize] -= i64::from(*times);
-    }
+    let mut excess = excess(cut);
     let place = |node: u32| cut.geometry.positions[cut.nodes[node as usize] as usize];
     let key = |p: DVec3| (p / reach).floor().to_array().map(|x| x as i64);
     let mut begins: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();

@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 
 use super::plane::Plane;
 use super::plane_sides::side;
+use super::seam_division::{bits, push_interpolated};
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
@@ -288,13 +289,12 @@ impl<'a> Clipper<'a> {
                 OutlineCorner::Between(k) => *k,
             };
             let (_, t) = self.crossing(Self::ends(corners, k));
-            let (t, [from, to]) = (t as f32, Self::ends(own, k).map(|i| i as usize));
+            let (t, [from, to]) = (t as f32, Self::ends(own, k));
             let geometry = &mut self.to.geometry;
-            let between = |a: f32, b: f32| a + (b - a) * t;
             found.push(if normals {
-                push_between(&mut geometry.normals, from, to, between)
+                push_interpolated(&mut geometry.normals, from, to, t)
             } else {
-                push_between(&mut geometry.uvs, from, to, between)
+                push_interpolated(&mut geometry.uvs, from, to, t)
             });
         }
         found
@@ -346,23 +346,9 @@ pub(crate) fn add_flat(
     to.edge_marks.push(piece.map_or(sides, |(_, marks)| marks));
 }
 
-/// Adds the interpolation of two entries. Returns its index, or `u32::MAX` if an entry is missing.
-fn push_between<const N: usize>(
-    to: &mut Vec<[f32; N]>,
-    from: usize,
-    next: usize,
-    between: impl Fn(f32, f32) -> f32,
-) -> u32 {
-    let (Some(a), Some(b)) = (to.get(from).copied(), to.get(next).copied()) else { return u32::MAX };
-    to.push(std::array::from_fn(|k| between(a[k], b[k])));
-    to.len() as u32 - 1
-}
-
 /// First vertex at the position of each vertex.
 pub(crate) fn first_at_position(positions: &[DVec3]) -> Vec<u32> {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     known.reserve(positions.len());
-    // The sum turns negative zeros into positive ones.
-    let bits = |p: &DVec3| (*p + DVec3::ZERO).to_array().map(f64::to_bits);
-    positions.iter().enumerate().map(|(v, p)| *known.entry(bits(p)).or_insert(v as u32)).collect()
+    positions.iter().enumerate().map(|(v, p)| *known.entry(bits(*p)).or_insert(v as u32)).collect()
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Plane;
 use crate::error::Error;
+use crate::geometry::numbers::length_units::LENGTH_UNITS_MM;
 use crate::scene::Scene;
 
 /// Plane as written in an option.
@@ -25,9 +26,6 @@ enum PlaneOffset {
     /// Share of the model's extent.
     Share(f64),
 }
-
-/// Units of length in mm.
-const UNITS_MM: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
 
 impl CutPlane {
     /// Reads a plane.
@@ -79,8 +77,10 @@ impl CutPlane {
                 }
                 None if at.ends_with(|c: char| c.is_ascii_alphabetic()) => {
                     let number = at.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-                    let unit =
-                        UNITS_MM.iter().find(|(name, _)| *name == &at[number.len()..]).ok_or_else(wrong)?;
+                    let unit = LENGTH_UNITS_MM
+                        .iter()
+                        .find(|(name, _)| *name == &at[number.len()..])
+                        .ok_or_else(wrong)?;
                     PlaneOffset::Mm(number.trim().parse::<f64>().map_err(|_| wrong())? * unit.1)
                 }
                 None => PlaneOffset::Units(at.parse().map_err(|_| wrong())?),

@@ -112,7 +112,7 @@ fn put<T>(to: &mut Vec<T>, at: usize, value: T) {
 }
 
 /// Adds the interpolation of two entries. Returns its index, or `u32::MAX` if an entry is missing.
-fn push_interpolated<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
+pub(crate) fn push_interpolated<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
     let entry = |k: u32| to.get(k as usize).copied();
     let (Some(a), Some(b)) = (entry(from), entry(next)) else { return u32::MAX };
     to.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));

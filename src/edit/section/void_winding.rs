@@ -13,6 +13,8 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::cut_tolerances::CutTolerances;
 use crate::geometry::numbers::portable_math::acos;
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::triangles::area_vector;
 use crate::mesh::Edges;
 use crate::mesh::components::orientation::{ConnectedTriangles, OrientedSurfaces};
 use crate::scene::Geometry;
@@ -87,8 +89,7 @@ fn file_winding_signs(mesh: &ConnectedTriangles, surfaces: &OrientedSurfaces) ->
     for (face, (corners, surface)) in
         mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face).enumerate()
     {
-        let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
-        let area = (b - a).cross(c - a).length();
+        let area = area_vector(corners.map(|v| mesh.positions[v as usize])).length();
         outward[*surface as usize] += if is_turned(surfaces, face) { -area } else { area };
     }
     outward.into_iter().map(|area| if area < 0.0 { -1 } else { 1 }).collect()
@@ -105,17 +106,15 @@ fn closed_in_boxes(
     budget: &mut usize,
 ) -> Option<Vec<bool>> {
     let count = surfaces.is_closed.len();
-    let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
+    let mut boxes = vec![Bounds::EMPTY; count];
     for (corners, surface) in mesh.triangles.iter().zip(&surfaces.surface_of_face.set_of_face) {
-        let [low, high] = &mut boxes[*surface as usize];
-        for p in corners.map(|v| mesh.positions[v as usize]) {
-            (*low, *high) = (low.min(p), high.max(p));
-        }
+        let around = &mut boxes[*surface as usize];
+        *around = around.union(Bounds::of(corners.map(|v| mesh.positions[v as usize])));
     }
     let mut closed: Vec<usize> = (0..count).filter(|surface| surfaces.is_closed[*surface]).collect();
     // Of two boxes with the same minimum x, the larger comes first.
     let key = |surface: usize| {
-        let [low, high] = boxes[surface];
+        let Bounds { low, high } = boxes[surface];
         [low.x, low.y, low.z, -high.x, -high.y, -high.z]
     };
     closed.sort_by(|a, b| {
@@ -124,12 +123,10 @@ fn closed_in_boxes(
     });
     let mut inside = vec![false; count];
     for (k, inner) in closed.iter().enumerate() {
-        let [low, high] = boxes[*inner];
         // The box of an outer surface has a lower minimum, so it comes earlier.
         for outer in closed[..k].iter().rev() {
             *budget = budget.checked_sub(1)?;
-            let [from, to] = boxes[*outer];
-            if from.cmple(low).all() && to.cmpge(high).all() && [from, to] != [low, high] {
+            if boxes[*outer].contains(&boxes[*inner]) && boxes[*outer] != boxes[*inner] {
                 inside[*inner] = true;
                 break;
             }

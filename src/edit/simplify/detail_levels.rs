@@ -41,16 +41,6 @@ impl<'a> Levels<'a> {
         self.record.steps.len()
     }
 
-    /// Goes to a level, or to the deepest one if there are fewer.
-    pub fn go_to(&mut self, level: usize) {
-        while self.done < level.min(self.deepest()) {
-            self.down();
-        }
-        while self.done > level {
-            self.up();
-        }
-    }
-
     /// Goes to the finest level with at most `most` faces, instances counted, or to the deepest one. Returns
     /// the number of faces there. The result does not depend on the present level.
     ///

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
 
@@ -9,8 +10,8 @@ use super::collapse_record::{NO_INDEX, Wedge};
 use super::point_weld::{Weld, join_near_points};
 use crate::geometry::numbers::noise::hash;
 use crate::geometry::numbers::portable_math::cbrt;
+use crate::geometry::space::morton_curve::{CELLS_PER_HALF_AXIS, along_curve};
 use crate::mesh::EdgeMark;
-use crate::mesh::order::morton_curve::{CELLS_PER_HALF_AXIS, along_curve};
 use crate::mesh::tolerances::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Geometry, Material, Scene};
@@ -54,8 +55,7 @@ impl IndexedSurface {
         let shown = shown(scene);
         let frame = SpatialFrame::of(scene, &shown);
         let textured = scene.materials.iter().any(is_textured);
-        let vertices = scene.geometries.iter().map(|geometry| geometry.positions.len()).sum();
-        let mut weld = Weld::with_room(vertices);
+        let mut weld = Weld::default();
         let (mut flat, mut reaches) = (Self::default(), Vec::new());
         let has_normals = scene.geometries.iter().any(|geometry| !geometry.corner_normals.is_empty());
         for (number, (geometry, shown)) in scene.geometries.iter().zip(&shown).enumerate() {
@@ -207,13 +207,10 @@ fn shown(scene: &Scene) -> Vec<Option<DrawnGeometry>> {
 
 /// Distance within which vertices of a geometry on open edges are welded.
 fn reach(geometry: &Geometry) -> f64 {
-    let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for point in DrawnPoints::of_geometry(geometry) {
-        (least, greatest) = (least.min(point), greatest.max(point));
-    }
-    let largest = least.abs().max(greatest.abs()).max_element();
-    let written = if geometry.single_precision { WELD_OF_F32_COORDINATE * largest } else { 0.0 };
-    let reach = (WELD_OF_PART * least.distance(greatest)).max(written);
+    let around = Bounds::of(DrawnPoints::of_geometry(geometry));
+    let written =
+        if geometry.single_precision { WELD_OF_F32_COORDINATE * around.largest_coordinate() } else { 0.0 };
+    let reach = (WELD_OF_PART * around.diagonal()).max(written);
     if reach.is_finite() { reach } else { 0.0 }
 }
 
@@ -225,18 +222,19 @@ struct SpatialFrame {
 
 impl SpatialFrame {
     fn of(scene: &Scene, shown: &[Option<DrawnGeometry>]) -> Self {
-        let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for (geometry, shown) in scene.geometries.iter().zip(shown) {
-            let Some(shown) = shown else { continue };
-            for point in DrawnPoints::of_geometry(geometry) {
-                let point = shown.place.transform_point3(point);
-                (least, greatest) = (least.min(point), greatest.max(point));
-            }
-        }
-        let size = (greatest - least).max_element();
+        let places = scene.geometries.iter().zip(shown).filter_map(|(geometry, shown)| {
+            let place = shown.as_ref()?.place;
+            Some(
+                DrawnPoints::of_geometry(geometry)
+                    .into_iter()
+                    .map(move |point| place.transform_point3(point)),
+            )
+        });
+        let around = Bounds::of(places.flatten());
+        let size = around.size().max_element();
         let sound = size > 0.0 && size.is_finite();
         Self {
-            middle: if sound { least.midpoint(greatest) } else { DVec3::ZERO },
+            middle: if sound { around.low.midpoint(around.high) } else { DVec3::ZERO },
             scale: if sound { 1.0 / size } else { 1.0 },
         }
     }

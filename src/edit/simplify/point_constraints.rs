@@ -1,6 +1,7 @@
 //! [`PointConstraint`]: possible collapse directions of a point, by the borders, seams and creases at it; and its
 //! initial error quadric.
 
+use crate::geometry::space::triangles::area_vector;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -72,7 +73,7 @@ struct FaceSide {
 pub(crate) fn sites(flat: &IndexedSurface, corners: &[[u32; 3]], fans: &PointFaces) -> Vec<Site> {
     let normal = |corners: &[u32; 3]| match corners.contains(&NO_INDEX) {
         true => DVec3::ZERO,
-        false => doubled_area(corners.map(|point| flat.points[point as usize])),
+        false => area_vector(corners.map(|point| flat.points[point as usize])),
     };
     // Unit normal and area of each face.
     let planes: Vec<(DVec3, f64)> = corners
@@ -170,9 +171,4 @@ fn strength(edge: &[FaceSide]) -> Option<f64> {
     }
     let same = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.signature == b.signature);
     (!same || edge.iter().any(|side| side.marked)).then_some(SEAM_WEIGHT)
-}
-
-/// Normal of a triangle, with the length of twice its area.
-fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
 }

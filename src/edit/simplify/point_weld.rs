@@ -1,51 +1,27 @@
 //! Welds corners at one position to one point, only for the order of collapses.
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 use super::collapse_record::NO_INDEX;
 use crate::mesh::weld::nearby_vertices::join_nearby;
 
-const FREE_SLOT: u32 = u32::MAX;
-
-/// Hash table of points that differ in position or group, without removal.
-#[derive(Debug)]
+/// Points that differ in position or group.
+#[derive(Debug, Default)]
 pub(crate) struct Weld {
-    slots: Vec<u32>,
+    numbers: FxHashMap<(u32, [u64; 3]), u32>,
     points: Vec<DVec3>,
-    groups: Vec<u32>,
 }
 
 impl Weld {
-    /// A table for at most `count` points.
-    pub(crate) fn with_room(count: usize) -> Self {
-        let slots = (count * 2).max(4).next_power_of_two();
-        Self {
-            slots: vec![FREE_SLOT; slots],
-            points: Vec::with_capacity(count),
-            groups: Vec::with_capacity(count),
-        }
-    }
-
     /// Number of the point at a position, added if it is new.
     pub(crate) fn point(&mut self, group: u32, place: DVec3) -> u32 {
         // Positive and negative zero are the same coordinate.
         let place = place + 0.0;
-        let mask = self.slots.len() - 1;
-        let mut slot = slot_of(group, place) as usize & mask;
-        loop {
-            let point = self.slots[slot];
-            if point == FREE_SLOT {
-                let point = self.points.len() as u32;
-                self.slots[slot] = point;
-                self.points.push(place);
-                self.groups.push(group);
-                return point;
-            }
-            if self.points[point as usize] == place && self.groups[point as usize] == group {
-                return point;
-            }
-            slot = (slot + 1) & mask;
-        }
+        *self.numbers.entry((group, place.to_array().map(f64::to_bits))).or_insert_with(|| {
+            self.points.push(place);
+            self.points.len() as u32 - 1
+        })
     }
 
     /// Number of points.
@@ -57,14 +33,6 @@ impl Weld {
     pub(crate) fn into_points(self) -> Vec<DVec3> {
         self.points
     }
-}
-
-fn slot_of(group: u32, place: DVec3) -> u64 {
-    let mut hash = u64::from(group);
-    for bits in place.to_array().map(f64::to_bits) {
-        hash = (hash.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-    hash ^ (hash >> 31)
 }
 
 /// Joins points on open edges whose distance is at most their reach; returns the representative of each
@@ -95,7 +63,7 @@ mod tests {
 
     #[test]
     fn weld_gives_equal_positions_of_one_group_one_point() {
-        let mut weld = Weld::with_room(4);
+        let mut weld = Weld::default();
         let places = [DVec3::X, DVec3::ZERO, DVec3::X, -DVec3::ZERO];
         assert_eq!(places.map(|place| weld.point(0, place)), [0, 1, 0, 1]);
         assert_eq!([weld.point(1, DVec3::X), weld.point(1, DVec3::X), weld.point(0, DVec3::Y)], [2, 2, 3]);

@@ -13,7 +13,7 @@
 
 use kurbo::{Affine, BezPath, Point, Vec2};
 
-use super::arc_recovery::PathSteps;
+use super::arc_recovery::{MAX_ARC_RAD, PathSteps};
 use crate::export::tolerances;
 use crate::geometry::numbers::portable_math::{atan2, tan};
 use crate::geometry::plane::planar_distance::fit_circle_centre;
@@ -34,10 +34,6 @@ pub(crate) struct FittedPiece {
 
 /// Share of the tolerance used by flattening.
 const FLATTENING_SHARE: f64 = 0.1;
-
-/// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
-/// uncertain.
-const MAX_ARC_RAD: f64 = 6.0;
 
 /// Largest angle between the corners of a polygon that approximates a circle, in radians.
 const MAX_FACET_RAD: f64 = 0.27;
@@ -213,33 +209,39 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
 /// Total angle of points around a centre, radians. `None` if they change direction, or a chord is farther
 /// than the tolerance from the circle.
 fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
-    let mut turn = 0.0;
-    for pair in run.windows(2) {
-        let ArcChord { angle: step, end_distance: off, sagitta: rise } =
-            ArcChord::new([pair[0], pair[1]], centre, radius)?;
-        if off + rise > tolerance || step == 0.0 || step * turn < 0.0 {
-            return None;
-        }
-        turn += step;
-    }
-    Some(turn)
+    let is_far = |chord: &ArcChord| chord.end_distance + chord.sagitta > tolerance;
+    turn_of_chords(run, centre, radius, is_far).map(|(turn, _)| turn)
 }
 
 /// The same for a polygon that approximates a circle. Its chords may lie farther inside, if they turn by
 /// similar angles.
 fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
+    let is_far = |chord: &ArcChord| {
+        chord.end_distance > tolerance || chord.sagitta > MAX_FACET_RISE_TOLERANCES * tolerance
+    };
+    let (turn, [least, most]) = turn_of_chords(run, centre, radius, is_far)?;
+    (most <= MAX_FACET_RAD && most <= 2.0 * least).then_some(turn)
+}
+
+/// Total angle of points around a centre, and the least and the greatest angle of a chord. `None` if they change
+/// direction, or a chord is too far from the circle.
+fn turn_of_chords(
+    run: &[Point],
+    centre: Point,
+    radius: f64,
+    is_far: impl Fn(&ArcChord) -> bool,
+) -> Option<(f64, [f64; 2])> {
     let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
     for pair in run.windows(2) {
-        let ArcChord { angle: step, end_distance: off, sagitta: rise } =
-            ArcChord::new([pair[0], pair[1]], centre, radius)?;
-        if off > tolerance || rise > MAX_FACET_RISE_TOLERANCES * tolerance || step == 0.0 || step * turn < 0.0
-        {
+        let chord = ArcChord::new([pair[0], pair[1]], centre, radius)?;
+        let step = chord.angle;
+        if is_far(&chord) || step == 0.0 || step * turn < 0.0 {
             return None;
         }
         turn += step;
         (least, most) = (least.min(step.abs()), most.max(step.abs()));
     }
-    (most <= MAX_FACET_RAD && most <= 2.0 * least).then_some(turn)
+    Some((turn, [least, most]))
 }
 
 /// A chord compared with a circle.

@@ -16,7 +16,7 @@ const MAX_CUBIC_RAD: f64 = 1.6;
 
 /// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
 /// uncertain.
-const MAX_BULGE_RAD: f64 = 6.0;
+pub(crate) const MAX_ARC_RAD: f64 = 6.0;
 
 /// A straight line or an arc, by its end point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -143,7 +143,7 @@ impl PathSteps {
 
     /// End points and bulges of an arc. An arc that nearly closes is split into two halves.
     pub(crate) fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
-        if turn.abs() < MAX_BULGE_RAD {
+        if turn.abs() < MAX_ARC_RAD {
             return vec![(end, tan(turn / 4.0))];
         }
         let (s, c) = (sin(turn / 2.0), cos(turn / 2.0));

@@ -2,7 +2,7 @@
 
 use kurbo::{Affine, Point};
 
-use crate::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
+use crate::drawing::{Drawing, LayerKind, Mark, Paint};
 
 /// Release of DXF to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,8 +66,6 @@ impl DxfOptions {
 /// [`Style::to_scale`]: crate::Style::to_scale
 const TOLERANCE_MM: f64 = 0.008;
 
-const MM_PER_PX: f64 = 25.4 / 96.0;
-
 /// The marks and units of a DXF file.
 pub(crate) struct DxfSource<'a> {
     pub(crate) version: DxfVersion,
@@ -89,10 +87,7 @@ pub(crate) struct DxfSource<'a> {
 impl<'a> DxfSource<'a> {
     pub(crate) fn new(drawing: &'a Drawing, options: &DxfOptions) -> Self {
         let page = &drawing.page;
-        let mm_per_unit = match page.unit {
-            Unit::Px => MM_PER_PX,
-            Unit::Mm => 1.0,
-        };
+        let mm_per_unit = page.unit.mm();
         let tolerance = TOLERANCE_MM / mm_per_unit;
         let (scale, in_mm) = match options.length {
             DxfLength::Page => (mm_per_unit, true),

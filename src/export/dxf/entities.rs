@@ -116,9 +116,7 @@ impl EntityWriter<'_> {
             self.own.tags.whole(70, usize::from(closed));
             for (point, bulge) in vertices {
                 self.own.tags.point(10, [point.x, point.y]);
-                if bulge != 0.0 {
-                    self.own.tags.number(42, bulge);
-                }
+                self.bulge(bulge);
             }
             self.end(common);
             return;
@@ -132,12 +130,16 @@ impl EntityWriter<'_> {
             self.own.tags.text(0, "VERTEX");
             self.own.tags.text(8, &common.layer.name);
             self.own.tags.point_in_space(10, [point.x, point.y]);
-            if bulge != 0.0 {
-                self.own.tags.number(42, bulge);
-            }
+            self.bulge(bulge);
         }
         self.own.tags.text(0, "SEQEND");
         self.own.tags.text(8, &common.layer.name);
+    }
+
+    fn bulge(&mut self, bulge: f64) {
+        if bulge != 0.0 {
+            self.own.tags.number(42, bulge);
+        }
     }
 
     /// A fill with all its rings; inner rings are holes.

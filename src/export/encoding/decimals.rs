@@ -77,6 +77,13 @@ impl Decimals {
         started
     }
 
+    /// Writes a rounded value and a blank.
+    #[cfg(feature = "pdf")]
+    pub(crate) fn write_operand(self, out: &mut Vec<u8>, value: f64) {
+        self.write(out, self.round(value));
+        out.push(b' ');
+    }
+
     /// Whether a multiple of the step is written with a leading point.
     #[inline]
     pub(crate) fn starts_with_point(self, number: i64) -> bool {

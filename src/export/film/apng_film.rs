@@ -37,13 +37,7 @@ impl<W: Write> ApngFilm<W> {
         if self.written == self.frames {
             return Err(Error::new(format!("the film should have {} frames", self.frames)));
         }
-        let changed = match &self.before {
-            Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
-                return Err(Error::new("a frame has another size than the first"));
-            }
-            Some(before) => ChangedRect::between(before, pixels),
-            None => ChangedRect::whole(pixels),
-        };
+        let changed = ChangedRect::since(self.before.as_ref(), pixels)?;
         let delay = self.pace.next(ticks, f64::from(TIME_UNITS_PER_SECOND)).min(u32::from(u16::MAX)) as u16;
         self.write(pixels, changed, delay).map_err(cannot_write)?;
         self.before = Some(pixels.clone());

@@ -1,5 +1,6 @@
 //! The changed rectangle of a frame, compared with the previous one.
 
+use crate::error::Error;
 use crate::export::Pixels;
 
 /// A rectangle of pixels.
@@ -15,6 +16,20 @@ impl ChangedRect {
     /// The whole picture.
     pub(crate) fn whole(pixels: &Pixels) -> Self {
         Self { left: 0, top: 0, width: pixels.width, height: pixels.height }
+    }
+
+    /// The part of a frame that differs from the frame before, if there is one.
+    ///
+    /// # Errors
+    /// If the frames differ in size.
+    pub(crate) fn since(before: Option<&Pixels>, pixels: &Pixels) -> Result<Self, Error> {
+        match before {
+            Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
+                Err(Error::new("a frame has another size than the first"))
+            }
+            Some(before) => Ok(Self::between(before, pixels)),
+            None => Ok(Self::whole(pixels)),
+        }
     }
 
     /// Bounding box of all differing pixels of two pictures of equal size; one pixel if there are none.

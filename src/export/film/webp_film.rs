@@ -50,21 +50,15 @@ impl WebpFilm {
                 Error::new("WebP is limited to 16384 pixels per side").remedy("choose a smaller size")
             );
         }
-        let changed = match &self.before {
-            Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
-                return Err(Error::new("a frame has another size than the first"));
-            }
-            Some(before) => ChangedRect::between(before, pixels).even(),
-            None => {
-                let mut extended = vec![ANIMATION_AND_ALPHA_FLAGS, 0, 0, 0];
-                extended.extend(low(pixels.width - 1));
-                extended.extend(low(pixels.height - 1));
-                self.chunk(*b"VP8X", &extended);
-                // A transparent background and infinite repetition.
-                self.chunk(*b"ANIM", &[0; 6]);
-                ChangedRect::whole(pixels)
-            }
-        };
+        let changed = ChangedRect::since(self.before.as_ref(), pixels)?.even();
+        if self.before.is_none() {
+            let mut extended = vec![ANIMATION_AND_ALPHA_FLAGS, 0, 0, 0];
+            extended.extend(low(pixels.width - 1));
+            extended.extend(low(pixels.height - 1));
+            self.chunk(*b"VP8X", &extended);
+            // A transparent background and infinite repetition.
+            self.chunk(*b"ANIM", &[0; 6]);
+        }
         let rows: Vec<u8> = changed.rows(pixels).flatten().copied().collect();
         let mut still = Vec::new();
         WebPEncoder::new(&mut still)

@@ -17,20 +17,16 @@
 use std::collections::BTreeSet;
 
 use crate::parallel::prelude::*;
-use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::{Filter, Finish, Name, Pdf, Ref, TextStr};
+use pdf_writer::{Filter, Finish, Name, Pdf, Ref};
 
 use super::content_stream::PressSettings;
-use super::document_content::DocumentContent;
-use super::drawing_page::DEFLATE_LEVEL;
-use super::fonts::{Fonts, OBJECTS_PER_FONT};
+use super::document_content::{DocumentContent, write_layers};
+use super::fonts::Fonts;
 use super::page_boxes::PrintedPage;
-use super::paint_objects::{write_gradient, write_picture};
+use super::pdf_streams::deflated;
 use super::picture_crops::Crops;
-use super::resources::{ResourceIds, write_resources};
-use super::soft_masks::SoftMask;
-use crate::colour::srgb::Colour;
-use crate::drawing::{Composition, Drawing, Mark, OutlinePaint, Paint};
+use super::resources::{ObjectNumbers, SharedObjects, states};
+use crate::drawing::{Composition, Drawing, Mark};
 use crate::error::Error;
 use crate::export::pdf::press::halftone_screen::Screen;
 use crate::export::pdf::press::ink_plates::{Plates, srgb_profile};
@@ -83,29 +79,18 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         .map(|page| page.par_iter().map(|segment| segment.write(press)).collect())
         .collect();
 
-    let mut next = FIRST_FREE;
-    let mut take = |count: usize| -> Vec<Ref> {
-        let first = next;
-        next += i32::try_from(count).unwrap_or(i32::MAX - FIRST_FREE);
-        (first..next).map(Ref::new).collect()
-    };
-    let page_ids = take(pages.len());
-    let stream_ids: Vec<Vec<Ref>> = streams.iter().map(|page| take(page.len())).collect();
-    let group_ids = take(document.groups.len());
-    let states: Vec<(u8, bool)> = states(pages, &plates).into_iter().collect();
-    let state_ids = take(states.len());
-    let pictures: Vec<_> = crops.iter().flat_map(|crops| &crops.list).collect();
-    let (picture_ids, mask_ids) = (take(pictures.len()), take(pictures.len()));
-    let (pattern_ids, function_ids) = (take(document.gradients.len()), take(document.gradients.len()));
-    let font_ids = take(fonts.list.len() * OBJECTS_PER_FONT);
-    let first_pictures =
-        crops.iter().scan(0, |sum, crops| Some(std::mem::replace(sum, *sum + crops.list.len())));
-    let masks: Vec<SoftMask> = drawings(pages)
-        .zip(&crops)
-        .zip(first_pictures)
-        .flat_map(|((drawing, crops), first)| SoftMask::all(drawing, crops, first))
-        .collect();
-    let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
+    let mut numbers = ObjectNumbers::starting_at(FIRST_FREE);
+    let page_ids = numbers.take(pages.len());
+    let stream_ids: Vec<Vec<Ref>> = streams.iter().map(|page| numbers.take(page.len())).collect();
+    let group_ids = numbers.take(document.groups.len());
+    let gradients = std::mem::take(&mut document.gradients);
+    let objects = SharedObjects::new(
+        &mut numbers,
+        (drawings(pages), &crops),
+        all_states(pages, &plates),
+        gradients,
+        (Some(&plates), Some(&fonts)),
+    );
 
     let mut pdf = Pdf::new();
     if options.standard == Some(Standard::X4) {
@@ -123,11 +108,11 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
             write_intent(&mut catalog, standard, name, PROFILE);
         }
     }
-    document.write_layers(&mut catalog, &group_ids);
+    write_layers(&mut catalog, &document.groups, &document.titles, &group_ids);
     catalog.finish();
     pdf.pages(PAGES).kids(page_ids.iter().copied()).count(i32::try_from(pages.len()).unwrap_or(i32::MAX));
 
-    let is_clear = states.iter().any(|(opacity, _)| *opacity < 255);
+    let is_clear = objects.is_clear();
     for ((sheet, id), streams) in sheets.iter().zip(&page_ids).zip(&stream_ids) {
         let mut page = pdf.page(*id);
         page.parent(PAGES).media_box(sheet.on_paper(sheet.media));
@@ -150,36 +135,12 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
         page.insert(Name(b"Resources")).primitive(RESOURCES);
     }
 
-    let mask_states: Vec<(&str, Ref)> =
-        masks.iter().zip(&mask_state_ids).map(|(mask, id)| (mask.name.as_str(), *id)).collect();
-    let ids = ResourceIds {
-        groups: &group_ids,
-        patterns: &pattern_ids,
-        pictures: &picture_ids,
-        fonts: &font_ids,
-        masks: &mask_states,
-    };
-    write_resources(&mut pdf, RESOURCES, (&plates, options.marks), (&states, &state_ids), &ids);
-    let colours = Some(&plates);
-    for ((place, gradient), ids) in document.gradients.iter().zip(pattern_ids.iter().zip(&function_ids)) {
-        write_gradient(&mut pdf, gradient, place.as_coeffs().map(|x| x as f32), [*ids.0, *ids.1], colours);
-    }
-    for (label, id) in document.groups.iter().zip(&group_ids) {
-        let mut entry = pdf.indirect(*id).dict();
-        entry.pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&label.label));
-    }
-    for (stream, id) in streams.iter().flatten().zip(stream_ids.iter().flatten()) {
-        pdf.stream(*id, stream).filter(Filter::FlateDecode);
-    }
-    for (picture, ids) in pictures.iter().zip(picture_ids.iter().zip(&mask_ids)) {
-        write_picture(&mut pdf, picture, [*ids.0, *ids.1], colours);
-    }
-    for (mask, ids) in masks.iter().zip(mask_state_ids.iter().zip(&form_ids)) {
-        mask.write(&mut pdf, [*ids.0, *ids.1], &picture_ids);
-    }
-    fonts.write(&mut pdf, &font_ids);
+    objects.write_dictionary(pdf.indirect(RESOURCES).start(), &group_ids, options.marks);
+    let labels = document.groups.iter().map(|layer| layer.label.as_str());
+    let contents = streams.iter().flatten().zip(stream_ids.iter().flatten());
+    objects.write(&mut pdf, labels.zip(&group_ids), contents);
     if let (Some(standard), Some((bytes, channels, _))) = (options.standard, &profile) {
-        let packed = compress_to_vec_zlib(bytes, DEFLATE_LEVEL);
+        let packed = deflated(bytes);
         let mut stream = pdf.icc_profile(PROFILE, &packed);
         stream.n(i32::try_from(*channels).unwrap_or(3)).filter(Filter::FlateDecode);
         stream.finish();
@@ -233,26 +194,11 @@ fn marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
     drawing.layers.iter().flat_map(|layer| &layer.marks)
 }
 
-/// Opacities used, each with its overprint flag.
-fn states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
-    let state = |colour: Colour| (colour.a, plates.overprints(colour));
-    let of_mark = |mark: &Mark| -> Vec<(u8, bool)> {
-        match &mark.paint {
-            Paint::Stroke(stroke) => vec![state(stroke.colour)],
-            Paint::Gradient(gradient) => {
-                vec![(gradient.stops.first().map_or(255, |(_, colour)| colour.a), false)]
-            }
-            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => vec![state(*colour)],
-            Paint::Image(_) => Vec::new(),
-        }
-    };
-    let paper = pages.iter().map(|page| &page.page).chain(drawings(pages).map(|drawing| &drawing.page));
-    let paper = paper.filter_map(|page| page.background).map(state);
-    // Pictures and printer's marks are opaque.
-    drawings(pages)
-        .flat_map(marks)
-        .flat_map(of_mark)
-        .chain(paper)
-        .chain([(255, false), (255, plates.is_press())])
-        .collect()
+/// Opacities used, each with its overprint flag. Pictures and printer's marks are opaque.
+fn all_states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
+    let overprints = |colour| plates.overprints(colour);
+    let papers = pages.iter().filter_map(|page| page.page.background);
+    let papers = papers.map(|colour| (colour.a, overprints(colour)));
+    let of_drawings = states(drawings(pages), overprints).into_iter();
+    of_drawings.chain(papers).chain([(255, false), (255, plates.is_press())]).collect()
 }

@@ -78,8 +78,7 @@ impl<'a> ContentWriter<'a> {
             Paint::Stroke(stroke) => {
                 self.set_state(stroke.colour);
                 self.set_stroke(stroke);
-                self.path(mark.path.elements());
-                self.out.extend_from_slice(b"S\n");
+                self.path_with(mark.path.elements(), b"S");
             }
             Paint::Gradient(gradient)
                 if self.screened(mark, gradient.stops.first().map_or(255, |s| s.1.a)) =>
@@ -93,8 +92,7 @@ impl<'a> ContentWriter<'a> {
                 self.patterns += 1;
                 self.fill = None;
                 self.out.extend_from_slice(format!("/Pattern cs /{name} scn\n").as_bytes());
-                self.path(mark.path.elements());
-                self.out.extend_from_slice(b"f\n");
+                self.path_with(mark.path.elements(), b"f");
             }
             Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
                 self.set_state(*colour);
@@ -104,8 +102,7 @@ impl<'a> ContentWriter<'a> {
                 if set.is_some_and(|(fonts, run)| fonts.set(&mut self.out, run, self.decimals)) {
                     return;
                 }
-                self.path(mark.path.elements());
-                self.out.extend_from_slice(b"f\n");
+                self.path_with(mark.path.elements(), b"f");
             }
             Paint::Image(image) if pictures.mask(image).is_some() => {
                 let Some((number, ink)) = pictures.mask(image) else { return };
@@ -128,13 +125,23 @@ impl<'a> ContentWriter<'a> {
     /// Paints the pieces of a picture.
     fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
         let first = self.press.map_or(0, |press| press.first_picture);
+        self.pieces_with(image, pictures, first, Self::set_fill);
+    }
+
+    /// Paints the pieces of a picture. `fill` sets the fill of a piece in one colour.
+    fn pieces_with(
+        &mut self,
+        image: &ImagePaint,
+        pictures: &Crops,
+        first: usize,
+        fill: impl Fn(&mut Self, Colour),
+    ) {
         for piece in &image.pieces {
             match piece.shows {
                 PieceContent::Pixels(_) => self.pixels(piece, pictures, first),
                 PieceContent::Colour(colour) => {
-                    self.set_fill(colour);
-                    self.path(piece.outline.elements());
-                    self.out.extend_from_slice(b"f\n");
+                    fill(self, colour);
+                    self.path_with(piece.outline.elements(), b"f");
                 }
             }
         }
@@ -142,17 +149,10 @@ impl<'a> ContentWriter<'a> {
 
     /// Paints the opacity of the pieces of a picture: black for transparent, white for opaque.
     pub(crate) fn opacities(&mut self, image: &ImagePaint, pictures: &Crops, first: usize) {
-        for piece in &image.pieces {
-            match piece.shows {
-                PieceContent::Pixels(_) => self.pixels(piece, pictures, first),
-                PieceContent::Colour(Colour { a, .. }) => {
-                    let light = Decimals::new(CHANNEL_DECIMALS).text(f64::from(a) / 255.0);
-                    self.out.extend_from_slice(format!("{light} g\n").as_bytes());
-                    self.path(piece.outline.elements());
-                    self.out.extend_from_slice(b"f\n");
-                }
-            }
-        }
+        self.pieces_with(image, pictures, first, |writer, colour| {
+            let light = Decimals::new(CHANNEL_DECIMALS).text(f64::from(colour.a) / 255.0);
+            writer.out.extend_from_slice(format!("{light} g\n").as_bytes());
+        });
     }
 
     /// Paints a piece that shows pixels.
@@ -170,8 +170,7 @@ impl<'a> ContentWriter<'a> {
     pub(crate) fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
         let ink = (self.stroke.clone(), self.fill, self.state);
         self.out.extend_from_slice(b"q\n");
-        self.path(elements);
-        self.out.extend_from_slice(b"W n\n");
+        self.path_with(elements, b"W n");
         paint(self);
         self.out.extend_from_slice(b"Q\n");
         (self.stroke, self.fill, self.state) = ink;
@@ -307,6 +306,12 @@ impl<'a> ContentWriter<'a> {
         }
     }
 
+    /// Writes a path and the operator that paints it.
+    pub(crate) fn path_with(&mut self, elements: &[PathEl], operator: &[u8]) {
+        self.path(elements);
+        self.operator(operator);
+    }
+
     fn points(&mut self, points: &[Point], operator: &[u8]) {
         for point in points {
             self.value(self.decimals, point.x);
@@ -316,14 +321,18 @@ impl<'a> ContentWriter<'a> {
     }
 
     pub(crate) fn value(&mut self, decimals: Decimals, value: f64) {
-        decimals.write(&mut self.out, decimals.round(value));
-        self.out.push(b' ');
+        decimals.write_operand(&mut self.out, value);
     }
 
     pub(crate) fn operator(&mut self, operator: &[u8]) {
         self.out.extend_from_slice(operator);
         self.out.push(b'\n');
     }
+}
+
+/// Name of a layer in the page's resources.
+pub(crate) fn group_name(index: usize) -> String {
+    format!("L{index}")
 }
 
 /// Name of the graphics state that sets a mask. `first_picture` is the number of the drawing's first picture

@@ -1,12 +1,11 @@
 //! Layers and content segments of all pages, collected before the file is written.
 
 use kurbo::{Affine, Rect, Shape};
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Name, Ref, TextStr};
 
-use super::content_stream::{ContentWriter, HalftoneDots, PressSettings};
-use super::drawing_page::{DEFLATE_LEVEL, MARKS_PER_STREAM, group_name};
+use super::content_stream::{ContentWriter, HalftoneDots, PressSettings, group_name};
 use super::page_boxes::PrintedPage;
+use super::pdf_streams::{MARKS_PER_STREAM, deflated};
 use super::picture_crops::Crops;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Composition, Gradient, LayerKind, Mark, Paint, PlacedDrawing, Provenance, Unit};
@@ -43,12 +42,12 @@ impl ContentSegment<'_> {
     /// Writes the segment as deflated content.
     pub(crate) fn write(&self, press: PressSettings) -> Vec<u8> {
         match self {
-            Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
+            Self::Raw(bytes) => deflated(bytes),
             Self::Marks { dots, marks, crops, first_picture, first_pattern, decimals } => {
                 let press = PressSettings { first_picture: *first_picture, dots: *dots, ..press };
                 let mut writer = ContentWriter::new(*decimals, *first_pattern, Some(press));
                 marks.iter().for_each(|mark| writer.mark(mark, crops));
-                compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
+                deflated(&writer.out)
             }
         }
     }
@@ -61,7 +60,7 @@ pub(crate) struct DocumentContent<'a> {
     pub groups: Vec<DocumentLayer>,
     /// Segments of each page.
     pub segments: Vec<Vec<ContentSegment<'a>>>,
-    titles: Vec<String>,
+    pub titles: Vec<String>,
     /// Gradients, each with the transform from its units to the paper.
     pub gradients: Vec<(Affine, &'a Gradient)>,
     pictures: usize,
@@ -144,8 +143,7 @@ impl<'a> DocumentContent<'a> {
             if clip.elements().is_empty() {
                 writer.out.extend_from_slice(b"0 0 m\n");
             }
-            writer.path(clip.elements());
-            writer.out.extend_from_slice(b"W n\n");
+            writer.path_with(clip.elements(), b"W n");
         }
         if item.place != Affine::IDENTITY {
             writer.out.extend_from_slice(format!("{} cm\n", matrix(item.place, " ")).as_bytes());
@@ -189,42 +187,52 @@ impl<'a> DocumentContent<'a> {
         }
         self.raw(b"Q\nEMC\n".to_vec());
     }
+}
 
-    /// Writes the layer list: by page, front layers first, with the layers of a drawing below it.
-    pub(crate) fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
-        if ids.is_empty() {
-            return;
-        }
-        let mut properties = catalog.insert(Name(b"OCProperties")).dict();
-        properties.insert(Name(b"OCGs")).array().items(ids.iter().copied());
-        let mut shown = properties.insert(Name(b"D")).dict();
-        shown.pair(Name(b"Name"), TextStr("layers"));
-        let mut order = shown.insert(Name(b"Order")).array();
-        let several = self.titles.len() > 1;
-        for (number, title) in self.titles.iter().enumerate() {
-            if several {
-                let mut page = order.push().array();
-                page.push().primitive(TextStr(title));
-                self.write_page_layers(&mut page, number, ids);
-            } else {
-                self.write_page_layers(&mut order, number, ids);
-            }
+impl DocumentLayer {
+    /// A layer of the only page.
+    pub(crate) fn of_page(label: &str) -> Self {
+        Self { label: label.to_owned(), page: 0, within: None }
+    }
+}
+
+/// Writes the layer list: by page, front layers first, with the layers of a drawing below it. `titles` are those
+/// of the pages.
+pub(crate) fn write_layers(
+    catalog: &mut pdf_writer::writers::Catalog,
+    layers: &[DocumentLayer],
+    titles: &[String],
+    ids: &[Ref],
+) {
+    if ids.is_empty() {
+        return;
+    }
+    let mut properties = catalog.insert(Name(b"OCProperties")).dict();
+    properties.insert(Name(b"OCGs")).array().items(ids.iter().copied());
+    let mut shown = properties.insert(Name(b"D")).dict();
+    shown.pair(Name(b"Name"), TextStr("layers"));
+    let mut order = shown.insert(Name(b"Order")).array();
+    let several = titles.len() > 1;
+    for (number, title) in titles.iter().enumerate() {
+        if several {
+            let mut page = order.push().array();
+            page.push().primitive(TextStr(title));
+            write_page_layers(&mut page, layers, number, ids);
+        } else {
+            write_page_layers(&mut order, layers, number, ids);
         }
     }
+}
 
-    /// Writes the layers of one page, front layers first.
-    fn write_page_layers(&self, list: &mut pdf_writer::Array, page: usize, ids: &[Ref]) {
-        let own =
-            || self.groups.iter().zip(ids).enumerate().filter(|(_, (group, _))| group.page == page).rev();
-        for (number, (_, id)) in own().filter(|(_, (group, _))| group.within.is_none()) {
-            list.push().primitive(*id);
-            let inner: Vec<Ref> = own()
-                .filter(|(_, (group, _))| group.within == Some(number))
-                .map(|(_, (_, id))| *id)
-                .collect();
-            if !inner.is_empty() {
-                list.push().array().items(inner);
-            }
+/// Writes the layers of one page, front layers first.
+fn write_page_layers(list: &mut pdf_writer::Array, layers: &[DocumentLayer], page: usize, ids: &[Ref]) {
+    let own = || layers.iter().zip(ids).enumerate().filter(|(_, (group, _))| group.page == page).rev();
+    for (number, (_, id)) in own().filter(|(_, (group, _))| group.within.is_none()) {
+        list.push().primitive(*id);
+        let inner: Vec<Ref> =
+            own().filter(|(_, (group, _))| group.within == Some(number)).map(|(_, (_, id))| *id).collect();
+        if !inner.is_empty() {
+            list.push().array().items(inner);
         }
     }
 }

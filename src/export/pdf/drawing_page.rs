@@ -3,33 +3,22 @@
 //! Source: ISO 32000-1 (PDF 1.7), section 8.11 (optional content, which viewers show as layers). Coordinates
 //! stay in user units with y down, under one matrix.
 
-use std::collections::BTreeSet;
+use std::iter;
 
 use crate::parallel::prelude::*;
-use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
+use kurbo::Affine;
+use pdf_writer::{Finish, Name, Pdf, Rect, Ref};
 
-use super::content_stream::{ContentWriter, pattern_name, picture_name, state_name};
-use super::paint_objects::{write_gradient, write_picture};
+use super::content_stream::{ContentWriter, group_name};
+use super::document_content::{DocumentLayer, write_layers};
+use super::pdf_streams::{MARKS_PER_STREAM, MAX_SIDE_POINTS, POINTS_PER_MM, POINTS_PER_PX, deflated};
 use super::picture_crops::Crops;
-use super::soft_masks::SoftMask;
-use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Unit};
+use super::resources::{ObjectNumbers, SharedObjects, states};
+use crate::drawing::{Drawing, Gradient, LayerKind, Mark, Paint, Unit};
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
-
-/// Points (1/72 inch) per px.
-pub(crate) const POINTS_PER_PX: f64 = 0.75;
-/// Points per millimetre.
-pub(crate) const POINTS_PER_MM: f64 = 72.0 / 25.4;
-
-/// Longest side of a page that all viewers show, in points.
-pub(crate) const MAX_SIDE_POINTS: f64 = 14_400.0;
-
-/// Marks per stream. A fixed number, so that the bytes do not depend on the number of threads.
-pub(crate) const MARKS_PER_STREAM: usize = 2048;
-
-/// Compression level of zlib, 0 to 10. This fast level makes files at most a tenth larger than the slowest.
-pub(crate) const DEFLATE_LEVEL: u8 = 4;
+use crate::export::pdf::press::pdf_options::PdfOptions;
+use crate::export::pdf::press::standards::write_info;
 
 /// Fixed object numbers.
 const CATALOG: Ref = Ref::new(1);
@@ -60,26 +49,23 @@ impl Drawing {
         let user_unit = (longest / MAX_SIDE_POINTS).max(1.0);
         let scale = per_unit / user_unit;
         let groups = self.groups();
-        let pictures = Crops::of(self);
-        let streams = self.streams(&groups, &pictures, scale);
-
-        let mut next = FIRST_FREE;
-        let mut take = |count: usize| -> Vec<Ref> {
-            let first = next;
-            next += count as i32;
-            (first..next).map(Ref::new).collect()
-        };
-        let (group_ids, stream_ids) = (take(groups.len()), take(streams.len()));
-        let opacities = self.opacities();
-        let state_ids = take(opacities.len());
-        let (picture_ids, mask_ids) = (take(pictures.list.len()), take(pictures.list.len()));
-        let gradients = self.gradients();
-        let (pattern_ids, function_ids) = (take(gradients.len()), take(gradients.len()));
-        let masks = SoftMask::all(self, &pictures, 0);
-        let (mask_state_ids, form_ids) = (take(masks.len()), take(masks.len()));
+        let crops = [Crops::of(self)];
+        let streams = self.streams(&groups, &crops[0], scale);
+        let mut numbers = ObjectNumbers::starting_at(FIRST_FREE);
+        let (group_ids, stream_ids) = (numbers.take(groups.len()), numbers.take(streams.len()));
+        let states = states(iter::once(self), |_| false);
+        let place = Affine::new([scale, 0.0, 0.0, -scale, 0.0, self.page.height * scale]);
+        let gradients = self.gradients().into_iter().map(|gradient| (place, gradient)).collect();
+        let drawings = (iter::once(self), crops.as_slice());
+        let objects = SharedObjects::new(&mut numbers, drawings, states, gradients, (None, None));
 
         let mut pdf = Pdf::new();
-        write_catalog(&mut pdf, &group_ids);
+        let mut catalog = pdf.catalog(CATALOG);
+        catalog.pages(PAGES);
+        let layers: Vec<DocumentLayer> =
+            groups.iter().map(|group| DocumentLayer::of_page(&group.label)).collect();
+        write_layers(&mut catalog, &layers, &[String::new()], &group_ids);
+        catalog.finish();
         pdf.pages(PAGES).kids([PAGE]).count(1);
         let mut page = pdf.page(PAGE);
         page.parent(PAGES);
@@ -93,64 +79,12 @@ impl Drawing {
             page.insert(Name(b"UserUnit")).primitive(user_unit as f32);
         }
         page.contents_array(stream_ids.iter().copied());
-        let mut resources = page.resources();
-        let mut states = resources.ext_g_states();
-        for (opacity, id) in opacities.iter().zip(&state_ids) {
-            states.pair(Name(state_name((*opacity, false)).as_bytes()), *id);
-        }
-        for (mask, id) in masks.iter().zip(&mask_state_ids) {
-            states.pair(Name(mask.name.as_bytes()), *id);
-        }
-        states.finish();
-        if !gradients.is_empty() {
-            let mut patterns = resources.patterns();
-            for (number, id) in pattern_ids.iter().enumerate() {
-                patterns.pair(Name(pattern_name(number).as_bytes()), *id);
-            }
-            patterns.finish();
-        }
-        let mut properties = resources.insert(Name(b"Properties")).dict();
-        for (index, id) in group_ids.iter().enumerate() {
-            properties.pair(Name(group_name(index).as_bytes()), *id);
-        }
-        properties.finish();
-        if !picture_ids.is_empty() {
-            let mut objects = resources.x_objects();
-            for (number, id) in picture_ids.iter().enumerate() {
-                objects.pair(Name(picture_name(number).as_bytes()), *id);
-            }
-            objects.finish();
-        }
-        resources.finish();
+        objects.write_dictionary(page.resources(), &group_ids, false);
         page.finish();
-
-        for (opacity, id) in opacities.iter().zip(&state_ids) {
-            let alpha = f32::from(*opacity) / 255.0;
-            pdf.ext_graphics(*id).stroking_alpha(alpha).non_stroking_alpha(alpha);
-        }
-        for ((gradient, id), function) in gradients.iter().zip(&pattern_ids).zip(&function_ids) {
-            // The matrix of a pattern is relative to the page, not to the current matrix of the content.
-            let matrix = [scale, 0.0, 0.0, -scale, 0.0, self.page.height * scale].map(|x| x as f32);
-            write_gradient(&mut pdf, gradient, matrix, [*id, *function], None);
-        }
-        for (group, id) in groups.iter().zip(&group_ids) {
-            let mut entry = pdf.indirect(*id).dict();
-            entry.pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&group.label));
-        }
-        for (stream, id) in streams.iter().zip(&stream_ids) {
-            pdf.stream(*id, stream).filter(Filter::FlateDecode);
-        }
-        for (picture, (id, mask)) in pictures.list.iter().zip(picture_ids.iter().zip(&mask_ids)) {
-            write_picture(&mut pdf, picture, [*id, *mask], None);
-        }
-        for (mask, (state, form)) in masks.iter().zip(mask_state_ids.iter().zip(&form_ids)) {
-            mask.write(&mut pdf, [*state, *form], &picture_ids);
-        }
+        let labels = groups.iter().map(|group| group.label.as_str());
+        objects.write(&mut pdf, labels.zip(&group_ids), streams.iter().zip(&stream_ids));
         let mut info = pdf.document_info(INFO);
-        if !self.title.is_empty() {
-            info.title(TextStr(&self.title));
-        }
-        info.creator(TextStr(concat!("ligne ", env!("CARGO_PKG_VERSION"))));
+        write_info(&mut info, &self.title, &PdfOptions::default());
         info.finish();
         pdf.finish()
     }
@@ -215,7 +149,7 @@ impl Drawing {
                 if at == last {
                     writer.out.extend_from_slice(b"Q\n");
                 }
-                compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
+                deflated(&writer.out)
             })
             .collect()
     }
@@ -230,36 +164,4 @@ impl Drawing {
         };
         marks.filter_map(of).collect()
     }
-
-    /// All opacities in use, 0 to 255. Each needs a graphics state.
-    fn opacities(&self) -> BTreeSet<u8> {
-        let marks = self.layers.iter().flat_map(|layer| &layer.marks);
-        let of_marks = marks.map(|mark| match &mark.paint {
-            Paint::Stroke(stroke) => stroke.colour.a,
-            Paint::Gradient(gradient) => gradient.stops.first().map_or(255, |(_, colour)| colour.a),
-            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => colour.a,
-            Paint::Image(_) => 255,
-        });
-        of_marks.chain(self.page.background.map(|colour| colour.a)).collect()
-    }
-}
-
-/// Writes the document catalog with the pages and the layers. Layers are listed from front to back, as in
-/// drawing programs.
-fn write_catalog(pdf: &mut Pdf, groups: &[Ref]) {
-    let mut catalog = pdf.catalog(CATALOG);
-    catalog.pages(PAGES);
-    if groups.is_empty() {
-        return;
-    }
-    let mut properties = catalog.insert(Name(b"OCProperties")).dict();
-    properties.insert(Name(b"OCGs")).array().items(groups.iter().copied());
-    let mut shown = properties.insert(Name(b"D")).dict();
-    shown.pair(Name(b"Name"), TextStr("layers"));
-    shown.insert(Name(b"Order")).array().items(groups.iter().rev().copied());
-}
-
-/// Name of a layer in the page's resources.
-pub(crate) fn group_name(index: usize) -> String {
-    format!("L{index}")
 }

@@ -89,10 +89,6 @@ impl Fonts {
         let Some(number) = self.position(&run.font) else { return false };
         let Some(font) = self.list.get(number) else { return false };
         let fine = Decimals::new(THOUSANDTH_DECIMALS);
-        let value = |out: &mut Vec<u8>, decimals: Decimals, value: f64| {
-            decimals.write(out, decimals.round(value));
-            out.push(b' ');
-        };
         out.extend_from_slice(format!("BT\n/{} 1 Tf\n", font_name(number)).as_bytes());
         let mut line: Option<f64> = None;
         // Pen position in thousandths of an em, as a viewer computes it.
@@ -107,10 +103,10 @@ impl Fonts {
                 let place = run.place * kurbo::Affine::translate((glyph.x, y));
                 let [a, b, c, d, e, f] = place.as_coeffs();
                 for part in [a, b, c, d] {
-                    value(out, Decimals::new(6), part);
+                    Decimals::new(6).write_operand(out, part);
                 }
                 for part in [e, f] {
-                    value(out, decimals, part);
+                    decimals.write_operand(out, part);
                 }
                 out.extend_from_slice(b"Tm\n[");
                 (line, pen) = (Some(y), x);

@@ -55,8 +55,7 @@ impl ContentWriter<'_> {
             self.choose((255, false));
             self.out.extend_from_slice(b"0 0 0 0 k\n");
             self.fill = None;
-            self.path(mark.path.elements());
-            self.out.extend_from_slice(b"f\n");
+            self.path_with(mark.path.elements(), b"f");
         }
         self.clipped(mark.path.elements(), |writer| {
             writer.choose((255, true));
@@ -96,8 +95,7 @@ impl ContentWriter<'_> {
                         let tint = solid.map(|one| one * ink);
                         tint.into_iter().for_each(|ink| writer.value(Decimals::new(INK_DECIMALS), ink));
                         writer.operator(b"k");
-                        writer.path(outline.elements());
-                        writer.operator(b"f");
+                        writer.path_with(outline.elements(), b"f");
                     }
                 }
             }

@@ -6,10 +6,12 @@
 //! 2. `content_stream` writes the painting operators of each segment, in parallel.
 //! 3. Fonts, pictures, masks and gradients become objects (`fonts`, `picture_crops`, `soft_masks`,
 //!    `paint_objects`).
-//! 4. `resources` names all objects for the pages, and `composition_pages` writes the file.
+//! 4. `resources` numbers and writes these objects, and names them for the pages. `composition_pages` writes
+//!    the file.
 //!
 //! Also: `drawing_page` the short way for a single drawing; `press` inks, halftone screens and standards;
-//! `halftone_fills` fills as dots; `page_boxes` trim, bleed and printer's marks.
+//! `halftone_fills` fills as dots; `page_boxes` trim, bleed and printer's marks; `pdf_streams` units
+//! and compression.
 
 #[cfg(feature = "pdf")]
 pub(crate) mod composition_pages;
@@ -27,6 +29,8 @@ mod halftone_fills;
 mod page_boxes;
 #[cfg(feature = "pdf")]
 mod paint_objects;
+#[cfg(feature = "pdf")]
+mod pdf_streams;
 #[cfg(feature = "pdf")]
 mod picture_crops;
 pub(crate) mod press;

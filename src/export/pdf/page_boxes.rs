@@ -1,8 +1,9 @@
 //! A page on its sheet of paper: boxes, crop marks and registration marks.
 
-use kurbo::{Affine, BezPath, Circle, Rect, Shape};
+use kurbo::{Affine, Circle, Line, Rect, Shape};
 
-use super::drawing_page::{MAX_SIDE_POINTS, POINTS_PER_MM, POINTS_PER_PX};
+use super::content_stream::ContentWriter;
+use super::pdf_streams::{MAX_SIDE_POINTS, POINTS_PER_MM, POINTS_PER_PX};
 use crate::drawing::{Composition, Unit};
 use crate::error::Error;
 use crate::export::encoding::decimals::Decimals;
@@ -90,40 +91,19 @@ impl PrintedPage {
 
     /// Content stream of the printer's marks in all inks, in page units.
     pub(crate) fn paint_marks(&self, decimals: Decimals) -> Vec<u8> {
-        let mut out = format!("q\n/{ALL_INKS} CS\n1 SCN\n/A255 gs\n0 J\n").into_bytes();
-        let value = |out: &mut Vec<u8>, value: f64| {
-            decimals.write(out, decimals.round(value));
-            out.push(b' ');
+        let mut writer = ContentWriter::new(decimals, 0, None);
+        writer.operator(format!("q\n/{ALL_INKS} CS\n1 SCN\n/A255 gs\n0 J").as_bytes());
+        writer.value(decimals, MARK_WIDTH_MM * self.mm);
+        writer.operator(b"w");
+        let circle = |center: (f64, f64)| {
+            Circle::new(center, REGISTRATION_RADIUS_MM * self.mm).to_path(0.01 * self.mm)
         };
-        value(&mut out, MARK_WIDTH_MM * self.mm);
-        out.extend_from_slice(b"w\n");
-        for (x0, y0, x1, y1) in self.lines() {
-            value(&mut out, x0);
-            value(&mut out, y0);
-            out.extend_from_slice(b"m\n");
-            value(&mut out, x1);
-            value(&mut out, y1);
-            out.extend_from_slice(b"l\nS\n");
+        let lines = self.lines().into_iter().map(|line| line.to_path(0.0));
+        for path in lines.chain(self.registers().map(circle)) {
+            writer.path_with(path.elements(), b"S");
         }
-        for (x, y) in self.registers() {
-            let circle: BezPath =
-                Circle::new((x, y), REGISTRATION_RADIUS_MM * self.mm).to_path(0.01 * self.mm);
-            for element in circle.elements() {
-                let (points, operator): (Vec<kurbo::Point>, &[u8]) = match *element {
-                    kurbo::PathEl::MoveTo(p) => (vec![p], b"m\n"),
-                    kurbo::PathEl::CurveTo(a, b, p) => (vec![a, b, p], b"c\n"),
-                    _ => (Vec::new(), b"h\n"),
-                };
-                for p in points {
-                    value(&mut out, p.x);
-                    value(&mut out, p.y);
-                }
-                out.extend_from_slice(operator);
-            }
-            out.extend_from_slice(b"S\n");
-        }
-        out.extend_from_slice(b"Q\n");
-        out
+        writer.operator(b"Q");
+        writer.out
     }
 
     /// Centres of the registration marks, next to the middles of the four sides.
@@ -134,22 +114,22 @@ impl PrintedPage {
     }
 
     /// Lines of crop marks and registration marks.
-    fn lines(&self) -> Vec<(f64, f64, f64, f64)> {
+    fn lines(&self) -> Vec<Line> {
         let Rect { x0, y0, x1, y1 } = self.trim;
         let (near, far) = (self.reach - CROP_LENGTH_MM * self.mm, self.reach);
         let mut lines = Vec::new();
         for x in [x0, x1] {
-            lines.push((x, y0 - near, x, y0 - far));
-            lines.push((x, y1 + near, x, y1 + far));
+            lines.push(Line::new((x, y0 - near), (x, y0 - far)));
+            lines.push(Line::new((x, y1 + near), (x, y1 + far)));
         }
         for y in [y0, y1] {
-            lines.push((x0 - near, y, x0 - far, y));
-            lines.push((x1 + near, y, x1 + far, y));
+            lines.push(Line::new((x0 - near, y), (x0 - far, y)));
+            lines.push(Line::new((x1 + near, y), (x1 + far, y)));
         }
         let arm = 2.0 * REGISTRATION_RADIUS_MM * self.mm;
         for (x, y) in self.registers() {
-            lines.push((x - arm, y, x + arm, y));
-            lines.push((x, y - arm, x, y + arm));
+            lines.push(Line::new((x - arm, y), (x + arm, y)));
+            lines.push(Line::new((x, y - arm), (x, y + arm)));
         }
         lines
     }

@@ -5,13 +5,11 @@ use pdf_writer::types::FunctionShadingType;
 use pdf_writer::writers::ColorSpace;
 use pdf_writer::{Filter, Finish, Pdf, Ref};
 
+use super::pdf_streams::deflated;
 use super::picture_crops::Crop;
 use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
 use crate::export::pdf::press::ink_plates::{Plates, PressInk};
-
-/// The same level as for page content.
-const DEFLATE_LEVEL: u8 = 4;
 
 /// A slower level than for page content.
 const PICTURE_DEFLATE_LEVEL: u8 = 8;
@@ -57,7 +55,7 @@ pub(crate) fn write_gradient(
     pattern.finish();
     let place = |k: usize| k as f64 / (GRADIENT_SAMPLES - 1) as f64;
     let shades: Vec<u8> = (0..GRADIENT_SAMPLES).flat_map(|k| samples(gradient.at(place(k)), press)).collect();
-    let shades = compress_to_vec_zlib(&shades, DEFLATE_LEVEL);
+    let shades = deflated(&shades);
     let mut sampled = pdf.sampled_function(function, &shades);
     sampled.filter(Filter::FlateDecode);
     sampled.domain([0.0, 1.0]).range([0.0, 1.0].repeat(channels(press)));

@@ -10,6 +10,7 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, ImagePaint, ImagePiece, PieceContent};
 use crate::export::encoding::embedded_pictures::{EmbeddedPictures, marks};
+use crate::geometry::space::morton_curve::spread;
 
 /// Largest number of pixels of a picture written as a whole.
 const MAX_WHOLE_PIXELS: usize = 1 << 18;
@@ -160,8 +161,8 @@ fn needed(piece: &ImagePiece, transform: Affine, picture: &Picture) -> Rect {
 /// Position of a part's centre along a Z-order curve (Morton 1966), which keeps nearby parts together.
 fn along_curve(part: &Rect) -> u64 {
     let middle = part.center();
-    let spread = |x: f64| (0..16).fold(0_u64, |all, bit| all | ((x as u64 >> bit & 1) << (2 * bit)));
-    spread(middle.x) | spread(middle.y) << 1
+    let place = |x: f64| spread(x as u64 & 0xffff);
+    place(middle.x) | place(middle.y) << 1
 }
 
 #[cfg(test)]

@@ -3,18 +3,15 @@
 //!
 //! Source: ISO 32000-1, sections 11.5.3 (luminosity masks) and 11.6.5.
 
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::MaskType;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref};
 
 use super::content_stream::{ContentWriter, mask_name, picture_name};
+use super::pdf_streams::deflated;
 use super::picture_crops::Crops;
 use crate::drawing::{Drawing, ImagePaint};
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
-
-/// The same level as for page content.
-const DEFLATE_LEVEL: u8 = 4;
 
 /// One mask of a drawing.
 pub(crate) struct SoftMask<'a> {
@@ -46,7 +43,7 @@ impl<'a> SoftMask<'a> {
     pub(crate) fn write(&self, pdf: &mut Pdf, [state, form]: [Ref; 2], pictures: &[Ref]) {
         let mut writer = ContentWriter::new(self.decimals, 0, None);
         writer.opacities(self.image, self.crops, self.first_picture);
-        let content = compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL);
+        let content = deflated(&writer.out);
         let mut object = pdf.form_xobject(form, &content);
         object.filter(Filter::FlateDecode);
         let [width, height] = self.size.map(|side| side as f32);

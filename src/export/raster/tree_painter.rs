@@ -4,6 +4,7 @@
 //! cosine of its slope. It samples wider strokes and fills four times per pixel, so a line of 1.1 px gets 1
 //! or 1.25 px of ink.
 
+use kurbo::BezPath;
 use tiny_skia::{
     BlendMode, IntRect, Mask, MaskType, PathSegment, Pixmap, PixmapMut, PixmapPaint, Point, Rect, Transform,
 };
@@ -13,6 +14,22 @@ use super::area_coverage::{Coverage, CoverageInk, Winding};
 
 /// Longest line, in segments, that is outlined without clipping it to the window first.
 const MAX_UNCUT_SEGMENTS: usize = 64;
+
+/// A path of a tree in double precision.
+pub(crate) fn bez_path(path: &tiny_skia::Path) -> BezPath {
+    let at = |p: Point| (f64::from(p.x), f64::from(p.y));
+    let mut all = BezPath::new();
+    for segment in path.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => all.move_to(at(p)),
+            PathSegment::LineTo(p) => all.line_to(at(p)),
+            PathSegment::QuadTo(q, p) => all.quad_to(at(q), at(p)),
+            PathSegment::CubicTo(q, r, p) => all.curve_to(at(q), at(r), at(p)),
+            PathSegment::Close => all.close_path(),
+        }
+    }
+    all
+}
 
 /// Paints a tree over the existing pixels; `to` transforms its units to pixels.
 pub(crate) fn render(tree: &usvg::Tree, to: Transform, pixmap: &mut PixmapMut) {

@@ -5,7 +5,7 @@
 
 use kurbo::{Affine, BezPath, PathEl, Point, flatten};
 
-use crate::drawing::{Mark, Page, Paint, Unit};
+use crate::drawing::{Length, Mark, Page, Paint};
 
 /// Cells along the longer side of the page.
 const CELLS_PER_SIDE: f64 = 256.0;
@@ -28,10 +28,7 @@ pub(crate) struct PageCells {
 impl PageCells {
     /// The cells of a page.
     pub(crate) fn of(page: &Page) -> Self {
-        let px = match page.unit {
-            Unit::Px => 1.0,
-            Unit::Mm => 25.4 / 96.0,
-        };
+        let px = Length::px(1.0).in_unit(page.unit);
         let size = (page.width.max(page.height) / CELLS_PER_SIDE).max(f64::MIN_POSITIVE);
         let count = |length: f64| (length / size).ceil().clamp(1.0, CELLS_PER_SIDE) as i32;
         Self { size, blur: BLUR_PX * px, columns: count(page.width), rows: count(page.height) }
@@ -138,7 +135,7 @@ impl PageCells {
 mod tests {
     use super::*;
     use crate::colour::srgb::Colour;
-    use crate::drawing::Provenance;
+    use crate::drawing::{Provenance, Unit};
 
     #[test]
     fn cells_of_a_ring_exclude_the_cells_of_its_hole() {

@@ -77,11 +77,6 @@ impl<T: Copy> CsrLists<T> {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Number of values in all groups.
-    pub(crate) fn value_count(&self) -> usize {
-        self.values.len()
-    }
-
     /// Values of a group.
     #[inline]
     pub(crate) fn of(&self, group: usize) -> &[T] {
@@ -155,7 +150,7 @@ mod tests {
     #[test]
     fn csr_lists_keep_the_order_of_values_in_a_group() {
         let lengths = lists_by_word_length(&["an", "b", "of", "", "c", "to"]);
-        assert_eq!((lengths.count(), lengths.value_count()), (4, 6));
+        assert_eq!((lengths.count(), lengths.of_all(0..4).len()), (4, 6));
         assert_eq!([lengths.of(0), lengths.of(1), lengths.of(3)], [&[""][..], &["b", "c"], &[]]);
         assert_eq!(lengths.of(2), ["an", "of", "to"]);
         assert_eq!(lengths.of_all(1..3), ["b", "c", "an", "of", "to"]);

@@ -23,34 +23,34 @@ impl Glob {
     /// Whether the pattern matches the whole name.
     #[must_use]
     pub fn matches(&self, name: &str) -> bool {
-        let (mut pattern, mut name) = (self.0.as_str(), name);
-        // Position to continue from if the text matched by the last star proves too short.
-        let mut retry: Option<(&str, &str)> = None;
-        loop {
-            let mut pattern_rest = pattern.chars();
-            let mut name_rest = name.chars();
-            match (pattern_rest.next(), name_rest.next()) {
-                (Some('*'), _) => {
-                    pattern = pattern_rest.as_str();
-                    retry = Some((pattern, name));
-                    continue;
-                }
-                (None, None) => return true,
-                (Some(p), Some(n)) if p == '?' || p == n => {
-                    pattern = pattern_rest.as_str();
-                    name = name_rest.as_str();
-                    continue;
-                }
-                _ => {}
+        glob_matches(&self.0, name)
+    }
+}
+
+/// Whether a pattern matches the whole name.
+pub(crate) fn glob_matches<'a>(mut pattern: &'a str, mut name: &'a str) -> bool {
+    // Position to continue from if the text matched by the last star proves too short.
+    let mut retry: Option<(&str, &str)> = None;
+    loop {
+        let (mut pattern_rest, mut name_rest) = (pattern.chars(), name.chars());
+        match (pattern_rest.next(), name_rest.next()) {
+            (Some('*'), _) => {
+                pattern = pattern_rest.as_str();
+                retry = Some((pattern, name));
             }
-            let Some((after_star, taken)) = retry else { return false };
-            let mut longer = taken.chars();
-            if longer.next().is_none() {
-                return false;
+            (None, None) => return true,
+            (Some(p), Some(n)) if p == '?' || p == n => {
+                (pattern, name) = (pattern_rest.as_str(), name_rest.as_str());
             }
-            pattern = after_star;
-            name = longer.as_str();
-            retry = Some((pattern, name));
+            _ => {
+                let Some((after_star, taken)) = retry else { return false };
+                let mut longer = taken.chars();
+                if longer.next().is_none() {
+                    return false;
+                }
+                (pattern, name) = (after_star, longer.as_str());
+                retry = Some((pattern, name));
+            }
         }
     }
 }
@@ -75,8 +75,16 @@ mod tests {
             ("*", "", true),
             ("a*c*e", "abcde", true),
             ("a*c*e", "abcdf", false),
+            ("*c", "abcc", true),
+            ("?é?", "aéb", true),
+            ("**a", "a", true),
+            ("", "a", false),
+            ("a", "A", false),
+            ("a?", "a", false),
+            ("*a*b", "ba", false),
         ] {
             assert_eq!(Glob::new(pattern).matches(name), fits, "{pattern} {name}");
         }
+        assert!(!Glob::new("*a".repeat(40)).matches(&"a".repeat(39)));
     }
 }

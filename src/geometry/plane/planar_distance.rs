@@ -1,6 +1,10 @@
 //! Lengths, distances and circles in the plane.
 
+use std::f64::consts::TAU;
+
 use kurbo::{Point, Vec2};
+
+use crate::geometry::numbers::portable_math::atan2;
 
 /// Length of a vector. The platform's `hypot` differs between machines.
 #[must_use]
@@ -8,13 +12,36 @@ pub(crate) fn length(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }
 
+/// Unit vector of a direction; zero for the zero vector.
+pub(crate) fn unit(v: Vec2) -> Vec2 {
+    let length = length(v);
+    if length > 0.0 { v / length } else { Vec2::ZERO }
+}
+
+/// Parameter of the point of a segment that is nearest to a point, 0 to 1.
+#[inline]
+pub(crate) fn nearest_parameter(p: Point, a: Point, b: Point) -> f64 {
+    let way = b - a;
+    let length2 = way.hypot2();
+    if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Point of a segment that is nearest to a point.
+#[inline]
+pub(crate) fn nearest_on_segment(p: Point, a: Point, b: Point) -> Point {
+    a + (b - a) * nearest_parameter(p, a, b)
+}
+
 /// Squared distance from a point to a segment.
 #[must_use]
 pub(crate) fn segment_distance_squared(p: Point, a: Point, b: Point) -> f64 {
-    let way = b - a;
-    let length2 = way.hypot2();
-    let t = if length2 > 0.0 { ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (p - (a + way * t)).hypot2()
+    (p - nearest_on_segment(p, a, b)).hypot2()
+}
+
+/// Angle from one direction to another, turning from y to x, radians in (0, 2π].
+pub(crate) fn turn_from_y_to_x(from: Vec2, to: Vec2) -> f64 {
+    let angle = atan2(to.cross(from), to.dot(from));
+    if angle > 0.0 { angle } else { angle + TAU }
 }
 
 /// Centre of the best circle through points, by least squares of the squared distances.

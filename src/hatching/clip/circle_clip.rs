@@ -13,6 +13,9 @@ use kurbo::{BezPath, Point, Vec2};
 
 use super::disc::Disc;
 use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
+use crate::geometry::plane::planar_distance::{segment_distance_squared, turn_from_y_to_x};
+use crate::geometry::plane::polyline_path::add_polygon;
 use crate::hatching::tolerances;
 
 /// Result of clipping a disc to a domain.
@@ -165,7 +168,7 @@ impl DiscTracer {
         loop {
             let (points, last) = self.chain(self.gates[gate].step)?;
             area2 += points.windows(2).map(|pair| pair[0].cross(pair[1])).sum::<f64>();
-            let thin = thinned(&points, tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
+            let thin = thinned(&points, &[0, points.len() - 1], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
             for (k, point) in thin.iter().enumerate() {
                 match (gate == first, k) {
                     (true, 0) => path.move_to(self.disc.centre + *point),
@@ -210,27 +213,20 @@ impl DiscTracer {
             // direction of arrival.
             let back = ends[0] - ends[1];
             let open = from_here.enumerate().filter(|(_, step)| !step.used && !step.rim[0]);
-            let turned = open.map(|(k, step)| (turn(back, step.ends[1] - step.ends[0]), begin + k));
+            let turned =
+                open.map(|(k, step)| (turn_from_y_to_x(back, step.ends[1] - step.ends[0]), begin + k));
             at = turned.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?.1;
         }
     }
 
     /// Adds a closed chain of points to the path. Its last point equals its first.
     fn draw_loop(&self, points: &[Vec2], path: &mut BezPath, px: f64) {
-        let far = |p: &Vec2| (*p - points[0]).hypot2();
-        let Some(middle) = (0..points.len()).max_by(|a, b| far(&points[*a]).total_cmp(&far(&points[*b])))
-        else {
-            return;
-        };
-        let mut thin = thinned(&points[..=middle], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
+        let far = |k: usize| (points[k] - points[0]).hypot2();
+        let Some(middle) = farthest_point((0..points.len()).rev(), far, f64::NEG_INFINITY) else { return };
+        let mut thin =
+            thinned(points, &[0, middle, points.len() - 1], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px);
         thin.pop();
-        thin.extend(thinned(&points[middle..], tolerances::MAX_DOT_OUTLINE_ERROR_PX * px));
-        thin.pop();
-        for (k, point) in thin.iter().enumerate() {
-            let point = self.disc.centre + *point;
-            if k == 0 { path.move_to(point) } else { path.line_to(point) }
-        }
-        path.close_path();
+        add_polygon(path, thin.into_iter().map(|point| self.disc.centre + point));
     }
 }
 
@@ -238,30 +234,15 @@ fn order(a: Vec2, b: Vec2) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// The angle from one direction to another, turning from y to x, in (0, 2π].
-fn turn(from: Vec2, to: Vec2) -> f64 {
-    let angle = atan2(to.cross(from), to.dot(from));
-    if angle > 0.0 { angle } else { angle + TAU }
-}
-
-/// Simplifies a chain: points closer than `off` to the chord are removed (Douglas and Peucker 1973).
-fn thinned(points: &[Vec2], off: f64) -> Vec<Vec2> {
-    let mut keep = vec![false; points.len()];
-    let mut open = vec![(0, points.len() - 1)];
-    while let Some((first, last)) = open.pop() {
-        (keep[first], keep[last]) = (true, true);
-        let (a, way) = (points[first], points[last] - points[first]);
-        let length2 = way.hypot2().max(f64::MIN_POSITIVE);
-        let distance2 = |p: Vec2| {
-            let t = ((p - a).dot(way) / length2).clamp(0.0, 1.0);
-            (a + way * t - p).hypot2()
-        };
-        let farthest =
-            (first + 1..last).map(|k| (distance2(points[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, k)) = farthest.filter(|(distance2, _)| *distance2 > off * off) {
-            open.extend([(first, k), (k, last)]);
-        }
-    }
+/// The chain without the points that are closer than `off` to the segments between the others. The points at
+/// `stops` are kept.
+fn thinned(points: &[Vec2], stops: &[usize], off: f64) -> Vec<Vec2> {
+    let at = |k: usize| points[k].to_point();
+    // Of equally distant points the last one is kept.
+    let keep = douglas_peucker(points.len(), stops, |first, last| {
+        let distance2 = |k: usize| segment_distance_squared(at(k), at(first), at(last));
+        farthest_point((first + 1..last).rev(), distance2, off * off)
+    });
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
 }
 

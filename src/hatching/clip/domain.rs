@@ -19,33 +19,29 @@ pub(crate) struct Domains {
 impl Domains {
     /// Joins the inked cells of each facet.
     pub(crate) fn of_facets(ground: &HatchRegions, inked: &[bool]) -> Self {
-        let of =
-            |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { NO_DOMAIN };
-        Self { domain_of_cell: (0u32..).zip(inked).map(of).collect() }
+        Self::grouped(inked, |cell| ground.cells[cell as usize].facet)
     }
 
     /// Makes each inked cell its own domain.
     pub(crate) fn of_cells(inked: &[bool]) -> Self {
-        Self {
-            domain_of_cell: (0u32..)
-                .zip(inked)
-                .map(|(cell, inked)| if *inked { cell } else { NO_DOMAIN })
-                .collect(),
-        }
+        Self::grouped(inked, |cell| cell)
     }
 
     /// Joins the inked cells of one part, material and tone.
     pub(crate) fn by_label(ground: &HatchRegions, inked: &[bool]) -> Self {
         let mut numbers = BTreeMap::new();
-        let of = |(cell, inked): (u32, &bool)| {
+        Self::grouped(inked, |cell| {
             let look = ground.cells[cell as usize].look;
-            if *inked {
-                *numbers.entry((look.part, look.material, look.tone)).or_insert(cell)
-            } else {
-                NO_DOMAIN
-            }
-        };
-        Self { domain_of_cell: (0u32..).zip(inked).map(of).collect() }
+            *numbers.entry((look.part, look.material, look.tone)).or_insert(cell)
+        })
+    }
+
+    /// Assigns each inked cell the domain that `of` returns.
+    fn grouped(inked: &[bool], mut of: impl FnMut(u32) -> u32) -> Self {
+        let cells = (0u32..).zip(inked);
+        Self {
+            domain_of_cell: cells.map(|(cell, inked)| if *inked { of(cell) } else { NO_DOMAIN }).collect(),
+        }
     }
 
     /// The domain of a cell, or [`NO_DOMAIN`].
@@ -73,11 +69,4 @@ pub(crate) fn directed_border(
         (false, true) => Some(([b, a], piece.sides[1])),
         _ => None,
     }
-}
-
-/// The point of a segment closest to a point.
-pub(crate) fn nearest([a, b]: [Point; 2], p: Point) -> Point {
-    let way = b - a;
-    let length2 = way.hypot2();
-    if length2 > 0.0 { a + way * ((p - a).dot(way) / length2).clamp(0.0, 1.0) } else { a }
 }

@@ -2,7 +2,7 @@
 //!
 //! A line is compared with the border pieces in the tiles that it passes. No polygon is built.
 
-use kurbo::{Point, Vec2};
+use kurbo::Point;
 
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
@@ -114,20 +114,10 @@ pub(crate) fn sub_polyline(line: &[Point], from: LinePosition, to: LinePosition)
     points
 }
 
-/// Length of a polyline.
-#[must_use]
-pub(crate) fn length(line: &[Point]) -> f64 {
-    line.windows(2).map(|pair| norm(pair[1] - pair[0])).sum()
-}
-
-/// Euclidean length of a vector. Uses only square roots, so every machine gives the same result.
-pub(crate) fn norm(v: Vec2) -> f64 {
-    v.hypot2().sqrt()
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::geometry::plane::planar_distance::length;
     use crate::mesh::{MaterialId, PaintId, PartId};
     use crate::regions::SurfaceLabel;
     use crate::regions::hatch_regions::border_piece::BorderPiece;
@@ -190,7 +180,7 @@ pub(crate) mod tests {
         let diagonal = [Point::new(-3.0, -3.0), Point::new(13.0, 13.0)];
         let found = clip_to_cells(&ground, &diagonal, |cell| cell > 0);
         let total: f64 =
-            found.iter().map(|s| norm(point_at(&diagonal, s.to) - point_at(&diagonal, s.from))).sum();
+            found.iter().map(|s| length(point_at(&diagonal, s.to) - point_at(&diagonal, s.from))).sum();
         assert!((total - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
         let inside = [Point::new(2.0, 2.0), Point::new(3.0, 5.0), Point::new(6.0, 6.0)];
         let found = clip_to_cells(&ground, &inside, |cell| cell == 1);

@@ -7,6 +7,8 @@
 use kurbo::{BezPath, Point, Rect};
 
 use super::polygon_boolean::{BoundaryEdges, ClipGridPoint};
+use crate::geometry::plane::polyline_path::add_polygon;
+use crate::geometry::plane::polylines::bounds;
 
 /// Grid steps along the longer side of the box.
 const GRID_STEPS: f64 = 4_194_304.0;
@@ -29,7 +31,7 @@ pub(crate) fn clip_polygon(
     border: &[[Point; 2]],
     is_in: impl Fn(Point) -> bool,
 ) -> Option<BezPath> {
-    let bounds = rings_bounds(rings)?;
+    let bounds = bounds(rings.iter().flatten().copied())?;
     let tried = BOX_MARGINS_OF_SIZE.iter().find_map(|margin| {
         let grid = ClipGrid::around(bounds, *margin)?;
         let mut edges = BoundaryEdges::default();
@@ -42,11 +44,7 @@ pub(crate) fn clip_polygon(
         let rings = edges.cut()?.intersection_rings();
         let mut path = BezPath::new();
         for ring in rings {
-            for (k, p) in ring.into_iter().enumerate() {
-                let p = grid.point(p);
-                if k == 0 { path.move_to(p) } else { path.line_to(p) }
-            }
-            path.close_path();
+            add_polygon(&mut path, ring.into_iter().map(|p| grid.point(p)));
         }
         Some(path)
     })?;
@@ -64,8 +62,8 @@ pub(crate) enum WindingRule {
 
 /// The border of the union of several shapes, with a consistent orientation. `None` if it is empty.
 pub(crate) fn unite_shapes(shapes: &[(Vec<Vec<Point>>, WindingRule)]) -> Option<Vec<Vec<Point>>> {
-    let whole: Vec<Vec<Point>> = shapes.iter().flat_map(|(rings, _)| rings).cloned().collect();
-    let grid = ClipGrid::around(rings_bounds(&whole)?, BOX_MARGINS_OF_SIZE[0])?;
+    let points = shapes.iter().flat_map(|(rings, _)| rings).flatten().copied();
+    let grid = ClipGrid::around(bounds(points)?, BOX_MARGINS_OF_SIZE[0])?;
     let [right, bottom] = grid.far_corner;
     let frame = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
     let mut all = BoundaryEdges::default();
@@ -101,13 +99,6 @@ pub(crate) fn clip_reach(bounds: Rect) -> Rect {
     let most =
         bounds.width().max(bounds.height()) * (BOX_MARGINS_OF_SIZE[BOX_MARGINS_OF_SIZE.len() - 1] + 0.01);
     bounds.inflate(most, most)
-}
-
-/// The bounding box of rings.
-pub(crate) fn rings_bounds(rings: &[Vec<Point>]) -> Option<Rect> {
-    let mut points = rings.iter().flatten();
-    let first = points.next()?;
-    Some(points.fold(Rect::from_points(*first, *first), |found, p| found.union_pt(*p)))
 }
 
 /// Integer grid over a box around a shape.
@@ -249,6 +240,7 @@ impl ClipGrid {
 
 #[cfg(test)]
 mod tests {
+    use crate::geometry::plane::polyline_path::polygon;
     use kurbo::Shape;
 
     use super::*;
@@ -267,10 +259,7 @@ mod tests {
     }
 
     fn path_of(ring: &[Point]) -> BezPath {
-        let mut path = BezPath::new();
-        ring.iter().enumerate().for_each(|(k, p)| if k == 0 { path.move_to(*p) } else { path.line_to(*p) });
-        path.close_path();
-        path
+        polygon(ring.iter().copied())
     }
 
     #[test]

@@ -12,9 +12,10 @@ use kurbo::{BezPath, Point};
 
 use super::lattice_scan::{Lattice, LatticeScan};
 use crate::geometry::numbers::portable_math::acos;
+use crate::geometry::plane::planar_distance::{nearest_on_segment, segment_distance_squared};
 use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
-use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border, nearest};
+use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border};
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 use crate::regions::hatch_regions::border_piece::PAPER;
@@ -197,8 +198,8 @@ fn border_contacts(ground: &HatchRegions, grid: &Lattice, domains: &Domains) -> 
                 ..=(from.max(to) + FULL_COVER_RADIUS_STEPS).floor() as i64
             {
                 let spot = Point::new(column as f64, row as f64);
-                if (nearest([a, b], spot) - spot).hypot2() < FULL_COVER_RADIUS_STEPS * FULL_COVER_RADIUS_STEPS
-                {
+                let reach2 = FULL_COVER_RADIUS_STEPS * FULL_COVER_RADIUS_STEPS;
+                if segment_distance_squared(spot, a, b) < reach2 {
                     let of_domain = |domain| BorderContact { row, column, domain, piece: piece as u32 };
                     found.extend(parted.into_iter().filter(|domain| *domain != NO_DOMAIN).map(of_domain));
                 }
@@ -277,7 +278,8 @@ impl DotClipper<'_> {
         let (cell, radius) = match own {
             Some(spot) => (spot.cell, spot.radius),
             None => {
-                let near = pieces.iter().map(|(ends, cell)| (nearest(*ends, centre), *cell));
+                let near =
+                    pieces.iter().map(|(ends, cell)| (nearest_on_segment(centre, ends[0], ends[1]), *cell));
                 let distance = |p: Point| (p - centre).hypot2();
                 let (p, cell) = near.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))?;
                 (cell, self.size.radius(cell, p))

@@ -19,10 +19,11 @@ use super::halftone::MAX_DOTS;
 use super::lattice_scan::{Lattice, LatticeScan};
 use super::weighted_voronoi::{FULL_INK, InkGrid, NO_OWNER};
 use crate::geometry::numbers::noise::{hash, unit_interval};
+use crate::geometry::plane::planar_distance::nearest_on_segment;
 use crate::hatching::CellDots;
 use crate::hatching::clip::circle_clip::ClippedDisc;
 use crate::hatching::clip::disc::Disc;
-use crate::hatching::clip::domain::{directed_border, nearest};
+use crate::hatching::clip::domain::directed_border;
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
@@ -331,7 +332,7 @@ impl InkedBorder<'_> {
         let mut moved = disc;
         let mut border = near(disc);
         for _ in 0..if is_dense { 0 } else { MAX_MOVES } {
-            let offs = border.iter().map(|ends| (nearest(*ends, moved.centre), ends));
+            let offs = border.iter().map(|ends| (nearest_on_segment(moved.centre, ends[0], ends[1]), ends));
             let distance = |p: Point| (p - moved.centre).hypot2();
             let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else {
                 break;

@@ -10,8 +10,10 @@
 //! All sums are of integers, so the result does not depend on the number of threads.
 
 use crate::parallel::prelude::*;
+use kurbo::{Point, Rect};
 
-use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::geometry::plane::planar_grid::PlanarGrid;
 use crate::hatching::tolerances;
 
 /// Ink value of a fully black square.
@@ -206,41 +208,20 @@ fn distance2(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Sites in buckets over the box.
 struct SiteGrid {
-    side: f64,
-    across: [usize; 2],
+    grid: PlanarGrid,
     sites: CsrLists<([f64; 2], u32)>,
 }
 
 impl SiteGrid {
     fn new(patch: &InkGrid, sites: &[[f64; 2]]) -> Self {
-        let size = [patch.width as f64, patch.height as f64];
+        let (width, height) = (patch.width as f64, patch.height as f64);
         // About two sites per bucket if the box is full.
-        let side =
-            (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
-        let across = size.map(|size| (size / side) as usize + 1);
-        let mut buckets = Self { side, across, sites: CsrLists::default() };
-        let of: Vec<usize> = sites.iter().map(|site| buckets.bucket(*site)).collect();
-        buckets.sites = csr_lists(across[0] * across[1], |put| {
-            sites
-                .iter()
-                .zip(&of)
-                .enumerate()
-                .for_each(|(number, (site, bucket))| put(*bucket, (*site, number as u32)));
-        });
-        buckets
-    }
-
-    fn bucket(&self, site: [f64; 2]) -> usize {
-        let [column, row] = self.column_and_row(site);
-        row * self.across[0] + column
-    }
-
-    fn column_and_row(&self, at: [f64; 2]) -> [usize; 2] {
-        [0, 1].map(|axis| ((at[axis].max(0.0) / self.side) as usize).min(self.across[axis] - 1))
-    }
-
-    fn of_bucket(&self, column: usize, row: usize) -> &[([f64; 2], u32)] {
-        self.sites.of(row * self.across[0] + column)
+        let side = (2.0 * width * height / sites.len() as f64).sqrt().clamp(2.0, width.max(height).max(2.0));
+        let grid = PlanarGrid::new(Rect::new(0.0, 0.0, width, height), 1.0 / side);
+        let buckets = sites.iter().map(|[x, y]| grid.number(grid.cell(Point::new(*x, *y))));
+        let numbered = sites.iter().copied().zip(0u32..);
+        let sites = csr_lists_from_pairs(grid.count(), buckets.zip(numbered));
+        Self { grid, sites }
     }
 
     /// All sites that may be closest to the centre of a square of the block around a centre.
@@ -248,43 +229,26 @@ impl SiteGrid {
         let reach = (BLOCK_SQUARES as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
         // The site closest to such a point is at most this far from the centre, by the triangle inequality.
         let limit = self.nearest(centre) + 2.0 * reach + tolerances::SITE_SEARCH_MARGIN_SQUARES;
-        let [left, top] = self.column_and_row(centre.map(|c| c - limit));
-        let [right, bottom] = self.column_and_row(centre.map(|c| c + limit));
+        let [x, y] = centre;
         near.clear();
-        for row in top..=bottom {
-            // The buckets of a row are consecutive in memory.
-            let row = row * self.across[0];
-            for site in self.sites.of_all(row + left..row + right + 1) {
-                if distance2(site.0, centre) <= limit * limit {
-                    near.push(*site);
-                }
-            }
+        for buckets in self.grid.rows_in(Rect::new(x - limit, y - limit, x + limit, y + limit)) {
+            let sites = self.sites.of_all(buckets).iter();
+            near.extend(sites.filter(|(site, _)| distance2(*site, centre) <= limit * limit));
         }
     }
 
     /// Distance of the closest site. Rings of buckets are searched outwards.
     fn nearest(&self, centre: [f64; 2]) -> f64 {
-        let [column, row] = self.column_and_row(centre).map(|k| k as i64);
-        let [columns, rows] = self.across.map(|k| k as i64);
+        let middle = self.grid.cell(Point::new(centre[0], centre[1]));
         let mut best = f64::INFINITY;
-        for ring in 0..=columns.max(rows) {
-            // Sites outside this ring are farther away than the width of the rings inside it.
-            let beyond = (ring - 1).max(0) as f64 * self.side;
-            if best <= beyond * beyond {
+        for ring in 0..=self.grid.ring_count() {
+            let nearest = self.grid.ring_distance(ring);
+            if best <= nearest * nearest {
                 break;
             }
-            for y in (row - ring).max(0)..=(row + ring).min(rows - 1) {
-                let on_edge = (y - row).abs() == ring;
-                let step = if on_edge || ring == 0 { 1 } else { 2 * ring };
-                let mut x = column - ring;
-                while x <= column + ring {
-                    if (0..columns).contains(&x) {
-                        for (site, _) in self.of_bucket(x as usize, y as usize) {
-                            best = best.min(distance2(*site, centre));
-                        }
-                    }
-                    x += step;
-                }
+            for bucket in self.grid.ring(middle, ring) {
+                let distances = self.sites.of(bucket).iter().map(|(site, _)| distance2(*site, centre));
+                best = distances.fold(best, f64::min);
             }
         }
         best.sqrt()

@@ -13,13 +13,14 @@
 use std::collections::VecDeque;
 
 use crate::parallel::prelude::*;
-use kurbo::{Point, Vec2};
+use kurbo::{Point, Rect, Vec2};
 
 use super::guide::{Guide, GuideScope};
 use super::guide_directions::GuideDirections;
-use super::stroke_layout::arcs;
 use crate::geometry::numbers::noise::hash;
-use crate::hatching::clip::line_clip::norm;
+use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_grid::PlanarGrid;
+use crate::geometry::plane::polylines::{bounds, polyline_length};
 use crate::regions::HatchRegions;
 
 /// Spacing of streamlines. Lengths are in page units.
@@ -97,9 +98,8 @@ struct Grower<'a, F> {
     spacing: &'a Spacing,
     /// Lines, and the doubling of the spacing when each was grown.
     lines: Vec<(Vec<Point>, u32)>,
-    low: Point,
-    across: [usize; 2],
-    /// For each square tile with sides of one pitch, the line points in it.
+    /// Tiles with sides of one pitch, and the line points in each.
+    grid: PlanarGrid,
     tiles: Vec<Vec<Point>>,
 }
 
@@ -112,46 +112,23 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         spacing: &'a Spacing,
     ) -> Self {
         let samples = flow.samples();
-        let at = |k: &u32| samples.point(*k as usize);
-        let first = at(&points[0]);
-        let (low, high) = points.iter().map(at).fold((first, first), |(low, high), p| {
-            (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
-        });
+        let bounds = bounds(points.iter().map(|k| samples.point(*k as usize))).unwrap_or_default();
         let margin = samples.pitch + spacing.pitch;
-        let low = low - Vec2::new(margin, margin);
-        let size = high - low + Vec2::new(margin, margin);
-        let across = [size.x, size.y].map(|x| (x / spacing.pitch) as usize + 1);
-        let tiles = vec![Vec::new(); across[0] * across[1]];
-        Self { flow, facet, is_inked, spacing, lines: Vec::new(), low, across, tiles }
-    }
-
-    fn tile(&self, p: Point) -> [isize; 2] {
-        let at = (p - self.low) / self.spacing.pitch;
-        [at.x.floor() as isize, at.y.floor() as isize]
+        let grid = PlanarGrid::new(bounds.inflate(margin, margin), 1.0 / spacing.pitch);
+        let tiles = vec![Vec::new(); grid.count()];
+        Self { flow, facet, is_inked, spacing, lines: Vec::new(), grid, tiles }
     }
 
     /// Whether a point is at least `distance` from all lines.
     fn is_free(&self, p: Point, distance: f64) -> bool {
-        let reach = (distance / self.spacing.pitch).ceil() as isize;
-        let [x, y] = self.tile(p);
-        let [columns, rows] = self.across.map(|n| n as isize);
-        for row in (y - reach).max(0)..=(y + reach).min(rows - 1) {
-            for column in (x - reach).max(0)..=(x + reach).min(columns - 1) {
-                let near = &self.tiles[(row * columns + column) as usize];
-                if near.iter().any(|q| (*q - p).hypot2() < distance * distance) {
-                    return false;
-                }
-            }
-        }
-        true
+        let around = Rect::from_points(p, p).inflate(distance, distance);
+        let mut near = self.grid.rows_in(around).flat_map(|tiles| &self.tiles[tiles]).flatten();
+        near.all(|q| (*q - p).hypot2() >= distance * distance)
     }
 
     fn put(&mut self, line: &[Point]) {
-        for p in line {
-            let [x, y] = self.tile(*p);
-            if x >= 0 && y >= 0 && (x as usize) < self.across[0] && (y as usize) < self.across[1] {
-                self.tiles[y as usize * self.across[0] + x as usize].push(*p);
-            }
+        for p in line.iter().filter(|p| self.grid.holds(**p)) {
+            self.tiles[self.grid.number(self.grid.cell(*p))].push(*p);
         }
     }
 
@@ -169,7 +146,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
                 let along = self.lines[line].0.clone();
                 for k in (0..along.len()).step_by(every) {
                     let way = along[(k + 1).min(along.len() - 1)] - along[k.saturating_sub(1)];
-                    let long = norm(way);
+                    let long = length(way);
                     if long <= 0.0 {
                         continue;
                     }
@@ -258,7 +235,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
                 let place = line[line.len() / 2];
                 let steps = [place.x, place.y].map(|x| ((x / spacing.px).round() as i64).cast_unsigned());
                 let id = hash(spacing.seed, &[u64::from(facet), steps[0], steps[1]]);
-                let length = arcs(&line).last().copied().unwrap_or_default();
+                let length = polyline_length(&line);
                 let guide =
                     Guide { line, rank: 0.0, id, scope: GuideScope::Facet(facet), crowding: Vec::new() };
                 (doubling, hash(id, &[1]), guide, length)

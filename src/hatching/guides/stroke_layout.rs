@@ -5,7 +5,9 @@ use kurbo::{Point, Vec2};
 use super::guide::{Guide, GuideScope};
 use crate::geometry::numbers::noise::{hash, unit_interval, value_noise};
 use crate::geometry::numbers::portable_math::tan;
-use crate::hatching::clip::line_clip::{clip_to_cells, norm, sub_polyline};
+use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::polylines::{arc_lengths, polyline_length};
+use crate::hatching::clip::line_clip::{clip_to_cells, sub_polyline};
 use crate::hatching::tolerances;
 use crate::regions::HatchRegions;
 
@@ -105,7 +107,7 @@ impl StrokeLayout {
             }
             return out;
         }
-        let arcs = arcs(&guide.line);
+        let arcs = arc_lengths(&guide.line);
         let at_arc = |line_position: f64| {
             let k = (line_position as usize).min(arcs.len() - 2);
             arcs[k] + (arcs[k + 1] - arcs[k]) * (line_position - k as f64)
@@ -208,8 +210,7 @@ impl StrokeLayout {
             }
         }
         let is_long = points.len() >= 2
-            && crate::hatching::clip::line_clip::length(&points)
-                >= self.least.max(tolerances::MIN_STROKE_LENGTH_UNITS);
+            && polyline_length(&points) >= self.least.max(tolerances::MIN_STROKE_LENGTH_UNITS);
         let pressure = 1.0 - self.pressure * chance(7);
         is_long.then_some(HatchStroke { points, pressure, ..stroke })
     }
@@ -223,17 +224,6 @@ const fn blank(guide: &Guide, cell: u32) -> HatchStroke {
 /// Separate the random seeds of a guide's first stroke and of stroke ends.
 const START_SEED: u64 = 0x5354_4152;
 const ENDS_SEED: u64 = 0x454e_4453;
-
-/// Arc length at each point of a polyline.
-pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
-    let mut sum = 0.0;
-    let mut arcs = vec![0.0];
-    arcs.extend(line.windows(2).map(|pair| {
-        sum += norm(pair[1] - pair[0]);
-        sum
-    }));
-    arcs
-}
 
 /// The parts of a span where its guide is wanted in spite of crowding.
 fn uncrowded_spans(
@@ -297,7 +287,7 @@ fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
     let n = points.len();
     if by > 0.0 {
         let last_segment = points[n - 1] - points[n - 2];
-        let long = norm(last_segment);
+        let long = length(last_segment);
         if long > 0.0 {
             points[n - 1] += last_segment / long * by;
         }
@@ -306,7 +296,7 @@ fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
         while points.len() >= 2 {
             let n = points.len();
             let final_segment = points[n - 2] - points[n - 1];
-            let long = norm(final_segment);
+            let long = length(final_segment);
             if long > left {
                 points[n - 1] += final_segment / long * left;
                 break;

@@ -64,14 +64,7 @@ pub(crate) fn lines(
                 };
                 (path, Paint::Outline(OutlinePaint { colour, axis, width: mean, pen_width: nib.width }))
             } else {
-                let stroke = StrokePaint {
-                    width: nib.width,
-                    colour,
-                    cap: layer.cap,
-                    join: Join::Round,
-                    dash: Vec::new(),
-                    dash_offset: 0.0,
-                };
+                let stroke = StrokePaint::solid(nib.width, colour, layer.cap, Join::Round);
                 (axis, Paint::Stroke(stroke))
             };
             let drawn = Mark { path, paint, provenance: provenance(label, context) };

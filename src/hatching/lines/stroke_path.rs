@@ -7,8 +7,9 @@ use kurbo::{BezPath, Point, Vec2};
 
 use crate::chains::fit::bezier_fit::{end_tangent, fit};
 use crate::drawing::Unit;
-use crate::hatching::clip::line_clip::norm;
-use crate::hatching::guides::stroke_layout::{HatchStroke, arcs};
+use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::polylines::{arc_lengths, polyline_length};
+use crate::hatching::guides::stroke_layout::HatchStroke;
 use crate::hatching::options::HatchLayer;
 
 /// Pen of hatching strokes. Lengths are in page units.
@@ -91,7 +92,7 @@ pub(crate) fn add_outline(
     path: &mut BezPath,
 ) {
     let points = dense(&stroke.points, nib, width.is_some());
-    let arcs = arcs(&points);
+    let arcs = arc_lengths(&points);
     let n = points.len();
     let total = arcs[n - 1];
     let count = tapers.iter().filter(|tapers| **tapers).count();
@@ -110,7 +111,7 @@ pub(crate) fn add_outline(
         (0..n)
             .map(|i| {
                 let chord = points[(i + 1).min(n - 1)] - points[i.saturating_sub(1)];
-                let long = norm(chord);
+                let long = length(chord);
                 let across = if long > 0.0 { Vec2::new(chord.y, -chord.x) / long } else { Vec2::ZERO };
                 points[i] + across * (half(i) * sign)
             })
@@ -129,14 +130,10 @@ pub(crate) fn add_outline(
 
 /// The points of a stroke, subdivided so that the width can vary along it.
 fn dense(points: &[Point], nib: &HatchNib, swells: bool) -> Vec<Point> {
-    let step = if swells {
-        WIDTH_SAMPLE_STEP_PX * nib.px
-    } else {
-        crate::hatching::clip::line_clip::length(points) / 6.0
-    };
+    let step = if swells { WIDTH_SAMPLE_STEP_PX * nib.px } else { polyline_length(points) / 6.0 };
     let mut out = vec![points[0]];
     for pair in points.windows(2) {
-        let count = (norm(pair[1] - pair[0]) / step.max(nib.px * 0.5)).ceil().clamp(1.0, 1e5) as usize;
+        let count = (length(pair[1] - pair[0]) / step.max(nib.px * 0.5)).ceil().clamp(1.0, 1e5) as usize;
         out.extend((1..=count).map(|k| pair[0].lerp(pair[1], k as f64 / count as f64)));
     }
     out

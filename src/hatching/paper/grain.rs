@@ -9,6 +9,7 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind, Length, Mark, Page, Paint, Provenance};
 use crate::geometry::numbers::noise::{hash, unit_interval};
 use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::geometry::plane::polyline_path::add_polygon;
 
 /// Specks on the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -196,13 +197,12 @@ const ROUGHNESS_PATCH_SQUARES: i64 = 3;
 fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &SquareNoise) {
     let turn = std::f64::consts::TAU * chance.of(6);
     let (along, flat) = (Vec2::new(cos(turn), sin(turn)), 0.5 + 0.5 * chance.of(7));
-    for k in 0..corners {
+    let corner = |k: u64| {
         let angle = std::f64::consts::TAU * (k as f64 + 0.6 * chance.of(8 + k)) / corners as f64;
         let (x, y) = (radius * cos(angle), radius * flat * sin(angle));
-        let corner = at + Vec2::new(along.x * x - along.y * y, along.y * x + along.x * y);
-        if k == 0 { path.move_to(corner) } else { path.line_to(corner) }
-    }
-    path.close_path();
+        at + Vec2::new(along.x * x - along.y * y, along.y * x + along.x * y)
+    };
+    add_polygon(path, (0..corners).map(corner));
 }
 
 #[cfg(test)]

@@ -13,6 +13,8 @@ use super::pattern_options::{Pattern, PatternKind};
 use super::pattern_shapes::{FilledShape, clip_to_domains};
 use super::tile::Tile;
 use crate::drawing::{Cap, Join, Length, Mark, Paint, Provenance, StrokePaint};
+use crate::geometry::plane::polyline_path::polyline;
+use crate::geometry::plane::polylines::bounds;
 use crate::hatching::clip::domain::Domains;
 use crate::hatching::clip::line_clip::{clip_to_cells, sub_polyline};
 use crate::hatching::dots::halftone::{DotScreen, ToneBorders, dots};
@@ -182,11 +184,8 @@ const QUARTER_CIRCLE_HANDLE_OF_CHORD: f64 = 0.276_142_374_915_397;
 /// The bounding box of the wanted cells.
 fn extent(ground: &HatchRegions, wanted: &[bool]) -> Option<[Point; 2]> {
     let pieces = ground.pieces.iter().filter(|piece| piece.sides.iter().any(|cell| wanted[*cell as usize]));
-    let ends = pieces.flat_map(|piece| piece.ends);
-    ends.fold(None, |found: Option<[Point; 2]>, p| {
-        let [low, high] = found.unwrap_or([p, p]);
-        Some([Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y))])
-    })
+    let bounds = bounds(pieces.flat_map(|piece| piece.ends))?;
+    Some([bounds.origin(), Point::new(bounds.x1, bounds.y1)])
 }
 
 /// Squares of a pattern that is fixed to the page, over a box of it.
@@ -262,16 +261,6 @@ fn page_lines(own: &Pattern, size: f64, angle: f64, corners: [Point; 2]) -> Vec<
     placing.cells().flat_map(placed).collect()
 }
 
-fn polyline(points: &[Point]) -> BezPath {
-    let mut path = BezPath::new();
-    let mut points = points.iter();
-    if let Some(first) = points.next() {
-        path.move_to(*first);
-        points.for_each(|p| path.line_to(*p));
-    }
-    path
-}
-
 /// Collects paths in cells into marks. They are filled unless they have a width.
 fn marks_by_look(
     paths: impl Iterator<Item = (u32, BezPath)>,
@@ -292,14 +281,7 @@ fn marks_by_look(
         ink.a = (f64::from(ink.a) * own.opacity).round() as u8;
         let paint = match width {
             None => Paint::Fill(ink),
-            Some(width) => Paint::Stroke(StrokePaint {
-                width,
-                colour: ink,
-                cap: Cap::Butt,
-                join: Join::Round,
-                dash: Vec::new(),
-                dash_offset: 0.0,
-            }),
+            Some(width) => Paint::Stroke(StrokePaint::solid(width, ink, Cap::Butt, Join::Round)),
         };
         let provenance = Provenance { classes: vec!["pattern"], ..provenance(surface_label, context) };
         Mark { path, paint, provenance }

@@ -11,6 +11,7 @@ use super::tile::Tile;
 use crate::colour::srgb::Colour;
 use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::checked_number::share;
 use crate::strokes::Ink;
 
 /// Content of a pattern.
@@ -64,7 +65,7 @@ pub(crate) struct Pattern {
     #[serde(alias = "color")]
     pub colour: Ink,
     /// Opacity, 0 to 1. Default: 1.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "share")]
     pub opacity: f64,
     /// Frame of reference. Default: the page.
     pub fixed: PatternFixed,
@@ -78,7 +79,7 @@ pub(crate) struct Pattern {
     /// A tile as a PNG, JPEG or WebP picture; its dark areas are traced.
     pub image: Option<PathBuf>,
     /// Darkness threshold of the picture, 0 (white) to 1: darker areas are drawn. Default: 0.5.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "share")]
     pub level: f64,
     /// Whether it also covers surfaces without painted tones.
     #[serde(skip)]
@@ -140,14 +141,5 @@ fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::Error> 
         Ok(length)
     } else {
         Err(D::Error::custom("a pattern has a size above 0; write such as 8 or \"2mm\""))
-    }
-}
-
-fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
     }
 }

@@ -2,8 +2,10 @@
 
 use kurbo::{BezPath, Point, Shape as _};
 
+use crate::geometry::plane::polyline_path::add_polygon;
+use crate::geometry::plane::polylines::bounds;
 use crate::hatching::clip::domain::{Domains, NO_DOMAIN, directed_border};
-use crate::hatching::clip::polygon_clip::{clip_polygon, clip_reach, rings_bounds};
+use crate::hatching::clip::polygon_clip::{clip_polygon, clip_reach};
 use crate::regions::HatchRegions;
 
 /// Filled shape on the page.
@@ -19,12 +21,7 @@ impl FilledShape {
     fn uncut(self) -> BezPath {
         self.whole.unwrap_or_else(|| {
             let mut path = BezPath::new();
-            for ring in &self.rings {
-                for (k, p) in ring.iter().enumerate() {
-                    if k == 0 { path.move_to(*p) } else { path.line_to(*p) }
-                }
-                path.close_path();
-            }
+            self.rings.iter().for_each(|ring| add_polygon(&mut path, ring.iter().copied()));
             path
         })
     }
@@ -37,7 +34,7 @@ pub(crate) fn clip_to_domains(
     is_wanted: impl Fn(u32) -> bool,
     shape: FilledShape,
 ) -> Vec<(u32, BezPath)> {
-    let Some(bounds) = rings_bounds(&shape.rings) else { return Vec::new() };
+    let Some(bounds) = bounds(shape.rings.iter().flatten().copied()) else { return Vec::new() };
     let around = clip_reach(bounds);
     let wanted_domain =
         |cell: u32| Some(domains.domain(cell)).filter(|domain| *domain != NO_DOMAIN && is_wanted(*domain));

@@ -4,6 +4,7 @@ use kurbo::{BezPath, Point, Shape};
 
 use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
+use crate::geometry::plane::polyline_path::polygon;
 use crate::hatching::clip::polygon_clip::{WindingRule, unite_shapes};
 use crate::hatching::tolerances;
 
@@ -168,12 +169,7 @@ fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>
 
 /// Groups rings into islands, each with the holes inside it.
 fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
-    let path = |ring: &[Point]| {
-        let mut path = BezPath::new();
-        ring.iter().enumerate().for_each(|(k, p)| if k == 0 { path.move_to(*p) } else { path.line_to(*p) });
-        path.close_path();
-        path
-    };
+    let path = |ring: &[Point]| polygon(ring.iter().copied());
     let areas: Vec<f64> = rings.iter().map(|ring| path(ring).area()).collect();
     // The total area of islands exceeds that of their holes, so the sum has the islands' sign.
     let turn = areas.iter().sum::<f64>().signum();
@@ -207,13 +203,10 @@ fn within(ring: &[Point], path: &BezPath) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::colour::srgb::Colour;
+    use crate::geometry::plane::polylines::ring_area;
 
     fn tile_area(tile: &Tile) -> f64 {
-        let ring = |ring: &Vec<Point>| {
-            let next = |k: usize| ring[(k + 1) % ring.len()];
-            (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
-        };
-        tile.shapes.iter().flatten().map(ring).sum::<f64>().abs()
+        tile.shapes.iter().flatten().map(|ring| ring_area(ring)).sum::<f64>().abs()
     }
 
     #[test]

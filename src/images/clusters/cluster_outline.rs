@@ -4,7 +4,8 @@ use kurbo::{BezPath, Point, Vec2};
 use rustc_hash::FxHashMap;
 
 use super::facet_cluster::{FacetCluster, FacetNeighbours};
-use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::plane::planar_distance::{turn_from_y_to_x, unit};
+use crate::geometry::plane::polyline_path::add_polygon;
 use crate::images::facets::facet::Facet;
 
 /// Distance from the straight line past a point within which the point is removed from a loop, px.
@@ -31,10 +32,7 @@ pub(crate) fn outline(
         if ring.len() < 3 {
             continue;
         }
-        let mut points = widened(&ring, reach).into_iter().map(|p| p + offset);
-        path.move_to(points.next()?);
-        points.for_each(|p| path.line_to(p));
-        path.close_path();
+        add_polygon(&mut path, widened(&ring, reach).into_iter().map(|p| p + offset));
     }
     (!path.elements().is_empty()).then_some(path)
 }
@@ -78,7 +76,7 @@ fn rings(cluster: &FacetCluster, facets: &[Facet], neighbours: &FacetNeighbours)
             // Where several sides begin, the one is taken that has the cluster between it and the last side.
             let starts = sides_by_start.get(&sides[k].0[1]).into_iter().flatten().copied();
             next = starts.filter(|k| !done[*k]).min_by(|a, b| {
-                let turn = |k: &usize| turned(back, sides[*k].1[1] - sides[*k].1[0]);
+                let turn = |k: &usize| turn_from_y_to_x(back, sides[*k].1[1] - sides[*k].1[0]);
                 turn(a).total_cmp(&turn(b)).then(a.cmp(b))
             });
         }
@@ -87,12 +85,6 @@ fn rings(cluster: &FacetCluster, facets: &[Facet], neighbours: &FacetNeighbours)
         }
     }
     rings
-}
-
-/// Angle from one direction to another, turning from y towards x, above 0 and up to a full turn.
-fn turned(from: Vec2, to: Vec2) -> f64 {
-    let angle = atan2(to.cross(from), to.dot(from));
-    if angle <= 0.0 { angle + std::f64::consts::TAU } else { angle }
 }
 
 /// Loop without the points that lie on the straight line past them.
@@ -115,10 +107,6 @@ fn straightened(ring: &[(Point, bool)], tolerance: f64) -> OutlineRing {
 /// Loop with its sides moved outward by `reach`, except those where another face passes through.
 fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
     let count = ring.len();
-    let unit = |vector: Vec2| {
-        let length = vector.hypot2().sqrt();
-        if length > 0.0 { vector / length } else { Vec2::ZERO }
-    };
     // The inside is to the left in coordinates with y up, so outward is to the right.
     let normal_of = |k: usize| {
         let direction = unit(ring[(k + 1) % count].0 - ring[k].0);
@@ -146,6 +134,7 @@ fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
 
 #[cfg(test)]
 mod tests {
+    use crate::geometry::plane::polyline_path::polygon;
     use kurbo::Shape;
 
     use super::*;
@@ -157,10 +146,7 @@ mod tests {
         let ring = straightened(&ring.map(|p| (p, false)), 0.02);
         assert_eq!(ring.len(), 4);
         let wide = widened(&ring, 1.0);
-        let mut path = BezPath::new();
-        path.move_to(wide[0]);
-        wide[1..].iter().for_each(|p| path.line_to(*p));
-        path.close_path();
+        let path = polygon(wide);
         assert!((path.area().abs() - 144.0).abs() < 1e-9, "{}", path.to_svg());
     }
 }

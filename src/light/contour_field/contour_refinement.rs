@@ -5,8 +5,6 @@
 
 use glam::DVec3;
 
-use crate::light::NormalCones;
-use crate::light::contour_field::culling::edge_on_margin::EdgeOnMargin;
 use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::refine::mesh_splice::MeshCuts;
@@ -21,15 +19,9 @@ const MAX_FALL_PER_TURN: f64 = 0.55;
 const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F64_MARGIN_SHARE);
 
 /// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
-/// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough. [`NormalCones`] save time and do not change the
-/// result.
+/// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough.
 #[must_use]
-pub(crate) fn cuts_near_contours(
-    mesh: &Mesh,
-    smooth: &SmoothNormals,
-    cones: Option<&NormalCones>,
-    frame: &Frame,
-) -> Option<MeshCuts> {
+pub(crate) fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<MeshCuts> {
     let px = frame.width.max(frame.height) / 1000.0;
     // Length on the page of a unit length at the end nearer to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {
@@ -56,14 +48,7 @@ pub(crate) fn cuts_near_contours(
         }
         EdgeArc::new(ends, normals).height().length() * page(ends) / tolerances::MAX_ARC_ERROR_PX
     };
-    let is_asked =
-        |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, MAX_FALL_PER_TURN, short));
-    // Cones settle almost all runs as well, and exist from the second view on.
-    let turned = cones.is_none().then(|| EdgeOnMargin::of(mesh, smooth, frame, MAX_FALL_PER_TURN_ROUNDED));
-    let may = |ends: [u32; 2], squared: f64| {
-        turned.as_ref().is_none_or(|turned| !turned.cannot_vanish(ends, squared))
-    };
-    subdivision::cuts(mesh, smooth, is_asked, is_long, may, want)
+    subdivision::cuts(mesh, smooth, is_long, want)
 }
 
 /// Whether the field is certainly too far from zero at both ends of an edge to vanish in between. It runs for

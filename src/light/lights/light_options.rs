@@ -1,11 +1,11 @@
 //! [`LightOptions`]: the lights of a drawing, from the `[light]` table of a style sheet.
 
 use glam::DVec3;
-use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
+use crate::geometry::numbers::checked_number::fraction;
 
 /// Lights of a drawing.
 ///
@@ -163,16 +163,6 @@ impl TryFrom<SourceTable> for LightSource {
             brightness,
             shadows: table.shadows.unwrap_or(true),
         })
-    }
-}
-
-/// Reads a number from 0 to 1.
-pub(crate) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} is not a fraction; write a number from 0 to 1")))
     }
 }
 

@@ -229,7 +229,7 @@ impl Lighting {
             let fade = (towards.dot(normal) / HIGHLIGHT_FADE_COSINE).clamp(0.0, 1.0);
             amount * fade * specular::blinn_phong(normal, towards, to_eye, exponent)
         };
-        self.lit(shadowed).map(of).sum()
+        self.chosen(LampFilter::All, shadowed).map(of).sum()
     }
 
     /// Bounds of the diffuse light of the selected lights; see [`crate::light::Shading::range`].
@@ -271,7 +271,7 @@ impl Lighting {
         let eye_turn = TURN_PER_EXTENT * extent / eye_distance;
         let normal = self.normal(point);
         let mut high = 0.0;
-        for lamp in self.lit(shadowed) {
+        for lamp in self.chosen(LampFilter::All, shadowed) {
             let Some(mut lamp_bounds) = lamp.near(point.position, extent) else { return UNBOUNDED };
             if let Some((towards, lamp_distance)) = self.towards_for_highlights(frame, lamp, point.position) {
                 if extent > MAX_EXTENT_SHARE * lamp_distance {
@@ -310,10 +310,6 @@ impl Lighting {
         let LampSource::Parallel { towards } = lamp.reach else { return None };
         let offset = frame.target() + towards * self.highlight_distance? - position;
         Some((offset.normalize_or_zero(), offset.length()))
-    }
-
-    fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {
-        self.lamps.iter().filter(move |lamp| !lamp.is_shadowed(shadowed))
     }
 
     fn diffuse_of(&self, lamp: &Lamp, position: DVec3, normal: DVec3) -> f64 {

@@ -11,6 +11,7 @@ use super::tone_options::{Colours, Gooch, Highlight, ToneOptions, ToneScale};
 use super::tone_ramps::Table;
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
+use crate::light::lights::lighting::LampFilter;
 use crate::scene::material::Gloss;
 
 /// Smallest value of the largest channel of a material in toned colours. On darker ones, neither tones nor
@@ -30,6 +31,18 @@ pub(crate) enum ToneChannel {
     Highlight,
     /// Diffuse light of all lights again, with the bins of hatching as levels.
     Shade,
+}
+
+impl ToneChannel {
+    /// The lights whose diffuse light it holds; `None` for highlights.
+    pub(crate) fn lamps(self) -> Option<LampFilter> {
+        match self {
+            Self::Diffuse | Self::Shade => Some(LampFilter::All),
+            Self::Light(index) => Some(LampFilter::Lamp(index)),
+            Self::Hue(index) => Some(LampFilter::Hue(index)),
+            Self::Highlight => None,
+        }
+    }
 }
 
 /// Properties of a surface and its light that determine the colours of tones.

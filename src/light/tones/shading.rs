@@ -4,7 +4,7 @@ use super::material_tones::{ToneChannel, ToneSurface, Tones};
 use super::tone_options::{ToneOptions, ToneScale};
 use crate::colour::srgb::Colour;
 use crate::light::lights::light_options::LightOptions;
-use crate::light::lights::lighting::{Caster, LampFilter, Lighting, SurfacePoint};
+use crate::light::lights::lighting::{Caster, Lighting, SurfacePoint};
 use crate::light::{LightSlope, ShadeOptions};
 use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, MaterialPaint, Scene};
@@ -168,18 +168,10 @@ impl Shading {
     ) -> (f64, f64) {
         let lighting = &self.lighting;
         match self.channels.get(channel) {
-            Some(ToneChannel::Diffuse | ToneChannel::Shade) => {
-                lighting.diffuse_range(LampFilter::All, point, shadowed, turn, extent)
-            }
-            Some(ToneChannel::Light(k)) => {
-                lighting.diffuse_range(LampFilter::Lamp(*k), point, shadowed, turn, extent)
-            }
-            Some(ToneChannel::Hue(k)) => {
-                lighting.diffuse_range(LampFilter::Hue(*k), point, shadowed, turn, extent)
-            }
-            Some(ToneChannel::Highlight) => {
-                lighting.specular_range(point, self.exponent(paint), shadowed, turn, extent)
-            }
+            Some(channel) => match channel.lamps() {
+                Some(lamps) => lighting.diffuse_range(lamps, point, shadowed, turn, extent),
+                None => lighting.specular_range(point, self.exponent(paint), shadowed, turn, extent),
+            },
             None => (0.0, 0.0),
         }
     }
@@ -200,12 +192,10 @@ impl Shading {
     #[must_use]
     pub(crate) fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
-            Some(ToneChannel::Diffuse | ToneChannel::Shade) => {
-                self.lighting.diffuse(LampFilter::All, point, shadowed)
-            }
-            Some(ToneChannel::Light(k)) => self.lighting.diffuse(LampFilter::Lamp(*k), point, shadowed),
-            Some(ToneChannel::Hue(k)) => self.lighting.diffuse(LampFilter::Hue(*k), point, shadowed),
-            Some(ToneChannel::Highlight) => self.lighting.specular(point, self.exponent(paint), shadowed),
+            Some(channel) => match channel.lamps() {
+                Some(lamps) => self.lighting.diffuse(lamps, point, shadowed),
+                None => self.lighting.specular(point, self.exponent(paint), shadowed),
+            },
             None => 0.0,
         }
     }

@@ -15,7 +15,7 @@ use super::tone_ramps::{MAX_TONES, Strip, Table};
 use crate::colour::colour_factor::ColourFactor;
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
-use crate::light::lights::light_options::fraction;
+use crate::geometry::numbers::checked_number::{checked, fraction};
 use crate::light::tolerances;
 use crate::scene::material::Gloss;
 
@@ -291,11 +291,6 @@ pub(crate) fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<V
 /// # Errors
 /// Describes valid exponents.
 pub(crate) fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (MIN_EXPONENT..=MAX_EXPONENT).contains(&value) {
-        return Ok(value);
-    }
-    Err(serde::de::Error::custom(format!(
-        "{value} is not the exponent of a highlight; write a number from 1 to 10000"
-    )))
+    let advice = "is not the exponent of a highlight; write a number from 1 to 10000";
+    checked(deserializer, |value| (MIN_EXPONENT..=MAX_EXPONENT).contains(&value), advice)
 }

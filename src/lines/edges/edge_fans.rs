@@ -77,7 +77,7 @@ impl EdgeClassifier<'_> {
     fn materials_change(&self, edge: usize, faces: &[u32]) -> bool {
         let mesh = self.mesh;
         let ends = mesh.edges.vertices[edge];
-        let third = |face: u32| mesh.triangles[face as usize].iter().find(|v| !ends.contains(v)).copied();
+        let third = |face: u32| mesh.apex(face, ends);
         let mut found: Vec<(Option<u32>, MaterialId)> =
             faces.iter().map(|f| (third(*f), mesh.face_material[*f as usize])).collect();
         found.sort_unstable();
@@ -112,10 +112,7 @@ impl EdgeClassifier<'_> {
         let (a, b) = (mesh.positions[lo as usize], mesh.positions[hi as usize]);
         let Some(axis) = (b - a).try_normalize() else { return 0.0 };
         let away = |p: glam::DVec3| (p - a) - axis * (p - a).dot(axis);
-        let spoke = |f: u32| {
-            let opposite = mesh.triangles[f as usize].iter().find(|v| **v != lo && **v != hi);
-            away(opposite.map_or(a, |v| mesh.positions[*v as usize]))
-        };
+        let spoke = |f: u32| away(mesh.apex(f, [lo, hi]).map_or(a, |v| mesh.positions[v as usize]));
         let zero = spoke(faces[0]);
         let quarter = axis.cross(zero);
         let angle =

@@ -19,7 +19,7 @@ use crate::mesh::normals::dihedral::mark;
 use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
 use crate::parallel::concatenation::concatenate;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::surface::{HardEdges, MeshSource, SmoothNormals};
+use crate::surface::{HardEdges, SmoothNormals};
 use crate::view::View;
 
 /// All mesh edges that are feature lines of the wanted kinds, in edge order.
@@ -125,13 +125,8 @@ impl<'a> EdgeClassifier<'a> {
     }
 
     /// Whether the edge is convex: the second face lies behind the plane of the first.
-    fn is_convex(&self, edge: usize, [first, second]: [u32; 2]) -> bool {
-        let mesh = self.mesh;
-        let ends = mesh.edges.vertices[edge];
-        let third = mesh.triangles[second as usize].iter().find(|v| !ends.contains(v));
-        let [a, b, c] = mesh.corners(FaceId(first));
-        let way = third.map_or(a, |v| mesh.positions[*v as usize]) - mesh.positions[ends[0] as usize];
-        (b - a).cross(c - a).dot(way) < 0.0
+    fn is_convex(&self, edge: usize, faces: [u32; 2]) -> bool {
+        self.mesh.fold_height(faces, self.mesh.edges.vertices[edge]) < 0.0
     }
 
     fn classify(&self, edge: usize) -> Option<FeatureSegment> {
@@ -316,17 +311,6 @@ impl<'a> EdgeClassifier<'a> {
         nearer: u32,
         hosts: [u32; 2],
     ) -> FeatureSegment {
-        FeatureSegment {
-            ends: self.mesh.edges.vertices[edge],
-            hosts,
-            kind,
-            both_seen: true,
-            smooth: false,
-            origin: MeshSource::default(),
-            role: Role::Line,
-            strength: 180.0,
-            part: self.mesh.face_part[nearer as usize],
-            material: self.mesh.face_material[nearer as usize],
-        }
+        FeatureSegment::on_face(self.mesh, nearer, hosts, kind, self.mesh.edges.vertices[edge])
     }
 }

@@ -14,21 +14,13 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use crate::geometry::numbers::ranges::joined;
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::bounds_tree::BoundsTree;
 use crate::lines::feature_line::{FeatureSegment, Role};
+use crate::mesh::seams::sagitta::{MIN_SEAM_COSINE, SAGITTA_PER_TWIST, sagitta_height};
 use crate::mesh::tolerances::MAX_SEAM_GAP_OF_PART;
 use crate::mesh::{Mesh, Wire};
-
-/// Cosine of the largest turn (45 degrees) between chords of one curve. A larger turn is a corner.
-const MIN_CHORD_COSINE: f64 = 0.7;
-
-/// Factor on the sagitta, since the chords of a curve may differ in length.
-const MAX_SAGITTA_RATIO: f64 = 2.0;
-
-/// Ratio of a curve's sagitta to its distance from its plane.
-const SAGITTA_PER_TWIST: f64 = 4.0;
-
-/// Children per box of the hierarchy.
-const TREE_FANOUT: usize = 8;
 
 /// Wires of a mesh that do not run along a line on its edges.
 pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
@@ -39,26 +31,20 @@ pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
     }
     let wires =
         Chords::new(mesh, mesh.wires.iter().map(|wire| (wire.vertices, mesh.extents.part(wire.part).scale)));
-    let tree = ChordTree::new(&drawn.list);
+    let boxes: Vec<Bounds> = drawn.list.iter().map(WireChord::reach).collect();
+    let tree = BoundsTree::new(&boxes);
     let is_free = |wire: &WireChord| !is_covered(wire, &drawn.list, &tree);
     let free: Vec<bool> = wires.list.par_iter().with_min_len(256).map(is_free).collect();
     mesh.wires.iter().zip(free).filter_map(|(wire, free)| free.then_some(*wire)).collect()
 }
 
 /// Whether lines cover a wire from end to end.
-fn is_covered(wire: &WireChord, lines: &[WireChord], tree: &ChordTree) -> bool {
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
-    let (low, high) = wire.reach();
-    tree.near(low, high, |line| ranges.extend(lines.get(line as usize).and_then(|line| wire.along(line))));
-    ranges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut at = 0.0;
-    for (from, to) in &ranges {
-        if *from > at + wire.slack {
-            return false;
-        }
-        at = to.max(at);
-    }
-    !ranges.is_empty() && at + wire.slack >= wire.length
+fn is_covered(wire: &WireChord, lines: &[WireChord], tree: &BoundsTree) -> bool {
+    let reach = wire.reach();
+    let near = tree.near(|around| around.meets(&reach));
+    let ranges = near.filter_map(|line| wire.along(&lines[line as usize])).collect();
+    let covered = joined(ranges, wire.slack);
+    matches!(covered[..], [(from, to)] if from <= wire.slack && to + wire.slack >= wire.length)
 }
 
 /// Straight piece that may be a chord of a curve.
@@ -79,15 +65,14 @@ impl WireChord {
     }
 
     /// Bounding box of the chord and its curve.
-    fn reach(&self) -> (DVec3, DVec3) {
-        let room = DVec3::splat(self.sagitta.length() + self.slack);
-        (self.start.min(self.end()) - room, self.start.max(self.end()) + room)
+    fn reach(&self) -> Bounds {
+        Bounds::of([self.start, self.end()]).grown(self.sagitta.length() + self.slack)
     }
 
     /// Range of lengths along this chord where another chord runs next to it.
     fn along(&self, other_chord: &Self) -> Option<(f64, f64)> {
         let cosine = self.along.dot(other_chord.along);
-        if cosine.abs() < MIN_CHORD_COSINE {
+        if cosine.abs() < MIN_SEAM_COSINE {
             return None;
         }
         let position_along = |p: DVec3| (p - self.start).dot(self.along);
@@ -197,78 +182,13 @@ impl ChordGraph<'_> {
         });
         let straighter = ends.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
         let Some((walk, (adjacent, cosine))) =
-            straighter.filter(|(_, (_, cosine))| *cosine >= MIN_CHORD_COSINE)
+            straighter.filter(|(_, (_, cosine))| *cosine >= MIN_SEAM_COSINE)
         else {
             return DVec3::ZERO;
         };
-        // Tangent of half the turn. Equal chords share a turn evenly.
-        let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
-        let turn = half_turn(cosine);
-        let share = self.next(adjacent).map_or(0.0, |(next_adjacent, cosine)| {
-            let (near, far) = (self.list[adjacent.chord].length, self.list[next_adjacent.chord].length);
-            if cosine < MIN_CHORD_COSINE { 0.0 } else { half_turn(cosine) * near / (near + far) }
-        });
-        let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
+        let after = self.next(adjacent).map(|(next, cosine)| (cosine, self.list[next.chord].length));
         let bend = self.direction(walk) * cosine - self.direction(adjacent);
-        bend.normalize_or_zero() * (MAX_SAGITTA_RATIO * this_chord.length * own_turn / 2.0)
+        let lengths = [this_chord.length, self.list[adjacent.chord].length];
+        bend.normalize_or_zero() * sagitta_height(cosine, lengths, after)
     }
-}
-
-/// Bounding volume hierarchy of chords.
-struct ChordTree {
-    order: Vec<u32>,
-    /// Boxes of the leaves first, the root last.
-    levels: Vec<Vec<(DVec3, DVec3)>>,
-}
-
-impl ChordTree {
-    fn new(chords: &[WireChord]) -> Self {
-        let mut items: Vec<(DVec3, u32)> =
-            chords.iter().zip(0..).map(|(chord, k)| ((chord.start + chord.end()) / 2.0, k)).collect();
-        part(&mut items);
-        let order: Vec<u32> = items.into_iter().map(|(_, k)| k).collect();
-        let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
-        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let around = |run: &[u32]| run.iter().map(|k| chords[*k as usize].reach()).fold(nothing, join);
-        let mut levels: Vec<Vec<(DVec3, DVec3)>> = vec![order.chunks(TREE_FANOUT).map(around).collect()];
-        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let above = last.chunks(TREE_FANOUT).map(|run| run.iter().copied().fold(nothing, join)).collect();
-            levels.push(above);
-        }
-        Self { order, levels }
-    }
-
-    /// Visits the chords in all leaves whose boxes overlap the given box.
-    fn near(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(u32)) {
-        let mut open: Vec<(usize, usize)> = vec![(self.levels.len() - 1, 0)];
-        while let Some((level, k)) = open.pop() {
-            let (own_low, own_high) = self.levels[level][k];
-            if own_low.cmpgt(high).any() || own_high.cmplt(low).any() {
-                continue;
-            }
-            let below = k * TREE_FANOUT..(k + 1) * TREE_FANOUT;
-            if level == 0 {
-                self.order[below.start..below.end.min(self.order.len())].iter().for_each(|k| visit(*k));
-            } else {
-                let below = below.start..below.end.min(self.levels[level - 1].len());
-                open.extend(below.map(|k| (level - 1, k)));
-            }
-        }
-    }
-}
-
-/// Sorts the items so that nearby ones form runs.
-fn part(items: &mut [(DVec3, u32)]) {
-    if items.len() <= TREE_FANOUT {
-        return;
-    }
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = items.iter().fold(nothing, |(low, high), (p, _)| (low.min(*p), high.max(*p)));
-    let size = high - low;
-    let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
-    // Runs stay whole, so that no box spans two places.
-    let middle = (items.len() / 2).next_multiple_of(TREE_FANOUT).min(items.len() - 1);
-    items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
-    let (near, far) = items.split_at_mut(middle);
-    crate::parallel::join(|| part(near), || part(far));
 }

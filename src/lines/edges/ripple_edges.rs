@@ -57,7 +57,7 @@ impl RippleTest<'_> {
             let triangle = self.mesh.triangles[face as usize];
             for k in 0..3 {
                 let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-                let Ok(edge) = self.mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else {
+                let Some(edge) = self.mesh.edges.between(a, b) else {
                     continue;
                 };
                 let EdgeFaces::Two { faces: pair, same_way } = self.mesh.edges.faces(edge) else { continue };

@@ -1,7 +1,8 @@
 //! How lines are found in the image: the `[lines.image]` table of a style sheet.
 
-use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::geometry::numbers::checked_number::checked;
 
 /// Where lines are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -94,20 +95,12 @@ impl Default for ImageOptions {
 
 /// Reads a number above 0, at most 100.
 fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if value > 0.0 && value <= 100.0 {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} is not a threshold; write a number above 0, at most 100")))
-    }
+    let advice = "is not a threshold; write a number above 0, at most 100";
+    checked(deserializer, |value| value > 0.0 && value <= 100.0, advice)
 }
 
 /// Reads a number from 1 to 8.
 fn samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (1.0..=8.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} pixels per px are not possible; write a number from 1 to 8")))
-    }
+    let advice = "pixels per px are not possible; write a number from 1 to 8";
+    checked(deserializer, |value| (1.0..=8.0).contains(&value), advice)
 }

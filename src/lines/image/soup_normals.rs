@@ -152,7 +152,6 @@ impl LooseCornerGrid<'_> {
 
 /// Normal of a face on its visible side; its length is twice the area.
 fn seen_normal(mesh: &Mesh, view: &View, face: u32) -> DVec3 {
-    let [a, b, c] = mesh.corners(FaceId(face));
-    let normal = (b - a).cross(c - a);
+    let normal = mesh.area_vector(FaceId(face));
     if view.facing[face as usize] { normal } else { -normal }
 }

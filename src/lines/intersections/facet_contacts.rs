@@ -11,6 +11,7 @@
 //!    truly cross do so at a small angle in some places. A curve ends at a branch, and where it passes over a
 //!    crease onto another surface.
 
+use crate::geometry::lists::linked_lines::linked_lines;
 use crate::lines::tolerances::MIN_CONTACT_OF_CURVE;
 use crate::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionSegment};
 use crate::mesh::tolerances::MAX_FACET_DEG;
@@ -30,11 +31,11 @@ pub(crate) fn remove_contacts(curves: IntersectionCurves, mesh: &Mesh) -> Inters
     let mut touches = vec![false; curves.segments.len()];
     for curve in whole_curves(&curves, mesh) {
         let of = |flat_only: bool| -> f64 {
-            let counted = curve.iter().map(|s| *s as usize).filter(|s| !flat_only || is_flat[*s]);
+            let counted = curve.iter().copied().filter(|s| !flat_only || is_flat[*s]);
             counted.map(|s| length(&curves.segments[s])).sum()
         };
         if of(true) >= MIN_CONTACT_OF_CURVE * of(false) {
-            curve.iter().for_each(|s| touches[*s as usize] = true);
+            curve.iter().for_each(|s| touches[*s] = true);
         }
     }
     let mut number = touches.iter();
@@ -56,7 +57,7 @@ fn is_flat(mesh: &Mesh, segment: &IntersectionSegment) -> bool {
 fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.triangles[face as usize];
     let turn = |[v, w]: [u32; 2]| {
-        let edge = mesh.edges.vertices.binary_search(&[v.min(w), v.max(w)]).ok()?;
+        let edge = mesh.edges.between(v, w)?;
         let turn = f64::from(Dihedral::at(mesh, edge)?.turn());
         (turn < MAX_FACET_DEG).then_some(turn)
     };
@@ -67,7 +68,7 @@ fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
 }
 
 /// Segments of each curve, between the points where curves end.
-fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
+fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut at_point: Vec<[u32; 2]> = vec![[NO_INDEX; 2]; curves.points.len()];
     let mut count: Vec<u8> = vec![0; curves.points.len()];
     for (number, segment) in curves.segments.iter().enumerate() {
@@ -78,32 +79,16 @@ fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
             count[end] = count[end].saturating_add(1).min(3);
         }
     }
-    let mut taken = vec![false; curves.segments.len()];
+    let next = |segment: usize, end: usize| {
+        let point = curves.segments[segment].ends[end];
+        let [p, q] = at_point[point as usize];
+        let next = if p as usize == segment { q } else { p } as usize;
+        let faces = |segment: usize| curves.segments[segment].faces;
+        (count[point as usize] == 2 && !is_over_crease(mesh, [segment, next].map(faces)))
+            .then(|| (next, usize::from(curves.segments[next].ends[0] != point)))
+    };
     let mut found = Vec::new();
-    for first in 0..curves.segments.len() {
-        if std::mem::replace(&mut taken[first], true) {
-            continue;
-        }
-        let mut curve = vec![first as u32];
-        for start in curves.segments[first].ends {
-            let (mut segment, mut end) = (first as u32, start as usize);
-            while count[end] == 2 {
-                let [p, q] = at_point[end];
-                let next = if p == segment { q } else { p };
-                if is_over_crease(mesh, [segment, next].map(|s| curves.segments[s as usize].faces)) {
-                    break;
-                }
-                segment = next;
-                if std::mem::replace(&mut taken[segment as usize], true) {
-                    break;
-                }
-                curve.push(segment);
-                let [a, b] = curves.segments[segment as usize].ends.map(|e| e as usize);
-                end = if a == end { b } else { a };
-            }
-        }
-        found.push(curve);
-    }
+    linked_lines(curves.segments.len(), next, |line| found.push(line.iter().map(|(s, _)| *s).collect()));
     found
 }
 

@@ -11,7 +11,7 @@ use crate::parallel::prelude::*;
 
 use super::facet_contacts;
 use crate::lines::prepared_surface::RefinedSurface;
-use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, Role};
+use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind};
 use crate::mesh::intersect::cache::intersection_cache::{FaceHosts, IntersectionCache};
 use crate::mesh::intersect::curve_tracer::CurveTracer;
 use crate::mesh::intersect::intersection_curves::{
@@ -20,7 +20,6 @@ use crate::mesh::intersect::intersection_curves::{
 use crate::mesh::intersect::triangle_pair::PairTolerance;
 use crate::mesh::{FaceId, Mesh, PartId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::surface::MeshSource;
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, PixelGrid, intersecting_candidates};
 
@@ -56,19 +55,8 @@ pub(crate) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
     });
     segments.par_sort_unstable_by_key(|segment| (segment.faces.map(rank), segment.faces));
     lines.segments.extend(segments.iter().map(|s| {
-        let owner = owner(view, s.faces) as usize;
-        FeatureSegment {
-            ends: s.ends.map(|end| first + end),
-            hosts: s.faces,
-            kind: LineKind::Intersection,
-            both_seen: true,
-            smooth: false,
-            origin: MeshSource::default(),
-            role: Role::Line,
-            strength: 180.0,
-            part: mesh.face_part[owner],
-            material: mesh.face_material[owner],
-        }
+        let ends = s.ends.map(|end| first + end);
+        FeatureSegment::on_face(mesh, owner(view, s.faces), s.faces, LineKind::Intersection, ends)
     }));
 }
 
@@ -81,12 +69,7 @@ fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
 /// All intersection curves of a mesh.
 #[must_use]
 pub(crate) fn all_curves(mesh: &Mesh) -> IntersectionCurves {
-    let active = active(mesh);
-    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::remove_contacts(
-        intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance),
-        mesh,
-    )
+    curves_among(mesh, &active(mesh))
 }
 
 /// Intersection curves between faces that are not `out_of_sight`: every visible segment of [`all_curves`].
@@ -95,21 +78,25 @@ pub(crate) fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Inter
     out_of_sight.par_iter_mut().enumerate().with_min_len(MIN_TASK_ITEMS).for_each(|(face, out)| {
         *out = !*out && !mesh.is_degenerate(FaceId(face as u32));
     });
-    let active = out_of_sight;
-    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::remove_contacts(
-        intersections_of_parts(&input(mesh, &active, &mesh.face_bodies()), tolerance),
-        mesh,
-    )
+    curves_among(mesh, &out_of_sight)
+}
+
+/// Intersection curves between active faces.
+fn curves_among(mesh: &Mesh, active: &[bool]) -> IntersectionCurves {
+    let curves = intersections_of_parts(&input(mesh, active, &mesh.face_bodies()), tolerance(mesh));
+    facet_contacts::remove_contacts(curves, mesh)
+}
+
+/// Tolerance of each face in the search of intersections.
+fn tolerance(mesh: &Mesh) -> impl Fn(u32) -> PairTolerance + Sync + '_ {
+    |face| PairTolerance::of_part(mesh.extent(FaceId(face)))
 }
 
 /// Search of all curves of a mesh, to be reused for refined meshes in [`curves_of_finer`].
 #[must_use]
 pub(crate) fn search(mesh: &Mesh) -> IntersectionCache {
     let active = active(mesh);
-    IntersectionCache::new(&input(mesh, &active, &mesh.face_bodies()), |face| {
-        PairTolerance::of_part(mesh.extent(FaceId(face)))
-    })
+    IntersectionCache::new(&input(mesh, &active, &mesh.face_bodies()), tolerance(mesh))
 }
 
 /// All curves of a refined surface, from a [`search`] of the original mesh. The result is that of
@@ -119,11 +106,9 @@ pub(crate) fn curves_of_finer(search: &IntersectionCache, finer: &RefinedSurface
     let mesh = &finer.surface.mesh;
     let active = active(mesh);
     let hosts = FaceHosts { faces: &finer.hosts, kept_count: finer.kept_count };
-    let tolerance = |face| PairTolerance::of_part(mesh.extent(FaceId(face)));
-    facet_contacts::remove_contacts(
-        search.refined_curves(&input(mesh, &active, &mesh.face_bodies()), hosts, tolerance),
-        mesh,
-    )
+    let bodies = mesh.face_bodies();
+    let input = input(mesh, &active, &bodies);
+    facet_contacts::remove_contacts(search.refined_curves(&input, hosts, tolerance(mesh)), mesh)
 }
 
 /// Whether each face has area; empty if all have.

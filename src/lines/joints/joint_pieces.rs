@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::ray_fan::{FaceRay, RayFan, angle_error_sine};
+use crate::geometry::space::triangles::height;
 use crate::mesh::bvh::box_tree::BoxTree;
-use crate::mesh::normals::normal_carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
 
 /// Distance of the test lines on both sides of a line, in contact distances.

@@ -1,5 +1,6 @@
 //! Texel scale: how many texels of each picture fall on a px in a view, as a mean and from place to place.
 
+use crate::geometry::lists::disjoint_sets::UnionFind;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -238,7 +239,7 @@ impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
         let shares: Vec<Option<TexelAreas>> = (0..count as u32)
             .map(|face| self.share(face).filter(|(number, _)| *number == picture).map(|(_, share)| share))
             .collect();
-        let mut joined = CornerSets((0..3 * count as u32).collect());
+        let joined = UnionFind::new(3 * count);
         let normal = |face: u32| DVec3::from_array(mesh.face_normals[face as usize].map(f64::from));
         let least = portable_math::cos(crease_deg.to_radians());
         for edge in 0..mesh.edges.len() {
@@ -264,7 +265,7 @@ impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
                 sum.page += share.page;
             }
         }
-        let of_corner = |face: usize, k: usize, joined: &mut CornerSets| {
+        let of_corner = |face: usize, k: usize| {
             let share = &sums[joined.root((3 * face + k) as u32) as usize];
             if share.page <= 0.0 {
                 return [0.0; 2];
@@ -274,7 +275,7 @@ impl<N: Fn(u32) -> Option<usize>> PictureView<'_, N> {
             // Faces seen edge-on have unlimited densities.
             [density_of(on_px)[0], density_of(slanted)[1]].map(|density| (density * depth).clamp(-1e9, 1e9))
         };
-        (0..count).map(|face| [0, 1, 2].map(|k| of_corner(face, k, &mut joined))).collect()
+        (0..count).map(|face| [0, 1, 2].map(|k| of_corner(face, k))).collect()
     }
 }
 
@@ -298,23 +299,4 @@ fn power_of_two(number: f64) -> f64 {
 /// linear.
 pub(crate) fn density_of(texels_per_px: f64) -> Density {
     [portable_math::cbrt(texels_per_px * texels_per_px), texels_per_px.sqrt()]
-}
-
-/// Union-find; the root is the smallest member.
-struct CornerSets(Vec<u32>);
-
-impl CornerSets {
-    fn root(&mut self, of: u32) -> u32 {
-        let mut at = of;
-        while self.0[at as usize] != at {
-            self.0[at as usize] = self.0[self.0[at as usize] as usize];
-            at = self.0[at as usize];
-        }
-        at
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::zero_set::{self, EdgePoint, ZeroSet};
 use crate::lines::{ContourCurve, FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
-use crate::surface::{EdgeArc, MeshSource, SmoothNormals};
+use crate::surface::{EdgeArc, SmoothNormals};
 use crate::view::View;
 
 const NO_PIECE: u32 = u32::MAX;
@@ -77,16 +77,11 @@ fn advance(view: &View, smooth: &SmoothNormals, set: &ZeroSet, ends: [u32; 2], [
 /// Piece of a contour on a face.
 fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
     FeatureSegment {
-        ends,
-        hosts: [face; 2],
-        kind: LineKind::Contour,
         both_seen: false,
         smooth: true,
-        origin: MeshSource::default(),
         role: Role::SmoothContour,
         strength: 0.0,
-        part: mesh.face_part[face as usize],
-        material: mesh.face_material[face as usize],
+        ..FeatureSegment::on_face(mesh, face, [face; 2], LineKind::Contour, ends)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::element_rows::{ElementReader, RowValues, place};
+use super::element_rows::{ElementReader, RowValues};
 use super::face_elements::{index_of, no_vertex, skip};
-use super::header::{Element, Encoding};
+use super::header::Element;
 use crate::error::Error;
 use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
@@ -42,16 +42,13 @@ pub(crate) fn read(
     edges.wires.reserve(count);
     let mut row = RowValues::default();
     for number in 0..count {
-        let mut start = body.cursor.clone();
+        let start = body.cursor.clone();
         body.row(element, number, &mut row)?;
         let mut wire = [0; 2];
         for (end, property) in wire.iter_mut().zip(ends) {
             let index = row.value(property);
-            *end = index_of(index, positions).ok_or_else(|| {
-                start.skip_space();
-                let line = (body.encoding == Encoding::Text).then(|| format!("line {}", start.line()));
-                no_vertex(index, positions).at(line.unwrap_or_else(|| place(element, number)))
-            })?;
+            *end = index_of(index, positions)
+                .ok_or_else(|| no_vertex(index, positions).at(body.place(start.clone(), element, number)))?;
         }
         let is_usable = |end: &u32| positions.get(*end as usize).is_some_and(|p| is_drawable(*p));
         if wire.iter().all(is_usable) {

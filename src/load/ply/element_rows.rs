@@ -65,6 +65,17 @@ impl<'a> ElementReader<'a> {
         }
     }
 
+    /// Position of a row in errors: its line in a text file, and its number in a binary one. `start` is where
+    /// the row starts.
+    pub(crate) fn place(&self, mut start: Cursor, element: &Element, number: usize) -> String {
+        if self.encoding == Encoding::Text {
+            start.skip_space();
+            format!("line {}", start.line())
+        } else {
+            place(element, number)
+        }
+    }
+
     fn binary_row(&mut self, element: &Element, number: usize, row: &mut RowValues) -> Result<(), Error> {
         for property in &element.properties {
             let mut length = 1;

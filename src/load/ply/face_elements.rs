@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::element_rows::{ElementReader, RowValues, place};
 use super::header::{Element, Encoding, ScalarType};
-use super::vertex_element::{COLOUR_NAMES, find};
+use super::vertex_element::{COLOUR_NAMES, MIN_TASK_ROWS, find};
 use crate::colour::srgb::Colour;
 use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
@@ -13,9 +13,6 @@ use crate::load::polygons::triangulation::{self, CutOutcome};
 use crate::mesh::EdgeMark;
 use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
-
-/// Minimum rows per parallel task.
-const MIN_TASK_ROWS: usize = 1 << 13;
 
 const LIST_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
@@ -78,16 +75,13 @@ impl<'a> FaceReader<'a> {
                     continue;
                 }
             }
-            let mut start = body.cursor.clone();
+            let start = body.cursor.clone();
             body.row(element, number, &mut row)?;
             let mut corners = std::mem::take(&mut self.corners);
             corners.clear();
             for &index in row.list(list) {
                 let Some(index) = index_of(index, self.positions) else {
-                    start.skip_space();
-                    let line = (body.encoding == Encoding::Text).then(|| format!("line {}", start.line()));
-                    let place = line.unwrap_or_else(|| place(element, number));
-                    return Err(no_vertex(index, self.positions).at(place));
+                    return Err(no_vertex(index, self.positions).at(body.place(start, element, number)));
                 };
                 corners.push(index);
             }

@@ -206,28 +206,18 @@ impl Header {
                     elements.push(Element { name: decode(name).into_owned(), count, properties: Vec::new() });
                     doubt = None;
                 }
-                [b"property", b"list", length, kind, name] => {
-                    match (ScalarType::parse(length), ScalarType::parse(kind)) {
-                        (Some(list), Some(kind)) => {
-                            let property =
-                                Property { name: decode(name).into_owned(), list: Some(list), kind };
-                            let Some(element) = elements.last_mut() else {
-                                return fail("a property without an element".into());
-                            };
-                            element.properties.push(property);
-                        }
+                [b"property", b"list", _, kind, name] | [b"property", kind, name] => {
+                    let length = (statement.len() == 5).then(|| ScalarType::parse(statement[2]));
+                    let (list, kind) = match (length, ScalarType::parse(kind)) {
+                        (None, Some(kind)) => (None, kind),
+                        (Some(Some(list)), Some(kind)) => (Some(list), kind),
+                        (None, None) => return fail(format!("`{}` is not a type", quoted_start(kind))),
                         _ => return fail(format!("`{}` has an unknown type", quoted_start(line))),
-                    }
-                }
-                [b"property", kind, name] => {
-                    let Some(kind) = ScalarType::parse(kind) else {
-                        return fail(format!("`{}` is not a type", quoted_start(kind)));
                     };
-                    let property = Property { name: decode(name).into_owned(), list: None, kind };
                     let Some(element) = elements.last_mut() else {
                         return fail("a property without an element".into());
                     };
-                    element.properties.push(property);
+                    element.properties.push(Property { name: decode(name).into_owned(), list, kind });
                 }
                 [] | [b"comment" | b"obj_info", ..] => {}
                 _ if is_statement(&words) => return Err(does_not_belong(&place, line)),

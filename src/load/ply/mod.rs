@@ -16,14 +16,11 @@ mod face_elements;
 mod header;
 mod vertex_element;
 
-use std::path::Path;
-
 use glam::DAffine3;
 
 use self::element_rows::ElementReader;
 use self::face_elements::FaceReader;
 use self::header::{Element, Header};
-use super::read_with;
 use super::text_cursor::Cursor;
 use super::triangle_colours;
 use crate::colour::srgb::Colour;
@@ -34,19 +31,11 @@ use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE_WARNING, is_drawable}
 use crate::scene::extent::precision_warning;
 use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings};
 
-/// Reads a PLY file.
-///
-/// # Errors
-/// Names the file and the place if the header is wrong, rows are missing, an index is out of range, or
-/// nothing can be drawn.
-pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
-    read_with(path, read_bytes)
-}
-
 /// Reads the bytes of a PLY file; `stem` names its only part.
 ///
 /// # Errors
-/// As [`read`].
+/// Names the place if the header is wrong, rows are missing, an index is out of range, or
+/// nothing can be drawn.
 pub(crate) fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let header = Header::parse(bytes)?;
     let mut body = ElementReader { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };

@@ -5,12 +5,13 @@ use glam::DVec3;
 
 use super::element_rows::{ElementReader, RowValues};
 use super::header::{Element, Encoding, ScalarType};
+use crate::colour::oklab::linear_table;
 use crate::colour::srgb::linear;
 use crate::error::Error;
 use crate::scene::Geometry;
 
 /// Minimum rows per parallel task.
-const MIN_TASK_ROWS: usize = 1 << 13;
+pub(crate) const MIN_TASK_ROWS: usize = 1 << 13;
 
 /// Property indices of the vertex attributes.
 struct Columns {
@@ -82,8 +83,8 @@ pub(crate) fn read(body: &mut ElementReader, element: &Element) -> Result<Geomet
         body.cursor.at += rows.len();
         return Ok(geometry);
     }
-    // Table for byte channels, which are the usual case; converting each channel would be slow.
-    let bytes: Vec<f32> = (0..=255_u8).map(|c| linear(f32::from(c) / 255.0)).collect();
+    // Byte channels are the usual case; converting each channel would be slow.
+    let bytes = linear_table();
     let channel = |row: &RowValues, property: usize| match kind(property) {
         ScalarType::U8 => bytes.get(row.value(property) as usize).copied().unwrap_or(1.0),
         kind => linear((row.value(property) / kind.full()) as f32),

@@ -51,8 +51,7 @@ pub(crate) fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> Cu
 }
 
 /// Splits a quad into two triangles.
-#[must_use]
-pub(crate) fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
+fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     let (u, v, w) = (b - a, c - a, d - a);
     // The two halves face opposite ways if the diagonal 0-2 is outside.
     let runs_outside = u.cross(v).dot(v.cross(w)) < 0.0;

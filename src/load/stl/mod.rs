@@ -12,12 +12,9 @@
 
 mod attribute_colours;
 
-use std::path::Path;
-
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::read_with;
 use super::text_cursor::{Cursor, decode};
 use crate::error::Error;
 use crate::scene::drawable;
@@ -29,18 +26,10 @@ use crate::scene::{Geometry, Part, Scene, UpAxis};
 const HEADER_BYTES: usize = 84;
 const RECORD_BYTES: usize = 50;
 
-/// Reads an STL file.
-///
-/// # Errors
-/// Names the file and the place if it is cut off or nothing can be drawn.
-pub(crate) fn read(path: &Path) -> Result<Scene, Error> {
-    read_with(path, read_bytes)
-}
-
 /// Reads the bytes of an STL file; `stem` names solids without a name.
 ///
 /// # Errors
-/// As [`read`].
+/// Names the place if it is cut off or nothing can be drawn.
 pub(crate) fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let mut scene = Scene { format: "STL", up: UpAxis::Z, ..Scene::default() };
     if is_text(bytes) {

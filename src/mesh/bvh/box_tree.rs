@@ -1,37 +1,33 @@
 //! [`BoxTree`]: implicit tree of bounding boxes that lists triangles with overlapping boxes.
 //!
-//! 1. Vertices are quantized to a grid of 2²⁰ cells per axis. The mapping is monotone: boxes that overlap in
-//!    space also overlap on the grid, so no box needs a margin.
+//! 1. Boxes are in cells of a grid with 2²⁰ cells per axis, so triangles that touch within rounding overlap. The
+//!    mapping is monotone: boxes that overlap in space also overlap on the grid.
 //! 2. Triangles are sorted along a Morton curve by centre. Eight consecutive ones form a leaf, eight leaves a
 //!    group, and so on. The tree is one array of boxes per level.
-//! 3. Inner boxes use a coarse grid of 2¹⁵ cells per axis. The same side of four boxes is packed into one
-//!    `u64` with a guard bit above each, so that a few subtractions compare one box with eight.
-//! 4. Remaining pairs without a common vertex are compared on the fine grid.
-//!
-//! Source for step 3: L. Lamport, "Multiple byte processing with full-word instructions", CACM 18(8), 1975.
+//! 3. The boxes of the eight children of a node are compared with a box at once.
 
 use crate::parallel::prelude::*;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
-use super::packed_boxes::{BOXES_PER_NODE, ChildMask, EightBoxes, GridBox, ReplicatedBox};
-use super::quantized_box::{BITS_PER_FIELD, FineBox, LAST_FINE_CELL};
+use super::node_boxes::{Box3, NODE_CHILDREN, NodeBoxes, set_bits, union_of};
+use crate::geometry::space::morton_curve::spread;
 use crate::mesh::PartId;
+use crate::mesh::order::counting_sort::counting_sort;
 
 /// Eight-fold tree of bounding boxes over triangles of a mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct BoxTree {
-    cells: QuantizationGrid,
+    grid: CellGrid,
     /// Face at each rank along the Morton curve.
     faces: Vec<u32>,
-    fine: Vec<FineBox>,
     /// Level 0 holds the boxes of the triangles by rank. Each level above holds the unions of eight, up to a
-    /// level of one block.
-    levels: Vec<Vec<EightBoxes>>,
+    /// level of one node.
+    levels: Vec<Vec<NodeBoxes>>,
 }
 
 impl BoxTree {
     /// Builds the tree over the triangles for which `active` holds (empty: all). `low` and `high` are the
-    /// corners of a box around them; the grid covers this box.
+    /// corners of a box around them.
     ///
     /// Every index of `triangles` must be one of `positions`.
     #[must_use]
@@ -42,50 +38,30 @@ impl BoxTree {
         low: DVec3,
         high: DVec3,
     ) -> Self {
-        let cells = QuantizationGrid::new(low, high);
-        let vertex_cells: Vec<u64> = positions.par_iter().map(|p| cells.of(*p)).collect();
-        let box_of = |[a, b, c]: [u32; 3]| {
-            FineBox::of_cells([vertex_cells[a as usize], vertex_cells[b as usize], vertex_cells[c as usize]])
-        };
-
-        let mut entries: Vec<u64> = triangles
-            .par_chunks(FACES_PER_TASK)
-            .with_max_len(1)
-            .enumerate()
-            .flat_map_iter(|(chunk, corners)| {
-                let first = chunk * FACES_PER_TASK;
-                corners.iter().enumerate().filter_map(move |(i, &corners)| {
-                    let face = first + i;
-                    (active.is_empty() || active[face])
-                        .then(|| u64::from(box_of(corners).curve_key()) << 32 | face as u64)
-                })
-            })
+        let grid = CellGrid::new(low, high);
+        let cells: Vec<Vec3> =
+            positions.par_iter().with_min_len(FACES_PER_TASK).map(|p| grid.cell(*p)).collect();
+        let box_of = |face: u32| Box3::around(triangles[face as usize].map(|v| cells[v as usize]));
+        let mut entries: Vec<u64> = (0..triangles.len() as u32)
+            .into_par_iter()
+            .with_min_len(FACES_PER_TASK)
+            .filter(|face| active.is_empty() || active[*face as usize])
+            .map(|face| u64::from(curve_key(box_of(face))) << 32 | u64::from(face))
             .collect();
-        sort_by_key(&mut entries);
-
-        // Arrays are dropped as soon as possible, which lowers peak memory.
-        let faces: Vec<u32> = entries.par_iter().map(|&entry| entry as u32).collect();
-        drop(entries);
-        let fine: Vec<FineBox> = faces.par_iter().map(|&face| box_of(triangles[face as usize])).collect();
-        drop(vertex_cells);
-        let mut level: Vec<EightBoxes> = fine
-            .par_chunks(BOXES_PER_NODE)
-            .with_min_len(FACES_PER_TASK / BOXES_PER_NODE)
-            .map(of_leaf)
-            .collect();
-        let mut levels = Vec::new();
-        loop {
-            let boxes: Vec<GridBox> = level.iter().map(EightBoxes::union).collect();
-            let above: Vec<EightBoxes> = boxes.chunks(BOXES_PER_NODE).map(EightBoxes::new).collect();
-            levels.push(level);
-            level = above;
-            // The search works on groups of 64, so their level always exists.
-            if levels.len() > 1 && level.len() <= 1 {
-                levels.push(level);
-                break;
-            }
+        // Stable, so faces with one key stay in order.
+        for shift in [0, 10, 20] {
+            entries = counting_sort(entries, 1 << 10, |entry| (entry >> (32 + shift)) as u32 & 0x3ff);
         }
-        Self { cells, faces, fine, levels }
+        let faces: Vec<u32> = entries.iter().map(|&entry| entry as u32).collect();
+        drop(entries);
+        let of_leaf = |faces: &[u32]| NodeBoxes::new(faces.iter().map(|face| box_of(*face)));
+        let leaves = faces.par_chunks(NODE_CHILDREN).with_min_len(FACES_PER_TASK / NODE_CHILDREN);
+        let mut levels: Vec<Vec<NodeBoxes>> = vec![leaves.map(of_leaf).collect()];
+        // The search works on groups of 64, so their level always exists.
+        while levels.len() < 3 || levels[levels.len() - 1].len() > 1 {
+            levels.push(levels[levels.len() - 1].chunks(NODE_CHILDREN).map(union_of).collect());
+        }
+        Self { grid, faces, levels }
     }
 
     /// Calls `visit` for each triangle with others whose boxes overlap its box, except neighbours, and
@@ -117,10 +93,9 @@ impl BoxTree {
         all
     }
 
-    /// Box of a triangle on the fine grid. The triangle need not be in the tree.
-    #[inline]
-    pub(crate) fn box_of(&self, corners: [DVec3; 3]) -> FineBox {
-        FineBox::of_cells(corners.map(|p| self.cells.of(p)))
+    /// Box of a triangle, which need not be in the tree.
+    pub(crate) fn box_of(&self, corners: [DVec3; 3]) -> Box3 {
+        Box3::around(corners.map(|p| self.grid.cell(p)))
     }
 
     /// Rank along the Morton curve of each of `faces` faces; `u32::MAX` for those that are not in the tree.
@@ -133,50 +108,40 @@ impl BoxTree {
     }
 
     /// Copy of the tree with other boxes at some ranks, given in ascending order.
-    pub(crate) fn with_boxes(&self, changed: &[(u32, FineBox)]) -> Self {
+    pub(crate) fn with_boxes(&self, changed: &[(u32, Box3)]) -> Self {
         let mut tree = self.clone();
-        for (rank, fine) in changed {
-            tree.fine[*rank as usize] = *fine;
+        for (rank, own) in changed {
+            let rank = *rank as usize;
+            tree.levels[0][rank / NODE_CHILDREN].put(rank % NODE_CHILDREN, *own);
         }
-        let mut blocks: Vec<usize> =
-            changed.iter().map(|(rank, _)| *rank as usize / BOXES_PER_NODE).collect();
-        blocks.dedup();
-        for block in &blocks {
-            let first = block * BOXES_PER_NODE;
-            tree.levels[0][*block] =
-                of_leaf(&tree.fine[first..(first + BOXES_PER_NODE).min(tree.fine.len())]);
-        }
+        let mut nodes: Vec<usize> = changed.iter().map(|(rank, _)| *rank as usize / NODE_CHILDREN).collect();
         for level in 1..tree.levels.len() {
+            nodes.dedup();
             let (below, above) = tree.levels.split_at_mut(level);
-            blocks.iter_mut().for_each(|block| *block /= BOXES_PER_NODE);
-            blocks.dedup();
-            for block in &blocks {
-                let first = block * BOXES_PER_NODE;
-                let children = &below[level - 1][first..(first + BOXES_PER_NODE).min(below[level - 1].len())];
-                let mut boxes = [GridBox::EMPTY; BOXES_PER_NODE];
-                boxes.iter_mut().zip(children).for_each(|(one, child)| *one = child.union());
-                above[0][*block] = EightBoxes::new(&boxes);
+            for node in &mut nodes {
+                let around = below[level - 1][*node].around();
+                above[0][*node / NODE_CHILDREN].put(*node % NODE_CHILDREN, around);
+                *node /= NODE_CHILDREN;
             }
         }
         tree
     }
 
-    /// Calls `visit` for the faces whose boxes come near a box given by its corners.
+    /// Calls `visit` for the faces whose boxes overlap the box from `low` to `high`.
     pub(crate) fn near_box(&self, low: DVec3, high: DVec3, visit: impl FnMut(u32)) {
-        self.near(self.box_of([low, high, high]), &mut Vec::new(), visit);
+        self.near(&self.box_of([low, high, high]), &mut Vec::new(), visit);
     }
 
     /// Calls `visit` for the faces whose boxes overlap a given one.
-    pub(crate) fn near(&self, query: FineBox, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
-        let wanted = &query.coarse().into();
+    pub(crate) fn near(&self, query: &Box3, stack: &mut Vec<(usize, usize)>, mut visit: impl FnMut(u32)) {
         stack.push((self.levels.len() - 1, 0));
-        while let Some((level, block)) = stack.pop() {
-            let Some(boxes) = self.levels[level].get(block) else { continue };
-            for node in boxes.overlapping(wanted).map(|child| block * BOXES_PER_NODE + child) {
+        while let Some((level, node)) = stack.pop() {
+            let Some(boxes) = self.levels[level].get(node) else { continue };
+            for child in set_bits(boxes.overlapping(query)).map(|child| node * NODE_CHILDREN + child) {
                 if level > 0 {
-                    stack.push((level - 1, node));
-                } else if query.overlaps(self.fine[node]) {
-                    visit(self.faces[node]);
+                    stack.push((level - 1, child));
+                } else {
+                    visit(self.faces[child]);
                 }
             }
         }
@@ -194,31 +159,23 @@ impl BoxTree {
         let (triangles, leaves) = (&self.levels[0], &self.levels[1]);
         search.groups.clear();
         self.overlapping_groups(group, search);
-        for leaf in group * BOXES_PER_NODE..((group + 1) * BOXES_PER_NODE).min(triangles.len()) {
-            let of_leaf = &leaves[group].get(leaf % BOXES_PER_NODE).into();
-            let mut own_boxes = [ReplicatedBox { low: [0; 3], high: [0; 3] }; BOXES_PER_NODE];
-            own_boxes.iter_mut().enumerate().for_each(|(slot, own)| *own = triangles[leaf].get(slot).into());
+        for leaf in group * NODE_CHILDREN..((group + 1) * NODE_CHILDREN).min(triangles.len()) {
+            let of_leaf = leaves[group].child(leaf % NODE_CHILDREN);
             for &other_group in &search.groups {
-                let first = other_group * BOXES_PER_NODE;
-                let others = leaves[other_group].overlapping(of_leaf);
-                for other_leaf in others.from(leaf.saturating_sub(first)).map(|child| first + child) {
-                    let of_other = &leaves[other_group].get(other_leaf - first).into();
-                    for own_slot in triangles[leaf].overlapping(of_other) {
-                        let near = triangles[other_leaf].overlapping(&own_boxes[own_slot]);
-                        // Within the same leaf, only later triangles.
-                        let near = if other_leaf == leaf { near.from(own_slot + 1) } else { near };
-                        self.add_overlapping_faces(
-                            all,
-                            leaf * BOXES_PER_NODE + own_slot,
-                            other_leaf,
-                            near,
-                            &mut search.near[own_slot],
-                        );
+                let first = other_group * NODE_CHILDREN;
+                let others = set_bits(leaves[other_group].overlapping(&of_leaf)).map(|child| first + child);
+                for other_leaf in others.filter(|other| *other >= leaf) {
+                    let of_other = leaves[other_group].child(other_leaf - first);
+                    for own_slot in set_bits(triangles[leaf].overlapping(&of_other)) {
+                        let near = triangles[other_leaf].overlapping(&triangles[leaf].child(own_slot));
+                        let (rank, other) = (leaf * NODE_CHILDREN + own_slot, other_leaf * NODE_CHILDREN);
+                        let later = set_bits(near).map(|child| other + child).filter(|other| *other > rank);
+                        self.add_faces(all, rank, later, &mut search.near[own_slot]);
                     }
                 }
             }
             for (own_index, near) in search.near.iter_mut().enumerate().filter(|(_, near)| !near.is_empty()) {
-                visit(self.faces[leaf * BOXES_PER_NODE + own_index], near, found);
+                visit(self.faces[leaf * NODE_CHILDREN + own_index], near, found);
                 near.clear();
             }
         }
@@ -226,44 +183,34 @@ impl BoxTree {
 
     /// Collects the groups, from `group` on, whose boxes overlap its own.
     fn overlapping_groups(&self, group: usize, search: &mut OverlapSearch) {
-        let wanted = &self.levels[2][group / BOXES_PER_NODE].get(group % BOXES_PER_NODE).into();
+        let wanted = &self.levels[2][group / NODE_CHILDREN].child(group % NODE_CHILDREN);
         search.stack.clear();
         search.stack.push((self.levels.len() - 1, 0));
-        while let Some((level, block)) = search.stack.pop() {
-            for node in
-                self.levels[level][block].overlapping(wanted).map(|child| block * BOXES_PER_NODE + child)
-            {
+        while let Some((level, node)) = search.stack.pop() {
+            let children = set_bits(self.levels[level][node].overlapping(wanted));
+            for child in children.map(|child| node * NODE_CHILDREN + child) {
                 if level == 2 {
                     // Pairs with earlier groups are found from the other group.
-                    search.groups.extend((node >= group).then_some(node));
-                } else if ((node + 1) << (3 * (level - 2))) > group {
-                    search.stack.push((level - 1, node));
+                    search.groups.extend((child >= group).then_some(child));
+                } else if ((child + 1) << (3 * (level - 2))) > group {
+                    search.stack.push((level - 1, child));
                 }
             }
         }
     }
 
-    /// Adds the faces of a leaf, selected by `overlap_mask`, that overlap the triangle at `rank` on the fine grid
-    /// and are not its neighbours.
+    /// Adds the faces at some ranks, except neighbours of the triangle at `rank`.
     #[inline]
-    fn add_overlapping_faces(
+    fn add_faces(
         &self,
         all: TreeFaces,
         rank: usize,
-        leaf: usize,
-        overlap_mask: ChildMask,
+        others: impl Iterator<Item = usize>,
         near: &mut Vec<u32>,
     ) {
-        if overlap_mask == ChildMask(0) {
-            return;
-        }
-        let (own_face, own_box) = (self.faces[rank], self.fine[rank]);
+        let own_face = self.faces[rank];
         let own_corners = all.triangles[own_face as usize];
-        for other_rank in overlap_mask.map(|child| leaf * BOXES_PER_NODE + child) {
-            let face = self.faces[other_rank];
-            if !own_box.overlaps(self.fine[other_rank]) {
-                continue;
-            }
+        for face in others.map(|other| self.faces[other]) {
             let shares = share_a_vertex(own_corners, all.triangles[face as usize]);
             if !(shares && all.are_joined(own_face, face)) {
                 near.push(face);
@@ -293,34 +240,37 @@ impl TreeFaces<'_> {
     }
 }
 
-/// The boxes of a leaf.
-fn of_leaf(fine: &[FineBox]) -> EightBoxes {
-    let mut boxes = [GridBox::EMPTY; BOXES_PER_NODE];
-    boxes.iter_mut().zip(fine).for_each(|(one, fine)| *one = fine.coarse());
-    EightBoxes::new(&boxes)
-}
-
-/// Fine grid over a box. Points outside are clamped to the outermost cells.
+/// Grid of cells over a box.
 #[derive(Debug, Clone, Copy)]
-struct QuantizationGrid {
+struct CellGrid {
     low: DVec3,
+    /// Cells per length; 0 along an axis without extent.
     per_length: DVec3,
 }
 
-impl QuantizationGrid {
+/// Cells per axis. Their numbers are exact in single precision.
+const CELLS_PER_AXIS: u32 = (1 << 20) - 3;
+
+/// Lower bits of the sum of two cells that the curve leaves out: 10 of 21 remain.
+const CURVE_SHIFT: u32 = 11;
+
+impl CellGrid {
     fn new(low: DVec3, high: DVec3) -> Self {
-        let extent = high - low;
-        let cells_of = |length: f64| if length > 0.0 { f64::from(LAST_FINE_CELL - 1) / length } else { 0.0 };
-        Self { low, per_length: DVec3::new(cells_of(extent.x), cells_of(extent.y), cells_of(extent.z)) }
+        let cells_of = |length: f64| if length > 0.0 { f64::from(CELLS_PER_AXIS) / length } else { 0.0 };
+        Self { low, per_length: (high - low).map(cells_of) }
     }
 
-    /// The cell that contains a point, packed.
-    #[inline]
-    fn of(&self, p: DVec3) -> u64 {
-        let c = (p - self.low) * self.per_length;
-        let cell = |x: f64| u64::from(1 + (x as u32).min(LAST_FINE_CELL - 1));
-        cell(c.x) | cell(c.y) << BITS_PER_FIELD | cell(c.z) << (2 * BITS_PER_FIELD)
+    /// The cell that contains a point.
+    fn cell(&self, p: DVec3) -> Vec3 {
+        let cell = |x: f64| (1 + (x as u32).min(CELLS_PER_AXIS)) as f32;
+        Vec3::from_array(((p - self.low) * self.per_length).to_array().map(cell))
     }
+}
+
+/// Position of the centre of a box along the Morton curve, 30 bits.
+fn curve_key(of: Box3) -> u32 {
+    let axis = |n: usize| (spread(u64::from((of.low[n] + of.high[n]) as u32 >> CURVE_SHIFT)) as u32) << n;
+    axis(0) | axis(1) | axis(2)
 }
 
 #[inline]
@@ -340,28 +290,5 @@ struct OverlapSearch {
     stack: Vec<(usize, usize)>,
     groups: Vec<usize>,
     /// Nearby faces of each triangle of a leaf.
-    near: [Vec<u32>; BOXES_PER_NODE],
-}
-
-/// Stable radix sort by the upper half of each entry, ten bits per pass.
-fn sort_by_key(entries: &mut Vec<u64>) {
-    const RADIX_BITS: u32 = 10;
-    let mut sorted = vec![0; entries.len()];
-    for shift in [32, 32 + RADIX_BITS, 32 + 2 * RADIX_BITS] {
-        let mut offsets = [0_usize; 1 << RADIX_BITS];
-        let digit = |entry: u64| (entry >> shift) as usize & ((1 << RADIX_BITS) - 1);
-        for &entry in entries.iter() {
-            offsets[digit(entry)] += 1;
-        }
-        let mut offset = 0;
-        for count in &mut offsets {
-            offset += std::mem::replace(count, offset);
-        }
-        for &entry in entries.iter() {
-            let slot = &mut offsets[digit(entry)];
-            sorted[*slot] = entry;
-            *slot += 1;
-        }
-        std::mem::swap(entries, &mut sorted);
-    }
+    near: [Vec<u32>; NODE_CHILDREN],
 }

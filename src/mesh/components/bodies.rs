@@ -8,12 +8,13 @@
 //!    material.
 //! 3. Parts that only touch have two faces each at the edge, and stay separate.
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::tolerances::MAX_COPLANAR_ANGLE_RAD;
-use crate::mesh::{DisjointSets, EdgeFaces, Edges, Mesh, PartId, Soup};
+use crate::mesh::{EdgeFaces, Edges, Mesh, PartId, Soup};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// For each part, the first part of its body; empty if every part is a separate body.

@@ -11,15 +11,20 @@
 //!
 //! All sums have a fixed order, so that the number of threads has no effect.
 
+use std::ops::AddAssign;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::geometry::lists::disjoint_sets::{DisjointSets, NumberedSets};
+use crate::geometry::lists::group_sums;
+use crate::geometry::space::triangles::area_vector;
+use crate::mesh::edges::triangle_sides::runs_along;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::parity_union_find::ParityUnionFind;
 use crate::mesh::tolerances;
-use crate::mesh::{DisjointSets, EdgeFaces, Edges, NumberedSets, PartId, Soup};
+use crate::mesh::{EdgeFaces, Edges, PartId, Soup};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Faces that were wound inward, or against their neighbours, in one part.
@@ -168,8 +173,8 @@ struct SurfaceSums {
     radius: f64,
 }
 
-impl SurfaceSums {
-    fn add(&mut self, other: &Self) {
+impl AddAssign<&SurfaceSums> for SurfaceSums {
+    fn add_assign(&mut self, other: &Self) {
         self.faces += other.faces;
         self.area += other.area;
         self.turned_area += other.turned_area;
@@ -179,7 +184,9 @@ impl SurfaceSums {
         self.moment += other.moment;
         self.radius = self.radius.max(other.radius);
     }
+}
 
+impl SurfaceSums {
     /// Centroid of the surface, relative to the corner.
     fn centroid(&self) -> DVec3 {
         if self.area > 0.0 { self.moment / self.area } else { DVec3::ZERO }
@@ -210,9 +217,7 @@ impl ConnectedTriangles<'_> {
 
     /// Whether a face runs along an edge from the smaller vertex to the larger one.
     fn runs_up(&self, edge: usize, face: u32) -> bool {
-        let [lo, hi] = self.edges.vertices[edge];
-        let [a, b, c] = self.triangles[face as usize];
-        [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+        runs_along(self.triangles[face as usize], self.edges.vertices[edge])
     }
 
     /// Calls `call` with each pair of faces that an edge connects, and whether both run along it in the same
@@ -288,13 +293,13 @@ impl ConnectedTriangles<'_> {
 
     /// The sums over the faces of each surface.
     fn sums(&self, surfaces: &NumberedSets, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<SurfaceSums> {
-        let mut sums = vec![SurfaceSums::default(); surfaces.first.len()];
-        let of_face = |surface: u32, face: usize| {
-            let [a, b, c] = self.corners_relative_to_first(surfaces, surface, face);
+        group_sums::sums(surfaces.first.len(), self.triangles.len(), |face| {
+            let surface = surfaces.set_of_face[face];
+            let corners @ [a, b, c] = self.corners_relative_to_first(surfaces, surface, face);
             let turned = is_turned(face);
-            let across = (b - a).cross(c - a) / 2.0;
+            let across = area_vector(corners) / 2.0;
             let (area, normal) = (across.length(), if turned { -across } else { across });
-            SurfaceSums {
+            let own = SurfaceSums {
                 faces: 1,
                 area,
                 turned_area: if turned { area } else { 0.0 },
@@ -303,10 +308,9 @@ impl ConnectedTriangles<'_> {
                 reach: a.length_squared().max(b.length_squared()).max(c.length_squared()).sqrt(),
                 moment: (a + b + c) / 3.0 * area,
                 radius: 0.0,
-            }
-        };
-        self.each_run(surfaces, of_face, |surface, run_sums| sums[surface].add(&run_sums));
-        sums
+            };
+            Some((surface, own))
+        })
     }
 
     /// Adds the radius of each open surface around its centroid.
@@ -315,17 +319,16 @@ impl ConnectedTriangles<'_> {
             return;
         }
         let centroids: Vec<DVec3> = sums.iter().map(SurfaceSums::centroid).collect();
-        let of_face = |surface: u32, face: usize| {
+        let radii = group_sums::sums(surfaces.first.len(), self.triangles.len(), |face| {
+            let surface = surfaces.set_of_face[face];
             let centroid = centroids[surface as usize];
             let corners =
                 self.corners_relative_to_first(surfaces, surface, face).map(|p| p.distance(centroid));
             let radius = corners.into_iter().fold(0.0, f64::max);
-            SurfaceSums {
-                radius: if is_closed[surface as usize] { 0.0 } else { radius },
-                ..SurfaceSums::default()
-            }
-        };
-        self.each_run(surfaces, of_face, |surface, run_sums| sums[surface].add(&run_sums));
+            (!is_closed[surface as usize])
+                .then(|| (surface, SurfaceSums { radius, ..SurfaceSums::default() }))
+        });
+        sums.iter_mut().zip(&radii).for_each(|(sums, radius)| *sums += radius);
     }
 
     /// Corners of a face, relative to the first corner of its surface.
@@ -334,29 +337,6 @@ impl ConnectedTriangles<'_> {
         let first = self.triangles[surfaces.first[surface as usize] as usize][0];
         let from = self.positions[first as usize];
         self.triangles[face].map(|v| self.positions[v as usize] - from)
-    }
-
-    /// Sums values over runs of faces of one surface, in parallel. Calls `call` with the sums in face order.
-    fn each_run(
-        &self,
-        surfaces: &NumberedSets,
-        of_face: impl Fn(u32, usize) -> SurfaceSums + Sync,
-        mut call: impl FnMut(usize, SurfaceSums),
-    ) {
-        let of_chunk = |(chunk, chunk_surfaces): (usize, &[u32])| {
-            let mut runs: Vec<(u32, SurfaceSums)> = Vec::new();
-            for (surface, face) in chunk_surfaces.iter().zip(chunk * EDGES_PER_TASK..) {
-                let more = of_face(*surface, face);
-                match runs.last_mut() {
-                    Some((last, sums)) if last == surface => sums.add(&more),
-                    _ => runs.push((*surface, more)),
-                }
-            }
-            runs
-        };
-        let chunks: Vec<Vec<(u32, SurfaceSums)>> =
-            surfaces.set_of_face.par_chunks(EDGES_PER_TASK).enumerate().map(of_chunk).collect();
-        chunks.into_iter().flatten().for_each(|(surface, sums)| call(surface as usize, sums));
     }
 }
 

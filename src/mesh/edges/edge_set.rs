@@ -36,12 +36,6 @@ impl EdgeSet {
         self.words.is_empty()
     }
 
-    /// The bits of the set, 64 edges per word; empty if the set is.
-    #[must_use]
-    pub(crate) fn into_words(self) -> Vec<u64> {
-        self.words
-    }
-
     /// Calls `does` with each edge, in parallel.
     pub(crate) fn par_for_each(&self, does: impl Fn(usize) + Sync) {
         self.words.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS / 64).for_each(|(k, word)| {

@@ -40,6 +40,15 @@ impl<'a> EdgeFaces<'a> {
         few.into_iter().flatten().chain(many.iter().copied())
     }
 
+    /// The face across an edge from one of its faces, if it has two consistently wound faces.
+    #[inline]
+    pub(crate) fn across(&self, face: u32) -> Option<u32> {
+        match self {
+            Self::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
+            _ => None,
+        }
+    }
+
     /// The faces in mesh order, as a slice.
     #[must_use]
     pub fn list(&self) -> &[u32] {
@@ -126,6 +135,11 @@ impl Edges {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty()
+    }
+
+    /// The edge between two vertices.
+    pub(crate) fn between(&self, a: u32, b: u32) -> Option<usize> {
+        self.vertices.binary_search(&[a.min(b), a.max(b)]).ok()
     }
 
     /// The faces that meet at edge `edge`.

@@ -7,6 +7,8 @@
 //! 3. Where the borders of both triangles meet, an end has three names: edge of one through face of the
 //!    other, the reverse, and border on border. All triangles around the point then agree.
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
+use crate::geometry::space::bounds::Bounds;
 use std::cmp::Ordering;
 
 use crate::parallel::prelude::*;
@@ -151,17 +153,10 @@ pub(crate) struct IntersectingPair {
 
 /// The box around all corners of all triangles.
 pub(crate) fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
-    let empty = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = triangles
-        .par_iter()
-        .fold(empty, |bounds, corners| {
-            corners.iter().fold(bounds, |(low, high), &v| {
-                let p = positions[v as usize];
-                (low.min(p), high.max(p))
-            })
-        })
-        .reduce(empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    (!triangles.is_empty()).then_some((low, high))
+    let grow =
+        |around: Bounds, corners: &[u32; 3]| around.union(Bounds::of(corners.map(|v| positions[v as usize])));
+    let all = triangles.par_iter().fold(|| Bounds::EMPTY, grow).reduce(|| Bounds::EMPTY, Bounds::union);
+    (!triangles.is_empty()).then_some((all.low, all.high))
 }
 
 /// Name of an end: a feature, and the face that it pierces (with [`FACE_INTERIOR`]) or the feature that it meets.
@@ -224,13 +219,11 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
     }
     namings.par_sort_unstable_by_key(|naming| (naming.name, naming.end));
 
-    let mut parent: Vec<u32> = (0..end_count).collect();
-    for same in namings.chunk_by(|a, b| a.name == b.name) {
-        for naming in &same[1..] {
-            let (a, b) = (root(&mut parent, same[0].end), root(&mut parent, naming.end));
-            parent[a.max(b) as usize] = a.min(b);
+    let joined = DisjointSets::new(end_count as usize, |join| {
+        for same in namings.chunk_by(|a, b| a.name == b.name) {
+            same[1..].iter().for_each(|naming| join(same[0].end, naming.end));
         }
-    }
+    });
 
     // Positions of one point differ by rounding. Those of vertices take precedence over those on edges, and
     // then the smallest one is taken. Vertex and face numbers depend on the order of parts and must have no
@@ -241,7 +234,7 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
     };
     let mut best_naming: Vec<Option<&NamedEnd>> = vec![None; end_count as usize];
     for naming in &namings {
-        let slot = &mut best_naming[root(&mut parent, naming.end) as usize];
+        let slot = &mut best_naming[joined.representative(naming.end) as usize];
         if slot.is_none_or(|best| order(&naming, &best).is_lt()) {
             *slot = Some(naming);
         }
@@ -251,7 +244,7 @@ pub(crate) fn join(pairs: &[IntersectingPair]) -> IntersectionCurves {
     let mut index: Vec<Option<u32>> = vec![None; end_count as usize];
     for segment in &mut segments {
         segment.ends = segment.ends.map(|end| {
-            let end = root(&mut parent, end) as usize;
+            let end = joined.representative(end) as usize;
             *index[end].get_or_insert_with(|| {
                 points.extend(best_naming[end].map(|naming| naming.point));
                 points.len() as u32 - 1
@@ -361,13 +354,4 @@ fn name_end([a, b]: SegmentEnd, faces: [u32; 2], end: u32, namings: &mut Vec<Nam
 
 fn compare_places(a: DVec3, b: DVec3) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
-}
-
-/// The smallest end that is the same point as `end` (union-find).
-fn root(parent: &mut [u32], mut end: u32) -> u32 {
-    while parent[end as usize] != end {
-        parent[end as usize] = parent[parent[end as usize] as usize];
-        end = parent[end as usize];
-    }
-    end
 }

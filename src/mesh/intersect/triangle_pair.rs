@@ -10,6 +10,7 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
+use crate::geometry::space::triangles::weight_sum;
 use crate::mesh::PartMetrics;
 use crate::mesh::tolerances::{self, OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART};
 
@@ -154,9 +155,7 @@ impl Triangle {
         if tolerance.rounding == 0.0 {
             return tolerance.plane;
         }
-        let [a, b, c] = self.corners;
-        let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(self.normal).abs();
-        let weights = (weight(a, b) + weight(b, c) + weight(c, a)) / (normal_length * normal_length);
+        let weights = weight_sum(self.corners, self.normal, point) / (normal_length * normal_length);
         tolerance.plane.max(tolerance.rounding * (1.0 + weights))
     }
 }

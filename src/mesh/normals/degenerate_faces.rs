@@ -73,7 +73,7 @@ fn short_edge(mesh: &Mesh, needle: u32, long: [u32; 2], point: DVec3) -> [u32; 2
 
 /// The corner of a face that is not on an edge.
 fn third_corner(mesh: &Mesh, face: u32, edge: [u32; 2]) -> u32 {
-    mesh.triangles[face as usize].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0])
+    mesh.apex(face, edge).unwrap_or(edge[0])
 }
 
 /// The longest edge of a face, smaller vertex first.

@@ -6,8 +6,10 @@
 use glam::DVec3;
 
 use super::degenerate_faces::{OppositeFace, opposite_face};
-use super::normal_carriers;
+use super::face_normals;
 use crate::geometry::numbers::portable_math::acos;
+use crate::geometry::space::triangles;
+use crate::mesh::edges::triangle_sides::{runs_along, sorted_sides};
 use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh};
 
@@ -82,11 +84,11 @@ impl Dihedral {
         if rounding == 0.0 {
             return least;
         }
-        let mut height = normal_carriers::height(&mesh.corners(FaceId(face)));
-        if normal_carriers::is_narrow(height, rounding)
+        let mut height = triangles::height(&mesh.corners(FaceId(face)));
+        if face_normals::is_narrow(height, rounding)
             && let Ok(at) = mesh.carriers.binary_search_by_key(&face, |pair| pair[0])
         {
-            height = normal_carriers::height(&mesh.corners(FaceId(mesh.carriers[at][1])));
+            height = triangles::height(&mesh.corners(FaceId(mesh.carriers[at][1])));
         }
         // The error is small, so the angle equals its sine.
         least + (2.0 * rounding / height).min(1.0).to_degrees()
@@ -98,11 +100,8 @@ impl Dihedral {
     pub(crate) fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
         let [first, second] = self.faces;
         let ends = mesh.edges.vertices[edge];
-        let [a, b] = ends.map(|v| mesh.positions[v as usize]);
-        let third = |face: u32| {
-            let corner = mesh.triangles[face as usize].iter().find(|v| !ends.contains(v));
-            corner.map_or(a, |v| mesh.positions[*v as usize])
-        };
+        let [a, b] = mesh.ends(edge);
+        let third = |face: u32| mesh.apex(face, ends).map_or(a, |v| mesh.positions[v as usize]);
         // Twice the areas of both faces are their heights over the edge, times the length of the edge. The
         // volume is the distance of the second corner from the plane of the first face, times the area of
         // that face.
@@ -148,9 +147,7 @@ pub(crate) fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
 /// Whether a face runs along one of its edges from the smaller vertex to the larger one.
 #[must_use]
 pub(crate) fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
-    let [lo, hi] = mesh.edges.vertices[edge];
-    let [a, b, c] = mesh.triangles[face as usize];
-    [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+    runs_along(mesh.triangles[face as usize], mesh.edges.vertices[edge])
 }
 
 /// The strongest mark that the file gives an edge through some of its faces. It is a diagonal only if all of
@@ -160,15 +157,15 @@ pub(crate) fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32
     if mesh.edge_marks.is_empty() {
         return EdgeMark::Unmarked;
     }
-    let [lo, hi] = mesh.edges.vertices[edge];
+    let ends = mesh.edges.vertices[edge];
     let mut strongest = None;
     for face in faces {
-        let [a, b, c] = mesh.triangles[face as usize];
-        for (side, (u, v)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-            if (u.min(v), u.max(v)) != (lo, hi) {
+        for (side, mark) in
+            sorted_sides(mesh.triangles[face as usize]).into_iter().zip(mesh.edge_marks[face as usize])
+        {
+            if side != ends {
                 continue;
             }
-            let mark = mesh.edge_marks[face as usize][side];
             strongest = match strongest {
                 None | Some(EdgeMark::Diagonal) => Some(mark),
                 Some(before) if mark == EdgeMark::Diagonal => Some(before),

@@ -3,8 +3,9 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-use super::normal_carriers::{height, is_narrow};
 use super::triangle_area::area_vector;
+use crate::geometry::space::triangles::height;
+use crate::mesh::tolerances;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Unit normals; zero where a triangle has no area at the scale of its part.
@@ -39,4 +40,11 @@ pub(crate) fn normals_and_narrow(
     let narrow: Vec<Vec<u32>> = normals.par_chunks_mut(MIN_TASK_ITEMS).enumerate().map(of_chunk).collect();
     let narrow = narrow.concat();
     (normals, narrow)
+}
+
+/// Whether rounding may turn the normal of a face with this height by more than
+/// [`MAX_NORMAL_ERROR_SINE`](tolerances::MAX_NORMAL_ERROR_SINE).
+#[inline]
+pub(crate) fn is_narrow(height: f64, rounding: f64) -> bool {
+    height * tolerances::MAX_NORMAL_ERROR_SINE < 2.0 * rounding
 }

@@ -12,13 +12,16 @@
 //!
 //! The face takes the normal of its carrier, and is front-facing when its carrier is.
 
+use crate::geometry::space::triangles::{area_vector, height, unit_normal, weight_sum};
+use crate::mesh::edges::triangle_sides::sorted_sides;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use super::face_normals::{is_narrow, normals_and_narrow};
 use super::triangle_area::has_area;
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::tolerances;
-use crate::mesh::{EdgeFaces, Edges, Mesh, MeshMetrics, PartId};
+use crate::mesh::{Edges, Mesh, MeshMetrics, PartId};
 
 /// Maximum number of faces in the search for a carrier.
 const MAX_CARRIER_STEPS: usize = 16;
@@ -50,10 +53,7 @@ impl<'a> CoplanarSearch<'a> {
     /// Whether a face belongs to a curved surface: it has neighbours on all sides that turn by less than
     /// [`MAX_FACET_DEG`](tolerances::MAX_FACET_DEG).
     pub(crate) fn is_facet(&self, face: u32) -> bool {
-        let normal = |face: u32| {
-            let [a, b, c] = self.corners(face);
-            (b - a).cross(c - a).normalize_or_zero()
-        };
+        let normal = |face: u32| unit_normal(self.corners(face));
         let (own_normal, min_cosine) = (normal(face), cos(tolerances::MAX_FACET_DEG.to_radians()));
         self.neighbours(face).filter(|neighbour| normal(*neighbour).dot(own_normal) > min_cosine).count() == 3
     }
@@ -104,19 +104,13 @@ impl<'a> CoplanarSearch<'a> {
 
     /// The neighbours of a face in the same part, starting across the longest edge.
     fn neighbours(&self, face: u32) -> impl Iterator<Item = u32> {
-        let [a, b, c] = self.triangles[face as usize];
         let length =
             |[v, w]: [u32; 2]| self.positions[v as usize].distance_squared(self.positions[w as usize]);
-        let mut sides = [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)]);
+        let mut sides = sorted_sides(self.triangles[face as usize]);
         sides.sort_unstable_by(|p, q| length(*q).total_cmp(&length(*p)).then(p.cmp(q)));
         let part = self.parts[face as usize];
-        let neighbour_across = move |side: [u32; 2]| {
-            let edge = self.edges.vertices.binary_search(&side).ok()?;
-            match self.edges.faces(edge) {
-                EdgeFaces::Two { faces: [p, q], same_way: false } => Some(if p == face { q } else { p }),
-                _ => None,
-            }
-        };
+        let neighbour_across =
+            move |[v, w]: [u32; 2]| self.edges.faces(self.edges.between(v, w)?).across(face);
         sides
             .into_iter()
             .filter_map(neighbour_across)
@@ -136,34 +130,26 @@ impl<'a> CoplanarSearch<'a> {
 /// At the point, the plane moves by the displacements of its corners, weighted by the barycentric coordinates
 /// of the point.
 #[must_use]
-pub(crate) fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
-    let normal = (*b - *a).cross(*c - *a);
+pub(crate) fn is_in_plane(corners: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
+    let normal = area_vector(*corners);
     let area = normal.length_squared();
-    let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(normal).abs();
-    let weights = weight(*a, *b) + weight(*b, *c) + weight(*c, *a);
-    let distance = normal.dot(point - *a).abs();
+    let weights = weight_sum(*corners, normal, point);
+    let distance = normal.dot(point - corners[0]).abs();
     distance * area <= rounding * (area + weights) * area.sqrt()
 }
 
-/// Smallest height of a triangle: its distance from a line.
-#[must_use]
-pub(crate) fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
-    let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
-    if longest > 0.0 { (b - a).cross(c - a).length() / longest.sqrt() } else { 0.0 }
-}
-
-/// Whether rounding may turn the normal of a face with this height by more than
-/// [`MAX_NORMAL_ERROR_SINE`](tolerances::MAX_NORMAL_ERROR_SINE).
-#[inline]
-pub(crate) fn is_narrow(height: f64, rounding: f64) -> bool {
-    height * tolerances::MAX_NORMAL_ERROR_SINE < 2.0 * rounding
-}
-
-/// Copies the normal of each carrier to its face.
-pub(crate) fn copy_carrier_normals(carriers: &[[u32; 2]], normals: &mut [[f32; 3]]) {
-    for [face, carrier] in carriers {
+/// Normals of all faces, and the carriers of narrow ones.
+pub(crate) fn normals_and_carriers(search: &CoplanarSearch) -> (Vec<[f32; 3]>, Vec<[u32; 2]>) {
+    let measure = |face: usize| {
+        let part = search.extents.part(search.parts[face]);
+        (part.scale, part.rounding)
+    };
+    let (mut normals, narrow) = normals_and_narrow(search.positions, search.triangles, measure);
+    let carriers = search.carriers(&narrow);
+    for [face, carrier] in &carriers {
         normals[*face as usize] = normals[*carrier as usize];
     }
+    (normals, carriers)
 }
 
 #[cfg(test)]

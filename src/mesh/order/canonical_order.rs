@@ -18,8 +18,8 @@ use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::counting_sort::counting_sort;
-use super::morton_curve::{CELLS_PER_HALF_AXIS, along_curve, along_exact_curve};
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
+use crate::geometry::space::morton_curve::{CELLS_PER_HALF_AXIS, along_curve, along_exact_curve};
 use crate::mesh::{MaterialId, PartId, Soup};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 

@@ -7,9 +7,8 @@
 //!
 //! Sources: Morton 1966; Connor and Kumar 2010, section 3 (exact order of floating-point coordinates).
 //!
-//! Files, in reading order: [`canonical_order`] (the steps), [`morton_curve`] (keys and exact comparison),
+//! Files, in reading order: [`canonical_order`] (the steps; keys in `geometry::space`),
 //! [`counting_sort`] (parallel stable sort by small integer keys).
 
 pub(crate) mod canonical_order;
-mod counting_sort;
-pub(crate) mod morton_curve;
+pub(crate) mod counting_sort;

@@ -12,6 +12,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use crate::geometry::numbers::portable_math::{acos, tan};
+use crate::mesh::edges::triangle_sides::sorted_sides;
 use crate::mesh::tolerances::MAX_FACET_DEG;
 use crate::mesh::{EdgeFaces, Mesh};
 
@@ -27,9 +28,8 @@ pub(crate) struct BorderArc {
 pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> Vec<BorderArc> {
     let mut border: Vec<[u32; 2]> = Vec::new();
     for face in faces {
-        let [a, b, c] = mesh.triangles[*face as usize];
-        for ends in [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)]) {
-            let Ok(edge) = mesh.edges.vertices.binary_search(&ends) else { continue };
+        for ends @ [v, w] in sorted_sides(mesh.triangles[*face as usize]) {
+            let Some(edge) = mesh.edges.between(v, w) else { continue };
             let own = match mesh.edges.faces(edge) {
                 EdgeFaces::One(_) => 1,
                 EdgeFaces::Two { faces, .. } => faces.iter().filter(|face| is_own(**face)).count(),

@@ -3,6 +3,7 @@
 //! One triangle is clipped by the sides of the other, after Sutherland and Hodgman, "Reentrant polygon
 //! clipping", CACM 17(1), 1974.
 
+use crate::geometry::space::triangles::{area_vector, unit_normal};
 use glam::{DVec2, DVec3};
 
 /// Minimum cosine between the normals of coplanar triangles.
@@ -11,9 +12,8 @@ const MIN_COPLANAR_COSINE: f64 = 0.999;
 /// Common area of two triangles, seen along the normal of the first. It is 0 unless the overlap is wider than
 /// `contact` and the planes are within `contact` all over it.
 pub(crate) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f64 {
-    let [a, b, c] = *one;
-    let normal = (b - a).cross(c - a).normalize_or_zero();
-    let own = (two[1] - two[0]).cross(two[2] - two[0]);
+    let [a, b, _] = *one;
+    let (normal, own) = (unit_normal(*one), area_vector(*two));
     let lean = own.dot(normal);
     let Some(right) = (b - a).try_normalize().filter(|_| lean.abs() > MIN_COPLANAR_COSINE * own.length())
     else {

@@ -12,6 +12,9 @@
 //! 4. Two surfaces overlap if the common area exceeds the slivers between two facetted borders along one
 //!    curve (`arcs`). Their planes must be within contact distance all over it.
 
+use crate::geometry::lists::disjoint_sets::{DisjointSets, UnionFind};
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::triangles::area;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -21,7 +24,7 @@ use super::colour_grid::faces_near_other_colours;
 use super::common_area::common_area;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::normals::dihedral::{Dihedral, runs_up};
-use crate::mesh::{DisjointSets, EdgeFaces, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::mesh::{EdgeFaces, FaceId, MaterialId, Mesh, PaintId, PartId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 mod plane_key;
@@ -50,8 +53,8 @@ pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
         return Vec::new();
     }
     let surfaces = CoplanarPatches::of(mesh);
-    let mut planes = SurfaceUnionFind::new(surfaces.all.len());
-    let related = surfaces.join_overlapping(mesh, &mut planes);
+    let planes = UnionFind::new(surfaces.all.len());
+    let related = surfaces.join_overlapping(mesh, &planes);
     if !related {
         return Vec::new();
     }
@@ -109,37 +112,13 @@ fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
     (mesh.face_material[face as usize], mesh.paint(FaceId(face)))
 }
 
-/// Union-find over surfaces.
-struct SurfaceUnionFind(Vec<u32>);
-
-impl SurfaceUnionFind {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn root(&mut self, of: u32) -> u32 {
-        let mut at = of;
-        while self.0[at as usize] != at {
-            self.0[at as usize] = self.0[self.0[at as usize] as usize];
-            at = self.0[at as usize];
-        }
-        at
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}
-
 /// Connected flat patch of one part, material and paint.
 #[derive(Debug, Clone, Copy)]
 struct CoplanarPatch {
     part: PartId,
     colour: (MaterialId, PaintId),
     area: f64,
-    low: DVec3,
-    high: DVec3,
+    around: Bounds,
     /// Its largest face, with the area.
     largest: (u32, f64),
     contact: f64,
@@ -198,27 +177,19 @@ impl CoplanarPatches {
                 of_face.push(u32::MAX);
                 continue;
             }
-            let [a, b, c] = mesh.corners(FaceId(face));
-            let area = (b - a).cross(c - a).length() / 2.0;
+            let corners = mesh.corners(FaceId(face));
+            let area = area(corners);
             let surface = if root == face { all.len() as u32 } else { of_face[root as usize] };
             of_face.push(surface);
             if root == face {
                 let (part, colour) = owner(face);
                 let contact = mesh.extent(FaceId(face)).contact;
-                let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                all.push(CoplanarPatch {
-                    part,
-                    colour,
-                    area: 0.0,
-                    low,
-                    high,
-                    largest: (face, area),
-                    contact,
-                });
+                let (around, largest) = (Bounds::EMPTY, (face, area));
+                all.push(CoplanarPatch { part, colour, area: 0.0, around, largest, contact });
             }
             let own = &mut all[surface as usize];
             own.area += area;
-            (own.low, own.high) = (own.low.min(a).min(b).min(c), own.high.max(a).max(b).max(c));
+            own.around = own.around.union(Bounds::of(corners));
             if area > own.largest.1 {
                 own.largest = (face, area);
             }
@@ -236,14 +207,14 @@ impl CoplanarPatches {
         order.sort_by(|a, b| of(b).area.total_cmp(&of(a).area).then_with(|| in_file(a).cmp(&in_file(b))));
         // Areas that differ only by rounding are equal.
         let is_equal = |a: &u32, b: &u32| {
-            let reach = |own: &CoplanarPatch| 2.0 * own.contact * own.low.distance(own.high);
+            let reach = |own: &CoplanarPatch| 2.0 * own.contact * own.around.diagonal();
             (of(a).area - of(b).area).abs() <= reach(of(a)) + reach(of(b))
         };
         order.chunk_by_mut(is_equal).for_each(|equal| equal.sort_by_key(in_file));
     }
 
     /// Joins the overlapping surfaces of different colours. Returns whether there are any.
-    fn join_overlapping(&self, mesh: &Mesh, planes: &mut SurfaceUnionFind) -> bool {
+    fn join_overlapping(&self, mesh: &Mesh, planes: &UnionFind) -> bool {
         let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
         let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
         let of_surface = |surface: u32| keys[surface as usize].cells().map(move |cell| (cell, surface));
@@ -259,19 +230,22 @@ impl CoplanarPatches {
             }
             own.clear();
             own.extend(cell.iter().map(|(_, surface)| {
-                let CoplanarPatch { low, high, colour, contact, .. } = self.all[*surface as usize];
+                let CoplanarPatch { around, colour, contact, .. } = self.all[*surface as usize];
                 OverlapCandidate {
-                    low: low - contact,
-                    high: high + contact,
+                    around: around.grown(contact),
                     key: keys[*surface as usize],
                     colour,
                     surface: *surface,
                 }
             }));
             let axis = widest_axis(&own);
-            own.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]).then(a.surface.cmp(&b.surface)));
+            own.sort_by(|a, b| {
+                a.around.low[axis].total_cmp(&b.around.low[axis]).then(a.surface.cmp(&b.surface))
+            });
             for (k, first) in own.iter().enumerate() {
-                for other in own[k + 1..].iter().take_while(|other| other.low[axis] <= first.high[axis]) {
+                for other in
+                    own[k + 1..].iter().take_while(|other| other.around.low[axis] <= first.around.high[axis])
+                {
                     tests += 1;
                     if tests > MAX_PAIR_TESTS {
                         return related;
@@ -307,21 +281,16 @@ impl CoplanarPatches {
     ) -> bool {
         let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
         let contact = one.contact.max(two.contact);
-        let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| {
-            a.0.cmple(b.1 + contact).all() && a.1.cmpge(b.0 - contact).all()
-        };
-        let (one_box, two_box) = ((one.low, one.high), (two.low, two.high));
+        let meet = |a: Bounds, b: Bounds| a.meets(&b.grown(contact));
+        let (one_box, two_box) = (one.around, two.around);
         if !meet(one_box, two_box) {
             return false;
         }
         // Triangles near the other surface, with their boxes.
-        let near = |surface: u32, other: (DVec3, DVec3)| -> Vec<([DVec3; 3], (DVec3, DVec3))> {
+        let near = |surface: u32, other: Bounds| -> Vec<([DVec3; 3], Bounds)> {
             let faces = self.faces.of(surface as usize).iter().filter(|face| self.near[**face as usize]);
             let corners = faces.map(|face| mesh.corners(FaceId(*face)));
-            let boxed = corners.map(|own| {
-                let [a, b, c] = own;
-                (own, (a.min(b).min(c), a.max(b).max(c)))
-            });
+            let boxed = corners.map(|own| (own, Bounds::of(own)));
             boxed.filter(|(_, own)| meet(*own, other)).collect()
         };
         *tests += self.faces.of(first as usize).len() + self.faces.of(other as usize).len();
@@ -340,9 +309,7 @@ impl CoplanarPatches {
                 let slivers = slivers.get_or_insert_with(|| {
                     let mut near = |surface: u32, other| -> f64 {
                         let own = arcs[surface as usize].get_or_insert_with(|| self.arcs(mesh, surface));
-                        let boxed =
-                            |arc: &&BorderArc| (arc.ends[0].min(arc.ends[1]), arc.ends[0].max(arc.ends[1]));
-                        own.iter().filter(|arc| meet(boxed(arc), other)).map(|arc| arc.area).sum()
+                        own.iter().filter(|arc| meet(Bounds::of(arc.ends), other)).map(|arc| arc.area).sum()
                     };
                     near(first, two_box) + near(other, one_box)
                 });

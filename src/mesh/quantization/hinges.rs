@@ -9,6 +9,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::geometry::space::triangles::{area_vector, longest_side_squared};
+use crate::mesh::edges::triangle_sides::apex;
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
@@ -36,10 +38,8 @@ impl FaceTilts {
     /// opposite side by half a step in the other.
     pub(crate) fn of(places: &[DVec3], faces: &[[u32; 3]], half_step: f64) -> Self {
         let tangent = |face: &[u32; 3]| {
-            let at = |corner: usize| places[face[corner] as usize];
-            let (a, b, c) = (at(0), at(1), at(2));
-            let normal = (b - a).cross(c - a);
-            let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+            let corners = face.map(|corner| places[corner as usize]);
+            let (normal, longest) = (area_vector(corners), longest_side_squared(corners));
             // The height is twice the area over the longest side. The coordinates of a unit normal add up to
             // the reach of a unit box along it.
             let reach = normal.abs().element_sum() * longest.sqrt();
@@ -162,7 +162,7 @@ pub(crate) fn hinges(
 
 /// The corner of a face that is not one of two vertices.
 fn far_corner(face: [u32; 3], ends: [u32; 2]) -> u32 {
-    face.into_iter().find(|v| !ends.contains(v)).unwrap_or(face[0])
+    apex(face, ends).unwrap_or(face[0])
 }
 
 /// Whether the normals of two vertices separate the surface.

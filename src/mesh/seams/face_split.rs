@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geometry::space::triangles::unit_normal;
 use crate::mesh::EdgeMark;
 use crate::mesh::soup::Soup;
 
@@ -61,8 +62,7 @@ pub(crate) fn cut_faces(soup: &mut Soup, faces: &[FaceCuts]) {
 }
 
 fn normal(soup: &Soup, corners: [u32; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(|v| soup.positions[v as usize]);
-    (b - a).cross(c - a).normalize_or_zero()
+    unit_normal(corners.map(|v| soup.positions[v as usize]))
 }
 
 /// Stores the value of a piece: the first piece replaces the value of its face, others are appended. An empty

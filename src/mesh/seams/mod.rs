@@ -6,10 +6,9 @@
 //!    curve that both sides approximate.
 //! 4. Faces are split into triangles around the opposite corner. Vertices do not move.
 //!
-//! Files, in reading order: [`open_edges`] (step 1), [`seam_search`] (steps 2 and 3), [`face_split`] (step 4),
-//! [`point_tree`] (k-d tree that finds corners near a segment; Bentley 1975).
+//! Files, in reading order: [`open_edges`] (step 1), [`seam_search`] (steps 2 and 3), [`sagitta`], [`face_split`] (step 4).
 
 pub(crate) mod face_split;
 mod open_edges;
-mod point_tree;
+pub(crate) mod sagitta;
 pub(crate) mod seam_search;

@@ -1,6 +1,9 @@
 //! [`OpenEdge`]: a side of a face that no other face of its part shares, and the tests whether two of them lie
 //! along each other.
 
+use super::sagitta::MIN_SEAM_COSINE;
+use crate::geometry::space::triangles::unit_normal;
+use crate::mesh::edges::triangle_sides::sides;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -8,10 +11,6 @@ use crate::mesh::soup::Soup;
 use crate::mesh::tolerances;
 use crate::mesh::{EdgeFaces, Edges, PartId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-
-/// Minimum cosine (45 degrees) between one side of a seam and the reverse of the other. A border that turns
-/// by more at a vertex has a corner there.
-pub(crate) const MIN_SEAM_COSINE: f64 = 0.7;
 
 /// Maximum cosine (120 degrees) between the normals of faces that fold back onto each other. Such edges form
 /// a seam only if their borders separate at a common corner and meet again at another.
@@ -40,12 +39,12 @@ pub(crate) type CornerPaint = (Option<[f32; 2]>, Option<[f32; 3]>);
 pub(crate) fn open_edges(soup: &Soup, edges: &Edges) -> Vec<OpenEdge> {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |edge: usize, face: u32, is_shared: bool| {
-        let [a, b, c] = soup.triangles[face as usize];
+        let triangle = soup.triangles[face as usize];
         let [lo, hi] = edges.vertices[edge];
-        let ends = [[a, b], [b, c], [c, a]].into_iter().find(|[p, q]| [*p.min(q), *p.max(q)] == [lo, hi])?;
-        let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
+        let ends = sides(triangle).into_iter().find(|side| [[lo, hi], [hi, lo]].contains(side))?;
         let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
-        let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
+        let normal = unit_normal(triangle.map(|v| soup.positions[v as usize]));
+        let along = side.normalize_or_zero();
         let paint = ends.map(|v| painted(soup, face, v));
         Some(OpenEdge {
             ends,

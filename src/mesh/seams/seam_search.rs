@@ -10,13 +10,16 @@
 //!
 //! Faces get more corners, but no vertex moves.
 
+use crate::mesh::edges::triangle_sides::apex;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use super::face_split::{FaceCuts, SideCut};
-use super::open_edges::{MIN_SEAM_COSINE, OpenEdge, open_edges};
-use super::point_tree::PointTree;
+use super::open_edges::{OpenEdge, open_edges};
+use super::sagitta::{MIN_SEAM_COSINE, SAGITTA_PER_TWIST, sagitta_height};
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::space::bounds::{Bounds, SearchLine};
+use crate::geometry::space::bounds_tree::BoundsTree;
 use crate::mesh::soup::Soup;
 use crate::mesh::tolerances;
 use crate::mesh::{Edges, MeshMetrics, PartId};
@@ -27,13 +30,6 @@ const MAX_CORNERS_BETWEEN: usize = 64;
 /// A corner that cuts a side must be this many times nearer to it than the face is high, and than to the ends
 /// of the side.
 const MIN_CLEARANCE_RATIO: f64 = 2.0;
-
-/// Factor on the sagitta of equal chords, because chords of a curve differ in length.
-const SAGITTA_FACTOR: f64 = 2.0;
-
-/// The distance of a space curve from the plane of its chord and sagitta is at most the sagitta divided by
-/// this.
-const SAGITTA_PER_TWIST: f64 = 4.0;
 
 /// Changes that close the seams.
 #[derive(Default)]
@@ -67,7 +63,7 @@ struct SeamSearch<'a> {
     /// The open edges at each corner.
     at: CsrLists<u32>,
     /// Positions of the corners.
-    corner_tree: PointTree,
+    corner_tree: BoundsTree,
 }
 
 impl<'a> SeamSearch<'a> {
@@ -82,8 +78,8 @@ impl<'a> SeamSearch<'a> {
                 edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
             }
         });
-        let places = PointTree::new(corners.iter().map(|v| soup.positions[*v as usize]));
-        Self { soup, open, corners, numbers, at, corner_tree: places }
+        let places: Vec<Bounds> = corners.iter().map(|v| Bounds::of([soup.positions[*v as usize]])).collect();
+        Self { soup, open, corners, numbers, at, corner_tree: BoundsTree::new(&places) }
     }
 
     fn place(&self, corner: u32) -> DVec3 {
@@ -153,8 +149,9 @@ impl<'a> SeamSearch<'a> {
         let scale = own_borders.clone().map(|edge| extents.part(edge.part).scale).fold(0.0, f64::max);
         let (reach, position) = (tolerances::MAX_SEAM_GAP_OF_PART * scale, self.place(corner));
         let mut nearest: Option<(f64, u32)> = None;
-        self.corner_tree.visit_near(position, DVec3::ZERO, reach, |nearby_corner, at| {
-            let gap_length = at.distance(position);
+        let nearby = SearchLine::new(position, DVec3::ZERO, 1.0, reach);
+        for nearby_corner in self.corner_tree.near(|around| nearby.meets(around)) {
+            let gap_length = self.place(nearby_corner).distance(position);
             let is_nearer = nearest
                 .is_none_or(|(nearest_distance, at)| (gap_length, nearby_corner) < (nearest_distance, at));
             if nearby_corner != corner
@@ -164,11 +161,11 @@ impl<'a> SeamSearch<'a> {
             {
                 nearest = Some((gap_length, nearby_corner));
             }
-        });
+        }
         let (_, mate_corner) = nearest?;
         let [p, q] = [corner, mate_corner].map(|k| self.corners[k as usize]);
         // Corners connected by an edge lie on both sides of a narrow strip.
-        let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
+        let is_strip = edges.between(p, q).is_some();
         let meets = |a: &OpenEdge, b: &OpenEdge| {
             let end = usize::from(a.ends[1] == p);
             b.ends[1 - end] == q && a.faces_across(b) && a.matches_paint(end as f64, b.paint[1 - end])
@@ -179,8 +176,7 @@ impl<'a> SeamSearch<'a> {
     /// The corners that cut an open edge, in order along it.
     fn cuts(&self, edge: usize, min_gap: f64) -> Vec<SideCut> {
         let open_edge = &self.open[edge];
-        let third =
-            self.soup.triangles[open_edge.face as usize].into_iter().find(|v| !open_edge.ends.contains(v));
+        let third = apex(self.soup.triangles[open_edge.face as usize], open_edge.ends);
         let start = self.soup.positions[open_edge.ends[0] as usize];
         let opposite = third.map_or(DVec3::ZERO, |v| self.soup.positions[v as usize] - start);
         let height = (opposite - open_edge.along * opposite.dot(open_edge.along)).length();
@@ -199,9 +195,10 @@ impl<'a> SeamSearch<'a> {
         if open_edge.length == 0.0 || reach == 0.0 {
             return cuts;
         }
-        self.corner_tree.visit_near(start, open_edge.along * open_edge.length, reach, |corner, at| {
+        let side = SearchLine::new(start, open_edge.along * open_edge.length, 1.0, reach);
+        for corner in self.corner_tree.near(|around| side.meets(around)) {
             let vertex = self.corners[corner as usize];
-            let from_start = at - start;
+            let from_start = self.place(corner) - start;
             let along = from_start.dot(open_edge.along);
             let off = from_start - open_edge.along * along;
             let off_sagitta = off - off.project_onto_normalized(sagitta.normalize_or_zero());
@@ -218,7 +215,7 @@ impl<'a> SeamSearch<'a> {
             {
                 cuts.push((along / open_edge.length, vertex));
             }
-        });
+        }
         cuts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         cuts.dedup_by_key(|cut| cut.1);
         cuts
@@ -287,16 +284,8 @@ impl<'a> SeamSearch<'a> {
         if cosine < MIN_SEAM_COSINE {
             return DVec3::ZERO;
         }
-        // Tangent of half the turn. Equal edges share a turn in halves.
-        let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
-        let turn = half_turn(cosine);
-        let share = next(adjacent, end).map_or(0.0, |next_adjacent| {
-            let cosine = next_adjacent.along.dot(adjacent.along);
-            let of_beside = adjacent.length / (adjacent.length + next_adjacent.length);
-            if cosine < MIN_SEAM_COSINE { 0.0 } else { half_turn(cosine) * of_beside }
-        });
-        let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
-        let height = SAGITTA_FACTOR * open_edge.length * own_turn / 2.0;
+        let after = next(adjacent, end).map(|next| (next.along.dot(adjacent.along), next.length));
+        let height = sagitta_height(cosine, [open_edge.length, adjacent.length], after);
         (adjacent.along - open_edge.along * cosine).normalize_or_zero() * height
     }
 }

@@ -7,6 +7,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::mesh::edges::triangle_sides::runs_along;
 use crate::parallel::prelude::*;
 
 use crate::mesh::Edges;
@@ -119,9 +120,8 @@ impl<'a> DoubledSheets<'a> {
     }
 
     /// Whether a face has a directed side from the first vertex to the second.
-    fn runs(&self, face: u32, [from, to]: [u32; 2]) -> bool {
-        let [a, b, c] = self.soup.triangles[face as usize];
-        [[a, b], [b, c], [c, a]].contains(&[from, to])
+    fn runs(&self, face: u32, side: [u32; 2]) -> bool {
+        runs_along(self.soup.triangles[face as usize], side)
     }
 }
 

@@ -7,6 +7,7 @@
 //! 3. Duplicates with opposite windings are back to back; `doubled_sheets` chooses one side for the whole
 //!    sheet.
 
+use crate::mesh::edges::triangle_sides::apex;
 use crate::parallel::prelude::*;
 
 use super::doubled_sheets;
@@ -99,8 +100,7 @@ impl DuplicateFaces {
             }
             own.clear();
             own.extend(faces.list().iter().filter_map(|&face| {
-                let third =
-                    soup.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner))?;
+                let third = apex(soup.triangles[face as usize], ends)?;
                 (third > ends[1]).then(|| (part(soup, face), third, face))
             }));
             own.sort_unstable();

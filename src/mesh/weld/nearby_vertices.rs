@@ -8,6 +8,8 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
+
 /// For each vertex, the smallest id of the vertices joined to it; `None` if nothing is joined.
 ///
 /// Only `candidates` (ascending) are examined. Two of them are joined if their distance is at most the
@@ -22,7 +24,7 @@ pub(crate) fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f6
     let cell = tolerance * 16.0;
     let key = |p: DVec3| (p / cell).floor().to_array().map(|c| c as i64);
     let mut cells: FxHashMap<[i64; 3], Vec<(u32, f64)>> = FxHashMap::default();
-    let mut parent: Vec<u32> = Vec::new();
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
     for (&id, &reach) in candidates.iter().zip(reaches) {
         let p = positions[id as usize];
         let (low, high) = (key(p - tolerance), key(p + tolerance));
@@ -32,11 +34,7 @@ pub(crate) fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f6
                     for &(other, other_reach) in cells.get(&[x, y, z]).map_or(&[][..], Vec::as_slice) {
                         let reach = reach.max(other_reach);
                         if positions[other as usize].distance_squared(p) <= reach * reach {
-                            if parent.is_empty() {
-                                parent = (0..positions.len() as u32).collect();
-                            }
-                            let (a, b) = (root(&mut parent, id), root(&mut parent, other));
-                            parent[a.max(b) as usize] = a.min(b);
+                            pairs.push([id, other]);
                         }
                     }
                 }
@@ -44,22 +42,11 @@ pub(crate) fn join_nearby(positions: &[DVec3], candidates: &[u32], reaches: &[f6
         }
         cells.entry(key(p)).or_default().push((id, reach));
     }
-    if parent.is_empty() {
+    if pairs.is_empty() {
         return None;
     }
-    for id in 0..parent.len() as u32 {
-        let r = root(&mut parent, id);
-        parent[id as usize] = r;
-    }
-    Some(parent)
-}
-
-fn root(parent: &mut [u32], mut id: u32) -> u32 {
-    while parent[id as usize] != id {
-        parent[id as usize] = parent[parent[id as usize] as usize];
-        id = parent[id as usize];
-    }
-    id
+    let joined = DisjointSets::new(positions.len(), |join| pairs.iter().for_each(|[a, b]| join(*a, *b)));
+    Some(joined.into_representatives())
 }
 
 #[cfg(test)]

@@ -29,14 +29,7 @@ pub(crate) fn panel_border(
     sheet: Rect,
 ) -> PlacedDrawing {
     let path = border_path(outline, hand, sheet);
-    let paint = Paint::Stroke(StrokePaint {
-        width,
-        colour,
-        cap: Cap::Round,
-        join: Join::Miter,
-        dash: Vec::new(),
-        dash_offset: 0.0,
-    });
+    let paint = Paint::Stroke(StrokePaint::solid(width, colour, Cap::Round, Join::Miter));
     let provenance = Provenance { classes: vec!["panel-border"], ..Provenance::default() };
     let marks = vec![Mark { path, paint, provenance }];
     let layers = vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }];

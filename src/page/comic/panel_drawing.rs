@@ -17,12 +17,11 @@ use super::panel_outlines::{PageBoxes, PanelOutline};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Layer, LayerKind, Mark, Page, Paint, PlacedDrawing, Provenance, Unit};
 use crate::error::Error;
-use crate::geometry::numbers::portable_math::{atan2, tan};
 use crate::page::figure::{self, CoverageGrid, PartExtent, camera_spec, name_matches};
 use crate::page::mm_length::Mm;
 use crate::page::page_source::PageSource;
 use crate::pipeline;
-use crate::scene::{Camera, Part, Projection, Scene};
+use crate::scene::{Camera, Part, Scene};
 use crate::style::Style;
 
 /// How far a part may break out of its panel, as a share of the panel's shorter side.
@@ -150,11 +149,9 @@ pub(crate) fn draw_panel(
         drawn.items.push(item(&shape.name, drawing, corner, outline));
         drawn.scene = Some(PanelScene { scene, camera, frame_origin: bounds.origin().to_vec2() });
     }
-    let Mm(width) = *keys.border.as_ref().unwrap_or(&page.border).get_ref();
-    if width < 0.0 {
-        let span = keys.border.as_ref().unwrap_or(&page.border).span();
-        return Err(source.fault(&span, "this length is below 0", "write 0 or more"));
-    }
+    let border = keys.border.as_ref().unwrap_or(&page.border);
+    source.check([border], |Mm(mm)| *mm >= 0.0, "this length is below 0", "write 0 or more")?;
+    let Mm(width) = *border.get_ref();
     let hand = page.hand.get_ref().0;
     if width > 0.0 {
         let name = format!("{}-border", shape.name);
@@ -196,14 +193,8 @@ fn widen_frame(camera: &Camera, by: f64) -> Camera {
         return *camera;
     }
     let larger = (camera.height + 2.0 * by) / camera.height;
-    let projection = match camera.projection {
-        Projection::Perspective { fov_y_deg } => {
-            let half = tan(fov_y_deg.to_radians() / 2.0) * larger;
-            Projection::Perspective { fov_y_deg: 2.0 * atan2(half, 1.0).to_degrees() }
-        }
-        Projection::Orthographic { height } => Projection::Orthographic { height: height * larger },
-    };
-    camera.with_projection(projection).with_frame(camera.width + 2.0 * by, camera.height + 2.0 * by)
+    camera_spec::with_height(camera, |height| height * larger)
+        .with_frame(camera.width + 2.0 * by, camera.height + 2.0 * by)
 }
 
 /// The marks of the parts that break out of the border, over fills in the background colour that hide the

@@ -47,12 +47,8 @@ impl PageBoxes {
     /// # Errors
     /// Returns an error if a length is negative, or a margin leaves no space.
     pub(crate) fn of(page: &ComicPage, source: &PageSource) -> Result<Self, Error> {
-        for length in [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line]
-        {
-            if length.get_ref().0 < 0.0 {
-                return Err(source.fault(&length.span(), "this length is below 0", "write 0 or more"));
-            }
-        }
+        let lengths = [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line];
+        source.check(lengths, |Mm(mm)| *mm >= 0.0, "this length is below 0", "write 0 or more")?;
         let Mm(bleed) = *page.bleed.get_ref();
         let mut size = *page.size.get_ref();
         if page.landscape {
@@ -91,13 +87,8 @@ pub(crate) fn panel_outlines<'a>(
         Gutter::All(Mm(all)) => [*all, *all],
         Gutter::Each([Mm(across), Mm(down)]) => [*across, *down],
     };
-    if gutter.iter().any(|gutter| *gutter < 0.0) {
-        return Err(source.fault(
-            &page.gutter.span(),
-            "a gutter cannot be narrower than 0",
-            "write 0 or more",
-        ));
-    }
+    let is_right = |_: &Gutter| gutter.iter().all(|gutter| *gutter >= 0.0);
+    source.check([&page.gutter], is_right, "a gutter cannot be narrower than 0", "write 0 or more")?;
     let grid = LayoutGrid { frame: sheet.frame, gutter, reading: page.reading.into() };
     let cells = cells(page.layout.get_ref(), &grid)
         .map_err(|fault| source.within(&page.layout, &fault.span, &fault.message, &fault.advice))?;
@@ -128,13 +119,9 @@ pub(crate) fn panel_outlines<'a>(
             let message = format!("this panel has no size: {width} x {height} mm");
             return Err(source.fault(&at.span(), &message, "write [left, top, width, height]"));
         }
-        if rect.intersect(sheet.bleed).area() < rect.area() - MAX_PANEL_OVERLAP_MM2 {
-            return Err(source.fault(
-                &at.span(),
-                "this panel extends past the page",
-                "move it, or make it smaller",
-            ));
-        }
+        let lies_on_page = rect.intersect(sheet.bleed).area() >= rect.area() - MAX_PANEL_OVERLAP_MM2;
+        let message = "this panel extends past the page";
+        source.check([at], |_| lies_on_page, message, "move it, or make it smaller")?;
         let outline = ConvexPolygon::from(rect);
         let over = shapes.iter().find(|other| outline.common(&other.outline).area() > MAX_PANEL_OVERLAP_MM2);
         if let Some(over) = over.filter(|_| !keys.get_ref().inset) {
@@ -150,10 +137,9 @@ pub(crate) fn panel_outlines<'a>(
     }
     for (number, shape) in shapes.iter().enumerate() {
         let named = shape.keys.and_then(|keys| keys.get_ref().name.as_ref());
-        if let Some(named) = named.filter(|named| named.get_ref().trim().is_empty()) {
-            return Err(source.fault(&named.span(), "this panel has no name", "write one, or leave it out"));
-        }
-        if let Some(named) = shape.keys.and_then(|keys| keys.get_ref().name.as_ref())
+        let has_letters = |name: &String| !name.trim().is_empty();
+        source.check(named, has_letters, "this panel has no name", "write one, or leave it out")?;
+        if let Some(named) = named
             && shapes.iter().take(number).any(|other| other.name == shape.name)
         {
             let message = format!("two panels are called `{}`", shape.name);

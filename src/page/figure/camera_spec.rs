@@ -16,7 +16,7 @@ use toml::Spanned;
 
 use super::part_bounds::{name_matches, part_points};
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 use crate::page::page_source::PageSource;
 use crate::scene::cameras::framing::{FRAME_MARGIN, world_points};
@@ -154,13 +154,9 @@ pub(crate) fn camera(
                 |key: &Option<Spanned<f64>>, default| key.as_ref().map_or(default, |key| *key.get_ref());
             let azimuth = angle(&keys.azimuth, THREE_QUARTER_AZIMUTH_DEG);
             let elevation = angle(&keys.elevation, THREE_QUARTER_ELEVATION_DEG);
-            if let Some(key) = keys.elevation.as_ref().filter(|key| !(-90.0..=90.0).contains(key.get_ref())) {
-                return Err(source.fault(
-                    &key.span(),
-                    "this is not an elevation",
-                    "write degrees from -90 to 90",
-                ));
-            }
+            let is_elevation = |angle: &f64| (-90.0..=90.0).contains(angle);
+            let advice = "write degrees from -90 to 90";
+            source.check(&keys.elevation, is_elevation, "this is not an elevation", advice)?;
             Camera::azimuth_elevation(azimuth, elevation, scene.up)
         }
     };
@@ -184,19 +180,17 @@ fn named_camera(name: &Spanned<String>, scene: &Scene, source: &PageSource) -> R
     }
     let cameras = scene.cameras.iter().map(|camera| camera.name.as_str());
     let known: Vec<&str> = cameras.chain(NamedView::ALL.map(NamedView::name)).collect();
-    let advice = match nearest(name.get_ref(), &known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are {}; or name a camera record, FILE.json", known.join(", ")),
-    };
+    let advice = suggestion(nearest(name.get_ref(), &known), || {
+        format!("there are {}; or name a camera record, FILE.json", known.join(", "))
+    });
     Err(source.fault(&name.span(), &format!("there is no camera `{}`", name.get_ref()), &advice))
 }
 
 /// The camera with the projection that the keys request.
 fn apply_lens(camera: Camera, keys: &CameraKeys, source: &PageSource) -> Result<Camera, Error> {
+    let is_angle = |fov: &f64| *fov > 0.0 && *fov < 180.0;
+    source.check(&keys.fov, is_angle, "this is not a field of view", "write degrees between 0 and 180")?;
     match &keys.fov {
-        Some(fov) if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) => {
-            Err(source.fault(&fov.span(), "this is not a field of view", "write degrees between 0 and 180"))
-        }
         Some(fov) => Ok(camera.with_projection(Projection::Perspective { fov_y_deg: *fov.get_ref() })),
         None if keys.ortho => Ok(camera.with_projection(Projection::Orthographic { height: 1.0 })),
         None => Ok(camera),
@@ -224,7 +218,7 @@ fn fit_camera(
     Ok(match crop {
         FramedPart::Full => camera.fit_points(&points, FRAME_MARGIN),
         FramedPart::Bust => camera.fit_points(&upper_points(&points, scene.up), FRAME_MARGIN),
-        FramedPart::Close => zoomed(camera.fit_points(&points, 0.0), CLOSE_ZOOM),
+        FramedPart::Close => with_height(&camera.fit_points(&points, 0.0), |height| height / CLOSE_ZOOM),
     })
 }
 
@@ -235,10 +229,7 @@ pub(crate) fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &PageS
     known.dedup();
     let near = nearest(glob.get_ref(), &known).filter(|near| !name_matches(glob.get_ref(), near));
     known.truncate(12);
-    let advice = match near {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("the parts are {}", known.join(", ")),
-    };
+    let advice = suggestion(near, || format!("the parts are {}", known.join(", ")));
     source.fault(&glob.span(), &format!("there is no part `{}`", glob.get_ref()), &advice)
 }
 
@@ -258,10 +249,9 @@ fn upper_points(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
 /// The camera with the zoom, shift and roll of the keys.
 fn apply_zoom_shift_roll(camera: Camera, keys: &CameraKeys, source: &PageSource) -> Result<Camera, Error> {
     let zoom = keys.zoom.as_ref().map_or(1.0, |zoom| *zoom.get_ref());
-    if let Some(key) = keys.zoom.as_ref().filter(|_| !(zoom.is_finite() && zoom > 0.0)) {
-        return Err(source.fault(&key.span(), "this is not a zoom factor", "write a number above 0"));
-    }
-    let mut camera = zoomed(camera, zoom);
+    let is_positive = |zoom: &f64| zoom.is_finite() && *zoom > 0.0;
+    source.check(&keys.zoom, is_positive, "this is not a zoom factor", "write a number above 0")?;
+    let mut camera = with_height(&camera, |height| height / zoom);
     let [right, up, forward] = camera.axes();
     let tall = match camera.projection {
         Projection::Perspective { fov_y_deg } => {
@@ -282,13 +272,13 @@ fn apply_zoom_shift_roll(camera: Camera, keys: &CameraKeys, source: &PageSource)
     Ok(camera)
 }
 
-/// The camera zoomed by a factor.
-fn zoomed(camera: Camera, zoom: f64) -> Camera {
+/// The camera with another height of the picture: in parallel projection, or at the distance 1.
+pub(crate) fn with_height(camera: &Camera, scaled: impl Fn(f64) -> f64) -> Camera {
     camera.with_projection(match camera.projection {
         Projection::Perspective { fov_y_deg } => {
-            let half = tan(fov_y_deg.to_radians() / 2.0) / zoom;
+            let half = scaled(tan(fov_y_deg.to_radians() / 2.0));
             Projection::Perspective { fov_y_deg: 2.0 * atan2(half, 1.0).to_degrees() }
         }
-        Projection::Orthographic { height } => Projection::Orthographic { height: height / zoom },
+        Projection::Orthographic { height } => Projection::Orthographic { height: scaled(height) },
     })
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use toml::Spanned;
 
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::page::page_source::PageSource;
 use crate::style::{Style, placed_change, unitless_length_warning};
 
@@ -22,12 +22,9 @@ pub(crate) fn style(
     let sheet = match style_file(name, source) {
         None => name.get_ref().clone(),
         Some(_) if !name.get_ref().ends_with(".toml") => {
-            let advice = match nearest(name.get_ref(), &known) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => {
-                    format!("built-in styles: {}; or name a sheet's file, such as my.toml", known.join(", "))
-                }
-            };
+            let advice = suggestion(nearest(name.get_ref(), &known), || {
+                format!("built-in styles: {}; or name a sheet's file, such as my.toml", known.join(", "))
+            });
             let message = format!("there is no style `{}`", name.get_ref());
             return Err(source.fault(&name.span(), &message, &advice));
         }

@@ -237,12 +237,8 @@ fn playing(
             return Err(source.fault(&keys.file.span(), &message, &advice));
         }
     };
-    match time {
-        Some(time) if !time.get_ref().is_finite() => {
-            Err(source.fault(&time.span(), "this is not a time", "write a number of seconds"))
-        }
-        time => Ok(Playing::all(clip, time.map_or(0.0, |time| *time.get_ref()))),
-    }
+    source.check(time, |time| time.is_finite(), "this is not a time", "write a number of seconds")?;
+    Ok(Playing::all(clip, time.map_or(0.0, |time| *time.get_ref())))
 }
 
 /// The transform of a model to the scene. `up` holds the up axes of the model and the scene.
@@ -253,9 +249,8 @@ fn scene_from_model(keys: &ModelKeys, up: [UpAxis; 2], source: &PageSource) -> R
     if !numbers.copied().all(f64::is_finite) {
         return Err(source.fault(&keys.file.span(), "this is not a position", "write finite numbers"));
     }
-    if let Some(scale) = scale.filter(|scale| !(scale.get_ref().is_finite() && *scale.get_ref() > 0.0)) {
-        return Err(source.fault(&scale.span(), "this is not a scale for a model", "write a number above 0"));
-    }
+    let is_positive = |scale: &f64| scale.is_finite() && *scale > 0.0;
+    source.check(scale, is_positive, "this is not a scale for a model", "write a number above 0")?;
     let half = |angle: f64| (sin(angle / 2.0), cos(angle / 2.0));
     let [(x, of_x), (y, of_y), (z, of_z)] = [x, y, z].map(half);
     let turned = DQuat::from_xyzw(0.0, 0.0, z, of_z)

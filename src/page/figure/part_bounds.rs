@@ -3,9 +3,9 @@
 use glam::DVec3;
 use kurbo::{Point, Rect};
 
+use crate::geometry::names::glob::glob_matches;
 use crate::geometry::plane::convex_hull::convex_hull;
 use crate::scene::extent::drawn_points::DrawnPoints;
-use crate::scene::part_selection::glob_matches;
 use crate::scene::{Camera, Scene};
 use crate::view::Frame;
 

@@ -7,8 +7,8 @@ use toml::Spanned;
 
 use crate::colour::srgb::Colour;
 use crate::error::Error;
+use crate::geometry::names::glob::glob_matches;
 use crate::page::page_source::PageSource;
-use crate::scene::part_selection::glob_matches;
 use crate::scene::{Material, Scene};
 
 /// Colours that replace the materials of a model: one for all parts, or one for each pattern of part names.

@@ -4,6 +4,8 @@
 
 use kurbo::{BezPath, Point, Rect, Vec2};
 
+use crate::geometry::plane::polyline_path::polygon;
+use crate::geometry::plane::polylines::bounds;
 use crate::page::tolerances::MAX_OUTWARD_CROSS_PRODUCT_MM2;
 
 /// A half plane: the points `p` with `(p - point) · normal >= 0`.
@@ -84,8 +86,7 @@ impl ConvexPolygon {
     /// The bounding box.
     #[must_use]
     pub(crate) fn bounds(&self) -> Rect {
-        let first = self.0.first().copied().unwrap_or_default();
-        self.0.iter().fold(Rect::from_points(first, first), |rect, p| rect.union_pt(*p))
+        bounds(self.0.iter().copied()).unwrap_or_default()
     }
 
     /// Whether a point is inside or on the boundary.
@@ -122,14 +123,7 @@ impl ConvexPolygon {
     /// The closed path of the boundary.
     #[must_use]
     pub(crate) fn path(&self) -> BezPath {
-        let mut path = BezPath::new();
-        for (number, p) in self.0.iter().enumerate() {
-            if number == 0 { path.move_to(*p) } else { path.line_to(*p) }
-        }
-        if !self.0.is_empty() {
-            path.close_path();
-        }
-        path
+        polygon(self.0.iter().copied())
     }
 
     /// The polygon moved by a vector.

@@ -92,7 +92,7 @@ fn size_name(size: PageSize) -> &'static str {
 /// Returns an error if the model or style cannot be read, a key names something that does not exist, or the
 /// views do not fit.
 pub(crate) fn compose(sheet: &SheetPage, source: &PageSource) -> Result<ComposedPage, Error> {
-    let in_file = |error: Error| if error.file.is_some() { error } else { error.in_file(&source.path) };
+    let in_file = |error: Error| error.or_in_file(&source.path);
     compose_sheet(sheet, source).map_err(in_file)
 }
 

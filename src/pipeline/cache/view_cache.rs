@@ -1,7 +1,7 @@
 //! [`ViewCache`]: results that all views of a surface share, built when they pay off.
 //!
-//! Trees in dual space (see [`EdgeSearch`]) take time to build and save a little in each later view. They do
-//! not pay for one drawing, but do for the views of a turntable.
+//! Trees in dual space (see [`EdgeSearch`]) take time to build and save a little in each later view, so they
+//! are built on request only ([`LineOptions::edge_tree`]).
 //!
 //! Self-intersections of the surface do not depend on the view, so the first view finds them for all. For
 //! views that split faces, the intersections of unsplit faces are reused.
@@ -9,22 +9,12 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use crate::light::NormalCones;
 use crate::lines::intersections::intersection_lines;
 use crate::lines::{EdgeSearch, HiddenLines, LineKind, LineOptions, RefinedSurface, SharedSearches, Surface};
 use crate::mesh::intersect::cache::intersection_cache::IntersectionCache;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
 use crate::visibility::ViewOcclusionBuffer;
-
-/// Number of the view that builds the edge search. The search saves the cost of building it in 40 to 240
-/// views, and in about 100 for the median model of `cargo bench --bench dual_tree` (last column). By building
-/// it at that view, the total cost never exceeds twice the optimum.
-const SEARCH_BUILD_VIEW: u32 = 100;
-
-/// Least number of edges for which the search is built. Testing fewer edges one by one takes half a
-/// millisecond at most.
-const MIN_SEARCH_EDGES: usize = 20_000;
 
 /// Results shared by the views of one surface, built on demand.
 #[derive(Debug, Default)]
@@ -34,9 +24,6 @@ pub(crate) struct ViewCache {
     /// Whether a view has found the intersections, or is about to.
     is_found: AtomicBool,
     intersections: OnceLock<IntersectionCurves>,
-    /// Number of views that may split faces.
-    splittable_views: AtomicU32,
-    cones: OnceLock<NormalCones>,
     /// Number of views that split faces.
     finer_views: AtomicU32,
     pairs: OnceLock<IntersectionCache>,
@@ -57,7 +44,7 @@ impl ViewCache {
     ) -> SharedSearches<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
-        if view + 1 == SEARCH_BUILD_VIEW && surface.mesh.edges.len() >= MIN_SEARCH_EDGES {
+        if view == 1 && options.edge_tree {
             let _ = self.search.set(EdgeSearch::new(surface));
         }
         if finds && is_wanted(surface, options) && !self.is_found.swap(true, Ordering::Relaxed) {
@@ -87,17 +74,6 @@ impl ViewCache {
         let out_of_sight = covers.occluded_faces(&surface.mesh, view);
         let curves = intersection_lines::curves_in_sight(&surface.mesh, out_of_sight);
         Some((covers, curves))
-    }
-
-    /// Bounds of the edges of a surface, for one more view that may split its faces.
-    pub(crate) fn cones_of_next_view(&self, surface: &Surface) -> Option<&NormalCones> {
-        let is_asked =
-            !surface.refined && surface.mesh.edges.len() >= MIN_SEARCH_EDGES && !surface.smooth.is_empty();
-        // Built at the second view: a surface drawn only once gains nothing.
-        if is_asked && self.splittable_views.fetch_add(1, Ordering::Relaxed) == 1 {
-            let _ = self.cones.set(NormalCones::new(&surface.mesh, &surface.smooth));
-        }
-        self.cones.get()
     }
 
     /// The intersections for one more view that splits faces, if the shared search finds them faster.

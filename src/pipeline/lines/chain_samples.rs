@@ -4,12 +4,13 @@
 //! Visibility is sampled at page points slightly to the left and right of each visible line. Only what the
 //! pens of the style need is sampled.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use kurbo::{Point, Vec2};
 
 use crate::chains::{Chain, Sample};
 use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::noise::hash;
+use crate::geometry::space::triangles::weights;
 use crate::light::{Shading, ShadingNormals};
 use crate::lines::{FeatureLines, Lit, Surface, Textures};
 use crate::mesh::FaceId;
@@ -240,14 +241,6 @@ fn set_side_values(sample: &mut Sample, left: Option<SideSample>, right: Option<
     };
 }
 
-/// Barycentric weights of a point in the plane of a triangle.
-fn weights([a, b, c]: [DVec3; 3], at: DVec3) -> [f64; 3] {
-    let normal = (b - a).cross(c - a);
-    let whole = normal.length_squared();
-    let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
-    if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,12 +265,5 @@ mod tests {
     fn foreshortened_interpolates_depth_in_perspective() {
         let [near, far] = [1.0, 3.0].map(|depth| Sample::new(depth, 1.0));
         assert!((foreshortened(near, far, 0.5).depth - 1.5).abs() < 1e-12);
-    }
-
-    #[test]
-    fn weights_are_barycentric_coordinates() {
-        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let found = weights(corners, DVec3::new(0.25, 0.5, 0.0));
-        assert!((DVec3::from_array(found) - DVec3::new(0.25, 0.25, 0.5)).length() < 1e-12);
     }
 }

@@ -12,7 +12,7 @@ use crate::chains::{Anchor, Chain, chain_identity};
 use crate::geometry::names::name_ids::stable_ids;
 use crate::geometry::numbers::portable_math::{cbrt, tan};
 use crate::mesh::PartId;
-use crate::mesh::bvh::nearest_tree::NearestTree;
+use crate::mesh::bvh::triangle_tree::TriangleTree;
 use crate::mesh::normals::triangle_area::has_own_area;
 use crate::scene::{Camera, Geometry, Part, Projection, Scene};
 
@@ -38,7 +38,7 @@ struct RestGeometry {
 #[derive(Debug)]
 struct PosedPart {
     geometry: usize,
-    tree: NearestTree,
+    tree: TriangleTree,
     /// World units per diagonal of its geometry.
     size: f64,
     /// Transform from the geometry at rest to the world, and whether every corner now lies there.
@@ -67,7 +67,7 @@ impl Anchors {
             let size = stretch * diagonal;
             PosedPart {
                 geometry: part.geometry,
-                tree: NearestTree::new(&corners),
+                tree: TriangleTree::new(corners),
                 size,
                 world_from_rest: own,
                 is_at_rest: rests,

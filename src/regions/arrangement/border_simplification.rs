@@ -3,15 +3,14 @@
 //! Segments of one kind are linked into lines, which end at junctions and free ends. Each line is
 //! simplified within the tolerance of its kind; junctions and ends stay. Fewer segments make the snap
 //! rounding and triangulation that follow much faster.
-//!
-//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a
-//! digitized line or its caricature", 1973.
 
+use crate::geometry::lists::linked_lines::linked_lines;
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::grid_tiles::GridPoint;
 use super::snap_rounding::Border;
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
 
 /// Segments between points of the integer grid, with the kind of border.
 pub(crate) type Segments = Vec<([GridPoint; 2], Border)>;
@@ -23,25 +22,21 @@ const NO_SEGMENT: u32 = u32::MAX;
 /// `tolerance` returns the maximum deviation for a kind of border, grid steps.
 pub(crate) fn simplify_borders(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
     let lines = SegmentGraph::new(segments);
-    let mut done = vec![false; segments.len()];
     let mut out = Segments::new();
     let mut points = Vec::new();
-    // Lines between junctions first, then closed lines.
-    for closed in [false, true] {
-        for first in 0..segments.len() {
-            for end in 0..2 {
-                let starts_here = closed || !lines.continues_at(lines.ends[first][end]);
-                if done[first] || !starts_here {
-                    continue;
-                }
-                points.clear();
-                lines.follow(first, end, &mut done, &mut points);
-                make_canonical(&mut points);
-                let border = segments[first].1;
-                simplify(&points, tolerance(border), border, &mut out);
-            }
-        }
-    }
+    linked_lines(
+        segments.len(),
+        |segment, end| lines.next(segment, end),
+        |line| {
+            let (first, from) = line[0];
+            points.clear();
+            points.push(segments[first].0[from]);
+            points.extend(line.iter().map(|(segment, from)| segments[*segment].0[1 - from]));
+            make_canonical(&mut points);
+            let border = segments[first].1;
+            simplify(&points, tolerance(border), border, &mut out);
+        },
+    );
     // A canonical order, so that the result does not depend on the direction or order of the lines.
     out.iter_mut().for_each(|(ends, _)| ends.sort_unstable());
     out.par_sort_unstable();
@@ -114,56 +109,28 @@ impl<'a> SegmentGraph<'a> {
             && self.segments[a as usize].1 == self.segments[b as usize].1
     }
 
-    /// Appends the points of the line that starts at one end of a segment, and marks its segments as done.
-    fn follow(&self, first: usize, end: usize, done: &mut [bool], points: &mut Vec<GridPoint>) {
-        let (mut segment, mut from) = (first, end);
-        points.push(self.segments[first].0[end]);
-        loop {
-            done[segment] = true;
-            points.push(self.segments[segment].0[1 - from]);
-            let point = self.ends[segment][1 - from];
-            if !self.continues_at(point) {
-                return;
-            }
-            let [a, b] = self.at[point as usize];
-            let next = if a as usize == segment { b } else { a } as usize;
-            if done[next] {
-                return;
-            }
-            from = usize::from(self.ends[next][0] != point);
-            segment = next;
-        }
+    /// Segment that continues past the end of a segment, and its end there.
+    fn next(&self, segment: usize, end: usize) -> Option<(usize, usize)> {
+        let point = self.ends[segment][end];
+        let [a, b] = self.at[point as usize];
+        let next = if a as usize == segment { b } else { a } as usize;
+        self.continues_at(point).then(|| (next, usize::from(self.ends[next][0] != point)))
     }
 }
 
 /// Adds the segments of a simplified line.
 fn simplify(points: &[GridPoint], tolerance: f64, border: Border, out: &mut Segments) {
     let last = points.len() - 1;
-    let mut kept = vec![false; points.len()];
-    kept[0] = true;
-    kept[last] = true;
-    let mut open = vec![(0, last)];
+    let mut stops = vec![0, last];
     if points[0] == points[last] {
         // A ring is split at the point farthest from its start.
-        let away = |k: &usize| square(points[*k], points[0]);
-        let far = (1..last).max_by(|a, b| away(a).cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
-        kept[far] = true;
-        open = vec![(0, far), (far, last)];
+        let away = |k: usize| square(points[k], points[0]) as f64;
+        stops.insert(1, farthest_point(1..last, away, f64::NEG_INFINITY).unwrap_or(0));
     }
-    while let Some((from, to)) = open.pop() {
-        let mut worst = (0.0, from);
-        for k in from + 1..to {
-            let off = distance2(points[k], points[from], points[to]);
-            if off > worst.0 {
-                worst = (off, k);
-            }
-        }
-        if worst.0 > tolerance * tolerance {
-            kept[worst.1] = true;
-            open.push((from, worst.1));
-            open.push((worst.1, to));
-        }
-    }
+    let kept = douglas_peucker(points.len(), &stops, |from, to| {
+        let off = |k: usize| distance2(points[k], points[from], points[to]);
+        farthest_point(from + 1..to, off, tolerance * tolerance)
+    });
     let mut before = points[0];
     for k in (1..points.len()).filter(|k| kept[*k]) {
         out.push(([before, points[k]], border));

@@ -3,7 +3,7 @@
 use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::noise::hash;
-use crate::mesh::order::morton_curve::spread;
+use crate::geometry::space::morton_curve::spread;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::regions::arrangement::grid_tiles::GridPoint;
 

@@ -1,5 +1,6 @@
 //! [`LabelComponents`]: connected triangles of equal label, with small patches merged into their neighbours.
 
+use crate::geometry::lists::disjoint_sets::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::triangulation::{OUTSIDE, Triangulation};
@@ -43,7 +44,7 @@ pub(crate) fn gather(
             }
         }
     }
-    let mut merging = Merging { into: (0..count as u32).collect(), shared, background };
+    let mut merging = Merging { sets: UnionFind::new(count), shared, background };
     // Areas as bits, which sort like positive numbers.
     let mut small: BTreeSet<(u64, u32)> = (0..count as u32)
         .filter(|p| patches.area2[*p as usize] < crumb2)
@@ -66,26 +67,19 @@ pub(crate) fn gather(
         }
     }
     for patch in &mut patches.component_of_triangle {
-        *patch = merging.root(*patch);
+        *patch = merging.sets.root(*patch);
     }
     patches
 }
 
 struct Merging {
-    into: Vec<u32>,
+    sets: UnionFind,
     /// For each remaining patch, the lengths of its borders with neighbours.
     shared: Vec<BTreeMap<u32, f64>>,
     background: u32,
 }
 
 impl Merging {
-    fn root(&self, mut patch: u32) -> u32 {
-        while self.into[patch as usize] != patch {
-            patch = self.into[patch as usize];
-        }
-        patch
-    }
-
     /// Neighbour with the longest shared border, background excluded.
     fn neighbour(&self, crumb: u32, patches: &LabelComponents) -> Option<u32> {
         let is_background = |p: u32| patches.labels[p as usize] == self.background;
@@ -105,7 +99,7 @@ impl Merging {
     }
 
     fn join(&mut self, patch: u32, to: u32) {
-        self.into[patch as usize] = to;
+        self.sets.join_into(patch, to);
         let borders = std::mem::take(&mut self.shared[patch as usize]);
         self.shared[to as usize].remove(&patch);
         for (other, length) in borders {

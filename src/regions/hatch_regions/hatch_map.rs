@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use kurbo::{Point, Vec2};
+use kurbo::{Point, Rect, Vec2};
 
 use super::border_piece::{BorderPiece, PAPER};
 
@@ -214,7 +214,7 @@ impl HatchRegions {
     /// Numbers of the pieces within `reach` of a point, ascending. May include some that are farther away.
     #[must_use]
     pub(crate) fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {
-        self.grid.near(p - Vec2::new(reach, reach), p + Vec2::new(reach, reach))
+        self.grid.near(Rect::from_points(p - Vec2::new(reach, reach), p + Vec2::new(reach, reach)))
     }
 
     /// Crossings of a segment with border pieces, in order: the parameter, the piece's number, and whether

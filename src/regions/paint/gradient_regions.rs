@@ -8,12 +8,14 @@
 //!
 //! Then no point is painted a step lighter or darker than its band would be.
 
+use crate::geometry::lists::disjoint_sets::UnionFind;
 use std::collections::BTreeMap;
 
 use kurbo::{Point, Vec2};
 
 use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
 use crate::regions::cells::border_arcs::{Borders, OUTSIDE_PATCH, RawArc};
 use crate::regions::cells::label_components::LabelComponents;
 use crate::regions::cells::triangulation::Triangulation;
@@ -49,8 +51,7 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     shades.extend(last);
     let from = shades.first().map_or(0.0, |shade| shade.0);
     let length = shades.last().map_or(0.0, |shade| shade.0) - from;
-    let mut kept = vec![false; shades.len()];
-    mark_needed_stops(&shades, 0, shades.len().saturating_sub(1), &mut kept);
+    let kept = needed_stops(&shades);
     let stop_offset = |at: f64| if length > 0.0 { (at - from) / length } else { 0.0 };
     let stop = |(at, channels): &(f64, [f64; 3])| {
         (stop_offset(*at), Colour { a: alpha, ..Colour::from_channels(*channels) })
@@ -60,23 +61,19 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     Gradient { start: at(from), end: at(from + length), stops }
 }
 
-/// Marks the stops that are needed: all others lie on the line between their neighbours.
-///
-/// Source: Douglas and Peucker, 1973, in one dimension.
-fn mark_needed_stops(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]) {
-    let (Some(a), Some(b)) = (shades.get(first), shades.get(last)) else { return };
-    (kept[first], kept[last]) = (true, true);
-    let off = |k: usize| {
-        let (at, shade) = shades[k];
-        let t = if b.0 > a.0 { (at - a.0) / (b.0 - a.0) } else { 0.0 };
-        [0, 1, 2].map(|c| (shade[c] - a.1[c] - (b.1[c] - a.1[c]) * t).abs()).into_iter().fold(0.0, f64::max)
-    };
-    let worst =
-        (first + 1..last).map(|k| (off(k), k)).fold((0.0, first), |w, o| if o.0 > w.0 { o } else { w });
-    if worst.0 > MAX_CHANNEL_ERROR {
-        mark_needed_stops(shades, first, worst.1, kept);
-        mark_needed_stops(shades, worst.1, last, kept);
-    }
+/// Whether each stop is needed. All others lie on the line between their neighbours.
+fn needed_stops(shades: &[(f64, [f64; 3])]) -> Vec<bool> {
+    let ends = [0, shades.len().saturating_sub(1)];
+    douglas_peucker(shades.len(), &ends[..shades.len().min(2)], |first, last| {
+        let (a, b) = (shades[first], shades[last]);
+        let off = |k: usize| {
+            let (at, shade) = shades[k];
+            let t = if b.0 > a.0 { (at - a.0) / (b.0 - a.0) } else { 0.0 };
+            let channel_error = |c: usize| (shade[c] - a.1[c] - (b.1[c] - a.1[c]) * t).abs();
+            [0, 1, 2].map(channel_error).into_iter().fold(0.0, f64::max)
+        };
+        farthest_point(first + 1..last, off, MAX_CHANNEL_ERROR)
+    })
 }
 
 /// Largest invisible error of a colour channel, 0 to 1.
@@ -137,7 +134,7 @@ pub(crate) fn join(
     }
     steps.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.arc.cmp(&b.arc)));
 
-    let mut joined = RampGroups { root: (0..count as u32).collect(), groups: BTreeMap::new() };
+    let mut joined = RampGroups { sets: UnionFind::new(count), groups: BTreeMap::new() };
     for number in 0..steps.len() {
         joined.join(&steps, number, tolerance);
     }
@@ -146,7 +143,7 @@ pub(crate) fn join(
     let mut ramps = vec![None; count];
     let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for patch in 0..count as u32 {
-        let root = joined.find(patch);
+        let root = joined.sets.root(patch);
         if joined.groups.get(&root).is_some_and(|g| !g.is_broken && g.spans.len() >= MIN_RAMP_STEPS) {
             members.entry(root).or_default().push(patch);
         }
@@ -213,23 +210,16 @@ fn straight<'a>(
 }
 
 struct RampGroups {
-    root: Vec<u32>,
+    sets: UnionFind,
     /// Groups of more than one patch, by root patch.
     groups: BTreeMap<u32, RampGroup>,
 }
 
 impl RampGroups {
-    fn find(&self, mut patch: u32) -> u32 {
-        while self.root[patch as usize] != patch {
-            patch = self.root[patch as usize];
-        }
-        patch
-    }
-
     /// Joins the groups on both sides of a border, if all their borders fit along one direction.
     fn join(&mut self, steps: &[BandBorder], number: usize, tolerance: f64) {
         let step = &steps[number];
-        let [a, b] = step.patches.map(|patch| self.find(patch));
+        let [a, b] = step.patches.map(|patch| self.sets.root(patch));
         if a == b {
             return;
         }
@@ -262,7 +252,7 @@ impl RampGroups {
             return;
         }
         self.groups.remove(&small);
-        self.root[small as usize] = large;
+        self.sets.join_into(small, large);
         let group = self.groups.entry(large).or_default();
         group.direction = way;
         group.spans = spans;
@@ -279,7 +269,7 @@ impl RampGroups {
     ) {
         for (arc, points) in borders.arcs.iter().zip(points) {
             for patch in arc.sides.into_iter().filter(|patch| *patch != OUTSIDE_PATCH) {
-                let root = self.find(patch);
+                let root = self.sets.root(patch);
                 let (Some(group), Some(look)) = (self.groups.get_mut(&root), look(patch)) else { continue };
                 if group.is_broken {
                     continue;

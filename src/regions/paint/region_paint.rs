@@ -7,6 +7,7 @@ use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point
 
 use super::gradient_regions::gradient;
 use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
+use crate::geometry::plane::planar_distance::unit;
 use crate::light::Shading;
 use crate::regions::{Region, RegionOptions, Regions, Seams, SurfaceLabel};
 
@@ -114,18 +115,9 @@ fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
 
 /// Provenance of a region with the given label.
 pub(crate) fn provenance(look: SurfaceLabel, context: &PaintContext) -> Provenance {
-    let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
-    Provenance {
-        identity: 0,
-        places: Arc::default(),
-        classes: Vec::new(),
-        tone: Some(look.tone),
-        part: context.parts.get(look.part.index()).and_then(name),
-        material: context.materials.get(look.material.index()).and_then(name),
-        invisibility: 0,
-        note: None,
-        text: None,
-    }
+    let (part, material) = (look.part.index(), look.material.index());
+    let names = Provenance::of_names(context.parts.get(part), context.materials.get(material));
+    Provenance { tone: Some(look.tone), ..names }
 }
 
 /// Loops of a region, offset outward by `reach` along borders with regions painted later.
@@ -225,11 +217,6 @@ fn ends(segment: &PathSeg) -> [Vec2; 2] {
         if way == Vec2::ZERO { chord } else { way }
     };
     [at(0.0), at(1.0)]
-}
-
-fn unit(v: Vec2) -> Vec2 {
-    let length = v.hypot2().sqrt();
-    if length > 0.0 { v / length } else { Vec2::ZERO }
 }
 
 /// Unit vector to the outside of a region whose border has this direction.

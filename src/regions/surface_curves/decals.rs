@@ -270,10 +270,7 @@ fn drop_crowded(
         figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
     };
     let reaches: Vec<f64> = figures.iter().map(extent).collect();
-    let normal = |face: u32| {
-        let [a, b, c] = mesh.corners(FaceId(face));
-        (b - a).cross(c - a).normalize_or_zero()
-    };
+    let normal = |face: u32| mesh.area_vector(FaceId(face)).normalize_or_zero();
     let part = |anchor: &FigurePlacement| mesh.face_part[anchor.face as usize];
     anchors.sort_by_key(|anchor| {
         (

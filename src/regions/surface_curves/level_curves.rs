@@ -4,6 +4,7 @@
 //! through the faces, joined end to end and projected to the page. Callers cut them at the borders of the
 //! ground; there the face in front at the middle of each piece decides on visibility.
 
+use crate::geometry::lists::linked_lines::linked_lines;
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
@@ -141,43 +142,31 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
         }
     }
     let next = |k: usize, end: usize| {
-        let [a, b] = at.get(&key(&pieces[k], end)).copied().unwrap_or([u32::MAX; 2]);
+        let point = key(&pieces[k], end);
+        let [a, b] = at.get(&point).copied().unwrap_or([u32::MAX; 2]);
         let other = if a as usize == k { b } else { a };
-        (other != u32::MAX && pieces[other as usize].part == pieces[k].part).then_some(other as usize)
+        (other != u32::MAX && pieces[other as usize].part == pieces[k].part)
+            .then(|| (other as usize, usize::from(key(&pieces[other as usize], 0) != point)))
     };
-    let mut done = vec![false; pieces.len()];
     let mut curves = Vec::new();
-    for closed in [false, true] {
-        for first in 0..pieces.len() {
-            let Some(end) = (0..2).find(|end| closed || next(first, *end).is_none()) else { continue };
-            if done[first] {
-                continue;
-            }
-            let mut points = vec![pieces[first].ends[end]];
-            let mut densities: Vec<f64> = Vec::new();
-            let (mut k, mut from) = (first, end);
-            loop {
-                done[k] = true;
-                points.push(pieces[k].ends[1 - from]);
-                densities.push(pieces[k].density);
-                let Some(other) = next(k, 1 - from).filter(|other| !done[*other]) else { break };
-                from = usize::from(key(&pieces[other], 0) != key(&pieces[k], 1 - from));
-                k = other;
-            }
-            let image: Vec<DVec3> = points.iter().map(|p| lit.view.frame.image_from_local(*p)).collect();
-            let line = image.iter().map(|q| Point::new(q.x, q.y) + offset).collect();
-            let nearness = image.iter().map(|q| q.z).collect();
-            // At a point, the mean of both sides.
-            let density = (0..points.len())
-                .map(|k| {
-                    let (before, after) = (k.saturating_sub(1), k.min(densities.len() - 1));
-                    f64::midpoint(densities[before], densities[after])
-                })
-                .collect();
-            let LevelPiece { level, part, .. } = pieces[first];
-            curves.push(LevelCurve { line, points, level, density, part, nearness });
-        }
-    }
+    linked_lines(pieces.len(), next, |line| {
+        let (first, from) = line[0];
+        let mut points = vec![pieces[first].ends[from]];
+        points.extend(line.iter().map(|(k, from)| pieces[*k].ends[1 - from]));
+        let densities: Vec<f64> = line.iter().map(|(k, _)| pieces[*k].density).collect();
+        let image: Vec<DVec3> = points.iter().map(|p| lit.view.frame.image_from_local(*p)).collect();
+        let line = image.iter().map(|q| Point::new(q.x, q.y) + offset).collect();
+        let nearness = image.iter().map(|q| q.z).collect();
+        // At a point, the mean of both sides.
+        let density = (0..points.len())
+            .map(|k| {
+                let (before, after) = (k.saturating_sub(1), k.min(densities.len() - 1));
+                f64::midpoint(densities[before], densities[after])
+            })
+            .collect();
+        let LevelPiece { level, part, .. } = pieces[first];
+        curves.push(LevelCurve { line, points, level, density, part, nearness });
+    });
     curves
 }
 

@@ -63,7 +63,7 @@ impl Walker<'_> {
         let t = mesh.triangles[face as usize];
         let ends = [(corner + 1) % 3, (corner + 2) % 3];
         let [a, b] = ends.map(|k| t[k]);
-        let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]).ok()?;
+        let edge = mesh.edges.between(a, b)?;
         let faces = mesh.edges.faces(edge);
         let [other] = faces.list().iter().filter(|other| **other != face).collect::<Vec<_>>()[..] else {
             return None;

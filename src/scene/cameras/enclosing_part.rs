@@ -3,6 +3,7 @@
 //! The winding number of a closed surface is 1 for points inside and 0 for points outside. It is the sum of
 //! the solid angles of all triangles, divided by 4 π.
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -31,9 +32,7 @@ impl Scene {
         if !place.is_finite() {
             return None;
         }
-        let low = geometry.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = geometry.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        if !(place.cmpge(low).all() && place.cmple(high).all()) {
+        if !Bounds::of(geometry.positions.iter().copied()).meets(&Bounds::of([place])) {
             return None;
         }
         let solid_angle = |triangle: &[u32; 3]| {

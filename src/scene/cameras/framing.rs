@@ -6,15 +6,16 @@
 //! p.z)`. Two opposite planes give the nearest eye that sees everything. The result is exact, because it uses
 //! the vertices and not their bounding box.
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::error::Error;
 use crate::error::nearest::nearest;
+use crate::geometry::names::glob::glob_matches;
 use crate::geometry::numbers::portable_math::tan;
 use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::DrawnPoints;
-use crate::scene::part_selection::glob_matches;
 use crate::scene::tolerances;
 use crate::scene::{Camera, Projection, Scene};
 
@@ -112,7 +113,7 @@ impl Camera {
 struct Cloud {
     points: Vec<DVec3>,
     /// Lower and upper corner of each [`POINTS_PER_BOX`] of points.
-    boxes: Vec<(DVec3, DVec3)>,
+    boxes: Vec<Bounds>,
 }
 
 impl Cloud {
@@ -128,7 +129,7 @@ impl Cloud {
         let boxes = points
             .par_chunks(POINTS_PER_BOX)
             .with_min_len(POINTS_PER_TASK / POINTS_PER_BOX)
-            .map(box_round)
+            .map(|points| Bounds::of(points.iter().copied()))
             .collect();
         Self { points, boxes }
     }
@@ -136,8 +137,8 @@ impl Cloud {
     /// Maximum of `point · direction`, and the depth of a point that attains it; of several, the deepest.
     fn farthest(&self, direction: DVec3) -> (f64, f64) {
         // Rounding is monotonic in products and sums, so no point exceeds this bound.
-        let beyond = |(low, high): &(DVec3, DVec3)| {
-            product(DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low), direction)
+        let beyond = |around: &Bounds| {
+            product(DVec3::select(direction.cmpge(DVec3::ZERO), around.high, around.low), direction)
         };
         let mut best = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         let mut look = |points: &[DVec3]| {
@@ -174,11 +175,6 @@ impl Cloud {
 #[inline]
 fn product(p: DVec3, direction: DVec3) -> f64 {
     p.x * direction.x + p.y * direction.y + p.z * direction.z
-}
-
-fn box_round(points: &[DVec3]) -> (DVec3, DVec3) {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points.iter().fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
 }
 
 /// Eye in camera axes that sees all points within the half angles with tangents `tx` and `ty`.

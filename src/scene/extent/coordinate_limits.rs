@@ -3,6 +3,8 @@
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::geometry::space::bounds::Bounds;
+
 /// Points per parallel task.
 const POINTS_PER_TASK: usize = 1 << 14;
 
@@ -24,15 +26,10 @@ pub(crate) const NOT_DRAWABLE_WARNING: &str =
 /// Bounding box of all finite points, as lower and upper corner; `None` if there are none.
 #[must_use]
 pub(crate) fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
-    let of_chunk = |chunk: &[DVec3]| {
-        let finite = chunk.iter().filter(|p| p.is_finite());
-        finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
-    };
-    let (low, high) = points
-        .par_chunks(POINTS_PER_TASK)
-        .map(of_chunk)
-        .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    (low.is_finite() && high.is_finite()).then_some((low, high))
+    let of_chunk = |chunk: &[DVec3]| Bounds::of(chunk.iter().copied().filter(|p| p.is_finite()));
+    let chunks = points.par_chunks(POINTS_PER_TASK).map(of_chunk);
+    let around = chunks.reduce(|| Bounds::EMPTY, Bounds::union);
+    (!around.is_empty()).then_some((around.low, around.high))
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::geometry::space::bounds::Bounds;
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
@@ -214,9 +215,8 @@ struct DegenerateCandidates {
     suspects: Vec<u32>,
     /// For each vertex, whether another face or a wire with length uses it.
     used: Vec<bool>,
-    /// Bounding box of these vertices, world space; inverted if there are none.
-    low: DVec3,
-    high: DVec3,
+    /// Bounding box of these vertices, world space.
+    around: Bounds,
 }
 
 impl DegenerateCandidates {
@@ -225,14 +225,9 @@ impl DegenerateCandidates {
         suspects.iter().for_each(|face| is_suspect[*face as usize] = true);
         let used = used(placed.geometry, |face| !is_suspect[face], |wire| placed.is_long(wire));
         let vertices = used.par_iter().enumerate().with_min_len(MIN_TASK_ITEMS).filter(|(_, used)| **used);
-        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let grow = |(low, high): (DVec3, DVec3), (vertex, _): (usize, &bool)| {
-            let p = placed.at(vertex as u32);
-            (low.min(p), high.max(p))
-        };
-        let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
-        let (low, high) = vertices.fold(|| nothing, grow).reduce(|| nothing, join);
-        Self { suspects, used, low, high }
+        let grow = |around: Bounds, (vertex, _): (usize, &bool)| around.with(placed.at(vertex as u32));
+        let around = vertices.fold(|| Bounds::EMPTY, grow).reduce(|| Bounds::EMPTY, Bounds::union);
+        Self { suspects, used, around }
     }
 
     /// Suspect faces for which `counts` returns `wanted`.
@@ -250,10 +245,7 @@ impl DegenerateCandidates {
     fn bounds(&self, placed: &PlacedGeometry, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
         let real = self.those(placed, counts, true).flatten();
         let real = real.filter(|corner| (**corner as usize) < self.used.len());
-        let (low, high) = real.fold((self.low, self.high), |(low, high), corner| {
-            let p = placed.at(*corner);
-            (low.min(p), high.max(p))
-        });
+        let Bounds { low, high } = self.around.union(Bounds::of(real.map(|corner| placed.at(*corner))));
         (low.x <= high.x).then_some((low, high))
     }
 

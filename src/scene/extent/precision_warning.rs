@@ -7,10 +7,9 @@
 //! - In text files, it is measured. If all numbers fit in single precision, the rule above applies. Otherwise
 //!   the step is the last decimal that occurs, if there are at most six. Whole numbers count as exact.
 
-use crate::parallel::prelude::*;
+use crate::geometry::space::bounds::Bounds;
 use glam::DVec3;
 
-use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::scene::tolerances::{INTEGER_ROUNDING, MAX_COORDINATE_STEP_OF_MODEL};
 use crate::scene::{Geometry, Scene};
 
@@ -65,15 +64,9 @@ pub(crate) fn warn_of_coarse_steps(scene: &mut Scene) {
 
 /// Whether single precision at the largest coordinates is too coarse for the size of the geometry.
 fn is_far(geometry: &Geometry) -> bool {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = geometry
-        .positions
-        .par_iter()
-        .with_min_len(MIN_TASK_ITEMS)
-        .fold(|| nothing, |(low, high), p| (low.min(*p), high.max(*p)))
-        .reduce(|| nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    let largest = low.abs().max(high.abs()).max_element();
-    largest.is_finite() && single_step(largest) > MAX_COORDINATE_STEP_OF_MODEL * (high - low).length()
+    let around = Bounds::of_many(&geometry.positions);
+    let largest = around.largest_coordinate();
+    largest.is_finite() && single_step(largest) > MAX_COORDINATE_STEP_OF_MODEL * around.diagonal()
 }
 
 /// Coordinate step along each axis; 0 if all values are equal or exact.

@@ -1,11 +1,12 @@
 //! [`VertexColourPalette`]: a few colours that represent vertex colours blended across triangles.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::triangle_colour::{MaterialFactor, TriangleColour, corner_light};
-use crate::colour::oklab::{self, Oklab, distance2};
+use crate::colour::oklab::{self, Oklab};
 use crate::colour::srgb::Colour;
 use crate::scene::Scene;
+use crate::scene::textures::palette::colour_kmeans::nearest_centre_index;
 
 /// A few colours that represent vertex colours.
 #[derive(Debug, Clone)]
@@ -34,15 +35,7 @@ impl VertexColourPalette {
 
     /// Index of the nearest colour; the first of equally near ones.
     pub(crate) fn at(&self, light: [f64; 3]) -> u8 {
-        let look = self.looks(light);
-        let mut best = (0, f32::INFINITY);
-        for (k, colour) in self.palette.iter().enumerate() {
-            let far = distance2(*colour, look);
-            if far < best.1 {
-                best = (k, far);
-            }
-        }
-        best.0 as u8
+        nearest_centre_index(&self.palette, self.looks(light)) as u8
     }
 }
 
@@ -62,14 +55,9 @@ pub(crate) fn sample_vertex_colours(
     let (mut colours, mut weights) = (Vec::new(), Vec::new());
     for part in &scene.parts {
         let Some(geometry) = scene.geometry_of(part) else { continue };
-        let position = |corner: u32| {
-            geometry.positions.get(corner as usize).map(|p| part.world_from_part.transform_point3(*p))
-        };
         let first = triangles.partition_point(|own| own.geometry < part.geometry);
         for own in triangles[first..].iter().take_while(|own| own.geometry == part.geometry) {
-            let [p, q, r] = geometry.triangles[own.triangle].map(position);
-            let (Some(p), Some(q), Some(r)) = (p, q, r) else { continue };
-            let area = DVec3::cross(q - p, r - p).length() / 2.0;
+            let Some(area) = part.area_of(geometry, own.triangle) else { continue };
             let mut put = |light: Vec3, share: f64| {
                 colours.push(Colour { a: 255, ..factor.product([Some(light), None]) });
                 weights.push((area * share) as f32);

@@ -18,18 +18,13 @@ pub(crate) fn texel_coverage(scene: &Scene, triangles: &[[usize; 2]], texels: &T
     let mut visits = 0;
     for part in &scene.parts {
         let Some(geometry) = scene.geometries.get(part.geometry) else { continue };
-        let position = |corner: u32| {
-            geometry.positions.get(corner as usize).map(|p| part.world_from_part.transform_point3(*p))
-        };
         let first = triangles.partition_point(|[own, _]| *own < part.geometry);
         let own = triangles[first..].iter().take_while(|[own, _]| *own == part.geometry);
         for triangle in own.map(|[_, triangle]| *triangle) {
             let Some(uvs) = geometry.corner_uvs.get(triangle) else { continue };
             let [a, b, c] = uvs.map(|uv| texels.place(*geometry.uvs.get(uv as usize)?));
             let (Some(a), Some(b), Some(c)) = (a, b, c) else { continue };
-            let [p, q, r] = geometry.triangles[triangle].map(position);
-            let (Some(p), Some(q), Some(r)) = (p, q, r) else { continue };
-            let area = (q - p).cross(r - p).length() / 2.0;
+            let Some(area) = part.area_of(geometry, triangle) else { continue };
             let size = a.max(b).max(c) - a.min(b).min(c) + 2.0;
             let is_large = size.element_product() > 4.0 * count as f64;
             if is_large || visits > MAX_VISITED_TEXELS {

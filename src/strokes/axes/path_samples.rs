@@ -2,9 +2,9 @@
 
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Vec2};
 
-use crate::chains::fit::bezier_fit::unit;
 use crate::chains::{Chain, Sample};
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
+use crate::geometry::plane::polylines::arc_lengths;
 
 /// Cosine of the least turn that makes a corner, 20 degrees.
 pub(crate) const CORNER_COSINE: f64 = 0.9397;
@@ -54,19 +54,6 @@ fn tangents(segment: &PathSeg) -> Option<[Vec2; 2]> {
     Some([unit(first), unit(last)])
 }
 
-/// Arc length at each point.
-pub(crate) fn arcs(points: &[Point]) -> Vec<f64> {
-    let mut arc = 0.0;
-    let mut arcs = Vec::with_capacity(points.len());
-    for (i, p) in points.iter().enumerate() {
-        if i > 0 {
-            arc += length(*p - points[i - 1]);
-        }
-        arcs.push(arc);
-    }
-    arcs
-}
-
 /// The scene sample at each arc length of the path, which runs close to the chain's points.
 pub(crate) fn samples(chain: &Chain, axis: &[Point], at: &[f64]) -> Vec<Sample> {
     let mut points = chain.points.clone();
@@ -83,7 +70,7 @@ pub(crate) fn samples(chain: &Chain, axis: &[Point], at: &[f64]) -> Vec<Sample> 
         points.extend_from_within(..1);
         samples.extend_from_within(..1);
     }
-    let own = arcs(&points);
+    let own = arc_lengths(&points);
     let (Some(own_total), Some(total)) = (own.last(), at.last()) else { return Vec::new() };
     let scale = own_total / total.max(f64::MIN_POSITIVE);
     let mut side = 0;

@@ -6,10 +6,11 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use super::path_samples::{CORNER_COSINE, arcs, dense, samples};
-use crate::chains::fit::bezier_fit::{end_tangent, fit, unit};
+use super::path_samples::{CORNER_COSINE, dense, samples};
+use crate::chains::fit::bezier_fit::{end_tangent, fit};
 use crate::chains::{Chain, Sample};
-use crate::geometry::plane::planar_distance::{length, segment_distance_squared};
+use crate::geometry::plane::planar_distance::{length, segment_distance_squared, unit};
+use crate::geometry::plane::polylines::arc_lengths;
 
 /// Distance between points along the axis, px.
 const POINT_STEP_PX: f64 = 1.0;
@@ -45,7 +46,7 @@ impl StrokeAxis {
     /// The axis of a chain. `px` is the length of a px in user units. A chain without a path gives no points.
     pub(crate) fn of(chain: &Chain, px: f64) -> Self {
         let (points, joints) = dense(&chain.path, POINT_STEP_PX * px);
-        let arcs = arcs(&points);
+        let arcs = arc_lengths(&points);
         let samples = samples(chain, &points, &arcs);
         let mut axis = Self { points, arcs, samples, corners: Vec::new(), closed: chain.closed };
         axis.corners = joints.into_iter().filter(|i| axis.turns(*i, CORNER_REACH_PX * px)).collect();

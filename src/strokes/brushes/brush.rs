@@ -12,11 +12,11 @@ use kurbo::{BezPath, PathEl, Point, Vec2};
 use super::brush_core;
 use super::brush_image::ImageCopy;
 use super::brush_strip::BrushStrip;
-use crate::chains::fit::bezier_fit::unit;
 use crate::colour::srgb::Colour;
 use crate::drawing::{ImagePiece, Length, PieceContent, Unit};
 use crate::geometry::numbers::portable_math::cos;
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
+use crate::geometry::plane::polyline_path::polygon;
 use crate::strokes::axes::stroke_axis::{StrokeAxis, add_stretch};
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::tolerances;
@@ -96,12 +96,7 @@ fn edges(profile: &[[f64; 2]]) -> BezPath {
     };
     let there = (0..=count).map(|k| at(k, 0));
     let back = (0..=count).rev().map(|k| at(k, 1));
-    let mut path = BezPath::new();
-    for (k, p) in there.chain(back).enumerate() {
-        if k == 0 { path.move_to(p) } else { path.line_to(p) }
-    }
-    path.close_path();
-    path
+    polygon(there.chain(back))
 }
 
 /// Greatest number of columns in the outline of a profile.

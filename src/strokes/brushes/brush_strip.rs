@@ -7,6 +7,7 @@ use super::brush_core::{BRUSH_COLUMNS, InkOffset, nearest_ink};
 use crate::colour::darkness_map::{DarknessMap, OutlineTracing};
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
+use crate::geometry::plane::polyline_path::add_polygon;
 
 /// Darkness on white above which a pixel is ink.
 pub(crate) const MIN_INK_DARKNESS: f64 = 0.5;
@@ -104,13 +105,10 @@ impl BrushStrip {
             repeats: false,
         };
         let rings = shades.outlines(&tracing).unwrap_or_default();
-        let place = |p: &Point| Point::new(p.x / size[0], p.y / size[1] - 0.5);
+        let place = |p: Point| Point::new(p.x / size[0], p.y / size[1] - 0.5);
         let mut path = BezPath::new();
         for ring in rings {
-            for (k, p) in ring.iter().enumerate() {
-                if k == 0 { path.move_to(place(p)) } else { path.line_to(place(p)) }
-            }
-            path.close_path();
+            add_polygon(&mut path, ring.into_iter().map(place));
         }
         path
     }

@@ -31,10 +31,7 @@ pub(crate) fn fit_round(path: &BezPath, share: f64, lengths: &[f64]) -> (Vec<f64
 }
 
 fn fit_from(path: &BezPath, closed: bool, lengths: &[f64], share: f64) -> (Vec<f64>, f64) {
-    let mut pattern: Vec<f64> = lengths.to_vec();
-    if pattern.len() % 2 == 1 {
-        pattern.extend_from_slice(lengths);
-    }
+    let pattern = whole_pattern(lengths);
     let period: f64 = pattern.iter().sum();
     let gaps: f64 = pattern.iter().skip(1).step_by(2).sum();
     if !period.is_finite() || period <= 0.0 || gaps <= 0.0 {
@@ -65,10 +62,7 @@ pub(crate) fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<
     let (pattern, _) = fit(path, false, lengths);
     let [from, to] = ends.map(|anchor| DVec3::from_array(anchor.rest_position.map(f64::from)));
     let chord = (to - from).length();
-    let mut own: Vec<f64> = lengths.to_vec();
-    if own.len() % 2 == 1 {
-        own.extend_from_slice(lengths);
-    }
+    let own = whole_pattern(lengths);
     let period: f64 = own.iter().sum();
     if pattern.is_empty() || chord <= 0.0 {
         return (pattern, 0.0);
@@ -78,6 +72,11 @@ pub(crate) fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<
     let before = from.dot(to - from) / (chord * chord) * length;
     let offset = (before + own.first().copied().unwrap_or_default() / 2.0).rem_euclid(period);
     (own, offset)
+}
+
+/// Lengths of dashes and gaps in turn, twice if their number is odd.
+fn whole_pattern(lengths: &[f64]) -> Vec<f64> {
+    lengths.repeat(1 + lengths.len() % 2)
 }
 
 /// Lengths of the runs between the corners of a path.

@@ -2,9 +2,12 @@
 //!
 //! Source: Appel, Rohlf and Stein, The haloed line effect for hidden line elimination, SIGGRAPH 1979.
 
-use kurbo::Point;
-use rustc_hash::FxHashMap;
+use kurbo::Rect;
 
+use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::plane::planar_distance::nearest_parameter;
+use crate::geometry::plane::planar_grid::PlanarGrid;
+use crate::geometry::plane::polylines::bounds;
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Least depth difference between a nearer and a farther line, as a share of the depth range of all lines.
@@ -38,6 +41,9 @@ struct AxisRun {
 /// Number of points in a run.
 const POINTS_PER_RUN: usize = 4;
 
+/// Greatest number of cells along an axis of the page.
+const MAX_CELLS_ACROSS: f64 = 1000.0;
+
 /// The gaps in each line as arc lengths, ascending. Gaps over the seam of a closed line start before 0 or end
 /// past its length.
 pub(crate) fn gaps(lines: &[HaloLine], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
@@ -52,40 +58,35 @@ pub(crate) fn gaps(lines: &[HaloLine], depths: [f64; 2], px: f64) -> Vec<Vec<[f6
 
 struct HaloGrid<'a> {
     lines: &'a [HaloLine<'a>],
-    cells: FxHashMap<(i64, i64), Vec<AxisRun>>,
-    cell: f64,
+    grid: PlanarGrid,
+    /// Runs whose bounding boxes overlap each cell.
+    runs: CsrLists<AxisRun>,
+    /// Greatest reach of a halo.
+    greatest: f64,
     margin: f64,
     px: f64,
 }
 
 impl<'a> HaloGrid<'a> {
     fn new(lines: &'a [HaloLine<'a>], greatest: f64, margin: f64, px: f64) -> Self {
-        let cell = (greatest + POINTS_PER_RUN as f64 * px).max(4.0 * px);
-        let mut field = Self { lines, cells: FxHashMap::default(), cell, margin, px };
-        for (i, line) in lines.iter().enumerate().filter(|(_, line)| line.reach > 0.0) {
-            let last = line.axis.len().saturating_sub(1);
-            for from in (0..last).step_by(POINTS_PER_RUN) {
-                let to = (from + POINTS_PER_RUN).min(last);
-                let stretch = AxisRun { line: i as u32, from: from as u32, to: to as u32 };
-                let (mut low, mut high) =
-                    (field.at(line.axis.points[from]), field.at(line.axis.points[from]));
-                for p in &line.axis.points[from..=to] {
-                    let at = field.at(*p);
-                    low = (low.0.min(at.0), low.1.min(at.1));
-                    high = (high.0.max(at.0), high.1.max(at.1));
-                }
-                for x in low.0..=high.0 {
-                    for y in low.1..=high.1 {
-                        field.cells.entry((x, y)).or_default().push(stretch);
-                    }
+        let haloed = || lines.iter().enumerate().filter(|(_, line)| line.reach > 0.0);
+        let points = haloed().flat_map(|(_, line)| line.axis.points.iter().copied());
+        let extent = bounds(points).unwrap_or_default();
+        let cell = (greatest + POINTS_PER_RUN as f64 * px).max(extent.size().max_side() / MAX_CELLS_ACROSS);
+        let grid = PlanarGrid::new(extent, 1.0 / cell);
+        let runs = csr_lists(grid.count(), |put| {
+            for (i, line) in haloed() {
+                let last = line.axis.len().saturating_sub(1);
+                for from in (0..last).step_by(POINTS_PER_RUN) {
+                    let to = (from + POINTS_PER_RUN).min(last);
+                    let run = AxisRun { line: i as u32, from: from as u32, to: to as u32 };
+                    let around = bounds(line.axis.points[from..=to].iter().copied());
+                    let cells = around.into_iter().flat_map(|around| grid.rows_in(around)).flatten();
+                    cells.for_each(|cell| put(cell, run));
                 }
             }
-        }
-        field
-    }
-
-    fn at(&self, p: Point) -> (i64, i64) {
-        ((p.x / self.cell).floor() as i64, (p.y / self.cell).floor() as i64)
+        });
+        Self { lines, grid, runs, greatest, margin, px }
     }
 
     fn gaps(&self, line: usize) -> Vec<[f64; 2]> {
@@ -139,19 +140,13 @@ impl<'a> HaloGrid<'a> {
     fn covers(&self, line: usize, arc: f64) -> bool {
         let own_axis = self.lines[line].axis;
         let (p, sample) = own_axis.at(arc);
-        let (x, y) = self.at(p);
-        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
-        around.filter_map(|cell| self.cells.get(&cell)).flatten().any(|stretch| {
+        let around = Rect::from_points(p, p).inflate(self.greatest, self.greatest);
+        self.grid.rows_in(around).flat_map(|cells| self.runs.of_all(cells)).any(|stretch| {
             let haloed_line = &self.lines[stretch.line as usize];
             let reach = haloed_line.reach;
             for i in stretch.from as usize..stretch.to as usize {
                 let (a, b) = (haloed_line.axis.points[i], haloed_line.axis.points[i + 1]);
-                let segment = b - a;
-                let t = if segment.hypot2() > 0.0 {
-                    ((p - a).dot(segment) / segment.hypot2()).clamp(0.0, 1.0)
-                } else {
-                    0.0
-                };
+                let t = nearest_parameter(p, a, b);
                 if (p - a.lerp(b, t)).hypot2() >= reach * reach {
                     continue;
                 }

@@ -1,6 +1,6 @@
 //! [`InkedPiece`]: a piece of a line ready to be drawn, and its division where the ink changes.
 
-use super::ink_spans::{InkSpan, SpanInk};
+use super::ink_spans::{InkSpan, SpanInk, merge_equal_inks};
 use crate::drawing::Cap;
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 
@@ -80,13 +80,8 @@ fn cyclic_spans(inks: &[InkSpan], round: Option<f64>, is_whole: bool) -> Vec<Ink
             }
         }
     }
-    all.into_iter().fold(Vec::new(), |mut kept: Vec<InkSpan>, next| {
-        match kept.last_mut() {
-            Some(last) if last.tint == next.tint => last.to = next.to,
-            _ => kept.push(next),
-        }
-        kept
-    })
+    merge_equal_inks(&mut all);
+    all
 }
 
 #[cfg(test)]

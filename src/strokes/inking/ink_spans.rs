@@ -72,15 +72,20 @@ fn merge_short_spans(mut stretches: Vec<InkSpan>, least: f64) -> Vec<InkSpan> {
         let after = (short + 1 < stretches.len()).then_some(short + 1);
         let neighbour = [before, after].into_iter().flatten().max_by(by_length);
         stretches[short].tint = neighbour.map_or(stretches[short].tint, |k| stretches[k].tint);
-        stretches = stretches.into_iter().fold(Vec::new(), |mut kept: Vec<InkSpan>, next| {
-            match kept.last_mut() {
-                Some(last) if last.tint == next.tint => last.to = next.to,
-                _ => kept.push(next),
-            }
-            kept
-        });
+        merge_equal_inks(&mut stretches);
     }
     stretches
+}
+
+/// Merges neighbours of equal ink.
+pub(crate) fn merge_equal_inks(spans: &mut Vec<InkSpan>) {
+    spans.dedup_by(|next, last| {
+        let is_equal = last.tint == next.tint;
+        if is_equal {
+            last.to = next.to;
+        }
+        is_equal
+    });
 }
 
 /// The ink at a point of an axis.

@@ -6,9 +6,10 @@
 
 use kurbo::{BezPath, Point, Vec2};
 
-use crate::chains::fit::bezier_fit::{fit, unit};
+use crate::chains::fit::bezier_fit::fit;
 use crate::drawing::Join;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin};
+use crate::geometry::plane::planar_distance::unit;
 use crate::strokes::axes::stroke_axis::{StrokeAxis, add_stretch};
 
 /// Number of points on either side for measuring directions and bends.

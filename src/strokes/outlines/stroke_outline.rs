@@ -9,9 +9,9 @@
 use kurbo::{BezPath, Point, Vec2};
 
 use super::offset_side::{DIRECTION_REACH_POINTS, OffsetSide};
-use crate::chains::fit::bezier_fit::{end_tangent, fit, tangent_of, unit};
+use crate::chains::fit::bezier_fit::{end_tangent, fit, tangent_of};
 use crate::drawing::{Cap, Join};
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Greatest distance of fitted sides from their points, px.
@@ -165,13 +165,13 @@ mod tests {
     use crate::chains::Sample;
     use crate::geometry::numbers::noise::{hash, unit_interval as chance, value_noise};
     use crate::geometry::numbers::portable_math::{cos, sin};
-    use crate::strokes::axes::path_samples::arcs;
+    use crate::geometry::plane::polylines::arc_lengths;
 
     const ROUND_NIB: Nib = Nib { caps: [Cap::Round; 2], join: Join::Round, px: 1.0 };
 
     fn axis(points: Vec<Point>, corners: Vec<usize>, closed: bool) -> StrokeAxis {
         let samples = vec![Sample::new(1.0, 1.0); points.len()];
-        StrokeAxis { arcs: arcs(&points), points, samples, corners, closed }
+        StrokeAxis { arcs: arc_lengths(&points), points, samples, corners, closed }
     }
 
     /// Polyline with points a px apart and corners at its vertices.

@@ -8,9 +8,9 @@ use serde::{Deserialize, Deserializer};
 use super::hand::{Hand, HandChange};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Join, Length};
+use crate::geometry::numbers::checked_number::some_fraction;
 use crate::strokes::brushes::brush::Brush;
 use crate::strokes::brushes::brush_source::BrushChange;
-use crate::strokes::fraction::fraction;
 use crate::strokes::widths::swell::{Swell, SwellChange};
 
 /// Colour of a pen.
@@ -94,10 +94,10 @@ pub(crate) struct PenChange {
     #[serde(deserialize_with = "dash")]
     pub dash: Option<Vec<Length>>,
     /// Opacity, 0 to 1.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub opacity: Option<f64>,
     /// Share of the width lost where strength is 0, 0 to 1.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub fade: Option<f64>,
     /// Variation of the width.
     pub swell: SwellChange,
@@ -178,7 +178,7 @@ impl<'de> Visitor<'de> for InkVisitor {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
         struct Shade {
-            #[serde(deserialize_with = "fraction")]
+            #[serde(deserialize_with = "some_fraction")]
             shade: Option<f64>,
         }
         let read = Shade::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;

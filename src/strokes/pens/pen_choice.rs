@@ -68,9 +68,12 @@ impl<'a> LineInfo<'a> {
     }
 }
 
+/// Signature of the function.
+type ChangePen = dyn Fn(&LineInfo, &mut Pen) + Send + Sync;
+
 /// A function that changes the pen of each line. Compared by identity.
 #[derive(Clone)]
-pub(crate) struct PenChoice(pub Arc<dyn Fn(&LineInfo, &mut Pen) + Send + Sync>);
+pub(crate) struct PenChoice(pub Arc<ChangePen>);
 
 impl fmt::Debug for PenChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -8,7 +8,7 @@
 use serde::Deserialize;
 
 use crate::drawing::Length;
-use crate::strokes::fraction::fraction;
+use crate::geometry::numbers::checked_number::some_fraction;
 
 /// Variation of the width along a line. All effects are off by default and multiply.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,24 +70,24 @@ pub(crate) struct SwellChange {
     /// Length of the tapered ends.
     pub taper: Option<Length>,
     /// Share of the width left at a tapered end.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub taper_to: Option<f64>,
     /// Effect of bends.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub bend: Option<f64>,
     /// Bend radius where the effect is half.
     pub bend_radius: Option<Length>,
     /// Share of the width lost in full light.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub lit: Option<f64>,
     /// Share of the width that the farthest lines lose.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub near: Option<f64>,
     /// Share of the width lost without a gap in depth.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub gap: Option<f64>,
     /// Greatest random loss of width.
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     pub chance: Option<f64>,
 }
 

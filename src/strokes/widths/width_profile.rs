@@ -3,8 +3,7 @@
 use kurbo::Vec2;
 
 use super::swell::Swell;
-use crate::chains::fit::bezier_fit::unit;
-use crate::geometry::plane::planar_distance::length;
+use crate::geometry::plane::planar_distance::{length, unit};
 use crate::strokes::axes::stroke_axis::StrokeAxis;
 
 /// Window for smoothing widths, px.

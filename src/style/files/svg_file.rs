@@ -2,6 +2,8 @@
 
 use kurbo::BezPath;
 
+#[cfg(feature = "png")]
+use crate::export::raster::tree_painter::bez_path;
 use crate::hatching::WindingRule;
 
 /// The paths of an SVG file.
@@ -39,7 +41,7 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
             usvg::Node::Group(inner) => gather(inner, found),
             usvg::Node::Path(path) => {
                 let placed = |own: usvg::tiny_skia_path::Path| own.transform(path.abs_transform());
-                let whole = placed(path.data().clone()).map(|own| curves(&own)).unwrap_or_default();
+                let whole = placed(path.data().clone()).map(|own| bez_path(&own)).unwrap_or_default();
                 if let Some(fill) = path.fill().filter(|fill| path.is_visible() && is_dark(fill.paint())) {
                     let filling = match fill.rule() {
                         usvg::FillRule::NonZero => WindingRule::NonZero,
@@ -57,7 +59,7 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
                         .and_then(|dash| path.data().clone().dash(dash, STROKE_RESOLUTION_SCALE));
                     let outline =
                         dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, STROKE_RESOLUTION_SCALE);
-                    let outline = outline.and_then(placed).map(|own| curves(&own)).unwrap_or_default();
+                    let outline = outline.and_then(placed).map(|own| bez_path(&own)).unwrap_or_default();
                     found.painted.push((outline, WindingRule::NonZero));
                 }
                 found.paths.push(whole);
@@ -78,21 +80,4 @@ fn is_dark(paint: &usvg::Paint) -> bool {
         usvg::Paint::Color(c) => u32::from(c.red) + u32::from(c.green) + u32::from(c.blue) < 3 * 128,
         _ => true,
     }
-}
-
-#[cfg(feature = "png")]
-fn curves(path: &usvg::tiny_skia_path::Path) -> BezPath {
-    use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
-    let at = |p: usvg::tiny_skia_path::Point| (f64::from(p.x), f64::from(p.y));
-    let mut all = BezPath::new();
-    for segment in path.segments() {
-        match segment {
-            MoveTo(p) => all.move_to(at(p)),
-            LineTo(p) => all.line_to(at(p)),
-            QuadTo(q, p) => all.quad_to(at(q), at(p)),
-            CubicTo(q, r, p) => all.curve_to(at(q), at(r), at(p)),
-            Close => all.close_path(),
-        }
-    }
-    all
 }

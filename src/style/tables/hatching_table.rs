@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::checked_number::share;
 use crate::hatching::{HatchLayer, HatchOptions};
 use crate::light::ShadeOptions;
 use crate::light::tones::tone_options::thresholds;
@@ -86,12 +87,4 @@ fn coverage<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<f64
 
 fn some_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     share(deserializer).map(Some)
-}
-
-fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&value) {
-        return Ok(value);
-    }
-    Err(D::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 use super::ramp_source::RampSource;
 use crate::colour::srgb::Colour;
 use crate::error;
-use crate::light::lights::light_options::fraction;
+use crate::geometry::numbers::checked_number::fraction;
 use crate::light::tones::tone_options::{Highlight, HighlightChange, exponent, thresholds};
 
 /// The table `[fills.highlight]`, also used as a change to another one.

@@ -13,12 +13,12 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Join, Length, Unit};
 use crate::error::Error;
+use crate::geometry::numbers::checked_number::some_fraction;
 use crate::hatching::Paper;
 use crate::light::LightOptions;
 use crate::lines::{LineKind, LineOptions};
 use crate::motion::MotionOptions;
 use crate::scene::GlassOptions;
-use crate::strokes::fraction::fraction;
 use crate::strokes::pens::pen::dash;
 use crate::strokes::{
     BrushChange, Condition, HandChange, Ink, LayerOptions, Pen, PenChange, Rule, StrokeOptions, SwellChange,
@@ -53,7 +53,7 @@ pub(crate) struct StyleSheet {
 struct PageTable {
     #[serde(deserialize_with = "colour_or_none")]
     background: Option<Colour>,
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     grain: Option<f64>,
     /// Path of a picture of the paper; empty for none.
     paper: PathBuf,
@@ -61,7 +61,7 @@ struct PageTable {
     picture: Option<Arc<Picture>>,
     #[serde(deserialize_with = "positive_length")]
     paper_width: Option<Length>,
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     tooth: Option<f64>,
 }
 
@@ -84,9 +84,9 @@ struct PenTable {
     join: Option<Join>,
     #[serde(deserialize_with = "dash")]
     dash: Option<Vec<Length>>,
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     opacity: Option<f64>,
-    #[serde(deserialize_with = "fraction")]
+    #[serde(deserialize_with = "some_fraction")]
     fade: Option<f64>,
     swell: SwellChange,
     hand: HandChange,

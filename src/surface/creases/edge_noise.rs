@@ -8,6 +8,7 @@
 use super::crease_chains::CreaseChain;
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::Dihedral;
+use crate::mesh::edges::triangle_sides::sides;
 use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 
 /// Standard deviation of a normal distribution, in medians of its absolute values.
@@ -50,7 +51,7 @@ impl<'a> EdgeNoise<'a> {
         own.sort_unstable();
         let (mut cosines, mut lengths) = (Vec::new(), Vec::new());
         let mut seen = |edge: usize, cosine: f32| {
-            let [a, b] = self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
+            let [a, b] = self.mesh.ends(edge);
             lengths.push(a.distance_squared(b));
             if cosine >= self.high_cosine && own.binary_search(&(edge as u32)).is_err() {
                 cosines.push(f64::from(-cosine));
@@ -77,8 +78,8 @@ impl<'a> EdgeNoise<'a> {
 
     /// The edges of a face, except one, where it meets another face.
     fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, Dihedral)> + '_ {
-        let [a, b, c] = self.mesh.triangles[face as usize];
-        let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edges.between(u, v));
+        let sides = sides(self.mesh.triangles[face as usize]).into_iter();
+        let edges = sides.filter_map(|[u, v]| self.edges.between(u, v));
         edges
             .filter(move |edge| *edge != except)
             .filter_map(|edge| Some((edge, self.turns.dihedral(self.mesh, edge)?)))

@@ -46,11 +46,7 @@ const MAX_COUNTED_TURN_DEG: f64 = 90.0;
 ///
 /// Only edges with two faces can be hard. Borders and non-manifold edges always end a surface.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct HardEdges {
-    /// One bit per edge, or empty if none is hard.
-    bits: Vec<u64>,
-    count: usize,
-}
+pub(crate) struct HardEdges(EdgeSet);
 
 impl HardEdges {
     /// Finds creases as chains.
@@ -84,8 +80,8 @@ impl HardEdges {
             .with_max_len(8)
             .filter(|c| is_significant(mesh, c, crease_deg, &roughness))
             .collect();
-        let edges = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize));
-        Self::of_edges(mesh, edges).with_marks(mesh)
+        let edges: Vec<usize> = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize)).collect();
+        Self::of_edges(mesh, &edges)
     }
 
     /// Every edge that turns by more than `crease_deg` degrees, and those that the file marks.
@@ -96,7 +92,8 @@ impl HardEdges {
     }
 
     pub(crate) fn above_with(mesh: &Mesh, turns: &DihedralCosines, crease_deg: f64) -> Self {
-        Self::of_edges(mesh, folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
+        let edges: Vec<usize> = folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize).collect();
+        Self::of_edges(mesh, &edges)
     }
 
     /// Every edge that turns by more than `crease_deg` degrees, edges marked by the file, and extensions.
@@ -125,7 +122,7 @@ impl HardEdges {
         wrinkles.retain(|edge| goes_on(*edge));
         edges.retain(|edge| wrinkles.binary_search(edge).is_err());
         let wrinkles = EdgeSet::default().with(&wrinkles, mesh.edges.len());
-        (Self::of_edges(mesh, edges.into_iter()).with_marks(mesh), wrinkles)
+        (Self::of_edges(mesh, &edges), wrinkles)
     }
 
     /// The empty set.
@@ -138,47 +135,26 @@ impl HardEdges {
     /// with `u32::MAX` for edges that are gone.
     #[must_use]
     pub(crate) fn remapped(&self, ids: &[u32], count: usize) -> Self {
-        if self.is_empty() {
-            return Self::none();
-        }
-        let mut bits = vec![0u64; count.div_ceil(64)];
-        let hard = self.bits.iter().enumerate().filter(|(_, word)| **word != 0);
-        for edge in hard.flat_map(|(k, word)| {
-            (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
-        }) {
-            if let Some(edge) = ids.get(edge).filter(|edge| **edge != u32::MAX) {
-                bits[*edge as usize / 64] |= 1 << (edge % 64);
-            }
-        }
-        Self { count: self::count(&bits), bits }
+        Self(self.0.remapped(ids, count))
     }
 
     /// The edges of a mesh that satisfy `is_hard`.
     #[must_use]
     pub(crate) fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
-        let bits = EdgeSet::collect(mesh.edges.len(), is_hard).into_words();
-        Self { count: count(&bits), bits }
+        Self(EdgeSet::collect(mesh.edges.len(), is_hard))
     }
 
     /// Adds edges of the mesh.
     #[must_use]
-    pub(crate) fn with(mut self, mesh: &Mesh, more: &[usize]) -> Self {
-        if more.is_empty() {
-            return self;
-        }
-        self.bits.resize(mesh.edges.len().div_ceil(64), 0);
-        more.iter().for_each(|edge| self.bits[edge / 64] |= 1 << (edge % 64));
-        self.count = count(&self.bits);
-        self
+    pub(crate) fn with(self, mesh: &Mesh, more: &[usize]) -> Self {
+        Self(self.0.with(more, mesh.edges.len()))
     }
 
-    fn of_edges(mesh: &Mesh, edges: impl Iterator<Item = usize>) -> Self {
-        let mut bits = vec![0u64; mesh.edges.len().div_ceil(64)];
-        edges.for_each(|e| bits[e / 64] |= 1 << (e % 64));
-        Self { count: count(&bits), bits }
+    fn of_edges(mesh: &Mesh, edges: &[usize]) -> Self {
+        Self::none().with(mesh, edges).with_marks(mesh)
     }
 
-    fn with_marks(mut self, mesh: &Mesh) -> Self {
+    fn with_marks(self, mesh: &Mesh) -> Self {
         if mesh.edge_marks.is_empty() {
             return self;
         }
@@ -186,51 +162,34 @@ impl HardEdges {
         // check.
         let makes = |mark: &EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Cut);
         let makes_creases = mesh.edge_marks.par_iter().any(|marks| marks.iter().any(makes));
-        for edge in 0..mesh.edges.len() {
-            if !makes_creases && !self.is_hard(edge) {
-                continue;
+        Self::of(mesh, |edge| {
+            let is_hard = self.is_hard(edge);
+            if !makes_creases && !is_hard {
+                return false;
             }
-            let Some(dihedral) = Dihedral::at(mesh, edge) else { continue };
-            let bit = 1 << (edge % 64);
-            let mark = mark(mesh, edge, dihedral.faces);
-            match mark {
-                EdgeMark::Unmarked => {}
-                EdgeMark::Hard | EdgeMark::Cut => self.bits[edge / 64] |= bit,
-                EdgeMark::Hidden | EdgeMark::Contour | EdgeMark::Covered => self.bits[edge / 64] &= !bit,
-                EdgeMark::Diagonal => {
-                    if is_unfolded_diagonal(mark, dihedral.turn()) {
-                        self.bits[edge / 64] &= !bit;
-                    }
-                }
+            let Some(dihedral) = Dihedral::at(mesh, edge) else { return is_hard };
+            match mark(mesh, edge, dihedral.faces) {
+                EdgeMark::Unmarked => is_hard,
+                EdgeMark::Hard | EdgeMark::Cut => true,
+                EdgeMark::Hidden | EdgeMark::Contour | EdgeMark::Covered => false,
+                mark @ EdgeMark::Diagonal => is_hard && !is_unfolded_diagonal(mark, dihedral.turn()),
             }
-        }
-        self.count = count(&self.bits);
-        self
+        })
     }
 
     /// Whether the surface is creased at an edge of the mesh.
     #[inline]
     #[must_use]
     pub(crate) fn is_hard(&self, edge: usize) -> bool {
-        self.bits.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
+        self.0.contains(edge)
     }
 
     /// Number of hard edges.
     #[cfg(test)]
     #[must_use]
     pub(crate) fn count(&self) -> usize {
-        self.count
+        self.0.iter().count()
     }
-
-    /// Whether no edge is hard.
-    #[must_use]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-}
-
-fn count(bits: &[u64]) -> usize {
-    bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
 /// Whether a chain is a feature rather than noise: n²·t/σ is at least [`MIN_CHAIN_EVIDENCE`].

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::{Dihedral, FaceId, Mesh};
+use crate::mesh::{Dihedral, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Distance of both thresholds from the crease angle, as a share of that angle.
@@ -95,12 +95,7 @@ fn bend(rest: &Mesh, posed: &Mesh, edge: usize) -> Option<f32> {
 /// Turn of the surface at an edge, degrees; negative where the outside is concave.
 fn signed_turn(mesh: &Mesh, edge: usize) -> Option<f32> {
     let dihedral = Dihedral::at(mesh, edge)?;
-    let [first, second] = dihedral.faces;
-    let ends = mesh.edges.vertices[edge];
-    let third = mesh.triangles[second as usize].iter().find(|vertex| !ends.contains(vertex))?;
-    let [a, b, c] = mesh.corners(FaceId(first));
-    let way = mesh.positions[*third as usize] - mesh.positions[ends[0] as usize];
-    let hollow = (b - a).cross(c - a).dot(way) > 0.0;
+    let hollow = mesh.fold_height(dihedral.faces, mesh.edges.vertices[edge]) > 0.0;
     Some(if hollow { -dihedral.turn() } else { dihedral.turn() })
 }
 

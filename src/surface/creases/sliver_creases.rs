@@ -7,10 +7,11 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
+use crate::mesh::edges::triangle_sides::sides;
 use crate::parallel::prelude::*;
 
 use crate::geometry::numbers::portable_math::cos;
-use crate::mesh::DisjointSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
@@ -95,11 +96,9 @@ fn wrinkle(mesh: &Mesh, turns: &DihedralCosines, least: f32, face: u32) -> Optio
         if mesh.is_degenerate(FaceId(face)) {
             return None;
         }
-        let [a, b, c] = mesh.corners(FaceId(face));
-        area += (b - a).cross(c - a).length() / 2.0;
-        let [a, b, c] = mesh.triangles[face as usize];
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            let Ok(edge) = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else { return None };
+        area += mesh.area(FaceId(face));
+        for [a, b] in sides(mesh.triangles[face as usize]) {
+            let edge = mesh.edges.between(a, b)?;
             let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return None };
             let other = faces[usize::from(faces[0] == face)];
             if own.contains(&other) {

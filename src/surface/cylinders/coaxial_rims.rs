@@ -13,9 +13,10 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::cylinder::Cylinder;
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
-use crate::mesh::{DisjointSets, Mesh, PartId};
+use crate::mesh::{Mesh, PartId};
 use crate::surface::tolerances::{MAX_FACET_RADIUS_SPREAD, MAX_RIM_RADIUS_SPREAD};
 
 /// Minimum arc of a cylinder whose axis is used, radians: nearly a full turn.

@@ -12,9 +12,11 @@ use rustc_hash::FxHashMap;
 
 use super::coaxial_rims::rims;
 use super::cylinder::Cylinder;
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::space::triangles::unit_normal;
 use crate::mesh::components::bodies::body_of;
-use crate::mesh::{DisjointSets, EdgeFaces, FaceId, Mesh, PartId};
+use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
 use crate::surface::tolerances::{
     MAX_CIRCLE_OFFSET_OF_RADIUS, MAX_END_DIFFERENCE_OF_STRIP, MAX_PARALLEL_SINE, MAX_SIDE_OFFSET_OF_WIDTH,
     MIN_BISECTOR_SINE,
@@ -52,12 +54,8 @@ struct StripPair {
 /// The cylinders of a mesh, by part, then by descending radius.
 #[must_use]
 pub(crate) fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
-    let normals: Vec<DVec3> = (0..mesh.triangles.len())
-        .map(|face| {
-            let [a, b, c] = mesh.corners(FaceId(face as u32));
-            (b - a).cross(c - a).try_normalize().unwrap_or_default()
-        })
-        .collect();
+    let normals: Vec<DVec3> =
+        (0..mesh.triangles.len()).map(|face| unit_normal(mesh.corners(FaceId(face as u32)))).collect();
     let joined_faces = |edge: usize| match mesh.edges.faces(edge) {
         EdgeFaces::Two { faces: [a, b], same_way: false } if mesh.body(a) == mesh.body(b) => Some([a, b]),
         _ => None,
@@ -128,7 +126,7 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(FlatStrip, Vec
     if lines.len() < 2 || lines.len() > MAX_STRIP_LINES {
         return Vec::new();
     }
-    let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+    let ends = |edge: usize| mesh.ends(edge);
     let direction = |edge: usize| {
         let [a, b] = ends(edge);
         (b - a).normalize_or_zero()

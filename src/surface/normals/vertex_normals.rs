@@ -18,7 +18,6 @@ const MAX_VERTICES_PER_BLOCK: usize = 1 << 13;
 impl SmoothNormals {
     /// Normals of a mesh that is one curved surface without hard edges.
     #[cfg(test)]
-    #[must_use]
     pub(crate) fn rounded(mesh: &Mesh) -> Self {
         Self {
             normals: vertex_normals(mesh, |_| true),
@@ -26,7 +25,6 @@ impl SmoothNormals {
             corners: mesh.triangles.clone(),
             separating_edges: EdgeSet::default(),
             straight: EdgeSet::default(),
-            gentle: EdgeSet::default(),
             seamless: true,
         }
     }
@@ -41,13 +39,12 @@ impl SmoothNormals {
     ) -> Self {
         let mut smooth = Self::without_straight_edges(mesh, is_rounded, is_hard);
         if !smooth.is_empty() {
-            smooth.gentle = straight_edges::gentle(mesh, &smooth);
             smooth.straight = straight_edges::straight(mesh, &smooth);
         }
         smooth
     }
 
-    /// Same, without gentle and straight edges, which shading does not need.
+    /// Same, without straight edges, which shading does not need.
     #[must_use]
     pub(crate) fn without_straight_edges(
         mesh: &Mesh,
@@ -82,7 +79,6 @@ impl SmoothNormals {
             seamless: all && parting.is_empty(),
             separating_edges: parting,
             straight: EdgeSet::default(),
-            gentle: EdgeSet::default(),
         };
         vertex_split::part(mesh, &mut smooth);
         smooth

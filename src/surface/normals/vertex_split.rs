@@ -1,5 +1,6 @@
 //! Splits vertices on separating edges: each fan of faces between these edges becomes a smooth vertex.
 
+use crate::geometry::lists::disjoint_sets::UnionFind;
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
@@ -37,7 +38,6 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     let mut added = AddedVertices::default();
     corners.sort_unstable_by_key(|c| (c.vertex, c.face));
     let mut sides: Vec<(u32, usize)> = Vec::new();
-    let mut before: Vec<usize> = Vec::new();
     for around in corners.chunk_by(|a, b| a.vertex == b.vertex) {
         let vertex = around[0].vertex;
         // Two corners that share a side are in the same fan, unless the side separates them.
@@ -48,18 +48,17 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
             sides.extend([1, 2].map(|step| (triangle[(which + step) % 3], k)));
         }
         sides.sort_unstable();
-        before.clear();
-        before.extend(0..around.len());
+        let fans = UnionFind::new(around.len());
         for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             if cuts.binary_search(&[vertex, pair[0].0]).is_err() {
-                let (a, b) = (first(&before, pair[0].1), first(&before, pair[1].1));
-                before[a.max(b)] = a.min(b);
+                fans.join(pair[0].1 as u32, pair[1].1 as u32);
             }
         }
         for fan in 0..around.len() {
-            if before[fan] == fan {
+            let root = |k: usize| fans.root(k as u32) as usize;
+            if root(fan) == fan {
                 let own: Vec<FanCorner> =
-                    (fan..around.len()).filter(|k| first(&before, *k) == fan).map(|k| around[k]).collect();
+                    (fan..around.len()).filter(|k| root(*k) == fan).map(|k| around[k]).collect();
                 add(mesh, smooth, &mut added, (vertex, fan == 0), &own);
             }
         }
@@ -102,13 +101,6 @@ fn corners(mesh: &Mesh, smooth: &SmoothNormals, is_parted: &[bool]) -> Vec<FanCo
         })
         .collect();
     found.concat()
-}
-
-fn first(before: &[usize], mut corner: usize) -> usize {
-    while before[corner] != corner {
-        corner = before[corner];
-    }
-    corner
 }
 
 /// Computes the normal of a fan. All fans except the first get a new smooth vertex.

@@ -7,18 +7,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::geometry::lists::disjoint_sets::{DisjointSets, NumberedSets};
 use crate::parallel::prelude::*;
 
 use super::component_stats::{
     ComponentStats, EdgeStats, FaceStats, SliverBends, leaning_at, of_edge, of_face,
 };
-use super::group_sums::sums;
 use super::normal_validation::leans;
 use super::planar_regions::PlanarRegions;
 use super::sliver_bends::{SliverFace, bent_short_sides};
 use super::surface_class::{ComponentClass, ComponentClasses, MeshSource, SurfaceClass};
-use crate::mesh::DisjointSets;
-use crate::mesh::NumberedSets;
+use crate::geometry::lists::group_sums::sums;
 use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances;

@@ -1,14 +1,13 @@
 //! [`ComponentStats`]: statistics of the faces and edges of a connected component, summed for its
 //! classification.
 
-use std::ops::AddAssign;
-
 use glam::Vec3;
 
 use super::normal_validation::leaning;
-use super::planar_regions::{PlanarRegions, area};
+use super::planar_regions::PlanarRegions;
 use super::sliver_bends::{SliverFace, longest_side};
-use crate::mesh::{DihedralCosines, EdgeFaces, Mesh};
+use crate::geometry::lists::group_sums::summed;
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 
 /// Cosine below which an edge is sharp: 60 degrees.
 const MAX_SHARP_COSINE: f32 = 0.5;
@@ -64,48 +63,10 @@ pub(crate) struct SliverBends {
     pub longest: f64,
 }
 
-impl AddAssign<&ComponentStats> for ComponentStats {
-    fn add_assign(&mut self, other: &Self) {
-        self.faces += &other.faces;
-        self.edges += &other.edges;
-        self.bends += &other.bends;
-        self.deviating_faces += other.deviating_faces;
-    }
-}
-
-impl AddAssign<&FaceStats> for FaceStats {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.curved += other.curved;
-        self.with_normals += other.with_normals;
-        self.contradicting += other.contradicting;
-        self.deviating += other.deviating;
-        self.area += other.area;
-        self.in_flats += other.in_flats;
-        self.level += other.level;
-        self.longest += other.longest;
-        self.sliver_length += other.sliver_length;
-    }
-}
-
-impl AddAssign<&EdgeStats> for EdgeStats {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.flat += other.flat;
-        self.nearly_flat += other.nearly_flat;
-        self.sharp += other.sharp;
-    }
-}
-
-impl AddAssign<&SliverBends> for SliverBends {
-    #[inline]
-    fn add_assign(&mut self, other: &Self) {
-        self.all += other.all;
-        self.longest += other.longest;
-    }
-}
+summed!(ComponentStats: faces, edges, bends, deviating_faces);
+summed!(FaceStats: all, curved, with_normals, contradicting, deviating, area, in_flats, level, longest, sliver_length);
+summed!(EdgeStats: all, flat, nearly_flat, sharp);
+summed!(SliverBends: all, longest);
 
 /// Statistics of an edge between two faces with area, with one of its faces.
 #[inline]
@@ -130,7 +91,7 @@ pub(crate) fn of_edge(
 /// Statistics of a face.
 #[inline]
 pub(crate) fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> FaceStats {
-    let area = area(mesh, face);
+    let area = mesh.area(FaceId(face));
     let in_flats = if planes.region_at(face).is_some() { area } else { 0.0 };
     let level = if planes.is_level(face) { area } else { 0.0 };
     let longest = longest_side(mesh, face);

@@ -7,18 +7,17 @@
 //! Source for curvature by angle defects: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
 //! operators for triangulated 2-manifolds", 2002, section 4.
 
-use std::ops::AddAssign;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::parallel::prelude::*;
 
 use super::component_classes::MIN_SAMPLE_EDGES;
-use super::group_sums::sums;
-use super::planar_regions::{PlanarRegions, area};
+use super::planar_regions::PlanarRegions;
 use super::surface_class::SurfaceClass;
+use crate::geometry::lists::group_sums::{summed, sums};
 use crate::geometry::numbers::portable_math::acos;
-use crate::mesh::DisjointSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexRange, vertex_ranges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances;
@@ -50,13 +49,7 @@ struct PatchEdgeStats {
     coarse: u32,
 }
 
-impl AddAssign<&PatchEdgeStats> for PatchEdgeStats {
-    fn add_assign(&mut self, other: &Self) {
-        self.edges += other.edges;
-        self.flat += other.flat;
-        self.coarse += other.coarse;
-    }
-}
+summed!(PatchEdgeStats: edges, flat, coarse);
 
 impl PatchEdgeStats {
     /// Whether the edges allow a curved patch.
@@ -75,13 +68,7 @@ struct PatchFaceStats {
     in_long: f64,
 }
 
-impl AddAssign<&PatchFaceStats> for PatchFaceStats {
-    fn add_assign(&mut self, other: &Self) {
-        self.area += other.area;
-        self.in_flats += other.in_flats;
-        self.in_long += other.in_long;
-    }
-}
+summed!(PatchFaceStats: area, in_flats, in_long);
 
 impl PatchFaceStats {
     /// Whether the faces allow a curved patch.
@@ -148,7 +135,7 @@ pub(crate) fn add_curved_patches(
 
 /// Statistics of one face.
 fn of_face(mesh: &Mesh, planes: &PlanarRegions, face: u32) -> PatchFaceStats {
-    let area = area(mesh, face);
+    let area = mesh.area(FaceId(face));
     let in_flats = if planes.region_at(face).is_some() { area } else { 0.0 };
     let corners = mesh.corners(FaceId(face));
     let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);

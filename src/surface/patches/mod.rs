@@ -10,12 +10,11 @@
 //!
 //! Files, in reading order: [`patch_layout`] (all steps), [`planar_regions`] (step 1), [`component_classes`]
 //! (step 2), [`component_stats`] (its input), [`surface_class`] (its result), [`normal_validation`],
-//! [`sliver_bends`], [`curved_patches`] (step 3), [`group_sums`].
+//! [`sliver_bends`], [`curved_patches`] (step 3).
 
 mod component_classes;
 mod component_stats;
 mod curved_patches;
-mod group_sums;
 mod normal_validation;
 pub(crate) mod patch_layout;
 pub(crate) mod planar_regions;

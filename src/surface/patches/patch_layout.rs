@@ -6,11 +6,11 @@
 
 use super::component_classes::{classify_components, pieces};
 use super::curved_patches::add_curved_patches;
-use super::planar_regions::{PlanarRegions, area};
+use super::planar_regions::PlanarRegions;
 use super::surface_class::{ComponentClasses, MeshSource, SurfaceClass};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::EdgeSet;
-use crate::mesh::{DihedralCosines, EdgeFaces, Mesh};
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::surface::HardEdges;
 use crate::surface::creases::hard_edges::LOW_THRESHOLD_OF_HIGH;
 use crate::surface::creases::low_angle::narrow_fillets::narrow_fillets;
@@ -228,8 +228,8 @@ fn rims(mesh: &Mesh, turns: &DihedralCosines, planes: &PlanarRegions, makes: &[S
 
 /// Width of a face, measured from one of its edges.
 fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
-    let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-    2.0 * area(mesh, face) / a.distance(b).max(f64::MIN_POSITIVE)
+    let [a, b] = mesh.ends(edge);
+    2.0 * mesh.area(FaceId(face)) / a.distance(b).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

@@ -6,12 +6,11 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::geometry::lists::disjoint_sets::{DisjointSets, NumberedSets};
 use crate::parallel::prelude::*;
 
-use super::group_sums::sums;
-use crate::mesh::DisjointSets;
+use crate::geometry::lists::group_sums::sums;
 use crate::mesh::EdgeSet;
-use crate::mesh::NumberedSets;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
@@ -62,9 +61,9 @@ impl PlanarRegions {
         let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < TOO_SMALL_REGION);
         // Scans have no planar regions.
         let asked = |count: usize| if first.is_empty() { 0 } else { count };
-        let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32)));
+        let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, mesh.area(FaceId(face as u32))));
         let length = |edge: usize| {
-            let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+            let [a, b] = mesh.ends(edge);
             a.distance(b)
         };
         let bounded_by = |edge: usize| {
@@ -125,11 +124,4 @@ fn sizes(groups: &DisjointSets, faces: usize) -> Vec<AtomicU32> {
     );
     last_run.for_each(add);
     sizes
-}
-
-/// Area of a face, world units squared.
-#[inline]
-pub(crate) fn area(mesh: &Mesh, face: u32) -> f64 {
-    let [a, b, c] = mesh.corners(FaceId(face));
-    (b - a).cross(c - a).length() / 2.0
 }

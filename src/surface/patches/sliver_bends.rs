@@ -4,8 +4,8 @@
 //! are short where it bends. Tessellators of machined patches and convex hulls do not follow this. Their
 //! faces reach from one end of a patch to the other, across all bends.
 
-use super::planar_regions::area;
 use crate::geometry::numbers::portable_math::cos;
+use crate::geometry::space::triangles::{area_vector, longest_side_squared};
 use crate::mesh::{DihedralCosines, FaceId, Mesh, VertexEdges};
 use crate::surface::tolerances;
 
@@ -35,15 +35,15 @@ impl SliverFace {
 
     /// A face, if it is a sliver.
     pub(crate) fn of(mesh: &Mesh, face: u32) -> Option<Self> {
-        let [a, b, c] = mesh.corners(FaceId(face));
-        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+        let corners = mesh.corners(FaceId(face));
+        let longest = longest_side_squared(corners);
         // Squared comparison: excludes most faces without square roots.
-        if (b - a).cross(c - a).length_squared() * BEND_OF_ASPECT * BEND_OF_ASPECT
+        if area_vector(corners).length_squared() * BEND_OF_ASPECT * BEND_OF_ASPECT
             > tolerances::SLIVER_ROUNDING_FACTOR * (MAX_BEND_RAD * longest).powi(2)
         {
             return None;
         }
-        let (area, length) = (area(mesh, face), longest_side(mesh, face));
+        let (area, length) = (area_vector(corners).length() / 2.0, longest.sqrt());
         Self::is_sliver(area, length).then(|| Self { length, width: 2.0 * area / length })
     }
 }
@@ -51,8 +51,7 @@ impl SliverFace {
 /// The longest side of a face, world units.
 #[inline]
 pub(crate) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
-    let [a, b, c] = mesh.corners(FaceId(face));
-    a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
+    longest_side_squared(mesh.corners(FaceId(face))).sqrt()
 }
 
 /// Number of short sides (0 to 2) where the surface bends along a sliver.

@@ -1,8 +1,7 @@
 //! [`ComponentClasses`]: class of each connected component, looked up by face.
 
+use crate::geometry::lists::disjoint_sets::NumberedSets;
 use crate::parallel::prelude::*;
-
-use crate::mesh::NumberedSets;
 
 /// Minimum number of faces per task.
 const MIN_FACES_PER_TASK: usize = 1 << 16;

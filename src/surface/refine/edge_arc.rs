@@ -55,9 +55,9 @@ impl EdgeArc {
         let ends = vertices.map(|v| mesh.positions[v as usize]);
         let normals = between.map(|v| smooth.normals[v as usize]);
         if !smooth.separating_edges.is_empty() || !smooth.straight.is_empty() {
-            let [a, b] = vertices;
-            let edge = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]);
-            if edge.is_ok_and(|edge| smooth.separating_edges.contains(edge) || smooth.straight.contains(edge))
+            let edge = mesh.edges.between(vertices[0], vertices[1]);
+            if edge
+                .is_some_and(|edge| smooth.separating_edges.contains(edge) || smooth.straight.contains(edge))
             {
                 let third = (ends[1] - ends[0]) / 3.0;
                 return Self { ends, normals, handles: [third, -third] };

@@ -18,11 +18,8 @@ const DENSE_EDGES_PER_MARK: usize = 500;
 /// visible.
 const MIN_SWELLING_RATIO: f64 = 6.0;
 
-/// Number of edges in a run. Runs are examined or skipped as a whole.
-pub(crate) const EDGES_PER_RUN: usize = 16;
-
-/// Number of runs per task.
-const RUNS_PER_TASK: usize = 1 << 8;
+/// Number of edges per task.
+const EDGES_PER_TASK: usize = 1 << 12;
 
 /// Decisions on the edges of a mesh.
 pub(crate) struct EdgeMarks {
@@ -49,18 +46,11 @@ struct MarkedEdge {
 pub(crate) fn marks(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    (is_asked, is_long, may): (
-        &(impl Fn(usize) -> bool + Sync),
-        &(impl Fn(DVec3, DVec3) -> bool + Sync),
-        &(impl Fn([u32; 2], f64) -> bool + Sync),
-    ),
+    is_long: &(impl Fn(DVec3, DVec3) -> bool + Sync),
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
 ) -> EdgeMarks {
     let mark = |edge: usize| {
-        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
-        if smooth.gentle.contains(edge) && !may(mesh.edges.vertices[edge], a.distance_squared(b)) {
-            return None;
-        }
+        let [a, b] = mesh.ends(edge);
         if !is_long(a, b) || smooth.straight.contains(edge) {
             return None;
         }
@@ -71,21 +61,9 @@ pub(crate) fn marks(
         let wanted = want([at(a), at(b)], [normal(a), normal(b)]);
         (wanted > 1.0).then_some(MarkedEdge { edge, ends, wanted })
     };
-    let runs = mesh.edges.len().div_ceil(EDGES_PER_RUN);
-    let marked: Vec<Vec<MarkedEdge>> = (0..runs.div_ceil(RUNS_PER_TASK))
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|k| {
-            let mut marked = Vec::new();
-            for run in (k * RUNS_PER_TASK..((k + 1) * RUNS_PER_TASK).min(runs)).filter(|run| is_asked(*run)) {
-                marked.extend(
-                    (run * EDGES_PER_RUN..((run + 1) * EDGES_PER_RUN).min(mesh.edges.len())).filter_map(mark),
-                );
-            }
-            marked
-        })
-        .collect();
-    let marked = without_dense_parts(mesh, smooth, marked.concat());
+    let edges =
+        (0..mesh.edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK).with_max_len(EDGES_PER_TASK);
+    let marked = without_dense_parts(mesh, smooth, edges.filter_map(mark).collect());
     let swollen: Vec<(usize, [u32; 2])> =
         marked.iter().filter(|m| m.wanted > MIN_SWELLING_RATIO).map(|m| (m.edge, m.ends)).collect();
     let thin = wall_thickness::thin(mesh, smooth, &swollen);

@@ -14,9 +14,6 @@ use crate::surface::SmoothNormals;
 /// Texture coordinates and colours of new corners are rounded to multiples of 1 over this.
 const UV_STEPS_PER_UNIT: f64 = 65536.0;
 
-/// Above this number of faces, an owned mesh is processed sequentially, which limits peak memory.
-const MAX_PARALLEL_FACES: usize = 500_000;
-
 /// Piece of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PieceTriangle {
@@ -165,53 +162,35 @@ pub(crate) fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cu
         None => (old + v as usize - smooth.vertices.len()) as u32,
     };
     let triangles: Vec<[u32; 3]> = cuts.pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
-    let edges = match &mut mesh {
+    let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
+    let old_edges = match &mut mesh {
         Cow::Borrowed(mesh) => Cow::Borrowed(&mesh.edges),
         Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
-    let sets = [&smooth.straight, &smooth.separating_edges].map(EdgeSet::clone);
-    let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
-    let by_edges = || SplicedEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
-    let (of_edges, (mut mesh, mut smooth)) =
-        if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MAX_PARALLEL_FACES {
-            let of_edges = by_edges();
-            drop(edges);
-            (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
-        } else {
-            crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
-        };
-    mesh.edges = of_edges.edges;
-    (smooth.straight, smooth.separating_edges) = (of_edges.straight, of_edges.separating_edges);
+    let [straight, separating_edges] = [&smooth.straight, &smooth.separating_edges].map(EdgeSet::clone);
+    let (mut mesh, mut smooth) = of_faces(mesh, smooth, &cuts, &triangles);
+    mesh.edges = old_edges.updated(mesh.positions.len(), &mesh.triangles, &cuts.kept.renamed());
+    let edges = new_numbers(&old_edges.vertices, &mesh.edges.vertices);
+    let (before, count) = (old_edges.len(), mesh.edges.len());
+    let find = |[a, b]: &[u32; 2]| mesh.edges.between(*a, *b);
+    let level: Vec<usize> = level.iter().filter_map(find).collect();
+    smooth.straight = straight.with(&cuts.thin, before).remapped(&edges, count).with(&level, count);
+    smooth.separating_edges = separating_edges.remapped(&edges, count);
     let MeshCuts { pieces, kept, .. } = &cuts;
     let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
-    RefinedMesh { mesh, smooth, hosts, kept_count: kept.count, edges: of_edges.ids }
+    RefinedMesh { mesh, smooth, hosts, kept_count: kept.count, edges }
 }
 
-/// The parts of the finer mesh that are indexed by edge.
-struct SplicedEdges {
-    edges: Edges,
-    straight: EdgeSet,
-    separating_edges: EdgeSet,
-    /// See [`RefinedMesh::edges`].
-    ids: Vec<u32>,
-}
-
-impl SplicedEdges {
-    fn new(
-        edges: &Edges,
-        [straight, parting]: [EdgeSet; 2],
-        (cuts, old, level): (&MeshCuts, usize, &[[u32; 2]]),
-        triangles: &[[u32; 3]],
-    ) -> Self {
-        let MeshCuts { kept, thin, .. } = cuts;
-        let (before, vertices) = (edges.len(), old + cuts.positions.len());
-        let (edges, ids) = edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
-        let find = |[a, b]: &[u32; 2]| edges.vertices.binary_search(&[*a.min(b), *a.max(b)]).ok();
-        let level: Vec<usize> = level.iter().filter_map(find).collect();
-        let straight = straight.with(thin, before).remapped(&ids, edges.len()).with(&level, edges.len());
-        let parting = parting.remapped(&ids, edges.len());
-        Self { edges, straight, separating_edges: parting, ids }
-    }
+/// For each edge of a table its number in a new table, `u32::MAX` where it has none. Both are sorted.
+fn new_numbers(before: &[[u32; 2]], after: &[[u32; 2]]) -> Vec<u32> {
+    let mut next = 0;
+    let number = |ends: &[u32; 2]| {
+        while after.get(next).is_some_and(|other| other < ends) {
+            next += 1;
+        }
+        if after.get(next) == Some(ends) { next as u32 } else { u32::MAX }
+    };
+    before.iter().map(number).collect()
 }
 
 /// The parts of the finer mesh and its normals that are not indexed by edge.
@@ -271,7 +250,6 @@ fn of_faces(
         corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
         separating_edges: EdgeSet::default(),
         straight: EdgeSet::default(),
-        gentle: EdgeSet::default(),
         seamless: smooth.seamless,
     };
     (finer, smooth)

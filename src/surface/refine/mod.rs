@@ -9,12 +9,11 @@
 //! Source for arcs: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001.
 //!
 //! Files, in reading order: [`edge_arc`], [`subdivision`] (step 3), [`face_pieces`], [`edge_marks`] (step
-//! 1), [`wall_thickness`] (step 2), [`segment_grid`] (speeds up step 2), [`mesh_splice`] (step 4).
+//! 1), [`wall_thickness`] (step 2), [`mesh_splice`] (step 4).
 
 pub(crate) mod edge_arc;
 pub(crate) mod edge_marks;
 mod face_pieces;
 pub(crate) mod mesh_splice;
-mod segment_grid;
 pub(crate) mod subdivision;
 mod wall_thickness;

@@ -17,9 +17,8 @@ use super::face_pieces::{
 use super::mesh_splice::{KeptFaces, MeshCuts, PieceTriangle};
 #[cfg(test)]
 use super::mesh_splice::{RefinedMesh, splice};
-use crate::mesh::{EdgeMark, Mesh};
+use crate::mesh::{EdgeMark, FaceId, Mesh};
 use crate::surface::normals::smooth_normals::NO_NORMAL;
-use crate::surface::patches::planar_regions::area;
 use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Maximum number of times an edge is halved: 256 pieces.
@@ -37,17 +36,14 @@ pub(crate) fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<RefinedMesh> {
-    let cuts = cuts(mesh, smooth, |_| true, is_long, |_, _| true, want)?;
+    let cuts = cuts(mesh, smooth, is_long, want)?;
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
 
 /// Subdivision of a mesh, or `None` where hardly any edge is split.
 ///
 /// `want` takes positions and unit normals of the ends of an edge, always in the same order. The edge is
-/// split if the result exceeds 1. Edges are examined only if
-/// - `is_asked` holds for their run of [`EDGES_PER_RUN`](super::edge_marks::EDGES_PER_RUN) edges,
-/// - `is_long`, a fast test, holds for their ends,
-/// - `may` holds for the ends and squared length of a gentle edge.
+/// split if the result exceeds 1. Edges are examined only if `is_long`, a fast test, holds for their ends.
 ///
 /// Never split are separating edges, edges of thin walls, and edges of large parts that are dense enough.
 /// Split faces lose the normals of the file.
@@ -55,15 +51,13 @@ pub(crate) fn refined(
 pub(crate) fn cuts(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    is_asked: impl Fn(usize) -> bool + Sync,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
-    may: impl Fn([u32; 2], f64) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<MeshCuts> {
     if smooth.is_empty() {
         return None;
     }
-    let EdgeMarks { cut, edges, thin } = marks(mesh, smooth, (&is_asked, &is_long, &may), &want);
+    let EdgeMarks { cut, edges, thin } = marks(mesh, smooth, &is_long, &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
@@ -183,14 +177,14 @@ impl<'a> Subdivision<'a> {
             if !ends.iter().all(|v| at_straight[*v as usize]) {
                 return false;
             }
-            let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
-            edge.is_ok_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
+            let edge = mesh.edges.between(ends[0], ends[1]);
+            edge.is_some_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
         };
         // Whether the arc over a side would rise by more than the width of the face.
         let is_sliver = |face: u32, ends: [u32; 2]| {
             let at = ends.map(|v| self.position(v));
             let rise = EdgeArc::new(at, ends.map(|v| self.normal(v))).height().length();
-            rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
+            rise * at[0].distance(at[1]) > 2.0 * mesh.area(FaceId(face))
         };
         // Pairs of a face and one of its split sides.
         let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());

@@ -7,9 +7,12 @@
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
-use super::segment_grid::faces_near_segments;
-use crate::mesh::bvh::rays::ray_tree::RayTree;
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::bounds_tree::BoundsTree;
+use crate::geometry::space::triangles::{ray_hit, unit_normal};
+use crate::mesh::tolerances::RAY_BOX_OF_MESH;
 use crate::mesh::{FaceId, Mesh};
+use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances;
 use crate::surface::{EdgeArc, SmoothNormals};
 
@@ -31,7 +34,7 @@ impl WallRay {
         let arc = EdgeArc::over(mesh, smooth, ends);
         let (height, normal) = (arc.height(), arc.middle_normal());
         let rise = height.dot(normal);
-        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        let [a, b] = mesh.ends(edge);
         let start = (a + b) / 2.0 - normal * (tolerances::RAY_OFFSET_OF_RISE * rise.abs());
         Self { edge, start, normal, reach: rise.abs() / MAX_RISE_OF_THICKNESS, rise }
     }
@@ -44,49 +47,51 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
     }
     let questions: Vec<WallRay> =
         edges.par_iter().map(|(edge, ends)| WallRay::of(mesh, smooth, *edge, *ends)).collect();
-    let rays: Vec<[DVec3; 2]> = questions.iter().map(|q| [q.start, q.start - q.normal * q.reach]).collect();
-    let near = faces_near_segments(mesh, &rays);
-    let tree = RayTree::new(&only(mesh, &near));
-    let is_thin = |q: &WallRay| {
-        let own = mesh.body(mesh.edges.faces(q.edge).list()[0]);
-        // The opposite wall is where the ray leaves the body; faces that touch the edge are excluded.
-        let is_wall = |face: u32| {
-            let face = near[face as usize];
-            let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
-            let corners = mesh.triangles[face as usize];
-            mesh.body(face) == own
-                && outward.dot(q.normal) < 0.0
-                && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
-        };
-        let behind = tree.first_met(q.start, -q.normal, q.reach, is_wall);
-        behind.is_some_and(|(face, thickness)| {
-            (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > MAX_RISE_OF_THICKNESS * thickness
+    let boxes: Vec<Bounds> =
+        questions.iter().map(|q| Bounds::of([q.start, q.start - q.normal * q.reach])).collect();
+    let tree = BoundsTree::new(&boxes);
+    let (middle, radius) = mesh.extents.ball();
+    // Exceeds all rounding errors.
+    let slack = RAY_BOX_OF_MESH * (radius + middle.length());
+    // The opposite wall is where the ray leaves the body; faces that touch the edge are excluded.
+    let is_wall = |q: &WallRay, face: u32| {
+        let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
+        let corners = mesh.triangles[face as usize];
+        mesh.body(face) == mesh.body(mesh.edges.faces(q.edge).list()[0])
+            && outward.dot(q.normal) < 0.0
+            && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
+    };
+    let (tree, questions, is_wall) = (&tree, &questions, &is_wall);
+    let hits_of = |face: u32| {
+        let corners = mesh.corners(FaceId(face));
+        let around = Bounds::of(corners).grown(slack);
+        tree.near(move |ray| ray.meets(&around)).filter_map(move |number| {
+            let q = &questions[number as usize];
+            let thickness = ray_hit(&corners, q.start, -q.normal, q.reach)?;
+            is_wall(q, face).then_some((number, thickness, face))
         })
     };
-    questions
-        .par_iter()
-        .with_max_len(256)
-        .filter(|question| is_thin(question))
-        .map(|question| question.edge)
-        .collect()
-}
-
-/// A mesh of some faces with the data that ray tests need.
-fn only(mesh: &Mesh, faces: &[u32]) -> Mesh {
-    Mesh {
-        extents: mesh.extents.clone(),
-        positions: faces.iter().flat_map(|face| mesh.corners(FaceId(*face))).collect(),
-        triangles: (0..faces.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
-        face_normals: faces.iter().map(|face| mesh.face_normals[*face as usize]).collect(),
-        ..Mesh::default()
+    let faces = (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
+    let hits: Vec<(u32, f64, u32)> = faces.flat_map_iter(hits_of).collect();
+    let mut walls: Vec<Option<(f64, u32)>> = vec![None; questions.len()];
+    for (number, thickness, face) in hits {
+        let wall = &mut walls[number as usize];
+        if wall.is_none_or(|known| (thickness, face) < known) {
+            *wall = Some((thickness, face));
+        }
     }
+    let is_thin = |(q, wall): &(&WallRay, Option<(f64, u32)>)| {
+        wall.is_some_and(|(thickness, face)| {
+            (q.rise + swelling(mesh, smooth, face)).abs() > MAX_RISE_OF_THICKNESS * thickness
+        })
+    };
+    questions.iter().zip(walls).filter(is_thin).map(|(question, _)| question.edge).collect()
 }
 
 /// Mean rise of the arcs over the sides of a face; negative where it is concave.
 fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
     let Some(corners) = smooth.corners_of(face) else { return 0.0 };
-    let [a, b, c] = mesh.corners(FaceId(face));
-    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let normal = unit_normal(mesh.corners(FaceId(face)));
     let rise = |k: usize| {
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
         EdgeArc::over(mesh, smooth, [a.min(b), a.max(b)]).height().dot(normal)

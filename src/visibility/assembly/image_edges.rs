@@ -6,7 +6,7 @@ use kurbo::Point;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::geometry::plane::planar_distance::segment_distance_squared;
 use crate::lines::image::{ImageLinePiece, ImageLines, ImagePoint};
-use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind};
 use crate::mesh::Mesh;
 use crate::surface::MeshSource;
 use crate::view::View;
@@ -63,17 +63,12 @@ pub(crate) fn join(
             material: piece.material,
             segment: lines.segments.len() as u32,
         });
+        let ends = piece.ends.map(|id| first_point as u32 + id);
         lines.segments.push(FeatureSegment {
-            ends: piece.ends.map(|id| first_point as u32 + id),
-            hosts: [NO_FACE; 2],
-            kind: LineKind::Image,
             both_seen: piece.both_seen,
             smooth: true,
             origin: MeshSource::Constructed,
-            role: Role::Line,
-            strength: 180.0,
-            part: piece.part,
-            material: piece.material,
+            ..FeatureSegment::without_faces(LineKind::Image, ends, piece.part, piece.material)
         });
     }
 }

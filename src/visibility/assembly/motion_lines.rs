@@ -64,7 +64,7 @@ pub(crate) fn build_motion_lines(
     let joined = hidden.iter_mut().zip(&segments).map(|(hidden, segment)| {
         let shortest = limits.piece / segment.length().max(limits.piece);
         let mut layers: Vec<HiddenInterval> = Vec::new();
-        sweep(hidden, &[], shortest, false, &mut layers);
+        sweep(hidden, shortest, false, &mut layers);
         layers
     });
     let hidden: Vec<Vec<HiddenInterval>> = joined.collect();

@@ -134,8 +134,7 @@ fn thin_fold(
 /// Whether the second face at an edge falls away behind the outer side of the first.
 fn is_ridge(mesh: &Mesh, lines: &FeatureLines, segment: &ImageSegment) -> bool {
     let [first, second] = segment.hosts;
-    let third = mesh.triangles[second as usize].iter().find(|v| !segment.ends.contains(v));
-    let [a, b, c] = mesh.corners(FaceId(first));
-    let offset = third.map_or(a, |v| mesh.positions[*v as usize]) - lines.position(mesh, segment.ends[0]);
-    (b - a).cross(c - a).dot(offset) < 0.0
+    let apex = mesh.apex(second, segment.ends).unwrap_or(mesh.triangles[first as usize][0]);
+    let offset = mesh.positions[apex as usize] - lines.position(mesh, segment.ends[0]);
+    mesh.area_vector(FaceId(first)).dot(offset) < 0.0
 }

@@ -5,16 +5,15 @@
 //! 3. Such a square gets the nearness of the farthest face of the group that meets it.
 //!
 //! Many small faces thus hide together what none of them hides alone, except in the squares along their
-//! contours. The backs of bodies are left out, because their fronts hide almost the same.
+//! contours.
 
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
-use super::back_faces::BackFaces;
 use super::nearness_bound::{NearnessBound, UNCOVERED, raise, step};
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists, csr_lists_from_pairs};
-use crate::mesh::DisjointSets;
 use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -38,7 +37,6 @@ pub(crate) struct FusedOccluders {
     faces: CsrLists<u32>,
     /// Border edges of each group.
     ends: CsrLists<u32>,
-    back_faces: BackFaces,
 }
 
 impl FusedOccluders {
@@ -64,10 +62,9 @@ impl FusedOccluders {
                 }
             });
         });
-        let far = BackFaces::new(mesh, view, &inner, groups);
-        let ids = Self::large(view, mesh, &turns, &far, cell);
+        let ids = Self::large(view, mesh, &turns, &groups, cell);
         let count = ids.iter().filter(|id| **id != NO_GROUP).max().map_or(0, |id| *id as usize + 1);
-        let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NO_GROUP);
+        let of = |face: u32| Some(ids[groups.representative(face) as usize]).filter(|id| *id != NO_GROUP);
         let of_face = |face: u32| of(face).map(|id| (id as usize, face));
         let (faces, ends) = crate::parallel::join(
             || csr_lists_from_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
@@ -84,18 +81,17 @@ impl FusedOccluders {
                 })
             },
         );
-        Self { faces, ends, back_faces: far }
+        Self { faces, ends }
     }
 
     /// Indices of the usable groups, by root face; [`NO_GROUP`] for all other faces.
     ///
-    /// A usable group is not the back of a body, is at least as large as a square, and respects the limits on
-    /// box size and face area.
-    fn large(view: &View, mesh: &Mesh, turns: &[i8], back_faces: &BackFaces, cell: f64) -> Vec<u32> {
+    /// A usable group is at least as large as a square, and respects the limits on box size and face area.
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], groups: &DisjointSets, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NO_GROUP; turns.len()];
-        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !back_faces.contains(*face as u32)) {
-            let id = &mut ids[back_faces.group(face as u32) as usize];
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0) {
+            let id = &mut ids[groups.representative(face as u32) as usize];
             if *id == NO_GROUP {
                 *id = found.len() as u32;
                 found.push((
@@ -131,12 +127,6 @@ impl FusedOccluders {
 
     pub(crate) fn count(&self) -> usize {
         self.faces.count()
-    }
-
-    /// Whether a face is part of the back of a body.
-    #[inline]
-    pub(crate) fn is_far_side(&self, face: u32) -> bool {
-        self.back_faces.contains(face)
     }
 
     /// Raises the value of each square that a group fills.

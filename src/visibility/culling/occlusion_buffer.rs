@@ -66,8 +66,7 @@ impl OcclusionBuffer {
         }
         let squares = squares_of(triangles);
         let expanses = FusedOccluders::new(triangles, squares.cell);
-        let is_far = |id: u32| (id as usize) < triangles.mesh.triangles.len() && expanses.is_far_side(id);
-        let large = large_ones(triangles, squares.cell, |id| !is_far(id));
+        let large = large_ones(triangles, squares.cell, |_| true);
         Self::of(triangles, squares, &large, Some(&expanses))
     }
 
@@ -260,13 +259,7 @@ fn is_large(triangles: &TiledTriangles, id: u32, cell: f64) -> bool {
 }
 
 /// Raises the value of each square that a triangle fills to the triangle's nearness there, less `step`.
-pub(crate) fn add(
-    points: &[DVec3; 3],
-    squares: &TileGrid,
-    step: f64,
-    limits: &ViewTolerances,
-    cover: &mut [f32],
-) {
+fn add(points: &[DVec3; 3], squares: &TileGrid, step: f64, limits: &ViewTolerances, cover: &mut [f32]) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
     if high.x - low.x < squares.cell || high.y - low.y < squares.cell {

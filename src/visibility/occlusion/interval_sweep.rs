@@ -12,25 +12,22 @@ pub(crate) struct HiddenInterval {
     pub count: u16,
 }
 
-/// Sweeps over `hidden` intervals and `known` layers, and appends pieces of constant count in ascending
-/// order.
+/// Sweeps over `hidden` intervals and appends pieces of constant count in ascending order.
 ///
 /// Pieces and gaps shorter than `shortest` are absorbed by their neighbours. With `counting` false, all
 /// counts are 1.
 pub(crate) fn sweep(
-    hidden: &mut Vec<Interval>,
-    known: &[HiddenInterval],
+    hidden: &mut [Interval],
     shortest: f64,
     counting: bool,
     layers: &mut Vec<HiddenInterval>,
 ) {
-    if hidden.is_empty() && known.is_empty() {
+    if hidden.is_empty() {
         return;
     }
     if counting {
-        sweep_counting(hidden, known, shortest, layers);
+        sweep_counting(hidden, shortest, layers);
     } else {
-        hidden.extend(known.iter().map(|layer| layer.interval));
         sweep_union(hidden, shortest, layers);
     }
 }
@@ -78,17 +75,11 @@ fn sweep_union(hidden: &mut [Interval], shortest: f64, layers: &mut Vec<HiddenIn
     push(HiddenInterval { interval: run, count: 1 }, shortest, layers);
 }
 
-fn sweep_counting(
-    hidden: &[Interval],
-    known: &[HiddenInterval],
-    shortest: f64,
-    layers: &mut Vec<HiddenInterval>,
-) {
-    let mut events: Vec<(f64, i32, ViewVertexKind)> = Vec::with_capacity((hidden.len() + known.len()) * 2);
-    let known = known.iter().map(|layer| (&layer.interval, i32::from(layer.count)));
-    for (h, count) in hidden.iter().map(|h| (h, 1)).chain(known) {
-        events.push((h.start, count, h.start_kind));
-        events.push((h.end, -count, h.end_kind));
+fn sweep_counting(hidden: &[Interval], shortest: f64, layers: &mut Vec<HiddenInterval>) {
+    let mut events: Vec<(f64, i32, ViewVertexKind)> = Vec::with_capacity(hidden.len() * 2);
+    for h in hidden {
+        events.push((h.start, 1, h.start_kind));
+        events.push((h.end, -1, h.end_kind));
     }
     events.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
     let first = layers.len();
@@ -146,7 +137,7 @@ mod tests {
     fn swept(intervals: &[(f64, f64)], counting: bool) -> Vec<(f64, f64, u16)> {
         let mut hidden: Vec<Interval> = intervals.iter().map(|(a, b)| interval(*a, *b)).collect();
         let mut layers = Vec::new();
-        sweep(&mut hidden, &[], 1e-6, counting, &mut layers);
+        sweep(&mut hidden, 1e-6, counting, &mut layers);
         layers.iter().map(|l| (l.interval.start, l.interval.end, l.count)).collect()
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct OuterSide {
 
 /// Open sides of a segment: to the left and to the right of its direction in the image (y down).
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct OuterSides(pub [Option<OuterSide>; 2]);
+pub(crate) struct OuterSides([Option<OuterSide>; 2]);
 
 impl OuterSides {
     /// Open sides of a segment; none if it has no length or no own face.
@@ -40,9 +40,9 @@ impl OuterSides {
         Self([side(covered[0], -across * limits.side_offset), side(covered[1], across * limits.side_offset)])
     }
 
-    /// Iterates over the open sides, with their numbers.
-    pub(crate) fn open(&self) -> impl Iterator<Item = (usize, &OuterSide)> {
-        self.0.iter().enumerate().filter_map(|(k, side)| Some((k, side.as_ref()?)))
+    /// Iterates over the open sides.
+    pub(crate) fn open(&self) -> impl Iterator<Item = &OuterSide> {
+        self.0.iter().flatten()
     }
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn common(
 ) -> impl Iterator<Item = (f64, f64)> {
     let union = |intervals: &mut Vec<Interval>| {
         let mut layers = Vec::new();
-        sweep(intervals, &[], 0.0, false, &mut layers);
+        sweep(intervals, 0.0, false, &mut layers);
         layers
     };
     let (first, second) = (union(&mut first), union(&mut second));

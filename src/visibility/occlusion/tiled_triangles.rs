@@ -10,8 +10,7 @@ use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
-use crate::visibility::tiles::tile_grid::{TileBox, TileGrid, TileReach};
-use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::tiles::tile_grid::{TileBox, TileGrid};
 use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
 use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
@@ -81,17 +80,11 @@ impl TiledTriangles<'_> {
     /// off the grid.
     #[must_use]
     pub(crate) fn tile_boxes(&self) -> Vec<TileBox> {
-        // A vertex is a corner of six triangles on average, so its range of tiles is computed once.
-        let slack = self.slack();
-        let of_vertex = |p: &DVec3| if p.z.is_nan() { TileReach::CUT } else { self.grid.around(*p, slack) };
-        let vertices: Vec<TileReach> =
-            self.view.points.par_iter().with_min_len(MIN_TASK_ITEMS).map(of_vertex).collect();
-        let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
-            Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
-            Some(t) => self.grid.tiles_within(TileReach::of_all(t.map(|v| vertices[v as usize]))),
-            None => self.tile_box(id as u32),
-        };
-        (0..self.count()).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(of_triangle).collect()
+        (0..self.count())
+            .into_par_iter()
+            .with_min_len(MIN_TASK_ITEMS)
+            .map(|id| self.tile_box(id as u32))
+            .collect()
     }
 
     /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
@@ -154,15 +147,6 @@ impl TiledTriangles<'_> {
         OccluderBounds { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
     }
 
-    /// Bounds of all triangles.
-    pub(crate) fn reaches(&self) -> Vec<OccluderBounds> {
-        (0..self.count())
-            .into_par_iter()
-            .with_min_len(MIN_TASK_ITEMS)
-            .map(|id| self.reach(id as u32))
-            .collect()
-    }
-
     /// Face that a triangle belongs to.
     #[inline]
     pub(crate) fn face(&self, id: u32) -> u32 {
@@ -172,80 +156,43 @@ impl TiledTriangles<'_> {
         }
     }
 
-    /// Ids of the triangles in front of `cover` in each wanted tile of the grid, ascending.
+    /// Ids of the triangles over each tile that are at least as near as its value in `farthest`, ascending.
+    /// Nothing is listed where that is ∞.
     ///
     /// Takes `boxes` by value, so they are freed before the result is built.
     #[must_use]
-    pub(crate) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> CsrLists<u32> {
-        let found = self.pairs(boxes, wanted, Some(cover));
-        csr_lists_from_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
-    }
-
-    /// Pairs of wanted tile and triangle; in each tile in the order of the triangles.
-    pub(crate) fn pairs(
-        &self,
-        boxes: Vec<TileBox>,
-        wanted: &TileSet,
-        cover: Option<&[f64]>,
-    ) -> Vec<Vec<(u32, u32)>> {
+    pub(crate) fn fill(&self, boxes: Vec<TileBox>, farthest: &[f64]) -> CsrLists<u32> {
         let chunk = self.chunk();
-        let found = boxes
+        let found: Vec<Vec<(u32, u32)>> = boxes
             .par_chunks(chunk)
             .with_max_len(1)
             .enumerate()
             .map(|(k, boxes)| {
                 let mut pairs = Vec::new();
                 for (i, tiles) in boxes.iter().enumerate() {
-                    self.add_tiles((k * chunk + i) as u32, *tiles, wanted, cover, &mut pairs);
+                    self.add_tiles((k * chunk + i) as u32, *tiles, farthest, &mut pairs);
                 }
                 pairs
             })
             .collect();
         drop(boxes);
-        found
+        csr_lists_from_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
     }
 
-    /// Like `pairs` without a cover, for the given triangles, whose ids ascend.
-    pub(crate) fn pairs_of(&self, ids: &[u32], wanted: &TileSet) -> Vec<Vec<(u32, u32)>> {
-        let of_chunk = |ids: &[u32]| {
-            let mut pairs = Vec::with_capacity(ids.len());
-            ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, None, &mut pairs));
-            pairs
-        };
-        ids.par_chunks(MIN_TASK_ITEMS).with_max_len(1).map(of_chunk).collect()
-    }
-
-    /// Adds a pair of tile and triangle for each wanted tile where the triangle may matter.
+    /// Adds a pair of tile and triangle for each tile where the triangle may matter.
     #[inline]
-    fn add_tiles(
-        &self,
-        id: u32,
-        tiles: TileBox,
-        wanted: &TileSet,
-        cover: Option<&[f64]>,
-        pairs: &mut Vec<(u32, u32)>,
-    ) {
+    fn add_tiles(&self, id: u32, tiles: TileBox, farthest: &[f64], pairs: &mut Vec<(u32, u32)>) {
         if tiles.is_empty() {
             return;
         }
-        let cover_of = |tile: usize| cover.map_or(f64::NEG_INFINITY, |cover| cover[tile]);
         // For boxes of few tiles, the exact test costs more than it saves.
         if tiles.area() <= 4 {
-            for row in tiles.top..=tiles.bottom {
-                for column in tiles.left..=tiles.right {
-                    if !wanted.has(usize::from(column), usize::from(row)) {
-                        continue;
-                    }
-                    let tile = self.grid.tile(u32::from(column), u32::from(row));
-                    let before = cover_of(tile);
-                    if before == f64::NEG_INFINITY || self.nearest(id) >= before {
-                        pairs.push((tile as u32, id));
-                    }
+            for (tile, _) in self.grid.tiles_of(tiles) {
+                let least = farthest[tile];
+                if least == f64::NEG_INFINITY || (least < f64::INFINITY && self.nearest(id) >= least) {
+                    pairs.push((tile as u32, id));
                 }
             }
-            return;
-        }
-        if !wanted.has_any(tiles) {
             return;
         }
         let (points, _) = corners(self.mesh, self.view, id);
@@ -256,7 +203,7 @@ impl TiledTriangles<'_> {
         for row in tiles.top..=tiles.bottom {
             for column in sides.columns(self.grid, tiles, row, reach) {
                 let tile = self.grid.tile(column, u32::from(row));
-                if wanted.has(column as usize, usize::from(row)) && nearest >= cover_of(tile) {
+                if nearest >= farthest[tile] {
                     pairs.push((tile as u32, id));
                 }
             }
@@ -279,42 +226,4 @@ fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
         ((low.y - pad) as f32).next_down(),
         ((high.y + pad) as f32).next_up(),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec2;
-
-    use super::*;
-    use crate::geometry::dice::Dice;
-    use crate::mesh::Soup;
-    use crate::scene::Camera;
-
-    #[test]
-    fn tile_boxes_match_the_box_of_each_triangle() {
-        let mut dice = Dice::new(3);
-        let mut soup = Soup::default();
-        for k in 0..3000u32 {
-            let middle = dice.point(2.0);
-            soup.positions.extend([0; 3].map(|_| middle + dice.point(0.4)));
-            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
-        }
-        let mesh = Mesh::build(soup);
-        // The camera is among the triangles, so some are behind the eye and some are cut.
-        let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
-        let view = View::new(&mesh, &camera);
-        let limits = ViewTolerances::new(&view.frame);
-        assert!(!view.clipped.is_empty() && view.points.iter().any(|p| p.z.is_nan()));
-        for (low, high, across) in [(100.0, 400.0, 64), (-2000.0, 3000.0, 300), (480.0, 481.0, 7)] {
-            let grid = TileGrid::new(DVec2::splat(low), DVec2::splat(high), across);
-            let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
-            let boxes = triangles.tile_boxes();
-            assert!(
-                boxes.iter().any(|tiles| !tiles.is_empty()) && boxes.iter().any(|tiles| tiles.is_empty())
-            );
-            for (id, tiles) in boxes.iter().enumerate() {
-                assert_eq!(*tiles, triangles.tile_box(id as u32), "{id} from {low} to {high}");
-            }
-        }
-    }
 }

@@ -8,46 +8,32 @@
 use std::cmp::Ordering;
 
 use crate::parallel::prelude::*;
-use glam::DVec3;
 use kurbo::Vec2;
 
-use super::edge_line::{EdgeLine, vector};
-use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
+use super::edge_grid::EdgeGrid;
+use super::edge_line::EdgeLine;
 use crate::mesh::MeshMetrics;
 use crate::view::Frame;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
-use crate::visibility::tiles::tile_grid::TileGrid;
 use crate::visibility::tolerances;
 
 /// Lines shorter than this multiple of the distance have no reliable direction and are left alone.
 const MIN_LENGTH_PER_DISTANCE: f64 = 8.0;
 
-/// Lines per task of the grid traversal.
-const LINES_PER_TASK: usize = 1 << 11;
-
 /// Removes the parts of visible edges that lie within `max_distance` (user units) of a stronger visible edge.
 ///
 /// `frame` is the frame of the view, `extents` those of the mesh.
 pub(crate) fn remove_coincident(map: &mut ViewMap, max_distance: f64, frame: &Frame, extents: &MeshMetrics) {
-    let perspective = frame.perspective;
     let covered = find_covered(map, max_distance, frame, extents);
     if covered.is_empty() {
         return;
     }
-    let mut edges = Vec::with_capacity(map.edges.len());
     let mut covered = covered.into_iter().peekable();
-    for (id, edge) in map.edges.iter().enumerate() {
-        let mut ranges: Vec<(f64, f64)> = Vec::new();
-        while let Some((_, range)) = covered.next_if(|(of, _)| *of as usize == id) {
-            ranges.push(range);
-        }
-        if ranges.is_empty() {
-            edges.push(*edge);
-        } else {
-            cut_edge(&mut map.vertices, &mut edges, edge, &mut ranges, max_distance, perspective);
-        }
-    }
-    map.edges = edges;
+    let edges = std::mem::take(&mut map.edges);
+    let ranges = (0..edges.len() as u32).map(|id| {
+        std::iter::from_fn(|| covered.next_if(|(of, _)| *of == id)).map(|(_, range)| range).collect()
+    });
+    map.edges = cut_edges(&mut map.vertices, &edges, ranges, max_distance, frame.perspective);
 }
 
 /// Parameter ranges of edges that another edge covers, sorted by edge and start.
@@ -58,32 +44,9 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &MeshMetrics
     let mut lines: Vec<(u32, EdgeLine)> = visible_ids.par_iter().with_min_len(1 << 10).map(of_edge).collect();
     drop(visible_ids);
     lines.retain(|(_, line)| line.length > MIN_LENGTH_PER_DISTANCE * within);
-    if lines.is_empty() {
-        return Vec::new();
-    }
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = lines
-        .iter()
-        .map(|(_, line)| line.ends())
-        .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
-    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
-    let grid = TileGrid::new(low.truncate(), high.truncate(), across);
-    let walked: Vec<Vec<(u32, u32)>> = lines
-        .par_chunks(LINES_PER_TASK)
-        .enumerate()
-        .map(|(chunk, lines)| {
-            let mut passed = Vec::with_capacity(2 * lines.len());
-            for ((_, line), number) in lines.iter().zip((chunk * LINES_PER_TASK) as u32..) {
-                let [p, q] = line.ends();
-                grid.walk(p, q, |tile, _, _| passed.push((tile as u32, number)));
-            }
-            passed
-        })
-        .collect();
-    let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
-    let in_tile = csr_lists_from_pairs(grid.len(), passed);
-    drop(walked);
-    let search = CoincidenceSearch { map, extents, frame, max_distance: within, lines, grid, in_tile };
+    let (ids, lines): (Vec<u32>, Vec<EdgeLine>) = lines.into_iter().unzip();
+    let Some(grid) = EdgeGrid::new(&lines, 0.0) else { return Vec::new() };
+    let search = CoincidenceSearch { map, extents, frame, max_distance: within, ids, lines, grid };
     let mut covered: Vec<(u32, (f64, f64))> = (0..search.lines.len())
         .into_par_iter()
         .with_min_len(256)
@@ -100,22 +63,23 @@ struct CoincidenceSearch<'a> {
     extents: &'a MeshMetrics,
     frame: &'a Frame,
     max_distance: f64,
-    /// Indices of edges, ascending, with their lines.
-    lines: Vec<(u32, EdgeLine)>,
-    grid: TileGrid,
-    in_tile: CsrLists<u32>,
+    /// Indices of edges, ascending.
+    ids: Vec<u32>,
+    lines: Vec<EdgeLine>,
+    grid: EdgeGrid,
 }
 
 impl CoincidenceSearch<'_> {
     /// Ranges of one line and the lines before it that cover each other.
     fn covered_with(&self, number: usize, nearby: &mut NearbyLines) -> Vec<(u32, (f64, f64))> {
-        let Self { map, extents, max_distance: within, lines, .. } = self;
-        let (id, line) = &lines[number];
+        let Self { map, extents, max_distance: within, ids, lines, .. } = self;
+        let (id, line) = (&ids[number], &lines[number]);
         let edge = &map.edges[*id as usize];
         let mut covered = Vec::new();
         self.find_near(number, nearby);
         for nearby_number in &nearby.lines {
-            let (other_id, other_line) = &lines[*nearby_number as usize];
+            let other = *nearby_number as usize;
+            let (other_id, other_line) = (&ids[other], &lines[other]);
             let other_edge = &map.edges[*other_id as usize];
             let joined = edge.start == other_edge.start
                 || edge.start == other_edge.end
@@ -152,24 +116,22 @@ impl CoincidenceSearch<'_> {
     /// Such a line passes a tile of the line itself or of one of its parallels at distance `max_distance`, because
     /// tiles are convex.
     fn find_near(&self, number: usize, NearbyLines { tiles, lines }: &mut NearbyLines) {
-        let (_, line) = &self.lines[number];
+        let line = &self.lines[number];
         let across = Vec2::new(-line.along.y, line.along.x) * self.max_distance;
         tiles.clear();
-        for shift in [Vec2::ZERO, across, -across] {
-            self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
-                // Most lines are short and yield the same tile three times.
-                if tiles.last() != Some(&tile) {
-                    tiles.push(tile);
-                }
-            });
-        }
+        self.grid.walk_beside([line.start, line.end()], across, |tile| {
+            // Most lines are short and yield the same tile three times.
+            if tiles.last() != Some(&tile) {
+                tiles.push(tile);
+            }
+        });
         let before = |tile: &usize| {
-            let own = self.in_tile.of(*tile);
+            let own = self.grid.lines_in(*tile);
             own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
         };
         lines.clear();
         // Only few lines remain, so sorting them is cheap.
-        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.max_distance);
+        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize], self.max_distance);
         lines.extend(tiles.iter().flat_map(before).filter(runs_along));
         if tiles.len() > 1 {
             lines.sort_unstable();
@@ -201,8 +163,27 @@ pub(crate) fn precedence(map: &ViewMap, extents: &MeshMetrics, one: &ViewEdge, o
     one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)
 }
 
+/// Edges without the given ranges of each.
+pub(crate) fn cut_edges(
+    vertices: &mut Vec<ViewVertex>,
+    edges: &[ViewEdge],
+    ranges: impl Iterator<Item = Vec<(f64, f64)>>,
+    within: f64,
+    perspective: bool,
+) -> Vec<ViewEdge> {
+    let mut cut = Vec::with_capacity(edges.len());
+    for (edge, mut ranges) in edges.iter().zip(ranges) {
+        if ranges.is_empty() {
+            cut.push(*edge);
+        } else {
+            cut_edge(vertices, &mut cut, edge, &mut ranges, within, perspective);
+        }
+    }
+    cut
+}
+
 /// Appends the parts of an edge outside the given ranges.
-pub(crate) fn cut_edge(
+fn cut_edge(
     vertices: &mut Vec<ViewVertex>,
     edges: &mut Vec<ViewEdge>,
     edge: &ViewEdge,
@@ -245,6 +226,7 @@ pub(crate) fn cut_edge(
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
     use kurbo::Point;
 
     use super::*;
@@ -252,6 +234,7 @@ mod tests {
     use crate::mesh::{MaterialId, PartId};
     use crate::scene::{Camera, NamedView, Projection, UpAxis};
     use crate::surface::MeshSource;
+    use crate::visibility::overlap::edge_grid::LINES_PER_TASK;
 
     type TestLine = ((f64, f64), (f64, f64), LineKind);
 

@@ -10,17 +10,16 @@
 
 use std::cmp::Ordering;
 
+use crate::geometry::numbers::ranges::joined;
 use crate::parallel::prelude::*;
-use glam::DVec3;
 use kurbo::Vec2;
 
-use super::coincident_lines::{cut_edge, precedence};
-use super::edge_line::{EdgeLine, vector};
+use super::coincident_lines::{cut_edges, precedence};
+use super::edge_grid::EdgeGrid;
+use super::edge_line::EdgeLine;
 use super::smooth_chains::smooth_chains;
-use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
 use crate::mesh::MeshMetrics;
 use crate::visibility::graph::{ViewEdge, ViewMap};
-use crate::visibility::tiles::tile_grid::TileGrid;
 use crate::visibility::tolerances::{BEHIND_INK_PX, BEHIND_INK_SINE};
 
 /// Smallest tile side, in multiples of the widest reach. An edge within reach of a line is then in the tiles
@@ -53,42 +52,23 @@ pub(crate) fn without_hidden_in_ink(map: &ViewMap, ink: &LineInk) -> Option<View
     }
     let within = BEHIND_INK_PX * ink.px;
     let mut vertices = map.vertices.clone();
-    let mut edges = Vec::with_capacity(map.edges.len());
-    for (edge, mut ranges) in map.edges.iter().zip(behind) {
-        if ranges.is_empty() {
-            edges.push(*edge);
-        } else {
-            cut_edge(&mut vertices, &mut edges, edge, &mut ranges, within, ink.perspective);
-        }
-    }
+    let edges = cut_edges(&mut vertices, &map.edges, behind.into_iter(), within, ink.perspective);
     Some(ViewMap { vertices, edges, ..map.clone() })
 }
 
 /// Ranges of each edge that lie in the ink of others.
 fn find(map: &ViewMap, ink: &LineInk) -> Vec<Vec<ParameterRange>> {
     let lines: Vec<EdgeLine> = map.edges.iter().map(|edge| EdgeLine::of(map, edge)).collect();
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = lines
-        .iter()
-        .map(EdgeLine::ends)
-        .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
-    let size = (high - low).max_element();
-    if !size.is_finite() || map.edges.iter().all(|edge| edge.invisibility == 0) {
+    if map.edges.iter().all(|edge| edge.invisibility == 0) {
         return vec![Vec::new(); lines.len()];
     }
     let half_width = |edge: &ViewEdge| (ink.half_width)(edge).max(BEHIND_INK_PX * ink.px);
     let reaches: Vec<f64> = map.edges.par_iter().with_min_len(256).map(half_width).collect();
     let widest = reaches.iter().copied().fold(0.0, f64::max);
-    let max_across = (size / (MIN_CELL_PER_REACH * widest)).max(1.0) as u32;
-    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024).min(max_across);
-    let grid = TileGrid::new(low.truncate(), high.truncate(), across);
-    let in_tile = csr_lists(grid.len(), |put| {
-        for (line, number) in lines.iter().zip(0..) {
-            let [p, q] = line.ends();
-            grid.walk(p, q, |tile, _, _| put(tile, number));
-        }
-    });
-    let search = InkSearch { map, half_widths: reaches, widest, lines, grid, in_tile, ink };
+    let Some(grid) = EdgeGrid::new(&lines, MIN_CELL_PER_REACH * widest) else {
+        return vec![Vec::new(); lines.len()];
+    };
+    let search = InkSearch { map, half_widths: reaches, widest, lines, grid, ink };
     let found: Vec<NearbyEdges> = (0..map.edges.len())
         .into_par_iter()
         .with_min_len(256)
@@ -117,8 +97,7 @@ struct InkSearch<'a> {
     widest: f64,
     /// One per edge.
     lines: Vec<EdgeLine>,
-    grid: TileGrid,
-    in_tile: CsrLists<u32>,
+    grid: EdgeGrid,
 }
 
 impl InkSearch<'_> {
@@ -207,13 +186,10 @@ impl InkSearch<'_> {
         let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
         let reach = if is_short { line.along * self.widest } else { Vec2::ZERO };
         let mut candidates: Vec<u32> = Vec::new();
-        for shift in [Vec2::ZERO, across, -across] {
-            let ends = [line.start + shift - reach, line.end() + shift + reach].map(vector);
-            self.grid.walk(ends[0], ends[1], |tile, _, _| {
-                let is_relevant = |other: &&u32| is_short || is_parallel(line, &self.lines[**other as usize]);
-                candidates.extend(self.in_tile.of(tile).iter().filter(is_relevant));
-            });
-        }
+        self.grid.walk_beside([line.start - reach, line.end() + reach], across, |tile| {
+            let is_relevant = |other: &&u32| is_short || is_parallel(line, &self.lines[**other as usize]);
+            candidates.extend(self.grid.lines_in(tile).iter().filter(is_relevant));
+        });
         candidates.sort_unstable();
         candidates.dedup();
         candidates
@@ -235,19 +211,6 @@ fn rest(removed: &[ParameterRange]) -> Vec<ParameterRange> {
 
 fn is_parallel(line: &EdgeLine, other: &EdgeLine) -> bool {
     other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
-}
-
-/// Sorted ranges, where ranges that overlap or are at most `gap` apart are merged.
-fn joined(mut ranges: Vec<ParameterRange>, gap: f64) -> Vec<ParameterRange> {
-    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut joined: Vec<ParameterRange> = Vec::with_capacity(ranges.len());
-    for (from, to) in ranges {
-        match joined.last_mut() {
-            Some(last) if from <= last.1 + gap => last.1 = last.1.max(to),
-            _ => joined.push((from, to)),
-        }
-    }
-    joined
 }
 
 /// Range of a line's parameter (0 to 1) along which a parallel line is within `max_distance`.

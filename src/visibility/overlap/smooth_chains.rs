@@ -1,7 +1,7 @@
 //! [`smooth_chains`]: hidden edges of a view map, chained up to corners and branches.
 
 use super::edge_line::EdgeLine;
-use crate::mesh::DisjointSets;
+use crate::geometry::lists::disjoint_sets::DisjointSets;
 use crate::visibility::graph::{ViewEdge, ViewMap};
 
 /// Smallest cosine (20 degrees) between edges that continue each other without a corner.

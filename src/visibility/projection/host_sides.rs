@@ -76,7 +76,7 @@ impl HostedLine {
     /// order of parts.
     fn others<'a>(&self, mesh: &'a Mesh) -> &'a [u32] {
         let [v, w] = self.ends;
-        let found = mesh.edges.vertices.binary_search(&[v.min(w), v.max(w)]).ok();
+        let found = mesh.edges.between(v, w);
         match found.map(|edge| mesh.edges.faces(edge)) {
             Some(EdgeFaces::Many(faces)) => faces,
             _ => &[],

@@ -1,24 +1,20 @@
 //! [`GapOcclusion`]: whether a straight gap between two lines passes behind a surface of another component.
 
-use std::sync::OnceLock;
-
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
 
-use crate::geometry::lists::csr_lists::{csr_lists, csr_lists_from_pairs};
+use crate::geometry::lists::csr_lists::csr_lists;
 use crate::lines::{FeatureLines, NO_FACE, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
 use crate::visibility::contours::contour_matching::MAX_MATCH_DISTANCE_PX;
-use crate::visibility::culling::triangle_blocks::TriangleBlocks;
 use crate::visibility::graph::VisibleContour;
 use crate::visibility::occlusion::occlusion_input::TileSegment;
 use crate::visibility::occlusion::tiled_triangles::{Occluder, TiledTriangles};
 use crate::visibility::occlusion::triangle_occlusion::hidden_interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::grid_over;
-use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
@@ -39,8 +35,6 @@ pub(crate) struct GapOcclusion<'a> {
     lines: &'a FeatureLines,
     visible_contours: &'a [VisibleContour],
     moved: Vec2,
-    /// Built on the first query.
-    triangle_blocks: OnceLock<TriangleBlocks>,
 }
 
 /// Straight gap in the image between two points of lines.
@@ -68,15 +62,7 @@ impl<'a> GapOcclusion<'a> {
         contours: &'a [VisibleContour],
         moved: Vec2,
     ) -> Self {
-        Self {
-            mesh,
-            pieces,
-            view,
-            lines,
-            visible_contours: contours,
-            moved,
-            triangle_blocks: OnceLock::new(),
-        }
+        Self { mesh, pieces, view, lines, visible_contours: contours, moved }
     }
 
     /// Reports for each gap whether it passes behind a visible surface of another component than its two
@@ -96,32 +82,31 @@ impl<'a> GapOcclusion<'a> {
         let own_pieces: Vec<[u32; 2]> =
             gaps.iter().map(|gap_segment| gap_segment.segments.map(|s| self.piece(s))).collect();
         let grid = grid_over(segments.iter(), TILES_ACROSS);
-        // Gaps are few and short, so only the tiles they pass through are numbered.
-        let mut items: Vec<(usize, TileSegment)> = Vec::new();
-        for (s, segment) in segments.iter().zip(0..) {
-            grid.walk(s.a, s.b, |tile, start, end| items.push((tile, TileSegment { segment, start, end })));
-        }
-        let wanted = TileSet::new(&grid, items.iter().map(|(tile, _)| *tile));
-        let items = csr_lists_from_pairs(
-            wanted.count(),
-            items.iter().map(|(tile, item)| (wanted.number(*tile), *item)),
-        );
+        let items = csr_lists(grid.len(), |put| {
+            for (s, segment) in segments.iter().zip(0..) {
+                grid.walk(s.a, s.b, |tile, start, end| put(tile, TileSegment { segment, start, end }));
+            }
+        });
         let triangles = TiledTriangles { mesh, view, grid: &grid, limits: &limits };
-        let occluders = self.blocks(&limits).fill(&triangles, &wanted);
+        // Gaps are few and short, so only the tiles they pass through are filled.
+        let is_wanted = |tile: usize| !items.of(tile).is_empty();
+        let wanted: Vec<usize> = (0..grid.len()).filter(|tile| is_wanted(*tile)).collect();
+        let mut farthest = vec![f64::INFINITY; grid.len()];
+        wanted.iter().for_each(|tile| farthest[*tile] = f64::NEG_INFINITY);
+        let occluders = triangles.fill(triangles.tile_boxes(), &farthest);
         let reach = DVec2::splat(MAX_MATCH_DISTANCE_PX * limits.px);
-        let contours_by_tile = csr_lists(wanted.count(), |put| {
+        let contours_by_tile = csr_lists(grid.len(), |put| {
             for contour in self.visible_contours {
                 let [a, b] = contour.ends;
                 let tiles = grid.tile_box((a.min(b) - reach).extend(0.0), (a.max(b) + reach).extend(0.0));
-                if !tiles.is_empty() && wanted.has_any(tiles) {
-                    wanted.within(tiles).for_each(|number| put(number, *contour));
-                }
+                let of_contour = grid.tiles_of(tiles).map(|(tile, _)| tile);
+                of_contour.filter(|tile| is_wanted(*tile)).for_each(|tile| put(tile, *contour));
             }
         });
-        let found: Vec<Vec<u32>> = (0..wanted.count())
-            .into_par_iter()
+        let found: Vec<Vec<u32>> = wanted
+            .par_iter()
             .with_min_len(TILES_PER_TASK)
-            .map(|tile| {
+            .map(|&tile| {
                 let boxed_occluders: Vec<BoxedOccluder> = occluders
                     .of(tile)
                     .iter()
@@ -147,16 +132,6 @@ impl<'a> GapOcclusion<'a> {
         let mut hidden = vec![false; gaps.len()];
         found.iter().flatten().for_each(|gap_id| hidden[*gap_id as usize] = true);
         hidden
-    }
-
-    fn blocks(&self, limits: &ViewTolerances) -> &TriangleBlocks {
-        if let Some(existing) = self.triangle_blocks.get() {
-            return existing;
-        }
-        // Built outside the lock, so it may be built twice. Waiting for another thread here could deadlock,
-        // because that thread may run this very task while it builds.
-        let new_blocks = TriangleBlocks::new(self.mesh, self.view, limits);
-        self.triangle_blocks.get_or_init(|| new_blocks)
     }
 
     fn piece(&self, segment: u32) -> u32 {

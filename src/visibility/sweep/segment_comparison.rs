@@ -1,32 +1,21 @@
 //! Comparison of one segment part with the triangles of its tile.
 
-use glam::DVec3;
-
-use crate::visibility::culling::long_pairs::LongPairs;
 use crate::visibility::culling::longest_interval::{NO_INTERVAL, join_or_longer};
-use crate::visibility::culling::tile_occluders::{LoadedTriangle, TileOccluders};
 use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
 use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
+use crate::visibility::occlusion::tiled_triangles::OccluderBounds;
 use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
 use crate::visibility::projection::image_segments::ImageSegment;
-
-/// Input shared by all tiles.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TileContext<'a> {
-    pub(crate) compared: OcclusionInput<'a>,
-    /// Results known for long lines; their parts are only compared with the other triangles.
-    pub(crate) long: Option<&'a LongPairs>,
-}
 
 /// Triangles of a tile to compare.
 #[derive(Clone, Copy)]
 pub(crate) struct TriangleChoice<'a> {
-    pub(crate) chosen: &'a [u32],
+    pub(crate) chosen: &'a [OccluderBounds],
     /// Whether they are sorted, nearest first.
     pub(crate) ordered: bool,
 }
 
-impl TileContext<'_> {
+impl OcclusionInput<'_> {
     /// Collects the intervals of a segment part that triangles hide.
     ///
     /// Returns true if one triangle, or several that join, hide all of it and counts are not needed.
@@ -35,12 +24,11 @@ impl TileContext<'_> {
         &self,
         segment: &ImageSegment,
         item: &TileSegment,
-        all: &mut TileOccluders,
         entries: TriangleChoice,
         hidden: &mut Vec<Interval>,
         tests: &mut u64,
     ) -> bool {
-        let OcclusionInput { triangles, limits, counting, .. } = self.compared;
+        let OcclusionInput { triangles, limits, counting, .. } = *self;
         let (p, q) = (segment.at(item.start), segment.at(item.end));
         let (low, high) = (p.min(q), p.max(q));
         let bounds = [
@@ -50,10 +38,8 @@ impl TileContext<'_> {
             (high.y as f32).next_up(),
         ];
         let farthest = (low.z as f32).next_down();
-        let ends = all.window.both([p, q].map(DVec3::truncate));
         let mut run = NO_INTERVAL;
-        for entry in entries.chosen {
-            let reach = &all.reaches[*entry as usize];
+        for reach in entries.chosen {
             if reach.nearest < farthest {
                 if entries.ordered {
                     break;
@@ -68,12 +54,8 @@ impl TileContext<'_> {
                 continue;
             }
             *tests += 1;
-            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
-                continue;
-            }
-            let range = (item.start, item.end);
-            let found = hidden_interval(segment, range, whole, &triangles.view.frame, limits);
+            let (range, occluder) = ((item.start, item.end), triangles.occluder(reach.id));
+            let found = hidden_interval(segment, range, &occluder, &triangles.view.frame, limits);
             let Some(found) = found else {
                 continue;
             };
@@ -95,19 +77,18 @@ impl TileContext<'_> {
         &self,
         segment: &ImageSegment,
         item: &TileSegment,
-        all: &mut TileOccluders,
         entries: TriangleChoice,
         backed: &mut Vec<(u32, Interval)>,
     ) {
-        let sides = OuterSides::of(segment, self.compared.triangles);
+        let sides = OuterSides::of(segment, self.triangles);
         let mut open = sides.open();
         match (open.next(), open.next()) {
             (None, _) => backed.push((item.segment, backdrop(item.start, item.end))),
-            (Some(side), None) => self.gather_backdrop(side, item, all, entries, backed),
+            (Some(side), None) => self.gather_backdrop(side, item, entries, backed),
             (Some(first), Some(second)) => {
                 let [first, second] = [first, second].map(|side| {
                     let mut found = Vec::new();
-                    self.gather_backdrop(side, item, all, entries, &mut found);
+                    self.gather_backdrop(side, item, entries, &mut found);
                     found.into_iter().map(|(_, interval)| interval).collect()
                 });
                 backed.extend(common(first, second).map(|(start, end)| (item.segment, backdrop(start, end))));
@@ -118,36 +99,27 @@ impl TileContext<'_> {
     /// Collects the ranges where a surface lies next to a segment on one side.
     fn gather_backdrop(
         &self,
-        (number, side): (usize, &OuterSide),
+        side: &OuterSide,
         item: &TileSegment,
-        all: &mut TileOccluders,
         entries: TriangleChoice,
         backed: &mut Vec<(u32, Interval)>,
     ) {
-        let OcclusionInput { triangles, segments, limits, .. } = self.compared;
+        let OcclusionInput { triangles, segments, limits, .. } = *self;
         let segment = &segments[item.segment as usize];
         let beside = side.shifted_ends(segment.at(item.start), segment.at(item.end));
         let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
-        let ends = all.window.both(beside);
         let mut run = NO_INTERVAL;
-        for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
-            backed.push((item.segment, interval));
-            run = join_or_longer(run, (interval.start, interval.end));
-        }
         for entry in entries.chosen {
             // The range is already complete.
             if run.0 <= item.start && run.1 >= item.end {
                 return;
             }
-            let b = all.reaches[*entry as usize].bounds.map(f64::from);
+            let OccluderBounds { bounds, id, .. } = *entry;
+            let b = bounds.map(f64::from);
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let LoadedTriangle { sides, whole } = all.load_triangle(*entry, triangles);
-            if ends.is_some_and(|[p, q]| sides.are_outside_a_side(p, q)) {
-                continue;
-            }
-            let Some((start, end)) = side.range(whole, limits) else { continue };
+            let Some((start, end)) = side.range(&triangles.occluder(id), limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 backed.push((item.segment, backdrop(start, end)));

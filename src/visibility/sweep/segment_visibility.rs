@@ -15,29 +15,24 @@
 //! solids", 1967.
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-use super::segment_comparison::TileContext;
-use super::tile_comparison::{TileResult, TileScratch};
+use super::tile_comparison::{SegmentScratch, TileResult};
 use super::tile_segments::TileSegments;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::lines::Role;
 use crate::mesh::Mesh;
-use crate::parallel::scratch_pool::ScratchPool;
 use crate::view::View;
-use crate::visibility::culling::long_pairs::LongPairs;
 use crate::visibility::culling::occlusion_buffer::OcclusionBuffer;
 use crate::visibility::culling::view_occlusion::ViewOcclusionBuffer;
 use crate::visibility::graph::ViewVertexKind;
 use crate::visibility::occlusion::interval_sweep::{HiddenInterval, sweep};
 use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
-use crate::visibility::occlusion::tiled_triangles::TiledTriangles;
+use crate::visibility::occlusion::tiled_triangles::{OccluderBounds, TiledTriangles};
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::aligned_grid::{grid_over, tiles_across};
-use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::ViewTolerances;
 
@@ -118,58 +113,32 @@ pub(crate) fn decide_with(
     };
     let ((items, covers), boxes) = crate::parallel::join(items, || triangles.tile_boxes());
     let TileSegments { open: items, behind_buffer: buried } = items;
-    let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
-    let occluders = triangles.fill(boxes, &wanted, &covers.tile_nearness);
-
-    // Where triangles overlap several tiles, their bounds are computed once.
-    let several = occluders.value_count() > 2 * triangles.count();
-    let reaches = if several { triangles.reaches() } else { Vec::new() };
-    let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
+    let farthest = |tile: usize| {
+        if items.of(tile).is_empty() { f64::INFINITY } else { covers.tile_nearness[tile] }
+    };
+    let farthest: Vec<f64> = (0..grid.len()).map(farthest).collect();
+    let occluders = triangles.fill(boxes, &farthest);
 
     let compared = OcclusionInput { triangles: &triangles, segments, limits, counting };
-    let long = LongPairs::find(&compared, &items, &occluders);
-    let context = TileContext { compared, long: long.as_ref() };
     const TILES_PER_TASK: usize = 64;
-    let decided = |memory: &mut TileScratch, tiles: Range<usize>| {
-        let mut result = TileResult::default();
-        for tile in tiles {
-            let mut decide = |items: &[TileSegment], ids: &mut dyn Iterator<Item = &u32>| {
-                if !items.is_empty() {
-                    memory.triangles.replace(ids.map(reach), &grid, tile, limits);
-                    context.decide_tile(items, memory, &grid, tile, &mut result);
-                }
-            };
-            let (items, ids) = (items.of(tile), occluders.of(tile));
-            match &long {
-                None => decide(items, &mut ids.iter()),
-                Some(long) => {
-                    let (long_items, remaining_items): (Vec<TileSegment>, Vec<TileSegment>) =
-                        items.iter().partition(|item| long.has(item.segment));
-                    decide(&long_items, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
-                    decide(&remaining_items, &mut ids.iter());
-                }
+    let decided = |task: usize| {
+        let (mut scratch, mut result) = (SegmentScratch::default(), TileResult::default());
+        for tile in task * TILES_PER_TASK..((task + 1) * TILES_PER_TASK).min(grid.len()) {
+            if !items.of(tile).is_empty() {
+                let mut chosen: Vec<OccluderBounds> =
+                    occluders.of(tile).iter().map(|id| triangles.reach(*id)).collect();
+                compared.decide_tile(items.of(tile), &mut chosen, &mut scratch, &mut result);
             }
         }
         result.tidy();
         result
     };
-    // Some tiles are crowded and most are not, so tasks are small and buffers are lent to them.
-    let memories = ScratchPool::default();
-    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES_PER_TASK))
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|k| {
-            memories.lend(|memory| {
-                decided(memory, k * TILES_PER_TASK..((k + 1) * TILES_PER_TASK).min(grid.len()))
-            })
-        })
-        .collect();
-    let long_tests = long.as_ref().map_or(0, |long| long.tests);
+    // Some tiles are crowded and most are not, so tasks are small.
+    let tasks = (0..grid.len().div_ceil(TILES_PER_TASK)).into_par_iter().with_max_len(1);
+    let results: Vec<TileResult> = tasks.map(decided).collect();
     // Freed first, because sorting the results takes the same amount of memory again.
-    drop((long, occluders, items, memories));
-    let mut visibility = gather(segments, limits, &buried, &results);
-    visibility.tests += long_tests;
-    visibility
+    drop((occluders, items));
+    gather(segments, limits, &buried, &results)
 }
 
 /// Gathers the results of all tiles by segment and joins them there.
@@ -208,7 +177,7 @@ fn gather(
             let mut joined = Vec::new();
             // Near a corner, the outer side may graze a face that only shares the vertex.
             let grazing = 4.0 * limits.side_offset / segments[segment].length().max(4.0 * limits.side_offset);
-            sweep(intervals, &[], grazing, false, &mut joined);
+            sweep(intervals, grazing, false, &mut joined);
             intervals.clear();
             intervals.extend(joined.iter().map(|l| l.interval));
         })

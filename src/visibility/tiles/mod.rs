@@ -5,10 +5,8 @@
 //! 3. Each triangle is scan-converted into the tiles it overlaps, row by row, with its sides as half planes.
 //!
 //! Files, in reading order: [`tile_grid`] the grid and its traversal; [`aligned_grid`] grids whose tiles keep
-//! their place when lines change; [`triangle_columns`] the tiles of a row that a triangle covers;
-//! [`tile_set`] a set of tiles with ranks.
+//! their place when lines change; [`triangle_columns`] the tiles of a row that a triangle covers.
 
 pub(crate) mod aligned_grid;
 pub(crate) mod tile_grid;
-pub(crate) mod tile_set;
 pub(crate) mod triangle_columns;

@@ -43,7 +43,23 @@ fn shared_shadows_equal_those_of_single_views() {
     }
 }
 
-/// A renderer that consumes its scene must draw the same as one that borrows it, for styles that
+/// The tree of `lines.edge_tree` is built by the second view.
+#[test]
+fn views_with_an_edge_tree_equal_those_without() {
+    let bear = model("bear.ply");
+    let style = |tree: bool| {
+        let sets = ["lines.contours=mesh".to_owned(), format!("lines.edge_tree={tree}")];
+        Style::load_with("ink", &sets).expect("a style")
+    };
+    let [plain, with_tree] = [false, true].map(style);
+    let [plain, with_tree] = [&plain, &with_tree].map(|style| Renderer::new(&bear, style));
+    for turn in [0.0, 130.0, 250.0] {
+        let camera = view(&bear, turn);
+        assert!(draw(&plain, &camera) == draw(&with_tree, &camera), "{turn}");
+    }
+}
+
+/// `Prepared::of_scene` consumes its scene and must draw the same as `Prepared::for_camera`, for styles that
 /// use parts, materials and textures.
 #[test]
 fn consumed_scenes_give_the_same_drawing_as_kept_ones() {

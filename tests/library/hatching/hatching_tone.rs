@@ -128,8 +128,8 @@ fn darker_tones_keep_all_strokes_of_lighter_ones() {
             for (id, stroke) in &lighter {
                 assert_eq!(own.get(id), Some(stroke), "bin {bin} lost or changed a stroke");
             }
-            let total: f64 =
-                own.values().map(|stroke| hatching::clip::line_clip::length(&stroke.points)).sum();
+            let parts = own.values().flat_map(|stroke| stroke.points.windows(2));
+            let total: f64 = parts.map(|ends| ends[0].distance(ends[1])).sum();
             assert!(total >= lengths);
             lengths = total;
             lighter = own;

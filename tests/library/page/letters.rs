@@ -218,6 +218,28 @@ fn right_to_left_glyphs_are_in_visual_order() {
 }
 
 #[test]
+fn mixed_direction_text_is_in_visual_order() {
+    let file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    let Ok(font) = Font::open(file) else {
+        eprintln!("skipped: {file} is absent");
+        return;
+    };
+    let setting = Setting::new(font).with_em(10.0);
+    let visual_text = |text: &str| {
+        let marks = TextBlock::unbroken(text, &setting).unwrap().marks(Point::ZERO, Colour::BLACK);
+        let runs = marks.iter().filter_map(|mark| mark.provenance.text.as_ref());
+        let letters =
+            runs.flat_map(|run| run.glyphs.iter().map(|glyph| run.words[glyph.shows.clone()].to_owned()));
+        letters.collect::<String>()
+    };
+    assert_eq!(visual_text("abc 12, d"), "abc 12, d");
+    assert_eq!(visual_text("abc אבג דה. d"), "abc הד גבא. d");
+    assert_eq!(visual_text("אב 12 גד ab"), "ab דג 12 בא");
+    assert_eq!(visual_text("אב (abc)"), ")abc( בא", "brackets are mirrored where letters are shaped");
+    assert_eq!(visual_text("אב 12.5 גד"), "דג 12.5 בא");
+}
+
+#[test]
 fn the_same_text_gives_the_same_marks() {
     let setting = comic().in_language("en");
     let marks =

@@ -81,7 +81,7 @@ fn solids_of_flat_faces_keep_every_edge() {
     let cube = mesh(cuboid(DVec3::NEG_ONE, DVec3::ONE));
     assert_eq!(find(&cube).count(), 12);
     // All edges turn by exactly a right angle, so none exceeds it.
-    assert!(HardEdges::find(&cube, 90.0).is_empty());
+    assert_eq!(HardEdges::find(&cube, 90.0).count(), 0);
 
     let tetrahedron = Solid {
         positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
@@ -292,6 +292,6 @@ fn scans_lose_isolated_sharp_edges() {
         let Some((mesh, all, kept)) = shared_model_creases(name) else { continue };
         let (before, after) = (isolated_edge_count(&mesh, &all), isolated_edge_count(&mesh, &kept));
         assert!(10 * after < before, "{name}: {after} of {before} loose edges are left");
-        assert!(!kept.is_empty(), "{name} has creases");
+        assert!(kept.count() > 0, "{name} has creases");
     }
 }

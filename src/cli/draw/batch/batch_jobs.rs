@@ -6,7 +6,6 @@
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
 
-use crate::cli::options::batch_args::stem;
 use crate::cli::options::draw_args::DrawArgs;
 use crate::cli::output::output_files::{Output, is_stdout};
 use crate::cli::request::draw_request::{DrawRequest, check_apart, same_file};
@@ -116,16 +115,7 @@ fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf
             }
         }
     }
-    let name = stem(model);
-    let endings = args.many.endings();
-    let endings = if endings.is_empty() { vec!["svg"] } else { endings };
-    let path = |ending: &str| {
-        let mut name = name.clone();
-        name.push(".");
-        name.push(ending);
-        place.join(name)
-    };
-    Ok(endings.into_iter().map(path).collect())
+    Ok(args.many.names(model).into_iter().map(|name| place.join(name)).collect())
 }
 
 /// Adds the name of the view to the file name if there are several views.

@@ -20,7 +20,7 @@ pub(crate) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {
     if let ViewRequest::Recorded(name) = &request.view {
         files.extend(Some(PathBuf::from(name)).filter(|path| path.is_file()));
     }
-    let mut sheet = sheet(&request.style, Path::new(""));
+    let mut sheet = sheet(&request.how.style, Path::new(""));
     while let Some(path) = sheet.filter(|path| files.len() < MAX_INPUT_FILES && !files.contains(path)) {
         sheet = parent(&path);
         files.push(path);

@@ -1,54 +1,31 @@
 //! Waits for changes of the input files of jobs.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Duration;
 
 use super::batch_jobs::BatchJob;
 use super::drawing_inputs::inputs;
-use crate::cli::output::file_stamp::{FileStamp, stamp};
-
-/// Time between two checks of all files.
-const POLL_INTERVAL: Duration = Duration::from_millis(60);
-
-/// Time that a file must stay unchanged before it is read, because programs write files in several steps.
-const SETTLE_TIME: Duration = Duration::from_millis(80);
-
-type Stamps = BTreeMap<PathBuf, FileStamp>;
+use crate::cli::output::file_stamp::{FileStamps, changed_stamps, stamps};
 
 /// Watch over the input files of jobs.
 pub(crate) struct InputWatch<'a> {
     jobs: &'a [BatchJob],
     /// Input files of each job. They change when a style sheet extends another sheet.
     files: Vec<Vec<PathBuf>>,
-    last_stamps: Stamps,
+    last_stamps: FileStamps,
 }
 
 impl<'a> InputWatch<'a> {
     /// Starts watching. Later changes are detected.
     pub(crate) fn new(jobs: &'a [BatchJob]) -> Self {
         let files = files(jobs);
-        let seen = stamps(&files);
+        let seen = stamps(files.iter().flatten());
         Self { jobs, files, last_stamps: seen }
     }
 
     /// Waits for a change, and returns the jobs with changed inputs.
     pub(crate) fn changed(&mut self) -> Vec<&'a BatchJob> {
         loop {
-            std::thread::sleep(POLL_INTERVAL);
-            let mut now = stamps(&self.files);
-            if now == self.last_stamps {
-                continue;
-            }
-            loop {
-                std::thread::sleep(SETTLE_TIME);
-                let later = stamps(&self.files);
-                let rests = later == now;
-                now = later;
-                if rests {
-                    break;
-                }
-            }
+            let mut now = changed_stamps(self.files.iter().flatten(), &self.last_stamps);
             // A missing file may come back: programs often save by replacing a file.
             now.retain(|_, file_stamp| file_stamp.is_some());
             let is_new = |path: &PathBuf| {
@@ -62,7 +39,7 @@ impl<'a> InputWatch<'a> {
                 continue;
             }
             self.files = files(self.jobs);
-            for (path, first_stamp) in stamps(&self.files) {
+            for (path, first_stamp) in stamps(self.files.iter().flatten()) {
                 self.last_stamps.entry(path).or_insert(first_stamp);
             }
             return jobs;
@@ -72,8 +49,4 @@ impl<'a> InputWatch<'a> {
 
 fn files(jobs: &[BatchJob]) -> Vec<Vec<PathBuf>> {
     jobs.iter().map(|job| job.requests.first().map(inputs).unwrap_or_default()).collect()
-}
-
-fn stamps(files: &[Vec<PathBuf>]) -> Stamps {
-    files.iter().flatten().map(|path| (path.clone(), stamp(path))).collect()
 }

@@ -44,12 +44,12 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let jobs: Vec<BatchJob> = jobs.into_iter().enumerate().filter_map(mine).collect();
     if let Some(request) = jobs.iter().flat_map(|job| &job.requests).next() {
         // Style errors are reported once, not for each model.
-        library_calls::load_style(&request.style, &request.sets, request.background)?;
+        library_calls::load_style(&request.how.style, &request.sets, request.background)?;
         match usage_warnings::bare_lengths(request) {
-            Some(warning) if request.strict => {
+            Some(warning) if request.how.strict => {
                 return Err(Error::new(warning).remedy("give the unit, or draw without --strict"));
             }
-            Some(warning) if !request.quiet => say(&format!("warning: {warning}")),
+            Some(warning) if !request.how.quiet => say(&format!("warning: {warning}")),
             _ => {}
         }
     }

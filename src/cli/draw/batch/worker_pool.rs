@@ -20,6 +20,7 @@ use crate::cli::request::draw_request::DrawRequest;
 use crate::cli::{EXIT_TRY_LATER, EXIT_WRONG};
 use crate::error::{Error, ErrorKind};
 use crate::pipeline::Stopwatch;
+use crate::scene::warnings::add_new;
 
 /// Drawings of one model that are still to be made.
 pub(crate) struct DrawTask<'a> {
@@ -118,8 +119,7 @@ impl WorkerPool<'_> {
             Err(failure) => {
                 let ModelFailure { error, is_temporary: passes } = *failure;
                 *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
-                let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
-                progress.print_line(&format!("error: {error}"));
+                progress.print_line(&format!("error: {}", error.or_in_file(task.job.model())));
             }
         }
     }
@@ -150,22 +150,15 @@ fn draw_task(task: &DrawTask) -> Result<(WrittenFiles, Vec<String>), Box<ModelFa
     let mut staging = Staging::default();
     let (mut made, mut warnings) = (WrittenFiles::default(), Vec::new());
     let writes = Cell::new(false);
-    let drawn = model_drawing::draw_views(
+    let drawn = model_drawing::draw_model(
+        None,
         &task.requests,
         &mut watch,
         &Progress::start(true, Path::new("")),
         |request, drawn| {
             model_drawing::refuse_warnings(request, &drawn.report)?;
-            for warning in &drawn.report.warnings {
-                if !warnings.contains(warning) {
-                    warnings.push(warning.clone());
-                }
-            }
-            for note in &drawn.notes {
-                if !made.notes.contains(note) {
-                    made.notes.push(note.clone());
-                }
-            }
+            add_new(&mut warnings, drawn.report.warnings.iter().cloned());
+            add_new(&mut made.notes, drawn.notes.iter().cloned());
             writes.set(true);
             for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
                 if let Some(folder) = output.path.parent() {

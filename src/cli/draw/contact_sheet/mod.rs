@@ -28,6 +28,7 @@ use crate::drawing::Unit;
 use crate::error::Error;
 use crate::export::DxfOptions;
 use crate::export::encoding::gzip;
+use crate::scene::warnings::add_new;
 
 /// Number of columns of views and moments.
 pub(crate) const COLUMN_COUNT: usize = 3;
@@ -45,11 +46,7 @@ pub(crate) struct ContactSheet {
 impl ContactSheet {
     /// Adds a drawing, and its warnings if they are new.
     fn add(&mut self, drawn: EncodedDrawing, caption: String, key: String) {
-        for warning in &drawn.report.warnings {
-            if !self.warnings.contains(warning) {
-                self.warnings.push(warning.clone());
-            }
-        }
+        add_new(&mut self.warnings, drawn.report.warnings.iter().cloned());
         self.pictures.push(GridPicture { drawing: drawn.into_drawing(), caption, key });
     }
 
@@ -61,19 +58,19 @@ impl ContactSheet {
         columns: usize,
         what: &str,
     ) -> Result<(), Error> {
-        if let Some(warning) = self.warnings.first().filter(|_| request.strict) {
+        if let Some(warning) = self.warnings.first().filter(|_| request.how.strict) {
             return Err(Error::new(warning.clone())
                 .in_file(&request.model)
                 .remedy("mend the model, or draw without --strict"));
         }
-        if !request.quiet {
+        if !request.how.quiet {
             for warning in &self.warnings {
                 say(&format!("warning: {}: {warning}", request.model.display()));
             }
         }
         let counted = number_text::counted(self.pictures.len() as u64, what);
         for (output, bytes) in write(self.pictures, columns, request, outputs)? {
-            if !request.quiet {
+            if !request.how.quiet {
                 say(&format!("{}: {counted}, {}", output.name(), number_text::bytes(bytes)));
             }
         }
@@ -103,7 +100,7 @@ pub(crate) fn write<'a>(
     outputs: &'a [Output],
 ) -> Result<Vec<(&'a Output, u64)>, Error> {
     let sheet = picture_grid::grid(pictures, columns);
-    let svg = || sheet.to_svg(&library_calls::svg_options(&request.svg)).into_bytes();
+    let svg = || sheet.to_svg(&library_calls::svg_options(&request.how)).into_bytes();
     let mut staging = Staging::default();
     let mut files = Vec::new();
     for output in outputs {
@@ -116,7 +113,7 @@ pub(crate) fn write<'a>(
             Format::Svgz => gzip::packed(&svg()),
             Format::Dxf => sheet.to_dxf(&DxfOptions::default()),
             Format::Png => {
-                library_calls::png(&sheet, request.dpi.unwrap_or(model_drawing::default_dpi(Unit::Px)))?
+                library_calls::png(&sheet, request.how.dpi.unwrap_or(model_drawing::default_dpi(Unit::Px)))?
             }
             #[cfg(feature = "pdf")]
             Format::Pdf => sheet.to_pdf(),

@@ -95,14 +95,12 @@ fn caption_mark(caption: &str, middle: Point, width: f64) -> Mark {
     let long = path.bounding_box().width();
     let shrink = if long > width { width / long } else { 1.0 };
     let path = if shrink < 1.0 { stroke_text(caption, LETTER_HEIGHT_PX * shrink, middle) } else { path };
-    let paint = Paint::Stroke(StrokePaint {
-        width: PEN_WIDTH_PX * shrink,
-        colour: Colour::rgb(0x33, 0x33, 0x33),
-        cap: Cap::Round,
-        join: Join::Round,
-        dash: Vec::new(),
-        dash_offset: 0.0,
-    });
+    let paint = Paint::Stroke(StrokePaint::solid(
+        PEN_WIDTH_PX * shrink,
+        Colour::rgb(0x33, 0x33, 0x33),
+        Cap::Round,
+        Join::Round,
+    ));
     Mark { path, paint, provenance: Provenance { note: Some(caption.into()), ..Provenance::default() } }
 }
 

@@ -38,8 +38,8 @@ pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), 
     let requests: Vec<DrawRequest> = styles.iter().map(request).collect::<Result<_, _>>()?;
     let Some(first) = requests.first() else { return Err(Error::new("there is no style")) };
     let mut sheet = ContactSheet::default();
-    library_calls::in_threads(first.threads, || {
-        let progress = Progress::start(first.quiet, &model);
+    library_calls::in_threads(first.how.threads, || {
+        let progress = Progress::start(first.how.quiet, &model);
         progress.step("reading");
         let read = opened_model::read(first)?;
         for (style, request) in styles.iter().zip(&requests) {

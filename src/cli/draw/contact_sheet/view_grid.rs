@@ -35,9 +35,9 @@ pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
     let all: Vec<&DrawRequest> = requests.iter().collect();
     let mut sheet = ContactSheet::default();
     let mut captions = angles.into_iter().map(caption);
-    library_calls::in_threads(whole.threads, || {
-        let progress = Progress::start(whole.quiet, &whole.model);
-        model_drawing::draw_views(&all, &mut Stopwatch::start(), &progress, |_, drawn| {
+    library_calls::in_threads(whole.how.threads, || {
+        let progress = Progress::start(whole.how.quiet, &whole.model);
+        model_drawing::draw_model(None, &all, &mut Stopwatch::start(), &progress, |_, drawn| {
             let caption = captions.next().unwrap_or_default();
             let key = caption.replace("--", "").replace(' ', "-");
             sheet.add(drawn, caption, key);

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use crate::cli::json_files;
 use crate::style::{KeyType, StyleKey};
 
 /// Maximum width of the column of defaults, characters. Help after a longer default is not aligned.
@@ -42,11 +43,7 @@ pub(crate) fn default(key: &StyleKey) -> String {
 
 /// The keys as a JSON list of objects.
 pub(crate) fn json(keys: &[&StyleKey]) -> String {
-    let list: Vec<Value> = keys.iter().map(|key| object(key)).collect();
-    // Serialising text and numbers cannot fail.
-    let mut text = serde_json::to_string_pretty(&list).unwrap_or_default();
-    text.push('\n');
-    text
+    json_files::text(&keys.iter().map(|key| object(key)).collect::<Vec<Value>>())
 }
 
 fn object(key: &StyleKey) -> Value {

@@ -3,9 +3,10 @@
 use clap::ValueEnum;
 
 use crate::cli::output::number_text::plain;
+use crate::geometry::numbers::length_units::LENGTH_UNITS_MM;
 use crate::scene::Scene;
 
-/// Unit of length of a model.
+/// Unit of length of a model, in the order of [`LENGTH_UNITS_MM`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ModelUnit {
     /// Millimetres
@@ -28,24 +29,12 @@ const MAX_PLAUSIBLE_M: f64 = 1_000.0;
 impl ModelUnit {
     /// Length of the unit in mm.
     pub(crate) const fn mm(self) -> f64 {
-        match self {
-            Self::Mm => 1.0,
-            Self::Cm => 10.0,
-            Self::M => 1000.0,
-            Self::In => 25.4,
-            Self::Ft => 304.8,
-        }
+        LENGTH_UNITS_MM[self as usize].1
     }
 
     /// Abbreviation of the unit.
     pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Mm => "mm",
-            Self::Cm => "cm",
-            Self::M => "m",
-            Self::In => "in",
-            Self::Ft => "ft",
-        }
+        LENGTH_UNITS_MM[self as usize].0
     }
 
     /// Unit of a scene: the given one, or the unit of its format. glTF requires metres. The other formats

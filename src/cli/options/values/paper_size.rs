@@ -1,25 +1,15 @@
 //! Paper sizes, margins and scales as written in options: `1000x1000`, `A4`, `210x297mm`, `10mm`, `1:2`.
 
-use crate::drawing::length::MM_PER_PX;
 use crate::drawing::{Length, Page, Unit};
 use crate::error::Error;
+use crate::page::page_size::PageSize;
 
 /// Maximum side length, user units. Rejects typing errors.
 const MAX_SIDE_UNITS: f64 = 1e6;
 
-/// Named sheets: width and height in mm, portrait.
-const NAMED_SHEETS_MM: [(&str, f64, f64); 10] = [
-    ("A0", 841.0, 1189.0),
-    ("A1", 594.0, 841.0),
-    ("A2", 420.0, 594.0),
-    ("A3", 297.0, 420.0),
-    ("A4", 210.0, 297.0),
-    ("A5", 148.0, 210.0),
-    ("A6", 105.0, 148.0),
-    ("Letter", 215.9, 279.4),
-    ("Legal", 215.9, 355.6),
-    ("Tabloid", 279.4, 431.8),
-];
+/// Names of the sheets of drawings, among the sizes of pages.
+pub(crate) const SHEET_NAMES: [&str; 10] =
+    ["A0", "A1", "A2", "A3", "A4", "A5", "A6", "Letter", "Legal", "Tabloid"];
 
 /// A width and a height, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,22 +48,13 @@ pub(crate) fn size_px(text: &str) -> Result<PaperSize, String> {
     }
 }
 
-/// Names of the named sheets.
-pub(crate) fn sheet_names() -> impl Iterator<Item = &'static str> {
-    NAMED_SHEETS_MM.iter().map(|(name, _, _)| *name)
-}
-
 /// Reads `A4`, `Letter` or `210x297mm`, in mm.
 pub(crate) fn page_mm(text: &str) -> Result<PaperSize, String> {
-    if let Some((_, width, height)) =
-        NAMED_SHEETS_MM.iter().find(|(name, _, _)| name.eq_ignore_ascii_case(text.trim()))
-    {
-        return PaperSize::new(*width, *height);
+    let is_sheet = SHEET_NAMES.iter().any(|name| name.eq_ignore_ascii_case(text.trim()));
+    if let Some(PageSize { width, height }) = PageSize::named(text).filter(|_| is_sheet) {
+        return PaperSize::new(width, height);
     }
-    let wrong = || {
-        let names: Vec<&str> = NAMED_SHEETS_MM.iter().map(|(name, _, _)| *name).collect();
-        format!("write one of {}, or WIDTHxHEIGHT such as 210x297mm", names.join(", "))
-    };
+    let wrong = || format!("write one of {}, or WIDTHxHEIGHT such as 210x297mm", SHEET_NAMES.join(", "));
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
     let height = PageLength::parse(height).ok_or_else(wrong)?;
     let mut width = PageLength::parse(width).ok_or_else(wrong)?;
@@ -163,14 +144,6 @@ impl PictureSheet {
     /// The page without a background.
     pub(crate) fn page(&self) -> Page {
         Page { width: self.extent.width, height: self.extent.height, unit: self.unit, background: None }
-    }
-
-    /// Millimetres in a user unit.
-    pub(crate) fn mm_per_unit(&self) -> f64 {
-        match self.unit {
-            Unit::Mm => 1.0,
-            Unit::Px => MM_PER_PX,
-        }
     }
 }
 

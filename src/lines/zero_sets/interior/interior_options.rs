@@ -1,7 +1,8 @@
 //! Which interior lines are drawn: the `[lines.inside]` table of a style sheet.
 
-use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::geometry::numbers::checked_number::checked;
 
 /// How interior lines are found. Thresholds are relative: those of ridges and valleys to the inverse feature
 /// size, those of suggestive contours and apparent ridges to its square.
@@ -49,10 +50,6 @@ impl Default for InsideOptions {
 
 /// Reads a number that is not negative.
 fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(deserializer)?;
-    if value >= 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(D::Error::custom(format!("{value} is not a threshold; write 0 or a number above it")))
-    }
+    let advice = "is not a threshold; write 0 or a number above it";
+    checked(deserializer, |value| value >= 0.0 && value.is_finite(), advice)
 }

@@ -23,11 +23,11 @@ pub(crate) use interior_options::InsideOptions;
 
 use super::zero_set::{EdgePoint, ZeroSet};
 use crate::lines::tolerances;
-use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE};
 use crate::mesh::Mesh;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::curvature::feature_size::MAX_FEATURE_OF_PART;
-use crate::surface::{Curvature, MeshSource, SmoothNormals};
+use crate::surface::{Curvature, SmoothNormals};
 use crate::view::View;
 
 /// Smallest measure of a line with full strength.
@@ -159,16 +159,9 @@ impl<'a> CurvatureView<'a> {
                 *id
             });
             lines.segments.push(FeatureSegment {
-                ends,
-                hosts: [segment.face, NO_FACE],
-                kind,
-                both_seen: true,
                 smooth: true,
-                origin: MeshSource::default(),
-                role: Role::Line,
                 strength: 0.0,
-                part: self.mesh.face_part[segment.face as usize],
-                material: self.mesh.face_material[segment.face as usize],
+                ..FeatureSegment::on_face(self.mesh, segment.face, [segment.face, NO_FACE], kind, ends)
             });
         }
     }

@@ -33,14 +33,21 @@ pub(crate) fn pointed(root: &Root, pointer: &str) -> Result<Option<AnimationTarg
 
 fn node(number: usize, path: &str) -> Option<AnimationTarget> {
     let property = match path {
+        "extensions/KHR_node_visibility/visible" => NodeProperty::Visible,
+        _ => node_property(path)?,
+    };
+    Some(AnimationTarget::Node(number, property))
+}
+
+/// The property of a node that a channel changes without a pointer.
+pub(crate) fn node_property(path: &str) -> Option<NodeProperty> {
+    Some(match path {
         "translation" => NodeProperty::Translation,
         "rotation" => NodeProperty::Rotation,
         "scale" => NodeProperty::Scale,
         "weights" => NodeProperty::Weights,
-        "extensions/KHR_node_visibility/visible" => NodeProperty::Visible,
         _ => return None,
-    };
-    Some(AnimationTarget::Node(number, property))
+    })
 }
 
 fn camera(root: &Root, number: usize, path: &str) -> Result<Option<AnimationTarget>, Error> {

@@ -3,7 +3,7 @@
 //! A channel animates one property of a node, light, material or camera. Its sampler gives key times in
 //! seconds, values and an interpolation. Invalid channels are skipped with a warning.
 
-use super::animation_pointers::pointed;
+use super::animation_pointers::{node_property, pointed};
 use crate::animation::rig::Node;
 use crate::animation::{
     AnimationTarget, Clip, ClipChannel, Interpolation, LightProperty, MaterialProperty, NodeProperty, Track,
@@ -112,17 +112,9 @@ fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<AnimationT
     if let Some(pointer) = &target.extensions.pointer {
         return pointed(buffers.root, &pointer.pointer);
     }
-    let property = match target.path.as_str() {
-        "translation" => NodeProperty::Translation,
-        "rotation" => NodeProperty::Rotation,
-        "scale" => NodeProperty::Scale,
-        "weights" => NodeProperty::Weights,
-        other => {
-            return Err(Error::new(format!(
-                "its path `{}` is unknown",
-                crate::load::gltf::uri::shortened(other)
-            )));
-        }
+    let Some(property) = node_property(&target.path) else {
+        let path = crate::load::gltf::uri::shortened(&target.path);
+        return Err(Error::new(format!("its path `{path}` is unknown")));
     };
     // A channel without a node belongs to an extension.
     Ok(target.node.map(|node| AnimationTarget::Node(node, property)))

@@ -255,10 +255,8 @@ impl<'a> MeshBuilder<'a> {
         let sound = |index: &u32| positions.get(*index as usize).is_some_and(|position| position.is_finite());
         let keep: Vec<bool> = shape.triangles.iter().map(|corners| corners.iter().all(sound)).collect();
         let before = (shape.triangles.len(), shape.wires.len());
-        let mut keep_flags = keep.iter();
-        shape.triangles.retain(|_| keep_flags.next().copied().unwrap_or(true));
-        let mut keep_flags = keep.iter();
-        marks.retain(|_| keep_flags.next().copied().unwrap_or(true));
+        retain(&mut shape.triangles, &keep);
+        retain(marks, &keep);
         shape.wires.retain(|ends| ends.iter().all(sound));
         let dropped = |before: usize, after: usize| (before - after) as u64;
         let (triangles, lines) =
@@ -327,4 +325,10 @@ fn pad_after<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, count: usize
     if !all.is_empty() {
         all.resize(start + count, filler);
     }
+}
+
+/// Keeps the marked items.
+pub(crate) fn retain<T>(all: &mut Vec<T>, keep: &[bool]) {
+    let mut next = keep.iter();
+    all.retain(|_| next.next().copied().unwrap_or(true));
 }

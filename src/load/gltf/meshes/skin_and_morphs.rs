@@ -1,6 +1,6 @@
 //! Reads deformations: the morph targets of a primitive, and the joints of a skin.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::vertex_streams::VertexStreams;
 use crate::animation::DeformableMesh;
@@ -8,6 +8,7 @@ use crate::animation::deformable_mesh::{Influences, MorphTarget};
 use crate::animation::rig::Skin;
 use crate::error::Error;
 use crate::load::gltf::json::Primitive;
+use crate::load::gltf::nodes::hierarchy::affine;
 use crate::load::gltf::storage::buffers::Buffers;
 
 /// Maximum number of sets of four joints per vertex.
@@ -21,7 +22,7 @@ pub(crate) fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
         return Err(place(Error::new(message)));
     };
     let mut binds = match stored.inverse_bind_matrices {
-        Some(accessor) => buffers.read(accessor, bind_matrix).map_err(place)?,
+        Some(accessor) => buffers.read(accessor, affine).map_err(place)?,
         None => vec![DAffine3::IDENTITY; stored.joints.len()],
     };
     if binds.len() < stored.joints.len() {
@@ -33,10 +34,6 @@ pub(crate) fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
         return Err(place(Error::new(format!("joint {node} is not a node of the file"))));
     }
     Ok(Skin { joints: stored.joints.clone(), binds })
-}
-
-fn bind_matrix([a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _]: [f64; 16]) -> DAffine3 {
-    DAffine3::from_mat3_translation(DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), DVec3::new(x, y, z))
 }
 
 /// Deformations of a primitive: its morph targets (all, or those with a weight), and its joint weights if it

@@ -101,7 +101,7 @@ fn shown(
 }
 
 /// Parent of each node.
-fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>, Error> {
+pub(crate) fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>, Error> {
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
         for &child in &node.children {
@@ -164,13 +164,14 @@ fn weights(root: &Root, node: &Node) -> Vec<f64> {
     weights
 }
 
+/// The transform of a matrix of a file.
+pub(crate) fn affine([a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _]: [f64; 16]) -> DAffine3 {
+    DAffine3::from_mat3_translation(DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), DVec3::new(x, y, z))
+}
+
 fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
     if let Some(m) = node.matrix {
-        let [a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _] = m;
-        return Placement::Matrix(DAffine3::from_mat3_translation(
-            DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]),
-            DVec3::new(x, y, z),
-        ));
+        return Placement::Matrix(affine(m));
     }
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |quaternion| {
         unit_quaternion(quaternion).unwrap_or_else(|| {

@@ -188,18 +188,12 @@ fn drop_empty(scene: &mut Scene, rig: &mut Rig) {
     }
     let left = |geometry: usize| new_index.get(geometry).copied().flatten();
     let kept: Vec<bool> = scene.parts.iter().map(|part| left(part.geometry).is_some()).collect();
-    retain(&mut rig.parts, &kept);
-    retain(&mut scene.parts, &kept);
+    mesh_geometry::retain(&mut rig.parts, &kept);
+    mesh_geometry::retain(&mut scene.parts, &kept);
     for part in &mut scene.parts {
         part.geometry = left(part.geometry).unwrap_or_default();
     }
     let full: Vec<bool> = empty.iter().map(|is_empty| !is_empty).collect();
-    retain(&mut rig.forms, &full);
-    retain(&mut scene.geometries, &full);
-}
-
-/// Keeps the marked items.
-fn retain<T>(all: &mut Vec<T>, keep: &[bool]) {
-    let mut next = keep.iter();
-    all.retain(|_| next.next().copied().unwrap_or(true));
+    mesh_geometry::retain(&mut rig.forms, &full);
+    mesh_geometry::retain(&mut scene.geometries, &full);
 }

@@ -9,7 +9,9 @@
 //!
 //! Both get the product's name, so that `--only` and `--hide` can select parts by it.
 
+use super::hierarchy::parents;
 use crate::load::gltf::json::Root;
+use crate::scene::Warnings;
 
 /// Start of `asset.generator` in files of Open CASCADE.
 const OPEN_CASCADE: &str = "Open CASCADE";
@@ -19,14 +21,8 @@ pub(crate) fn name_after_products(root: &mut Root) {
     if !root.asset.generator.as_ref().is_some_and(|generator| generator.starts_with(OPEN_CASCADE)) {
         return;
     }
-    let mut parents = vec![None; root.nodes.len()];
-    for (index, node) in root.nodes.iter().enumerate() {
-        for child in &node.children {
-            if let Some(parent @ None) = parents.get_mut(*child) {
-                *parent = Some(index);
-            }
-        }
-    }
+    // Invalid children are reported when the hierarchy is read.
+    let Ok(parents) = parents(&root.nodes, &mut Warnings::default()) else { return };
     let names: Vec<Option<String>> =
         (0..root.nodes.len()).map(|node| product(root, &parents, node)).collect();
     for (node, name) in root.nodes.iter_mut().zip(names) {

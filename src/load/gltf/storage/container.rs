@@ -32,10 +32,6 @@ pub(crate) fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Cont
 /// Error that describes a file that is not glTF.
 fn unknown_file_error(bytes: &[u8]) -> Error {
     let text = bytes.trim_ascii_start();
-    if text.starts_with(b"version https://git-lfs") {
-        return Error::new("this is a Git LFS pointer, not the model")
-            .remedy("fetch the model with `git lfs pull`");
-    }
     if text.starts_with(b"<") {
         return Error::new("this is an HTML or XML page, not a model")
             .remedy("download the file again; the link may lead to a web page");
@@ -120,7 +116,6 @@ mod tests {
     #[test]
     fn files_that_are_not_glb_are_named_in_the_error() {
         assert!(split_error(b"").contains("nothing to draw"));
-        assert!(split_error(b"version https://git-lfs.github.com/spec/v1").contains("Git LFS"));
         assert!(split_error(b" <!DOCTYPE html>").contains("HTML"));
         assert!(split_error(b"PK\x03\x04....").contains("archive"));
         assert!(split_error(b"\x89PNG").contains("neither GLB"));

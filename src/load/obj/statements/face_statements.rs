@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::plain_statements::{CornerIndices, NO_INDEX, plain_triangle};
-use super::{ParseStop, Parser};
+use super::{CornerIndices, NO_INDEX, ParseStop, Parser};
 use crate::error::Error;
 use crate::load::polygons::triangulation::{self, CutOutcome};
 use crate::load::text_cursor::Cursor;
@@ -40,6 +39,15 @@ impl Parser<'_> {
     }
 
     /// Index of a texture coordinate or normal; [`NO_INDEX`] if it is out of range.
+    /// Reads the corners up to the end of the line.
+    fn read_corners(&mut self) -> Result<(), ParseStop> {
+        self.corners.clear();
+        while let Some(corner) = self.corner()? {
+            self.corners.push(corner);
+        }
+        Ok(())
+    }
+
     #[inline]
     fn attribute(&mut self, count: usize) -> u32 {
         match self.cursor.integer() {
@@ -83,21 +91,8 @@ impl Parser<'_> {
             .or_else(|_| fail(format!("vertex {index} has coordinates that are too large")))
     }
 
-    #[inline]
+    /// Parses `f`.
     pub(crate) fn face(&mut self) -> Result<(), ParseStop> {
-        if let Some((triangle, at)) = plain_triangle(self.cursor.bytes, self.cursor.at) {
-            let exists = triangle.iter().all(|i| i.wrapping_sub(1) < self.position_count as u64);
-            if exists && !self.out.has_bad_positions {
-                self.cursor.at = at;
-                self.out.triangles.push(triangle.map(|i| (i - 1) as u32));
-                return Ok(());
-            }
-        }
-        self.any_face()
-    }
-
-    #[inline(never)]
-    fn any_face(&mut self) -> Result<(), ParseStop> {
         self.corners.clear();
         while let Some(corner) = self.corner()? {
             self.corners.push(corner);
@@ -111,18 +106,9 @@ impl Parser<'_> {
     }
 
     /// Triangulates the face with corners `corners`.
-    pub(crate) fn cut_corners(&mut self) {
+    fn cut_corners(&mut self) {
         match *self.corners.as_slice() {
             [a, b, c] => self.triangle([a, b, c], [EdgeMark::Unmarked; 3]),
-            [a, b, c, d] => {
-                let corners = [a, b, c, d];
-                let [p, q, r, s] = corners.map(|c| self.point(c[0]));
-                self.diagonals.of(&[p, q, r, s]);
-                for triangle in triangulation::quad(p, q, r, s) {
-                    let marks = self.diagonals.marks(triangle);
-                    self.triangle(triangle.map(|i| corners[i as usize % 4]), marks);
-                }
-            }
             [] | [_] | [_, _] => self.too_short += 1,
             _ => self.polygon(),
         }
@@ -171,10 +157,7 @@ impl Parser<'_> {
     }
 
     pub(crate) fn line(&mut self) -> Result<(), ParseStop> {
-        self.corners.clear();
-        while let Some(corner) = self.corner()? {
-            self.corners.push(corner);
-        }
+        self.read_corners()?;
         if self.corners.len() < 2 {
             self.too_short += 1;
         }

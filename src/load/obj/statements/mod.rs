@@ -1,21 +1,12 @@
-//! The statements of an OBJ file as flat arrays, in one pass over its bytes.
-//!
-//! 1. [`plain_statements`] recognises statements of plain numbers, the bulk of large files.
-//! 2. [`parallel_parse`] reads long runs of them on several threads, ahead of the parser.
-//! 3. The parser takes each such run as a whole and reads all other statements itself: [`face_statements`]
-//!    for `f` and `l`, [`lenient_numbers`] for numbers in unusual notation.
+//! The statements of an OBJ file as flat arrays, in one pass over its bytes: [`face_statements`] for `f` and
+//! `l`, [`lenient_numbers`] for numbers in unusual notation.
 
 mod face_statements;
 mod lenient_numbers;
-mod parallel_parse;
-mod plain_statements;
 
 use std::ops::Range;
 
 use glam::DVec3;
-use parallel_parse::{ParallelParse, RunValues, StatementRun};
-pub(crate) use plain_statements::NO_INDEX;
-use plain_statements::{CornerIndices, NO_CORNER, plain_position};
 
 use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
@@ -25,6 +16,12 @@ use crate::mesh::EdgeMark;
 use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
 use crate::scene::warnings::WarningExamples;
+
+/// Index for "none".
+pub(crate) const NO_INDEX: u32 = u32::MAX;
+
+/// Indices of position, texture coordinate and normal of a corner.
+type CornerIndices = [u32; 3];
 
 /// Consecutive triangles and wires of one part and one material.
 #[derive(Debug, Clone)]
@@ -126,7 +123,6 @@ impl ParseStop {
 
 struct Parser<'a> {
     cursor: Cursor<'a>,
-    ahead: ParallelParse,
     out: Statements<'a>,
     /// Positions read so far; fewer than `out.positions` in a second pass.
     position_count: usize,
@@ -161,7 +157,6 @@ impl<'a> Parser<'a> {
         let objects = vec![Object::Unnamed];
         Self {
             cursor: Cursor::new(bytes),
-            ahead: ParallelParse::of(bytes),
             out: Statements { positions, objects, ..Statements::default() },
             position_count: 0,
             second_pass,
@@ -189,9 +184,6 @@ impl<'a> Parser<'a> {
     fn run(mut self) -> Result<Statements<'a>, ParseStop> {
         self.out.has_bad_positions = self.out.positions.iter().any(|&p| !is_drawable(p));
         while !self.cursor.at_end() {
-            if let Some(run) = self.ahead.take(self.cursor.bytes, self.cursor.at) {
-                self.add_run(run);
-            }
             let c = &mut self.cursor;
             match (c.peek(), c.peek_on(1)) {
                 (b'v', b' ' | b'\t') => {
@@ -220,36 +212,6 @@ impl<'a> Parser<'a> {
         out.warnings.count("lines left out that are not OBJ statements", not_understood);
         odd_numbers.warn(&mut out.warnings);
         Ok(out)
-    }
-
-    /// Adds a run that was parsed in parallel and moves behind it. Does nothing if its indices are not valid
-    /// yet.
-    fn add_run(&mut self, StatementRun { end, read, .. }: StatementRun) {
-        match read {
-            RunValues::Positions(points) => {
-                self.position_count += points.len();
-                if !self.second_pass {
-                    self.out.positions.extend(points);
-                }
-            }
-            RunValues::Uvs(uvs) => self.out.uvs.extend(uvs),
-            RunValues::Normals(normals) => self.out.normals.extend(normals),
-            RunValues::Triangles(..) | RunValues::Faces(..) if self.only_vertices => {}
-            RunValues::Triangles(_, largest) | RunValues::Faces(_, largest)
-                if self.out.has_bad_positions || largest as usize >= self.position_count =>
-            {
-                return;
-            }
-            RunValues::Triangles(triangles, _) => self.out.triangles.extend(triangles),
-            RunValues::Faces(faces, _) => {
-                for face in faces {
-                    self.corners.clear();
-                    self.corners.extend(face.into_iter().filter(|corner| *corner != NO_CORNER));
-                    self.cut_corners();
-                }
-            }
-        }
-        self.cursor.at = end;
     }
 
     /// Parses the less frequent statements.
@@ -354,18 +316,6 @@ impl<'a> Parser<'a> {
         while self.cursor.rest_of_line().ends_with(b"\\") && !self.cursor.at_end() {
             self.cursor.at +=
                 if (self.cursor.peek(), self.cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
-        }
-    }
-
-    /// Parses `v x y z`, with an optional weight or colour.
-    #[inline]
-    fn position(&mut self) {
-        match plain_position(self.cursor.bytes, self.cursor.at) {
-            Some((point, at)) => {
-                self.cursor.at = at;
-                self.add_position(point);
-            }
-            None => self.any_position(),
         }
     }
 

@@ -3,14 +3,15 @@
 //! 1. Along their direction, rays project to points and faces to triangles. The points are sorted into a 2-D
 //!    grid.
 //! 2. Groups of eight faces are compared with the rays in the cells that they cover.
-//! 3. The exact test of [`RayTree`] decides the candidates.
+//! 3. An exact test decides the candidates.
 //! 4. If faces cover too many points, the remaining rays use the tree.
 
 use glam::{DVec3, Vec3};
 
 use super::face_group::{FACES_PER_GROUP, FaceGroup};
 use super::ray_grid::{RayBox, RayGrid};
-use super::ray_tree::{RayTree, meets};
+use crate::geometry::space::triangles::ray_hit;
+use crate::mesh::bvh::triangle_tree::TriangleTree;
 use crate::mesh::tolerances;
 use crate::mesh::{FaceId, Mesh};
 
@@ -62,7 +63,7 @@ impl<'a> ParallelRays<'a> {
         &self,
         rays: &[RayStart],
         direction: DVec3,
-        tree: Option<&RayTree>,
+        tree: Option<&TriangleTree>,
     ) -> Option<Vec<bool>> {
         let mut blocked = vec![false; rays.len()];
         if self.sweep(rays, direction, &mut blocked).is_none() {
@@ -101,7 +102,7 @@ impl<'a> ParallelRays<'a> {
                         let face = FaceId(faces[may_meet.trailing_zeros() as usize]);
                         may_meet &= may_meet - 1;
                         let RayStart { point, reach } = rays[ray.id as usize];
-                        if meets(&self.mesh.corners(face), point, direction, reach).is_some() {
+                        if ray_hit(&self.mesh.corners(face), point, direction, reach).is_some() {
                             blocked[ray.id as usize] = true;
                             ray.from = f32::INFINITY;
                             break;
@@ -138,6 +139,10 @@ mod tests {
         DVec3::new(part(0), part(1), part(2))
     }
 
+    fn tree(mesh: &Mesh) -> TriangleTree {
+        TriangleTree::new((0..mesh.triangles.len() as u32).map(|face| mesh.corners(FaceId(face))).collect())
+    }
+
     /// Triangles of a size in a cube, and one that covers all of it.
     fn mesh(count: u32, size: f64) -> Mesh {
         let corner = |k: u32| random_point(k / 3 + 1000) + size * random_point(k + 5000);
@@ -158,7 +163,7 @@ mod tests {
             [(600, 0.1, 800), (7, 0.5, 90), (300, 0.02, 800), (2500, 3.0, 1500), (3, 0.1, 1), (3, 0.1, 0)]
         {
             let mesh = mesh(count, size);
-            let (parallel, tree) = (ParallelRays::new(&mesh), RayTree::new(&mesh));
+            let (parallel, tree) = (ParallelRays::new(&mesh), tree(&mesh));
             let starts: Vec<RayStart> = (0..rays)
                 .map(|n| RayStart {
                     point: random_point(n + 20_000),
@@ -171,7 +176,7 @@ mod tests {
                 let found = parallel.blocked(&starts, direction, Some(&tree)).expect("an answer");
                 for (ray, found) in starts.iter().zip(found) {
                     let wanted = (0..mesh.triangles.len() as u32).any(|face| {
-                        meets(&mesh.corners(FaceId(face)), ray.point, direction, ray.reach).is_some()
+                        ray_hit(&mesh.corners(FaceId(face)), ray.point, direction, ray.reach).is_some()
                     });
                     assert_eq!(found, wanted, "{count} {size} {ray:?} {direction}");
                     met += u32::from(found);
@@ -184,13 +189,13 @@ mod tests {
     }
 
     #[test]
-    fn parallel_rays_with_collinear_or_equal_starts_match_the_ray_tree() {
+    fn parallel_rays_with_collinear_or_equal_starts_match_the_tree() {
         let mesh = mesh(200, 0.3);
         let parallel = ParallelRays::new(&mesh);
         for step in [DVec3::ZERO, DVec3::X * 0.01, DVec3::Z * 0.01] {
             let starts: Vec<RayStart> =
                 (0..50).map(|n| RayStart { point: step * f64::from(n), reach: 5.0 }).collect();
-            let tree = RayTree::new(&mesh);
+            let tree = tree(&mesh);
             let found = parallel.blocked(&starts, DVec3::Z, Some(&tree)).expect("an answer");
             let wanted: Vec<bool> =
                 starts.iter().map(|ray| tree.is_blocked(ray.point, DVec3::Z, ray.reach)).collect();

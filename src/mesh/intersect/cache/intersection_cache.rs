@@ -10,7 +10,7 @@ use crate::parallel::prelude::*;
 
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::bvh::box_tree::{BoxTree, TreeFaces, share_a_vertex};
-use crate::mesh::bvh::quantized_box::FineBox;
+use crate::mesh::bvh::node_boxes::Box3;
 use crate::mesh::intersect::intersection_curves::{
     IntersectingPair, IntersectionCurves, IntersectionInput, bounds, intersections_of_parts, join, pairs_in,
     pairs_of,
@@ -117,7 +117,7 @@ struct RefinedFaces<'a> {
     /// Pieces by the rank of their face.
     pieces: CsrLists<u32>,
     /// Box of each piece.
-    boxes: Vec<FineBox>,
+    boxes: Vec<Box3>,
     ranks: &'a [u32],
 }
 
@@ -134,7 +134,7 @@ struct PieceSearch {
 /// Face of the finer mesh near a cut face, with its vertices and box.
 #[derive(Clone, Copy)]
 struct NearbyFace {
-    own_box: FineBox,
+    own_box: Box3,
     face: u32,
     vertices: [u32; 3],
 }
@@ -143,7 +143,7 @@ impl<'a> RefinedFaces<'a> {
     fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: FaceHosts) -> Self {
         let first_piece = hosts.kept_count;
         let corners = |triangle: &[u32; 3]| triangle.map(|v| finer.positions[v as usize]);
-        let boxes: Vec<FineBox> = finer.triangles[first_piece..]
+        let boxes: Vec<Box3> = finer.triangles[first_piece..]
             .par_iter()
             .with_min_len(1 << 10)
             .map(|triangle| tree.box_of(corners(triangle)))
@@ -154,9 +154,9 @@ impl<'a> RefinedFaces<'a> {
         let pieces = csr_lists_from_pairs(ranks.len(), active_pieces.map(by_rank));
         let around = |rank: usize| {
             let piece_boxes = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - first_piece]);
-            Some((rank as u32, piece_boxes.reduce(FineBox::union)?))
+            Some((rank as u32, piece_boxes.reduce(Box3::union)?))
         };
-        let changed: Vec<(u32, FineBox)> = (0..pieces.count()).filter_map(around).collect();
+        let changed: Vec<(u32, Box3)> = (0..pieces.count()).filter_map(around).collect();
         let host = |rank: u32| hosts.faces[pieces.of(rank as usize)[0] as usize];
         let faces = changed.iter().map(|(rank, _)| (*rank, host(*rank))).collect();
         Self { finer, tree: tree.with_boxes(&changed), kept_count: first_piece, faces, pieces, boxes, ranks }
@@ -179,9 +179,9 @@ impl<'a> RefinedFaces<'a> {
         };
         let pieces = self.pieces.of(rank as usize);
         let boxes = pieces.iter().map(|piece_index| self.boxes[*piece_index as usize - self.kept_count]);
-        let Some(around) = boxes.reduce(FineBox::union) else { return };
+        let Some(around) = boxes.reduce(Box3::union) else { return };
         near.clear();
-        self.tree.near(around, stack, |nearby| {
+        self.tree.near(&around, stack, |nearby| {
             if nearby == face {
                 return;
             }
@@ -197,7 +197,7 @@ impl<'a> RefinedFaces<'a> {
                 near.push(NearbyFace { own_box: self.tree.box_of(corners), face, vertices });
             }
         });
-        near.retain(|candidate| around.overlaps(candidate.own_box));
+        near.retain(|candidate| around.overlaps(&candidate.own_box));
         let all = TreeFaces { triangles: self.finer.triangles, bodies: self.finer.bodies };
         let first = near.len();
         near.extend(pieces.iter().map(|face| piece(*face)));
@@ -208,7 +208,7 @@ impl<'a> RefinedFaces<'a> {
                     && all.are_joined(current.face, neighbour.face)
             };
             let meets = |other_piece: &&NearbyFace| {
-                current.own_box.overlaps(other_piece.own_box) && !are_neighbours(other_piece)
+                current.own_box.overlaps(&other_piece.own_box) && !are_neighbours(other_piece)
             };
             others.clear();
             others.extend(

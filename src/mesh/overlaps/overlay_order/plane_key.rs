@@ -6,6 +6,8 @@
 
 use glam::DVec3;
 
+use crate::geometry::space::bounds::Bounds;
+use crate::geometry::space::triangles::{area_vector, longest_side_squared};
 use crate::mesh::tolerances::MAX_OVERLAP_NORMAL_ERROR_RAD;
 use crate::mesh::{FaceId, MaterialId, Mesh, PaintId};
 
@@ -21,8 +23,7 @@ const MAX_DISTANCE_CELLS: f64 = 8.0;
 /// Range of a plane key in cell widths: squares of two normal coordinates, and distance from the middle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlaneKey {
-    low: DVec3,
-    high: DVec3,
+    range: Bounds,
     /// False for slivers, whose plane is uncertain by more than [`MAX_OVERLAP_NORMAL_ERROR_RAD`] or
     /// [`MAX_DISTANCE_CELLS`].
     is_known: bool,
@@ -31,28 +32,27 @@ pub(crate) struct PlaneKey {
 impl PlaneKey {
     /// Key of the plane of a face.
     pub(crate) fn of(mesh: &Mesh, face: u32) -> Self {
-        let [a, b, c] = mesh.corners(FaceId(face));
+        let corners = mesh.corners(FaceId(face));
         // Each corner is accurate to half of the contact distance.
         let contact = mesh.extent(FaceId(face)).contact;
-        let across = (b - a).cross(c - a);
-        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let (across, longest) = (area_vector(corners), longest_side_squared(corners).sqrt());
         let area = across.length();
         let turn = 2.0 * contact * longest / area;
-        let (normal, way) = (across / area, a - mesh.extents.middle);
+        let (normal, way) = (across / area, corners[0] - mesh.extents.middle);
         let reach = turn * (way.length() + longest) + 2.0 * contact;
         let squares = normal * normal / NORMAL_CELL_WIDTH;
         let step = (mesh.extents.diagonal / DISTANCE_CELLS_PER_DIAGONAL).max(f64::MIN_POSITIVE);
         let middle = DVec3::new(squares.x, squares.y, normal.dot(way).abs() / step);
         let reach = DVec3::new(2.0 * turn / NORMAL_CELL_WIDTH, 2.0 * turn / NORMAL_CELL_WIDTH, reach / step);
-        let (low, high) = (middle - reach, middle + reach);
+        let range @ Bounds { low, high } = Bounds { low: middle - reach, high: middle + reach };
         let is_known =
             turn <= MAX_OVERLAP_NORMAL_ERROR_RAD && high.z.floor() - low.z.floor() < MAX_DISTANCE_CELLS;
-        Self { low, high, is_known }
+        Self { range, is_known }
     }
 
     /// Cells that the key may lie in; none if the plane is uncertain.
     pub(crate) fn cells(&self) -> impl Iterator<Item = [i64; 3]> + use<> {
-        let (low, high) = (self.low.floor().as_i64vec3(), self.high.floor().as_i64vec3());
+        let (low, high) = (self.range.low.floor().as_i64vec3(), self.range.high.floor().as_i64vec3());
         let last = if self.is_known { high.x } else { low.x - 1 };
         let rows = (low.x..=last).flat_map(move |x| (low.y..=high.y).map(move |y| (x, y)));
         rows.flat_map(move |(x, y)| (low.z..=high.z).map(move |z| [x, y, z]))
@@ -61,8 +61,7 @@ impl PlaneKey {
 
 /// Surface in the sweep of one cell, with its box widened by the contact distance.
 pub(crate) struct OverlapCandidate {
-    pub(crate) low: DVec3,
-    pub(crate) high: DVec3,
+    pub(crate) around: Bounds,
     pub(crate) key: PlaneKey,
     pub(crate) colour: (MaterialId, PaintId),
     pub(crate) surface: u32,
@@ -72,17 +71,14 @@ impl OverlapCandidate {
     /// False only for surfaces of one colour, in different planes, or out of contact.
     #[inline]
     pub(crate) fn may_overlap(&self, other: &Self) -> bool {
-        let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| a.0.cmple(b.1).all() && b.0.cmple(a.1).all();
         self.colour != other.colour
-            && meet((self.low, self.high), (other.low, other.high))
-            && meet((self.key.low, self.key.high), (other.key.low, other.key.high))
+            && self.around.meets(&other.around)
+            && self.key.range.meets(&other.key.range)
     }
 }
 
 /// The axis along which the candidates are most spread out.
 pub(crate) fn widest_axis(own: &[OverlapCandidate]) -> usize {
-    let low = own.iter().fold(DVec3::INFINITY, |low, own| low.min(own.low));
-    let high = own.iter().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));
-    let size = high - low;
+    let size = Bounds::of(own.iter().map(|own| own.around.low)).size();
     (1..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest })
 }

@@ -26,6 +26,7 @@ use crate::page::balloon_placement::{self, PlacedBalloon, PlacementArea, Placeme
 use crate::page::layout::{ConvexPolygon, Reading};
 use crate::page::mm_length::Mm;
 use crate::page::page_source::PageSource;
+use crate::scene::warnings::add_new;
 use crate::text::{Font, Setting};
 use balloon::{Balloon, BalloonPaint};
 use tail_target::TailTarget;
@@ -123,25 +124,17 @@ impl<'a> Lettering<'a> {
         let size = keys.size.as_ref().map_or(Ok(12.0), |size| positive_length(size, self.source))?;
         let line = keys.line.as_ref().map_or(Ok(size / 10.0), |line| positive_length(line, self.source))?;
         within_panel(&keys.at, self.source)?;
-        for turn in [&keys.rotate, &keys.arc] {
-            if !(-360.0..=360.0).contains(turn.get_ref()) {
-                let advice = "write degrees from -360 to 360";
-                return Err(self.source.fault(&turn.span(), "this is not an angle for letters", advice));
-            }
-        }
+        let (turns, is_angle) = ([&keys.rotate, &keys.arc], |turn: &f64| (-360.0..=360.0).contains(turn));
+        let advice = "write degrees from -360 to 360";
+        self.source.check(turns, is_angle, "this is not an angle for letters", advice)?;
         let stretch = keys.stretch.as_ref().map_or(1.0, |stretch| *stretch.get_ref());
-        if let Some(key) = keys.stretch.as_ref().filter(|_| !(0.01..=100.0).contains(&stretch)) {
-            return Err(self.source.fault(
-                &key.span(),
-                "this is not a stretch of letters",
-                "write a number from 0.01 to 100",
-            ));
-        }
+        let (is_stretch, advice) = (|n: &f64| (0.01..=100.0).contains(n), "write a number from 0.01 to 100");
+        self.source.check(&keys.stretch, is_stretch, "this is not a stretch of letters", advice)?;
         let mut setting = Setting::new(font).with_capitals(size);
         setting.upper_case = self.keys.upper_case;
         let outlines = sound_effect::sound_outlines(keys.text.get_ref(), &setting, keys, stretch, bounds);
         let (letters, fallbacks) = outlines.map_err(|error| self.source.about(&keys.text.span(), error))?;
-        add_new_warnings(fallbacks, warnings);
+        add_new(warnings, fallbacks);
         let colours = [keys.fill.unwrap_or(self.keys.fill), keys.colour.unwrap_or(self.keys.colour)];
         Ok(sound_effect::paint_letters(letters, colours, line))
     }
@@ -299,7 +292,7 @@ impl<'a> Lettering<'a> {
             let fill = spec.keys.fill.unwrap_or(self.keys.fill);
             let ink = BalloonPaint { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
             marks.extend(balloon.marks(placed_balloon.middle, placed_balloon.tip, &ink));
-            add_new_warnings(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
+            add_new(warnings, balloon.block.fallbacks.iter().map(ToString::to_string));
         }
         marks
     }
@@ -353,13 +346,4 @@ fn positive_length(length: &Spanned<Mm>, source: &PageSource) -> Result<f64, Err
         return Ok(mm);
     }
     Err(source.fault(&length.span(), "sizes of letters and lines must be above 0", "write such as \"3.4mm\""))
-}
-
-/// Adds the warnings that are not in the list yet.
-fn add_new_warnings(fallbacks: Vec<String>, warnings: &mut Vec<String>) {
-    for fallback in fallbacks {
-        if !warnings.contains(&fallback) {
-            warnings.push(fallback);
-        }
-    }
 }

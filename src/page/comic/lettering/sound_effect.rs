@@ -67,17 +67,8 @@ pub(crate) fn paint_letters(
     let boxes = letters.iter().map(Shape::bounding_box);
     let all = boxes.reduce(|a, b| a.union(b)).unwrap_or_default().inset(line);
     let provenance = || Provenance { classes: vec!["sound"], ..Provenance::default() };
-    let stroke = || {
-        Paint::Stroke(StrokePaint {
-            // The letters cover the inner half of the outline.
-            width: line * 2.0,
-            colour,
-            cap: Cap::Round,
-            join: Join::Round,
-            dash: Vec::new(),
-            dash_offset: 0.0,
-        })
-    };
+    // The letters cover the inner half of the outline.
+    let stroke = || Paint::Stroke(StrokePaint::solid(line * 2.0, colour, Cap::Round, Join::Round));
     let below = letters.iter().map(|path| (path.clone(), stroke()));
     let above = letters.iter().map(|path| (path.clone(), Paint::Fill(fill)));
     let marks = below.chain(above).map(|(path, paint)| Mark { path, paint, provenance: provenance() });

@@ -5,11 +5,12 @@
 
 use kurbo::{Point, Vec2};
 
+use crate::geometry::plane::polyline_path::polyline;
 use crate::page::sheet::arrangement::view_arrangement::ViewPlacement;
 use crate::page::sheet::arrangement::view_plan::ViewPlan;
 use crate::page::sheet::canvas::annotation_board::AnnotationBoard;
 use crate::page::sheet::canvas::paper_occupancy::{ConvexShape, OccupantKind};
-use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, polyline};
+use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM};
 use crate::page::sheet::view::sheet_view::SheetView;
 use crate::page::tolerances;
 use crate::surface::Cylinder;

@@ -16,9 +16,10 @@ use kurbo::{Circle, Point, Rect, Shape as _, Vec2};
 use super::dimension_style::{ARROW_LENGTH_MM, VALUE_HEIGHT_MM};
 use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::geometry::plane::polyline_path::polyline;
 use crate::page::sheet::canvas::annotation_board::{AnnotationBoard, SetWord};
 use crate::page::sheet::canvas::paper_occupancy::{Clearance, OccupantKind};
-use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM, polyline};
+use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THIN_LINE_MM};
 use crate::page::sheet::dimensions::dimension_set::DiameterLeader;
 use crate::page::tolerances;
 

@@ -9,9 +9,10 @@
 use kurbo::{Point, Rect, Vec2};
 
 use crate::error::Error;
+use crate::geometry::plane::polyline_path::polyline;
 use crate::page::sheet::canvas::annotation_board::{AnnotationBoard, SetWord, TEXT_CLEARANCE_MM};
 use crate::page::sheet::canvas::paper_occupancy::{Clearance, ConvexShape, OccupantKind};
-use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THICK_LINE_MM, THIN_LINE_MM, polyline};
+use crate::page::sheet::canvas::sheet_canvas::{CHAIN_DASH_MM, THICK_LINE_MM, THIN_LINE_MM};
 
 /// Letter height, mm.
 const LETTER_HEIGHT_MM: f64 = 5.0;

@@ -13,6 +13,7 @@ use crate::page::sheet::canvas::annotation_board::for_each_chord;
 use crate::page::sheet::view::sheet_view::LINE_MARGIN_MM;
 use crate::page::tolerances;
 use crate::pipeline::Renderer;
+use crate::scene::warnings::add_new;
 
 /// Tolerance of curves that are clipped to a circle, mm.
 const CLIP_TOLERANCE_MM: f64 = 0.01;
@@ -115,11 +116,7 @@ impl<'a> ViewDrawings<'a> {
             let Some(drawn) = drawn else { continue };
             items.push(PlacedDrawing { place: plan.views[view].sight.frame_to_page(), ..drawn.item });
             let scene = &plan.sets[plan.scene_of_view[view]].scene;
-            for warning in scene.warnings.lines().into_iter().chain(drawn.warnings) {
-                if !warnings.contains(&warning) {
-                    warnings.push(warning);
-                }
-            }
+            add_new(&mut warnings, scene.warnings.lines().into_iter().chain(drawn.warnings));
         }
         (items, warnings)
     }

@@ -244,13 +244,8 @@ impl ViewPlan {
     fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &PageSource) -> Result<(), Error> {
         let source_index = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
         let radius = *keys.radius.get_ref();
-        if !(radius.is_finite() && radius > 0.0) {
-            return Err(source.fault(
-                &keys.radius.span(),
-                "this is not a radius",
-                "write units of the model above 0",
-            ));
-        }
+        let (is_right, advice) = (radius.is_finite() && radius > 0.0, "write units of the model above 0");
+        source.check([&keys.radius], |_| is_right, "this is not a radius", advice)?;
         let label = keys.label.clone().unwrap_or_else(|| label_letter(number));
         let at = DVec3::from_array(keys.at);
         let mut detail_sheet_view =

@@ -6,7 +6,7 @@
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _, Vec2};
 
 use super::paper_occupancy::{Clearance, ConvexShape, Occupancy, OccupantKind};
-use super::sheet_canvas::{SheetCanvas, WordAnchor};
+use super::sheet_canvas::{SheetCanvas, WordAnchor, arrow_corners};
 use crate::drawing::{Mark, Paint};
 use crate::error::Error;
 use crate::text::Font;
@@ -107,9 +107,7 @@ impl AnnotationBoard {
 
     /// The paper of an arrow head with its tip at a point.
     pub(crate) fn head(tip: Point, towards: Vec2, length: f64) -> ConvexShape {
-        let back = -towards * (length / towards.hypot2().sqrt().max(f64::MIN_POSITIVE));
-        let side = Vec2::new(-back.y, back.x) * 0.268;
-        ConvexShape::triangle([tip, tip + back + side, tip + back - side])
+        ConvexShape::triangle(arrow_corners(tip, towards, length))
     }
 
     /// Adds an arrow head.

@@ -10,6 +10,7 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 use crate::error::Error;
+use crate::geometry::plane::polyline_path::polyline;
 use crate::page::tolerances::MAX_CIRCLE_ERROR_MM;
 use crate::text::{Align, Font, Setting, TextBlock};
 
@@ -96,10 +97,7 @@ impl SheetCanvas {
 
     /// Adds a filled arrow head with its tip at a point. It points in the direction `towards`.
     pub(crate) fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
-        let back = -towards * (length / towards.hypot2().sqrt());
-        // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
-        let side = Vec2::new(-back.y, back.x) * 0.268;
-        let mut path = polyline(&[tip, tip + back + side, tip + back - side]);
+        let mut path = polyline(&arrow_corners(tip, towards, length));
         path.close_path();
         self.fill(path);
     }
@@ -224,11 +222,10 @@ impl SheetCanvas {
     }
 }
 
-/// The polyline through some points.
-pub(crate) fn polyline(points: &[Point]) -> BezPath {
-    let mut path = BezPath::new();
-    for (k, p) in points.iter().enumerate() {
-        if k == 0 { path.move_to(*p) } else { path.line_to(*p) }
-    }
-    path
+/// The corners of an arrow head, from its tip, which points in the direction `towards`.
+pub(crate) fn arrow_corners(tip: Point, towards: Vec2, length: f64) -> [Point; 3] {
+    let back = -towards * (length / towards.hypot2().sqrt().max(f64::MIN_POSITIVE));
+    // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
+    let side = Vec2::new(-back.y, back.x) * 0.268;
+    [tip, tip + back + side, tip + back - side]
 }

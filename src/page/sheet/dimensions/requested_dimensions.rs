@@ -13,6 +13,7 @@ use toml::Spanned;
 use super::dimension_set::{DiameterLeader, DimensionSet, SlantedLength};
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
+use crate::geometry::space::bounds::Bounds;
 use crate::mesh::Mesh;
 use crate::page::page_source::PageSource;
 use crate::page::sheet::arrangement::view_plan::ViewPlan;
@@ -136,9 +137,8 @@ fn resolve_place(
 
 /// The centre of the bounding box of some points, with their coarsest step.
 fn box_centre(points: &[MeasuredPoint]) -> MeasuredPoint {
-    let empty_bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = points.iter().fold(empty_bounds, |(l, h), p| (l.min(p.at), h.max(p.at)));
-    MeasuredPoint { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
+    let at = Bounds::of(points.iter().map(|p| p.at)).middle();
+    MeasuredPoint { at, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
 }
 
 /// The leader of the cylinder that is seen end-on and whose surface is nearest to a point.

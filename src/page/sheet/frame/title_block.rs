@@ -7,9 +7,10 @@ use kurbo::{Point, Rect};
 use serde::Deserialize;
 
 use crate::error::Error;
+use crate::geometry::plane::polyline_path::polyline;
 use crate::page::page_source::PageSource;
 use crate::page::sheet::canvas::sheet_canvas::{
-    CHAIN_DASH_MM, SheetCanvas, THICK_LINE_MM, THIN_LINE_MM, WordAnchor, polyline,
+    CHAIN_DASH_MM, SheetCanvas, THICK_LINE_MM, THIN_LINE_MM, WordAnchor,
 };
 use crate::page::sheet::view::projection_method::ProjectionMethod;
 use crate::page::tolerances::LENGTH_ROUNDING_MM;

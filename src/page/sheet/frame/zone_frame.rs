@@ -55,11 +55,15 @@ pub(crate) fn zone_ends(low: f64, high: f64, middle: f64) -> Vec<f64> {
     [low].into_iter().chain(inner).chain([high]).collect()
 }
 
+/// The drawing space of a sheet, the middle of the sheet, and the outside of the zones.
+fn frame_middle_outer(size: PageSize) -> (Rect, Point, Rect) {
+    let (frame, middle) = (drawing_space(size), Point::new(size.width / 2.0, size.height / 2.0));
+    (frame, middle, frame.inflate(ZONE_BAND_MM, ZONE_BAND_MM))
+}
+
 /// The centring marks of a sheet. They reach into the drawing space, except where a table is.
 pub(crate) fn centring_marks(size: PageSize, tables: &[Rect]) -> [[Point; 2]; 4] {
-    let frame = drawing_space(size);
-    let (middle, outer) =
-        (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(ZONE_BAND_MM, ZONE_BAND_MM));
+    let (frame, middle, outer) = frame_middle_outer(size);
     [
         [Point::new(outer.x0, middle.y), Point::new(frame.x0 + CENTRING_MARK_LENGTH_MM, middle.y)],
         [Point::new(outer.x1, middle.y), Point::new(frame.x1 - CENTRING_MARK_LENGTH_MM, middle.y)],
@@ -76,9 +80,7 @@ pub(crate) fn centring_marks(size: PageSize, tables: &[Rect]) -> [[Point; 2]; 4]
 
 /// Draws the frame, the zones and the marks.
 pub(crate) fn draw_frame(size: PageSize, marks: &[[Point; 2]], ink: &mut SheetCanvas) -> Result<(), Error> {
-    let frame = drawing_space(size);
-    let (middle, outer) =
-        (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(ZONE_BAND_MM, ZONE_BAND_MM));
+    let (frame, middle, outer) = frame_middle_outer(size);
     ink.rect(frame, FRAME_LINE_WIDTH_MM);
     ink.rect(outer, ZONE_LINE_WIDTH_MM);
     // A4 has zone letters and numbers only at the top and on the right.

@@ -17,10 +17,8 @@ use crate::scene::Scene;
 pub(crate) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &PageSource) -> Result<Explosion, Error> {
     let axis = keys.axis.as_ref().map(|axis| direction_of(axis, "axis", source)).transpose()?;
     let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
-    if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
-        let advice = "write a number from 0 to 1000";
-        return Err(source.fault(&told.span(), "this is not a factor for an exploded view", advice));
-    }
+    let (is_right, advice) = ((0.0..=1000.0).contains(&factor), "write a number from 0 to 1000");
+    source.check(&keys.factor, |_| is_right, "this is not a factor for an exploded view", advice)?;
     let parts = keys.part.iter().map(|part| part_explosion(part, scene, source)).collect::<Result<_, _>>()?;
     Ok(Explosion { axis, factor, parts })
 }
@@ -36,10 +34,7 @@ fn part_explosion(
         return Err(source.fault(&keys.name.span(), "no part has this name", advice));
     }
     let number = |told: &Option<Spanned<f64>>| {
-        let is_wrong = |told: &&Spanned<f64>| !told.get_ref().is_finite();
-        if let Some(wrong) = told.as_ref().filter(is_wrong) {
-            return Err(source.fault(&wrong.span(), "this is not a number", "write a number such as 12.5"));
-        }
+        source.check(told, |n| n.is_finite(), "this is not a number", "write a number such as 12.5")?;
         Ok(told.as_ref().map(|told| *told.get_ref()))
     };
     Ok(PartExplosion {

@@ -10,18 +10,10 @@ use toml::Spanned;
 
 use super::length_precision::{LengthPrecision, power_of_ten};
 use crate::error::Error;
+use crate::geometry::numbers::length_units::LENGTH_UNITS_MM;
 use crate::page::page_source::PageSource;
 use crate::page::sheet::keys::sheet_keys::SheetPage;
 use crate::page::tolerances::TIE_ROUNDING_SHARE;
-
-/// The units that a page file may name.
-const LENGTH_UNITS: [LengthUnit; 5] = [
-    LengthUnit { name: "mm", mm: 1.0 },
-    LengthUnit { name: "cm", mm: 10.0 },
-    LengthUnit { name: "m", mm: 1000.0 },
-    LengthUnit { name: "in", mm: 25.4 },
-    LengthUnit { name: "ft", mm: 304.8 },
-];
 
 /// Default maximum of decimals, in millimetres and in other units.
 const DEFAULT_MAX_DECIMALS: [u8; 2] = [2, 3];
@@ -49,8 +41,13 @@ impl LengthUnit {
     /// # Errors
     /// Returns an error if there is no such unit.
     pub(crate) fn read(told: &Spanned<String>, source: &PageSource) -> Result<Self, Error> {
-        let found = LENGTH_UNITS.into_iter().find(|unit| unit.name == told.get_ref());
-        found.ok_or_else(|| source.unknown(told, "unit", &LENGTH_UNITS.map(|unit| unit.name)))
+        let found = Self::all().into_iter().find(|unit| unit.name == told.get_ref());
+        found.ok_or_else(|| source.unknown(told, "unit", &Self::all().map(|unit| unit.name)))
+    }
+
+    /// The units that a page file may name: millimetres, centimetres, metres, inches and feet.
+    fn all() -> [Self; 5] {
+        LENGTH_UNITS_MM.map(|(name, mm)| Self { name, mm })
     }
 }
 
@@ -70,7 +67,7 @@ impl LengthFormat {
     /// # Errors
     /// Returns an error if a unit is unknown, or there are too many decimals.
     pub(crate) fn new(sheet: &SheetPage, is_gltf: bool, source: &PageSource) -> Result<Self, Error> {
-        let [mm, _, metre, inch, foot] = LENGTH_UNITS;
+        let [mm, _, metre, inch, foot] = LengthUnit::all();
         let model = match &sheet.unit {
             Some(told) => LengthUnit::read(told, source)?,
             None if is_gltf => metre,

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::parts_list_items::PartsListItem;
 use crate::error::Error;
-use crate::error::nearest::nearest;
+use crate::error::nearest::{nearest, suggestion};
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 use crate::style::{sheet_errors, toml_reader};
@@ -116,10 +116,9 @@ fn rows_of_csv(text: &str) -> Result<Vec<(String, FileRow)>, Error> {
         let key = CSV_HEADINGS.iter().position(|names| names.contains(&word.as_str()));
         let known = CSV_HEADINGS.map(|names| names[0]);
         columns.push(key.ok_or_else(|| {
-            let near = nearest(&word, &known).map(|near| format!("did you mean `{near}`?"));
             Error::new(format!("there is no column `{}`", heading.trim()))
                 .at("line 1")
-                .remedy(near.unwrap_or_else(|| format!("there are {}", known.join(", "))))
+                .remedy(suggestion(nearest(&word, &known), || format!("there are {}", known.join(", "))))
         })?);
     }
     let mut rows = Vec::new();

@@ -37,10 +37,8 @@ pub(crate) fn border_index(scene: &Scene, material: usize, mask: &OpacityMask) -
                 continue;
             }
             let Some([a, b, c]) = texels_of(geometry, triangle, mask) else { continue };
-            let corners = geometry.triangles[triangle].map(|corner| geometry.positions.get(corner as usize));
-            let [Some(p), Some(q), Some(r)] = corners else { continue };
-            let [p, q, r] = [p, q, r].map(|p| part.world_from_part.transform_point3(*p));
-            in_space += (q - p).cross(r - p).length() / 2.0;
+            let Some(area) = part.area_of(geometry, triangle) else { continue };
+            in_space += area;
             in_texels += (b - a).perp_dot(c - a).abs() / 2.0;
             in_boxes += (a.max(b).max(c) - a.min(b).min(c)).element_product();
         }

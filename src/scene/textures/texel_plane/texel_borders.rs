@@ -1,11 +1,10 @@
 //! [`BorderIndex`]: simplified borders in the texel plane, with a grid index for queries by box.
-//!
-//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
 
 use glam::DVec2;
 
 use super::TracedBorders;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists};
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
 
 /// Segment of a border, in tracing direction.
 pub(crate) type BorderSegment = [DVec2; 2];
@@ -155,31 +154,22 @@ fn extend_clamped_ends(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Optio
 fn simplified(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let count = line.len();
     let is_closed = line[0] == line[count - 1];
-    let mut kept = vec![false; count];
-    // The recursion on a long winding line would be quadratic, so it is simplified span by span.
+    // A long winding line would take quadratic time, so it is simplified span by span.
     let mut ends: Vec<usize> = (0..count - 1).step_by(MAX_SPAN_POINTS).chain([count - 1]).collect();
     if is_closed && count <= MAX_SPAN_POINTS {
-        let from = |k: &usize| line[*k].distance_squared(line[0]);
-        let farthest = (1..count).max_by(|a, b| from(a).total_cmp(&from(b)).then(b.cmp(a)));
-        ends.extend(farthest);
+        let from = |k: usize| line[k].distance_squared(line[0]);
+        ends.extend(farthest_point(1..count, from, f64::NEG_INFINITY));
         ends.sort_unstable();
     }
-    ends.iter().for_each(|end| kept[*end] = true);
-    let mut spans: Vec<[usize; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    while let Some([first, last]) = spans.pop() {
+    let kept = douglas_peucker(count, &ends, |first, last| {
         let (a, way) = (line[first], line[last] - line[first]);
-        let off = |p: DVec2| {
-            let along = ((p - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            (p - a - way * along).length_squared()
+        let off = |k: usize| {
+            let to = line[k] - a;
+            let along = (to.dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (to - way * along).length_squared()
         };
-        let worst = (first + 1..last)
-            .map(|k| (off(line[k]), k))
-            .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-        if let Some((_, k)) = worst.filter(|(off, _)| *off > tolerance * tolerance) {
-            kept[k] = true;
-            spans.extend([[first, k], [k, last]]);
-        }
-    }
+        farthest_point(first + 1..last, off, tolerance * tolerance)
+    });
     let thinned: Vec<DVec2> = line.iter().zip(kept).filter_map(|(p, kept)| kept.then_some(*p)).collect();
     if is_closed && thinned.len() < 4 { Vec::new() } else { thinned }
 }

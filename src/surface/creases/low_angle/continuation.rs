@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::surface_trace::{BentEdge, SurfaceTracer, TraceCrossing};
 use crate::geometry::numbers::portable_math::cos;
+use crate::mesh::edges::triangle_sides::sides;
 use crate::mesh::{EdgeFaces, FaceId};
 
 /// Minimum turn, as a share of the first turn, for the surface to bend again.
@@ -115,7 +116,9 @@ impl SurfaceTracer<'_> {
         let min_cosine = cos((MAX_MIDDLE_TURN_RATIO * bend.turn).min(PI)) as f32;
         let is_step =
             |edge: usize| self.turns.of_two(edge) >= min_cosine && self.is_convex(edge) == Some(bend.convex);
-        let Some(far_face) = self.opposite_face(sharp, last).filter(|_| is_step(sharp)) else { return false };
+        let Some(far_face) = self.mesh.edges.faces(sharp).across(last).filter(|_| is_step(sharp)) else {
+            return false;
+        };
         let far = match self.across(&BentEdge { edge: sharp, ..*bend }, far_face) {
             Some((Continuation::Bends(far), _)) => far,
             Some((Continuation::Ends(far), Some((next, _)))) if is_step(next) => far,
@@ -130,10 +133,9 @@ impl SurfaceTracer<'_> {
         while at < facet_faces.len() {
             let face = facet_faces[at];
             at += 1;
-            let [a, b, c] = self.mesh.triangles[face as usize];
-            for [a, b] in [[a, b], [b, c], [c, a]] {
-                let Some(edge) = self.edge([a.min(b), a.max(b)]) else { continue };
-                match self.opposite_face(edge, face).filter(|_| self.flat.contains(edge)) {
+            for [a, b] in sides(self.mesh.triangles[face as usize]) {
+                let Some(edge) = self.edges.between(a, b) else { continue };
+                match self.mesh.edges.faces(edge).across(face).filter(|_| self.flat.contains(edge)) {
                     Some(neighbour) if facet_faces.contains(&neighbour) => {}
                     Some(_) if facet_faces.len() == MAX_FACET_FACES => return None,
                     Some(unvisited) => facet_faces.push(unvisited),
@@ -148,7 +150,7 @@ impl SurfaceTracer<'_> {
     fn is_triangle(&self, around: &[usize]) -> bool {
         let mut lines: Vec<[DVec3; 2]> = Vec::new();
         for edge in around {
-            let [p, q] = self.mesh.edges.vertices[*edge].map(|v| self.mesh.positions[v as usize]);
+            let [p, q] = self.mesh.ends(*edge);
             let along = (q - p).normalize_or_zero();
             let is_on = |[from, direction]: &[DVec3; 2]| {
                 let (aside, far) = ((p - *from).reject_from(*direction).length(), (p - *from).length());
@@ -164,7 +166,7 @@ impl SurfaceTracer<'_> {
 
     /// Distance to the nearest edge of the facet that is parallel to this one and bends again.
     fn parallel_bend_distance(&self, bend: &BentEdge, around: &[usize]) -> Option<f64> {
-        let ends = |edge: usize| self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
+        let ends = |edge: usize| self.mesh.ends(edge);
         let [from, to] = ends(bend.edge);
         let bend_cosine = cos(MIN_TURN_RATIO * bend.turn) as f32;
         let bends = |edge: usize| {

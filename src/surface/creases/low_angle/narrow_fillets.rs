@@ -94,7 +94,7 @@ impl FilletSide {
             last = FilletStep {
                 reach: crossing.reach,
                 turned,
-                face: walk.opposite_face(edge, crossing.before)?,
+                face: walk.mesh.edges.faces(edge).across(crossing.before)?,
             };
             side.steps[side.count] = last;
             side.count += 1;
@@ -121,7 +121,7 @@ struct FilletCandidate {
 impl FilletCandidate {
     fn at(walk: &SurfaceTracer, edge: usize) -> Option<Self> {
         let (bend, [a, b]) = walk.bend(edge)?;
-        let [p, q] = walk.mesh.edges.vertices[edge].map(|v| walk.mesh.positions[v as usize]);
+        let [p, q] = walk.mesh.ends(edge);
         let length = p.distance(q);
         // Most candidates are facets of cylinders, which the first side already rules out.
         let sides = [FilletSide::new(walk, &bend, length, a)?, FilletSide::new(walk, &bend, length, b)?];

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::EdgeSet;
-use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
+use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexEdges};
 use crate::surface::HardEdges;
 
 /// Maximum number of faces that a trace crosses. After these, the surface is treated as ended.
@@ -33,9 +33,9 @@ pub(crate) struct SurfaceTracer<'a> {
     pub flat: &'a EdgeSet,
     pub hard: &'a HardEdges,
     /// Cosine of the crease angle.
-    pub crease_cosine: f32,
-    /// For each vertex, its first edge in the edge table: edges are sorted by their smaller vertex.
-    first: Vec<u32>,
+    pub(crate) crease_cosine: f32,
+    /// Edges by their vertices.
+    pub(crate) edges: VertexEdges<'a>,
 }
 
 impl<'a> SurfaceTracer<'a> {
@@ -47,30 +47,8 @@ impl<'a> SurfaceTracer<'a> {
         crease_deg: f64,
     ) -> Self {
         let most = cos(crease_deg.to_radians()) as f32;
-        let mut first = vec![0u32; mesh.positions.len() + 1];
-        for [a, _] in &mesh.edges.vertices {
-            first[*a as usize + 1] += 1;
-        }
-        for v in 1..first.len() {
-            first[v] += first[v - 1];
-        }
-        Self { mesh, turns, flat, hard, crease_cosine: most, first }
-    }
-
-    /// The edge between two vertices in ascending order.
-    pub(crate) fn edge(&self, ends: [u32; 2]) -> Option<usize> {
-        let vertex = ends[0] as usize;
-        let [from, to] = [self.first[vertex], self.first[vertex + 1]].map(|edge| edge as usize);
-        let of_vertex = &self.mesh.edges.vertices[from..to];
-        of_vertex.binary_search_by_key(&ends[1], |[_, b]| *b).ok().map(|at| from + at)
-    }
-
-    /// The face across an edge, if the edge has two consistently wound faces.
-    pub(crate) fn opposite_face(&self, edge: usize, face: u32) -> Option<u32> {
-        match self.mesh.edges.faces(edge) {
-            EdgeFaces::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
-            _ => None,
-        }
+        let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
+        Self { mesh, turns, flat, hard, crease_cosine: most, edges }
     }
 
     /// An edge and its two faces. `None` at borders, between inconsistently wound faces, and at faces without
@@ -99,7 +77,7 @@ impl<'a> SurfaceTracer<'a> {
         let mesh = self.mesh;
         let EdgeFaces::Two { faces: [a, b], same_way: false } = mesh.edges.faces(edge) else { return None };
         let ends = mesh.edges.vertices[edge];
-        let apex = *mesh.triangles[b as usize].iter().find(|v| !ends.contains(v))?;
+        let apex = mesh.apex(b, ends)?;
         let normal = Vec3::from_array(mesh.face_normals[a as usize]).as_dvec3();
         Some((mesh.positions[apex as usize] - mesh.positions[ends[0] as usize]).dot(normal) < 0.0)
     }
@@ -129,12 +107,12 @@ impl TraceCrossings<'_> {
     fn step(&mut self, face: u32) -> Option<TraceCrossing> {
         let mesh = self.walk.mesh;
         let along = |v: u32| (mesh.positions[v as usize] - self.middle).dot(self.along);
-        let apex = *mesh.triangles[face as usize].iter().find(|v| !self.entry.contains(v))?;
+        let apex = mesh.apex(face, self.entry)?;
         // The end of the entry edge on the other side of the plane from the apex: the trace leaves between
         // these two.
         let kept = *self.entry.iter().find(|v| (along(**v) > 0.0) != (along(apex) > 0.0))?;
         let entry = [kept.min(apex), kept.max(apex)];
-        let edge = self.walk.edge(entry)?;
+        let edge = self.walk.edges.between(entry[0], entry[1])?;
         let [p, q] = entry.map(|v| mesh.positions[v as usize]);
         let [s, t] = entry.map(along);
         let reach = p.lerp(q, (s / (s - t)).clamp(0.0, 1.0)).distance(self.middle);

@@ -1,19 +1,13 @@
-//! Line simplification (Douglas-Peucker).
+//! Line simplification: [`straighten`] drops collinear points, [`simplify`] follows Douglas and Peucker.
 //!
-//! Source: Douglas and Peucker, Algorithms for the reduction of the number of points required to represent a
-//! digitized line, Cartographica 1973. Deviations: distances are measured to the segment instead of the
-//! infinite line, so that a line that doubles back keeps its tip. The strength of the line is kept within a
-//! tolerance too.
+//! Distances are measured to the segment instead of the infinite line, so that a line that doubles back keeps
+//! its tip. The strength of the line is kept within a tolerance too.
 
 use kurbo::{Point, Vec2};
 
 use crate::chains::sampled_line::SampledLine;
 use crate::chains::tolerances;
-
-/// Minimum number of points for which both halves run in parallel, and the largest ratio of the whole to its
-/// smaller half.
-const MIN_PARALLEL_POINTS: usize = 512;
-const MAX_SPLIT_IMBALANCE: usize = 8;
+use crate::geometry::plane::douglas_peucker::{douglas_peucker, farthest_point};
 
 /// Largest error of a line's strength where points are left out.
 const MAX_STRENGTH_ERROR: f64 = 0.08;
@@ -35,7 +29,7 @@ pub(crate) fn straighten(line: SampledLine) -> SampledLine {
     let mut kept_indices: Vec<usize> = Vec::with_capacity(line.len());
     for c in 0..line.len() {
         if let &[.., a, b] = &kept_indices[..]
-            && line.soft[a] == line.soft[b]
+            && line.sides[a].soft == line.sides[b].soft
             && between(a, b, c)
             && SimplifiedChord::new(&line, a, c).off(b).1 <= MAX_STRENGTH_ERROR
         {
@@ -70,70 +64,30 @@ pub(crate) fn simplify(line: &SampledLine, tolerance: f64) -> SampledLine {
     if n < 3 {
         return line.clone();
     }
-    let tolerance2 = tolerance * tolerance;
     if !line.closed {
-        let kept = keep(line, tolerance2);
-        return line.pick(&kept);
+        return line.pick(&keep(line, &[0, n - 1], tolerance));
     }
-    let distance2 = |i: &usize| (line.points[*i] - line.points[0]).hypot2();
-    let farthest = (1..n).max_by(|a, b| distance2(a).total_cmp(&distance2(b)).then(b.cmp(a))).unwrap_or(1);
-    let opened = line.opened_at(0);
-    let mut kept_indices = keep(&opened.slice(0, farthest), tolerance2);
-    kept_indices.pop();
-    kept_indices.extend(keep(&opened.slice(farthest, n), tolerance2).into_iter().map(|i| i + farthest));
-    kept_indices.pop();
-    line.pick(&kept_indices)
+    let distance2 = |k: usize| (line.points[k] - line.points[0]).hypot2();
+    let far = farthest_point(1..n, distance2, f64::NEG_INFINITY).unwrap_or(1);
+    // The last point of the opened line is the first one again.
+    let mut kept = keep(&line.opened_at(0), &[0, far, n], tolerance);
+    kept.pop();
+    line.pick(&kept)
 }
 
-/// Indices of the kept points of an open line.
-fn keep(line: &SampledLine, tolerance2: f64) -> Vec<usize> {
-    let n = line.len();
-    let mut is_kept = vec![true; n];
-    if let [_, between @ .., _] = &mut is_kept[..] {
-        between.fill(false);
-        split(line, tolerance2, [0, n - 1], between);
-    }
-    (0..n).filter(|i| is_kept[*i]).collect()
-}
-
-/// Marks the kept points between two kept points.
-fn split(line: &SampledLine, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
-    while let Some(i) = farthest_point(line, a, b, tolerance2) {
-        let (low, high) = between.split_at_mut(i - a - 1);
-        let Some((stays, high)) = high.split_first_mut() else { return };
-        *stays = true;
-        let (below, above) = (i - a, b - i);
-        // Only near-even splits fork, so that the recursion depth stays logarithmic.
-        if below.min(above) * MAX_SPLIT_IMBALANCE >= b - a && b - a >= MIN_PARALLEL_POINTS {
-            crate::parallel::join(
-                || split(line, tolerance2, [a, i], low),
-                || split(line, tolerance2, [i, b], high),
-            );
-            return;
-        }
-        if below < above {
-            split(line, tolerance2, [a, i], low);
-            (a, between) = (i, high);
-        } else {
-            split(line, tolerance2, [i, b], high);
-            (b, between) = (i, low);
-        }
-    }
-}
-
-/// First of the points between two others with the largest error, if that exceeds the tolerance.
-fn farthest_point(line: &SampledLine, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
-    let chord = SimplifiedChord::new(line, a, b);
-    let mut worst = (tolerance2, None);
-    for i in a + 1..b {
-        let (distance2, strength) = chord.off(i);
-        let strength = strength / MAX_STRENGTH_ERROR;
-        let d = distance2.max(strength * strength * tolerance2);
-        if d > worst.0 {
-            worst = (d, Some(i));
-        }
-    }
-    worst.1
+/// Indices of the kept points of an open line. The points at `stops` are kept.
+fn keep(line: &SampledLine, stops: &[usize], tolerance: f64) -> Vec<usize> {
+    let tolerance2 = tolerance * tolerance;
+    let kept = douglas_peucker(line.len(), stops, |a, b| {
+        let chord = SimplifiedChord::new(line, a, b);
+        let error = |k: usize| {
+            let (distance2, strength) = chord.off(k);
+            let strength = strength / MAX_STRENGTH_ERROR;
+            distance2.max(strength * strength * tolerance2)
+        };
+        farthest_point(a + 1..b, error, tolerance2)
+    });
+    (0..line.len()).filter(|k| kept[*k]).collect()
 }
 
 /// Segment between two points of a line.
@@ -172,6 +126,7 @@ impl<'a> SimplifiedChord<'a> {
 mod tests {
     use super::*;
     use crate::chains::Sample;
+    use crate::chains::sampled_line::LineSide;
     use crate::geometry::dice::Dice;
     use crate::geometry::plane::planar_distance::segment_distance_squared;
 
@@ -208,13 +163,13 @@ mod tests {
             for _ in 0..n {
                 p += Vec2::new(dice.between(0.2, 1.0), dice.between(-0.6, 0.6));
                 strength = f64::clamp(strength + dice.between(-0.02, 0.02), 0.0, 1.0);
-                line.push(p, Sample::new(1.0, strength), true, false);
+                line.push(p, Sample::new(1.0, strength), LineSide::soft(true));
             }
             for tolerance in [0.1, 1.0, 10.0] {
                 let mut stays = vec![0];
                 sequential_keep(&line, [0, n - 1], tolerance * tolerance, &mut stays);
                 stays.push(n - 1);
-                assert_eq!(keep(&line, tolerance * tolerance), stays, "{n} points, {tolerance}");
+                assert_eq!(keep(&line, &[0, n - 1], tolerance), stays, "{n} points, {tolerance}");
             }
         }
     }

@@ -4,6 +4,19 @@ use std::ops::AddAssign;
 
 use crate::parallel::prelude::*;
 
+/// Implements addition for a type whose fields add up.
+macro_rules! summed {
+    ($type:ident: $($field:ident),+) => {
+        impl std::ops::AddAssign<&$type> for $type {
+            #[inline]
+            fn add_assign(&mut self, other: &Self) {
+                $(self.$field += &other.$field;)+
+            }
+        }
+    };
+}
+pub(crate) use summed;
+
 /// Number of items per task.
 const ITEMS_PER_TASK: usize = 1 << 13;
 

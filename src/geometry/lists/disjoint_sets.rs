@@ -1,59 +1,119 @@
-//! [`DisjointSets`]: concurrent union-find over faces.
+//! [`UnionFind`] and [`DisjointSets`]: sets that grow by joining pairs of numbers, and the finished sets.
 //!
-//! Any thread may join pairs. Faces form trees, and a join links the greater root below the smaller one. The
-//! root of a set is therefore always its smallest face, in any order of joins.
+//! Numbers form trees, and a join links the greater root below the smaller one. The root of a set is therefore
+//! always its smallest member, in any order of joins. Any thread may join pairs.
 //!
-//! Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021. The order of faces replaces their
+//! Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021. The order of numbers replaces their
 //! random order.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::geometry::lists::rank_bitset::RankBitset;
 use crate::parallel::prelude::*;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
-/// Disjoint sets of faces, each identified by its smallest face.
+/// Sets of the numbers below a count, which joins make larger.
+#[derive(Debug)]
+pub(crate) struct UnionFind {
+    /// Parent of each number. A root is its own parent.
+    parents: Vec<AtomicU32>,
+}
+
+impl UnionFind {
+    /// One set per number.
+    pub(crate) fn new(count: usize) -> Self {
+        let numbers = (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
+        Self { parents: numbers.map(AtomicU32::new).collect() }
+    }
+
+    /// The root of a set: its smallest member, if no set was merged by [`UnionFind::join_into`].
+    ///
+    /// Halves the path. Concurrent changes keep the invariant: all ancestors of a number belong to its set, and
+    /// each is smaller than its child.
+    pub(crate) fn root(&self, mut number: u32) -> u32 {
+        let above = |number: u32| self.parents[number as usize].load(Relaxed);
+        loop {
+            let next = above(number);
+            if next == number {
+                return number;
+            }
+            let after = above(next);
+            if after == next {
+                return next;
+            }
+            self.parents[number as usize].store(after, Relaxed);
+            number = after;
+        }
+    }
+
+    /// Joins the sets of two numbers.
+    pub(crate) fn join(&self, mut a: u32, mut b: u32) {
+        loop {
+            (a, b) = (self.root(a), self.root(b));
+            let (least, most) = (a.min(b), a.max(b));
+            // Another thread may have linked the root in the meantime.
+            if a == b || self.parents[most as usize].compare_exchange(most, least, Relaxed, Relaxed).is_ok() {
+                return;
+            }
+        }
+    }
+
+    /// Merges the set with the root `from` into the one with the root `to`, which stays the root. Not for
+    /// sets that other threads join.
+    pub(crate) fn join_into(&mut self, from: u32, to: u32) {
+        *self.parents[from as usize].get_mut() = to;
+    }
+}
+
+/// Finished disjoint sets, each identified by its smallest member.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct DisjointSets {
     first: Vec<u32>,
 }
 
 impl DisjointSets {
-    /// The sets of `count` faces. `joins` calls its argument with pairs, on any threads and in any order.
+    /// The sets of `count` numbers. `joins` calls its argument with pairs, on any threads and in any order.
     #[must_use]
     pub(crate) fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
-        let parents: Vec<AtomicU32> =
-            (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(AtomicU32::new).collect();
-        joins(&|a, b| join(&parents, a, b));
+        let sets = UnionFind::new(count);
+        joins(&|a, b| sets.join(a, b));
         // A separate list, because path halving on another thread may overwrite an entry with an older value.
-        let root = |face| root(&parents, face);
-        Self { first: (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(root).collect() }
+        let numbers = (0..count as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
+        Self { first: numbers.map(|number| sets.root(number)).collect() }
     }
 
-    /// The smallest face in the set of a face.
+    /// The smallest member of the set of a number.
     #[inline]
     #[must_use]
-    pub(crate) fn representative(&self, face: u32) -> u32 {
-        self.first[face as usize]
+    pub(crate) fn representative(&self, number: u32) -> u32 {
+        self.first[number as usize]
     }
 
-    /// Numbers the sets in the order of their first faces. Where `instead` returns a value for the first face
-    /// of a set, that value is stored and the set gets no number.
+    /// For each number, the smallest member of its set.
     #[must_use]
-    pub(crate) fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> NumberedSets {
-        let Self { first: mut of_face } = self;
-        let counted = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
-            let faces = (chunk * MIN_TASK_ITEMS) as u32..;
-            let is_first = |(face, first): &(u32, &u32)| face == *first && instead(*face).is_none();
-            faces.zip(of).filter(is_first).map(|(face, _)| face).collect()
-        };
-        let first = of_face.par_chunks(MIN_TASK_ITEMS).enumerate().map(counted).collect::<Vec<_>>().concat();
-        let ranks = RankBitset::new(of_face.len(), first.iter().map(|face| *face as usize));
-        of_face.par_iter_mut().with_min_len(MIN_TASK_ITEMS).for_each(|first| {
-            *first = instead(*first).unwrap_or_else(|| ranks.of(*first as usize));
-        });
-        NumberedSets { set_of_face: of_face, first }
+    pub(crate) fn into_representatives(self) -> Vec<u32> {
+        self.first
+    }
+
+    /// Numbers the sets in the order of their smallest members. Where `instead` returns a value for the smallest
+    /// member of a set, that value is stored and the set gets no number.
+    #[must_use]
+    pub(crate) fn numbered(self, instead: impl Fn(u32) -> Option<u32>) -> NumberedSets {
+        let Self { first: mut set_of_face } = self;
+        let mut first = Vec::new();
+        for face in 0..set_of_face.len() {
+            let root = set_of_face[face] as usize;
+            // The root has the smallest number, so it is done already.
+            set_of_face[face] = if root == face {
+                instead(face as u32).unwrap_or_else(|| {
+                    first.push(face as u32);
+                    first.len() as u32 - 1
+                })
+            } else {
+                set_of_face[root]
+            };
+        }
+        NumberedSets { set_of_face, first }
     }
 }
 
@@ -64,36 +124,6 @@ pub(crate) struct NumberedSets {
     pub set_of_face: Vec<u32>,
     /// The smallest face of each set.
     pub first: Vec<u32>,
-}
-
-/// Joins the trees of two faces.
-fn join(parents: &[AtomicU32], mut a: u32, mut b: u32) {
-    loop {
-        (a, b) = (root(parents, a), root(parents, b));
-        let (least, most) = (a.min(b), a.max(b));
-        // Another thread may have linked the root in the meantime.
-        if a == b || parents[most as usize].compare_exchange(most, least, Relaxed, Relaxed).is_ok() {
-            return;
-        }
-    }
-}
-
-/// The root of a face, with path halving. Concurrent changes keep the invariant: all ancestors of a face
-/// belong to its set, and each is smaller than its child.
-fn root(parents: &[AtomicU32], mut face: u32) -> u32 {
-    let above = |face: u32| parents[face as usize].load(Relaxed);
-    loop {
-        let next = above(face);
-        if next == face {
-            return face;
-        }
-        let after = above(next);
-        if after == next {
-            return next;
-        }
-        parents[face as usize].store(after, Relaxed);
-        face = after;
-    }
 }
 
 #[cfg(test)]
