@@ -9,15 +9,15 @@
 //!
 //! ```
 //! use ligne::animate::{Animator, FrameSpec, Timeline};
-//! use ligne::drawing::{Page, Unit};
+//! use ligne::drawing::Page;
 //! use ligne::animation::{Playing, Rigged};
 //! use ligne::{Camera, Style};
 //!
 //! let crane = Rigged::open("examples/models/crane.glb")?;
-//! let [from, to] = crane.rig.clips[0].span();
+//! let [from, to] = crane.clips()[0].span();
 //! let timeline = Timeline::between(from, to, 2.0)?;
 //! let camera = Camera::three_quarter().with_frame(300.0, 300.0).fit(&crane.scene);
-//! let page = Page { width: 300.0, height: 300.0, unit: Unit::Px, background: None };
+//! let page = Page::px(300.0, 300.0);
 //! let style = Style::default();
 //! let mut animator = Animator::new(&crane, &style);
 //! for frame in timeline.drawn_frames() {

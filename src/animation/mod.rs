@@ -4,7 +4,7 @@
 //! use ligne::animation::{Playing, Rigged};
 //!
 //! let pump = Rigged::open("examples/models/pump.glb")?;
-//! assert!(pump.rig.clips.is_empty());
+//! assert!(pump.clips().is_empty());
 //! assert_eq!(pump.posed(&[])?.parts, pump.scene.parts);
 //! assert!(pump.posed(&[Playing::all(0, 1.5)]).is_err());
 //! # Ok::<(), ligne::Error>(())

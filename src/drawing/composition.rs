@@ -1,14 +1,12 @@
 //! [`Composition`]: several drawings on one page, each placed and clipped.
 //!
 //! ```
-//! use ligne::drawing::composition::{Composition, PlacedDrawing};
-//! use ligne::drawing::{Drawing, Page, Unit};
+//! use ligne::drawing::{Composition, Drawing, Page, PlacedDrawing};
 //!
-//! let page = |width, height| Page { width, height, unit: Unit::Mm, background: None };
-//! let panel = Drawing::new("panel", page(80.0, 60.0), Vec::new());
+//! let panel = Drawing::new("panel", Page::mm(80.0, 60.0), Vec::new());
 //! let place = kurbo::Affine::translate((10.0, 20.0));
 //! let item = PlacedDrawing { name: "panel-1".to_owned(), drawing: panel, place, clip: None };
-//! let composition = Composition::new("a page", page(210.0, 297.0), vec![item]);
+//! let composition = Composition::new("a page", Page::mm(210.0, 297.0), vec![item]);
 //! assert_eq!(composition.items.len(), 1);
 //! # use ligne::kurbo;
 //! ```

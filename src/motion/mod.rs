@@ -12,14 +12,17 @@
 //! Files, in reading order: [`options`] the `[motion]` table; [`moving_bodies`]; [`line_starts`].
 //!
 //! ```
-//! use ligne::drawing::LayerKind;
+//! use ligne::animate::{Animator, FrameSpec};
 //! use ligne::animation::{Playing, Rigged};
-//! use ligne::{Camera, Style, motion, render};
+//! use ligne::drawing::{LayerKind, Page};
+//! use ligne::{Camera, Style};
 //!
 //! let model = Rigged::open("examples/models/brick.glb")?;
-//! let style = Style::load_with("ink", &["motion.enabled=true".to_owned()])?;
-//! let scene = motion::posed(&model, &[Playing::all(0, 1.0)], &style.motion, style.seed)?;
-//! let drawing = render(&scene, &Camera::three_quarter().fit(&scene), &style)?;
+//! let mut style = Style::load("ink")?;
+//! style.set("motion.enabled", true)?;
+//! let camera = Camera::three_quarter().fit(&model.scene);
+//! let moment = FrameSpec { playing: vec![Playing::all(0, 1.0)], camera, page: Page::px(1000.0, 1000.0) };
+//! let (drawing, _) = Animator::new(&model, &style).draw(&moment)?;
 //! assert!(drawing.layers.iter().any(|layer| layer.kind == LayerKind::Motion));
 //! # Ok::<(), ligne::Error>(())
 //! ```

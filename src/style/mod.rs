@@ -14,9 +14,9 @@
 //! ```
 //! use ligne::Style;
 //!
-//! let style = Style::load_with("pencil", &["pen.width=1.2".to_owned(), "hatching.enabled=false".to_owned()])?;
-//! assert!(!style.hatch.enabled);
-//! let error = Style::load_with("pencil", &["pen.widht=1.2".to_owned()]).unwrap_err();
+//! let mut style = Style::load("pencil")?;
+//! style.set("pen.width", 1.2)?.set("hatching.enabled", false)?;
+//! let error = style.set("pen.widht", 1.2).unwrap_err();
 //! assert!(error.to_string().contains("did you mean `width`?"), "{error}");
 //! # Ok::<(), ligne::Error>(())
 //! ```

@@ -4,8 +4,7 @@
 //! number of ticks per second is a property of the film. All films repeat forever.
 //!
 //! ```
-//! use ligne::export::film::{GifFilm, SvgFilm};
-//! use ligne::export::{PngOptions, SvgOptions};
+//! use ligne::export::{GifFilm, PngOptions, SvgFilm, SvgOptions};
 //! use ligne::scene::NamedView;
 //! use ligne::{Camera, Scene, Style, render};
 //!
