@@ -293,9 +293,13 @@ impl ToneChangeFinder<'_> {
     /// Paint and surface point at a point of a face.
     fn point(&self, face: u32, p: DVec3) -> Option<(PaintId, SurfacePoint)> {
         let lit = self.lit;
-        let weights = lit.mesh.weights(FaceId(face), p).map(|share| share.clamp(0.0, 1.0));
+        let [a, b, c] = lit.mesh.corners(FaceId(face));
+        let normal = (b - a).cross(c - a);
+        let twice = normal.length_squared();
+        let share = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(normal) / twice;
+        let weights = [share(b, c), share(c, a), share(a, b)].map(|share| share.clamp(0.0, 1.0));
         let sum: f64 = weights.iter().sum();
-        (lit.mesh.area_vector(FaceId(face)) != DVec3::ZERO && sum > 0.0)
+        (twice > 0.0 && sum > 0.0)
             .then(|| (lit.paint(face, p), lit.point(face, weights.map(|weight| weight / sum))))
     }
 
