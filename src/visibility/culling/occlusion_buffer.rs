@@ -259,7 +259,13 @@ fn is_large(triangles: &TiledTriangles, id: u32, cell: f64) -> bool {
 }
 
 /// Raises the value of each square that a triangle fills to the triangle's nearness there, less `step`.
-fn add(points: &[DVec3; 3], squares: &TileGrid, step: f64, limits: &ViewTolerances, cover: &mut [f32]) {
+pub(crate) fn add(
+    points: &[DVec3; 3],
+    squares: &TileGrid,
+    step: f64,
+    limits: &ViewTolerances,
+    cover: &mut [f32],
+) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
     if high.x - low.x < squares.cell || high.y - low.y < squares.cell {

@@ -1,7 +1,8 @@
 //! Visibility of all segments, tile by tile.
 //!
 //! 1. Every segment is split at tile borders. Parts behind the occlusion buffer are hidden.
-//! 2. In each tile, every segment part is compared with every triangle in front of it.
+//! 2. In each tile, every segment part is compared with every triangle in front of it. Crowded tiles are
+//!    subdivided.
 //! 3. The results of all tiles are gathered and joined per segment.
 //! 4. Each segment is cut where its invisibility changes, and where background begins or ends next to it.
 //!

@@ -18,6 +18,7 @@ use std::borrow::Cow;
 
 use crate::parallel::prelude::*;
 
+use super::segment_comparison::TriangleChoice;
 use super::tile_comparison::{SegmentScratch, TileResult};
 use super::tile_segments::TileSegments;
 use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
@@ -125,9 +126,10 @@ pub(crate) fn decide_with(
         let (mut scratch, mut result) = (SegmentScratch::default(), TileResult::default());
         for tile in task * TILES_PER_TASK..((task + 1) * TILES_PER_TASK).min(grid.len()) {
             if !items.of(tile).is_empty() {
-                let mut chosen: Vec<OccluderBounds> =
+                let chosen: Vec<OccluderBounds> =
                     occluders.of(tile).iter().map(|id| triangles.reach(*id)).collect();
-                compared.decide_tile(items.of(tile), &mut chosen, &mut scratch, &mut result);
+                let entries = TriangleChoice { chosen: &chosen, ordered: false };
+                compared.decide_tile(items.of(tile), entries, (&grid, tile), &mut scratch, &mut result);
             }
         }
         result.tidy();

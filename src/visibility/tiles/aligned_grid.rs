@@ -29,7 +29,8 @@ pub(crate) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> TileGrid {
     TileGrid::of_cells((low / cell).floor() * cell, high, cell)
 }
 
-/// Tiles across the page for a number of triangles. Denser meshes get smaller tiles.
+/// Tiles across the page for a number of triangles. Denser meshes get smaller tiles; crowded tiles are
+/// subdivided later.
 pub(crate) fn tiles_across(triangles: usize) -> u32 {
     match triangles {
         0..=2_000 => 32,

@@ -115,6 +115,15 @@ impl TileGrid {
         Self { columns, rows, cell, origin: self.origin, per_cell: 1.0 / cell }
     }
 
+    /// Grid over one tile of this one, with `across` tiles along its sides.
+    #[must_use]
+    pub(crate) fn of_tile(&self, tile: usize, across: u32) -> Self {
+        let tile = tile as u32;
+        let low = self.corner(tile % self.columns, tile / self.columns);
+        let cell = self.cell / f64::from(across);
+        Self { columns: across, rows: across, cell, origin: low, per_cell: 1.0 / cell }
+    }
+
     /// Number of tiles.
     #[must_use]
     pub(crate) fn len(&self) -> usize {
