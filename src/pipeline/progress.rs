@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Step of a drawing, in the order in which they begin.
+/// Step of a drawing. The variants are in order of their beginning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Step {

@@ -76,7 +76,7 @@ impl Scene {
         self.parts.push(Part { name: name.into(), geometry, world_from_part });
     }
 
-    /// Adds a line through points in world space, as a part of its own. Surfaces hide it like other lines. It is
+    /// Adds a line through points in world space, as a separate part. Surfaces hide it like other lines. It is
     /// drawn with `pen.wire`, which rules for its part and pen functions may change.
     pub fn add_polyline(
         &mut self,

@@ -1,4 +1,4 @@
-//! Parsing of untrusted XML. Files beyond plain limits on size, depth and number of elements are refused.
+//! Parsing of untrusted XML. Files above plain limits on size, depth and number of elements are refused.
 //!
 //! 1. The tags are counted before the file is parsed. The tokenizer has the grammar of the parser, and files
 //!    that it does not accept are refused.

@@ -1,6 +1,6 @@
 //! XML and CSS of an SVG file, read in time and memory in proportion to the length of the file.
 //!
-//! 1. [`input_limits`] parses the XML and refuses files beyond plain limits on size, depth and number of
+//! 1. [`input_limits`] parses the XML and refuses files above plain limits on size, depth and number of
 //!    elements.
 //! 2. [`css_sheet`] reads the CSS rules of `style` elements, word by word with [`css_reader`].
 //! 3. [`cascade`] finds the rules that apply to an element, within a limit on the work for a file.

@@ -18,7 +18,7 @@ const MAX_SIDE_PIXELS: f64 = 16_000.0;
 const MAX_PAINTED_PIXELS: f64 = 600e6;
 /// Smaller rasters are not useful.
 const MIN_USEFUL_SIDE_PIXELS: f64 = 100.0;
-/// Passes over the pixels of a group on a layer of its own, and for each step of a filter.
+/// Passes over the pixels of a group on a separate layer, and for each step of a filter.
 const LAYER_PASSES: f64 = 8.0;
 
 /// Pixels per px for both drawings; `None` if one would take too long.

@@ -1,10 +1,10 @@
 //! Results that several views of one surface share. They save time and change no drawing.
 //!
-//! One rule: what a view computes for itself is kept from the first view on, and what only helps later views
-//! is built by the second.
+//! One rule: the first view keeps the results that it computes for itself. The second view builds the
+//! structures that only help later views.
 //!
 //! 1. Intersections are kept from the first view. The search for cut faces, and the tree over edges if the
-//!    style asks for it, are built by the second ([`view_cache`]).
+//!    style requests it, are built by the second ([`view_cache`]).
 //! 2. Shadows of lights fixed in the world are kept from the first view ([`shadow_cache`]).
 //!
 //! Files, in reading order: [`view_cache`]; [`shadow_cache`].

@@ -113,7 +113,7 @@ fn imports_point_down_the_list_of_areas() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// A type has one address in the crate: a file exports names of its own children only. The `mod.rs` of a public
+/// A type has one address in the crate: a file exports names of its child modules only. The `mod.rs` of a public
 /// area may also publish types of private areas (`pub use crate::…`), for users of the library.
 #[test]
 fn files_export_only_names_of_their_children() {
