@@ -3,6 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use kurbo::Vec2;
+
 use super::pen::Pen;
 use crate::chains::Chain;
 use crate::drawing::Unit;
@@ -43,9 +45,12 @@ impl<'a> LineInfo<'a> {
     pub(crate) fn of(chain: &Chain, [part, material]: [&'a str; 2], depths: [f64; 2], unit: Unit) -> Self {
         let Chain { kind, silhouette, closed, points, samples, .. } = chain;
         let ring = closed.then(|| points.first()).flatten();
-        let steps = || points.iter().zip(points.iter().skip(1).chain(ring)).map(|(a, b)| *b - *a);
-        let length: f64 = steps().map(|step| step.length()).sum();
-        let turning: f64 = steps().zip(steps().skip(1)).map(|(a, b)| atan2(b.cross(a), a.dot(b)).abs()).sum();
+        let ends = points.iter().zip(points.iter().skip(1).chain(ring));
+        let steps: Vec<Vec2> = ends.map(|(a, b)| *b - *a).filter(|step| step.hypot2() > 0.0).collect();
+        let length: f64 = steps.iter().map(|step| step.length()).sum();
+        let first = closed.then(|| steps.first()).flatten();
+        let turns = steps.iter().zip(steps.iter().skip(1).chain(first));
+        let turning: f64 = turns.map(|(a, b)| atan2(a.cross(*b), a.dot(*b)).abs()).sum();
         let mean = |value: fn(&crate::chains::Sample) -> f64| {
             samples.iter().map(value).sum::<f64>() / samples.len().max(1) as f64
         };
