@@ -36,17 +36,19 @@ impl Box3 {
     }
 }
 
-/// Boxes of eight children: lowest and highest x, y and z, four children in a vector.
+/// Boxes of eight children: lowest and highest x, y and z.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(16))]
 pub(crate) struct NodeBoxes {
-    pub(crate) low: [[Vec4; 2]; 3],
-    pub(crate) high: [[Vec4; 2]; 3],
+    low: [[f32; NODE_CHILDREN]; 3],
+    high: [[f32; NODE_CHILDREN]; 3],
 }
 
 impl NodeBoxes {
     /// Node with the boxes of at most eight children.
     pub(crate) fn new(boxes: impl Iterator<Item = Box3>) -> Self {
-        let mut node = Self { low: [[Vec4::INFINITY; 2]; 3], high: [[Vec4::NEG_INFINITY; 2]; 3] };
+        let (low, high) = ([[f32::INFINITY; NODE_CHILDREN]; 3], [[f32::NEG_INFINITY; NODE_CHILDREN]; 3]);
+        let mut node = Self { low, high };
         boxes.enumerate().for_each(|(child, own)| node.put(child, own));
         node
     }
@@ -54,36 +56,42 @@ impl NodeBoxes {
     /// Sets the box of a child.
     pub(crate) fn put(&mut self, child: usize, own: Box3) {
         for axis in 0..3 {
-            self.low[axis][child / 4][child % 4] = own.low[axis];
-            self.high[axis][child / 4][child % 4] = own.high[axis];
+            self.low[axis][child] = own.low[axis];
+            self.high[axis][child] = own.high[axis];
         }
     }
 
     /// Box of a child; empty if there is none.
     #[inline]
     pub(crate) fn child(&self, child: usize) -> Box3 {
-        let of = |rows: &[[Vec4; 2]; 3]| rows.map(|row| row[child / 4][child % 4]);
+        let of = |rows: &[[f32; NODE_CHILDREN]; 3]| [rows[0][child], rows[1][child], rows[2][child]];
         Box3 { low: of(&self.low), high: of(&self.high) }
     }
 
     /// The box around all children.
     pub(crate) fn around(&self) -> Box3 {
-        let low = self.low.map(|[a, b]| a.min(b).min_element());
-        Box3 { low, high: self.high.map(|[a, b]| a.max(b).max_element()) }
+        let low = self.low.map(|row| half(&row, 0).min(half(&row, 1)).min_element());
+        Box3 { low, high: self.high.map(|row| half(&row, 0).max(half(&row, 1)).max_element()) }
     }
 
     /// The children whose boxes overlap a box, one bit each.
     #[inline]
     pub(crate) fn overlapping(&self, other: &Box3) -> u32 {
-        let of_half = |half: usize| {
+        let of_half = |which: usize| {
             let [x, y, z] = [0, 1, 2].map(|axis| {
                 let (low, high) = (Vec4::splat(other.low[axis]), Vec4::splat(other.high[axis]));
-                self.low[axis][half].cmple(high) & self.high[axis][half].cmpge(low)
+                half(&self.low[axis], which).cmple(high) & half(&self.high[axis], which).cmpge(low)
             });
             (x & y & z).bitmask()
         };
         of_half(0) | of_half(1) << 4
     }
+}
+
+/// The first or second four numbers of a row, as a vector.
+#[inline]
+fn half(row: &[f32; NODE_CHILDREN], which: usize) -> Vec4 {
+    Vec4::from_slice(&row[4 * which..4 * which + 4])
 }
 
 /// Node of the level above up to eight nodes.

@@ -162,7 +162,7 @@ fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
         ("unknown-required-extension.gltf", "EXAMPLE_not_real"),
     ];
     for (file, words) in refused {
-        let error = gltf::read(&folder.join("bad").join(file)).map(|_| ()).expect_err(file).to_string();
+        let error = Scene::open(folder.join("bad").join(file)).map(|_| ()).expect_err(file).to_string();
         assert!(error.contains(words) && error.contains(file), "{file}: {error}");
     }
     let drawn = [
