@@ -255,7 +255,7 @@ fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
 
 /// Number without exponent and with few digits, and its end; `None` for other notations.
 #[inline(always)]
-fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
+pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     let negative = *bytes.get(start)? == b'-';
     let first = start + usize::from(negative);
     let (mut mantissa, mut at) = digits(bytes, first, 0);
@@ -274,6 +274,16 @@ fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     }
     let value = mantissa as f64 / EXACT_POWERS.get(fraction)?;
     Some((if negative { -value } else { value }, at))
+}
+
+/// Digits after one or more blanks: their value, and their end.
+#[inline(always)]
+pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)> {
+    while *bytes.get(start)? == b' ' {
+        start += 1;
+    }
+    let (value, at) = digits(bytes, start, 0);
+    ((at - start).wrapping_sub(1) < 18).then_some((value, at))
 }
 
 /// Converts text to UTF-8 if it begins with the byte-order mark of UTF-16.

@@ -15,9 +15,6 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 /// Number of boxes in one box of the next level.
 const CHILDREN_PER_BOX: usize = 4;
 
-/// Maximum number of boxes that a query still has to visit. There are at most 16 levels.
-const MAX_OPEN_BOXES: usize = 16 * CHILDREN_PER_BOX;
-
 /// Item by its middle.
 type PlacedItem = (DVec3, u32);
 
@@ -48,26 +45,36 @@ impl BoundsTree {
 
     /// The items whose boxes, and all boxes around them, satisfy `meets`.
     pub(crate) fn near(&self, meets: impl Fn(&Bounds) -> bool) -> impl Iterator<Item = u32> {
-        let mut open = [(0u8, 0u32); MAX_OPEN_BOXES];
-        open[0] = (self.levels.len() as u8 - 1, 0);
-        let mut count = usize::from(!self.numbers.is_empty());
+        let top = self.levels.len() - 1;
+        let mut next = (!self.numbers.is_empty()).then_some((top, 0));
         std::iter::from_fn(move || {
-            while count > 0 {
-                count -= 1;
-                let (level, at) = open[count];
-                if !meets(&self.levels[level as usize][at as usize]) {
+            while let Some((level, at)) = next {
+                let is_met = meets(&self.levels[level][at]);
+                if is_met && level > 0 {
+                    next = Some((level - 1, CHILDREN_PER_BOX * at));
                     continue;
                 }
-                if level == 0 {
-                    return Some(self.numbers[at as usize]);
-                }
-                for child in self.children(level as usize, at as usize).rev() {
-                    open[count] = (level - 1, child as u32);
-                    count += 1;
+                next = self.box_after(level, at);
+                if is_met {
+                    return Some(self.numbers[at]);
                 }
             }
             None
         })
+    }
+
+    /// The box that a query visits after a box and everything in it.
+    #[inline]
+    fn box_after(&self, level: usize, at: usize) -> Option<(usize, usize)> {
+        let (mut level, mut at) = (level, at);
+        while level + 1 < self.levels.len() {
+            let beside = at + 1;
+            if beside % CHILDREN_PER_BOX != 0 && beside < self.levels[level].len() {
+                return Some((level, beside));
+            }
+            (level, at) = (level + 1, at / CHILDREN_PER_BOX);
+        }
+        None
     }
 
     /// The item for which `own` returns the least squared distance from a point, and that distance; of

@@ -77,13 +77,11 @@ impl NodeBoxes {
     /// The children whose boxes overlap a box, one bit each.
     #[inline]
     pub(crate) fn overlapping(&self, other: &Box3) -> u32 {
-        let of_half = |which: usize| {
-            let [x, y, z] = [0, 1, 2].map(|axis| {
-                let (low, high) = (Vec4::splat(other.low[axis]), Vec4::splat(other.high[axis]));
-                half(&self.low[axis], which).cmple(high) & half(&self.high[axis], which).cmpge(low)
-            });
-            (x & y & z).bitmask()
+        let of_axis = |axis: usize, which: usize| {
+            let (low, high) = (Vec4::splat(other.low[axis]), Vec4::splat(other.high[axis]));
+            half(&self.low[axis], which).cmple(high) & half(&self.high[axis], which).cmpge(low)
         };
+        let of_half = |which| (of_axis(0, which) & of_axis(1, which) & of_axis(2, which)).bitmask();
         of_half(0) | of_half(1) << 4
     }
 }

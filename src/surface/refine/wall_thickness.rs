@@ -8,8 +8,8 @@ use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
 
 use crate::geometry::space::bounds::Bounds;
-use crate::geometry::space::bounds_tree::BoundsTree;
 use crate::geometry::space::triangles::{ray_hit, unit_normal};
+use crate::mesh::bvh::box_tree::BoxTree;
 use crate::mesh::tolerances::RAY_BOX_OF_MESH;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -47,9 +47,10 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
     }
     let questions: Vec<WallRay> =
         edges.par_iter().map(|(edge, ends)| WallRay::of(mesh, smooth, *edge, *ends)).collect();
-    let boxes: Vec<Bounds> =
-        questions.iter().map(|q| Bounds::of([q.start, q.start - q.normal * q.reach])).collect();
-    let tree = BoundsTree::new(&boxes);
+    let ends: Vec<DVec3> = questions.iter().flat_map(|q| [q.start, q.start - q.normal * q.reach]).collect();
+    let rays: Vec<[u32; 3]> = (0..questions.len() as u32).map(|k| [2 * k, 2 * k + 1, 2 * k + 1]).collect();
+    let around_rays = Bounds::of(ends.iter().copied());
+    let tree = BoxTree::new(&ends, &rays, &[], around_rays.low, around_rays.high);
     let (middle, radius) = mesh.extents.ball();
     // Exceeds all rounding errors.
     let slack = RAY_BOX_OF_MESH * (radius + middle.length());
@@ -61,20 +62,23 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
             && outward.dot(q.normal) < 0.0
             && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
     };
-    let (tree, questions, is_wall) = (&tree, &questions, &is_wall);
-    let hits_of = |face: u32| {
-        let corners = mesh.corners(FaceId(face));
-        let around = Bounds::of(corners).grown(slack);
-        tree.near(move |ray| ray.meets(&around)).filter_map(move |number| {
-            let q = &questions[number as usize];
-            let thickness = ray_hit(&corners, q.start, -q.normal, q.reach)?;
-            is_wall(q, face).then_some((number, thickness, face))
-        })
+    let hits_of = |(run, triangles): (usize, &[[u32; 3]])| {
+        let (mut stack, mut hits) = (Vec::new(), Vec::new());
+        for (face, triangle) in (run * MIN_TASK_ITEMS..).zip(triangles) {
+            let corners = triangle.map(|v| mesh.positions[v as usize]);
+            let Bounds { low, high } = Bounds::of(corners).grown(slack);
+            tree.near(&tree.box_of([low, high, high]), &mut stack, |number| {
+                let (q, face) = (&questions[number as usize], face as u32);
+                let hit = ray_hit(&corners, q.start, -q.normal, q.reach).filter(|_| is_wall(q, face));
+                hits.extend(hit.map(|thickness| (number, thickness, face)));
+            });
+        }
+        hits
     };
-    let faces = (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(MIN_TASK_ITEMS);
-    let hits: Vec<(u32, f64, u32)> = faces.flat_map_iter(hits_of).collect();
+    let runs = mesh.triangles.par_chunks(MIN_TASK_ITEMS).enumerate();
+    let hits: Vec<Vec<(u32, f64, u32)>> = runs.map(hits_of).collect();
     let mut walls: Vec<Option<(f64, u32)>> = vec![None; questions.len()];
-    for (number, thickness, face) in hits {
+    for (number, thickness, face) in hits.into_iter().flatten() {
         let wall = &mut walls[number as usize];
         if wall.is_none_or(|known| (thickness, face) < known) {
             *wall = Some((thickness, face));

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::interval_sweep::sweep;
-use super::tiled_triangles::{Occluder, TiledTriangles};
+use super::tiled_triangles::TiledTriangles;
 use super::triangle_occlusion::{Interval, covered};
 use crate::visibility::graph::ViewVertexKind;
 use crate::visibility::projection::host_sides::HostedLine;
@@ -55,8 +55,8 @@ impl OuterSide {
 
     /// Range of the segment's parameter where a triangle lies next to it on this side.
     #[inline]
-    pub(crate) fn range(&self, triangle: &Occluder, limits: &ViewTolerances) -> Option<(f64, f64)> {
-        covered(self.line[0], self.line[1], &triangle.corners, limits)
+    pub(crate) fn range(&self, corners: &[DVec3; 3], limits: &ViewTolerances) -> Option<(f64, f64)> {
+        covered(self.line[0], self.line[1], corners, limits)
     }
 }
 

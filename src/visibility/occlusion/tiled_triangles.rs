@@ -10,7 +10,7 @@ use crate::geometry::lists::csr_lists::{CsrLists, csr_lists_from_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::view::View;
-use crate::visibility::tiles::tile_grid::{TileBox, TileGrid};
+use crate::visibility::tiles::tile_grid::{TileBox, TileGrid, TileReach};
 use crate::visibility::tiles::triangle_columns::TriangleHalfPlanes;
 use crate::visibility::tolerances;
 use crate::visibility::view_tolerances::{FaceTolerances, ViewTolerances};
@@ -80,11 +80,17 @@ impl TiledTriangles<'_> {
     /// off the grid.
     #[must_use]
     pub(crate) fn tile_boxes(&self) -> Vec<TileBox> {
-        (0..self.count())
-            .into_par_iter()
-            .with_min_len(MIN_TASK_ITEMS)
-            .map(|id| self.tile_box(id as u32))
-            .collect()
+        // A vertex is a corner of six triangles on average, so its range of tiles is computed once.
+        let slack = self.slack();
+        let of_vertex = |p: &DVec3| if p.z.is_nan() { TileReach::CUT } else { self.grid.around(*p, slack) };
+        let vertices: Vec<TileReach> =
+            self.view.points.par_iter().with_min_len(MIN_TASK_ITEMS).map(of_vertex).collect();
+        let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
+            Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
+            Some(t) => self.grid.tiles_within(TileReach::of_all(t.map(|v| vertices[v as usize]))),
+            None => self.tile_box(id as u32),
+        };
+        (0..self.count()).into_par_iter().with_min_len(MIN_TASK_ITEMS).map(of_triangle).collect()
     }
 
     /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
@@ -187,10 +193,13 @@ impl TiledTriangles<'_> {
         }
         // For boxes of few tiles, the exact test costs more than it saves.
         if tiles.area() <= 4 {
-            for (tile, _) in self.grid.tiles_of(tiles) {
-                let least = farthest[tile];
-                if least == f64::NEG_INFINITY || (least < f64::INFINITY && self.nearest(id) >= least) {
-                    pairs.push((tile as u32, id));
+            for row in tiles.top..=tiles.bottom {
+                for column in tiles.left..=tiles.right {
+                    let tile = self.grid.tile(u32::from(column), u32::from(row));
+                    let least = farthest[tile];
+                    if least == f64::NEG_INFINITY || (least < f64::INFINITY && self.nearest(id) >= least) {
+                        pairs.push((tile as u32, id));
+                    }
                 }
             }
             return;
@@ -226,4 +235,42 @@ fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
         ((low.y - pad) as f32).next_down(),
         ((high.y + pad) as f32).next_up(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    #[test]
+    fn tile_boxes_match_the_box_of_each_triangle() {
+        let mut dice = Dice::new(3);
+        let mut soup = Soup::default();
+        for k in 0..3000u32 {
+            let middle = dice.point(2.0);
+            soup.positions.extend([0; 3].map(|_| middle + dice.point(0.4)));
+            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+        }
+        let mesh = Mesh::build(soup);
+        // The camera is among the triangles, so some are behind the eye and some are cut.
+        let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
+        let view = View::new(&mesh, &camera);
+        let limits = ViewTolerances::new(&view.frame);
+        assert!(!view.clipped.is_empty() && view.points.iter().any(|p| p.z.is_nan()));
+        for (low, high, across) in [(100.0, 400.0, 64), (-2000.0, 3000.0, 300), (480.0, 481.0, 7)] {
+            let grid = TileGrid::new(DVec2::splat(low), DVec2::splat(high), across);
+            let triangles = TiledTriangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let boxes = triangles.tile_boxes();
+            assert!(
+                boxes.iter().any(|tiles| !tiles.is_empty()) && boxes.iter().any(|tiles| tiles.is_empty())
+            );
+            for (id, tiles) in boxes.iter().enumerate() {
+                assert_eq!(*tiles, triangles.tile_box(id as u32), "{id} from {low} to {high}");
+            }
+        }
+    }
 }

@@ -95,7 +95,35 @@ pub(crate) fn covered(
 #[must_use]
 pub(crate) fn hidden_interval(
     segment: &ImageSegment,
+    part: (f64, f64),
+    triangle: &Occluder,
+    frame: &Frame,
+    limits: &ViewTolerances,
+) -> Option<Interval> {
+    let range = covered_range(segment, part, &triangle.corners, limits)?;
+    hidden_range(segment, part, range, triangle, frame, limits)
+}
+
+/// Range of parameters where a projected triangle covers a segment, or `None` if it covers nothing of the part.
+#[inline]
+#[must_use]
+pub(crate) fn covered_range(
+    segment: &ImageSegment,
     (from, to): (f64, f64),
+    corners: &[DVec3; 3],
+    limits: &ViewTolerances,
+) -> Option<(f64, f64)> {
+    covered(segment.a.truncate(), segment.b.truncate(), corners, limits)
+        .filter(|(start, end)| *start <= to && *end >= from)
+}
+
+/// Part of a segment that a triangle hides, within the range that the triangle covers.
+#[inline]
+#[must_use]
+pub(crate) fn hidden_range(
+    segment: &ImageSegment,
+    (from, to): (f64, f64),
+    (start, end): (f64, f64),
     triangle: &Occluder,
     frame: &Frame,
     limits: &ViewTolerances,
@@ -103,10 +131,6 @@ pub(crate) fn hidden_interval(
     let corners = &triangle.corners;
     let shared = segment.ends.map(|end| triangle.ids.iter().position(|id| *id == end));
     if shared[0].is_some() && shared[1].is_some() {
-        return None;
-    }
-    let (start, end) = covered(segment.a.truncate(), segment.b.truncate(), corners, limits)?;
-    if start > to || end < from {
         return None;
     }
     // Heights over the plane are measured from the shared corner, where they are exactly zero.

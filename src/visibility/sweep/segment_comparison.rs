@@ -3,8 +3,8 @@
 use crate::visibility::culling::longest_interval::{NO_INTERVAL, join_or_longer};
 use crate::visibility::occlusion::occlusion_input::{OcclusionInput, TileSegment};
 use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
-use crate::visibility::occlusion::tiled_triangles::OccluderBounds;
-use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
+use crate::visibility::occlusion::tiled_triangles::{OccluderBounds, corners};
+use crate::visibility::occlusion::triangle_occlusion::{Interval, covered_range, hidden_range};
 use crate::visibility::projection::image_segments::ImageSegment;
 
 /// Triangles of a tile to compare.
@@ -54,11 +54,13 @@ impl OcclusionInput<'_> {
                 continue;
             }
             *tests += 1;
-            let (range, occluder) = ((item.start, item.end), triangles.occluder(reach.id));
-            let found = hidden_interval(segment, range, &occluder, &triangles.view.frame, limits);
-            let Some(found) = found else {
-                continue;
-            };
+            let (part, view) = ((item.start, item.end), triangles.view);
+            let (corners, _) = corners(triangles.mesh, view, reach.id);
+            // Most triangles cover nothing of the part, so only the others are read completely.
+            let found = covered_range(segment, part, &corners, limits).and_then(|range| {
+                hidden_range(segment, part, range, &triangles.occluder(reach.id), &view.frame, limits)
+            });
+            let Some(found) = found else { continue };
             hidden.push(found);
             if !counting {
                 run = join_or_longer(run, (found.start, found.end));
@@ -119,7 +121,8 @@ impl OcclusionInput<'_> {
             if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
                 continue;
             }
-            let Some((start, end)) = side.range(&triangles.occluder(id), limits) else { continue };
+            let (corners, _) = corners(triangles.mesh, triangles.view, id);
+            let Some((start, end)) = side.range(&corners, limits) else { continue };
             let (start, end) = (start.max(item.start), end.min(item.end));
             if start < end {
                 backed.push((item.segment, backdrop(start, end)));

@@ -64,7 +64,66 @@ impl TileBox {
     }
 }
 
+/// Columns and rows within a margin of a point, counted from 1. The values 0 and count + 1 stand for
+/// positions outside the grid.
+///
+/// The ranges of several points combine to that of their bounding box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TileReach {
+    from: [u16; 2],
+    to: [u16; 2],
+}
+
+impl TileReach {
+    /// Range of a point without image position; makes every combined range empty.
+    pub(crate) const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
+
+    /// Combined range of the three corners of a triangle.
+    #[inline]
+    pub(crate) fn of_all([a, b, c]: [Self; 3]) -> Self {
+        let min_index = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
+        let max_index = |k: usize| a.to[k].max(b.to[k]).max(c.to[k]);
+        Self { from: [min_index(0), min_index(1)], to: [max_index(0), max_index(1)] }
+    }
+}
+
 impl TileGrid {
+    /// Range of a point with a margin of `slack` to all sides.
+    #[inline]
+    pub(crate) fn around(&self, point: DVec3, slack: f64) -> TileReach {
+        let last = self.corner(self.columns, self.rows);
+        let clamped_index = |x: f64, first: f64, last: f64, tile: u32, count: u32| {
+            if x < first {
+                0
+            } else if x > last {
+                count as u16 + 1
+            } else {
+                tile as u16 + 1
+            }
+        };
+        let column = |x: f64| clamped_index(x, self.origin.x, last.x, self.column(x), self.columns);
+        let row = |y: f64| clamped_index(y, self.origin.y, last.y, self.row(y), self.rows);
+        let (low, high) = (point - slack, point + slack);
+        TileReach { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
+    }
+
+    /// Tiles in a range; equals [`Self::tile_box`] of the bounding box of its points and margins.
+    #[inline]
+    pub(crate) fn tiles_within(&self, around: TileReach) -> TileBox {
+        let ([left, top], [right, bottom]) = (around.from, around.to);
+        let (columns, rows) = (self.columns as u16, self.rows as u16);
+        let is_off = right == 0 || left > columns || bottom == 0 || top > rows;
+        if is_off || right == u16::MAX {
+            return TileBox::EMPTY;
+        }
+        TileBox {
+            left: left.max(1) - 1,
+            right: right.min(columns) - 1,
+            top: top.max(1) - 1,
+            bottom: bottom.min(rows) - 1,
+        }
+    }
+
     /// Tiles that the box from `low` to `high` meets.
     #[inline]
     #[must_use]

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{CornerIndices, NO_INDEX, ParseStop, Parser};
+use super::plain_statements::{CornerIndices, NO_INDEX, plain_triangle};
+use super::{ParseStop, Parser};
 use crate::error::Error;
 use crate::load::polygons::triangulation::{self, CutOutcome};
 use crate::load::text_cursor::Cursor;
@@ -38,7 +39,6 @@ impl Parser<'_> {
         if self.cursor.at_word_end() { Ok(Some(corner)) } else { Err(self.not_an_index().into()) }
     }
 
-    /// Index of a texture coordinate or normal; [`NO_INDEX`] if it is out of range.
     /// Reads the corners up to the end of the line.
     fn read_corners(&mut self) -> Result<(), ParseStop> {
         self.corners.clear();
@@ -48,6 +48,7 @@ impl Parser<'_> {
         Ok(())
     }
 
+    /// Index of a texture coordinate or normal; [`NO_INDEX`] if it is out of range.
     #[inline]
     fn attribute(&mut self, count: usize) -> u32 {
         match self.cursor.integer() {
@@ -92,11 +93,22 @@ impl Parser<'_> {
     }
 
     /// Parses `f`.
+    #[inline]
     pub(crate) fn face(&mut self) -> Result<(), ParseStop> {
-        self.corners.clear();
-        while let Some(corner) = self.corner()? {
-            self.corners.push(corner);
+        if let Some((triangle, at)) = plain_triangle(self.cursor.bytes, self.cursor.at) {
+            let exists = triangle.iter().all(|i| i.wrapping_sub(1) < self.position_count as u64);
+            if exists && !self.out.has_bad_positions {
+                self.cursor.at = at;
+                self.out.triangles.push(triangle.map(|i| (i - 1) as u32));
+                return Ok(());
+            }
         }
+        self.any_face()
+    }
+
+    #[inline(never)]
+    fn any_face(&mut self) -> Result<(), ParseStop> {
+        self.read_corners()?;
         if self.out.has_bad_positions && self.corners.iter().any(|c| !is_drawable(self.point(c[0]))) {
             self.unusable[0] += 1;
             return Ok(());

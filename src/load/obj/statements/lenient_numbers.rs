@@ -30,8 +30,9 @@ enum UnusualWord {
 }
 
 impl Parser<'_> {
-    /// Parses `v x y z`, with an optional weight or colour.
-    pub(crate) fn position(&mut self) {
+    /// Parses a vertex with more than three numbers, or with unusual ones.
+    #[inline(never)]
+    pub(crate) fn any_position(&mut self) {
         let place = self.cursor.clone();
         self.is_unplaced = false;
         let (x, y) = (self.coordinate(), self.coordinate());

@@ -1,12 +1,18 @@
-//! The statements of an OBJ file as flat arrays, in one pass over its bytes: [`face_statements`] for `f` and
-//! `l`, [`lenient_numbers`] for numbers in unusual notation.
+//! The statements of an OBJ file as flat arrays, in one pass over its bytes.
+//!
+//! 1. [`plain_statements`] recognises statements of plain numbers, the bulk of large files.
+//! 2. The parser reads all other statements: [`face_statements`] for `f` and `l`, [`lenient_numbers`] for
+//!    numbers in unusual notation.
 
 mod face_statements;
 mod lenient_numbers;
+mod plain_statements;
 
 use std::ops::Range;
 
 use glam::DVec3;
+pub(crate) use plain_statements::NO_INDEX;
+use plain_statements::{CornerIndices, plain_position};
 
 use crate::error::Error;
 use crate::load::polygons::added_diagonals::Diagonals;
@@ -16,12 +22,6 @@ use crate::mesh::EdgeMark;
 use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
 use crate::scene::warnings::WarningExamples;
-
-/// Index for "none".
-pub(crate) const NO_INDEX: u32 = u32::MAX;
-
-/// Indices of position, texture coordinate and normal of a corner.
-type CornerIndices = [u32; 3];
 
 /// Consecutive triangles and wires of one part and one material.
 #[derive(Debug, Clone)]
@@ -316,6 +316,18 @@ impl<'a> Parser<'a> {
         while self.cursor.rest_of_line().ends_with(b"\\") && !self.cursor.at_end() {
             self.cursor.at +=
                 if (self.cursor.peek(), self.cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
+        }
+    }
+
+    /// Parses `v x y z`, with an optional weight or colour.
+    #[inline]
+    fn position(&mut self) {
+        match plain_position(self.cursor.bytes, self.cursor.at) {
+            Some((point, at)) => {
+                self.cursor.at = at;
+                self.add_position(point);
+            }
+            None => self.any_position(),
         }
     }
 
