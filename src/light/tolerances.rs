@@ -31,6 +31,14 @@ pub(crate) const SKY_PROBE_OF_EDGE: f64 = 1e-2;
 /// the error: a rounding is at most 1.2e-16.
 pub(crate) const F64_MARGIN_SHARE: f64 = 1e-9;
 
+/// Margin for the rounding of a value to single precision, as a fraction of it. Much larger than the error: a
+/// rounding is at most 6e-8.
+pub(crate) const F32_MARGIN_SHARE: f64 = 1e-6;
+
+/// Margin for the rounding of a facing value (the cosine between normal and line of sight). Much larger than
+/// the error.
+pub(crate) const FACING_MARGIN: f64 = 1e-6;
+
 /// Minimum depth for measuring the edge length of a part, as a fraction of the part. Keeps the length
 /// in px positive and finite for parts at or behind the eye.
 pub(crate) const MIN_SMOOTHING_DEPTH_OF_PART: f64 = 1e-3;

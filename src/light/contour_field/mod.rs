@@ -6,9 +6,10 @@
 //! 4. Rounded faces are cut along level sets into pieces that share their borders (Claes et al. 2001).
 //!
 //! Files, in reading order: [`facing_field`] step 1; [`field_smoothing`] step 2; [`contour_refinement`] step
-//! 3; [`level_set_cut`] step 4.
+//! 3; [`level_set_cut`] step 4; [`culling`] bounds that skip edges without a contour.
 
 pub(crate) mod contour_refinement;
+pub(crate) mod culling;
 pub(crate) mod facing_field;
 pub(crate) mod field_smoothing;
 pub(crate) mod level_set_cut;

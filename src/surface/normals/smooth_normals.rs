@@ -25,6 +25,9 @@ pub(crate) struct SmoothNormals {
     pub separating_edges: EdgeSet,
     /// Edges along which the surface is straight, although its normals turn. A straight edge has no arc.
     pub straight: EdgeSet,
+    /// Edges away from separating edges, whose end normals differ by less than 15 degrees. Empty if not
+    /// computed.
+    pub gentle: EdgeSet,
     /// Whether all faces are curved and no edge separates them, so that smooth vertices are vertices.
     pub seamless: bool,
 }
@@ -35,6 +38,19 @@ impl SmoothNormals {
     #[must_use]
     pub(crate) fn corners_of(&self, face: u32) -> Option<[u32; 3]> {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
+    }
+
+    /// Whether each vertex of the mesh lies on a separating edge. All others are smooth vertices with the
+    /// same number. Empty if there are no separating edges.
+    #[must_use]
+    pub(crate) fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
+        if self.separating_edges.is_empty() {
+            return Vec::new();
+        }
+        let mut parted = vec![false; mesh.positions.len()];
+        let ends = self.separating_edges.iter().flat_map(|edge| mesh.edges.vertices[edge]);
+        ends.for_each(|vertex| parted[vertex as usize] = true);
+        parted
     }
 
     /// Smooth vertices at the ends of an edge, smaller first. `None` at separating and non-manifold edges,

@@ -10,19 +10,32 @@ use crate::surface::SmoothNormals;
 /// Minimum ratio between the length of a straight edge and the lengths next to it and after its end.
 const MIN_LENGTH_RATIO: f64 = 4.0;
 
-/// Maximum cosine between the end normals of a straight edge: 15 degrees.
-const MAX_STRAIGHT_COSINE: f64 = 0.966;
+/// Minimum cosine between the end normals of a gentle edge: 15 degrees.
+pub(crate) const MIN_GENTLE_COSINE: f64 = 0.966;
+
+/// Edges whose end normals differ little, away from separating edges.
+pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    let parted = smooth.parted_vertices(mesh);
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let [a, b] = mesh.edges.vertices[edge].map(|vertex| vertex as usize);
+        let is_parted = |vertex: usize| parted.get(vertex) == Some(&true);
+        smooth.normals[a].dot(smooth.normals[b]) > MIN_GENTLE_COSINE && !is_parted(a) && !is_parted(b)
+    })
+}
 
 /// Long edges next to short ones, where the surface continues only a short way after the end whose normal
 /// tilts more.
 ///
 /// The surface between the ends is straight there; the normals belong to the short part. Where the surface
-/// continues for a similar length, it bends along all of it.
+/// continues for a similar length, it bends along all of it. Requires `smooth.gentle`.
 pub(crate) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
+        if smooth.gentle.contains(edge) {
+            return false;
+        }
         let Some([a, b]) = smooth.across(mesh, edge) else { return false };
         let normals = [a, b].map(|v| smooth.normals[v as usize]);
-        if normals[0].dot(normals[1]) > MAX_STRAIGHT_COSINE {
+        if normals[0].dot(normals[1]) > MIN_GENTLE_COSINE {
             return false;
         }
         let [from, to] = [a, b].map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);

@@ -25,6 +25,7 @@ impl SmoothNormals {
             corners: mesh.triangles.clone(),
             separating_edges: EdgeSet::default(),
             straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
             seamless: true,
         }
     }
@@ -39,12 +40,13 @@ impl SmoothNormals {
     ) -> Self {
         let mut smooth = Self::without_straight_edges(mesh, is_rounded, is_hard);
         if !smooth.is_empty() {
+            smooth.gentle = straight_edges::gentle(mesh, &smooth);
             smooth.straight = straight_edges::straight(mesh, &smooth);
         }
         smooth
     }
 
-    /// Same, without straight edges, which shading does not need.
+    /// Same, without gentle and straight edges, which shading does not need.
     #[must_use]
     pub(crate) fn without_straight_edges(
         mesh: &Mesh,
@@ -79,6 +81,7 @@ impl SmoothNormals {
             seamless: all && parting.is_empty(),
             separating_edges: parting,
             straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
         };
         vertex_split::part(mesh, &mut smooth);
         smooth

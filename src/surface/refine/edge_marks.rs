@@ -46,11 +46,14 @@ struct MarkedEdge {
 pub(crate) fn marks(
     mesh: &Mesh,
     smooth: &SmoothNormals,
-    is_long: &(impl Fn(DVec3, DVec3) -> bool + Sync),
+    (is_long, may): (&(impl Fn(DVec3, DVec3) -> bool + Sync), &(impl Fn([u32; 2], f64) -> bool + Sync)),
     want: &(impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync),
 ) -> EdgeMarks {
     let mark = |edge: usize| {
         let [a, b] = mesh.ends(edge);
+        if smooth.gentle.contains(edge) && !may(mesh.edges.vertices[edge], a.distance_squared(b)) {
+            return None;
+        }
         if !is_long(a, b) || smooth.straight.contains(edge) {
             return None;
         }

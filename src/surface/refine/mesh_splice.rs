@@ -250,6 +250,7 @@ fn of_faces(
         corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
         separating_edges: EdgeSet::default(),
         straight: EdgeSet::default(),
+        gentle: EdgeSet::default(),
         seamless: smooth.seamless,
     };
     (finer, smooth)

@@ -36,14 +36,16 @@ pub(crate) fn refined(
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<RefinedMesh> {
-    let cuts = cuts(mesh, smooth, is_long, want)?;
+    let cuts = cuts(mesh, smooth, is_long, |_, _| true, want)?;
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
 
 /// Subdivision of a mesh, or `None` where hardly any edge is split.
 ///
 /// `want` takes positions and unit normals of the ends of an edge, always in the same order. The edge is
-/// split if the result exceeds 1. Edges are examined only if `is_long`, a fast test, holds for their ends.
+/// split if the result exceeds 1. Edges are examined only if
+/// - `is_long`, a fast test, holds for their ends,
+/// - `may` holds for the ends and squared length of a gentle edge.
 ///
 /// Never split are separating edges, edges of thin walls, and edges of large parts that are dense enough.
 /// Split faces lose the normals of the file.
@@ -52,12 +54,13 @@ pub(crate) fn cuts(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    may: impl Fn([u32; 2], f64) -> bool + Sync,
     want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
 ) -> Option<MeshCuts> {
     if smooth.is_empty() {
         return None;
     }
-    let EdgeMarks { cut, edges, thin } = marks(mesh, smooth, &is_long, &want);
+    let EdgeMarks { cut, edges, thin } = marks(mesh, smooth, (&is_long, &may), &want);
     if cut.is_empty() && thin.is_empty() {
         return None;
     }
