@@ -38,6 +38,8 @@ pub use mark::{
 pub use page::{Page, Unit};
 pub use text_run::{FontFile, SetGlyph, TextRun};
 
+use crate::scene::Warning;
+
 /// Kinds of layers, back to front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LayerKind {
@@ -105,8 +107,8 @@ pub struct Drawing {
     pub layers: Vec<Layer>,
     /// Visible areas of parts, for clicks on web pages; SVG only.
     pub hotspots: Vec<Hotspot>,
-    /// Warnings: features of the model that could not be drawn. They are not written to files.
-    pub warnings: Vec<String>,
+    /// Defects of the model, and what could not be drawn. They are not written to files.
+    pub warnings: Vec<Warning>,
 }
 
 impl Drawing {

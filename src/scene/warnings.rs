@@ -11,6 +11,8 @@ pub enum WarningKind {
     Defect,
     /// A file that the model names was not found, or another one was used in its place.
     MissingFile,
+    /// The drawing shows nothing; the text says why.
+    EmptyDrawing,
     /// Anything else.
     Note,
 }
@@ -25,6 +27,13 @@ pub struct Warning {
     pub count: u64,
     /// Description: for a defect the elements in the plural, `triangles without area`, otherwise a sentence.
     pub text: String,
+}
+
+impl Warning {
+    /// A warning of one kind that counts nothing.
+    pub(crate) fn of_kind(kind: WarningKind, text: impl Into<String>) -> Self {
+        Self { kind, count: 1, text: text.into() }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -87,8 +96,7 @@ impl Warnings {
             count: *count,
             text: text.clone(),
         };
-        let note =
-            |(kind, text): &(WarningKind, String)| Warning { kind: *kind, count: 1, text: text.clone() };
+        let note = |(kind, text): &(WarningKind, String)| Warning::of_kind(*kind, text.as_str());
         self.counts.iter().map(defect).chain(self.notes.iter().map(note))
     }
 

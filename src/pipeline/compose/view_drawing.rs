@@ -26,7 +26,7 @@ use crate::pipeline::thread_pool::run_on_pool;
 use crate::pipeline::view::page_transform::{centre_on_page, frame_on_page, margin};
 use crate::pipeline::view::visibility_pass::VisibleView;
 use crate::regions::{self, HatchRegions, PageBorders, Regions};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Scene, Warning, WarningKind};
 use crate::strokes::{self, InkContext, InkWidths, Parting};
 use crate::view::View;
 use crate::visibility::{GapOcclusion, ViewMap};
@@ -225,20 +225,25 @@ impl Renderer<'_> {
         report.counts.chains = chains.len() as u64;
         report.counts.points =
             layers.iter().flat_map(|l| &l.marks).map(|m| drawing_report::points(&m.path)).sum();
-        report.warnings = mesh_defects::of_mesh(&surface.mesh, scene).lines();
-        report.warnings.extend(self.warnings.lines());
-        report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
-        report.warnings.extend(warnings);
-        report.warnings.extend(view_hatching::too_dark(style, page.unit));
-        if style.motion.enabled && scene.movers.is_none() {
-            report.warnings.push(motion_line_pass::NO_MOMENT.to_owned());
-        }
+        let mut of_drawing: Vec<Warning> = mesh_defects::of_mesh(&surface.mesh, scene).iter().collect();
+        of_drawing.extend(self.warnings.iter());
+        of_drawing.extend(paints.iter().flat_map(|paints| paints.warnings.iter()));
+        let has_no_moment = style.motion.enabled && scene.movers.is_none();
+        let notes = warnings
+            .into_iter()
+            .chain(view_hatching::too_dark(style, page.unit))
+            .chain(has_no_moment.then(|| motion_line_pass::NO_MOMENT.to_owned()));
+        of_drawing.extend(notes.map(|note| Warning::of_kind(WarningKind::Note, note)));
         if stage.is_none() && empty_drawing::shows_nothing(&layers) {
             let viewed_mesh = (&surface.mesh, view);
-            report.warnings.push(empty_drawing::empty_reason(scene, viewed_mesh, style, !chains.is_empty()));
+            let reason = empty_drawing::empty_reason(scene, viewed_mesh, style, !chains.is_empty());
+            of_drawing.push(Warning::of_kind(WarningKind::EmptyDrawing, reason));
         }
-        let warnings = report.warnings.clone();
-        Ok((Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report))
+        report.warnings = of_drawing.iter().map(Warning::to_string).collect();
+        Ok((
+            Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings: of_drawing },
+            report,
+        ))
     }
 }
 

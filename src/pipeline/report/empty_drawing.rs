@@ -123,7 +123,7 @@ mod tests {
     use glam::DVec3;
 
     use crate::pipeline::render;
-    use crate::scene::{Camera, NamedView, Scene, UpAxis};
+    use crate::scene::{Camera, NamedView, Scene, UpAxis, WarningKind};
     use crate::style::Style;
 
     fn scene(corners: [[f64; 3]; 3]) -> Scene {
@@ -134,7 +134,8 @@ mod tests {
         let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
         let style = Style::load_with("ink", &sets).unwrap();
         let drawing = render(scene, camera, &style).unwrap();
-        drawing.warnings.into_iter().find(|warning| warning.starts_with("the drawing is empty")).unwrap()
+        let empty = drawing.warnings.iter().find(|warning| warning.kind == WarningKind::EmptyDrawing);
+        empty.expect("a warning").to_string()
     }
 
     #[test]

@@ -208,7 +208,8 @@ fn motion_lines_do_not_depend_on_thread_count() {
 fn motion_lines_without_a_moment_give_a_warning() {
     let own = motion_style(&[]);
     let model = rig_solids(vec![unit_cube()], vec![translation_channel(0, DVec3::X)]);
-    let told = |drawing: &Drawing| drawing.warnings.iter().any(|warning| warning.contains("no motion lines"));
+    let told =
+        |drawing: &Drawing| drawing.warnings.iter().any(|warning| warning.text.contains("no motion lines"));
     let still = render(&model.scene, &front_camera(), &own).unwrap();
     assert!(told(&still) && motion_lines(&still).is_empty());
     assert!(!told(&draw_at(&model, 0.0, &front_camera(), &own)));
@@ -282,5 +283,5 @@ fn moments_without_motion_lines_are_explained() {
     aside.target.y += 90.0;
     aside.eye.y += 90.0;
     let drawing = draw_at(&model, 1.0, &aside, &own);
-    assert!(drawing.warnings.iter().any(|warning| warning.contains("outside the frame")));
+    assert!(drawing.warnings.iter().any(|warning| warning.text.contains("outside the frame")));
 }

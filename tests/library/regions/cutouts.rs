@@ -132,7 +132,7 @@ fn missing_textures_are_reported_and_ignored() {
     let scene = Scene::open(folder.join("trellis.obj")).unwrap();
     let camera = Camera::three_quarter().fit(&scene);
     let drawing = draw(&scene, &camera, "ink");
-    let said = drawing.warnings.join("\n");
+    let said = drawing.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(said.contains("`panel`") && said.contains("trellis-hole.png is missing"), "{said}");
     let mut plain = scene.clone();
     plain.materials.iter_mut().for_each(|material| material.opacity_map = None);
