@@ -142,7 +142,7 @@ fn broken_files_are_refused_by_name_or_drawn_with_a_warning() {
         ("mesh-index-out-of-range.gltf", "node 0: has mesh 5"),
         ("not-json.gltf", "JSON line 2"),
         ("wrong-types.gltf", "JSON line 1"),
-        ("html-instead.glb", "HTML"),
+        ("html-instead.glb", "web page"),
         ("git-lfs-pointer.glb", "Git LFS"),
         ("truncated-half.glb", "GLB header: the header promises 1676 bytes"),
         ("truncated-header.glb", "GLB header"),
