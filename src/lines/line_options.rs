@@ -78,8 +78,8 @@ pub(crate) struct LineOptions {
     /// Draw the joints of parts of one material: lines where their surfaces continue in one plane. Default:
     /// true.
     pub joints: bool,
-    /// Search mesh contours with a tree in dual space from the second view on. The lines are the same; the
-    /// tree saves its cost after about a hundred views of one model. Default: false.
+    /// Search mesh contours and tone borders with trees in dual space from the second view on. The lines are
+    /// the same; the trees save their cost after about a hundred views of one model. Default: false.
     pub edge_tree: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,

@@ -168,6 +168,15 @@ impl Lighting {
             || self.lamps.iter().any(|lamp| !matches!(lamp.reach, LampSource::Parallel { .. }))
     }
 
+    /// If there is one light, and it is parallel: its direction, and the cosine between it and the normal at
+    /// which the diffuse light has a value.
+    #[must_use]
+    pub(crate) fn only_parallel(&self) -> Option<(DVec3, impl Fn(f64) -> f64 + '_)> {
+        let [lamp] = self.lamps.as_slice() else { return None };
+        let LampSource::Parallel { towards } = lamp.reach else { return None };
+        Some((towards, move |value| value / lamp.brightness * (1.0 + self.wrap) - self.wrap))
+    }
+
     /// Bounds for the change of parallel light with the normal.
     #[must_use]
     pub(crate) fn slope(&self) -> LightSlope {

@@ -222,3 +222,27 @@ fn occlusion_darkens_points_and_invalid_normals_face_the_camera() {
     at.normal = DVec3::NAN;
     assert_near(shading_.value(0, ANY_PAINT, &at, 0), 0.75);
 }
+
+#[test]
+fn border_cosines_are_those_where_the_light_reaches_a_level() {
+    for (wrap, brightness) in [(0.0, 1.0), (0.4, 1.0), (0.4, 0.7)] {
+        let source = LightSource { brightness, ..directional(DVec3::new(0.0, 3.0, 4.0)) };
+        let light = LightOptions { wrap, ..lit_by(vec![source]) };
+        let (shading, _) = shading_and_warnings(&Scene::default(), &light, &ToneOptions::default());
+        let (towards, cosines) = shading.border_cosines().expect("one parallel light");
+        assert_near(towards.distance(DVec3::new(0.0, 0.6, 0.8)), 0.0);
+        let levels = shading.levels(ANY_PAINT, 0);
+        assert_eq!(cosines.len(), levels.len());
+        for (cosine, level) in cosines.into_iter().zip(levels).filter(|(cosine, _)| cosine.abs() < 1.0) {
+            let across = DVec3::X * (1.0 - cosine * cosine).sqrt();
+            assert_near(light_value(&light, DVec3::ZERO, towards * cosine + across), *level);
+        }
+    }
+    let several = lit_by(vec![directional(DVec3::Z), directional(DVec3::X)]);
+    let near = lit_by(vec![lamp(DVec3::Z, None)]);
+    let dimmed = LightOptions { occlusion: 0.5, ..lit_by(vec![directional(DVec3::Z)]) };
+    for light in [several, near, dimmed] {
+        let (shading, _) = shading_and_warnings(&Scene::default(), &light, &ToneOptions::default());
+        assert!(shading.border_cosines().is_none());
+    }
+}

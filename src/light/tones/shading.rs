@@ -9,6 +9,7 @@ use crate::light::{LightSlope, ShadeOptions};
 use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, MaterialPaint, Scene};
 use crate::view::Frame;
+use glam::DVec3;
 
 /// Lighting of a view, and the tones of its surface.
 ///
@@ -180,6 +181,22 @@ impl Shading {
     #[must_use]
     pub(crate) fn slope(&self) -> LightSlope {
         self.lighting.slope()
+    }
+
+    /// Direction to the light, and the cosines between it and the normal at which a paint may change its tone,
+    /// rising. `None` unless there is one parallel light and nothing but the normal matters.
+    #[must_use]
+    pub(crate) fn border_cosines(&self) -> Option<(DVec3, Vec<f64>)> {
+        if (0..self.channels.len()).any(|channel| self.is_local(channel)) {
+            return None;
+        }
+        let channels = 0..self.channels.len();
+        let levels = self.tones.iter().flat_map(|tones| channels.clone().flat_map(|k| tones.levels(k)));
+        let (towards, cosine_of) = self.lighting.only_parallel()?;
+        let mut cosines: Vec<f64> = levels.map(|level| cosine_of(*level)).collect();
+        cosines.sort_by(f64::total_cmp);
+        cosines.dedup();
+        Some((towards, cosines))
     }
 
     /// Rising levels of a channel on a paint.

@@ -14,30 +14,36 @@ use super::tone_changes::TraceReason;
 use crate::light::{LightSlope, SurfacePoint};
 use crate::lines::feature_line::segment;
 use crate::lines::isophotes::culling::covered_faces::visible_faces_of;
+use crate::lines::isophotes::culling::tone_faces::faces_with_borders;
 use crate::lines::tolerances;
 use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
+use crate::mesh::bvh::ToneTree;
 use crate::mesh::{FaceId, PaintId};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 
 /// Adds the isophotes of a lit surface, for each of the given sets of shadowed lights.
 ///
-/// With `sees_through` gradients get steps on covered faces too. Returns the reason for each added segment,
-/// in order.
+/// With `sees_through` gradients get steps on covered faces too. With a `tree` over the shading normals, only
+/// the faces that it finds are examined where it applies. Returns the reason for each added segment, in
+/// order.
 pub(crate) fn find(
     lit: &Lit,
     shadowed: &[u32],
     sees_through: bool,
+    tree: Option<&ToneTree>,
     lines: &mut FeatureLines,
 ) -> Vec<TraceReason> {
     const FACES_PER_TASK: usize = 1 << 9;
-    let count = lit.mesh.triangles.len();
+    let holding = tree.and_then(|tree| faces_with_borders(lit.shading, tree));
+    let count = holding.as_ref().map_or(lit.mesh.triangles.len(), Vec::len);
     let ready = ShadingTables::new(lit, shadowed, sees_through);
     let found: Vec<(Vec<LevelSegment>, Vec<TraceReason>)> = (0..count.div_ceil(FACES_PER_TASK))
         .into_par_iter()
         .with_max_len(1)
         .map(|chunk| {
             let mut tracer = IsophoteTracer::new(lit, &ready);
-            for face in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(count) {
+            for index in chunk * FACES_PER_TASK..((chunk + 1) * FACES_PER_TASK).min(count) {
+                let face = holding.as_ref().map_or(index, |faces| faces[index] as usize);
                 if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
                     tracer.trace(face as u32, shadowed);
                 }

@@ -1,6 +1,7 @@
 //! Fills: light on the surface, tone borders and paint of a view.
 
-use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
 use kurbo::{BezPath, Vec2};
@@ -10,10 +11,12 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, Page, Provenance};
 use crate::light::ambient_visibility;
 use crate::light::{Shading, ShadingNormals};
+use crate::lines::isophotes::culling::tone_faces;
 use crate::lines::isophotes::isophote_lines;
 use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorderRanges};
 use crate::lines::paint_borders::{paint_lines, tone_edges};
 use crate::lines::{FeatureLines, LineKind, Lit, Source, Surface, Textures, visible_faces_of};
+use crate::mesh::bvh::ToneTree;
 use crate::mesh::{EdgeSet, FaceId, Mesh, PaintId, PartId};
 use crate::pipeline::cache::shadow_cache::ShadowCache;
 use crate::pipeline::rest::chain_anchors::Anchors;
@@ -59,6 +62,10 @@ pub(crate) struct ToneInputs {
     edges: EdgeSet,
     /// Whether each part is closed, so that its inside is invisible.
     solid: Vec<bool>,
+    /// Number of views drawn.
+    views: AtomicU32,
+    /// Tree over the normals, built for the second view if it is wanted.
+    tree: OnceLock<ToneTree>,
 }
 
 impl ToneInputs {
@@ -66,7 +73,16 @@ impl ToneInputs {
     pub(crate) fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
         let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
-        Self { normals, edges, solid }
+        Self { normals, edges, solid, views: AtomicU32::default(), tree: OnceLock::new() }
+    }
+
+    /// The tree over the normals for one more view, if it is `wanted` and exists. The second view builds it;
+    /// others do not wait for it.
+    fn tree_for_next_view(&self, wanted: bool) -> Option<&ToneTree> {
+        if wanted && self.views.fetch_add(1, Ordering::Relaxed) == 1 {
+            let _ = self.tree.set(tone_faces::tree_of(&self.normals));
+        }
+        self.tree.get()
     }
 
     /// The data of a refined surface. Its parts are as closed as before.
@@ -90,6 +106,7 @@ pub(crate) struct SurfaceFills<'a> {
     paintable: &'a ToneInputs,
     view: &'a View,
     shading: Shading,
+    tone_tree: Option<&'a ToneTree>,
     shadows: Arc<Shadows>,
     ambient_visibility: Vec<f64>,
     /// Every set of lights that may be in shadow together, as bit masks.
@@ -138,6 +155,7 @@ impl<'a> SurfaceFills<'a> {
             surface,
             casting,
             paintable,
+            tone_tree: paintable.tree_for_next_view(style.lines.edge_tree),
             view,
             masks: masks(shading.casters().len() as u32),
             shading,
@@ -220,7 +238,7 @@ impl<'a> SurfaceFills<'a> {
         // Transparent faces cast no shadow and hide nothing behind them.
         let sees_through = !std::ptr::eq(self.casting, lit.mesh);
         let edges = first..lines.segments.len();
-        let traced = isophote_lines::find(&lit, &self.masks, sees_through, lines);
+        let traced = isophote_lines::find(&lit, &self.masks, sees_through, self.tone_tree, lines);
         let isophotes = edges.end..lines.segments.len();
         paint_lines::find(&lit, seams, lines);
         let first = lines.segments.len();

@@ -43,19 +43,30 @@ fn shared_shadows_equal_those_of_single_views() {
     }
 }
 
-/// The tree of `lines.edge_tree` is built by the second view.
+/// The trees of `lines.edge_tree` are built by the second view. They apply to contours in the first style, to tones
+/// in the others. With two lights, with highlights and with many levels the tree of tones is not used.
 #[test]
-fn views_with_an_edge_tree_equal_those_without() {
-    let bear = model("bear.ply");
-    let style = |tree: bool| {
-        let sets = ["lines.contours=mesh".to_owned(), format!("lines.edge_tree={tree}")];
-        Style::load_with("ink", &sets).expect("a style")
-    };
-    let [plain, with_tree] = [false, true].map(style);
-    let [plain, with_tree] = [&plain, &with_tree].map(|style| Renderer::new(&bear, style));
-    for turn in [0.0, 130.0, 250.0] {
-        let camera = view(&bear, turn);
-        assert!(draw(&plain, &camera) == draw(&with_tree, &camera), "{turn}");
+fn views_with_trees_equal_those_without() {
+    let two_lights = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1] }, \
+                      { kind = \"directional\", direction = [-1, 0, 1] }]";
+    for (name, style, set) in [
+        ("bear.ply", "ink", "light.wrap=0"),
+        ("bear.ply", "toon", "light.wrap=0.3"),
+        ("bear.ply", "pencil", "fills.cast_shadows=true"),
+        ("castle.obj", "comic", "fills.cast_shadows=true"),
+        ("bear.ply", "toon", two_lights),
+        ("bear.ply", "gradient", "light.wrap=0"),
+    ] {
+        let scene = model(name);
+        let [plain, with_tree] = [false, true].map(|tree| {
+            let sets = ["lines.contours=mesh", set, &format!("lines.edge_tree={tree}")].map(str::to_owned);
+            Style::load_with(style, &sets).expect("a style")
+        });
+        let [plain, with_tree] = [&plain, &with_tree].map(|style| Renderer::new(&scene, style));
+        for turn in [0.0, 130.0] {
+            let camera = view(&scene, turn);
+            assert!(draw(&plain, &camera) == draw(&with_tree, &camera), "{name} {style} {turn}");
+        }
     }
 }
 
