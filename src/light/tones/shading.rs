@@ -1,5 +1,7 @@
 //! [`Shading`]: the lighting of a view, and the tones of its surface.
 
+use glam::DVec3;
+
 use super::material_tones::{ToneChannel, ToneSurface, Tones};
 use super::tone_options::{ToneOptions, ToneScale};
 use crate::colour::srgb::Colour;
@@ -9,7 +11,6 @@ use crate::light::{LightSlope, ShadeOptions};
 use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, MaterialPaint, Scene};
 use crate::view::Frame;
-use glam::DVec3;
 
 /// Lighting of a view, and the tones of its surface.
 ///
@@ -183,8 +184,8 @@ impl Shading {
         self.lighting.slope()
     }
 
-    /// Direction to the light, and the cosines between it and the normal at which a paint may change its tone,
-    /// rising. `None` unless there is one parallel light and nothing but the normal matters.
+    /// Direction to the light, and the cosines of the angles to it where a paint may change its tone, rising.
+    /// `None` unless there is one parallel light and nothing but the normal matters.
     #[must_use]
     pub(crate) fn border_cosines(&self) -> Option<(DVec3, Vec<f64>)> {
         if (0..self.channels.len()).any(|channel| self.is_local(channel)) {

@@ -20,8 +20,8 @@ pub(crate) fn tree_of(normals: &ShadingNormals) -> ToneTree {
 
 /// Numbers of the faces that may hold a tone border, ascending.
 ///
-/// `None` if the light does not depend on the normal alone, or if there are so many levels that most faces
-/// hold one.
+/// `None` if the light does not depend on the normal alone, or if there are more levels than
+/// [`MAX_SEPARATE_LEVELS`]: then most faces hold one.
 #[must_use]
 pub(crate) fn faces_with_borders(shading: &Shading, tree: &ToneTree) -> Option<Vec<u32>> {
     let (towards, cosines) = shading.border_cosines()?;
