@@ -79,7 +79,8 @@ pub(crate) struct LineOptions {
     /// true.
     pub joints: bool,
     /// Search mesh contours and tone borders with trees in dual space from the second view on. The lines are
-    /// the same; the trees save their cost after about a hundred views of one model. Default: false.
+    /// the same. The tree of contours saves its cost after about a hundred views of one model, that of tones
+    /// none that could be measured. Default: false.
     pub edge_tree: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,
