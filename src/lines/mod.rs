@@ -44,6 +44,7 @@ pub(crate) use zero_sets::interior::InsideOptions;
 use crate::parallel::prelude::*;
 
 use crate::light;
+use crate::mesh::bvh::ToneTree;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::surface::{MeshSource, Patches};
 use crate::view::View;
@@ -64,6 +65,8 @@ pub(crate) struct SharedSearches<'a> {
     pub search: Option<&'a EdgeSearch>,
     /// All curves where the surface passes through itself: [`intersections::intersection_lines::all_curves`].
     pub intersections: Option<&'a IntersectionCurves>,
+    /// Tree over the shading normals, for tone borders.
+    pub tone_tree: Option<&'a ToneTree>,
 }
 
 /// All feature lines of a view, of the kinds in the options.

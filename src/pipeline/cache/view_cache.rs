@@ -1,6 +1,6 @@
 //! [`ViewCache`]: results that all views of a surface share, built when they pay off.
 //!
-//! Trees in dual space (see [`EdgeSearch`]) take time to build and save a little in each later view, so they
+//! Trees in dual space (see [`EdgeSearch`] and [`ToneTree`]) take time to build and save a little in each later view, so they
 //! are built on request only ([`LineOptions::edge_tree`]).
 //!
 //! Self-intersections of the surface do not depend on the view, so the first view finds them for all. For
@@ -9,8 +9,11 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
+use crate::light::ShadingNormals;
 use crate::lines::intersections::intersection_lines;
+use crate::lines::isophotes::culling::tone_faces;
 use crate::lines::{EdgeSearch, HiddenLines, LineKind, LineOptions, RefinedSurface, SharedSearches, Surface};
+use crate::mesh::bvh::ToneTree;
 use crate::mesh::intersect::cache::intersection_cache::IntersectionCache;
 use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
@@ -21,6 +24,7 @@ use crate::visibility::ViewOcclusionBuffer;
 pub(crate) struct ViewCache {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
+    tone_tree: OnceLock<ToneTree>,
     /// Whether a view has found the intersections, or is about to.
     is_found: AtomicBool,
     intersections: OnceLock<IntersectionCurves>,
@@ -35,22 +39,29 @@ impl ViewCache {
     /// Views may be drawn in parallel. One thread builds a missing result while others go without, so none
     /// waits.
     ///
-    /// With `finds`, this view finds all intersections if no earlier one has.
+    /// `normals` are the shading normals, if the surface has tones. With `finds`, this view finds all
+    /// intersections if no earlier one has.
     pub(crate) fn share_with_next_view(
         &self,
         surface: &Surface,
         options: &LineOptions,
+        normals: Option<&ShadingNormals>,
         finds: bool,
     ) -> SharedSearches<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
         if view == 1 && options.edge_tree {
             let _ = self.search.set(EdgeSearch::new(surface));
+            let _ = normals.map(|normals| self.tone_tree.set(tone_faces::tree_of(normals)));
         }
         if finds && is_wanted(surface, options) && !self.is_found.swap(true, Ordering::Relaxed) {
             let _ = self.intersections.set(intersection_lines::all_curves(&surface.mesh));
         }
-        SharedSearches { search: self.search.get(), intersections: self.intersections.get() }
+        SharedSearches {
+            search: self.search.get(),
+            intersections: self.intersections.get(),
+            tone_tree: self.tone_tree.get(),
+        }
     }
 
     /// Intersections of the visible surface for one more view, with the view's covers.

@@ -1,7 +1,6 @@
 //! Fills: light on the surface, tone borders and paint of a view.
 
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use kurbo::{BezPath, Vec2};
@@ -11,7 +10,6 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, Page, Provenance};
 use crate::light::ambient_visibility;
 use crate::light::{Shading, ShadingNormals};
-use crate::lines::isophotes::culling::tone_faces;
 use crate::lines::isophotes::isophote_lines;
 use crate::lines::isophotes::tone_changes::{self, ShadowEffects, ToneBorderRanges};
 use crate::lines::paint_borders::{paint_lines, tone_edges};
@@ -62,10 +60,6 @@ pub(crate) struct ToneInputs {
     edges: EdgeSet,
     /// Whether each part is closed, so that its inside is invisible.
     solid: Vec<bool>,
-    /// Number of views drawn.
-    views: AtomicU32,
-    /// Tree over the normals, built for the second view if it is wanted.
-    tree: OnceLock<ToneTree>,
 }
 
 impl ToneInputs {
@@ -73,16 +67,12 @@ impl ToneInputs {
     pub(crate) fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
         let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
-        Self { normals, edges, solid, views: AtomicU32::default(), tree: OnceLock::new() }
+        Self { normals, edges, solid }
     }
 
-    /// The tree over the normals for one more view, if it is `wanted` and exists. The second view builds it;
-    /// others do not wait for it.
-    fn tree_for_next_view(&self, wanted: bool) -> Option<&ToneTree> {
-        if wanted && self.views.fetch_add(1, Ordering::Relaxed) == 1 {
-            let _ = self.tree.set(tone_faces::tree_of(&self.normals));
-        }
-        self.tree.get()
+    /// The shading normals.
+    pub(crate) fn normals(&self) -> &ShadingNormals {
+        &self.normals
     }
 
     /// The data of a refined surface. Its parts are as closed as before.
@@ -155,7 +145,7 @@ impl<'a> SurfaceFills<'a> {
             surface,
             casting,
             paintable,
-            tone_tree: paintable.tree_for_next_view(style.lines.edge_tree),
+            tone_tree: None,
             view,
             masks: masks(shading.casters().len() as u32),
             shading,
@@ -168,6 +158,11 @@ impl<'a> SurfaceFills<'a> {
             materials: scene.materials.iter().map(|material| Arc::from(material.name.as_str())).collect(),
             rest_pose: None,
         }
+    }
+
+    /// Finds tone borders with a tree over the shading normals.
+    pub(crate) fn with_tone_tree(self, tone_tree: Option<&'a ToneTree>) -> Self {
+        Self { tone_tree, ..self }
     }
 
     /// Fixes patterns and strokes through the model to its rest pose.

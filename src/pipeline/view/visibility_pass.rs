@@ -4,7 +4,7 @@ use crate::drawing::{Length, Unit};
 use crate::error::Error;
 use crate::lines::{self, FeatureLines, SharedSearches, Surface, Textures};
 use crate::pipeline::fills::glass_pass::{self, BehindGlass};
-use crate::pipeline::fills::surface_fills::{SurfaceColours, SurfaceFills};
+use crate::pipeline::fills::surface_fills::{SurfaceColours, SurfaceFills, ToneInputs};
 use crate::pipeline::fills::surface_requirements;
 use crate::pipeline::lines::part_joints;
 use crate::pipeline::prepare::prepared_scene::Renderer;
@@ -85,7 +85,8 @@ impl Renderer<'_> {
         let mut known = if surface.refined {
             SharedSearches { intersections: finer.as_ref(), ..SharedSearches::default() }
         } else {
-            self.search.share_with_next_view(surface, sought, in_sight.is_none())
+            let normals = paintable.map(ToneInputs::normals);
+            self.search.share_with_next_view(surface, sought, normals, in_sight.is_none())
         };
         known.intersections = known.intersections.or(in_sight.as_ref());
         let mut lines = lines::extract_with(surface, known, &view, sought);
@@ -119,7 +120,8 @@ impl Renderer<'_> {
                 colours,
                 style,
                 &mut warnings,
-            );
+            )
+            .with_tone_tree(known.tone_tree);
             let moved = self.anchors.as_ref().filter(|_| surface_requirements::has_model_fixed_marks(style));
             moved.into_iter().fold(fills, SurfaceFills::laid_at)
         });

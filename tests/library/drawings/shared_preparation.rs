@@ -1,4 +1,4 @@
-//! A `Renderer` scene draws the same for several views, for one view, and when it consumes the scene.
+//! A `Renderer` draws the same for several views, for one view, and when it consumes the scene.
 
 use std::borrow::Cow;
 
@@ -70,8 +70,8 @@ fn views_with_trees_equal_those_without() {
     }
 }
 
-/// `Prepared::of_scene` consumes its scene and must draw the same as `Prepared::for_camera`, for styles that
-/// use parts, materials and textures.
+/// A `Renderer` that consumes its scene draws the same as one that borrows it, for styles that use parts,
+/// materials and textures.
 #[test]
 fn consumed_scenes_give_the_same_drawing_as_kept_ones() {
     for (name, style, sets) in [
