@@ -65,3 +65,6 @@ pub(crate) const SLIVER_ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 /// Factor for the comparison of areas. The rounding of sums of `f64` depends on the order of faces, and
 /// equal areas must compare as equal.
 pub(crate) const AREA_ROUNDING_FACTOR: f64 = 1.0 - 1e-9;
+
+/// Minimum cosine of a flat edge: 0.1 degrees.
+pub(crate) const MIN_FLAT_COSINE: f32 = 0.999_998_5;

@@ -9,7 +9,7 @@
 
 use super::edge_lines::EdgeClassifier;
 use crate::lines::{FeatureSegment, LineKind};
-use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark, runs_up};
+use crate::mesh::normals::dihedral::{distinct_faces, is_unfolded_diagonal, mark, runs_up};
 use crate::mesh::{Dihedral, FaceId, MaterialId};
 
 impl EdgeClassifier<'_> {
@@ -30,17 +30,20 @@ impl EdgeClassifier<'_> {
             _ => {}
         }
         real.sort_by_key(|face| mesh.body(*face));
-        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| match *own {
-            [face] => self.classify_single(edge, face),
-            [first, second] => {
-                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
-                let dihedral = Dihedral::of(mesh, [first, second], same_way);
-                let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
-                let crease =
-                    self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
-                self.classify_flat_pair(edge, [first, second], same_way, crease)
+        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| {
+            match *distinct_faces(mesh, edge, own) {
+                [face] => self.classify_single(edge, face),
+                [first, second] => {
+                    let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                    let dihedral = Dihedral::of(mesh, [first, second], same_way);
+                    let is_diagonal =
+                        is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
+                    let crease =
+                        self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
+                    self.classify_flat_pair(edge, [first, second], same_way, crease)
+                }
+                ref own => self.classify_own_fan(edge, own),
             }
-            _ => self.classify_own_fan(edge, own),
         });
         let extent = |line: &FeatureSegment| mesh.extents.part(line.part);
         lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))

@@ -26,7 +26,7 @@ pub(crate) struct Dihedral {
 }
 
 impl Dihedral {
-    /// The two faces at an edge. `None` at borders, where three or more faces with area meet, and at the long
+    /// The two faces at an edge. `None` at borders, where three or more different faces with area meet, and at the long
     /// edge of a needle, which shorter edges represent.
     #[inline]
     #[must_use]
@@ -40,10 +40,9 @@ impl Dihedral {
             }
             EdgeFaces::One(_) => None,
             EdgeFaces::Many(faces) => {
-                let mut real = faces.iter().copied().filter(|f| !mesh.is_degenerate(FaceId(*f)));
-                let (first, second, third) = (real.next()?, real.next()?, real.next());
+                let [first, second] = *distinct_faces(mesh, edge, faces) else { return None };
                 let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
-                third.is_none().then(|| Self::of(mesh, [first, second], same_way))
+                Some(Self::of(mesh, [first, second], same_way))
             }
         }
     }
@@ -119,6 +118,28 @@ impl Dihedral {
         let [a, b] = self.faces.map(|f| DVec3::from(mesh.face_normals[f as usize].map(f64::from)));
         [a, if self.same_way { -b } else { b }]
     }
+}
+
+/// Cosine (0.1 degrees) above which two faces at an edge lie in one half plane.
+const MIN_SAME_COSINE: f64 = 0.999_998_5;
+
+/// The faces with area at an edge, without those that lie in one half plane with an earlier one: of a doubled
+/// surface, one layer.
+pub(crate) fn distinct_faces(mesh: &Mesh, edge: usize, faces: &[u32]) -> Vec<u32> {
+    let ends = mesh.edges.vertices[edge];
+    let [from, to] = mesh.ends(edge);
+    let away = |face: u32| {
+        let apex = mesh.apex(face, ends).map_or(from, |apex| mesh.positions[apex as usize]);
+        (apex - from).reject_from(to - from).normalize_or_zero()
+    };
+    let mut distinct: Vec<(u32, DVec3)> = Vec::new();
+    for face in faces.iter().copied().filter(|face| !mesh.is_degenerate(FaceId(*face))) {
+        let own = away(face);
+        if !distinct.iter().any(|(_, other)| other.dot(own) > MIN_SAME_COSINE) {
+            distinct.push((face, own));
+        }
+    }
+    distinct.into_iter().map(|(face, _)| face).collect()
 }
 
 /// Angle with a cosine, degrees.

@@ -13,9 +13,8 @@ use crate::geometry::lists::group_sums::sums;
 use crate::mesh::EdgeSet;
 use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
+use crate::surface::tolerances::MIN_FLAT_COSINE;
 
-/// Minimum cosine of a flat edge: 0.1 degrees.
-const MIN_FLAT_COSINE: f32 = 0.999_998_5;
 /// Minimum number of faces of a planar region. Fewer may be coplanar at random: two halves of a quad, or
 /// three faces at a cut corner.
 const MIN_REGION_FACES: u32 = 4;

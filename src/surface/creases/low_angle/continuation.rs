@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::surface_trace::{BentEdge, SurfaceTracer, TraceCrossing};
 use crate::geometry::numbers::portable_math::cos;
+use crate::mesh::Dihedral;
 use crate::mesh::edges::triangle_sides::sides;
-use crate::mesh::{EdgeFaces, FaceId};
 
 /// Minimum turn, as a share of the first turn, for the surface to bend again.
 const MIN_TURN_RATIO: f64 = 0.35;
@@ -135,7 +135,7 @@ impl SurfaceTracer<'_> {
             at += 1;
             for [a, b] in sides(self.mesh.triangles[face as usize]) {
                 let Some(edge) = self.edges.between(a, b) else { continue };
-                match self.mesh.edges.faces(edge).across(face).filter(|_| self.flat.contains(edge)) {
+                match self.beyond(edge, face).filter(|_| self.is_flat(edge)) {
                     Some(neighbour) if facet_faces.contains(&neighbour) => {}
                     Some(_) if facet_faces.len() == MAX_FACET_FACES => return None,
                     Some(unvisited) => facet_faces.push(unvisited),
@@ -211,14 +211,13 @@ impl SurfaceTracer<'_> {
         let bend_cosine = cos(MIN_TURN_RATIO * bend.turn) as f32;
         for crossing in self.crossings(bend.edge, face) {
             let TraceCrossing { edge, before, reach } = crossing?;
-            let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else {
+            let Some(Dihedral { faces, same_way, cosine }) = self.turns.dihedral(self.mesh, edge) else {
                 return Some((Continuation::Ends(reach), None));
             };
-            let face_across = faces[usize::from(faces[0] == before)];
-            if self.mesh.is_degenerate(FaceId(face_across)) {
+            // Faces without area lie between these two.
+            if faces.iter().any(|face| self.mesh.apex(*face, self.mesh.edges.vertices[edge]).is_none()) {
                 return None;
             }
-            let cosine = self.turns.of_two(edge);
             if self.hard.is_hard(edge) || cosine < self.crease_cosine {
                 return Some((Continuation::Ends(reach), Some((edge, before))));
             }

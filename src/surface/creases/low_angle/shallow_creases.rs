@@ -72,7 +72,7 @@ pub(crate) fn shallow_edges(
         _ => true,
     };
     let is_asked = |edge: &usize| {
-        let cosine = turns.of_two(*edge);
+        let cosine = turns.at(mesh, *edge);
         cosine < least && cosine >= most && !hard.is_hard(*edge) && is_unmarked(*edge) && may(*edge)
     };
     (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS).filter(is_asked).collect()

@@ -10,8 +10,10 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::EdgeSet;
-use crate::mesh::{DihedralCosines, EdgeFaces, FaceId, Mesh, VertexEdges};
+use crate::mesh::normals::dihedral::distinct_faces;
+use crate::mesh::{Dihedral, DihedralCosines, EdgeFaces, Mesh, VertexEdges};
 use crate::surface::HardEdges;
+use crate::surface::tolerances::MIN_FLAT_COSINE;
 
 /// Maximum number of faces that a trace crosses. After these, the surface is treated as ended.
 const MAX_CROSSED_FACES: usize = 64;
@@ -54,11 +56,12 @@ impl<'a> SurfaceTracer<'a> {
     /// An edge and its two faces. `None` at borders, between inconsistently wound faces, and at faces without
     /// area.
     pub(crate) fn bend(&self, edge: usize) -> Option<(BentEdge, [u32; 2])> {
-        let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
-        if same_way || faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) {
+        let Dihedral { faces, same_way, cosine } = self.turns.dihedral(self.mesh, edge)?;
+        let ends = self.mesh.edges.vertices[edge];
+        if same_way || faces.iter().any(|face| self.mesh.apex(*face, ends).is_none()) {
             return None;
         }
-        let turn = acos(f64::from(self.turns.of_two(edge)));
+        let turn = acos(f64::from(cosine));
         Some((BentEdge { edge, convex: self.is_convex(edge)?, turn }, faces))
     }
 
@@ -72,10 +75,30 @@ impl<'a> SurfaceTracer<'a> {
             .take(MAX_CROSSED_FACES)
     }
 
+    /// The face behind one face at an edge. Of a doubled surface, the one in another half plane.
+    pub(crate) fn beyond(&self, edge: usize, face: u32) -> Option<u32> {
+        match self.mesh.edges.faces(edge) {
+            EdgeFaces::One(_) => None,
+            EdgeFaces::Two { faces, .. } => Some(faces[usize::from(faces[0] == face)]),
+            EdgeFaces::Many(faces) => match *distinct_faces(self.mesh, edge, &[&[face], faces].concat()) {
+                [_, other] => Some(other),
+                _ => None,
+            },
+        }
+    }
+
+    /// Whether the surface is flat at an edge.
+    pub(crate) fn is_flat(&self, edge: usize) -> bool {
+        let is_doubled = || matches!(self.mesh.edges.faces(edge), EdgeFaces::Many(_));
+        self.flat.contains(edge) || (is_doubled() && self.turns.at(self.mesh, edge) > MIN_FLAT_COSINE)
+    }
+
     /// Whether an edge is convex, seen from the front of its faces.
     pub(crate) fn is_convex(&self, edge: usize) -> Option<bool> {
         let mesh = self.mesh;
-        let EdgeFaces::Two { faces: [a, b], same_way: false } = mesh.edges.faces(edge) else { return None };
+        let Dihedral { faces: [a, b], same_way: false, .. } = self.turns.dihedral(mesh, edge)? else {
+            return None;
+        };
         let ends = mesh.edges.vertices[edge];
         let apex = mesh.apex(b, ends)?;
         let normal = Vec3::from_array(mesh.face_normals[a as usize]).as_dvec3();
@@ -117,9 +140,7 @@ impl TraceCrossings<'_> {
         let [s, t] = entry.map(along);
         let reach = p.lerp(q, (s / (s - t)).clamp(0.0, 1.0)).distance(self.middle);
         self.entry = entry;
-        if let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) {
-            self.face = Some(faces[usize::from(faces[0] == face)]);
-        }
+        self.face = self.walk.beyond(edge, face);
         Some(TraceCrossing { edge, before: face, reach })
     }
 }
