@@ -73,6 +73,83 @@ pub fn diagonal(mesh: &mesh::Mesh) -> f64 {
     mesh.extents.diagonal
 }
 
+/// Flags of [`SurfaceDecisions::edges`] and [`SurfaceDecisions::faces`].
+pub mod decision_flags {
+    /// Edge: crease.
+    pub const HARD: u32 = 1;
+    /// Edge: centre of a narrow fillet.
+    pub const FILLET_CENTRE: u32 = 2;
+    /// Edge: border of a surface that is no crease.
+    pub const BORDER: u32 = 8;
+    /// Edge: has two faces.
+    pub const TWO_FACES: u32 = 16;
+    /// Edge: drawn as a crease.
+    pub const DRAWN: u32 = 32;
+    /// Face: part of a curved surface.
+    pub const ROUNDED: u32 = 1;
+    /// Face: part of a figure or scan.
+    pub const FIGURE: u32 = 2;
+    /// Face: the normals of the file describe the shape.
+    pub const TRUSTED: u32 = 4;
+    /// Face: constructed, not scanned or modelled.
+    pub const CONSTRUCTED: u32 = 8;
+}
+
+/// What is decided of each edge and face of a model.
+#[derive(Debug, Clone, Default)]
+pub struct SurfaceDecisions {
+    /// Position of each vertex, world space.
+    pub positions: Vec<[f64; 3]>,
+    /// Two vertices and [`decision_flags`] of each edge.
+    pub edges: Vec<[u32; 3]>,
+    /// Three vertices and [`decision_flags`] of each face.
+    pub faces: Vec<[u32; 4]>,
+}
+
+/// What is decided of each edge and face of a model with the default crease angle, by evidence or as by default
+/// (see `lines.surfaces`).
+#[must_use]
+pub fn surface_decisions(scene: &crate::scene::Scene, by_evidence: bool) -> SurfaceDecisions {
+    use crate::mesh::EdgeFaces;
+    use crate::surface::evidence::evidence_layout::patches_by_evidence;
+    use crate::surface::{MeshSource, Patches};
+    use decision_flags::{
+        BORDER, CONSTRUCTED, DRAWN, FIGURE, FILLET_CENTRE, HARD, ROUNDED, TRUSTED, TWO_FACES,
+    };
+    let mesh = mesh::Mesh::build(scene.to_soup());
+    let crease_deg = crate::lines::LineOptions::default().crease_deg;
+    let patches = if by_evidence {
+        patches_by_evidence(&mesh, crease_deg)
+    } else {
+        Patches::new(&mesh, crease_deg, false)
+    };
+    let flag = |is: bool, flag: u32| if is { flag } else { 0 };
+    let edge = |edge: usize| {
+        let [a, b] = mesh.edges.vertices[edge];
+        let (hard, centre) = (patches.hard.is_hard(edge), patches.fillet_centres.contains(edge));
+        let flags = flag(hard, HARD)
+            | flag(centre, FILLET_CENTRE)
+            | flag(patches.rims.contains(edge), BORDER)
+            | flag(matches!(mesh.edges.faces(edge), EdgeFaces::Two { .. }), TWO_FACES)
+            | flag(hard || centre, DRAWN);
+        [a, b, flags]
+    };
+    let face = |face: usize| {
+        let [a, b, c] = mesh.triangles[face];
+        let is_constructed = patches.origins.get(face).is_none_or(|o| *o == MeshSource::Constructed);
+        let flags = flag(patches.rounded[face], ROUNDED)
+            | flag(patches.figure[face], FIGURE)
+            | flag(patches.trusts_file_normals[face], TRUSTED)
+            | flag(is_constructed, CONSTRUCTED);
+        [a, b, c, flags]
+    };
+    SurfaceDecisions {
+        positions: mesh.positions.iter().map(|p| (*p + mesh.origin).to_array()).collect(),
+        edges: (0..mesh.edges.len()).map(edge).collect(),
+        faces: (0..mesh.triangles.len()).map(face).collect(),
+    }
+}
+
 /// Number of hatching strokes of a view.
 #[must_use]
 pub fn hatch_strokes(renderer: &crate::pipeline::Renderer, camera: &crate::scene::Camera) -> usize {

@@ -18,7 +18,7 @@ mod tests;
 pub(crate) mod tolerances;
 
 pub use ambient_occlusion::ambient_visibility;
-pub(crate) use contour_field::contour_refinement::cuts_near_contours;
+pub(crate) use contour_field::contour_refinement::{cuts_along_rims, cuts_near_contours};
 pub(crate) use contour_field::facing_field::facing;
 pub(crate) use contour_field::field_smoothing::smooth_near_zero;
 pub(crate) use contour_field::level_set_cut::{SurfaceCut, cut};

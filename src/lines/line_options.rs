@@ -33,6 +33,29 @@ pub(crate) enum Contours {
     Mesh,
 }
 
+/// How creases and curved surfaces are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Surfaces {
+    /// By statistics of each connected component.
+    #[default]
+    Statistics,
+    /// By the normals of the file, edge by edge and patch by patch; without normals by the turns around an edge
+    /// and the shape of a patch.
+    Evidence,
+}
+
+/// Whether circles of coarse meshes are drawn round, where surfaces are found by evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum RoundRims {
+    /// Rims that turn evenly, between curved surfaces or a curved and a flat one, are drawn as curves.
+    #[default]
+    Auto,
+    /// Rims are drawn along the edges of the mesh.
+    Off,
+}
+
 /// Source of a surface's normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -60,6 +83,10 @@ pub(crate) struct LineOptions {
     pub contours: Contours,
     /// Source of the normals for light and rounded surfaces. Default: auto.
     pub normals: Normals,
+    /// How creases and curved surfaces are found. Default: statistics.
+    pub surfaces: Surfaces,
+    /// Draw rims of curved surfaces as curves, where surfaces are found by evidence. Default: auto.
+    pub round_rims: RoundRims,
     /// Smallest turn of a crease, degrees. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
@@ -103,6 +130,8 @@ impl Default for LineOptions {
             ],
             contours: Contours::Auto,
             normals: Normals::Auto,
+            surfaces: Surfaces::Statistics,
+            round_rims: RoundRims::Auto,
             crease_deg: 40.0,
             artist_tolerance: 0.05,
             artist_texture: ArtistTextures::default(),

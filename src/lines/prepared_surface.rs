@@ -3,16 +3,17 @@
 use std::borrow::Cow;
 
 use super::LineOptions;
-use super::line_options::{Contours, Normals};
+use super::line_options::{Contours, Normals, RoundRims, Surfaces};
 use crate::light;
 use crate::mesh::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::scene::Camera;
 use crate::surface::creases::pose_creases::pose_creases;
+use crate::surface::evidence::evidence_layout::patches_by_evidence;
 use crate::surface::normals::file_normals::file_cosines;
 use crate::surface::patches::patch_layout;
 use crate::surface::refine::mesh_splice::{MeshCuts, RefinedMesh, splice};
-use crate::surface::{HardEdges, MeshSource, Patches, SmoothNormals};
+use crate::surface::{EvenRuns, HardEdges, MeshSource, Patches, SmoothNormals};
 use crate::view::Frame;
 
 /// Cosine of the largest angle (20 degrees) between the file's normals at an edge that the file shades
@@ -32,6 +33,8 @@ pub struct Surface {
     pub(crate) fillet_centres: EdgeSet,
     /// Normals of rounded parts, which have smooth contours; none with [`Contours::Mesh`].
     pub(crate) smooth: SmoothNormals,
+    /// Lines that become curves because they turn evenly; none if rims are not rounded, or after subdivision.
+    pub(crate) even_runs: Option<EvenRuns>,
     /// Origin of the surface, one per face.
     pub(crate) origins: Vec<MeshSource>,
     /// Connected component of each face; empty if there is only one, or if not computed.
@@ -60,12 +63,20 @@ impl Surface {
             let (hard, origins, pieces) = patch_layout::classify_faces(&mesh, options.crease_deg);
             return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
-        let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
+        let by_evidence = options.surfaces == Surfaces::Evidence && options.contours == Contours::Auto;
+        let patches = if by_evidence {
+            patches_by_evidence(&mesh, options.crease_deg)
+        } else {
+            Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth)
+        };
         if options.normals == Normals::Auto {
             mesh.remove_normals(|face| !patches.trusts_file_normals[face as usize]);
         }
         let smooth = normals(&mesh, &patches, &[]);
+        let rounds_rims = by_evidence && options.round_rims == RoundRims::Auto;
+        let even_runs = rounds_rims.then(|| EvenRuns::find(&mesh, &smooth));
         let surface = Self {
+            even_runs,
             mesh,
             hard: patches.hard.clone(),
             sliver_creases: patches.sliver_creases.clone(),
@@ -109,6 +120,7 @@ impl Surface {
         let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
         Self {
             hard: hard.clone().with(&mesh, &folds),
+            even_runs: self.even_runs.clone(),
             sliver_creases: self.sliver_creases.clone(),
             fillet_centres: self.fillet_centres.clone(),
             mesh,
@@ -123,37 +135,61 @@ impl Surface {
     /// The surface, subdivided where a coarse rounded part would show corners to the camera.
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
-        let Some(cuts) = self.cuts_for(camera) else {
-            self.fine_enough_camera = Some(*camera);
+        if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return self;
-        };
-        let sides = self.fillet_centre_sides();
-        let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
-        self.refined_with(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
+        }
+        let frame = Frame::new(camera, self.mesh.origin);
+        if let Some(cuts) = self.cuts_along_rims(&frame) {
+            self = self.cut(cuts).surface;
+        }
+        if let Some(cuts) = light::cuts_near_contours(&self.mesh, &self.smooth, &frame) {
+            let sides = self.fillet_centre_sides();
+            let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
+            self = self.refined_with(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface;
+        }
+        if !self.refined {
+            self.fine_enough_camera = Some(*camera);
+        }
+        self
     }
 
     /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
     /// needs it, or if it is subdivided already.
+    ///
+    /// Rims come first. Contours end on them.
     #[must_use]
     pub(crate) fn refined_for(&self, camera: &Camera) -> Option<RefinedSurface> {
-        let cuts = self.cuts_for(camera)?;
-        let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
-        Some(self.refined_with(finer, &self.fillet_centre_sides()))
-    }
-
-    fn cuts_for(&self, camera: &Camera) -> Option<MeshCuts> {
         if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return None;
         }
-        light::cuts_near_contours(&self.mesh, &self.smooth, &Frame::new(camera, self.mesh.origin))
+        let frame = Frame::new(camera, self.mesh.origin);
+        let rimmed = self.cuts_along_rims(&frame).map(|cuts| self.cut(cuts));
+        let surface = rimmed.as_ref().map_or(self, |rimmed| &rimmed.surface);
+        let finer =
+            light::cuts_near_contours(&surface.mesh, &surface.smooth, &frame).map(|cuts| surface.cut(cuts));
+        match (rimmed, finer) {
+            (Some(rimmed), Some(finer)) => Some(finer.after(&rimmed)),
+            (rimmed, finer) => finer.or(rimmed),
+        }
+    }
+
+    fn cuts_along_rims(&self, frame: &Frame) -> Option<MeshCuts> {
+        light::cuts_along_rims(&self.mesh, &self.smooth, self.even_runs.as_ref()?, frame)
+    }
+
+    /// The surface with cut faces.
+    fn cut(&self, cuts: MeshCuts) -> RefinedSurface {
+        let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
+        self.refined_with(finer, &self.fillet_centre_sides())
     }
 
     /// The surface of a subdivided mesh. `sides` are those of [`Self::fillet_centre_sides`].
     fn refined_with(&self, finer: RefinedMesh, sides: &[[u32; 2]]) -> RefinedSurface {
-        let RefinedMesh { mesh, smooth, hosts, kept_count: kept, edges } = finer;
+        let RefinedMesh { mesh, smooth, hosts, kept_count: kept, edges, edge_pieces } = finer;
         let surface = Self {
-            hard: self.hard.remapped(&edges, mesh.edges.len()),
-            sliver_creases: self.sliver_creases.remapped(&edges, mesh.edges.len()),
+            hard: self.hard.refined(&edges, &edge_pieces, mesh.edges.len()),
+            sliver_creases: self.sliver_creases.refined(&edges, &edge_pieces, mesh.edges.len()),
+            even_runs: None,
             fillet_centres: self
                 .fillet_centres
                 .remapped(&edges, mesh.edges.len())
@@ -211,6 +247,17 @@ pub(crate) struct RefinedSurface {
     pub kept_count: usize,
 }
 
+impl RefinedSurface {
+    /// The same after an earlier subdivision, whose faces it subdivides.
+    fn after(self, earlier: &Self) -> Self {
+        // Faces that both keep come first.
+        let kept_count =
+            self.hosts[..self.kept_count].partition_point(|face| (*face as usize) < earlier.kept_count);
+        let hosts = self.hosts.iter().map(|face| earlier.hosts[*face as usize]).collect();
+        Self { surface: self.surface, hosts, kept_count }
+    }
+}
+
 /// Normals of the rounded patches. Folds (edges, ascending) separate patches too.
 pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
     let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
@@ -224,6 +271,9 @@ fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
         return true;
     }
     let hard = patches.hard.is_hard(edge);
+    if patches.has_all_borders {
+        return hard;
+    }
     match file_normals_differ(mesh, edge) {
         None => hard,
         Some(differ) => differ || (hard && !patches.figure[mesh.edges.faces(edge).list()[0] as usize]),

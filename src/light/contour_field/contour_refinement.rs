@@ -10,7 +10,8 @@ use crate::light::tolerances;
 use crate::mesh::Mesh;
 use crate::surface::refine::mesh_splice::MeshCuts;
 use crate::surface::refine::subdivision;
-use crate::surface::{EdgeArc, SmoothNormals};
+use crate::surface::rims::rim_cuts::rim_cuts;
+use crate::surface::{EdgeArc, EvenRuns, SmoothNormals};
 use crate::view::Frame;
 
 /// Largest fall of the field between two ends of one sign, as a share of their turn. To vanish in between,
@@ -18,6 +19,23 @@ use crate::view::Frame;
 /// add a little.
 const MAX_FALL_PER_TURN: f64 = 0.55;
 const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F64_MARGIN_SHARE);
+
+/// Cuts of a mesh along its rims (lines between surfaces, and `even` runs), made until no edge is farther from
+/// its arc than [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough.
+#[must_use]
+pub(crate) fn cuts_along_rims(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    even: &EvenRuns,
+    frame: &Frame,
+) -> Option<MeshCuts> {
+    let px = frame.width.max(frame.height) / 1000.0;
+    let rise_limit = |at: DVec3| {
+        let depth = if frame.perspective { frame.depth(at) } else { 1.0 };
+        if depth > 0.0 { tolerances::MAX_ARC_ERROR_PX * px * depth / frame.scale } else { f64::INFINITY }
+    };
+    rim_cuts(mesh, smooth, even, rise_limit)
+}
 
 /// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
 /// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough.

@@ -66,6 +66,24 @@ impl EdgeSet {
         Self { words }
     }
 
+    /// The edges of both sets.
+    #[must_use]
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        match (self.words.is_empty(), other.words.is_empty()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => Self { words: self.words.iter().zip(&other.words).map(|(a, b)| a | b).collect() },
+        }
+    }
+
+    /// The set as edges of a finer mesh with `count` edges. `ids` maps the edges of this mesh to it, with
+    /// `u32::MAX` for edges that were cut; `pieces` lists cut edges, each with one of its pieces.
+    #[must_use]
+    pub(crate) fn refined(&self, ids: &[u32], pieces: &[(u32, usize)], count: usize) -> Self {
+        let own = pieces.iter().filter(|(edge, _)| self.contains(*edge as usize)).map(|(_, piece)| *piece);
+        self.remapped(ids, count).with(&own.collect::<Vec<_>>(), count)
+    }
+
     /// The set in a derived mesh with `count` edges. `ids` maps the edges of this mesh to it, `u32::MAX` for
     /// edges that are gone.
     #[must_use]

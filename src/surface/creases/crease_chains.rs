@@ -63,6 +63,17 @@ pub(crate) struct CreaseChain {
 
 /// All edges where the surface turns by more than `low_deg` degrees, in edge order.
 pub(crate) fn folds(mesh: &Mesh, turns: &DihedralCosines, low_deg: f64) -> Vec<CreaseCandidate> {
+    weighted_folds(mesh, turns, low_deg, |_| 1.0)
+}
+
+/// All edges where the turn of the surface times `weight` (at most 1) is more than `low_deg` degrees, in edge
+/// order. Their turns are the products.
+pub(crate) fn weighted_folds(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    low_deg: f64,
+    weight: impl Fn(usize) -> f32 + Sync,
+) -> Vec<CreaseCandidate> {
     const CHUNK: usize = 1 << 12;
     let low_cosine = cos(low_deg.to_radians()) as f32;
     let fold = |edge: usize| {
@@ -72,6 +83,7 @@ pub(crate) fn folds(mesh: &Mesh, turns: &DihedralCosines, low_deg: f64) -> Vec<C
         }
         let dihedral = turns.dihedral(mesh, edge);
         let turn = dihedral.map_or_else(|| turn_degrees(cosine), |dihedral| dihedral.sure_turn(mesh));
+        let turn = turn * weight(edge);
         (turn > low_deg as f32).then_some(CreaseCandidate { edge: edge as u32, turn })
     };
     let chunks = mesh.edges.len().div_ceil(CHUNK);

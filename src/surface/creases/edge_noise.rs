@@ -34,6 +34,8 @@ pub(crate) struct EdgeNoise<'a> {
 pub(crate) struct NoiseEstimate {
     /// Standard deviation of the turns, degrees; 0 where the surface is flat.
     pub deviation: f64,
+    /// Median turn, degrees.
+    pub median: f64,
     /// Median length of the edges, world units.
     pub edge_length: f64,
 }
@@ -72,6 +74,7 @@ impl<'a> EdgeNoise<'a> {
         let (median, quartile) = (turn(2), turn(4));
         NoiseEstimate {
             deviation: (DEVIATIONS_PER_MEDIAN * median * DEVIATIONS_PER_QUARTILE * quartile).sqrt(),
+            median,
             edge_length: quantile(&mut lengths, 2).map_or(0.0, f64::sqrt),
         }
     }

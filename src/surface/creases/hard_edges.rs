@@ -5,7 +5,8 @@
 //! 3. A chain is a crease if it stands out from the noise of the surface around it.
 //! 4. Edge marks of the file override the result.
 //!
-//! `find` follows all steps, for round components. `above` takes every edge over the threshold.
+//! `find` follows all steps, for round components. `find_weighted` adds single edges in calm places, where
+//! evidence decides. `above` takes every edge over the threshold.
 //! `above_with_extensions` also continues such creases and drops slivers, for machined components.
 //!
 //! Source: Canny, "A computational approach to edge detection", IEEE PAMI 8(6), 1986, section on thresholding
@@ -13,7 +14,8 @@
 
 use crate::parallel::prelude::*;
 
-use super::crease_chains::{CreaseCandidate, CreaseCandidates, CreaseChain, folds};
+use super::calm_edges::calm_edges;
+use super::crease_chains::{CreaseCandidate, CreaseCandidates, CreaseChain, folds, weighted_folds};
 use super::edge_noise::EdgeNoise;
 use super::sliver_creases::wrinkles;
 use crate::geometry::numbers::portable_math::cos;
@@ -72,16 +74,26 @@ impl HardEdges {
     ) -> Self {
         let mut folds = folds(mesh, turns, LOW_THRESHOLD_OF_HIGH * crease_deg);
         folds.retain(|fold| is_asked(mesh.edges.faces(fold.edge as usize).list()[0]));
-        let folds = CreaseCandidates::new(mesh, folds);
-        let chains = folds.chains(crease_deg);
-        let roughness = EdgeNoise::new(mesh, turns, crease_deg);
-        let kept: Vec<&CreaseChain> = chains
-            .par_iter()
-            .with_max_len(8)
-            .filter(|c| is_significant(mesh, c, crease_deg, &roughness))
-            .collect();
-        let edges: Vec<usize> = kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize)).collect();
+        let edges = significant_edges(mesh, turns, crease_deg, &CreaseCandidates::new(mesh, folds));
         Self::of_edges(mesh, &edges)
+    }
+
+    /// Creases as chains, and single edges in calm places, with a weight of at most 1 for the turn of each
+    /// edge.
+    pub(crate) fn find_weighted(
+        mesh: &Mesh,
+        turns: &DihedralCosines,
+        crease_deg: f64,
+        weight: impl Fn(usize) -> f32 + Sync,
+    ) -> Self {
+        let folds = weighted_folds(mesh, turns, LOW_THRESHOLD_OF_HIGH * crease_deg, weight);
+        let folds = CreaseCandidates::new(mesh, folds);
+        let edges = significant_edges(mesh, turns, crease_deg, &folds);
+        let found = EdgeSet::default().with(&edges, mesh.edges.len());
+        let is_open = |f: &&CreaseCandidate| f.turn > crease_deg as f32 && !found.contains(f.edge as usize);
+        let open: Vec<CreaseCandidate> = folds.folds.iter().filter(is_open).copied().collect();
+        let calm = calm_edges(mesh, turns, crease_deg, &open);
+        Self(found.with(&calm, mesh.edges.len())).with_marks(mesh)
     }
 
     /// Every edge that turns by more than `crease_deg` degrees, and those that the file marks.
@@ -131,17 +143,22 @@ impl HardEdges {
         Self::default()
     }
 
-    /// These edges as edges of a derived mesh with `count` edges. `ids` maps the edges of this mesh to it,
-    /// with `u32::MAX` for edges that are gone.
+    /// These edges as edges of a finer mesh; see [`EdgeSet::refined`].
     #[must_use]
-    pub(crate) fn remapped(&self, ids: &[u32], count: usize) -> Self {
-        Self(self.0.remapped(ids, count))
+    pub(crate) fn refined(&self, edges: &[u32], pieces: &[(u32, usize)], count: usize) -> Self {
+        Self(self.0.refined(edges, pieces, count))
     }
 
     /// The edges of a mesh that satisfy `is_hard`.
     #[must_use]
     pub(crate) fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
         Self(EdgeSet::collect(mesh.edges.len(), is_hard))
+    }
+
+    /// Adds a set of edges, except those that the file marks otherwise.
+    #[must_use]
+    pub(crate) fn with_set(self, mesh: &Mesh, more: &EdgeSet) -> Self {
+        Self(self.0.union(more)).with_marks(mesh)
     }
 
     /// Adds edges of the mesh.
@@ -190,6 +207,23 @@ impl HardEdges {
     pub(crate) fn count(&self) -> usize {
         self.0.iter().count()
     }
+}
+
+/// The edges of the chains that stand out from the noise around them.
+fn significant_edges(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    crease_deg: f64,
+    folds: &CreaseCandidates,
+) -> Vec<usize> {
+    let chains = folds.chains(crease_deg);
+    let roughness = EdgeNoise::new(mesh, turns, crease_deg);
+    let kept: Vec<&CreaseChain> = chains
+        .par_iter()
+        .with_max_len(8)
+        .filter(|c| is_significant(mesh, c, crease_deg, &roughness))
+        .collect();
+    kept.iter().flat_map(|c| c.folds.iter().map(|f| f.edge as usize)).collect()
 }
 
 /// Whether a chain is a feature rather than noise: n²·t/σ is at least [`MIN_CHAIN_EVIDENCE`].

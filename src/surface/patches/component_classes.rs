@@ -16,7 +16,7 @@ use super::component_stats::{
 use super::normal_validation::leans;
 use super::planar_regions::PlanarRegions;
 use super::sliver_bends::{SliverFace, bent_short_sides};
-use super::surface_class::{ComponentClass, ComponentClasses, MeshSource, SurfaceClass};
+use super::surface_class::{ComponentClass, ComponentClasses, FileShading, MeshSource, SurfaceClass};
 use crate::geometry::lists::group_sums::sums;
 use crate::mesh::{DihedralCosines, Mesh, VertexEdges};
 use crate::parallel::task_size::MIN_TASK_ITEMS;
@@ -125,7 +125,12 @@ impl ComponentStats {
             (SurfaceClass::Round, true) => MeshSource::Modelled,
             _ => MeshSource::Constructed,
         };
-        ComponentClass { make, origin, trusts_file_normals: believed }
+        let shading = match (faces.with_normals == faces.all, faceted) {
+            (true, true) => FileShading::Faceted,
+            (true, false) if !astray && !leans => FileShading::Curved,
+            _ => FileShading::None,
+        };
+        ComponentClass { make, origin, trusts_file_normals: believed, shading }
     }
 
     /// Whether the component stays round next to machined ones: it has almost no sharp edges, or many edges

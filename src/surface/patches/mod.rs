@@ -15,7 +15,7 @@
 mod component_classes;
 mod component_stats;
 mod curved_patches;
-mod normal_validation;
+pub(crate) mod normal_validation;
 pub(crate) mod patch_layout;
 pub(crate) mod planar_regions;
 mod sliver_bends;

@@ -22,11 +22,11 @@ use crate::surface::normals::file_normals::file_cosines;
 const ROUND_CREASE_FACTOR: f64 = 1.5;
 
 /// Cosine (10 degrees) below which the outline of a planar region separates it from its surroundings.
-const MAX_RIM_COSINE: f32 = 0.985;
+pub(crate) const MAX_RIM_COSINE: f32 = 0.985;
 /// Cosine (20 degrees) below which a strip is separated from a wider face, and the minimum ratio of their
 /// widths.
-const MAX_STRIP_COSINE: f32 = 0.94;
-const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;
+pub(crate) const MAX_STRIP_COSINE: f32 = 0.94;
+pub(crate) const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;
 
 /// Classification of the surfaces of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -51,6 +51,8 @@ pub(crate) struct Patches {
     pub pieces: Vec<u32>,
     /// Whether the normals of the file, if any, describe the shape of each face.
     pub trusts_file_normals: Vec<bool>,
+    /// Whether `hard` and `rims` are all borders of curved surfaces, so that the normals of the file add none.
+    pub has_all_borders: bool,
 }
 
 impl Patches {
@@ -101,6 +103,7 @@ impl Patches {
             origins,
             pieces,
             trusts_file_normals: believed,
+            has_all_borders: false,
         }
     }
 }
@@ -116,7 +119,7 @@ pub(crate) fn classify_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Me
 }
 
 /// Dihedral angles, planar regions, and the class of each component.
-fn classify(mesh: &Mesh, all: bool) -> (DihedralCosines, PlanarRegions, ComponentClasses) {
+pub(crate) fn classify(mesh: &Mesh, all: bool) -> (DihedralCosines, PlanarRegions, ComponentClasses) {
     let turned = || {
         let turns = DihedralCosines::of(mesh);
         let planes = PlanarRegions::new(mesh, &turns);
@@ -227,7 +230,7 @@ fn rims(mesh: &Mesh, turns: &DihedralCosines, planes: &PlanarRegions, makes: &[S
 }
 
 /// Width of a face, measured from one of its edges.
-fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
+pub(crate) fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
     let [a, b] = mesh.ends(edge);
     2.0 * mesh.area(FaceId(face)) / a.distance(b).max(f64::MIN_POSITIVE)
 }

@@ -31,12 +31,25 @@ pub(crate) enum MeshSource {
     Scanned,
 }
 
+/// Shape of a component by the normals of its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum FileShading {
+    /// Nothing: there are none, or they do not fit.
+    #[default]
+    None,
+    /// It consists of flat faces.
+    Faceted,
+    /// It has curved faces.
+    Curved,
+}
+
 /// Class of a component, with the reliability of its normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct ComponentClass {
     pub make: SurfaceClass,
     pub origin: MeshSource,
     pub trusts_file_normals: bool,
+    pub shading: FileShading,
 }
 
 /// Classes of the components of a mesh, and the component of each face.

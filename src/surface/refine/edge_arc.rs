@@ -12,9 +12,9 @@ use glam::DVec3;
 use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 
-/// Maximum sine of the angle between the arc and its edge. It limits the rise to 15 % of the edge length.
-/// Arcs over a hexagon need 13.4 %; steeper normals do not fit any surface through the ends.
-const MAX_TANGENT_SINE: f64 = 0.55;
+/// Maximum sine of the angle between the arc and its edge. Arcs over a hexagon need 0.5; steeper normals do not
+/// fit any surface through the ends.
+pub(crate) const MAX_TANGENT_SINE: f64 = 0.55;
 
 /// Cubic Bézier curve over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,11 +38,34 @@ impl EdgeArc {
             let rise = rise.abs().min(MAX_TANGENT_SINE);
             along * (1.0 - rise * rise).sqrt() + across * rise
         });
-        let turn = tangents[0].dot(tangents[1]).clamp(-1.0, 1.0);
-        let half = ((1.0 + turn) / 2.0).sqrt();
-        let reach = length * 2.0 / (3.0 * (1.0 + half));
-        let handles = [tangents[0] * reach, -tangents[1] * reach];
-        Self { ends, normals, handles }
+        Self { ends, normals, handles: handles(length, tangents) }
+    }
+
+    /// The arc between two points with unit tangents, both in the direction from the first to the second. It
+    /// has no normals.
+    #[must_use]
+    pub(crate) fn with_tangents(ends: [DVec3; 2], tangents: [DVec3; 2]) -> Self {
+        let length = ends[0].distance(ends[1]);
+        Self { ends, normals: [DVec3::ZERO; 2], handles: handles(length, tangents) }
+    }
+
+    /// The same curve as two arcs, without normals.
+    #[must_use]
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let [from, to] = self.ends;
+        let [p, q] = [from + self.handles[0], to + self.handles[1]];
+        let (first, middle, last) = ((from + p) / 2.0, (p + q) / 2.0, (q + to) / 2.0);
+        let at = self.at(0.5);
+        let half = |ends: [DVec3; 2], controls: [DVec3; 2]| Self {
+            ends,
+            normals: [DVec3::ZERO; 2],
+            handles: [controls[0] - ends[0], controls[1] - ends[1]],
+        };
+        [half([from, at], [first, (first + middle) / 2.0]), half([at, to], [(middle + last) / 2.0, last])]
+    }
+
+    fn middle_direction(&self) -> DVec3 {
+        (self.ends[1] - self.ends[0]) * 2.0 - self.handles[0] + self.handles[1]
     }
 
     /// The arc between two smooth vertices. It is the edge itself if the edge is straight or separates
@@ -86,10 +109,18 @@ impl EdgeArc {
     /// Unit normal in the middle: mean of the end normals, perpendicular to the curve.
     #[must_use]
     pub(crate) fn middle_normal(&self) -> DVec3 {
-        let along = (self.ends[1] - self.ends[0]) * 2.0 - self.handles[0] + self.handles[1];
+        let along = self.middle_direction();
         let sum = self.normals[0] + self.normals[1];
         (sum - along * (sum.dot(along) / along.length_squared().max(f64::MIN_POSITIVE))).normalize_or_zero()
     }
+}
+
+/// Vectors from the ends of an arc to its control points, as those of a circle with the same turn.
+fn handles(length: f64, tangents: [DVec3; 2]) -> [DVec3; 2] {
+    let turn = tangents[0].dot(tangents[1]).clamp(-1.0, 1.0);
+    let half = ((1.0 + turn) / 2.0).sqrt();
+    let reach = length * 2.0 / (3.0 * (1.0 + half));
+    [tangents[0] * reach, -tangents[1] * reach]
 }
 
 #[cfg(test)]

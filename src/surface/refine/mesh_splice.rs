@@ -10,6 +10,7 @@ use glam::DVec3;
 use crate::mesh::normals::face_normals::face_normals;
 use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, Overlay, PaintId, PartId};
 use crate::surface::SmoothNormals;
+use crate::surface::normals::smooth_normals::NO_NORMAL;
 
 /// Texture coordinates and colours of new corners are rounded to multiples of 1 over this.
 const UV_STEPS_PER_UNIT: f64 = 65536.0;
@@ -17,7 +18,7 @@ const UV_STEPS_PER_UNIT: f64 = 65536.0;
 /// Piece of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PieceTriangle {
-    /// Its smooth vertices.
+    /// Its smooth vertices, or [`NO_NORMAL`] if its face is flat.
     pub corners: [u32; 3],
     /// Marks of the sides 0-1, 1-2, 2-0.
     pub marks: [EdgeMark; 3],
@@ -38,21 +39,28 @@ pub(crate) struct RefinedMesh {
     pub kept_count: usize,
     /// For each edge of the given mesh its edge in the finer one, `u32::MAX` for edges that were cut.
     pub edges: Vec<u32>,
+    /// Edges of the given mesh that are lines and were cut, each with one of its pieces.
+    pub edge_pieces: Vec<(u32, usize)>,
 }
 
 /// Subdivision of a mesh: new vertices, pieces and kept faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeshCuts {
-    /// Positions and normals of the new vertices.
+    /// Positions of the new vertices, numbered after those of the mesh.
     pub(crate) positions: Vec<DVec3>,
+    /// Vertex and normal of each new smooth vertex, numbered after those of the mesh.
+    pub(crate) vertices: Vec<u32>,
     pub(crate) normals: Vec<DVec3>,
-    /// Pieces, in smooth vertices. New ones are numbered after those of the mesh.
+    /// Pieces, and the vertices of each.
     pub(crate) pieces: Vec<PieceTriangle>,
+    pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) kept: KeptFaces,
     /// Edges that stay straight.
     pub(crate) thin: Vec<usize>,
     /// Smooth vertices at the ends of new straight edges.
     pub(crate) straight: Vec<[u32; 2]>,
+    /// Pieces of lines: an edge of the given mesh, and the vertices at the ends of one of its pieces.
+    pub(crate) edge_pieces: Vec<(u32, [u32; 2])>,
 }
 
 /// Faces that stay unchanged.
@@ -156,29 +164,29 @@ macro_rules! part {
 
 /// Builds the finer mesh. An owned mesh is modified instead of copied.
 pub(crate) fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: MeshCuts) -> RefinedMesh {
-    let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
         Some(vertex) => *vertex,
-        None => (old + v as usize - smooth.vertices.len()) as u32,
+        None => cuts.vertices[v as usize - smooth.vertices.len()],
     };
-    let triangles: Vec<[u32; 3]> = cuts.pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
     let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
     let old_edges = match &mut mesh {
         Cow::Borrowed(mesh) => Cow::Borrowed(&mesh.edges),
         Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
     };
     let [straight, separating_edges] = [&smooth.straight, &smooth.separating_edges].map(EdgeSet::clone);
-    let (mut mesh, mut smooth) = of_faces(mesh, smooth, &cuts, &triangles);
+    let (mut mesh, mut smooth) = of_faces(mesh, smooth, &cuts);
     mesh.edges = old_edges.updated(mesh.positions.len(), &mesh.triangles, &cuts.kept.renamed());
     let edges = new_numbers(&old_edges.vertices, &mesh.edges.vertices);
     let (before, count) = (old_edges.len(), mesh.edges.len());
     let find = |[a, b]: &[u32; 2]| mesh.edges.between(*a, *b);
     let level: Vec<usize> = level.iter().filter_map(find).collect();
     smooth.straight = straight.with(&cuts.thin, before).remapped(&edges, count).with(&level, count);
-    smooth.separating_edges = separating_edges.remapped(&edges, count);
+    let edge_pieces: Vec<(u32, usize)> =
+        cuts.edge_pieces.iter().filter_map(|(edge, ends)| Some((*edge, find(ends)?))).collect();
+    smooth.separating_edges = separating_edges.refined(&edges, &edge_pieces, count);
     let MeshCuts { pieces, kept, .. } = &cuts;
     let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
-    RefinedMesh { mesh, smooth, hosts, kept_count: kept.count, edges }
+    RefinedMesh { mesh, smooth, hosts, kept_count: kept.count, edges, edge_pieces }
 }
 
 /// For each edge of a table its number in a new table, `u32::MAX` where it has none. Both are sorted.
@@ -198,9 +206,8 @@ fn of_faces(
     mut mesh: Cow<'_, Mesh>,
     mut smooth: Cow<'_, SmoothNormals>,
     cuts: &MeshCuts,
-    triangles: &[[u32; 3]],
 ) -> (Mesh, SmoothNormals) {
-    let MeshCuts { pieces, kept, .. } = cuts;
+    let MeshCuts { pieces, triangles, kept, .. } = cuts;
     let own = |piece: &PieceTriangle| piece.face as usize;
     let old = mesh.positions.len();
     let at = |vertex: u32| match mesh.positions.get(vertex as usize) {
@@ -211,7 +218,11 @@ fn of_faces(
     let colours = colours(&mesh, pieces, triangles, at);
     let positions = extended(part!(mesh, positions), &cuts.positions);
     let scale = |piece: usize| mesh.extent(FaceId(pieces[piece].face)).scale;
-    let normals = face_normals(&positions, triangles, scale);
+    let mut normals = face_normals(&positions, triangles, scale);
+    // A flat face stays flat, however narrow its pieces are.
+    for (normal, piece) in normals.iter_mut().zip(pieces).filter(|(_, piece)| piece.corners[0] == NO_NORMAL) {
+        *normal = mesh.face_normals[own(piece)];
+    }
     let own_parts: Vec<PartId> = pieces.iter().map(|piece| mesh.face_part[own(piece)]).collect();
     let own_materials: Vec<MaterialId> = pieces.iter().map(|piece| mesh.face_material[own(piece)]).collect();
     let own_paints: Vec<PaintId> =
@@ -243,15 +254,15 @@ fn of_faces(
         cleaning: mesh.cleaning,
         turned: mesh.turned.clone(),
     };
-    let added = old as u32..finer.positions.len() as u32;
+    let is_in_order = cuts.vertices.iter().copied().eq(old as u32..finer.positions.len() as u32);
     let smooth = SmoothNormals {
-        vertices: extended(part!(smooth, vertices), &added.collect::<Vec<_>>()),
+        vertices: extended(part!(smooth, vertices), &cuts.vertices),
         normals: extended(part!(smooth, normals), &cuts.normals),
         corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
         separating_edges: EdgeSet::default(),
         straight: EdgeSet::default(),
         gentle: EdgeSet::default(),
-        seamless: smooth.seamless,
+        seamless: smooth.seamless && is_in_order,
     };
     (finer, smooth)
 }

@@ -86,7 +86,22 @@ pub(crate) fn cuts(
     }
     done.extend(open.iter().map(|piece| piece.facet));
     let Subdivision { positions, normals, .. } = work;
-    Some(MeshCuts { positions, normals, pieces: done, kept, thin, straight })
+    let (old, known) = (mesh.positions.len(), smooth.vertices.len());
+    let vertex = |v: u32| match smooth.vertices.get(v as usize) {
+        Some(vertex) => *vertex,
+        None => (old + v as usize - known) as u32,
+    };
+    Some(MeshCuts {
+        vertices: (old as u32..(old + positions.len()) as u32).collect(),
+        positions,
+        normals,
+        triangles: done.iter().map(|piece| piece.corners.map(vertex)).collect(),
+        pieces: done,
+        kept,
+        thin,
+        straight,
+        edge_pieces: Vec::new(),
+    })
 }
 
 struct Subdivision<'a> {

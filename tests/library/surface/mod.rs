@@ -3,6 +3,7 @@
 mod crease_chains;
 mod creases;
 mod cylinders;
+mod evidence;
 mod narrow_fillets;
 mod part_bodies;
 mod quantized_coordinates;

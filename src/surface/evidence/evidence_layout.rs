@@ -1,0 +1,116 @@
+//! [`patches_by_evidence`]: the creases of a mesh, the borders between its surfaces, and which surfaces are
+//! curved.
+//!
+//! 1. Where the normals of the file say something, edges are split, soft or neither.
+//! 2. Split edges are creases. Elsewhere chains and single edges above the crease angle are, if they stand out
+//!    from the noise around them; a soft edge counts half. Shallow creases of constructed parts are added.
+//! 3. Surfaces between creases and other borders are curved if their normals vary, and fine enough.
+
+use super::curved_faces::CurvedFaces;
+use super::normal_evidence::NormalEvidence;
+use crate::mesh::{DihedralCosines, EdgeFaces, EdgeSet, Mesh};
+use crate::surface::creases::low_angle::narrow_fillets::narrow_fillets;
+use crate::surface::creases::low_angle::shallow_creases::{shallow_creases, shallow_edges};
+use crate::surface::creases::low_angle::surface_trace::SurfaceTracer;
+use crate::surface::patches::patch_layout::{
+    MAX_RIM_COSINE, MAX_STRIP_COSINE, MIN_STRIP_WIDTH_RATIO, classify, width,
+};
+use crate::surface::patches::planar_regions::PlanarRegions;
+use crate::surface::patches::surface_class::{ComponentClasses, FileShading, MeshSource};
+use crate::surface::{HardEdges, Patches};
+
+/// Share of its turn that a soft edge counts for.
+const SOFT_TURN_SHARE: f32 = 0.5;
+
+/// Classifies the surfaces of a mesh whose creases turn by more than `crease_deg` degrees.
+#[must_use]
+pub(crate) fn patches_by_evidence(mesh: &Mesh, crease_deg: f64) -> Patches {
+    let (turns, planes, classes) = classify(mesh, false);
+    let turns = &turns;
+    let shading = |face: u32| classes.class_of_face(face).shading;
+    let evidence = NormalEvidence::new(mesh, turns, |face| shading(face) == FileShading::Curved);
+    let weight = |edge: usize| if evidence.soft.contains(edge) { SOFT_TURN_SHARE } else { 1.0 };
+    let (found, rims) = crate::parallel::join(
+        || HardEdges::find_weighted(mesh, turns, crease_deg, weight),
+        || rims(mesh, turns, &planes, (&evidence, &classes)),
+    );
+    let found = found.with_set(mesh, &evidence.split);
+    // The surface is given by its faces, and its lines are intended.
+    let is_exact = |face: &u32| {
+        let class = classes.class_of_face(*face);
+        class.origin == MeshSource::Constructed && class.trusts_file_normals
+    };
+    let is_exact_at = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact);
+    let may = |edge: usize| is_exact_at(edge) && !evidence.soft.contains(edge);
+    let (shallow, fillet_centres) = crate::parallel::join(
+        || shallow_creases(mesh, (turns, &planes.flat), crease_deg, &found, may),
+        || fillet_centres(mesh, (turns, &planes), &found, is_exact_at, crease_deg),
+    );
+    let hard = found.with(mesh, &shallow);
+    let curved =
+        CurvedFaces { mesh, turns, planes: &planes, classes: &classes, evidence: &evidence, hard: &hard };
+    let (rounded, rims) = curved.find(&rims, crease_deg);
+    let trusts_file_normals = (0..mesh.triangles.len() as u32)
+        .map(|face| match shading(face) {
+            FileShading::Curved => evidence.is_believed(face),
+            _ => classes.class_of_face(face).trusts_file_normals,
+        })
+        .collect();
+    Patches {
+        hard,
+        sliver_creases: EdgeSet::default(),
+        fillet_centres,
+        rims,
+        rounded,
+        figure: classes.map(|class| class.origin != MeshSource::Constructed),
+        origins: classes.map(|class| class.origin),
+        pieces: classes.into_pieces(),
+        trusts_file_normals,
+        has_all_borders: true,
+    }
+}
+
+/// Centre edges of narrow fillets where the shape is exact, except at `hard` edges.
+fn fillet_centres(
+    mesh: &Mesh,
+    (turns, planes): (&DihedralCosines, &PlanarRegions),
+    hard: &HardEdges,
+    is_exact: impl Fn(usize) -> bool + Sync,
+    crease_deg: f64,
+) -> EdgeSet {
+    let asked = shallow_edges(mesh, turns, crease_deg, hard, is_exact);
+    if asked.is_empty() {
+        return EdgeSet::default();
+    }
+    let walk = SurfaceTracer::new(mesh, (turns, &planes.flat), hard, crease_deg);
+    EdgeSet::default().with(&narrow_fillets(&walk, &asked), mesh.edges.len())
+}
+
+/// Borders of planar regions and of wide faces, where the file does not shade the surface.
+fn rims(
+    mesh: &Mesh,
+    turns: &DihedralCosines,
+    planes: &PlanarRegions,
+    (evidence, classes): (&NormalEvidence, &ComponentClasses),
+) -> EdgeSet {
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let cosine = turns.of_two(edge);
+        if cosine > MAX_RIM_COSINE {
+            return false;
+        }
+        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return false };
+        if faces.iter().all(|face| evidence.is_believed(*face)) {
+            return false;
+        }
+        let [first, second] = faces.map(|face| planes.compact(face));
+        if first != second {
+            return true;
+        }
+        // Slivers next to wide faces are random on scans.
+        let is_made = |face: &u32| classes.class_of_face(*face).origin == MeshSource::Constructed;
+        cosine < MAX_STRIP_COSINE && faces.iter().all(is_made) && {
+            let [a, b] = faces.map(|face| width(mesh, edge, face));
+            a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)
+        }
+    })
+}

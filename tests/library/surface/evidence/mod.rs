@@ -1,0 +1,176 @@
+//! Creases, curved surfaces and rims by evidence (`lines.surfaces = "evidence"`), against solids with known
+//! edges and circles.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use kurbo::Point;
+use ligne::drawing::{Drawing, LayerKind};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::load::ModelFormat;
+use ligne::mesh::{Mesh, Soup};
+use ligne::pipeline::render;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+use ligne::surface::Patches;
+use ligne::surface::evidence::evidence_layout::patches_by_evidence;
+
+use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path};
+use crate::library::support::pipeline::orthographic;
+use crate::library::support::scenes::solids::{Solid, cuboid};
+
+/// Radius and half height of the cylinders.
+const SIZE: [f64; 2] = [1.0, 0.8];
+
+/// OBJ text of a closed cylinder along z. Its side has the normals of a cylinder if `smooth`, those of its faces
+/// otherwise.
+fn cylinder(sides: u32, smooth: bool) -> String {
+    let [radius, half] = SIZE;
+    let mut text = String::new();
+    let turn = |k: f64| TAU * k / f64::from(sides);
+    for k in 0..sides {
+        let (x, y) = (radius * cos(turn(f64::from(k))), radius * sin(turn(f64::from(k))));
+        text += &format!("v {x} {y} {}\nv {x} {y} {half}\n", -half);
+    }
+    for k in 0..2 * sides {
+        let at = turn(f64::from(k) / 2.0);
+        text += &format!("vn {} {} 0\n", cos(at), sin(at));
+    }
+    text += "vn 0 0 1\nvn 0 0 -1\n";
+    for k in 0..sides {
+        let next = (k + 1) % sides;
+        let [a, b] = [2 * k + 1, 2 * next + 1];
+        // Normals at corners have even numbers, those between them odd ones.
+        let [n, m] = if smooth { [2 * k + 1, 2 * next + 1] } else { [2 * k + 2; 2] };
+        text += &format!("f {a}//{n} {b}//{m} {}//{m} {}//{n}\n", b + 1, a + 1);
+    }
+    for (first, normal) in [(2, 2 * sides + 1), (1, 2 * sides + 2)] {
+        let corner = |k: u32| format!(" {}//{normal}", 2 * k + first);
+        let corners: Vec<String> = if first == 2 {
+            (0..sides).map(corner).collect()
+        } else {
+            (0..sides).rev().map(corner).collect()
+        };
+        text += &format!("f{}\n", corners.concat());
+    }
+    text
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::from_bytes(text.as_bytes(), ModelFormat::Obj).expect("a scene")
+}
+
+fn patches(text: &str) -> (Mesh, Patches) {
+    let mesh = Mesh::build(scene(text).to_soup());
+    let patches = patches_by_evidence(&mesh, 40.0);
+    (mesh, patches)
+}
+
+#[test]
+fn normals_of_the_file_decide_what_is_round() {
+    for sides in [8, 9, 12, 18, 40] {
+        let (mesh, found) = patches(&cylinder(sides, true));
+        assert_eq!(
+            found.hard.count(),
+            2 * sides as usize,
+            "{sides} sides: the rims, and no line of the side"
+        );
+        let is_side = |face: usize| mesh.face_normals[face][2].abs() < 0.5;
+        for (face, rounded) in found.rounded.iter().enumerate() {
+            assert_eq!(*rounded, is_side(face), "{sides} sides, face {face}");
+        }
+        // Components that the file shades face by face are not round.
+        let (_, faceted) = patches(&cylinder(sides, false));
+        assert!(!faceted.rounded.contains(&true), "{sides} sides");
+    }
+}
+
+#[test]
+fn averaged_normals_make_no_ball_of_a_cube() {
+    let Solid { positions, triangles } = cuboid(DVec3::NEG_ONE, DVec3::ONE);
+    let normals = positions.iter().map(|p| p.normalize().as_vec3().to_array()).collect();
+    let corner_normals = triangles.clone();
+    let mesh = Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() });
+    let found = patches_by_evidence(&mesh, 40.0);
+    assert_eq!(found.hard.count(), 12);
+    assert!(!found.rounded.contains(&true));
+}
+
+#[test]
+fn a_cylinder_without_normals_is_round_and_a_roof_is_not() {
+    let bare = |text: String| -> String {
+        let lines = text.lines().filter(|line| !line.starts_with("vn"));
+        let without = |word: &str| word.split("//").next().unwrap_or(word).to_owned();
+        lines.map(|line| line.split(' ').map(without).collect::<Vec<_>>().join(" ") + "\n").collect()
+    };
+    for sides in [10, 12, 18, 40] {
+        let (_, found) = patches(&bare(cylinder(sides, true)));
+        assert_eq!(found.hard.count(), 2 * sides as usize);
+        let round = found.rounded.iter().filter(|rounded| **rounded).count();
+        assert_eq!(round, 2 * sides as usize, "the faces of the side, {sides} sides");
+    }
+    // The ridge turns by 10 degrees.
+    let roof = "v -2 0 3\nv 2 0 3\nv 2 0.26 0\nv -2 0.26 0\nv 2 0 -3\nv -2 0 -3\nf 1 2 3 4\nf 4 3 5 6\n";
+    assert!(!patches(roof).1.rounded.contains(&true));
+}
+
+fn drawn(text: &str, camera: &Camera, sets: &[&str]) -> Drawing {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let style = Style::load_with("ink", &sets).unwrap_or_else(|error| panic!("{error}"));
+    render(&scene(text), camera, &style).expect("a drawing")
+}
+
+/// Largest distance (px) of the upper rim of the cylinder from the drawing.
+fn rim_distance(drawing: &Drawing, camera: &Camera) -> f64 {
+    let marks = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines).flat_map(|l| &l.marks);
+    let ink = SegmentGrid::new(marks.flat_map(|mark| flatten_path(&mark.path, 0.01)).collect(), 4.0);
+    let [right, up, _] = camera.axes();
+    let scale = camera.height / 3.0;
+    let place = |p: DVec3| {
+        let from = p - camera.target;
+        Point::new(camera.width / 2.0 + from.dot(right) * scale, camera.height / 2.0 - from.dot(up) * scale)
+    };
+    let [radius, half] = SIZE;
+    (0..720)
+        .map(|k| TAU * f64::from(k) / 720.0)
+        .map(|turn| ink.distance(place(DVec3::new(radius * cos(turn), radius * sin(turn), half))))
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn rims_of_coarse_cylinders_are_circles() {
+    let camera = orthographic(DVec3::new(6.0, 4.0, 7.0), DVec3::ZERO, 3.0);
+    for sides in [9, 12, 18, 40] {
+        let text = cylinder(sides, true);
+        let off = |sets: &[&str]| rim_distance(&drawn(&text, &camera, sets), &camera);
+        let round = off(&["lines.surfaces=evidence"]);
+        assert!(round < 0.3, "{sides} sides: {round} px");
+        let polygon = off(&["lines.surfaces=evidence", "lines.round_rims=off"]);
+        let rise = SIZE[0] * (1.0 - cos(TAU / 2.0 / f64::from(sides))) * camera.height / 3.0;
+        assert!(polygon > 0.5 * rise, "{sides} sides: {polygon} px");
+    }
+}
+
+#[test]
+fn the_ridge_of_a_roof_does_not_depend_on_how_it_is_written() {
+    const CORNERS: &str = "v -2 0 3\nv 2 0 3\nv 2 1 0\nv -2 1 0\nv 2 0 -3\nv -2 0 -3\n";
+    const FACES: &str = "f 1 2 3 4\nf 4 3 5 6\n";
+    let roofs = [
+        ("plain", format!("{CORNERS}{FACES}")),
+        ("wound the other way", format!("{CORNERS}f 1 2 3 4\nf 6 5 3 4\n")),
+        ("a vertex on the eave", format!("{CORNERS}v 0 0 3\nf 1 7 2 3 4\nf 4 3 5 6\n")),
+        ("a vertex on the ridge", format!("{CORNERS}v 0 1 0\nf 1 2 3 7 4\nf 4 7 3 5 6\n")),
+        ("a face without area", format!("{CORNERS}{FACES}v 0 0 3\nf 1 7 2\n")),
+        ("a doubled face", format!("{CORNERS}{FACES}f 4 3 2 1\n")),
+        ("a doubled part", format!("{CORNERS}o one\n{FACES}o two\n{FACES}")),
+    ];
+    let camera = orthographic(DVec3::new(5.0, 6.0, 7.0), DVec3::ZERO, 8.0);
+    for (name, text) in roofs {
+        for surfaces in ["statistics", "evidence"] {
+            let drawing = drawn(&text, &camera, &[&format!("lines.surfaces={surfaces}")]);
+            let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+            let creases = marks.filter(|mark| mark.provenance.classes.contains(&"crease")).count();
+            assert_eq!(creases, 1, "{name}, {surfaces}");
+        }
+    }
+}
