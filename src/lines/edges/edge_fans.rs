@@ -9,7 +9,7 @@
 
 use super::edge_lines::EdgeClassifier;
 use crate::lines::{FeatureSegment, LineKind};
-use crate::mesh::normals::dihedral::{distinct_faces, is_unfolded_diagonal, mark, runs_up};
+use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark, runs_up};
 use crate::mesh::{Dihedral, FaceId, MaterialId};
 
 impl EdgeClassifier<'_> {
@@ -30,20 +30,17 @@ impl EdgeClassifier<'_> {
             _ => {}
         }
         real.sort_by_key(|face| mesh.body(*face));
-        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| {
-            match *distinct_faces(mesh, edge, own) {
-                [face] => self.classify_single(edge, face),
-                [first, second] => {
-                    let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
-                    let dihedral = Dihedral::of(mesh, [first, second], same_way);
-                    let is_diagonal =
-                        is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
-                    let crease =
-                        self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
-                    self.classify_flat_pair(edge, [first, second], same_way, crease)
-                }
-                ref own => self.classify_own_fan(edge, own),
+        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| match *own {
+            [face] => self.classify_single(edge, face),
+            [first, second] => {
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                let dihedral = Dihedral::of(mesh, [first, second], same_way);
+                let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
+                let crease =
+                    self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
+                self.classify_flat_pair(edge, [first, second], same_way, crease)
             }
+            _ => self.classify_own_fan(edge, own),
         });
         let extent = |line: &FeatureSegment| mesh.extents.part(line.part);
         lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))
@@ -57,10 +54,11 @@ impl EdgeClassifier<'_> {
         let contour = faces.iter().all(|f| side(*f)) || faces.iter().all(|f| !side(*f));
         let turn = self.corner_turn(edge, faces);
         let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, faces.iter().copied()), turn);
+        let is_crease = self.is_crease(edge) || !is_diagonal && turn > self.crease_deg;
         let other_material = self.materials_change(edge, faces);
         let kind = if contour && self.wants(LineKind::Contour) {
             LineKind::Contour
-        } else if !is_diagonal && turn > self.crease_deg && self.wants(LineKind::Crease) {
+        } else if is_crease && self.wants(LineKind::Crease) {
             LineKind::Crease
         } else if other_material && self.wants(LineKind::Material) {
             LineKind::Material
