@@ -26,7 +26,7 @@ pub(crate) struct Dihedral {
 }
 
 impl Dihedral {
-    /// The two faces at an edge. `None` at borders, where three or more different faces with area meet, and at the long
+    /// The two faces at an edge. `None` at borders, where three or more different faces meet, and at the long
     /// edge of a needle, which shorter edges represent.
     #[inline]
     #[must_use]

@@ -8,7 +8,8 @@
 //! 5. Edges folded by a pose become creases with hysteresis in time.
 //!
 //! Files, in reading order: [`hard_edges`] (step 2), [`crease_chains`] (step 1), [`edge_noise`] (robust
-//! noise estimate), [`calm_edges`] (single edges), [`sliver_creases`] (step 3), [`pose_creases`] (step 5). Folder: [`low_angle`].
+//! noise estimate), [`calm_edges`] (single edges), [`sliver_creases`] (step 3),
+//! [`pose_creases`] (step 5). Folder: [`low_angle`].
 
 mod calm_edges;
 mod crease_chains;

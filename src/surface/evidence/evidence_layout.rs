@@ -9,11 +9,9 @@
 use super::curved_faces::CurvedFaces;
 use super::normal_evidence::NormalEvidence;
 use crate::mesh::{DihedralCosines, EdgeFaces, EdgeSet, Mesh};
-use crate::surface::creases::low_angle::narrow_fillets::narrow_fillets;
-use crate::surface::creases::low_angle::shallow_creases::{shallow_creases, shallow_edges};
-use crate::surface::creases::low_angle::surface_trace::SurfaceTracer;
+use crate::surface::creases::low_angle::shallow_creases::shallow_creases;
 use crate::surface::patches::patch_layout::{
-    MAX_RIM_COSINE, MAX_STRIP_COSINE, MIN_STRIP_WIDTH_RATIO, classify, width,
+    MAX_RIM_COSINE, MAX_STRIP_COSINE, MIN_STRIP_WIDTH_RATIO, classify, fillet_centres, width,
 };
 use crate::surface::patches::planar_regions::PlanarRegions;
 use crate::surface::patches::surface_class::{ComponentClasses, FileShading, MeshSource};
@@ -68,22 +66,6 @@ pub(crate) fn patches_by_evidence(mesh: &Mesh, crease_deg: f64) -> Patches {
         trusts_file_normals,
         has_all_borders: true,
     }
-}
-
-/// Centre edges of narrow fillets where the shape is exact, except at `hard` edges.
-fn fillet_centres(
-    mesh: &Mesh,
-    (turns, planes): (&DihedralCosines, &PlanarRegions),
-    hard: &HardEdges,
-    is_exact: impl Fn(usize) -> bool + Sync,
-    crease_deg: f64,
-) -> EdgeSet {
-    let asked = shallow_edges(mesh, turns, crease_deg, hard, is_exact);
-    if asked.is_empty() {
-        return EdgeSet::default();
-    }
-    let walk = SurfaceTracer::new(mesh, (turns, &planes.flat), hard, crease_deg);
-    EdgeSet::default().with(&narrow_fillets(&walk, &asked), mesh.edges.len())
 }
 
 /// Borders of planar regions and of wide faces, where the file does not shade the surface.

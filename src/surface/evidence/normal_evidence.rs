@@ -17,8 +17,8 @@ use crate::surface::patches::normal_validation::{leaning, leans};
 
 /// Cosine (80 degrees) below which a corner normal contradicts its face.
 const MAX_ASTRAY_COSINE: f32 = 0.17;
-/// Minimum angle (20 degrees) between two normals that differ. A crease that fades out differs by half as much in the
-/// middle of its last edge.
+/// Minimum angle (20 degrees) between two normals that differ. A crease that fades out differs by half as much
+/// in the middle of its last edge.
 const MIN_SPLIT_RAD: f64 = 0.349;
 /// Largest difference of the normals at a soft edge, as a share of the turn of its faces.
 const MAX_SOFT_SHARE: f64 = 0.5;

@@ -199,6 +199,17 @@ fn roundings(
         verdict.make != SurfaceClass::Round && verdict.trusts_file_normals
     };
     let may = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_made) && !wrinkles.contains(edge);
+    fillet_centres(mesh, (turns, planes), hard, may, crease_deg)
+}
+
+/// Centre edges of narrow fillets among the edges that satisfy `may`, except at `hard` edges.
+pub(crate) fn fillet_centres(
+    mesh: &Mesh,
+    (turns, planes): (&DihedralCosines, &PlanarRegions),
+    hard: &HardEdges,
+    may: impl Fn(usize) -> bool + Sync,
+    crease_deg: f64,
+) -> EdgeSet {
     let asked = shallow_edges(mesh, turns, crease_deg, hard, may);
     if asked.is_empty() {
         return EdgeSet::default();

@@ -8,6 +8,8 @@ use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Minimum sine of the angle (10 degrees) between two surfaces whose line has a known direction.
 const MIN_CROSS_SINE: f64 = 0.17;
+/// Maximum rise of an arc toward the inside of a face, as a share of its width.
+const MAX_RISE_OF_WIDTH: f64 = 0.5;
 
 /// Whether the file gives the normals of all curved faces next to a line, one at least. Normals that are
 /// estimated lean where a flat begins, and a straight line would bulge.
@@ -18,8 +20,9 @@ pub(crate) fn has_known_direction(mesh: &Mesh, smooth: &SmoothNormals, faces: [u
     curved.peek().is_some() && curved.all(is_given)
 }
 
-/// The arc over an edge with two faces, one of which is curved, from the smaller vertex to the larger. `None`
-/// where the file does not give its direction, where the surfaces hardly cross, or where the arc would leave the edge too steeply.
+/// The arc over an edge between a curved face and another, from the smaller vertex to the larger. `None` where
+/// the file does not give its direction, where the surfaces hardly cross, or where the arc would leave the
+/// edge too steeply.
 pub(crate) fn rim_arc(mesh: &Mesh, smooth: &SmoothNormals, edge: usize) -> Option<EdgeArc> {
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
     if !has_known_direction(mesh, smooth, faces) {
@@ -56,6 +59,3 @@ pub(crate) fn has_room(mesh: &Mesh, edge: usize, height: DVec3) -> bool {
         })
     })
 }
-
-/// Maximum rise of an arc toward the inside of a face, as a share of its width.
-const MAX_RISE_OF_WIDTH: f64 = 0.5;
