@@ -116,10 +116,10 @@ pub fn surface_decisions(scene: &crate::scene::Scene, by_evidence: bool) -> Surf
     use decision_flags::{
         BORDER, CONSTRUCTED, DRAWN, FIGURE, FILLET_CENTRE, HARD, ROUNDED, TRUSTED, TWO_FACES,
     };
-    let mesh = mesh::Mesh::build(scene.to_soup());
+    let mut mesh = mesh::Mesh::build(scene.to_soup());
     let crease_deg = crate::lines::LineOptions::default().crease_deg;
     let patches = if by_evidence {
-        patches_by_evidence(&mesh, crease_deg)
+        patches_by_evidence(&mut mesh, crease_deg)
     } else {
         Patches::new(&mesh, crease_deg, false)
     };

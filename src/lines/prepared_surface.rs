@@ -65,7 +65,7 @@ impl Surface {
         }
         let by_evidence = options.surfaces == Surfaces::Evidence && options.contours == Contours::Auto;
         let patches = if by_evidence {
-            patches_by_evidence(&mesh, options.crease_deg)
+            patches_by_evidence(&mut mesh, options.crease_deg)
         } else {
             Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth)
         };

@@ -6,6 +6,7 @@
 //!    from the noise around them; a soft edge counts half. Shallow creases of constructed parts are added.
 //! 3. Surfaces between creases and other borders are curved if their normals vary, and fine enough.
 
+use super::bevel_normals::part_bevels;
 use super::curved_faces::CurvedFaces;
 use super::normal_evidence::NormalEvidence;
 use crate::mesh::{DihedralCosines, EdgeFaces, EdgeSet, Mesh};
@@ -22,10 +23,12 @@ const SOFT_TURN_SHARE: f32 = 0.5;
 
 /// Classifies the surfaces of a mesh whose creases turn by more than `crease_deg` degrees.
 #[must_use]
-pub(crate) fn patches_by_evidence(mesh: &Mesh, crease_deg: f64) -> Patches {
+pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
     let (turns, planes, classes) = classify(mesh, false);
     let turns = &turns;
     let shading = |face: u32| classes.class_of_face(face).shading;
+    part_bevels(mesh, &planes.flat, |face| shading(face) == FileShading::Curved);
+    let mesh = &*mesh;
     let evidence = NormalEvidence::new(mesh, turns, |face| shading(face) == FileShading::Curved);
     let weight = |edge: usize| if evidence.soft.contains(edge) { SOFT_TURN_SHARE } else { 1.0 };
     let (found, rims) = crate::parallel::join(

@@ -8,7 +8,7 @@
 //! (weights), [`file_normals`], [`vertex_split`] (step 2), [`straight_edges`] (step 3).
 
 pub(crate) mod file_normals;
-mod normal_sum;
+pub(crate) mod normal_sum;
 pub(crate) mod smooth_normals;
 pub(crate) mod straight_edges;
 mod vertex_normals;

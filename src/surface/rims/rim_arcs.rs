@@ -1,6 +1,6 @@
 //! [`rim_arc`]: the arc that an edge between two surfaces stands for.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::surface::refine::edge_arc::MAX_TANGENT_SINE;
@@ -8,8 +8,9 @@ use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Minimum sine of the angle (10 degrees) between two surfaces whose line has a known direction.
 const MIN_CROSS_SINE: f64 = 0.17;
-/// Maximum rise of an arc toward the inside of a face, as a share of its width.
-const MAX_RISE_OF_WIDTH: f64 = 0.5;
+/// Parameters at which an arc is compared with the sides of a face: near its ends, where it is steepest, and
+/// between.
+const ROOM_PARAMETERS: [f64; 5] = [1.0 / 64.0, 0.25, 0.5, 0.75, 63.0 / 64.0];
 
 /// Whether the file gives the normals of all curved faces next to a line, one at least. Normals that are
 /// estimated lean where a flat begins, and a straight line would bulge.
@@ -48,14 +49,17 @@ pub(crate) fn rim_arc(mesh: &Mesh, smooth: &SmoothNormals, edge: usize) -> Optio
     Some(EdgeArc::with_tangents(ends, [tangent(vertices[0])?, tangent(vertices[1])?]))
 }
 
-/// Whether the faces at an edge are wider than the rise of its arc.
-pub(crate) fn has_room(mesh: &Mesh, edge: usize, height: DVec3) -> bool {
+/// Whether an arc stays within the faces at its edge, seen along their normals. Where it leaves a face through
+/// another side, the pieces of that face would overlap.
+pub(crate) fn has_room(mesh: &Mesh, edge: usize, arc: &EdgeArc) -> bool {
     let ends = mesh.edges.vertices[edge];
-    let [from, to] = mesh.ends(edge);
     mesh.edges.faces(edge).each().all(|face| {
-        mesh.apex(face, ends).is_some_and(|apex| {
-            let inward = (mesh.positions[apex as usize] - from).reject_from(to - from);
-            height.dot(inward) < MAX_RISE_OF_WIDTH * inward.length_squared()
+        let Some(apex) = mesh.apex(face, ends) else { return false };
+        let [apex, from, to] = [apex, ends[0], ends[1]].map(|v| mesh.positions[v as usize]);
+        let normal = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
+        let normal = normal * (to - from).cross(apex - from).dot(normal).signum();
+        ROOM_PARAMETERS.iter().map(|t| arc.at(*t)).all(|at| {
+            (apex - to).cross(at - to).dot(normal) > 0.0 && (from - apex).cross(at - apex).dot(normal) > 0.0
         })
     })
 }

@@ -126,7 +126,7 @@ impl<'a> RimCuts<'a> {
         // Each half rises by a quarter.
         let is_far = |halvings: &u32| height.length() > limit * f64::from(1u32 << (2 * halvings));
         let halvings = (0..MAX_HALVINGS).take_while(is_far).count();
-        if halvings == 0 || !has_room(self.mesh, edge, height) {
+        if halvings == 0 || !has_room(self.mesh, edge, arc) {
             return None;
         }
         let first = self.arcs.len();

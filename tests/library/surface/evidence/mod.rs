@@ -61,8 +61,8 @@ fn scene(text: &str) -> Scene {
 }
 
 fn patches(text: &str) -> (Mesh, Patches) {
-    let mesh = Mesh::build(scene(text).to_soup());
-    let patches = patches_by_evidence(&mesh, 40.0);
+    let mut mesh = Mesh::build(scene(text).to_soup());
+    let patches = patches_by_evidence(&mut mesh, 40.0);
     (mesh, patches)
 }
 
@@ -90,8 +90,8 @@ fn averaged_normals_make_no_ball_of_a_cube() {
     let Solid { positions, triangles } = cuboid(DVec3::NEG_ONE, DVec3::ONE);
     let normals = positions.iter().map(|p| p.normalize().as_vec3().to_array()).collect();
     let corner_normals = triangles.clone();
-    let mesh = Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() });
-    let found = patches_by_evidence(&mesh, 40.0);
+    let mut mesh = Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() });
+    let found = patches_by_evidence(&mut mesh, 40.0);
     assert_eq!(found.hard.count(), 12);
     assert!(!found.rounded.contains(&true));
 }
