@@ -98,11 +98,14 @@ impl Surface {
     #[must_use]
     pub(crate) fn posed(
         &self,
-        mesh: Mesh,
+        mut mesh: Mesh,
         patches: Option<&Patches>,
         crease_deg: f64,
         before: impl Iterator<Item = Mesh>,
     ) -> Self {
+        if let Some(patches) = patches {
+            patches.bevels.add_to(&mut mesh);
+        }
         let is_figure = |edge: usize| {
             let figure = |patches: &Patches| {
                 mesh.edges.faces(edge).list().iter().any(|face| patches.figure[*face as usize])

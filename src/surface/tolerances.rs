@@ -68,3 +68,7 @@ pub(crate) const AREA_ROUNDING_FACTOR: f64 = 1.0 - 1e-9;
 
 /// Minimum cosine of a flat edge: 0.1 degrees.
 pub(crate) const MIN_FLAT_COSINE: f32 = 0.999_998_5;
+
+/// Minimum ratio of the widths of a face and a strip next to it. Above it the face is the surface, and the strip
+/// its rounded edge.
+pub(crate) const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;

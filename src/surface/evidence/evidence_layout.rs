@@ -6,16 +6,17 @@
 //!    from the noise around them; a soft edge counts half. Shallow creases of constructed parts are added.
 //! 3. Surfaces between creases and other borders are curved if their normals vary, and fine enough.
 
-use super::bevel_normals::part_bevels;
 use super::curved_faces::CurvedFaces;
 use super::normal_evidence::NormalEvidence;
 use crate::mesh::{DihedralCosines, EdgeFaces, EdgeSet, Mesh};
 use crate::surface::creases::low_angle::shallow_creases::shallow_creases;
+use crate::surface::normals::bevel_normals::BevelNormals;
 use crate::surface::patches::patch_layout::{
-    MAX_RIM_COSINE, MAX_STRIP_COSINE, MIN_STRIP_WIDTH_RATIO, classify, fillet_centres, width,
+    MAX_RIM_COSINE, MAX_STRIP_COSINE, classify, fillet_centres, width,
 };
 use crate::surface::patches::planar_regions::PlanarRegions;
 use crate::surface::patches::surface_class::{ComponentClasses, FileShading, MeshSource};
+use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 use crate::surface::{HardEdges, Patches};
 
 /// Share of its turn that a soft edge counts for.
@@ -27,7 +28,7 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
     let (turns, planes, classes) = classify(mesh, false);
     let turns = &turns;
     let shading = |face: u32| classes.class_of_face(face).shading;
-    part_bevels(mesh, &planes.flat, |face| shading(face) == FileShading::Curved);
+    let bevels = BevelNormals::part(mesh, &planes.flat, |face| shading(face) == FileShading::Curved);
     let mesh = &*mesh;
     let evidence = NormalEvidence::new(mesh, turns, |face| shading(face) == FileShading::Curved);
     let weight = |edge: usize| if evidence.soft.contains(edge) { SOFT_TURN_SHARE } else { 1.0 };
@@ -68,6 +69,7 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
         pieces: classes.into_pieces(),
         trusts_file_normals,
         has_all_borders: true,
+        bevels,
     }
 }
 

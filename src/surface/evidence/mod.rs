@@ -8,7 +8,6 @@
 //! Files, in reading order: [`evidence_layout`] (all steps), [`normal_evidence`] (step 1), [`curved_faces`] and
 //! [`smooth_patches`] (step 3).
 
-mod bevel_normals;
 mod curved_faces;
 pub(crate) mod evidence_layout;
 mod normal_evidence;

@@ -16,17 +16,17 @@ use crate::surface::creases::hard_edges::LOW_THRESHOLD_OF_HIGH;
 use crate::surface::creases::low_angle::narrow_fillets::narrow_fillets;
 use crate::surface::creases::low_angle::shallow_creases::{shallow_creases, shallow_edges};
 use crate::surface::creases::low_angle::surface_trace::SurfaceTracer;
+use crate::surface::normals::bevel_normals::BevelNormals;
 use crate::surface::normals::file_normals::file_cosines;
+use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 
 /// Factor on the crease angle for round components.
 const ROUND_CREASE_FACTOR: f64 = 1.5;
 
 /// Cosine (10 degrees) below which the outline of a planar region separates it from its surroundings.
 pub(crate) const MAX_RIM_COSINE: f32 = 0.985;
-/// Cosine (20 degrees) below which a strip is separated from a wider face, and the minimum ratio of their
-/// widths.
+/// Cosine (20 degrees) below which a strip is separated from a wider face.
 pub(crate) const MAX_STRIP_COSINE: f32 = 0.94;
-pub(crate) const MIN_STRIP_WIDTH_RATIO: f64 = 6.0;
 
 /// Classification of the surfaces of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -53,6 +53,8 @@ pub(crate) struct Patches {
     pub trusts_file_normals: Vec<bool>,
     /// Whether `hard` and `rims` are all borders of curved surfaces, so that the normals of the file add none.
     pub has_all_borders: bool,
+    /// Normals of the mesh that were not in the file.
+    pub bevels: BevelNormals,
 }
 
 impl Patches {
@@ -104,6 +106,7 @@ impl Patches {
             pieces,
             trusts_file_normals: believed,
             has_all_borders: false,
+            bevels: BevelNormals::default(),
         }
     }
 }

@@ -1,23 +1,25 @@
-//! [`part_bevels`]: the normals of wide faces, without the bevels next to them.
+//! [`BevelNormals`]: the normals of wide faces, without the bevels next to them.
 //!
 //! Modelling programs average the normals around a vertex, so that a flat next to a narrow bevel leans toward
 //! it and would bulge over its whole width. The flat is the surface there, and the bevel its rounded edge:
 //!
-//! 1. At an edge that the file shades smoothly, a face is narrow if the other reaches six times as far.
+//! 1. At an edge that the file shades smoothly, a face is narrow if the other reaches six times as far. It is
+//!    none that runs away from the edge, farther than six times its length: two bevels that meet at a corner
+//!    do. The faces in its plane are narrow too.
 //! 2. Around a vertex, the faces with a common normal form a fan.
-//! 3. A fan with narrow faces has the normal of its other faces.
+//! 3. A fan with narrow faces has the normal of its other faces, if its own is a mean of all of them.
 
 use glam::DVec3;
 
+use super::file_normals::file_normals;
+use super::normal_sum::{FaceWeights, NormalSum};
 use crate::geometry::lists::disjoint_sets::UnionFind;
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::edges::triangle_sides::{apex, sides};
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, Mesh, VertexEdges};
 use crate::parallel::prelude::*;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
-use crate::surface::normals::file_normals::file_normals;
-use crate::surface::normals::normal_sum::{FaceWeights, NormalSum};
-use crate::surface::patches::patch_layout::MIN_STRIP_WIDTH_RATIO;
+use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 
 /// Minimum cosine (1 degree) between the normals of two corners that have a common one.
 const MIN_COMMON_COSINE: f64 = 0.999_85;
@@ -37,28 +39,59 @@ struct FanCorner {
     which: u8,
 }
 
-/// Replaces the file normals of fans with narrow faces, among the faces that satisfy `is_shaded`.
-pub(crate) fn part_bevels(
-    mesh: &mut Mesh,
-    flat: &EdgeSet,
-    is_shaded: impl Fn(u32) -> bool + Sync,
-) {
-    let replaced = replaced_normals(mesh, flat, is_shaded);
-    for (fan, normal) in replaced {
-        let id = mesh.normals.len() as u32;
-        mesh.normals.push(normal.as_vec3().to_array());
-        for corner in fan {
-            mesh.corner_normals[corner.face as usize][usize::from(corner.which)] = id;
+/// Fans of a mesh with narrow faces: the corners of their other faces.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct BevelNormals {
+    fans: Vec<Vec<FanCorner>>,
+}
+
+impl BevelNormals {
+    /// Finds the fans with narrow faces among the faces that satisfy `is_shaded`, and gives them their normals.
+    pub(crate) fn part(mesh: &mut Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> Self {
+        let found = fans(mesh, flat, is_shaded);
+        let mut fans = Vec::with_capacity(found.len());
+        for PartedFan { narrow, others } in found {
+            let id = (mesh.normals.len() + fans.len()) as u32;
+            for corner in narrow.iter().chain(&others) {
+                mesh.corner_normals[corner.face as usize][usize::from(corner.which)] = id;
+            }
+            fans.push(others);
         }
+        let parted = Self { fans };
+        parted.add_to(mesh);
+        parted
+    }
+
+    /// Appends the normals of the fans to those of a mesh, which is the one they were found in, or a pose of it.
+    pub(crate) fn add_to(&self, mesh: &mut Mesh) {
+        let normals: Vec<[f32; 3]> =
+            self.fans.iter().map(|fan| mean_of_faces(mesh, fan).as_vec3().to_array()).collect();
+        mesh.normals.extend(normals);
     }
 }
 
-/// Fans whose normal changes, with the new one.
-fn replaced_normals(
-    mesh: &Mesh,
-    flat: &EdgeSet,
-    is_shaded: impl Fn(u32) -> bool + Sync,
-) -> Vec<(Vec<FanCorner>, DVec3)> {
+/// Unit normal of the faces of a fan; zero if they have no area.
+fn mean_of_faces(mesh: &Mesh, fan: &[FanCorner]) -> DVec3 {
+    let mut sum = NormalSum::default();
+    for corner in fan {
+        if let Some(weights) = FaceWeights::new(mesh.corners(FaceId(corner.face))) {
+            sum.add(&weights, usize::from(corner.which));
+        }
+    }
+    sum.normal().normalize_or_zero()
+}
+
+/// Fan whose normal changes.
+struct PartedFan {
+    narrow: Vec<FanCorner>,
+    others: Vec<FanCorner>,
+}
+
+/// The fans whose normals change.
+fn fans(mesh: &Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> Vec<PartedFan> {
+    if mesh.corner_normals.is_empty() {
+        return Vec::new();
+    }
     let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
     let narrow_at = |edge: usize| {
         let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(edge) else { return None };
@@ -66,11 +99,13 @@ fn replaced_normals(
             return None;
         }
         let [a, b] = faces.map(|face| reach(mesh, flat, &edges, edge, face));
-        (a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)).then(|| faces[usize::from(b < a)])
+        let [from, to] = mesh.ends(edge);
+        let is_narrow = a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)
+            && a.min(b) < MIN_STRIP_WIDTH_RATIO * from.distance(to);
+        is_narrow.then(|| faces[usize::from(b < a)])
     };
     let all = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
-    let narrow: Vec<(u32, u32)> =
-        all.filter_map(|edge| Some((edge as u32, narrow_at(edge)?))).collect();
+    let narrow: Vec<(u32, u32)> = all.filter_map(|edge| Some((edge as u32, narrow_at(edge)?))).collect();
     if narrow.is_empty() {
         return Vec::new();
     }
@@ -86,8 +121,8 @@ fn replaced_normals(
     }
     corners.par_sort_unstable_by_key(|corner| (corner.vertex, corner.face));
     let around: Vec<&[FanCorner]> = corners.chunk_by(|a, b| a.vertex == b.vertex).collect();
-    let work = Fans { mesh, edges: &edges, narrow: &narrow };
-    around.into_par_iter().flat_map_iter(|around| work.replaced(around)).collect()
+    let work = Fans { mesh, flat, edges: &edges, narrow: &narrow };
+    around.into_par_iter().flat_map_iter(|around| work.parted(around)).collect()
 }
 
 /// Distance from an edge to which a face and those in its plane reach.
@@ -117,19 +152,20 @@ fn reach(mesh: &Mesh, flat: &EdgeSet, edges: &VertexEdges, edge: usize, face: u3
 
 struct Fans<'a> {
     mesh: &'a Mesh,
+    flat: &'a EdgeSet,
     edges: &'a VertexEdges<'a>,
     /// Edge and its narrow face, ascending.
     narrow: &'a [(u32, u32)],
 }
 
 impl Fans<'_> {
-    /// The fans around a vertex whose normal changes, with the new one.
-    fn replaced(&self, around: &[FanCorner]) -> Vec<(Vec<FanCorner>, DVec3)> {
-        let Self { mesh, edges, narrow } = self;
+    /// The fans around a vertex whose normals change.
+    fn parted(&self, around: &[FanCorner]) -> Vec<PartedFan> {
+        let Self { mesh, flat, edges, narrow } = self;
         let vertex = around[0].vertex;
         let normal = |corner: &FanCorner| file_normals(mesh, corner.face as usize)[usize::from(corner.which)];
-        let fans = UnionFind::new(around.len());
-        let mut is_narrow = vec![false; around.len()];
+        let [fans, planes] = [(); 2].map(|()| UnionFind::new(around.len()));
+        let mut narrow_corners: Vec<usize> = Vec::new();
         for (k, corner) in around.iter().enumerate() {
             let triangle = mesh.triangles[corner.face as usize];
             for step in [1, 2] {
@@ -141,31 +177,37 @@ impl Fans<'_> {
                     continue;
                 }
                 fans.join(k as u32, l as u32);
-                if let Ok(at) = narrow.binary_search_by_key(&(edge as u32), |(edge, _)| *edge) {
-                    is_narrow[k] |= narrow[at].1 == corner.face;
+                if flat.contains(edge) {
+                    planes.join(k as u32, l as u32);
+                }
+                let at = narrow.binary_search_by_key(&(edge as u32), |(edge, _)| *edge);
+                if at.is_ok_and(|at| narrow[at].1 == corner.face) {
+                    narrow_corners.push(k);
                 }
             }
         }
-        let mut found = Vec::new();
-        for first in 0..around.len() {
-            let fan: Vec<usize> = (0..around.len()).filter(|k| fans.root(*k as u32) == first as u32).collect();
-            let is_mean = || self.is_mean(normal(&around[first]), fan.iter().map(|k| &around[*k]));
-            if !fan.iter().any(|k| is_narrow[*k]) || !is_mean() {
-                continue;
-            }
-            let mut sum = NormalSum::default();
-            for corner in fan.iter().filter(|k| !is_narrow[**k]).map(|k| &around[*k]) {
-                if let Some(weights) = FaceWeights::new(mesh.corners(FaceId(corner.face))) {
-                    sum.add(&weights, usize::from(corner.which));
-                }
-            }
-            let new = sum.normal().normalize_or_zero();
-            if new != DVec3::ZERO {
-                found.push((fan.into_iter().map(|k| around[k]).collect(), new));
-            }
+        if narrow_corners.is_empty() {
+            return Vec::new();
         }
-        found
+        let mut is_narrow_plane = vec![false; around.len()];
+        narrow_corners.iter().for_each(|k| is_narrow_plane[planes.root(*k as u32) as usize] = true);
+        // Corners by fan.
+        let mut of_fans: Vec<(u32, usize)> = (0..around.len()).map(|k| (fans.root(k as u32), k)).collect();
+        of_fans.sort_unstable();
+        let part = |fan: &[(u32, usize)]| {
+            let own = normal(&around[fan[0].1]);
+            let is_narrow = |k: usize| is_narrow_plane[planes.root(k as u32) as usize];
+            let (narrow, others): (Vec<_>, Vec<_>) = fan.iter().map(|(_, k)| *k).partition(|k| is_narrow(*k));
+            let corners = |of: Vec<usize>| of.into_iter().map(|k| around[k]).collect::<Vec<FanCorner>>();
+            let (narrow, others) = (corners(narrow), corners(others));
+            let changes = !narrow.is_empty()
+                && self.is_mean(own, narrow.iter().chain(&others))
+                && mean_of_faces(mesh, &others) != DVec3::ZERO;
+            changes.then_some(PartedFan { narrow, others })
+        };
+        of_fans.chunk_by(|a, b| a.0 == b.0).filter_map(part).collect()
     }
+
     /// Whether a normal is a mean of the normals of the faces of a fan, each face or each plane
     /// counting once, or weighted by angle or by area.
     fn is_mean<'b>(&self, normal: DVec3, fan: impl Iterator<Item = &'b FanCorner>) -> bool {
